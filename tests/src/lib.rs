@@ -1,0 +1,1 @@
+//! Verification, validation, stability and fault tests across the tools.

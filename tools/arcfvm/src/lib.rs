@@ -1,0 +1,1 @@
+//! Axisymmetric finite-volume arc plasma between a wire and a base metal.

@@ -1,0 +1,1 @@
+//! Versioned, deterministic artefacts: the files that join the stages.

@@ -1,0 +1,1 @@
+//! How every stage is run: command line, scene, clock, progress, record, checkpoint.

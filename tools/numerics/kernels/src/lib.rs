@@ -1,0 +1,1 @@
+//! The cubic spline kernel in one to three dimensions.

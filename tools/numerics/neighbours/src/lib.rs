@@ -1,0 +1,1 @@
+//! Neighbour lists of point clouds by cell lists.

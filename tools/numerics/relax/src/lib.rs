@@ -1,0 +1,1 @@
+//! Red-black successive over-relaxation of five-point equations.

@@ -1,0 +1,1 @@
+//! Incompressible SPH weld pool and bead under a moving arc source.

@@ -1,0 +1,1 @@
+//! Pictures, tables and error against run time from artefacts and records.
