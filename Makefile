@@ -1,0 +1,74 @@
+# Fusionline: `make` builds everything and runs the default study to its report.
+# `make help` lists studies and targets; `make -n gmaw-300a` tells the story of a study.
+
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := all
+SHELL := /bin/sh
+# The directory of every recipe is the repository root, and so are all paths.
+
+THREADS ?= $(shell nproc 2>/dev/null || echo 2)
+PROGRESS ?= auto
+BIN := target/release
+PROGRAMS := $(addprefix $(BIN)/,arcfvm poolsph avg report artefact verify)
+SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
+# Runs a stage only if the bytes of what it depends on have changed.
+RERUN := pipelines/rerun
+MACHINE := --threads $(THREADS) --progress $(PROGRESS)
+
+.PHONY: all help programs
+all: programs gmaw-quick ## build and run the default study to build/gmaw-quick/report.html
+
+help: ## list studies and targets
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sort | awk -F':.*## ' '{printf "  make %-16s %s\n", $$1, $$2}'
+
+programs: $(PROGRAMS) ## build every program
+$(PROGRAMS) &: $(SOURCES)
+	cargo build --release
+	@touch $(PROGRAMS)
+
+# Studies: one folder each in pipelines/, one folder each in build/.
+include $(wildcard pipelines/*/rules.mk)
+
+# Checks.
+.PHONY: test format lint docs unit schemas
+test: format lint docs unit ## everything that must hold on every change (minutes)
+
+format:
+	cargo fmt --all --check
+
+lint:
+	cargo clippy --release --all-targets --quiet -- -D warnings
+
+docs:
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet
+
+unit: build/python/.installed
+	cargo test --release --quiet
+
+# Readers of other people's making, to prove that our files open elsewhere.
+build/python/.installed: tests/interop/requirements.txt
+	@mkdir -p build
+	@if python3 -m venv build/python && build/python/bin/pip install --quiet --disable-pip-version-check -r $<; \
+	then touch $@; \
+	else echo "python3 with venv is not here: the tests that read our files with other programs are skipped"; fi
+
+schemas: programs ## write schemas/*.scene.v1.json from the programs
+	@for tool in arcfvm poolsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
+
+# Evidence.
+CASE ?=
+LEVELS ?= 1 2 3
+comma := ,
+empty :=
+space := $(empty) $(empty)
+.PHONY: verify stability validate bench report
+verify: programs ## exact cases: error against run time (CASE=name LEVELS="1 2 3" PATCH=file)
+	$(BIN)/verify $(if $(CASE),--case $(CASE)) --levels $(subst $(space),$(comma),$(LEVELS)) \
+	  $(if $(PATCH),--patch $(PATCH)) --threads $(THREADS) --out build/verify
+
+report: programs ## gather all evidence into build/report/index.html
+	$(BIN)/report index --out build/report/index.html --verify build/verify --stability build/stability \
+	  --bench build/bench --studies build
+
+clean-%: ## forget the results of one study: make clean-gmaw-quick
+	rm -rf build/$*
