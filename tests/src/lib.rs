@@ -10,6 +10,7 @@
 
 pub mod case;
 pub mod cases;
+pub mod extreme;
 pub mod lab;
 pub mod norms;
 pub mod study;
