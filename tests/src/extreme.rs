@@ -84,15 +84,22 @@ pub struct Record {
 /// # Errors
 /// When a file cannot be read or does not describe a case.
 pub fn cases(folder: &Path) -> Result<Vec<Extreme>, LabError> {
-    let entries = std::fs::read_dir(folder).map_err(|source| LabError::Io { path: folder.to_owned(), source })?;
-    let mut paths: Vec<PathBuf> =
-        entries.filter_map(|e| e.ok().map(|e| e.path())).filter(|p| p.extension().is_some_and(|e| e == "json")).collect();
+    let entries = std::fs::read_dir(folder).map_err(|source| LabError::Io {
+        path: folder.to_owned(),
+        source,
+    })?;
+    let mut paths: Vec<PathBuf> = entries
+        .filter_map(|e| e.ok().map(|e| e.path()))
+        .filter(|p| p.extension().is_some_and(|e| e == "json"))
+        .collect();
     paths.sort();
     paths
         .iter()
         .map(|path| {
-            serde_json::from_value(read_json(path)?)
-                .map_err(|e| LabError::Content { path: path.clone(), what: e.to_string() })
+            serde_json::from_value(read_json(path)?).map_err(|e| LabError::Content {
+                path: path.clone(),
+                what: e.to_string(),
+            })
         })
         .collect()
 }
@@ -101,27 +108,60 @@ pub fn cases(folder: &Path) -> Result<Vec<Extreme>, LabError> {
 ///
 /// # Errors
 /// When a program cannot be started or a file not be written.
-pub fn run(case: &Extreme, programs: &Path, out: &Path, threads: usize) -> Result<Record, LabError> {
+pub fn run(
+    case: &Extreme,
+    programs: &Path,
+    out: &Path,
+    threads: usize,
+) -> Result<Record, LabError> {
     let folder = out.join(&case.case);
-    std::fs::create_dir_all(&folder).map_err(|source| LabError::Io { path: folder.clone(), source })?;
-    let runs =
-        case.runs.iter().map(|variant| row(case, variant, programs, &folder, threads)).collect::<Result<Vec<_>, _>>()?;
-    Ok(Record { case: case.case.clone(), tool: case.tool.clone(), holds: runs.iter().all(|r| r.holds), runs })
+    std::fs::create_dir_all(&folder).map_err(|source| LabError::Io {
+        path: folder.clone(),
+        source,
+    })?;
+    let runs = case
+        .runs
+        .iter()
+        .map(|variant| row(case, variant, programs, &folder, threads))
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(Record {
+        case: case.case.clone(),
+        tool: case.tool.clone(),
+        holds: runs.iter().all(|r| r.holds),
+        runs,
+    })
 }
 
-fn row(case: &Extreme, variant: &Variant, programs: &Path, folder: &Path, threads: usize) -> Result<Row, LabError> {
+fn row(
+    case: &Extreme,
+    variant: &Variant,
+    programs: &Path,
+    folder: &Path,
+    threads: usize,
+) -> Result<Row, LabError> {
     let patch = folder.join(format!("{}.patch.json", variant.name));
     let artefact = folder.join(format!("{}.mcap", variant.name));
-    std::fs::write(&patch, variant.patch.to_string()).map_err(|source| LabError::Io { path: patch.clone(), source })?;
+    std::fs::write(&patch, variant.patch.to_string()).map_err(|source| LabError::Io {
+        path: patch.clone(),
+        source,
+    })?;
     let record_path = artefact.with_extension("run.json");
     for old in [&artefact, &record_path] {
         // A leftover of an earlier run must not be taken for the result of this one.
         let _ = std::fs::remove_file(old);
     }
     let mut command = Command::new(programs.join(&case.tool));
-    command.arg("run").arg(&case.scene).arg("--patch").arg(&patch).arg("--out").arg(&artefact);
+    command
+        .arg("run")
+        .arg(&case.scene)
+        .arg("--patch")
+        .arg(&patch)
+        .arg("--out")
+        .arg(&artefact);
     for (name, path) in &case.inputs {
-        command.arg("--input").arg(format!("{name}={}", path.display()));
+        command
+            .arg("--input")
+            .arg(format!("{name}={}", path.display()));
     }
     command.args(["--threads", &threads.to_string(), "--progress", "none"]);
     let output = start(&mut command, &case.tool)?;
@@ -142,7 +182,15 @@ fn row(case: &Extreme, variant: &Variant, programs: &Path, folder: &Path, thread
         expected: variant.expect.clone(),
         limits: record["limits"].clone(),
         conservation: record["closing"].clone(),
-        message: message.lines().rev().take(6).collect::<Vec<_>>().into_iter().rev().collect::<Vec<_>>().join("\n"),
+        message: message
+            .lines()
+            .rev()
+            .take(6)
+            .collect::<Vec<_>>()
+            .into_iter()
+            .rev()
+            .collect::<Vec<_>>()
+            .join("\n"),
         holds: variant.expect.contains(&outcome),
     })
 }
@@ -155,7 +203,10 @@ fn numbers_only(programs: &Path, artefact: &Path) -> Result<bool, LabError> {
 }
 
 fn start(command: &mut Command, name: &str) -> Result<std::process::Output, LabError> {
-    command.output().map_err(|source| LabError::Io { path: PathBuf::from(name), source })
+    command.output().map_err(|source| LabError::Io {
+        path: PathBuf::from(name),
+        source,
+    })
 }
 
 impl Record {
@@ -167,7 +218,10 @@ impl Record {
             let word = if row.holds { "holds " } else { "FAILED" };
             text += &format!("  {word} {:<32} {:?}\n", row.name, row.outcome);
             if !row.holds {
-                text += &format!("         expected {:?}; it said:\n{}\n", row.expected, row.message);
+                text += &format!(
+                    "         expected {:?}; it said:\n{}\n",
+                    row.expected, row.message
+                );
             }
         }
         text

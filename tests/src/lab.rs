@@ -72,10 +72,12 @@ impl Finished {
     /// # Errors
     /// When the record has no `wall_s`.
     pub fn wall_s(&self) -> Result<f64, LabError> {
-        self.record["wall_s"].as_f64().ok_or_else(|| LabError::Content {
-            path: self.artefact.clone(),
-            what: "its run record has no wall_s".to_owned(),
-        })
+        self.record["wall_s"]
+            .as_f64()
+            .ok_or_else(|| LabError::Content {
+                path: self.artefact.clone(),
+                what: "its run record has no wall_s".to_owned(),
+            })
     }
 }
 
@@ -85,7 +87,13 @@ impl Lab {
     ///
     /// # Errors
     /// When the tool cannot be started or does not end with exit code 0.
-    pub fn run(&self, tool: &str, case: &str, label: &str, patch: &Value) -> Result<Finished, LabError> {
+    pub fn run(
+        &self,
+        tool: &str,
+        case: &str,
+        label: &str,
+        patch: &Value,
+    ) -> Result<Finished, LabError> {
         self.run_with(tool, case, label, patch, &[])
     }
 
@@ -102,18 +110,32 @@ impl Lab {
         inputs: &[(&str, &Path)],
     ) -> Result<Finished, LabError> {
         let folder = self.out.join(case);
-        std::fs::create_dir_all(&folder).map_err(|source| LabError::Io { path: folder.clone(), source })?;
+        std::fs::create_dir_all(&folder).map_err(|source| LabError::Io {
+            path: folder.clone(),
+            source,
+        })?;
         let patch_file = folder.join(format!("{label}.patch.json"));
         write(&patch_file, &patch.to_string())?;
-        let scene = self.root.join("pipelines/verify").join(case).join("scene.json");
+        let scene = self
+            .root
+            .join("pipelines/verify")
+            .join(case)
+            .join("scene.json");
         let artefact = folder.join(format!("{label}.mcap"));
         let mut command = Command::new(self.programs.join(tool));
-        command.current_dir(&self.root).arg("run").arg(&scene).arg("--patch").arg(&patch_file);
+        command
+            .current_dir(&self.root)
+            .arg("run")
+            .arg(&scene)
+            .arg("--patch")
+            .arg(&patch_file);
         if let Some(user) = &self.patch {
             command.arg("--patch").arg(user);
         }
         for (name, path) in inputs {
-            command.arg("--input").arg(format!("{name}={}", path.display()));
+            command
+                .arg("--input")
+                .arg(format!("{name}={}", path.display()));
         }
         command.arg("--out").arg(&artefact);
         command.args(["--threads", &self.threads.to_string(), "--progress", "none"]);
@@ -123,7 +145,10 @@ impl Lab {
 
 fn finish(command: &mut Command, artefact: PathBuf) -> Result<Finished, LabError> {
     let program = PathBuf::from(command.get_program());
-    let output = command.output().map_err(|source| LabError::Io { path: program, source })?;
+    let output = command.output().map_err(|source| LabError::Io {
+        path: program,
+        source,
+    })?;
     if !output.status.success() {
         return Err(LabError::Tool {
             command: format!("{command:?}"),
@@ -133,11 +158,18 @@ fn finish(command: &mut Command, artefact: PathBuf) -> Result<Finished, LabError
     }
     let record = read_json(&artefact.with_extension("run.json"))?;
     let scene = record["scene"].clone();
-    Ok(Finished { artefact, record, scene })
+    Ok(Finished {
+        artefact,
+        record,
+        scene,
+    })
 }
 
 fn write(path: &Path, text: &str) -> Result<(), LabError> {
-    std::fs::write(path, text).map_err(|source| LabError::Io { path: path.to_owned(), source })
+    std::fs::write(path, text).map_err(|source| LabError::Io {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// Reads a JSON file.
@@ -145,7 +177,12 @@ fn write(path: &Path, text: &str) -> Result<(), LabError> {
 /// # Errors
 /// When it cannot be read or is not JSON.
 pub fn read_json(path: &Path) -> Result<Value, LabError> {
-    let text = std::fs::read_to_string(path).map_err(|source| LabError::Io { path: path.to_owned(), source })?;
-    serde_json::from_str(&text)
-        .map_err(|e| LabError::Content { path: path.to_owned(), what: e.to_string() })
+    let text = std::fs::read_to_string(path).map_err(|source| LabError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    serde_json::from_str(&text).map_err(|e| LabError::Content {
+        path: path.to_owned(),
+        what: e.to_string(),
+    })
 }

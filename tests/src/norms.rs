@@ -29,7 +29,11 @@ pub fn observed_order(spacing: &[f64], error: &[f64]) -> Option<f64> {
     let y: Vec<f64> = error.iter().map(|e| e.ln()).collect();
     let mean_x = x.iter().sum::<f64>() / n;
     let mean_y = y.iter().sum::<f64>() / n;
-    let covariance: f64 = x.iter().zip(&y).map(|(a, b)| (a - mean_x) * (b - mean_y)).sum();
+    let covariance: f64 = x
+        .iter()
+        .zip(&y)
+        .map(|(a, b)| (a - mean_x) * (b - mean_y))
+        .sum();
     let variance: f64 = x.iter().map(|a| (a - mean_x).powi(2)).sum();
     (variance > 0.0).then(|| covariance / variance)
 }

@@ -68,7 +68,11 @@ pub fn study(case: &dyn Case, lab: &Lab, levels: &[u32]) -> Result<Study, LabErr
             .collect::<Result<Vec<_>, _>>()?;
         all.push(series(method, found, lab.threads));
     }
-    let competing = if all.len() > 1 { all.split_off(1) } else { Vec::new() };
+    let competing = if all.len() > 1 {
+        all.split_off(1)
+    } else {
+        Vec::new()
+    };
     let Some(first) = all.pop() else {
         unreachable!("a case names at least one method");
     };
@@ -89,8 +93,10 @@ fn series(method: &str, found: Vec<Measurement>, threads: usize) -> Series {
     let spacing: Vec<f64> = found.iter().map(|m| m.spacing_m).collect();
     let mut order = BTreeMap::new();
     for quantity in found.first().map(|m| m.errors.keys()).into_iter().flatten() {
-        let error: Vec<f64> =
-            found.iter().map(|m| m.errors.get(quantity).copied().unwrap_or(f64::NAN)).collect();
+        let error: Vec<f64> = found
+            .iter()
+            .map(|m| m.errors.get(quantity).copied().unwrap_or(f64::NAN))
+            .collect();
         order.insert(quantity.clone(), observed_order(&spacing, &error));
     }
     let levels = found
@@ -104,7 +110,11 @@ fn series(method: &str, found: Vec<Measurement>, threads: usize) -> Series {
             errors: m.errors,
         })
         .collect();
-    Series { method: method.to_owned(), levels, order }
+    Series {
+        method: method.to_owned(),
+        levels,
+        order,
+    }
 }
 
 fn verdicts(targets: &[Target], series: &Series) -> BTreeMap<String, Verdict> {
@@ -160,7 +170,9 @@ impl Study {
                 (_, Some(min)) => format!("at least {min}"),
                 _ => String::new(),
             };
-            let found = verdict.found.map_or_else(|| "nothing".to_owned(), |f| format!("{f:.3e}"));
+            let found = verdict
+                .found
+                .map_or_else(|| "nothing".to_owned(), |f| format!("{f:.3e}"));
             let word = if verdict.holds { "holds " } else { "MISSED" };
             text += &format!("  {word} {name}: {bound}, found {found}\n");
         }

@@ -8,7 +8,10 @@ const NUMERICS: [&str; 4] = ["neighbours", "kernels", "props", "relax"];
 const HARNESS: [&str; 2] = ["artefact", "run"];
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap()
+        .to_owned()
 }
 
 /// Arrows that a crate of ours may point along.
@@ -27,13 +30,22 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
 #[test]
 fn crates_point_only_along_allowed_arrows() {
     let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--no-deps", "--format-version", "1", "--offline"])
+        .args([
+            "metadata",
+            "--no-deps",
+            "--format-version",
+            "1",
+            "--offline",
+        ])
         .current_dir(root())
         .output()
         .unwrap();
     let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let packages = metadata["packages"].as_array().unwrap();
-    let ours: BTreeSet<&str> = packages.iter().map(|p| p["name"].as_str().unwrap()).collect();
+    let ours: BTreeSet<&str> = packages
+        .iter()
+        .map(|p| p["name"].as_str().unwrap())
+        .collect();
     let mut wrong = Vec::new();
     for package in packages {
         let from = package["name"].as_str().unwrap();
@@ -53,7 +65,10 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            if path.file_name().is_some_and(|n| n != "target" && n != "tests") {
+            if path
+                .file_name()
+                .is_some_and(|n| n != "target" && n != "tests")
+            {
                 sources(&path, found);
             }
         } else if path.extension().is_some_and(|e| e == "rs")
@@ -67,7 +82,9 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
 /// Lines before the unit tests of a file.
 fn length(path: &Path) -> usize {
     let text = std::fs::read_to_string(path).unwrap();
-    text.lines().take_while(|line| line.trim() != "#[cfg(test)]").count()
+    text.lines()
+        .take_while(|line| line.trim() != "#[cfg(test)]")
+        .count()
 }
 
 #[test]
@@ -87,10 +104,18 @@ fn a_file_holds_one_idea() {
 fn a_file_has_a_name_that_says_what_it_holds() {
     let mut found = Vec::new();
     sources(&root().join("tools"), &mut found);
-    let vague = ["utils", "util", "common", "helpers", "helper", "manager", "misc"];
+    let vague = [
+        "utils", "util", "common", "helpers", "helper", "manager", "misc",
+    ];
     let named: Vec<_> = found
         .iter()
-        .filter(|p| p.components().any(|c| vague.iter().any(|v| Path::new(c.as_os_str()).file_stem() == Some(v.as_ref()))))
+        .filter(|p| {
+            p.components().any(|c| {
+                vague
+                    .iter()
+                    .any(|v| Path::new(c.as_os_str()).file_stem() == Some(v.as_ref()))
+            })
+        })
         .collect();
     assert!(named.is_empty(), "names that say nothing: {named:?}");
 }
@@ -98,12 +123,24 @@ fn a_file_has_a_name_that_says_what_it_holds() {
 #[test]
 fn the_top_level_keeps_its_names() {
     let known: BTreeSet<&str> = [
-        "Cargo.toml", "Cargo.lock", "LICENSE", "Makefile", "README.md", "tools", "schemas", "pipelines", "tests",
-        "build", "target",
+        "Cargo.toml",
+        "Cargo.lock",
+        "LICENSE",
+        "Makefile",
+        "README.md",
+        "tools",
+        "schemas",
+        "pipelines",
+        "tests",
+        "build",
+        "target",
     ]
     .into();
     for entry in std::fs::read_dir(root()).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        assert!(name.starts_with('.') || known.contains(name.as_str()), "'{name}' does not belong at the top level");
+        assert!(
+            name.starts_with('.') || known.contains(name.as_str()),
+            "'{name}' does not belong at the top level"
+        );
     }
 }

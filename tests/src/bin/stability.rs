@@ -1,6 +1,10 @@
 //! `stability`: runs stiff and extreme scenes and says how each ended.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program talks to its user"
+)]
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -39,13 +43,15 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<bool, String> {
     let programs = std::env::current_exe().map_err(|e| e.to_string())?;
     let programs = programs.parent().map(PathBuf::from).unwrap_or_default();
-    std::fs::create_dir_all(&arguments.out).map_err(|e| format!("{}: {e}", arguments.out.display()))?;
+    std::fs::create_dir_all(&arguments.out)
+        .map_err(|e| format!("{}: {e}", arguments.out.display()))?;
     let mut good = true;
     for case in extreme::cases(Path::new("pipelines/stability")).map_err(|e| e.to_string())? {
         if !arguments.case.is_empty() && !arguments.case.contains(&case.case) {
             continue;
         }
-        let record = extreme::run(&case, &programs, &arguments.out, arguments.threads).map_err(|e| e.to_string())?;
+        let record = extreme::run(&case, &programs, &arguments.out, arguments.threads)
+            .map_err(|e| e.to_string())?;
         print!("{}", record.table());
         good &= record.holds;
         let path = arguments.out.join(format!("{}.json", case.case));

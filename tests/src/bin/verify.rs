@@ -1,6 +1,10 @@
 //! `verify`: runs exact cases and writes error against run time.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program talks to its user"
+)]
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -38,11 +42,20 @@ fn main() -> ExitCode {
     let known = cases::all();
     if arguments.list {
         for case in &known {
-            println!("{:<24} {:<10} {}", case.name(), case.tool(), case.reference());
+            println!(
+                "{:<24} {:<10} {}",
+                case.name(),
+                case.tool(),
+                case.reference()
+            );
         }
         return ExitCode::SUCCESS;
     }
-    if let Some(stranger) = arguments.case.iter().find(|c| known.iter().all(|k| k.name() != **c)) {
+    if let Some(stranger) = arguments
+        .case
+        .iter()
+        .find(|c| known.iter().all(|k| k.name() != **c))
+    {
         eprintln!("verify: there is no case '{stranger}'; `verify --list` names them");
         return ExitCode::from(2);
     }
@@ -78,7 +91,8 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
                 good &= study.holds;
                 let path = lab.out.join(format!("{}.json", case.name()));
                 let text = serde_json::to_string_pretty(&study).map_err(|e| e.to_string())?;
-                std::fs::write(&path, text + "\n").map_err(|e| format!("{}: {e}", path.display()))?;
+                std::fs::write(&path, text + "\n")
+                    .map_err(|e| format!("{}: {e}", path.display()))?;
             }
             Err(error) => {
                 good = false;
