@@ -1,0 +1,185 @@
+//! Points sorted into cubic cells.
+
+/// More cells than this many per point make the cells grow: a lone far point must not cost
+/// memory in proportion to the empty space before it.
+const CELLS_PER_POINT: usize = 16;
+/// Cells that are always allowed.
+const CELLS_FREE: usize = 4096;
+
+/// A cell list: points sorted into cubic cells, x fastest.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    finest: f64,
+    edge: f64,
+    origin: [f64; 3],
+    counts: [usize; 3],
+    start: Vec<u32>,
+    cell_of: Vec<u32>,
+    order: Vec<u32>,
+    sorted: Vec<[f64; 3]>,
+}
+
+impl Grid {
+    /// An empty grid with cells of `edge` \[m\]; the search radius or half of it is a good choice.
+    #[must_use]
+    pub fn new(edge: f64) -> Self {
+        Self {
+            finest: edge,
+            edge,
+            origin: [0.0; 3],
+            counts: [1; 3],
+            start: vec![0, 0],
+            cell_of: Vec::new(),
+            order: Vec::new(),
+            sorted: Vec::new(),
+        }
+    }
+
+    /// Sorts `points`, which must be finite, into cells.
+    pub fn bin(&mut self, points: &[[f64; 3]]) {
+        self.enclose(points);
+        let cells = self.counts.iter().product::<usize>();
+        self.start.clear();
+        self.start.resize(cells + 1, 0);
+        self.cell_of.clear();
+        for point in points {
+            let cell = self.index(self.cell(*point));
+            self.cell_of.push(number(cell));
+            self.start[cell + 1] += 1;
+        }
+        for cell in 0..cells {
+            self.start[cell + 1] += self.start[cell];
+        }
+        self.order.resize(points.len(), 0);
+        self.sorted.resize(points.len(), [0.0; 3]);
+        // Filling backwards from the ends keeps the sort stable and turns `start` of the next
+        // cell into the start of this one.
+        for a in (0..points.len()).rev() {
+            let end = &mut self.start[self.cell_of[a] as usize + 1];
+            *end -= 1;
+            self.order[*end as usize] = number(a);
+            self.sorted[*end as usize] = points[a];
+        }
+        self.start.remove(0);
+        self.start.push(number(points.len()));
+    }
+
+    /// Point indices sorted by cell: the order in which a compact copy has the best locality.
+    #[must_use]
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Positions in the order of [`Grid::order`].
+    #[must_use]
+    pub fn sorted(&self) -> &[[f64; 3]] {
+        &self.sorted
+    }
+
+    /// Edge of the cells in use \[m\]: the one asked for, doubled while the cloud is too sparse.
+    #[must_use]
+    pub fn edge(&self) -> f64 {
+        self.edge
+    }
+
+    /// Calls `visit` with each run of sorted points that may lie within `radius` of `point`.
+    #[inline]
+    pub fn runs(
+        &self,
+        point: [f64; 3],
+        radius: f64,
+        mut visit: impl FnMut(std::ops::Range<usize>),
+    ) {
+        let low = self.cell(point.map(|x| x - radius));
+        let high = self.cell(point.map(|x| x + radius));
+        for k in low[2]..=high[2] {
+            for j in low[1]..=high[1] {
+                let row = self.counts[0] * (j + self.counts[1] * k);
+                let (first, last) = (row + low[0], row + high[0] + 1);
+                let run = self.start[first] as usize..self.start[last] as usize;
+                if !run.is_empty() {
+                    visit(run);
+                }
+            }
+        }
+    }
+
+    /// True if no point lies within the cells that touch the sphere: a cheap first test.
+    #[must_use]
+    pub fn is_empty_near(&self, point: [f64; 3], radius: f64) -> bool {
+        let mut empty = true;
+        self.runs(point, radius, |_| empty = false);
+        empty
+    }
+
+    /// True if some point satisfies `accepts` and is closer than `radius`.
+    pub fn any_within(
+        &self,
+        point: [f64; 3],
+        radius: f64,
+        accepts: impl Fn(usize) -> bool,
+    ) -> bool {
+        let mut found = false;
+        self.runs(point, radius, |run| {
+            found = found
+                || run.into_iter().any(|k| {
+                    distance_squared(point, self.sorted[k]) < radius * radius
+                        && accepts(self.order[k] as usize)
+                });
+        });
+        found
+    }
+
+    fn enclose(&mut self, points: &[[f64; 3]]) {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for point in points {
+            for k in 0..3 {
+                low[k] = low[k].min(point[k]);
+                high[k] = high[k].max(point[k]);
+            }
+        }
+        if points.is_empty() {
+            (low, high) = ([0.0; 3], [0.0; 3]);
+        }
+        self.origin = low;
+        self.edge = self.finest;
+        loop {
+            let spans = std::array::from_fn::<f64, 3, _>(|k| {
+                ((high[k] - low[k]) / self.edge).floor() + 1.0
+            });
+            let room = (CELLS_PER_POINT * points.len() + CELLS_FREE) as f64;
+            if spans.iter().product::<f64>() <= room || !spans.iter().all(|s| s.is_finite()) {
+                self.counts = spans.map(|s| if s.is_finite() { s as usize } else { 1 });
+                return;
+            }
+            self.edge *= 2.0;
+        }
+    }
+
+    /// Cell coordinates, clamped into the grid.
+    #[inline]
+    fn cell(&self, point: [f64; 3]) -> [usize; 3] {
+        let inverse = 1.0 / self.edge;
+        // A float cast saturates, so that points left of the origin land in cell 0.
+        std::array::from_fn(|k| {
+            (((point[k] - self.origin[k]) * inverse) as usize).min(self.counts[k] - 1)
+        })
+    }
+
+    fn index(&self, cell: [usize; 3]) -> usize {
+        cell[0] + self.counts[0] * (cell[1] + self.counts[1] * cell[2])
+    }
+}
+
+/// Squared distance of two points \[m2\].
+#[inline]
+pub(crate) fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let dx = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]
+}
+
+/// Indices are stored in 32 bits; a cloud of 4e9 points does not fit a machine.
+#[inline]
+pub(crate) fn number(index: usize) -> u32 {
+    index as u32
+}

@@ -1,0 +1,290 @@
+//! Rows of neighbours, chunk by chunk.
+
+use rayon::prelude::*;
+
+use crate::grid::{Grid, distance_squared};
+
+/// Rows per chunk.
+pub const ROWS: usize = 256;
+
+/// Neighbour rows of [`ROWS`] consecutive points (fewer in the last chunk).
+#[derive(Debug, Clone, Default)]
+pub struct Chunk {
+    first: usize,
+    offsets: Vec<u32>,
+    index: Vec<u32>,
+}
+
+impl Chunk {
+    /// Index of the first row.
+    #[must_use]
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Offsets of the rows into [`Chunk::index`], one more than there are rows.
+    #[must_use]
+    pub fn offsets(&self) -> &[u32] {
+        &self.offsets
+    }
+
+    /// Neighbours of all rows of the chunk, row after row.
+    #[must_use]
+    pub fn index(&self) -> &[u32] {
+        &self.index[..self.offsets[self.offsets.len() - 1] as usize]
+    }
+
+    /// Range of the chunk's row `k` within [`Chunk::index`].
+    #[inline]
+    #[must_use]
+    pub fn range(&self, k: usize) -> std::ops::Range<usize> {
+        self.offsets[k] as usize..self.offsets[k + 1] as usize
+    }
+
+    /// Appends the row of point `a` at `used`; returns the new end.
+    ///
+    /// The list is written without a branch per candidate: every index is stored and the end
+    /// moves on only for a neighbour.
+    #[inline]
+    fn search(
+        &mut self,
+        grid: &Grid,
+        (point, radius): ([f64; 3], f64),
+        (a, mut used): (usize, usize),
+        accepts: &impl Fn(usize, usize) -> bool,
+    ) -> usize {
+        let limit = radius * radius;
+        grid.runs(point, radius, |run| {
+            if self.index.len() < used + run.len() {
+                self.index.resize(2 * (used + run.len()), 0);
+            }
+            let slots = &mut self.index[used..used + run.len()];
+            let mut hits = 0;
+            for (position, &b) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
+                slots[hits] = b;
+                let near = distance_squared(point, *position) < limit;
+                hits += usize::from(near & (b as usize != a) & accepts(a, b as usize));
+            }
+            used += hits;
+        });
+        used
+    }
+
+    /// Neighbours of the chunk's row `k`.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, k: usize) -> &[u32] {
+        &self.index[self.range(k)]
+    }
+}
+
+/// Neighbours of each point of a cloud.
+#[derive(Debug, Clone, Default)]
+pub struct Lists {
+    chunks: Vec<Chunk>,
+    rows: usize,
+}
+
+impl Lists {
+    /// Lists without rows.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Fills the rows of all `points`, as last given to `grid`, with the points closer than
+    /// `radius`.
+    ///
+    /// A row for which `wanted` is false stays empty; a pair (row, neighbour) for which
+    /// `accepts` is false is left out.
+    pub fn build(
+        &mut self,
+        grid: &Grid,
+        points: &[[f64; 3]],
+        radius: f64,
+        wanted: impl Fn(usize) -> bool + Sync,
+        accepts: impl Fn(usize, usize) -> bool + Sync,
+    ) {
+        self.rows = grid.order().len();
+        self.chunks
+            .resize_with(self.rows.div_ceil(ROWS), Chunk::default);
+        self.chunks
+            .par_iter_mut()
+            .enumerate()
+            .for_each(|(c, chunk)| {
+                chunk.first = c * ROWS;
+                let rows = ROWS.min(self.rows - chunk.first);
+                chunk.offsets.clear();
+                chunk.offsets.push(0);
+                let mut used = 0;
+                for a in chunk.first..chunk.first + rows {
+                    if wanted(a) {
+                        used = chunk.search(grid, (points[a], radius), (a, used), &accepts);
+                    }
+                    chunk.offsets.push(used as u32);
+                }
+            });
+    }
+
+    /// Neighbours of point `a`.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, a: usize) -> &[u32] {
+        self.chunks[a / ROWS].row(a % ROWS)
+    }
+
+    /// All chunks, in order.
+    #[must_use]
+    pub fn chunks(&self) -> &[Chunk] {
+        &self.chunks
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows
+    }
+
+    /// True without rows.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows == 0
+    }
+
+    /// Number of directed pairs.
+    #[must_use]
+    pub fn pairs(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.index().len()).sum()
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.chunks
+            .iter()
+            .map(|chunk| 4 * (chunk.index.capacity() + chunk.offsets.capacity()))
+            .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::naive;
+    use proptest::prelude::*;
+
+    fn rows(points: &[[f64; 3]], edge: f64, radius: f64) -> Vec<Vec<u32>> {
+        let (mut grid, mut lists) = (Grid::new(edge), Lists::new());
+        grid.bin(points);
+        lists.build(&grid, points, radius, |_| true, |_, _| true);
+        (0..points.len()).map(|a| lists.row(a).to_vec()).collect()
+    }
+
+    fn ascending(mut rows: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+        rows.iter_mut().for_each(|row| row.sort_unstable());
+        rows
+    }
+
+    fn cloud(n: usize, span: f64, seed: u64) -> Vec<[f64; 3]> {
+        let mut state = seed;
+        let mut next = move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..n)
+            .map(|_| std::array::from_fn(|_| span * (next() - 0.5)))
+            .collect()
+    }
+
+    #[test]
+    fn inside_at_and_outside_the_radius() {
+        let points = [
+            [-1.0, 2.0, 3.0],
+            [-0.0, 2.0, 3.0],
+            [-1.0, 2.0, 4.0 - 1e-12],
+            [-1.0, 1.0 - 1e-12, 3.0],
+        ];
+        let found = rows(&points, 1.0, 1.0);
+        assert_eq!(found[0], [2], "at the radius and outside are left out");
+    }
+
+    #[test]
+    fn random_clouds_as_the_naive_search() {
+        for (n, span, edge) in [
+            (0, 1.0, 1.0),
+            (1, 1.0, 1.0),
+            (700, 8.0, 1.0),
+            (700, 8.0, 0.5),
+            (300, 0.9, 1.0),
+            (200, 300.0, 1.0),
+        ] {
+            let points = cloud(n, span, 7 + n as u64);
+            assert_eq!(
+                ascending(rows(&points, edge, 1.0)),
+                naive::search(&points, 1.0),
+                "{n} {span} {edge}"
+            );
+        }
+    }
+
+    #[test]
+    fn far_points_do_not_cost_the_empty_space() {
+        let mut points = cloud(100, 4.0, 3);
+        points.push([1e6, -1e6, 1e6]);
+        assert_eq!(
+            ascending(rows(&points, 1.0, 1.0)),
+            naive::search(&points, 1.0)
+        );
+    }
+
+    #[test]
+    fn unwanted_rows_and_pairs_are_left_out() {
+        let points = cloud(400, 4.0, 11);
+        let (mut grid, mut lists) = (Grid::new(1.0), Lists::new());
+        grid.bin(&points);
+        lists.build(&grid, &points, 1.0, |a| a % 2 == 0, |_, b| b % 3 == 0);
+        for (a, row) in naive::search(&points, 1.0).into_iter().enumerate() {
+            let mut found = lists.row(a).to_vec();
+            found.sort_unstable();
+            let kept: Vec<u32> = row
+                .into_iter()
+                .filter(|b| a % 2 == 0 && b % 3 == 0)
+                .collect();
+            assert_eq!(found, kept);
+        }
+    }
+
+    #[test]
+    fn order_does_not_depend_on_threads() {
+        let points = cloud(3000, 10.0, 5);
+        let with = |n: usize| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .build()
+                .unwrap();
+            pool.install(|| rows(&points, 1.0, 1.0))
+        };
+        assert_eq!(with(1), with(2));
+    }
+
+    proptest! {
+        #[test]
+        fn neighbourhood_is_symmetric(seed in 0_u64..1000, span in 0.5..20.0_f64) {
+            let points = cloud(200, span, seed);
+            let found = rows(&points, 1.0, 1.0);
+            for (a, row) in found.iter().enumerate() {
+                for &b in row {
+                    prop_assert!(found[b as usize].contains(&(a as u32)));
+                }
+            }
+        }
+    }
+}
