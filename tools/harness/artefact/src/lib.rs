@@ -1,1 +1,63 @@
 //! Versioned, deterministic artefacts: the files that join the stages.
+//!
+//! An artefact is an [MCAP](https://mcap.dev) file with zstd chunks, checksums and an index. Its
+//! bytes are a function of scene, inputs and tool version alone ([`Header`]); see `FORMAT.md`.
+//!
+//! ```
+//! use artefact::{Frame, Header, Precision, Reader, Table, Version, Writer};
+//!
+//! # fn main() -> artefact::Result<()> {
+//! let header = Header {
+//!     kind: "particle-frames".to_owned(),
+//!     version: Version::new(1, 0),
+//!     tool: "poolsph".to_owned(),
+//!     tool_version: "0.1.0".to_owned(),
+//!     scene: serde_json::json!({"kind": "poolsph.scene", "version": 1}),
+//!     inputs: Default::default(),
+//! };
+//! let path = std::env::temp_dir().join("artefact-example.mcap");
+//! let mut writer = Writer::create(&path, &header)?;
+//! let frame = Frame::new(Precision::F32)
+//!     .positions([[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]])
+//!     .scalar("temperature", "K", [300.0, 1800.0])
+//!     .flag("molten", [0, 1]);
+//! writer.frame("/particles", 0.5, &frame)?;
+//! writer.table("/surface", 0.5, &Table::new(2).column("radius_m", "m", [0.0, 1e-3]))?;
+//! writer.finish()?;
+//!
+//! let reader = Reader::open_kind(&path, "particle-frames", 1)?;
+//! for frame in reader.frames("/particles")? {
+//!     let frame = frame?;
+//!     assert_eq!(frame.f64("temperature")?, [300.0, 1800.0]);
+//!     assert_eq!(frame.u8("molten")?, [0, 1]);
+//! }
+//! # std::fs::remove_file(path).ok();
+//! # Ok(())
+//! # }
+//! ```
+
+mod atomic;
+mod checkpoint;
+mod cloud;
+mod error;
+mod frame;
+mod header;
+mod json;
+mod message;
+mod reader;
+mod recover;
+mod store;
+mod table;
+mod writer;
+
+pub use atomic::{beside, write_atomically};
+pub use checkpoint::Checkpoint;
+pub use error::{Error, Result};
+pub use frame::{Column, Frame, Precision, Values};
+pub use header::{Header, Identity, METADATA, Version, canonical, sha256, sha256_file};
+pub use json::json_artefact;
+pub use message::{POINT_CLOUD, RECORD, TABLE};
+pub use reader::{Channel, Reader};
+pub use recover::recover;
+pub use table::{Entry, Quantity, Record, Series, Table};
+pub use writer::{Position, Writer};

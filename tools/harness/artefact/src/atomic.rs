@@ -1,0 +1,48 @@
+//! Files that appear whole or not at all: written beside, synced, renamed.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Result, io_error};
+
+/// `path` with `suffix` appended to its name.
+#[must_use]
+pub fn beside(path: &Path, suffix: &str) -> PathBuf {
+    let mut name: OsString = path.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
+}
+
+/// Writes `bytes` to `path` so that a reader sees the old file or the new one, never a part.
+///
+/// # Errors
+/// When the system refuses; the old file is then untouched.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
+    let part = beside(path, ".part");
+    let written = write_synced(&part, bytes);
+    if written.is_err() {
+        // The failure is what matters; a leftover that cannot be removed changes nothing.
+        let _ = fs::remove_file(&part);
+        return written;
+    }
+    rename_synced(&part, path)
+}
+
+fn write_synced(path: &Path, bytes: &[u8]) -> Result<()> {
+    let mut file = File::create(path).map_err(io_error(path, "create"))?;
+    file.write_all(bytes).map_err(io_error(path, "write"))?;
+    file.sync_all().map_err(io_error(path, "sync"))
+}
+
+/// Renames and makes the new name durable.
+pub(crate) fn rename_synced(from: &Path, to: &Path) -> Result<()> {
+    fs::rename(from, to).map_err(io_error(to, "rename to"))?;
+    let folder = match to.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let folder_file = File::open(folder).map_err(io_error(folder, "open"))?;
+    folder_file.sync_all().map_err(io_error(folder, "sync"))
+}

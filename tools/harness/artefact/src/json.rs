@@ -1,0 +1,64 @@
+//! JSON files: artefacts with a kind and a version, read with line and column in every error.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::{Error, Result, io_error};
+use crate::header::Version;
+
+#[derive(Deserialize)]
+struct Envelope {
+    kind: String,
+    version: String,
+}
+
+/// Reads a JSON artefact of a kind and major version.
+///
+/// # Errors
+/// When the file cannot be read, is not JSON, is of another kind or major version, or does not
+/// fit `T`; with file, line and column where there is one.
+pub fn json_artefact<T: DeserializeOwned>(
+    path: impl AsRef<Path>,
+    kind: &str,
+    major: u32,
+) -> Result<T> {
+    let path = path.as_ref();
+    let text = std::fs::read_to_string(path).map_err(io_error(path, "read"))?;
+    let envelope: Envelope = parse(path, &text)?;
+    if envelope.kind != kind {
+        return Err(Error::Kind {
+            path: path.to_owned(),
+            expected: kind.to_owned(),
+            found: envelope.kind,
+        });
+    }
+    let found: Version = envelope.version.parse().map_err(|what| Error::Json {
+        path: path.to_owned(),
+        line: 1 + text
+            .lines()
+            .position(|line| line.contains("\"version\""))
+            .unwrap_or(0),
+        column: 1,
+        what,
+    })?;
+    if found.major != major {
+        return Err(Error::Version {
+            path: path.to_owned(),
+            kind: kind.to_owned(),
+            found,
+            supported: major,
+        });
+    }
+    parse(path, &text)
+}
+
+fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T> {
+    serde_json::from_str(text).map_err(|e| Error::Json {
+        path: path.to_owned(),
+        line: e.line(),
+        column: e.column(),
+        what: e.to_string(),
+    })
+}
