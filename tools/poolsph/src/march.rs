@@ -1,0 +1,96 @@
+//! The march in time: knows stages, not physics.
+
+use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::state::State;
+
+/// Stages in the order of a step; see [`crate::stage`].
+pub struct March {
+    before: Vec<Box<dyn Stage>>,
+    after: Vec<Box<dyn Stage>>,
+    dt: f64,
+}
+
+/// How a step went.
+#[derive(Debug, Clone, Copy)]
+pub struct Stepped {
+    /// Step taken \[s\].
+    pub dt: f64,
+    /// The smallest limit and who set it, if any stage has one.
+    pub limit: Option<Limit>,
+}
+
+impl March {
+    /// A march of step `dt` \[s\]: stages of `before` come ahead of the gathering of the moving
+    /// particles (the domain), those of `after` follow it (surface, heat, forces, motion).
+    #[must_use]
+    pub fn new(before: Vec<Box<dyn Stage>>, after: Vec<Box<dyn Stage>>, dt: f64) -> Self {
+        Self { before, after, dt }
+    }
+
+    /// All stages in order.
+    pub fn stages(&self) -> impl Iterator<Item = &dyn Stage> {
+        self.before.iter().chain(&self.after).map(AsRef::as_ref)
+    }
+
+    /// All stages in order, to restore them.
+    pub fn stages_mut(&mut self) -> impl Iterator<Item = &mut Box<dyn Stage>> {
+        self.before.iter_mut().chain(&mut self.after)
+    }
+
+    /// The smallest limit of all stages.
+    #[must_use]
+    pub fn limit(&self, state: &State) -> Option<Limit> {
+        self.stages()
+            .filter_map(|stage| stage.dt_limit(state))
+            .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    }
+
+    /// Takes one step. `timed` wraps each stage so that a clock can stand outside: it is given the
+    /// stage's name and must call the work exactly once.
+    ///
+    /// The step is the scene's; a stage that cannot take it whole divides it within itself, so
+    /// that frames and droplets keep their times.
+    ///
+    /// # Errors
+    /// What a stage reports.
+    pub fn step(
+        &mut self,
+        state: &mut State,
+        mut timed: impl FnMut(
+            &'static str,
+            &mut dyn FnMut() -> Result<(), StageError>,
+        ) -> Result<(), StageError>,
+    ) -> Result<Stepped, StageError> {
+        let dt = self.dt;
+        for stage in &mut self.before {
+            timed(stage.name(), &mut || stage.advance(state, dt))?;
+        }
+        timed("gather", &mut || {
+            state.gather();
+            Ok(())
+        })?;
+        for stage in &mut self.after {
+            timed(stage.name(), &mut || stage.advance(state, dt))?;
+        }
+        state.step += 1;
+        // Times are multiples of the step, not sums, so that no error grows with their number.
+        state.time = state.step as f64 * dt;
+        Ok(Stepped {
+            dt,
+            limit: self.limit(state),
+        })
+    }
+
+    /// Numbers of all stages after the last step, each with its stage's name.
+    #[must_use]
+    pub fn figures(&self) -> Vec<(&'static str, Figure)> {
+        self.stages()
+            .flat_map(|stage| {
+                stage
+                    .figures()
+                    .into_iter()
+                    .map(|figure| (stage.name(), figure))
+            })
+            .collect()
+    }
+}

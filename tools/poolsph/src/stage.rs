@@ -1,0 +1,110 @@
+//! What a physical effect promises to the march.
+//!
+//! A stage names the columns it needs, advances the state by one step, bounds the step and may
+//! say a few numbers. The march knows nothing else of it; dispatch is dynamic once per stage and
+//! step, never per pair.
+//!
+//! Order of a step (Komen 2019, fig. 3.16; listed once, in `assemble`):
+//!
+//! ```text
+//! domain   source moves, droplets appear and arrive, box moves      writes State
+//! gather   moving particles and all that they touch                 writes State::near (march)
+//! surface  free surface, normals, areas                             writes its own columns
+//! heat     conduction, arc, phase change                            writes enthalpy, temperature, phase
+//! forces   each adds a force density                                adds to State::near.force
+//! motion   viscosity, prediction, density homogenising              writes position, velocity, pressure
+//! ```
+
+use thiserror::Error;
+
+use crate::state::{Column, State};
+
+/// Why a stage could not go on.
+#[derive(Debug, Error)]
+pub enum StageError {
+    /// A quantity left every reasonable range.
+    #[error(
+        "step {step}: {quantity} of particle {particle} at ({:.4}, {:.4}, {:.4}) mm is {value:e} {unit}, \
+         beyond {limit:e} {unit}", place[0] * 1e3, place[1] * 1e3, place[2] * 1e3
+    )]
+    Diverged {
+        /// Step in which it happened.
+        step: u64,
+        /// Index of the particle.
+        particle: usize,
+        /// Where it is \[m\].
+        place: [f64; 3],
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// The bound.
+        limit: f64,
+        /// Unit of both.
+        unit: &'static str,
+    },
+    /// An input table was asked beyond its end, or other trouble with data.
+    #[error("{0}")]
+    Data(String),
+}
+
+/// A bound on the step and who sets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// Largest stable step \[s\].
+    pub seconds: f64,
+    /// For example `viscosity`, `courant`, `conduction`.
+    pub name: &'static str,
+}
+
+/// A number that a stage wants shown and recorded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// For example `density_error_mean`.
+    pub name: &'static str,
+    /// SI unit, `1` for none.
+    pub unit: &'static str,
+    /// Value after the last step.
+    pub value: f64,
+}
+
+/// One physical effect.
+pub trait Stage: Send {
+    /// Name in the status, the record and the plan.
+    fn name(&self) -> &'static str;
+
+    /// Optional columns that it reads or writes.
+    fn needs(&self) -> &'static [Column] {
+        &[]
+    }
+
+    /// Its bound on the step in the present state, if it has one.
+    fn dt_limit(&self, _state: &State) -> Option<Limit> {
+        None
+    }
+
+    /// Advances the state by `dt` \[s\].
+    ///
+    /// # Errors
+    /// When a quantity diverges or a table ends.
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError>;
+
+    /// Numbers of the last step.
+    fn figures(&self) -> Vec<Figure> {
+        Vec::new()
+    }
+
+    /// Bytes that the stage holds beside the state's columns.
+    fn bytes(&self) -> usize {
+        0
+    }
+
+    /// Internal state that a checkpoint must keep so that a resumed run gives the same bytes.
+    /// Whatever follows from [`State`] alone is left out.
+    fn save(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Takes back what [`Stage::save`] gave.
+    fn restore(&mut self, _saved: &[f64]) {}
+}

@@ -1,0 +1,248 @@
+//! Columns of the particles and the metal they are made of.
+//!
+//! A column that no stage needs stays empty: [`State::allocate`] gives length only to the union
+//! of what the stages declare. Particles keep their index for life; new ones are appended.
+
+use crate::near::Near;
+
+/// The one metal and the lattice that its particles start on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Metal {
+    /// rho \[kg/m3\].
+    pub density: f64,
+    /// Particle diameter d = lattice spacing \[m\]; a particle fills the volume d^3.
+    pub spacing: f64,
+    /// h \[m\]; the kernel's support is 2h. Komen (2019) takes h = d.
+    pub smoothing_length: f64,
+}
+
+impl Metal {
+    /// Volume of a particle, d^3 \[m3\] (the plate's box divided by its particles).
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.spacing * self.spacing * self.spacing
+    }
+
+    /// Mass of a particle \[kg\].
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.density * self.volume()
+    }
+
+    /// Radius of the kernel's support, 2h \[m\].
+    #[must_use]
+    pub fn support(&self) -> f64 {
+        2.0 * self.smoothing_length
+    }
+}
+
+/// What a particle does in the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Phase {
+    /// Rests; neighbour of the liquid, carries pressure and heat.
+    Solid = 0,
+    /// Moves by the equations of motion.
+    Liquid = 1,
+    /// Part of a droplet on its prescribed way down; meets nobody.
+    Flying = 2,
+}
+
+/// Columns that exist only if a stage needs them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Column {
+    /// [`State::temperature`].
+    Temperature,
+    /// [`State::enthalpy`].
+    Enthalpy,
+    /// [`State::pressure`].
+    Pressure,
+}
+
+/// All particles at one time. Index = identity.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Simulated time \[s\].
+    pub time: f64,
+    /// Steps taken.
+    pub step: u64,
+    /// The metal.
+    pub metal: Metal,
+    /// x \[m\], `[n][3]`; z upwards, z = 0 on the plate, y along the weld.
+    pub position: Vec<[f64; 3]>,
+    /// u \[m/s\], `[n][3]`.
+    pub velocity: Vec<[f64; 3]>,
+    /// `[n]`.
+    pub phase: Vec<Phase>,
+    /// Has ever been liquid, `[n]`.
+    pub fused: Vec<bool>,
+    /// Came from the wire, `[n]`.
+    pub droplet: Vec<bool>,
+    /// Belongs to the container and never melts, `[n]`.
+    pub wall: Vec<bool>,
+    /// T \[K\], `[n]` or empty.
+    pub temperature: Vec<f64>,
+    /// Specific enthalpy \[J/kg\], `[n]` or empty.
+    pub enthalpy: Vec<f64>,
+    /// p \[Pa\], `[n]` or empty: the accumulated pressure that keeps the density, warm start of the
+    /// next step and what frames show.
+    pub pressure: Vec<f64>,
+    /// Liquid particles move. False until enough of them are there (Komen 2019, section 4.3).
+    pub flowing: bool,
+    /// The moving particles and all that they touch, gathered afresh each step.
+    pub near: Near,
+    columns: Vec<Column>,
+}
+
+/// One particle to be appended.
+#[derive(Debug, Clone, Copy)]
+pub struct Particle {
+    /// x \[m\].
+    pub position: [f64; 3],
+    /// u \[m/s\].
+    pub velocity: [f64; 3],
+    /// Its part in the motion.
+    pub phase: Phase,
+    /// From the wire.
+    pub droplet: bool,
+    /// Of the container.
+    pub wall: bool,
+    /// T \[K\]; dropped where the column is absent.
+    pub temperature: f64,
+    /// Specific enthalpy \[J/kg\]; dropped where the column is absent.
+    pub enthalpy: f64,
+}
+
+impl State {
+    /// No particles, and of the optional columns those that `columns` names.
+    #[must_use]
+    pub fn new(metal: Metal, mut columns: Vec<Column>) -> Self {
+        columns.sort_unstable();
+        columns.dedup();
+        Self {
+            time: 0.0,
+            step: 0,
+            metal,
+            position: Vec::new(),
+            velocity: Vec::new(),
+            phase: Vec::new(),
+            fused: Vec::new(),
+            droplet: Vec::new(),
+            wall: Vec::new(),
+            temperature: Vec::new(),
+            enthalpy: Vec::new(),
+            pressure: Vec::new(),
+            flowing: false,
+            near: Near::new(metal),
+            columns,
+        }
+    }
+
+    /// True if the optional column is held.
+    #[must_use]
+    pub fn has(&self, column: Column) -> bool {
+        self.columns.contains(&column)
+    }
+
+    /// The optional columns held.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Number of particles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// True without particles.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// Number of liquid particles.
+    #[must_use]
+    pub fn liquid(&self) -> usize {
+        self.phase
+            .iter()
+            .filter(|phase| **phase == Phase::Liquid)
+            .count()
+    }
+
+    /// Appends a particle.
+    pub fn push(&mut self, particle: Particle) {
+        self.position.push(particle.position);
+        self.velocity.push(particle.velocity);
+        self.phase.push(particle.phase);
+        self.fused.push(particle.phase != Phase::Solid);
+        self.droplet.push(particle.droplet);
+        self.wall.push(particle.wall);
+        for column in &self.columns {
+            match column {
+                Column::Temperature => self.temperature.push(particle.temperature),
+                Column::Enthalpy => self.enthalpy.push(particle.enthalpy),
+                Column::Pressure => self.pressure.push(0.0),
+            }
+        }
+    }
+
+    /// Gathers the moving particles and all that they touch into [`State::near`].
+    pub fn gather(&mut self) {
+        let mut near = std::mem::replace(&mut self.near, Near::new(self.metal));
+        near.gather(self);
+        self.near = near;
+    }
+
+    /// Name and bytes of each column, for the record.
+    #[must_use]
+    pub fn memory(&self) -> Vec<(&'static str, usize)> {
+        let n = self.len();
+        let mut bytes = vec![
+            ("position", 24 * n),
+            ("velocity", 24 * n),
+            ("flags", 4 * n),
+            ("temperature", 8 * self.temperature.len()),
+            ("enthalpy", 8 * self.enthalpy.len()),
+            ("pressure", 8 * self.pressure.len()),
+            ("near", self.near.bytes()),
+        ];
+        bytes.retain(|(_, held)| *held > 0);
+        bytes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const METAL: Metal = Metal {
+        density: 7850.0,
+        spacing: 0.5e-3,
+        smoothing_length: 0.5e-3,
+    };
+
+    #[test]
+    fn a_column_nobody_needs_is_not_held() {
+        let mut state = State::new(METAL, vec![Column::Pressure, Column::Pressure]);
+        state.push(Particle {
+            position: [0.0; 3],
+            velocity: [0.0; 3],
+            phase: Phase::Liquid,
+            droplet: false,
+            wall: false,
+            temperature: 300.0,
+            enthalpy: 0.0,
+        });
+        assert_eq!(state.columns(), [Column::Pressure]);
+        assert!(state.temperature.is_empty() && state.enthalpy.is_empty());
+        assert_eq!(state.pressure.len(), 1);
+        assert!(
+            state
+                .memory()
+                .iter()
+                .all(|(name, _)| *name != "temperature")
+        );
+    }
+}
