@@ -1,1 +1,4 @@
 //! Pictures, tables and error against run time from artefacts and records.
+
+mod draw;
+mod measure;

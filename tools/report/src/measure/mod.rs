@@ -1,0 +1,4 @@
+//! Measures of the bead, by geometry alone.
+
+pub(crate) mod bead;
+pub(crate) mod section;
