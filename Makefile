@@ -42,7 +42,7 @@ lint:
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet
 
-unit: build/python/.installed
+unit: programs build/python/.installed
 	cargo test --release --quiet
 
 # Readers of other people's making, to prove that our files open elsewhere.

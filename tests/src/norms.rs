@@ -12,7 +12,11 @@ pub fn relative(found: &[f64], exact: &[f64]) -> (f64, f64) {
         let d = (f - e).abs() / scale;
         sum += d * d;
         // `max` forgets a NaN; an error that is not a number must stay one.
-        worst = if d.is_nan() { d } else { worst.max(d) };
+        worst = if d.is_nan() || worst.is_nan() {
+            f64::NAN
+        } else {
+            worst.max(d)
+        };
     }
     ((sum / found.len().max(1) as f64).sqrt(), worst)
 }
