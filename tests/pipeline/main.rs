@@ -1,0 +1,103 @@
+//! `pipelines/rerun`: only what changed is made again, and an interrupted run is taken up.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn script() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap()
+        .join("pipelines/rerun")
+}
+
+/// Makes `out` from `scene` by a stage that logs each of its runs and ends with `code`.
+fn make(folder: &Path, extra: &str, code: u8) -> Option<i32> {
+    let stage = format!(
+        "cp scene out; echo \"$*\" >> log; exit {code} #{extra}",
+        extra = extra
+    );
+    Command::new(script())
+        .current_dir(folder)
+        .args(["out", "scene", "--", "sh", "-c", &stage, "stage"])
+        .status()
+        .unwrap()
+        .code()
+}
+
+fn runs(folder: &Path) -> usize {
+    std::fs::read_to_string(folder.join("log")).map_or(0, |t| t.lines().count())
+}
+
+fn scene(folder: &Path, text: &str) {
+    std::fs::write(folder.join("scene"), text).unwrap();
+}
+
+#[test]
+fn a_touched_scene_wakes_nothing_and_a_changed_one_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "300 A");
+    assert_eq!(make(folder, "", 0), Some(0));
+    scene(folder, "300 A");
+    assert_eq!(make(folder, "", 0), Some(0));
+    assert_eq!(runs(folder), 1);
+    scene(folder, "250 A");
+    assert_eq!(make(folder, "", 0), Some(0));
+    assert_eq!(runs(folder), 2);
+    assert_eq!(
+        std::fs::read_to_string(folder.join("out")).unwrap(),
+        "250 A"
+    );
+}
+
+#[test]
+fn another_command_is_a_change_but_threads_and_progress_are_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "300 A");
+    make(folder, " --threads 1 --progress plain", 0);
+    make(folder, " --threads 2 --progress none", 0);
+    assert_eq!(runs(folder), 1);
+    make(folder, " --patch other.json", 0);
+    assert_eq!(runs(folder), 2);
+}
+
+#[test]
+fn a_failure_is_handed_on_and_never_taken_for_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "300 A");
+    assert_eq!(make(folder, "", 1), Some(1));
+    assert_eq!(make(folder, "", 0), Some(0), "the next call runs again");
+    assert_eq!(runs(folder), 2);
+}
+
+#[test]
+fn finished_with_warnings_counts_as_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "300 A");
+    assert_eq!(make(folder, "", 3), Some(0));
+    make(folder, "", 3);
+    assert_eq!(runs(folder), 1);
+}
+
+#[test]
+fn an_interrupted_run_is_taken_up_unless_its_scene_changed() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "300 A");
+    assert_eq!(make(folder, "", 130), Some(130));
+    std::fs::write(folder.join("out.checkpoint"), "state").unwrap();
+    assert_eq!(make(folder, "", 130), Some(130));
+    let log = std::fs::read_to_string(folder.join("log")).unwrap();
+    assert_eq!(log.lines().last(), Some("--resume"));
+    scene(folder, "250 A");
+    make(folder, "", 0);
+    let log = std::fs::read_to_string(folder.join("log")).unwrap();
+    assert_eq!(
+        log.lines().last(),
+        Some(""),
+        "a checkpoint of another scene is left alone"
+    );
+}
