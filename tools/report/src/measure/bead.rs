@@ -213,7 +213,10 @@ mod tests {
             // each side of what is measured.
             for (k, (sum, e)) in mean.iter_mut().zip(error).enumerate() {
                 let sides = if k % 2 == 0 { 1.0 } else { 2.0 };
-                assert!(e.abs() < 0.55 * sides * D, "{error:?} m with half width {half}");
+                assert!(
+                    e.abs() < 0.55 * sides * D,
+                    "{error:?} m with half width {half}"
+                );
                 *sum += e / f64::from(count);
             }
             assert!((bead.fused_half_width - bead.fused_width / 2.0).abs() < 0.5 * D);
