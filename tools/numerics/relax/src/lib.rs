@@ -24,7 +24,7 @@ mod stencil;
 pub use krylov::{Krylov, Workspace, bicgstab, conjugate_gradient};
 pub use multigrid::Multigrid;
 pub use sor::Sor;
-pub use stencil::FivePoint;
+pub use stencil::{Coefficients, FivePoint};
 
 use thiserror::Error;
 

@@ -29,6 +29,35 @@ pub struct FivePoint {
     pub source: Vec<f64>,
 }
 
+/// The equation of one cell.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coefficients {
+    /// AP.
+    pub centre: f64,
+    /// AE.
+    pub east: f64,
+    /// AW.
+    pub west: f64,
+    /// AN.
+    pub north: f64,
+    /// AS.
+    pub south: f64,
+    /// SU.
+    pub source: f64,
+}
+
+impl Coefficients {
+    /// The equation of a cell that keeps `value`.
+    #[must_use]
+    pub fn fixed(value: f64) -> Self {
+        Self {
+            centre: 1.0,
+            source: value,
+            ..Self::default()
+        }
+    }
+}
+
 /// The coefficients of one row.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Row<'a> {
@@ -90,6 +119,39 @@ impl FivePoint {
         for column in columns {
             column.fill(0.0);
         }
+    }
+
+    /// Sets the equation of every cell `(i, j)`.
+    pub fn fill<F>(&mut self, equation: F)
+    where
+        F: Fn(usize, usize) -> Coefficients + Sync + Send,
+    {
+        let (columns, parallel) = (self.columns, self.len() >= PARALLEL_FROM);
+        let rows = self.rows_per_task();
+        let chunks = (
+            self.centre.par_chunks_mut(columns),
+            self.east.par_chunks_mut(columns),
+            self.west.par_chunks_mut(columns),
+            self.north.par_chunks_mut(columns),
+            self.south.par_chunks_mut(columns),
+            self.source.par_chunks_mut(columns),
+        );
+        let least = if parallel { rows } else { self.rows };
+        chunks
+            .into_par_iter()
+            .with_min_len(least.max(1))
+            .enumerate()
+            .for_each(|(j, (centre, east, west, north, south, source))| {
+                for i in 0..columns {
+                    let c = equation(i, j);
+                    centre[i] = c.centre;
+                    east[i] = c.east;
+                    west[i] = c.west;
+                    north[i] = c.north;
+                    south[i] = c.south;
+                    source[i] = c.source;
+                }
+            });
     }
 
     /// Makes cell `k` keep `value`.
