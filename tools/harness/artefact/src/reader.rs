@@ -1,49 +1,20 @@
 //! Reads an artefact: memory for one chunk, checksums checked, errors that name both sides.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::de::DeserializeOwned;
 
+use crate::contents::{Channel, Indexed, Place, contents};
 use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::Header;
 use crate::message::{POINT_CLOUD, RECORD, TABLE, time_s};
 use crate::recover::{header_of, index_of_part};
-use crate::store::{ChannelInfo, ChunkPlace, Store, Stored};
+use crate::scrub::scrub;
+use crate::store::{ChunkPlace, Index, Store, Stored};
 use crate::table::{Record, Table};
-
-/// What a file says of one of its channels.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Channel {
-    /// Name, for example `/particles`.
-    pub name: String,
-    /// Name of the schema of its messages.
-    pub schema: String,
-    /// Unit of each column.
-    pub units: BTreeMap<String, String>,
-    /// Number of messages.
-    pub messages: usize,
-    /// Simulated time of the first and the last message \[s\].
-    pub span_s: Option<(f64, f64)>,
-}
-
-/// Where a message is: chunk, place among the channel's messages in it, time.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    chunk: usize,
-    within: usize,
-    log_time: u64,
-}
-
-#[derive(Debug)]
-struct Indexed {
-    id: u16,
-    info: ChannelInfo,
-    units: BTreeMap<String, String>,
-    places: Vec<Place>,
-}
 
 type Chunk = Arc<Vec<Stored>>;
 
@@ -54,6 +25,7 @@ pub struct Reader {
     header: Header,
     channels: BTreeMap<String, Indexed>,
     chunks: Vec<ChunkPlace>,
+    metadata: BTreeMap<String, BTreeMap<String, String>>,
     last: Mutex<Option<(usize, Chunk)>>,
     lost_bytes: u64,
 }
@@ -89,47 +61,15 @@ impl Reader {
         Self::with_index(store, index, lost)
     }
 
-    fn with_index(store: Store, index: crate::store::Index, lost_bytes: u64) -> Result<Self> {
+    fn with_index(store: Store, index: Index, lost_bytes: u64) -> Result<Self> {
         let header = header_of(&store, &index)?;
-        let mut channels = BTreeMap::new();
-        for (id, info) in index.channels {
-            let units = match info.metadata.get("units") {
-                Some(text) => serde_json::from_str(text).map_err(|e| {
-                    store.damaged(format!("channel '{}'", info.name), format!("units: {e}"))
-                })?,
-                None => BTreeMap::new(),
-            };
-            let places = index
-                .chunks
-                .iter()
-                .enumerate()
-                .filter_map(|(chunk, place)| place.times.get(&id).map(|times| (chunk, times)))
-                .flat_map(|(chunk, times)| {
-                    times
-                        .iter()
-                        .enumerate()
-                        .map(move |(within, &log_time)| Place {
-                            chunk,
-                            within,
-                            log_time,
-                        })
-                })
-                .collect();
-            channels.insert(
-                info.name.clone(),
-                Indexed {
-                    id,
-                    info,
-                    units,
-                    places,
-                },
-            );
-        }
+        let channels = contents(&store, &index)?;
         Ok(Self {
             store,
             header,
             channels,
             chunks: index.chunks,
+            metadata: index.metadata,
             last: Mutex::new(None),
             lost_bytes,
         })
@@ -184,23 +124,37 @@ impl Reader {
         self.store.bytes
     }
 
+    /// A metadata record by name: what the file says beside its header.
+    #[must_use]
+    pub fn metadata(&self, name: &str) -> Option<&BTreeMap<String, String>> {
+        self.metadata.get(name)
+    }
+
+    /// JSON Schema of the messages of a channel; empty for frames.
+    ///
+    /// # Errors
+    /// When the channel is absent.
+    pub fn json_schema(&self, channel: &str) -> Result<&[u8]> {
+        let info = &self.channel(channel)?.info;
+        Ok(if info.schema_encoding == "jsonschema" {
+            &info.schema_data
+        } else {
+            &[]
+        })
+    }
+
+    /// Compares every byte of a finished file with the checksums in it.
+    ///
+    /// # Errors
+    /// [`Error::Crc`] or [`Error::Damaged`], naming the place.
+    pub fn scrub(&self) -> Result<()> {
+        scrub(&self.store)
+    }
+
     /// All channels, sorted by name.
     #[must_use]
     pub fn channels(&self) -> Vec<Channel> {
-        self.channels
-            .values()
-            .map(|c| Channel {
-                name: c.info.name.clone(),
-                schema: c.info.schema.clone(),
-                units: c.units.clone(),
-                messages: c.places.len(),
-                span_s: c
-                    .places
-                    .first()
-                    .zip(c.places.last())
-                    .map(|(a, b)| (time_s(a.log_time), time_s(b.log_time))),
-            })
-            .collect()
+        self.channels.values().map(Indexed::describe).collect()
     }
 
     /// Whether a channel exists.
@@ -374,7 +328,7 @@ impl Reader {
             .get(index)
             .copied()
             .ok_or_else(|| Error::Index {
-                path: PathBuf::from(&self.store.path),
+                path: self.store.path.clone(),
                 channel: channel.to_owned(),
                 index,
                 count: indexed.places.len(),

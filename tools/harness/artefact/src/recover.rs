@@ -14,6 +14,9 @@ use crate::message::Topic;
 use crate::store::{ChannelInfo, ChunkPlace, Index, PREFIX, Store, Stored};
 use crate::writer::{Position, Writer};
 
+/// Name of the metadata record of a file that was saved from a run that did not finish.
+pub const RECOVERED: &str = "fusionline.recovered";
+
 /// A chunk that was found whole, with its messages.
 struct Whole {
     place: (u64, u64),
@@ -186,16 +189,38 @@ impl Writer {
     }
 }
 
-/// Writes all that is whole in `from` to `to` as a finished file; gives the number of messages
-/// saved and of bytes lost.
+/// What was saved of a file that was never finished.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Saved {
+    /// Messages in whole chunks.
+    pub messages: u64,
+    /// Bytes behind the last whole chunk, which are lost.
+    pub lost_bytes: u64,
+}
+
+/// Writes all that is whole in `from` to `to` as a finished file, whose metadata record
+/// [`RECOVERED`] says so. The file `from` stays as it is.
 ///
 /// # Errors
 /// When `from` has no readable header or `to` cannot be written.
-pub fn recover(from: &Path, to: &Path) -> Result<(u64, u64)> {
+pub fn recover(from: &Path, to: &Path) -> Result<Saved> {
     let store = Store::open(from)?;
-    let (index, lost) = index_of_part(&store)?;
-    let mut writer = Writer::create(to, &header_of(&store, &index)?)?;
-    let saved = replay(&store, &mut writer, None)?;
+    let (index, lost_bytes) = index_of_part(&store)?;
+    // Not `to`.part: that may be the very file that is saved.
+    let part = beside(to, ".part.recovered");
+    let mut writer = Writer::begin(to, part, &header_of(&store, &index)?)?;
+    let messages = replay(&store, &mut writer, None)?;
+    let note = [
+        ("messages", messages.to_string()),
+        ("lost_bytes", lost_bytes.to_string()),
+    ];
+    writer.note(
+        RECOVERED,
+        note.map(|(key, value)| (key.to_owned(), value)).into(),
+    )?;
     writer.finish()?;
-    Ok((saved, lost))
+    Ok(Saved {
+        messages,
+        lost_bytes,
+    })
 }

@@ -5,25 +5,21 @@
 //! first, never because of a checkpoint or of the clock.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use mcap::records::{MessageHeader, Metadata};
-use mcap::{Compression, McapError, WriteOptions};
+use mcap::records::MessageHeader;
 use serde::{Deserialize, Serialize};
 
-use crate::atomic::{beside, rename_synced};
-use crate::error::{Error, Result, io_error};
+use crate::atomic::beside;
+use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::{Header, METADATA};
 use crate::message::{Topic, log_time};
+use crate::part::Part;
 use crate::table::{Record, Table};
 
 /// JSON is gathered into chunks of this size \[byte\].
 const CHUNK_BYTES: usize = 1 << 20;
-/// zstd level: speed matters more than the last per cent.
-const LEVEL: u32 = 1;
 
 /// A message that waits for its chunk to be full.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,30 +60,11 @@ struct Open {
 #[derive(Debug)]
 pub struct Writer {
     path: PathBuf,
-    part: PathBuf,
-    file: Output,
-    sync: File,
+    part: Part,
     channels: BTreeMap<String, Open>,
     waiting: Vec<Waiting>,
     waiting_bytes: usize,
     messages: u64,
-}
-
-/// The MCAP writer, which must not write an end record when it is dropped half-way.
-struct Output(Option<mcap::Writer<BufWriter<File>>>);
-
-impl std::fmt::Debug for Output {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Output")
-    }
-}
-
-impl Drop for Output {
-    fn drop(&mut self) {
-        if let Some(writer) = self.0.take() {
-            drop(writer.into_inner());
-        }
-    }
 }
 
 impl Writer {
@@ -101,29 +78,9 @@ impl Writer {
     }
 
     pub(crate) fn begin(path: &Path, part: PathBuf, header: &Header) -> Result<Self> {
-        let file = File::create(&part).map_err(io_error(&part, "create"))?;
-        let sync = file.try_clone().map_err(io_error(&part, "create"))?;
-        let options = WriteOptions::new()
-            .compression(Some(Compression::Zstd))
-            .compression_level(LEVEL)
-            // Without worker threads: the bytes must not depend on the machine.
-            .compression_threads(0)
-            .chunk_size(None)
-            .library("fusionline");
-        let mut out = options
-            .create(BufWriter::with_capacity(1 << 16, file))
-            .map_err(refused(&part))?;
-        out.write_metadata(&Metadata {
-            name: METADATA.to_owned(),
-            metadata: header.to_metadata(),
-        })
-        .map_err(refused(&part))?;
-        out.flush().map_err(refused(&part))?;
         Ok(Self {
             path: path.to_owned(),
-            part,
-            file: Output(Some(out)),
-            sync,
+            part: Part::create(part, header)?,
             channels: BTreeMap::new(),
             waiting: Vec::new(),
             waiting_bytes: 0,
@@ -195,10 +152,7 @@ impl Writer {
     /// # Errors
     /// When the disk refuses.
     pub fn position(&mut self) -> Result<Position> {
-        self.flush()?;
-        self.sync
-            .sync_data()
-            .map_err(io_error(&self.part, "sync"))?;
+        self.part.sync()?;
         Ok(Position {
             messages: self.messages,
             waiting: self.waiting.clone(),
@@ -210,8 +164,7 @@ impl Writer {
     /// # Errors
     /// When the disk refuses.
     pub fn flush(&mut self) -> Result<()> {
-        let part = self.part.clone();
-        self.out()?.flush().map_err(refused(&part))
+        self.part.flush()
     }
 
     /// Writes the index and the end record, syncs, and gives the file its name.
@@ -231,21 +184,8 @@ impl Writer {
                 )
             })
             .collect();
-        let part = self.part.clone();
-        let out = self.out()?;
-        out.write_metadata(&Metadata {
-            name: format!("{METADATA}.units"),
-            metadata: units,
-        })
-        .and_then(|()| out.finish())
-        .map_err(refused(&part))?;
-        let writer = self.file.0.take().ok_or_else(|| closed(&part))?;
-        let file = writer
-            .into_inner()
-            .into_inner()
-            .map_err(|e| io_error(&part, "write")(e.into_error()))?;
-        file.sync_all().map_err(io_error(&part, "sync"))?;
-        rename_synced(&self.part, &self.path)
+        self.part.metadata(&format!("{METADATA}.units"), units)?;
+        self.part.finish(&self.path)
     }
 
     fn text<T: Serialize>(&mut self, topic: Topic, time_s: f64, value: &T) -> Result<()> {
@@ -288,31 +228,14 @@ impl Writer {
 
     /// Writes one message into the open chunk; the channel is known by then.
     pub(crate) fn put(&mut self, channel: &str, log_time: u64, data: &[u8]) -> Result<()> {
-        let part = self.part.clone();
-        let out = self.file.0.as_mut().ok_or_else(|| closed(&part))?;
-        let open = self
-            .channels
-            .get_mut(channel)
-            .ok_or_else(|| closed(&part))?;
+        let Some(open) = self.channels.get_mut(channel) else {
+            return Err(self.unfit(channel, "is not known yet".to_owned()));
+        };
         let channel_id = match open.id {
             Some(id) => id,
-            None => {
-                let topic = &open.topic;
-                let id = out
-                    .add_schema(&topic.schema, topic.schema_encoding(), &topic.schema_data())
-                    .and_then(|schema| {
-                        out.add_channel(
-                            schema,
-                            channel,
-                            topic.message_encoding(),
-                            &topic.metadata(),
-                        )
-                    })
-                    .map_err(refused(&part))?;
-                open.id = Some(id);
-                id
-            }
+            None => self.part.channel(&open.topic)?,
         };
+        open.id = Some(channel_id);
         let header = MessageHeader {
             channel_id,
             sequence: open.sequence,
@@ -321,8 +244,7 @@ impl Writer {
         };
         open.sequence += 1;
         self.messages += 1;
-        out.write_to_known_channel(&header, data)
-            .map_err(refused(&part))
+        self.part.message(&header, data)
     }
 
     /// Ends the open chunk.
@@ -377,14 +299,13 @@ impl Writer {
 
     /// Gives the partial file its usual name, once it holds all that was replayed.
     pub(crate) fn settle(&mut self) -> Result<()> {
-        self.flush()?;
-        self.sync
-            .sync_data()
-            .map_err(io_error(&self.part, "sync"))?;
-        let part = beside(&self.path, ".part");
-        rename_synced(&self.part, &part)?;
-        self.part = part;
-        Ok(())
+        self.part.sync()?;
+        self.part.rename(beside(&self.path, ".part"))
+    }
+
+    /// Writes a metadata record that says more than the header.
+    pub(crate) fn note(&mut self, name: &str, note: BTreeMap<String, String>) -> Result<()> {
+        self.part.metadata(name, note)
     }
 
     fn check(
@@ -425,36 +346,5 @@ impl Writer {
             channel: channel.to_owned(),
             what,
         }
-    }
-
-    fn out(&mut self) -> Result<&mut mcap::Writer<BufWriter<File>>> {
-        let part = &self.part;
-        self.file.0.as_mut().ok_or_else(|| closed(part))
-    }
-}
-
-/// The error for a writer that is no longer open: our own invariant.
-fn closed(part: &Path) -> Error {
-    Error::Damaged {
-        path: part.to_owned(),
-        place: "writer".to_owned(),
-        what: "already closed".to_owned(),
-    }
-}
-
-/// An error of the MCAP writer with the file it concerns.
-fn refused(part: &Path) -> impl Fn(McapError) -> Error {
-    let path = part.to_owned();
-    move |error| match error {
-        McapError::Io(source) => Error::Io {
-            path: path.clone(),
-            action: "write",
-            source,
-        },
-        other => Error::Io {
-            path: path.clone(),
-            action: "write",
-            source: std::io::Error::other(other),
-        },
     }
 }
