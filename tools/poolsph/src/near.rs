@@ -1,37 +1,61 @@
 //! The moving particles and all that they touch, as a compact copy sorted by cell.
 //!
 //! Flow works on this copy alone, so a large cold plate costs it nothing. Membership and order
-//! are a function of the state only, so a resumed run repeats them. Mobility is that of the
+//! are a function of the state only, so a resumed run repeats them. Roles are those of the
 //! moment of gathering: what melts during a step starts to move in the next.
 
+use kernels::CubicSpline;
 use neighbours::{Grid, Lists};
+use rayon::prelude::*;
 
 use crate::state::{Metal, Phase, State};
 
-/// Solid particles are gathered this far beyond the support, in smoothing lengths: the way that a
-/// liquid particle may go within a step.
-const MARGIN: f64 = 0.5;
+/// Solid particles are gathered this far beyond the support, in supports: the way that a liquid
+/// particle may go within a step.
+const MARGIN: f64 = 0.25;
 
-/// Compact particles: liquid ones, and solid ones within the support of a liquid one.
+/// Part of a particle in the compact copy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Moves.
+    Liquid,
+    /// Rests, within reach of a liquid particle.
+    Wet,
+    /// Rests, within reach of a wet one only: completes the neighbourhood of those.
+    Backing,
+}
+
+/// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists.
+#[derive(Debug, Clone, Default)]
+pub struct PairChunk {
+    /// W \[1/m3\].
+    pub value: Vec<f64>,
+    /// (dW/dr)/r \[1/m5\].
+    pub slope: Vec<f64>,
+}
+
+/// Compact particles: liquid ones, and solid ones around them.
 #[derive(Debug, Clone)]
 pub struct Near {
-    support: f64,
+    /// The kernel of the motion.
+    pub kernel: CubicSpline<3>,
     /// Index into [`State`], `[m]`, sorted by cell.
     pub id: Vec<u32>,
-    /// Moves, `[m]`.
-    pub liquid: Vec<bool>,
+    /// `[m]`.
+    pub role: Vec<Role>,
     /// x \[m\], `[m][3]`.
     pub position: Vec<[f64; 3]>,
     /// u \[m/s\], `[m][3]`; zero for solid ones.
     pub velocity: Vec<[f64; 3]>,
     /// Force density \[N/m3\], `[m][3]`; zero after gathering, force stages add to it.
     pub force: Vec<[f64; 3]>,
-    /// Rows of liquid particles hold all neighbours within the support; rows of solid ones hold
-    /// their liquid neighbours only.
+    /// Neighbours within the support; the rows of [`Role::Backing`] are empty.
     pub lists: Lists,
+    /// Kernel values in the order of `lists.chunks()`.
+    pub pairs: Vec<PairChunk>,
     liquid_count: usize,
-    liquid_grid: Grid,
     grid: Grid,
+    liquid_grid: Grid,
     candidates: Vec<u32>,
     places: Vec<[f64; 3]>,
 }
@@ -42,16 +66,17 @@ impl Near {
     pub fn new(metal: Metal) -> Self {
         let support = metal.support();
         Self {
-            support,
+            kernel: CubicSpline::new(metal.smoothing_length),
             id: Vec::new(),
-            liquid: Vec::new(),
+            role: Vec::new(),
             position: Vec::new(),
             velocity: Vec::new(),
             force: Vec::new(),
             lists: Lists::new(),
+            pairs: Vec::new(),
             liquid_count: 0,
-            liquid_grid: Grid::new(support),
             grid: Grid::new(support),
+            liquid_grid: Grid::new(support),
             candidates: Vec::new(),
             places: Vec::new(),
         }
@@ -78,7 +103,11 @@ impl Near {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        (4 + 1 + 3 * 24) * self.id.capacity() + self.lists.bytes()
+        let pairs = self
+            .pairs
+            .iter()
+            .map(|chunk| 8 * (chunk.value.capacity() + chunk.slope.capacity()));
+        (4 + 1 + 3 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
     }
 
     /// Collects members, sorts them by cell and finds their neighbours.
@@ -98,15 +127,28 @@ impl Near {
         self.id.extend(members);
         self.position.clear();
         self.position.extend_from_slice(self.grid.sorted());
-        self.liquid.clear();
-        self.liquid.extend(
-            self.id
-                .iter()
-                .map(|&id| state.phase[id as usize] == Phase::Liquid),
-        );
-        self.liquid_count = self.liquid.iter().filter(|liquid| **liquid).count();
-        let still = |(&id, &liquid): (&u32, &bool)| {
-            if liquid {
+        let reach = self.kernel.support() * (1.0 + MARGIN);
+        let (liquid_grid, id, position) = (&self.liquid_grid, &self.id, &self.position);
+        self.role.resize(id.len(), Role::Backing);
+        self.role
+            .par_iter_mut()
+            .zip(id)
+            .zip(position)
+            .with_min_len(1024)
+            .for_each(|((role, &id), &place)| {
+                *role = match state.phase[id as usize] {
+                    Phase::Liquid => Role::Liquid,
+                    _ if liquid_grid.any_within(place, reach) => Role::Wet,
+                    _ => Role::Backing,
+                };
+            });
+        self.liquid_count = self
+            .role
+            .iter()
+            .filter(|role| **role == Role::Liquid)
+            .count();
+        let moving = |(&id, &role)| {
+            if role == Role::Liquid {
                 state.velocity[id as usize]
             } else {
                 [0.0; 3]
@@ -114,26 +156,56 @@ impl Near {
         };
         self.velocity.clear();
         self.velocity
-            .extend(self.id.iter().zip(&self.liquid).map(still));
+            .extend(self.id.iter().zip(&self.role).map(moving));
         self.force.clear();
         self.force.resize(self.id.len(), [0.0; 3]);
         self.search();
     }
 
-    /// Finds the neighbours anew for the present positions of the copy.
+    /// Finds the neighbours and kernel values for the present positions of the copy.
     pub(crate) fn search(&mut self) {
         self.grid.bin(&self.position);
-        let liquid = &self.liquid;
+        let role = &self.role;
+        let support = self.kernel.support();
         self.lists.build(
             &self.grid,
             &self.position,
-            self.support,
-            |_| true,
-            |a, b| liquid[a] | liquid[b],
+            support,
+            |a| role[a] != Role::Backing,
+            |_, _| true,
         );
+        self.weigh();
     }
 
-    /// Liquid particles, and solid ones within the support of a liquid one.
+    /// Kernel values of all pairs.
+    fn weigh(&mut self) {
+        let (kernel, position) = (self.kernel, &self.position);
+        self.pairs
+            .resize_with(self.lists.chunks().len(), PairChunk::default);
+        self.pairs
+            .par_iter_mut()
+            .zip(self.lists.chunks())
+            .for_each(|(pairs, chunk)| {
+                let n = chunk.index().len();
+                pairs.value.resize(n, 0.0);
+                pairs.slope.resize(n, 0.0);
+                for k in 0..chunk.rows() {
+                    let place = position[chunk.first() + k];
+                    let range = chunk.range(k);
+                    let (value, slope) = (
+                        &mut pairs.value[range.clone()],
+                        &mut pairs.slope[range.clone()],
+                    );
+                    for ((&b, value), slope) in chunk.row(k).iter().zip(value).zip(slope) {
+                        let r = squared(minus(place, position[b as usize])).sqrt();
+                        let sample = kernel.sample(r);
+                        (*value, *slope) = (sample.value, sample.slope);
+                    }
+                }
+            });
+    }
+
+    /// Liquid particles, and solid ones within two reaches of a liquid one.
     fn collect(&mut self, state: &State) {
         for (id, phase) in state.phase.iter().enumerate() {
             if *phase == Phase::Liquid {
@@ -142,13 +214,41 @@ impl Near {
             }
         }
         self.liquid_grid.bin(&self.places);
-        let reach = self.support + MARGIN * 0.5 * self.support;
+        let reach = self.kernel.support() * (2.0 + MARGIN);
         for (id, phase) in state.phase.iter().enumerate() {
             let place = state.position[id];
-            if *phase == Phase::Solid && self.liquid_grid.any_within(place, reach, |_| true) {
+            if *phase == Phase::Solid && self.liquid_grid.any_within(place, reach) {
                 self.candidates.push(id as u32);
                 self.places.push(place);
             }
         }
     }
+}
+
+/// a - b.
+#[inline]
+#[must_use]
+pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// a . b.
+#[inline]
+#[must_use]
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// a . a.
+#[inline]
+#[must_use]
+pub fn squared(a: [f64; 3]) -> f64 {
+    dot(a, a)
+}
+
+/// a + s b.
+#[inline]
+#[must_use]
+pub fn plus(a: [f64; 3], s: f64, b: [f64; 3]) -> [f64; 3] {
+    [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }

@@ -12,6 +12,7 @@ pub struct Grid {
     finest: f64,
     edge: f64,
     origin: [f64; 3],
+    end: [f64; 3],
     counts: [usize; 3],
     start: Vec<u32>,
     cell_of: Vec<u32>,
@@ -27,6 +28,7 @@ impl Grid {
             finest: edge,
             edge,
             origin: [0.0; 3],
+            end: [0.0; 3],
             counts: [1; 3],
             start: vec![0, 0],
             cell_of: Vec::new(),
@@ -104,28 +106,21 @@ impl Grid {
         }
     }
 
-    /// True if no point lies within the cells that touch the sphere: a cheap first test.
+    /// True if some point is closer than `radius`; points far from the whole cloud are told apart
+    /// at the cost of a few comparisons.
     #[must_use]
-    pub fn is_empty_near(&self, point: [f64; 3], radius: f64) -> bool {
-        let mut empty = true;
-        self.runs(point, radius, |_| empty = false);
-        empty
-    }
-
-    /// True if some point satisfies `accepts` and is closer than `radius`.
-    pub fn any_within(
-        &self,
-        point: [f64; 3],
-        radius: f64,
-        accepts: impl Fn(usize) -> bool,
-    ) -> bool {
-        let mut found = false;
+    pub fn any_within(&self, point: [f64; 3], radius: f64) -> bool {
+        let outside =
+            |k: usize| point[k] < self.origin[k] - radius || point[k] > self.end[k] + radius;
+        if outside(0) || outside(1) || outside(2) {
+            return false;
+        }
+        let (mut found, limit) = (false, radius * radius);
         self.runs(point, radius, |run| {
             found = found
-                || run.into_iter().any(|k| {
-                    distance_squared(point, self.sorted[k]) < radius * radius
-                        && accepts(self.order[k] as usize)
-                });
+                || self.sorted[run]
+                    .iter()
+                    .any(|&other| distance_squared(point, other) < limit);
         });
         found
     }
@@ -141,7 +136,7 @@ impl Grid {
         if points.is_empty() {
             (low, high) = ([0.0; 3], [0.0; 3]);
         }
-        self.origin = low;
+        (self.origin, self.end) = (low, high);
         self.edge = self.finest;
         loop {
             let spans = std::array::from_fn::<f64, 3, _>(|k| {

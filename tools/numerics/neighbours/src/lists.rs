@@ -123,9 +123,9 @@ impl Lists {
                 chunk.offsets.clear();
                 chunk.offsets.push(0);
                 let mut used = 0;
-                for a in chunk.first..chunk.first + rows {
+                for (a, &point) in points.iter().enumerate().skip(chunk.first).take(rows) {
                     if wanted(a) {
-                        used = chunk.search(grid, (points[a], radius), (a, used), &accepts);
+                        used = chunk.search(grid, (point, radius), (a, used), &accepts);
                     }
                     chunk.offsets.push(used as u32);
                 }

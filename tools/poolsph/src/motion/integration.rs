@@ -1,0 +1,251 @@
+//! A step of the motion (Komen 2019, fig. 3.16): prediction by inertia, viscosity and forces,
+//! correction by the pressure, new positions.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::projection::{Projection, Solved, Tolerance};
+use super::viscosity::Viscosity;
+use crate::near::{Near, Role, plus, squared};
+use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::state::{Column, Metal, State};
+
+/// A particle may cross this part of its diameter in one substep.
+const COURANT: f64 = 0.4;
+/// More substeps than this are no longer a flow.
+const SUBSTEPS_MAX: u32 = 32;
+
+/// How the liquid moves.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// Dynamic viscosity mu \[Pa s\].
+    #[schemars(range(min = 0.0), extend("x-unit" = "Pa s"))]
+    pub viscosity_pa_s: f64,
+    /// Acceleration of gravity \[m/s2\]; z points up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s2"))]
+    pub gravity_m_s2: Option<[f64; 3]>,
+    /// Mean relative density error at which the pressure is good enough.
+    #[serde(default = "default_tolerance")]
+    #[schemars(range(min = 1e-9, max = 0.1))]
+    pub density_tolerance: f64,
+    /// Fewest pressure sweeps per substep.
+    #[serde(default = "default_sweeps_min")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub sweeps_min: u32,
+    /// Most pressure sweeps per substep.
+    #[serde(default = "default_sweeps_max")]
+    #[schemars(range(min = 1, max = 100_000))]
+    pub sweeps_max: u32,
+}
+
+fn default_tolerance() -> f64 {
+    1e-4
+}
+
+fn default_sweeps_min() -> u32 {
+    2
+}
+
+fn default_sweeps_max() -> u32 {
+    100
+}
+
+/// The stage that moves the liquid.
+pub struct Motion {
+    parameters: Parameters,
+    viscosity: Viscosity,
+    projection: Projection,
+    predicted: Vec<[f64; 3]>,
+    solved: Solved,
+    substeps: u32,
+    speed: f64,
+}
+
+impl Motion {
+    /// The motion of `metal`.
+    #[must_use]
+    pub fn new(parameters: Parameters, metal: Metal) -> Self {
+        Self {
+            parameters,
+            viscosity: Viscosity::new(parameters.viscosity_pa_s, metal),
+            projection: Projection::default(),
+            predicted: Vec::new(),
+            solved: Solved::default(),
+            substeps: 0,
+            speed: 0.0,
+        }
+    }
+
+    /// u* = u + dt (g + f/rho + viscous acceleration); solid particles rest.
+    fn predict(&mut self, near: &Near, metal: Metal, dt: f64) {
+        let gravity = self.parameters.gravity_m_s2.unwrap_or_default();
+        self.predicted.clear();
+        let start =
+            near.role
+                .iter()
+                .zip(&near.velocity)
+                .zip(&near.force)
+                .map(|((role, u), force)| match role {
+                    Role::Liquid => plus(plus(*u, dt, gravity), dt / metal.density, *force),
+                    _ => [0.0; 3],
+                });
+        self.predicted.extend(start);
+        if self.parameters.viscosity_pa_s > 0.0 {
+            self.viscosity.apply(near, dt, &mut self.predicted);
+        }
+    }
+
+    fn substep(&mut self, near: &mut Near, metal: Metal, dt: f64) {
+        self.predict(near, metal, dt);
+        self.projection.prepare(near, metal, dt);
+        let tolerance = Tolerance {
+            density: self.parameters.density_tolerance,
+            sweeps_min: self.parameters.sweeps_min,
+            sweeps_max: self.parameters.sweeps_max,
+        };
+        let solved = self
+            .projection
+            .solve(near, &mut self.predicted, dt, tolerance);
+        self.solved.sweeps += solved.sweeps;
+        self.solved.density_error = self.solved.density_error.max(solved.density_error);
+        std::mem::swap(&mut near.velocity, &mut self.predicted);
+        for (x, u) in near.position.iter_mut().zip(&near.velocity) {
+            *x = plus(*x, dt, *u);
+        }
+    }
+
+    /// Number of substeps for the fastest particle; an error if it is no longer a flow.
+    fn divide(&self, state: &State, dt: f64) -> Result<u32, StageError> {
+        let near = &state.near;
+        let fastest =
+            near.velocity
+                .iter()
+                .enumerate()
+                .fold((0, 0.0), |fastest: (usize, f64), (a, u)| {
+                    let square = squared(*u);
+                    // A speed that is no number must not hide.
+                    if square > fastest.1 || square.is_nan() {
+                        (a, square)
+                    } else {
+                        fastest
+                    }
+                });
+        let speed = fastest.1.sqrt();
+        let limit = f64::from(SUBSTEPS_MAX) * COURANT * state.metal.spacing / dt;
+        if speed.is_nan() || speed > limit {
+            let particle = near.id[fastest.0] as usize;
+            return Err(StageError::Diverged {
+                step: state.step,
+                particle,
+                place: state.position[particle],
+                quantity: "speed",
+                value: speed,
+                limit,
+                unit: "m/s",
+            });
+        }
+        let courant = (speed * dt / (COURANT * state.metal.spacing))
+            .ceil()
+            .max(1.0);
+        let viscous = (dt / self.viscosity.limit()).ceil().max(1.0);
+        Ok(courant.max(viscous) as u32)
+    }
+
+    fn scatter(&mut self, state: &mut State) {
+        let near = &state.near;
+        for (a, (&id, role)) in near.id.iter().zip(&near.role).enumerate() {
+            let id = id as usize;
+            state.pressure[id] = self.projection.pressure[a];
+            if *role == Role::Liquid && state.phase[id] == crate::state::Phase::Liquid {
+                state.position[id] = near.position[a];
+                state.velocity[id] = near.velocity[a];
+            }
+        }
+    }
+}
+
+impl Stage for Motion {
+    fn name(&self) -> &'static str {
+        "motion"
+    }
+
+    fn needs(&self) -> &'static [Column] {
+        &[Column::Pressure]
+    }
+
+    fn dt_limit(&self, state: &State) -> Option<Limit> {
+        let courant = COURANT * state.metal.spacing / self.speed;
+        let viscous = self.viscosity.limit();
+        Some(if courant < viscous {
+            Limit {
+                seconds: courant,
+                name: "courant",
+            }
+        } else {
+            Limit {
+                seconds: viscous,
+                name: "viscosity",
+            }
+        })
+    }
+
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        self.solved = Solved::default();
+        if state.near.is_empty() {
+            return Ok(());
+        }
+        self.substeps = self.divide(state, dt)?;
+        self.projection.pressure.clear();
+        self.projection
+            .pressure
+            .extend(state.near.id.iter().map(|&id| state.pressure[id as usize]));
+        let part = dt / f64::from(self.substeps);
+        let metal = state.metal;
+        for k in 0..self.substeps {
+            if k > 0 {
+                state.near.search();
+            }
+            self.substep(&mut state.near, metal, part);
+        }
+        self.speed = state
+            .near
+            .velocity
+            .iter()
+            .map(|u| squared(*u))
+            .fold(0.0, f64::max)
+            .sqrt();
+        self.scatter(state);
+        Ok(())
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![
+            Figure {
+                name: "sweeps",
+                unit: "1",
+                value: f64::from(self.solved.sweeps),
+            },
+            Figure {
+                name: "density_error",
+                unit: "1",
+                value: self.solved.density_error,
+            },
+            Figure {
+                name: "substeps",
+                unit: "1",
+                value: f64::from(self.substeps),
+            },
+            Figure {
+                name: "speed_max",
+                unit: "m/s",
+                value: self.speed,
+            },
+        ]
+    }
+
+    fn bytes(&self) -> usize {
+        self.projection.bytes() + 24 * self.predicted.capacity()
+    }
+}

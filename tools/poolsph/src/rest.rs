@@ -1,0 +1,313 @@
+//! Resting particles and their neighbours: rows that change only where something melts or sets.
+//!
+//! A particle rests while it is solid, or liquid before the flow starts. Its distances to other
+//! resting particles never change, so rows and kernel values are kept and only the rows around a
+//! particle that changes its part are touched. Rows are ascending in index: they follow from the
+//! membership alone, and a resumed run repeats them.
+//!
+//! Beside flat faces a row is completed by mirror images. The pair (a, b) then has the weight
+//! `sum of W(|x_a - image of x_b|)` over b and its images in the named planes, which is symmetric
+//! in a and b: conduction along a flat face is as in the inside, and across it nothing flows.
+//! Only particles that have never moved take part; a mirror would be wrong for a bead.
+
+use std::collections::BTreeMap;
+
+use kernels::CubicSpline;
+
+use crate::state::{Phase, State};
+
+/// A plane across an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// 0 = x, 1 = y, 2 = z.
+    pub axis: usize,
+    /// Where it cuts the axis \[m\].
+    pub at: f64,
+    /// Which side is outside: +1 or -1.
+    pub outward: f64,
+}
+
+/// One neighbour of a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Link {
+    /// Index of the neighbour.
+    pub to: u32,
+    /// W of the pair with its images \[1/m3\].
+    pub weight: f64,
+}
+
+/// Part that a particle plays here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// Moves or flies.
+    Away,
+    /// Rests where it was made.
+    Pristine,
+    /// Rests again after moving.
+    Settled,
+}
+
+/// Rows of the resting particles.
+#[derive(Debug, Clone, Default)]
+pub struct Rest {
+    kernel: Option<CubicSpline<3>>,
+    mirrors: Vec<Plane>,
+    part: Vec<Part>,
+    cells: BTreeMap<[i32; 3], Vec<u32>>,
+    rows: Vec<Vec<Link>>,
+    changed: Vec<u32>,
+}
+
+impl Rest {
+    /// No rows yet; `mirrors` are the flat faces.
+    #[must_use]
+    pub fn new(smoothing_length: f64, mirrors: Vec<Plane>) -> Self {
+        Self {
+            kernel: Some(CubicSpline::new(smoothing_length)),
+            mirrors,
+            ..Self::default()
+        }
+    }
+
+    /// Row of particle `a`, ascending; empty for one that does not rest.
+    #[must_use]
+    #[inline]
+    pub fn row(&self, a: usize) -> &[Link] {
+        self.rows.get(a).map_or(&[], Vec::as_slice)
+    }
+
+    /// True if `a` rests.
+    #[must_use]
+    #[inline]
+    pub fn holds(&self, a: usize) -> bool {
+        self.part.get(a).is_some_and(|part| *part != Part::Away)
+    }
+
+    /// Particles that came, went or got another row in the last update, ascending.
+    #[must_use]
+    pub fn changed(&self) -> &[u32] {
+        &self.changed
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let links: usize = self.rows.iter().map(Vec::capacity).sum();
+        16 * links + 25 * self.rows.len()
+    }
+
+    /// Takes in who has begun or ceased to rest.
+    pub fn update(&mut self, state: &State) {
+        self.changed.clear();
+        self.rows.resize(state.len(), Vec::new());
+        self.part.resize(state.len(), Part::Away);
+        for a in 0..state.len() {
+            let rests = rests(state, a);
+            if rests && self.part[a] == Part::Away {
+                // A particle that has been in the flow, or fell, is fused.
+                let moved = state.fused[a] && state.flowing;
+                self.enter(state, a, if moved { Part::Settled } else { Part::Pristine });
+            } else if !rests && self.part[a] != Part::Away {
+                self.leave(state, a);
+            }
+        }
+        self.changed.sort_unstable();
+        self.changed.dedup();
+    }
+
+    /// Parts as numbers, for a checkpoint.
+    #[must_use]
+    pub fn save(&self) -> Vec<f64> {
+        self.part
+            .iter()
+            .map(|part| f64::from(*part as u8))
+            .collect()
+    }
+
+    /// Builds the rows of the parts that [`Rest::save`] gave.
+    pub fn restore(&mut self, state: &State, saved: &[f64]) {
+        self.rows = vec![Vec::new(); saved.len()];
+        self.part = vec![Part::Away; saved.len()];
+        self.cells.clear();
+        for (a, part) in saved.iter().enumerate() {
+            match *part as u8 {
+                1 => self.enter(state, a, Part::Pristine),
+                2 => self.enter(state, a, Part::Settled),
+                _ => {}
+            }
+        }
+        self.changed.clear();
+    }
+
+    fn enter(&mut self, state: &State, a: usize, part: Part) {
+        let Some(kernel) = self.kernel else { return };
+        self.part[a] = part;
+        let cell = cell(state.position[a], kernel.support());
+        let mut row = Vec::with_capacity(26);
+        for k in 0..27 {
+            let near = [
+                cell[0] + k % 3 - 1,
+                cell[1] + k / 3 % 3 - 1,
+                cell[2] + k / 9 - 1,
+            ];
+            for &b in self.cells.get(&near).map_or(&[][..], Vec::as_slice) {
+                let weight = self.weight(state, (a, b as usize), kernel);
+                if weight > 0.0 {
+                    row.push(Link { to: b, weight });
+                }
+            }
+        }
+        row.sort_unstable_by_key(|link| link.to);
+        for link in &row {
+            let other = &mut self.rows[link.to as usize];
+            let place = other.partition_point(|l| l.to < a as u32);
+            other.insert(
+                place,
+                Link {
+                    to: a as u32,
+                    weight: link.weight,
+                },
+            );
+            self.changed.push(link.to);
+        }
+        self.rows[a] = row;
+        self.changed.push(a as u32);
+        self.cells.entry(cell).or_default().push(a as u32);
+    }
+
+    fn leave(&mut self, state: &State, a: usize) {
+        let Some(kernel) = self.kernel else { return };
+        let row = std::mem::take(&mut self.rows[a]);
+        for link in &row {
+            self.rows[link.to as usize].retain(|l| l.to != a as u32);
+            self.changed.push(link.to);
+        }
+        self.changed.push(a as u32);
+        self.part[a] = Part::Away;
+        if let Some(cell) = self
+            .cells
+            .get_mut(&cell(state.position[a], kernel.support()))
+        {
+            cell.retain(|b| *b != a as u32);
+        }
+    }
+
+    /// W of the pair, summed over the images of `b` in the mirrors.
+    fn weight(&self, state: &State, (a, b): (usize, usize), kernel: CubicSpline<3>) -> f64 {
+        let (at, to) = (state.position[a], state.position[b]);
+        let direct = kernel.value(distance(at, to));
+        if direct <= 0.0 || self.part[a] == Part::Settled || self.part[b] == Part::Settled {
+            return direct;
+        }
+        let reach = kernel.support();
+        let beside = |plane: &&Plane| (at[plane.axis] - plane.at).abs() < reach;
+        let planes: Vec<&Plane> = self.mirrors.iter().filter(beside).collect();
+        let mut sum = 0.0;
+        for images in 0..1_u32 << planes.len() {
+            let mut image = to;
+            for (k, plane) in planes.iter().enumerate() {
+                if images >> k & 1 == 1 {
+                    image[plane.axis] = 2.0 * plane.at - image[plane.axis];
+                }
+            }
+            sum += kernel.value(distance(at, image));
+        }
+        sum
+    }
+}
+
+/// A particle rests while it is solid, or liquid before the flow starts.
+#[must_use]
+pub fn rests(state: &State, a: usize) -> bool {
+    match state.phase[a] {
+        Phase::Solid => true,
+        Phase::Liquid => !state.flowing,
+        Phase::Flying => false,
+    }
+}
+
+/// Cell of a place; a search looks into 27 of them.
+fn cell(place: [f64; 3], edge: f64) -> [i32; 3] {
+    place.map(|x| (x / edge).floor() as i32)
+}
+
+/// |a - b| \[m\].
+#[inline]
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let dx = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    (dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::{Metal, Particle};
+
+    /// A block of 6^3 cells of 1 m, one corner in the origin.
+    fn block() -> State {
+        let metal = Metal {
+            density: 1.0,
+            spacing: 1.0,
+            smoothing_length: 1.0,
+        };
+        let mut state = State::new(metal, Vec::new());
+        for cell in 0..216 {
+            let at = [cell % 6, cell / 6 % 6, cell / 36].map(|i| f64::from(i) + 0.5);
+            state.push(Particle {
+                position: at,
+                velocity: [0.0; 3],
+                phase: Phase::Solid,
+                droplet: false,
+                wall: false,
+                temperature: 0.0,
+                enthalpy: 0.0,
+            });
+        }
+        state
+    }
+
+    #[test]
+    fn mirrors_complete_the_rows_beside_flat_faces() {
+        let state = block();
+        let plane = |axis, at, outward| Plane { axis, at, outward };
+        let faces = (0..3).flat_map(|axis| [plane(axis, 0.0, -1.0), plane(axis, 6.0, 1.0)]);
+        let mut rest = Rest::new(1.0, faces.collect());
+        rest.update(&state);
+        // The sum of r^2 W along x is the same for the corner as for the middle.
+        let moment = |a: usize| -> f64 {
+            let row = rest.row(a).iter();
+            row.map(|link| {
+                let dx = state.position[a][0] - state.position[link.to as usize][0];
+                link.weight * dx * dx
+            })
+            .sum()
+        };
+        let (corner, middle) = (moment(0), moment(2 + 6 * 2 + 36 * 2));
+        // The middle of the block sees both neighbours in x, the corner one.
+        assert!(
+            (2.0 * corner - middle).abs() < 1e-12 * middle,
+            "{corner} {middle}"
+        );
+    }
+
+    #[test]
+    fn rows_after_changes_are_those_of_a_fresh_start() {
+        let mut state = block();
+        state.flowing = true;
+        let mut rest = Rest::new(1.0, Vec::new());
+        rest.update(&state);
+        state.phase[80] = Phase::Liquid;
+        rest.update(&state);
+        assert!(!rest.holds(80) && rest.row(80).is_empty());
+        assert!(rest.changed().contains(&80) && rest.changed().len() > 6);
+        let mut fresh = Rest::new(1.0, Vec::new());
+        fresh.update(&state);
+        let saved = rest.save();
+        let mut resumed = Rest::new(1.0, Vec::new());
+        resumed.restore(&state, &saved);
+        for a in 0..state.len() {
+            assert_eq!(rest.row(a), fresh.row(a));
+            assert_eq!(rest.row(a), resumed.row(a));
+        }
+    }
+}
