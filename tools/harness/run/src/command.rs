@@ -1,0 +1,117 @@
+//! The command line that all stages share.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::{ArgAction, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::console::Level;
+use crate::progress::Style;
+use crate::tool::Tool;
+
+#[derive(Debug, Parser)]
+pub(crate) struct Line {
+    #[command(subcommand)]
+    pub(crate) action: Action,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Action {
+    /// Runs a scene and writes an artefact and its run record.
+    Run(Run),
+    /// Validates a scene and its inputs, prints the plan, runs nothing.
+    Check(Study),
+    /// Prints the JSON Schema of the scene.
+    Schema,
+}
+
+/// A scene with what belongs to it.
+#[derive(Debug, Args)]
+pub(crate) struct Study {
+    /// The scene.
+    #[arg(value_name = "SCENE.json")]
+    pub(crate) scene: PathBuf,
+    /// An input file by name.
+    #[arg(long = "input", value_name = "NAME=FILE")]
+    pub(crate) inputs: Vec<String>,
+    /// A JSON Merge Patch (RFC 7386) applied to the scene; several are applied in order.
+    #[arg(long = "patch", value_name = "FILE.json")]
+    pub(crate) patches: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    #[command(flatten)]
+    pub(crate) study: Study,
+    /// The artefact to write; its record is written beside it as NAME.run.json.
+    #[arg(long, value_name = "FILE.mcap")]
+    pub(crate) out: PathBuf,
+    /// Threads; the result is the same for any number [default: all cores].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    /// Goes on from FILE.mcap.checkpoint to the same bytes as an undisturbed run.
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// How progress is shown.
+    #[arg(long, value_enum, default_value_t = Style::Auto)]
+    pub(crate) progress: Style,
+    /// Says only warnings and errors.
+    #[arg(short, long, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// Says hashes and checkpoints as well.
+    #[arg(short, long, action = ArgAction::SetTrue)]
+    pub(crate) verbose: bool,
+}
+
+impl Run {
+    pub(crate) fn level(&self) -> Level {
+        match (self.quiet, self.verbose) {
+            (true, _) => Level::Quiet,
+            (_, true) => Level::Verbose,
+            _ => Level::Normal,
+        }
+    }
+}
+
+/// Reads the command line of a tool.
+pub(crate) fn parse<T: Tool>(
+    words: impl IntoIterator<Item = OsString>,
+) -> Result<Line, clap::Error> {
+    let example: Vec<String> = T::EXAMPLE
+        .lines()
+        .map(|line| format!("  {}", line.trim()))
+        .collect();
+    let after = format!(
+        "Example, from the repository root:\n{}\n\nExit codes: 0 done, 1 failed, 2 usage or invalid scene, \
+         3 done with warnings that matter, 130 interrupted.",
+        example.join("\n")
+    );
+    let command = Line::command()
+        .name(T::NAME)
+        .version(T::VERSION)
+        .about(T::ABOUT)
+        .after_help(after.clone())
+        .mut_subcommand("run", |run| {
+            run.after_help(after).mut_arg("inputs", inputs_help::<T>)
+        })
+        .mut_subcommand("check", |check| check.mut_arg("inputs", inputs_help::<T>));
+    Line::from_arg_matches(&command.try_get_matches_from(words)?)
+}
+
+fn inputs_help<T: Tool>(arg: clap::Arg) -> clap::Arg {
+    if T::INPUTS.is_empty() {
+        return arg.hide(true);
+    }
+    let names = T::INPUTS.iter().map(|input| {
+        let need = if input.required {
+            ""
+        } else {
+            ", where the scene needs it"
+        };
+        format!("{}: {}{need}", input.name, input.what)
+    });
+    arg.help(format!(
+        "An input file by name; {}",
+        names.collect::<Vec<_>>().join("; ")
+    ))
+}

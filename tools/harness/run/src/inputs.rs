@@ -1,0 +1,109 @@
+//! The input files of a run, by name.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::failure::Failure;
+use crate::scene::nearest;
+use crate::tool::Input;
+
+/// The input files of a run, by name, with their hashes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Inputs {
+    files: BTreeMap<String, PathBuf>,
+    hashes: BTreeMap<String, String>,
+}
+
+impl Inputs {
+    /// No inputs.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// Names and files; each file is read once for its hash.
+    ///
+    /// # Errors
+    /// When a name stands twice or a file cannot be read.
+    pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a Path)>) -> Result<Self, Failure> {
+        let mut all = Self::default();
+        for (name, path) in files {
+            if all.files.insert(name.to_owned(), path.to_owned()).is_some() {
+                return Err(Failure::Usage(format!("--input {name}: given twice")));
+            }
+            if !path.is_file() {
+                let path = path.display();
+                return Err(Failure::Usage(format!(
+                    "--input {name}={path}: there is no such file"
+                )));
+            }
+            all.hashes
+                .insert(name.to_owned(), artefact::sha256_file(path)?);
+        }
+        Ok(all)
+    }
+
+    /// From `NAME=FILE` words, against what the tool declares.
+    pub(crate) fn from_words(words: &[String], declared: &[Input]) -> Result<Self, Failure> {
+        let names: Vec<&str> = declared.iter().map(|input| input.name).collect();
+        let mut files = Vec::new();
+        for word in words {
+            let Some((name, path)) = word.split_once('=').filter(|(_, path)| !path.is_empty())
+            else {
+                return Err(Failure::Usage(format!(
+                    "--input {word}: wanted is NAME=FILE"
+                )));
+            };
+            if !names.contains(&name) {
+                return Err(Failure::Usage(unknown(name, &names)));
+            }
+            files.push((name, Path::new(path)));
+        }
+        let missing = declared
+            .iter()
+            .find(|input| input.required && !files.iter().any(|(name, _)| *name == input.name));
+        if let Some(input) = missing {
+            return Err(Failure::Usage(format!(
+                "--input {}=FILE is needed: {}",
+                input.name, input.what
+            )));
+        }
+        Self::of(files)
+    }
+
+    /// The file of an input that a scene makes necessary.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] when it was not given.
+    pub fn path(&self, name: &str) -> Result<&Path, Failure> {
+        self.get(name)
+            .ok_or_else(|| Failure::Usage(format!("--input {name}=FILE is needed by this scene")))
+    }
+
+    /// The file of an input, if it was given.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&Path> {
+        self.files.get(name).map(PathBuf::as_path)
+    }
+
+    /// SHA-256 of each file by name.
+    #[must_use]
+    pub fn hashes(&self) -> &BTreeMap<String, String> {
+        &self.hashes
+    }
+
+    /// Names and files.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Path)> {
+        self.files
+            .iter()
+            .map(|(name, path)| (name.as_str(), path.as_path()))
+    }
+}
+
+fn unknown(name: &str, names: &[&str]) -> String {
+    match nearest(name, names) {
+        _ if names.is_empty() => format!("--input {name}: this tool has no inputs"),
+        Some(meant) => format!("--input {name}: unknown; did you mean '{meant}'?"),
+        None => format!("--input {name}: unknown; known are: {}", names.join(", ")),
+    }
+}

@@ -1,0 +1,230 @@
+//! From the command line to the exit code.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use artefact::{Header, beside};
+
+use crate::command::{Action, Run, Study, parse};
+use crate::console::{Level, data, line};
+use crate::failure::Failure;
+use crate::inputs::Inputs;
+use crate::interrupt::Interrupt;
+use crate::machine;
+use crate::plan::{Plan, duration};
+use crate::progress::Style;
+use crate::record::RunRecord;
+use crate::scene::{Loaded, load, located, schema_of, schema_text};
+use crate::session::{Opening, Session};
+use crate::tool::{Tool, expected};
+
+/// The whole program of a stage.
+#[must_use]
+pub fn main<T: Tool>() -> ExitCode {
+    let line = match parse::<T>(std::env::args_os()) {
+        Ok(line) => line,
+        Err(e) => {
+            // Help and version go to stdout with code 0, errors to stderr with code 2.
+            let _ = e.print();
+            return ExitCode::from(u8::try_from(e.exit_code()).unwrap_or(2));
+        }
+    };
+    let done = match line.action {
+        Action::Schema => print(&schema_text(&schema_of::<T::Scene>(expected::<T>()))),
+        Action::Check(study) => check::<T>(&study),
+        Action::Run(run) => run_scene::<T>(&run),
+    };
+    done.unwrap_or_else(|failure| report_failure(T::NAME, &failure))
+}
+
+/// Says on stderr why there is no result, and gives the exit code that goes with it.
+#[must_use]
+pub fn report_failure(program: &str, failure: &Failure) -> ExitCode {
+    line(&format!("{program}: {failure}"));
+    ExitCode::from(failure.exit_code())
+}
+
+fn print(text: &str) -> Result<ExitCode, Failure> {
+    data(text)
+        .map(|()| ExitCode::SUCCESS)
+        .map_err(|source| Failure::Io {
+            path: "stdout".into(),
+            action: "write",
+            source,
+        })
+}
+
+/// A scene that was found good, with its plan.
+struct Ready<S> {
+    scene: S,
+    inputs: Inputs,
+    plan: Plan,
+    header: Header,
+}
+
+fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
+    let schema = schema_of::<T::Scene>(expected::<T>());
+    let Loaded { scene, merged } =
+        load::<T::Scene>(&study.scene, &study.patches, &schema, expected::<T>())?;
+    let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
+    let plan = T::plan(&scene, &inputs).map_err(|failure| match failure {
+        Failure::Scene(faults) => Failure::Scene(located(faults, &merged)),
+        other => other,
+    })?;
+    let header = Header {
+        kind: T::ARTEFACT_KIND.to_owned(),
+        version: T::ARTEFACT_VERSION,
+        tool: T::NAME.to_owned(),
+        tool_version: T::VERSION.to_owned(),
+        scene: merged.value().clone(),
+        inputs: inputs.hashes().clone(),
+    };
+    Ok(Ready {
+        scene,
+        inputs,
+        plan,
+        header,
+    })
+}
+
+fn check<T: Tool>(study: &Study) -> Result<ExitCode, Failure> {
+    let ready = prepare::<T>(study)?;
+    print(&format!("{}\n{}", title::<T>(&study.scene), ready.plan))
+}
+
+fn title<T: Tool>(scene: &Path) -> String {
+    format!("{} {}  {}", T::NAME, T::VERSION, scene.display())
+}
+
+fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
+    let start = machine::now();
+    set_threads(run.threads)?;
+    let ready = prepare::<T>(&run.study)?;
+    if run.level() > Level::Quiet {
+        head::<T>(run, &ready);
+    }
+    let mut session = open::<T>(run, &ready.header)?;
+    session.planned(&ready.plan);
+    let ended = guarded(|| T::run(&ready.scene, &ready.inputs, &mut session));
+    session.progress.end();
+    let ledger = session.ledger();
+    let ended = ended.and_then(|()| session.finish());
+    let record = RunRecord::new(
+        &run.out,
+        &ready.header,
+        start,
+        ledger,
+        ended.as_ref().copied(),
+    );
+    let written = record.write();
+    ended?;
+    written?;
+    if run.level() > Level::Quiet {
+        closing(&record, &run.out);
+    }
+    Ok(ExitCode::from(record.exit_code()))
+}
+
+/// A panic is a fault of ours; the run still ends with a record and exit code 1.
+fn guarded(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let text = panic
+            .downcast_ref::<String>()
+            .map(String::as_str)
+            .or_else(|| panic.downcast_ref::<&str>().copied())
+            .unwrap_or("no message");
+        Err(Failure::Other(format!("internal error: {text}")))
+    })
+}
+
+fn open<T: Tool>(run: &Run, header: &Header) -> Result<Session, Failure> {
+    if run.out.is_dir() {
+        return Err(Failure::Usage(format!(
+            "--out {}: is a folder",
+            run.out.display()
+        )));
+    }
+    let checkpoint = beside(&run.out, ".checkpoint");
+    if run.resume && !checkpoint.exists() {
+        let what = format!(
+            "--resume: there is no {}; run without --resume",
+            checkpoint.display()
+        );
+        return Err(Failure::Usage(what));
+    }
+    Session::open(Opening {
+        out: &run.out,
+        header: header.clone(),
+        resume: run.resume,
+        checkpoint_every: Duration::try_from_secs_f64(T::CHECKPOINT_S).unwrap_or(Duration::MAX),
+        style: if run.quiet { Style::None } else { run.progress },
+        level: run.level(),
+        interrupt: Interrupt::listen()?,
+    })
+}
+
+fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else {
+        return Ok(());
+    };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build_global()
+        .map_err(|e| Failure::Other(format!("--threads {threads}: {e}")))
+}
+
+fn head<T: Tool>(run: &Run, ready: &Ready<T::Scene>) {
+    line(&title::<T>(&run.study.scene));
+    line(ready.plan.to_string().trim_end());
+    line(&format!(
+        "  {:<10} {}",
+        "threads",
+        rayon::current_num_threads()
+    ));
+    if run.level() == Level::Verbose {
+        line(&format!(
+            "  {:<10} {}",
+            "scene",
+            ready.header.scene_sha256()
+        ));
+        for (name, hash) in ready.inputs.hashes() {
+            line(&format!("  {:<10} {name} {hash}", "input"));
+        }
+    }
+    if run.resume {
+        line(&format!(
+            "  {:<10} {}",
+            "resumes",
+            beside(&run.out, ".checkpoint").display()
+        ));
+    }
+}
+
+fn closing(record: &RunRecord, out: &Path) {
+    for total in &record.closing {
+        line(&format!(
+            "  {:<32} {:>14.6e} {}",
+            total.name, total.value, total.unit
+        ));
+    }
+    for stage in &record.stages {
+        line(&format!(
+            "  {:<32} {:>14} {:>5.1} %",
+            stage.name,
+            duration(stage.wall_s),
+            100.0 * stage.share
+        ));
+    }
+    let warnings = match record.warnings.len() {
+        0 => String::new(),
+        1 => " with 1 warning".to_owned(),
+        n => format!(" with {n} warnings"),
+    };
+    line(&format!(
+        "done{warnings} in {}: {}",
+        duration(record.wall_s),
+        out.display()
+    ));
+}

@@ -1,0 +1,167 @@
+//! What a run would do: sizes, active stages, limits, what is left out.
+
+use std::fmt;
+
+use crate::ledger::{Bytes, LeftOut, Limit};
+
+/// What a run would do. Built by [`crate::Tool::plan`], shown by `TOOL check` and at the head of
+/// every run, and kept in the run record.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Plan {
+    pub(crate) stages: Vec<String>,
+    pub(crate) counts: Vec<(String, u64)>,
+    pub(crate) columns: Vec<(String, String)>,
+    pub(crate) memory: Vec<Bytes>,
+    pub(crate) limits: Vec<Limit>,
+    pub(crate) left_out: Vec<LeftOut>,
+    pub(crate) notes: Vec<String>,
+    pub(crate) estimate_s: Option<f64>,
+}
+
+impl Plan {
+    /// An empty plan.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds an active stage: `.stage("conduction")`.
+    #[must_use]
+    pub fn stage(mut self, name: &str) -> Self {
+        self.stages.push(name.to_owned());
+        self
+    }
+
+    /// Adds a size: `.count("particles", 12_000)`.
+    #[must_use]
+    pub fn count(mut self, name: &str, number: u64) -> Self {
+        self.counts.push((name.to_owned(), number));
+        self
+    }
+
+    /// Adds a column of the artefact: `.column("temperature", "K")`.
+    #[must_use]
+    pub fn column(mut self, name: &str, unit: &str) -> Self {
+        self.columns.push((name.to_owned(), unit.to_owned()));
+        self
+    }
+
+    /// Adds the memory of a column or table \[byte\].
+    #[must_use]
+    pub fn memory(mut self, name: &str, bytes: u64) -> Self {
+        self.memory.push(Bytes {
+            name: name.to_owned(),
+            bytes,
+        });
+        self
+    }
+
+    /// Adds a stability limit: `.limit("step_viscosity", 1.2e-4, "s")`.
+    #[must_use]
+    pub fn limit(mut self, name: &str, value: f64, unit: &str) -> Self {
+        self.limits.push(Limit {
+            name: name.to_owned(),
+            value,
+            unit: unit.to_owned(),
+        });
+        self
+    }
+
+    /// Adds physics that the scene leaves out, or that is put to sleep.
+    #[must_use]
+    pub fn left_out(mut self, name: &str, why: &str) -> Self {
+        self.left_out.push(LeftOut {
+            name: name.to_owned(),
+            why: why.to_owned(),
+        });
+        self
+    }
+
+    /// Adds a line for people.
+    #[must_use]
+    pub fn note(mut self, text: impl Into<String>) -> Self {
+        self.notes.push(text.into());
+        self
+    }
+
+    /// Sets the estimated run time \[s\].
+    #[must_use]
+    pub fn estimate_s(mut self, seconds: f64) -> Self {
+        self.estimate_s = Some(seconds);
+        self
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut row = |name: &str, text: String| writeln!(f, "  {name:<10} {text}");
+        if !self.stages.is_empty() {
+            row("stages", self.stages.join(", "))?;
+        }
+        for (name, number) in &self.counts {
+            row(name, number.to_string())?;
+        }
+        if !self.columns.is_empty() {
+            let columns = self
+                .columns
+                .iter()
+                .map(|(name, unit)| format!("{name} [{unit}]"));
+            row("columns", columns.collect::<Vec<_>>().join(", "))?;
+        }
+        if !self.memory.is_empty() {
+            let total = self.memory.iter().map(|m| m.bytes).sum();
+            row("memory", bytes(total))?;
+            for part in &self.memory {
+                row("", format!("{:<28} {}", part.name, bytes(part.bytes)))?;
+            }
+        }
+        for limit in &self.limits {
+            row(
+                "limit",
+                format!("{:<28} {:.4e} {}", limit.name, limit.value, limit.unit),
+            )?;
+        }
+        for out in &self.left_out {
+            row("left out", format!("{:<28} {}", out.name, out.why))?;
+        }
+        for note in &self.notes {
+            row("note", note.clone())?;
+        }
+        match self.estimate_s {
+            Some(seconds) => row("time", format!("about {}", duration(seconds))),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A number of bytes for people.
+#[allow(clippy::cast_precision_loss, reason = "three digits are shown")]
+pub(crate) fn bytes(bytes: u64) -> String {
+    match bytes {
+        0..10_000 => format!("{bytes} B"),
+        10_000..10_000_000 => format!("{:.1} kB", bytes as f64 / 1e3),
+        10_000_000..10_000_000_000 => format!("{:.1} MB", bytes as f64 / 1e6),
+        _ => format!("{:.2} GB", bytes as f64 / 1e9),
+    }
+}
+
+/// A time span for people.
+pub(crate) fn duration(seconds: f64) -> String {
+    if !seconds.is_finite() {
+        "-".to_owned()
+    } else if seconds < 60.0 {
+        format!("{seconds:.1} s")
+    } else if seconds < 3600.0 {
+        format!(
+            "{:.0} min {:02.0} s",
+            (seconds / 60.0).floor(),
+            (seconds % 60.0).floor()
+        )
+    } else {
+        format!(
+            "{:.0} h {:02.0} min",
+            (seconds / 3600.0).floor(),
+            (seconds % 3600.0 / 60.0).floor()
+        )
+    }
+}

@@ -1,0 +1,166 @@
+//! Compiled formulas: a list of operations on a small stack, evaluated without allocation.
+
+use super::{Arguments, parser};
+
+/// Deepest stack of a formula.
+pub(super) const DEPTH: usize = 32;
+
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Operation {
+    Number(f64),
+    Variable(usize),
+    Negate,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Call1(fn(f64) -> f64),
+    Call2(fn(f64, f64) -> f64),
+    Choose,
+}
+
+pub(super) const VARIABLES: [&str; 6] = ["x", "y", "z", "r", "T", "t"];
+pub(super) const CONSTANTS: [(&str, f64); 2] =
+    [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
+pub(super) type Function1 = (&'static str, fn(f64) -> f64);
+pub(super) type Function2 = (&'static str, fn(f64, f64) -> f64);
+pub(super) const ONE: [Function1; 21] = [
+    ("sin", f64::sin),
+    ("cos", f64::cos),
+    ("tan", f64::tan),
+    ("asin", f64::asin),
+    ("acos", f64::acos),
+    ("atan", f64::atan),
+    ("sinh", f64::sinh),
+    ("cosh", f64::cosh),
+    ("tanh", f64::tanh),
+    ("exp", f64::exp),
+    ("ln", f64::ln),
+    ("log10", f64::log10),
+    ("sqrt", f64::sqrt),
+    ("cbrt", f64::cbrt),
+    ("abs", f64::abs),
+    ("sign", |x| {
+        if x > 0.0 {
+            1.0
+        } else if x < 0.0 {
+            -1.0
+        } else {
+            0.0
+        }
+    }),
+    ("step", |x| if x >= 0.0 { 1.0 } else { 0.0 }),
+    ("floor", f64::floor),
+    ("ceil", f64::ceil),
+    ("round", f64::round),
+    ("fract", |x| x - x.floor()),
+];
+pub(super) const TWO: [Function2; 5] = [
+    ("min", f64::min),
+    ("max", f64::max),
+    ("atan2", f64::atan2),
+    ("hypot", f64::hypot),
+    ("mod", f64::rem_euclid),
+];
+
+/// A compiled formula.
+#[derive(Debug, Clone)]
+pub struct Expression {
+    text: String,
+    operations: Vec<Operation>,
+}
+
+/// Two formulas are equal when they are written alike.
+impl PartialEq for Expression {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
+    }
+}
+
+impl Expression {
+    /// Compiles a formula that may use the variables in `names` (of x, y, z, r, T, t), `pi`, `e`
+    /// and the functions of the usual names, `min`, `max`, `atan2`, `hypot`, `mod`, `step`, and
+    /// `if(c, a, b)`: a where c > 0, else b.
+    ///
+    /// # Errors
+    /// What is wrong, with its column.
+    pub fn parse(text: &str, names: &[&str]) -> Result<Self, String> {
+        Ok(Self {
+            text: text.to_owned(),
+            operations: parser::parse(text, names)?,
+        })
+    }
+
+    /// The value at `at`; NaN or infinite where the formula has none.
+    #[must_use]
+    #[inline]
+    pub fn value(&self, at: &Arguments) -> f64 {
+        let variables = [at.x, at.y, at.z, at.r, at.temperature, at.time];
+        let mut stack = [0.0; DEPTH];
+        let mut top = 0;
+        for operation in &self.operations {
+            match *operation {
+                Operation::Number(x) => {
+                    stack[top] = x;
+                    top += 1;
+                }
+                Operation::Variable(i) => {
+                    stack[top] = variables[i];
+                    top += 1;
+                }
+                Operation::Negate => stack[top - 1] = -stack[top - 1],
+                Operation::Call1(f) => stack[top - 1] = f(stack[top - 1]),
+                Operation::Choose => {
+                    top -= 2;
+                    stack[top - 1] = if stack[top - 1] > 0.0 {
+                        stack[top]
+                    } else {
+                        stack[top + 1]
+                    };
+                }
+                binary => {
+                    top -= 1;
+                    stack[top - 1] = apply(binary, stack[top - 1], stack[top]);
+                }
+            }
+        }
+        stack[0]
+    }
+
+    /// The value, if no variable occurs.
+    #[must_use]
+    pub fn constant(&self) -> Option<f64> {
+        let fixed = !self
+            .operations
+            .iter()
+            .any(|o| matches!(o, Operation::Variable(_)));
+        fixed
+            .then(|| self.value(&Arguments::default()))
+            .filter(|x| x.is_finite())
+    }
+}
+
+#[inline]
+fn apply(operation: Operation, a: f64, b: f64) -> f64 {
+    match operation {
+        Operation::Add => a + b,
+        Operation::Subtract => a - b,
+        Operation::Multiply => a * b,
+        Operation::Divide => a / b,
+        Operation::Call2(f) => f(a, b),
+        _ => power(a, b),
+    }
+}
+
+/// Small whole exponents by multiplication: exact, and the same on every machine.
+fn power(a: f64, b: f64) -> f64 {
+    if b.fract().abs() < f64::MIN_POSITIVE && b.abs() <= 8.0 {
+        #[allow(
+            clippy::cast_possible_truncation,
+            reason = "a whole number of at most 8"
+        )]
+        return a.powi(b as i32);
+    }
+    a.powf(b)
+}

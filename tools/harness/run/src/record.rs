@@ -1,0 +1,156 @@
+//! The run record: everything that varies from run to run, and how it ended.
+
+use std::path::{Path, PathBuf};
+
+use artefact::{Header, write_atomically};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::failure::Failure;
+use crate::ledger::{Bytes, History, Ledger, LeftOut, Limit};
+use crate::machine;
+
+/// Wall time of a stage.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Spent {
+    pub(crate) name: String,
+    pub(crate) wall_s: f64,
+    pub(crate) share: f64,
+}
+
+/// The run record.
+#[derive(Debug, Serialize)]
+pub(crate) struct RunRecord {
+    kind: &'static str,
+    version: &'static str,
+    tool: String,
+    tool_version: String,
+    artefact: PathBuf,
+    pub(crate) outcome: String,
+    /// Why there is no result; absent when there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    message: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    divergence: Option<Value>,
+    exit_code: u8,
+    start: String,
+    pub(crate) wall_s: f64,
+    resumed: u32,
+    pub(crate) stages: Vec<Spent>,
+    memory: Vec<Bytes>,
+    peak_memory_bytes: Option<u64>,
+    threads: usize,
+    load_average: Option<[f64; 3]>,
+    steps: u64,
+    substepped: bool,
+    pub(crate) warnings: Vec<String>,
+    notes: Vec<String>,
+    left_out: Vec<LeftOut>,
+    limits: Vec<Limit>,
+    pub(crate) closing: Vec<Limit>,
+    history: Vec<History>,
+    scene_hash: String,
+    inputs: Value,
+    scene: Value,
+}
+
+impl RunRecord {
+    /// The record of a run that began at `start` and ended as `ended` says.
+    pub(crate) fn new(
+        out: &Path,
+        header: &Header,
+        start: String,
+        ledger: Ledger,
+        ended: Result<(), &Failure>,
+    ) -> Self {
+        let warned = !ledger.warnings.is_empty();
+        let (outcome, exit_code) = match ended {
+            Ok(()) if warned => ("warned", 3),
+            Ok(()) => ("done", 0),
+            Err(failure) => (failure.outcome(), failure.exit_code()),
+        };
+        let wall_s = ledger.earlier_s;
+        Self {
+            kind: "run-record",
+            version: "1.0",
+            tool: header.tool.clone(),
+            tool_version: header.tool_version.clone(),
+            artefact: out.to_owned(),
+            outcome: outcome.to_owned(),
+            message: ended.err().map(ToString::to_string),
+            divergence: ended.err().and_then(place_of),
+            exit_code,
+            start,
+            wall_s,
+            resumed: ledger.resumed,
+            stages: shares(&ledger.stages, wall_s),
+            memory: ledger.memory,
+            peak_memory_bytes: machine::peak_memory_bytes(),
+            threads: rayon::current_num_threads(),
+            load_average: machine::load_average(),
+            steps: ledger.steps,
+            substepped: ledger.substepped,
+            warnings: ledger.warnings,
+            notes: ledger.notes,
+            left_out: ledger.left_out,
+            limits: ledger.limits,
+            closing: ledger.closing,
+            history: ledger.history,
+            scene_hash: header.scene_sha256(),
+            inputs: json!(header.inputs),
+            scene: header.scene.clone(),
+        }
+    }
+
+    pub(crate) fn exit_code(&self) -> u8 {
+        self.exit_code
+    }
+
+    /// Writes the record beside the artefact: `arc.mcap` has `arc.run.json`.
+    pub(crate) fn write(&self) -> Result<(), Failure> {
+        let path = path_of(&self.artefact);
+        let text = serde_json::to_string_pretty(self).map_err(|e| {
+            Failure::Other(format!(
+                "{}: the record cannot be written: {e}",
+                path.display()
+            ))
+        })?;
+        Ok(write_atomically(&path, format!("{text}\n").as_bytes())?)
+    }
+}
+
+/// Where the record of an artefact stands.
+pub(crate) fn path_of(out: &Path) -> PathBuf {
+    out.with_extension("run.json")
+}
+
+fn place_of(failure: &Failure) -> Option<Value> {
+    match failure {
+        Failure::Diverged {
+            step,
+            time_s,
+            place,
+            quantity,
+            what,
+        } => Some(json!({
+            "step": step, "time_s": time_s, "place": place, "quantity": quantity, "what": what,
+        })),
+        _ => None,
+    }
+}
+
+/// Time and share of each stage, the rest as "other".
+fn shares(stages: &[(String, f64)], wall_s: f64) -> Vec<Spent> {
+    let spent: f64 = stages.iter().map(|(_, seconds)| seconds).sum();
+    let rest = ("other".to_owned(), (wall_s - spent).max(0.0));
+    let share = |seconds: f64| if wall_s > 0.0 { seconds / wall_s } else { 0.0 };
+    stages
+        .iter()
+        .chain([&rest])
+        .map(|(name, seconds)| Spent {
+            name: name.clone(),
+            wall_s: *seconds,
+            share: share(*seconds),
+        })
+        .collect()
+}

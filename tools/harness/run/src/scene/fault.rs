@@ -1,0 +1,97 @@
+//! What is wrong with a scene, and where.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use super::patch::Merged;
+
+/// File, line and column, from 1.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Spot {
+    pub(crate) file: PathBuf,
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+}
+
+/// One thing that is wrong with a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    path: String,
+    what: String,
+    key: Option<String>,
+    spot: Option<Spot>,
+}
+
+impl Fault {
+    /// A fault at a JSON pointer (`/arc/current_a`); file and line are added when it is reported.
+    ///
+    /// Say what is wrong with value, unit and admissible range:
+    /// `Fault::at("/time/step_s", format!("{dt} s is above the viscous limit of {limit} s"))`.
+    #[must_use]
+    pub fn at(path: &str, what: impl Into<String>) -> Self {
+        Self {
+            path: path.to_owned(),
+            what: what.into(),
+            key: None,
+            spot: None,
+        }
+    }
+
+    /// A fault of a key in the object at `path`.
+    pub(crate) fn of_key(path: &str, key: &str, what: impl Into<String>) -> Self {
+        Self {
+            key: Some(key.to_owned()),
+            ..Self::at(path, what)
+        }
+    }
+
+    /// A fault at a place in a file that could not be parsed.
+    pub(crate) fn in_text(spot: Spot, what: impl Into<String>) -> Self {
+        Self {
+            spot: Some(spot),
+            ..Self::at("", what)
+        }
+    }
+
+    /// JSON pointer.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// The fault seen from a parent: `prefix` is put before its path.
+    #[must_use]
+    pub fn within(mut self, prefix: &str) -> Self {
+        self.path = format!("{prefix}{}", self.path);
+        self
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(spot) = &self.spot {
+            write!(f, "{}:{}:{}: ", spot.file.display(), spot.line, spot.column)?;
+        }
+        match (&self.key, self.path.as_str()) {
+            (Some(key), path) => write!(f, "{path}/{key}: {}", self.what),
+            (None, "") => f.write_str(&self.what),
+            (None, path) => write!(f, "{path}: {}", self.what),
+        }
+    }
+}
+
+/// Adds file, line and column to each fault, and sorts by them.
+#[must_use]
+pub fn located(mut faults: Vec<Fault>, merged: &Merged) -> Vec<Fault> {
+    for fault in &mut faults {
+        if fault.spot.is_none() {
+            fault.spot = Some(match &fault.key {
+                Some(key) => merged.key_spot(&fault.path, key),
+                None => merged.spot(&fault.path),
+            });
+        }
+    }
+    faults.sort_by(|a, b| a.spot.cmp(&b.spot));
+    faults.dedup();
+    faults
+}

@@ -1,0 +1,136 @@
+//! From scene files to a typed scene: reading, patching, validating, locating every fault.
+
+mod fault;
+mod origin;
+mod patch;
+mod schema;
+mod suggest;
+mod validate;
+
+use std::path::{Path, PathBuf};
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::failure::Failure;
+pub use fault::{Fault, located};
+pub use schema::{schema_of, schema_text};
+pub(crate) use suggest::nearest;
+
+use origin::Document;
+use patch::Merged;
+
+/// Kind and version that a tool reads.
+#[derive(Debug, Clone, Copy)]
+pub struct Expected {
+    /// `poolsph.scene`.
+    pub kind: &'static str,
+    /// Version of the kind.
+    pub version: u32,
+}
+
+/// A scene as it was put together, with the origin of every value.
+#[derive(Debug)]
+pub struct Loaded<S> {
+    /// The typed scene.
+    pub scene: S,
+    /// The merged JSON.
+    pub merged: Merged,
+}
+
+/// Reads a scene and its patches, and validates the whole.
+///
+/// # Errors
+/// [`Failure::Scene`] with every fault, each with file, line and column.
+pub fn load<S: DeserializeOwned>(
+    scene: &Path,
+    patches: &[PathBuf],
+    schema: &Value,
+    expected: Expected,
+) -> Result<Loaded<S>, Failure> {
+    let mut merged = Merged::new(Document::read(scene)?);
+    for patch in patches {
+        merged.apply(Document::read(patch)?);
+    }
+    typed(merged, schema, expected)
+}
+
+/// Reads a scene from its text, as [`load`] reads it from a file: for tests of a stage.
+///
+/// # Errors
+/// As [`load`].
+pub fn parse<S: DeserializeOwned + JsonSchema>(
+    text: &str,
+    expected: Expected,
+) -> Result<Loaded<S>, Failure> {
+    let document = Document::parse(Path::new("scene.json"), text.to_owned())?;
+    typed(Merged::new(document), &schema_of::<S>(expected), expected)
+}
+
+fn typed<S: DeserializeOwned>(
+    merged: Merged,
+    schema: &Value,
+    expected: Expected,
+) -> Result<Loaded<S>, Failure> {
+    check_kind(&merged, expected)?;
+    let faults = validate::faults(schema, merged.value());
+    if !faults.is_empty() {
+        return Err(Failure::Scene(located(faults, &merged)));
+    }
+    let mut plain = merged.value().clone();
+    if let Value::Object(map) = &mut plain {
+        for key in schema::ENVELOPE {
+            map.shift_remove(key);
+        }
+    }
+    let scene = serde_json::from_value(plain).map_err(|e| {
+        let fault = Fault::at("", format!("passes the schema but cannot be read: {e}"));
+        Failure::Scene(located(vec![fault], &merged))
+    })?;
+    Ok(Loaded { scene, merged })
+}
+
+/// Refuses another kind or version before anything else is said about the scene.
+fn check_kind(merged: &Merged, expected: Expected) -> Result<(), Failure> {
+    let refuse =
+        |at: &str, what: String| Err(Failure::Scene(located(vec![Fault::at(at, what)], merged)));
+    let Some(map) = merged.value().as_object() else {
+        return refuse(
+            "",
+            format!("a scene is an object with \"kind\": \"{}\"", expected.kind),
+        );
+    };
+    match map.get("kind") {
+        Some(Value::String(kind)) if kind == expected.kind => {}
+        Some(other) => {
+            return refuse(
+                "/kind",
+                format!("is {other}, this tool reads \"{}\"", expected.kind),
+            );
+        }
+        None => {
+            return refuse(
+                "",
+                format!("has no \"kind\"; this tool reads \"{}\"", expected.kind),
+            );
+        }
+    }
+    match map.get("version").map(|v| (v, v.as_u64())) {
+        Some((_, Some(version))) if version == u64::from(expected.version) => Ok(()),
+        Some((version, _)) => refuse(
+            "/version",
+            format!(
+                "'{}' is of version {version}, this tool reads version {}",
+                expected.kind, expected.version
+            ),
+        ),
+        None => refuse(
+            "",
+            format!(
+                "has no \"version\"; this tool reads version {}",
+                expected.version
+            ),
+        ),
+    }
+}

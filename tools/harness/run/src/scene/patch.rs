@@ -1,0 +1,133 @@
+//! JSON Merge Patches (RFC 7386) that remember which file set each value.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value};
+
+use super::fault::Spot;
+use super::origin::{Document, Place, escaped};
+
+/// A scene with its patches applied; every value knows its file.
+#[derive(Debug)]
+pub struct Merged {
+    documents: Vec<Document>,
+    value: Value,
+    origins: BTreeMap<String, (usize, Place)>,
+}
+
+impl Merged {
+    pub(crate) fn new(document: Document) -> Self {
+        let origins = document
+            .places
+            .iter()
+            .map(|(pointer, &place)| (pointer.clone(), (0, place)))
+            .collect();
+        Self {
+            value: document.value.clone(),
+            origins,
+            documents: vec![document],
+        }
+    }
+
+    /// The merged JSON.
+    #[must_use]
+    pub fn value(&self) -> &Value {
+        &self.value
+    }
+
+    /// Applies a patch.
+    pub(crate) fn apply(&mut self, patch: Document) {
+        let mut merge = Merge {
+            origins: &mut self.origins,
+            patch: &patch,
+            file: self.documents.len(),
+        };
+        merge.value(&mut self.value, &patch.value, "");
+        self.documents.push(patch);
+    }
+
+    /// Where the value at a pointer was set, or its nearest ancestor.
+    pub(crate) fn spot(&self, pointer: &str) -> Spot {
+        let mut at = pointer;
+        loop {
+            if let Some(&(file, place)) = self.origins.get(at) {
+                return self.documents[file].spot(place.value);
+            }
+            match at.rfind('/') {
+                Some(end) => at = &at[..end],
+                None => return self.documents[0].spot(0),
+            }
+        }
+    }
+
+    /// Where a key of the object at a pointer was set.
+    pub(crate) fn key_spot(&self, pointer: &str, key: &str) -> Spot {
+        match self.origins.get(&format!("{pointer}/{}", escaped(key))) {
+            Some(&(file, place)) => self.documents[file].spot(place.key),
+            None => self.spot(pointer),
+        }
+    }
+}
+
+struct Merge<'a> {
+    origins: &'a mut BTreeMap<String, (usize, Place)>,
+    patch: &'a Document,
+    file: usize,
+}
+
+impl Merge<'_> {
+    fn value(&mut self, target: &mut Value, patch: &Value, pointer: &str) {
+        let Value::Object(changes) = patch else {
+            self.forget(pointer);
+            self.remember(pointer);
+            *target = patch.clone();
+            return;
+        };
+        if !target.is_object() {
+            self.forget(pointer);
+            self.set(pointer);
+            *target = Value::Object(Map::new());
+        }
+        let Value::Object(map) = target else { return };
+        for (key, change) in changes {
+            let child = format!("{pointer}/{}", escaped(key));
+            if change.is_null() {
+                self.forget(&child);
+                map.shift_remove(key);
+            } else {
+                if !map.contains_key(key) {
+                    self.set(&child);
+                }
+                self.value(
+                    map.entry(key.clone()).or_insert(Value::Null),
+                    change,
+                    &child,
+                );
+            }
+        }
+    }
+
+    /// Removes the origin of a value and of all in it.
+    fn forget(&mut self, pointer: &str) {
+        let inside = format!("{pointer}/");
+        self.origins
+            .retain(|key, _| key != pointer && !key.starts_with(&inside));
+    }
+
+    /// Takes the origin of one value from the patch.
+    fn set(&mut self, pointer: &str) {
+        if let Some(&place) = self.patch.places.get(pointer) {
+            self.origins.insert(pointer.to_owned(), (self.file, place));
+        }
+    }
+
+    /// Takes the origin of a value and of all in it from the patch.
+    fn remember(&mut self, pointer: &str) {
+        let inside = format!("{pointer}/");
+        for (key, &place) in &self.patch.places {
+            if key == pointer || key.starts_with(&inside) {
+                self.origins.insert(key.clone(), (self.file, place));
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The JSON Schema of a scene: what schemars derives, the envelope, and no unknown keys anywhere.
+
+use schemars::JsonSchema;
+use serde_json::{Map, Value, json};
+
+use super::Expected;
+
+/// Keys that every scene has or may have besides those of its type.
+pub(crate) const ENVELOPE: [&str; 4] = ["kind", "version", "$schema", "comment"];
+
+/// The schema of a scene type with kind and version.
+#[must_use]
+pub fn schema_of<S: JsonSchema>(expected: Expected) -> Value {
+    let mut schema = schemars::schema_for!(S).to_value();
+    close(&mut schema, true);
+    if let Value::Object(map) = &mut schema {
+        map.insert(
+            "title".to_owned(),
+            json!(format!("{} version {}", expected.kind, expected.version)),
+        );
+        let properties = map.entry("properties").or_insert_with(|| json!({}));
+        if let Value::Object(old) = properties {
+            let mut all = Map::new();
+            all.insert(
+                "kind".to_owned(),
+                json!({"const": expected.kind, "description": "What this file is."}),
+            );
+            all.insert(
+                "version".to_owned(),
+                json!({"const": expected.version, "description": "Version of the kind."}),
+            );
+            all.insert(
+                "$schema".to_owned(),
+                json!({"type": "string", "description": "For editors."}),
+            );
+            all.insert(
+                "comment".to_owned(),
+                json!({"type": "string", "description": "For people."}),
+            );
+            all.extend(std::mem::take(old));
+            *old = all;
+        }
+        map.insert("additionalProperties".to_owned(), json!(false));
+        if let Value::Array(required) = map.entry("required").or_insert_with(|| json!([])) {
+            required.insert(0, json!("version"));
+            required.insert(0, json!("kind"));
+        }
+    }
+    schema
+}
+
+/// The schema as text with a final line feed.
+#[must_use]
+pub fn schema_text(schema: &Value) -> String {
+    format!("{schema:#}\n")
+}
+
+/// Refuses unknown keys in every object whose keys the schema lists.
+fn close(schema: &mut Value, closable: bool) {
+    let Value::Object(map) = schema else { return };
+    let own_keys = map.contains_key("properties");
+    let composed = ["$ref", "allOf", "oneOf", "anyOf"]
+        .iter()
+        .any(|key| map.contains_key(*key));
+    if closable && !composed && own_keys && !map.contains_key("additionalProperties") {
+        map.insert("additionalProperties".to_owned(), json!(false));
+    }
+    for (key, value) in map.iter_mut() {
+        match (key.as_str(), value) {
+            ("properties" | "$defs" | "patternProperties", Value::Object(children)) => {
+                children.values_mut().for_each(|child| close(child, true));
+            }
+            ("allOf", Value::Array(parts)) => parts.iter_mut().for_each(|part| close(part, false)),
+            ("oneOf" | "anyOf", Value::Array(parts)) => {
+                parts.iter_mut().for_each(|part| close(part, !own_keys))
+            }
+            ("items" | "additionalProperties", child) => close(child, true),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,278 @@
+//! Every fault of a scene against its schema, in words a person can act on.
+
+use jsonschema::error::{TypeKind, ValidationErrorKind as Kind};
+use jsonschema::{JsonType, ValidationError};
+use serde_json::{Map, Value};
+
+use super::fault::Fault;
+use super::suggest::{instead_of, nearest, unit_of};
+
+/// All faults of `scene` against `schema`.
+pub(crate) fn faults(schema: &Value, scene: &Value) -> Vec<Fault> {
+    let validator = match jsonschema::validator_for(schema) {
+        Ok(validator) => validator,
+        Err(e) => {
+            return vec![Fault::at(
+                "",
+                format!("the schema of this tool is not valid: {e}"),
+            )];
+        }
+    };
+    let mut found = Vec::new();
+    for error in validator.iter_errors(scene) {
+        explain(schema, scene, &error, &mut found);
+    }
+    found
+}
+
+fn explain(schema: &Value, scene: &Value, error: &ValidationError<'_>, found: &mut Vec<Fault>) {
+    let path = error.instance_path().as_str();
+    let node = parent_node(schema, error.schema_path().as_str());
+    let unit = node
+        .and_then(|n| n.get("x-unit"))
+        .and_then(Value::as_str)
+        .or_else(|| unit_of(last_key(path)));
+    let at = |what: String| Fault::at(path, what);
+    match error.kind() {
+        Kind::AdditionalProperties { unexpected } | Kind::UnevaluatedProperties { unexpected } => {
+            let known = known_keys(node);
+            let object = scene.pointer(path).and_then(Value::as_object);
+            found.extend(
+                unexpected
+                    .iter()
+                    .map(|key| unknown(path, key, object, &known)),
+            );
+        }
+        Kind::Required { property } => {
+            let key = property.as_str().unwrap_or_default();
+            found.push(at(missing(key, node)));
+        }
+        Kind::AnyOf { context } | Kind::OneOfNotValid { context } => {
+            match best_branch(path, context) {
+                Some(branch) => branch.iter().for_each(|e| explain(schema, scene, e, found)),
+                None => found.push(at(format!(
+                    "{} fits none of: {}",
+                    show(error.instance()),
+                    forms(node)
+                ))),
+            }
+        }
+        Kind::Type { kind } => found.push(at(format!(
+            "is {} ({}), wanted is {}{}",
+            show(error.instance()),
+            type_of(error.instance()),
+            wanted(kind),
+            unit.map(|u| format!(" in {u}")).unwrap_or_default(),
+        ))),
+        Kind::Minimum { .. }
+        | Kind::ExclusiveMinimum { .. }
+        | Kind::Maximum { .. }
+        | Kind::ExclusiveMaximum { .. } => {
+            let unit = unit.map(|u| format!(" {u}")).unwrap_or_default();
+            found.push(at(format!(
+                "{}{unit} is out of range: {}",
+                show(error.instance()),
+                range(node, &unit)
+            )));
+        }
+        Kind::Enum { options } => found.push(at(none_of(error.instance(), options))),
+        Kind::Constant { expected_value } => {
+            found.push(at(format!(
+                "is {}, wanted is {expected_value}",
+                show(error.instance())
+            )));
+        }
+        _ => found.push(at(error.to_string())),
+    }
+}
+
+fn unknown(path: &str, key: &str, object: Option<&Map<String, Value>>, known: &[&str]) -> Fault {
+    let value = object.and_then(|map| map.get(key));
+    let hint =
+        instead_of(key, value, known).unwrap_or_else(|| format!("known are: {}", known.join(", ")));
+    Fault::of_key(path, key, format!("unknown key; {hint}"))
+}
+
+fn missing(key: &str, node: Option<&Value>) -> String {
+    let described = node
+        .and_then(|n| n.pointer(&format!("/properties/{key}/description")))
+        .and_then(Value::as_str)
+        .map(|text| format!(" ({})", text.lines().next().unwrap_or_default()))
+        .unwrap_or_default();
+    let unit = unit_of(key).map(|u| format!(" in {u}")).unwrap_or_default();
+    format!("has no key '{key}'{unit}{described}")
+}
+
+fn none_of(found: &Value, options: &Value) -> String {
+    let words: Vec<&str> = options
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .collect();
+    let hint = found
+        .as_str()
+        .and_then(|word| nearest(word, &words))
+        .map(|meant| format!("; did you mean \"{meant}\"?"))
+        .unwrap_or_default();
+    format!("{} is none of {options}{hint}", show(found))
+}
+
+/// The branch of a choice that the person meant: not excluded by type or tag, with fewest errors.
+fn best_branch<'a>(
+    path: &str,
+    context: &'a [Vec<ValidationError<'static>>],
+) -> Option<&'a Vec<ValidationError<'static>>> {
+    let excluded = |e: &ValidationError<'_>| {
+        let own = e.instance_path().as_str();
+        match e.kind() {
+            Kind::Type { .. } | Kind::Enum { .. } => own == path,
+            // A tag, such as "shape": "box", is a constant directly in the object.
+            Kind::Constant { .. } => own
+                .strip_prefix(path)
+                .is_some_and(|rest| rest.matches('/').count() <= 1),
+            _ => false,
+        }
+    };
+    let left: Vec<_> = context
+        .iter()
+        .filter(|branch| !branch.iter().any(excluded))
+        .collect();
+    let fewest = left.iter().map(|branch| branch.len()).min()?;
+    let mut best = left.into_iter().filter(|branch| branch.len() == fewest);
+    let first = best.next();
+    if best.next().is_some() && fewest > 1 {
+        None
+    } else {
+        first
+    }
+}
+
+/// The forms that a choice admits, by title or type.
+fn forms(node: Option<&Value>) -> String {
+    let branches = node
+        .and_then(|n| n.get("anyOf").or_else(|| n.get("oneOf")))
+        .and_then(Value::as_array);
+    let names = branches.into_iter().flatten().map(|branch| {
+        let text = |key: &str| branch.get(key).and_then(Value::as_str).map(str::to_owned);
+        let tag = branch
+            .get("properties")
+            .and_then(Value::as_object)
+            .and_then(|properties| {
+                properties
+                    .iter()
+                    .find_map(|(key, p)| p.get("const").map(|c| format!("{{\"{key}\": {c}, ...}}")))
+            });
+        let keys = || {
+            branch
+                .get("properties")
+                .and_then(Value::as_object)
+                .map(key_list)
+        };
+        let constant = || branch.get("const").map(Value::to_string);
+        tag.or_else(constant)
+            .or_else(keys)
+            .or_else(|| text("title"))
+            .or_else(|| text("type"))
+            .unwrap_or_default()
+    });
+    names.collect::<Vec<_>>().join(" | ")
+}
+
+fn key_list(properties: &Map<String, Value>) -> String {
+    format!(
+        "{{{}}}",
+        properties
+            .keys()
+            .map(|k| format!("\"{k}\""))
+            .collect::<Vec<_>>()
+            .join(", ")
+    )
+}
+
+/// The schema that holds the keyword at `keyword`.
+fn parent_node<'a>(schema: &'a Value, keyword: &str) -> Option<&'a Value> {
+    let end = keyword.rfind('/')?;
+    let node = schema.pointer(&keyword[..end])?;
+    // `required` errors carry the index of the key as well.
+    if node.is_array() {
+        parent_node(schema, &keyword[..end])
+    } else {
+        Some(node)
+    }
+}
+
+fn known_keys(node: Option<&Value>) -> Vec<&str> {
+    let properties = node
+        .and_then(|n| n.get("properties"))
+        .and_then(Value::as_object);
+    properties
+        .into_iter()
+        .flat_map(|map| map.keys().map(String::as_str))
+        .collect()
+}
+
+fn last_key(path: &str) -> &str {
+    path.rsplit('/')
+        .find(|part| !part.is_empty() && part.parse::<usize>().is_err())
+        .unwrap_or_default()
+}
+
+fn range(node: Option<&Value>, unit: &str) -> String {
+    let bound = |key: &str, word: &str| {
+        let limit = node.and_then(|n| n.get(key)).and_then(Value::as_f64)?;
+        Some(format!("{word} {limit}{unit}"))
+    };
+    let parts = [
+        bound("minimum", "at least"),
+        bound("exclusiveMinimum", "above"),
+        bound("maximum", "at most"),
+        bound("exclusiveMaximum", "below"),
+    ];
+    parts
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(" and ")
+}
+
+fn wanted(kind: &TypeKind) -> String {
+    let name = |t: JsonType| match t {
+        JsonType::Number => "a number",
+        JsonType::Integer => "a whole number",
+        JsonType::String => "a text",
+        JsonType::Boolean => "true or false",
+        JsonType::Array => "a list",
+        JsonType::Object => "an object",
+        JsonType::Null => "nothing",
+    };
+    match kind {
+        TypeKind::Single(t) => name(*t).to_owned(),
+        TypeKind::Multiple(set) => set
+            .iter()
+            .filter(|t| *t != JsonType::Null)
+            .map(name)
+            .collect::<Vec<_>>()
+            .join(" or "),
+    }
+}
+
+fn type_of(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "null",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "an object",
+    }
+}
+
+/// A value, shortened where it is long.
+fn show(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(60) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}

@@ -1,0 +1,69 @@
+//! What a stage tells of itself.
+
+use artefact::Version;
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+
+use crate::failure::Failure;
+use crate::inputs::Inputs;
+use crate::plan::Plan;
+use crate::scene::Expected;
+use crate::session::Session;
+
+/// An input file that a stage reads, given as `--input NAME=FILE`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Input {
+    /// Name on the command line and in the header of the artefact.
+    pub name: &'static str,
+    /// What it is, for `--help`: "gas table (gas-table 1.x)".
+    pub what: &'static str,
+    /// Whether a run without it is refused before anything else.
+    pub required: bool,
+}
+
+/// A stage: reads a scene and inputs, writes one artefact.
+pub trait Tool {
+    /// Name of the program: `poolsph`.
+    const NAME: &'static str;
+    /// Version of the program: `env!("CARGO_PKG_VERSION")`.
+    const VERSION: &'static str;
+    /// One sentence for `--help`.
+    const ABOUT: &'static str;
+    /// Sample commands for `--help`, one per line, that work from the repository root.
+    const EXAMPLE: &'static str;
+    /// Kind of its scene: `poolsph.scene`.
+    const SCENE_KIND: &'static str;
+    /// Version of its scene.
+    const SCENE_VERSION: u32 = 1;
+    /// Kind of its artefact: `particle-frames`.
+    const ARTEFACT_KIND: &'static str;
+    /// Version of its artefact.
+    const ARTEFACT_VERSION: Version = Version::new(1, 0);
+    /// Its inputs.
+    const INPUTS: &'static [Input] = &[];
+    /// Wall time between checkpoints \[s\].
+    const CHECKPOINT_S: f64 = 60.0;
+
+    /// Its scene; doc comments become descriptions, `#[schemars(range(..))]` becomes a check.
+    type Scene: DeserializeOwned + JsonSchema;
+
+    /// Says what a run would do, and finds every fault that the types cannot express.
+    ///
+    /// # Errors
+    /// [`Failure::Scene`] with all faults found, or what is wrong with an input.
+    fn plan(scene: &Self::Scene, inputs: &Inputs) -> Result<Plan, Failure>;
+
+    /// Runs. The plan has been made and found good before.
+    ///
+    /// # Errors
+    /// Any [`Failure`]; the record and the exit code follow from it.
+    fn run(scene: &Self::Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure>;
+}
+
+/// Kind and version of the scene of a tool.
+pub(crate) fn expected<T: Tool>() -> Expected {
+    Expected {
+        kind: T::SCENE_KIND,
+        version: T::SCENE_VERSION,
+    }
+}
