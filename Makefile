@@ -9,7 +9,7 @@ SHELL := /bin/sh
 THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 PROGRESS ?= auto
 BIN := target/release
-PROGRAMS := $(addprefix $(BIN)/,arcfvm poolsph avg report artefact verify)
+PROGRAMS := $(addprefix $(BIN)/,arcfvm poolsph avg report artefact verify stability bench)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 # Runs a stage only if the bytes of what it depends on have changed.
 RERUN := pipelines/rerun
@@ -65,6 +65,16 @@ space := $(empty) $(empty)
 verify: programs ## exact cases: error against run time (CASE=name LEVELS="1 2 3" PATCH=file)
 	$(BIN)/verify $(if $(CASE),--case $(CASE)) --levels $(subst $(space),$(comma),$(LEVELS)) \
 	  $(if $(PATCH),--patch $(PATCH)) --threads $(THREADS) --out build/verify
+
+STUDY ?= gmaw-300a
+stability: programs ## stiff and extreme cases: stable, refused, sub-stepped or detected (CASE=name)
+	$(BIN)/stability $(if $(CASE),--case $(CASE)) --threads $(THREADS) --out build/stability
+
+validate: build/$(STUDY)/report.html ## a study against published experiments and simulations (STUDY=name)
+	$(BIN)/report validate --pool build/$(STUDY)/pool.mcap --targets pipelines/$(STUDY)/targets.json
+
+bench: programs ## time per step, per particle, per pair, per cell
+	$(BIN)/bench --threads $(THREADS) --out build/bench
 
 report: programs ## gather all evidence into build/report/index.html
 	$(BIN)/report index --out build/report/index.html --verify build/verify --stability build/stability \

@@ -13,4 +13,6 @@ pub mod cases;
 pub mod extreme;
 pub mod lab;
 pub mod norms;
+pub mod plasma;
+pub mod special;
 pub mod study;
