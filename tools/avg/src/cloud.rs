@@ -10,8 +10,8 @@ pub struct Cloud {
     pub position: Vec<[f64; 3]>,
     /// Velocity relative to the source \[m/s\], `[n][3]`.
     pub velocity: Vec<[f64; 3]>,
-    /// Temperature \[K\], `[n]`.
-    pub temperature: Vec<f64>,
+    /// Temperature \[K\], `[n]`; `None` when the frames carry none.
+    pub temperature: Option<Vec<f64>>,
     /// Liquid now, `[n]`.
     pub liquid: Vec<bool>,
 }
@@ -50,14 +50,17 @@ impl Cloud {
             return;
         }
         let joined = self.joined(link);
-        let mut keep = joined.iter();
-        self.position.retain(|_| keep.next().is_some_and(|k| *k));
-        let mut keep = joined.iter();
-        self.velocity.retain(|_| keep.next().is_some_and(|k| *k));
-        let mut keep = joined.iter();
-        self.temperature.retain(|_| keep.next().is_some_and(|k| *k));
-        let mut keep = joined.iter();
-        self.liquid.retain(|_| keep.next().is_some_and(|k| *k));
+        self.retain(&joined);
+    }
+
+    /// Keeps the particles whose flag is set.
+    pub fn retain(&mut self, flags: &[bool]) {
+        keep(&mut self.position, flags);
+        keep(&mut self.velocity, flags);
+        keep(&mut self.liquid, flags);
+        if let Some(temperature) = &mut self.temperature {
+            keep(temperature, flags);
+        }
     }
 
     fn joined(&self, link: f64) -> Vec<bool> {
@@ -81,6 +84,12 @@ impl Cloud {
     }
 }
 
+/// Keeps the entries whose flag is set.
+fn keep<T>(values: &mut Vec<T>, flags: &[bool]) {
+    let mut flags = flags.iter();
+    values.retain(|_| flags.next().is_some_and(|flag| *flag));
+}
+
 /// Distance of two points \[m\].
 pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     let dx = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -95,7 +104,7 @@ mod tests {
         Cloud {
             position: points.iter().map(|p| p.0).collect(),
             velocity: vec![[1.0, 2.0, 3.0]; points.len()],
-            temperature: vec![300.0; points.len()],
+            temperature: Some(vec![300.0; points.len()]),
             liquid: points.iter().map(|p| p.1).collect(),
         }
     }
@@ -111,7 +120,8 @@ mod tests {
         ]);
         c.land(1.5);
         assert_eq!(c.len(), 3);
-        assert_eq!(c.velocity.len(), 3);
+        assert_eq!((c.velocity.len(), c.liquid.len()), (3, 3));
+        assert_eq!(c.temperature.as_ref().unwrap().len(), 3);
         assert!(c.position.iter().all(|x| x[2] < 3.0));
     }
 
@@ -119,7 +129,7 @@ mod tests {
     fn the_moving_frame_removes_the_translation() {
         let mut c = cloud(&[([3.0, 7.0, 1.0], true)]);
         c.follow([3.0, 5.0], [1.0, 2.0, 0.0]);
-        assert_eq!(c.position[0], [0.0, 2.0, 1.0]);
-        assert_eq!(c.velocity[0], [0.0, 0.0, 3.0]);
+        assert_eq!(c.position, vec![[0.0, 2.0, 1.0]]);
+        assert_eq!(c.velocity, vec![[0.0, 0.0, 3.0]]);
     }
 }

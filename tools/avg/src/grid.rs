@@ -104,8 +104,8 @@ mod tests {
         };
         let section = Section::new("x", cut, [[-1.0, 1.0], [0.0, 1.5]], 0.5);
         assert_eq!((section.first.len(), section.second.len()), (5, 4));
-        assert_eq!(section.point(0), [0.1, -1.0, 0.0]);
-        assert_eq!(section.point(6), [0.1, -0.5, 1.0]);
+        assert_eq!(section.point(0).to_vec(), [0.1, -1.0, 0.0]);
+        assert_eq!(section.point(6).to_vec(), [0.1, -0.5, 1.0]);
     }
 
     #[test]

@@ -1,7 +1,23 @@
 //! Droplet-phase and time averages of particle frames on a grid that moves with the source.
+//!
+//! Particles jitter about the flow; what is the same in every droplet period is the flow. For each
+//! frame the velocity relative to the source and the temperature are taken to the points of a grid
+//! with the kernel mean of Komen (2019), eq. 4.8 ([`mean`]); frames of equal phase of the droplet
+//! period are then averaged arithmetically ([`ensemble`]), as in section 4.5 there. The grid moves
+//! with the source, its spacing is one particle diameter. Sections are planes, with the particles
+//! within a given distance, and the topmost layer of metal as seen from above ([`grid`]).
+//!
+//! The mean of a linear field is exact at points about which the particles lie symmetrically; at
+//! random particles its error is of the order of the jitter over the root of the number of frames,
+//! which the standard errors in the output tell. Near a surface the kernel is cut off, and the mean
+//! is that of the metal inside: half a spacing below the surface, about.
 
+pub mod average;
 pub mod cloud;
 pub mod ensemble;
+pub mod fields;
+pub mod frames;
 pub mod grid;
 pub mod mean;
 pub mod phase;
+pub mod scene;

@@ -1,0 +1,242 @@
+//! From particle frames to ensembles: one frame in memory at a time.
+
+use std::collections::BTreeSet;
+
+use artefact::Reader;
+use thiserror::Error;
+
+use crate::cloud::Cloud;
+use crate::ensemble::Ensemble;
+use crate::frames::{self, Plate};
+use crate::grid::Section;
+use crate::mean::{self, Cells, Smoothing};
+use crate::phase::{self, Source};
+use crate::scene::Scene;
+
+/// Why there are no averages.
+#[derive(Debug, Error)]
+pub enum AverageError {
+    /// A file that cannot be read or lacks something.
+    #[error(transparent)]
+    Artefact(#[from] artefact::Error),
+    /// The frames do not tell the particle diameter and the scene does not either.
+    #[error(
+        "the frames have no channel '/plate' that tells the spacing: name 'spacing_m' in the scene"
+    )]
+    NoSpacing,
+    /// No frame lies in the span of the scene.
+    #[error(
+        "no frame of '{channel}' lies between {from_s} s and {to_s} s; it has {count} frames from {first_s} s to {last_s} s"
+    )]
+    NoFrames {
+        /// The channel.
+        channel: String,
+        /// First moment asked for \[s\].
+        from_s: f64,
+        /// Last moment asked for \[s\].
+        to_s: f64,
+        /// Frames that there are.
+        count: usize,
+        /// Their first moment \[s\].
+        first_s: f64,
+        /// Their last moment \[s\].
+        last_s: f64,
+    },
+    /// A frame at a moment for which the source has no place.
+    #[error(
+        "channel '{channel}' does not tell where the source is at {time_s} s, the time of a frame"
+    )]
+    NoSource {
+        /// The channel of the source.
+        channel: String,
+        /// Time of the frame \[s\].
+        time_s: f64,
+    },
+}
+
+/// What is known before the first frame is read.
+#[derive(Debug)]
+pub struct Plan {
+    /// Indices of the frames that count, in the order of time.
+    pub frames: Vec<usize>,
+    /// Grid and kernel.
+    pub smoothing: Smoothing,
+    /// The sections.
+    pub sections: Vec<Section>,
+    /// The source over time; empty at rest.
+    pub track: Vec<Source>,
+    /// Number of phases; 1 without.
+    pub phases: usize,
+    /// Length of the droplet period \[s\], where there is one.
+    pub period: Option<f64>,
+    /// Particles in the first frame that counts.
+    pub particles: usize,
+    /// Whether the frames carry a temperature.
+    pub temperature: bool,
+}
+
+impl Plan {
+    /// Plans the averages of a scene over an artefact.
+    ///
+    /// # Errors
+    /// When a channel is absent, the spacing is not told, or no frame counts.
+    pub fn new(scene: &Scene, reader: &Reader) -> Result<Self, AverageError> {
+        let times = reader.times(&scene.channel)?;
+        let (from_s, to_s) = match scene.time {
+            Some(span) => (span.from_s, span.to_s.unwrap_or(f64::INFINITY)),
+            None => (0.0, f64::INFINITY),
+        };
+        // Half a nanosecond: the ends belong to the span.
+        let counts = |t: f64| t >= from_s - 5e-10 && t <= to_s + 5e-10;
+        let frames: Vec<usize> = (0..times.len()).filter(|i| counts(times[*i])).collect();
+        let Some(first) = frames.first() else {
+            return Err(AverageError::NoFrames {
+                channel: scene.channel.clone(),
+                from_s,
+                to_s,
+                count: times.len(),
+                first_s: times.first().copied().unwrap_or(0.0),
+                last_s: times.last().copied().unwrap_or(0.0),
+            });
+        };
+        let first = reader.frame(&scene.channel, *first)?;
+        let plate = Plate::read(reader)?;
+        let diameter = plate.map(|p| p.spacing_m);
+        let spacing = scene
+            .spacing_m
+            .or(diameter)
+            .ok_or(AverageError::NoSpacing)?;
+        let smoothing = Smoothing {
+            length: scene.smoothing_length_m.unwrap_or(spacing),
+            spacing,
+            volume: plate.map_or(spacing.powi(3), |p| p.volume()),
+        };
+        let track = match &scene.follow {
+            Some(follow) => frames::track(reader, &follow.channel)?,
+            None => Vec::new(),
+        };
+        let counted: Vec<Source> = track.iter().copied().filter(|s| counts(s.time)).collect();
+        Ok(Self {
+            smoothing,
+            sections: scene.sections(spacing),
+            phases: scene.phases.map_or(1, |p| p.count as usize),
+            period: scene.phases.and_then(|_| phase::period(&counted)),
+            track,
+            particles: first.len(),
+            temperature: first.has("temperature"),
+            frames,
+        })
+    }
+
+    /// Memory of the ensembles \[byte\].
+    #[must_use]
+    pub fn ensemble_bytes(&self) -> u64 {
+        let points: usize = self.sections.iter().map(Section::len).sum();
+        let kinds = self.phases + 1;
+        (points * kinds * size_of::<crate::ensemble::Point>()) as u64
+    }
+
+    /// Memory of one frame: columns, cells and copies \[byte\].
+    #[must_use]
+    pub fn frame_bytes(&self) -> u64 {
+        (self.particles * 2 * (7 * 8 + 4 * 8)) as u64
+    }
+}
+
+/// A frame in the frame of reference of the averages.
+#[derive(Debug)]
+pub struct Seen {
+    /// Its particles.
+    pub cloud: Cloud,
+    /// Its time \[s\].
+    pub time: f64,
+    /// Index of its phase.
+    pub phase: usize,
+}
+
+/// The averages of all sections.
+#[derive(Debug)]
+pub struct Averages {
+    /// One per section of the plan.
+    pub ensembles: Vec<Ensemble>,
+    /// Number of different droplet periods in each phase, and in all.
+    pub drops: (Vec<usize>, usize),
+}
+
+/// Averages, fed one frame at a time in the order of time.
+#[derive(Debug)]
+pub struct Averaging<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    averages: Averages,
+    seen: Vec<BTreeSet<i64>>,
+}
+
+impl<'a> Averaging<'a> {
+    /// Nothing averaged yet.
+    #[must_use]
+    pub fn new(scene: &'a Scene, plan: &'a Plan) -> Self {
+        let averages = Averages {
+            ensembles: plan
+                .sections
+                .iter()
+                .map(|s| Ensemble::new(plan.phases, s.len()))
+                .collect(),
+            drops: (vec![0; plan.phases], 0),
+        };
+        Self {
+            scene,
+            plan,
+            averages,
+            seen: vec![BTreeSet::new(); plan.phases],
+        }
+    }
+
+    /// Reads the frame with an index into the frame of reference of the averages.
+    ///
+    /// # Errors
+    /// When the frame cannot be read, lacks a column, or the source has no place at its time.
+    pub fn read(&mut self, reader: &Reader, index: usize) -> Result<Seen, AverageError> {
+        let frame = reader.frame(&self.scene.channel, index)?;
+        let mut cloud = frames::cloud(&frame)?;
+        let time = frame.time_s;
+        drop(frame);
+        let mut phase = 0;
+        if let Some(follow) = &self.scene.follow {
+            let at = frames::entry(&self.plan.track, time).ok_or(AverageError::NoSource {
+                channel: follow.channel.clone(),
+                time_s: time,
+            })?;
+            let source = self.plan.track[at];
+            let velocity = phase::velocity(&self.plan.track, at);
+            cloud.follow([source.position[0], source.position[1]], velocity);
+            if let Some(phases) = self.scene.phases {
+                phase = phase::bin(source.phase, phases.origin, self.plan.phases);
+                self.seen[phase].insert(source.droplet);
+            }
+        }
+        if let Some(landed) = self.scene.landed {
+            cloud.land(landed.link_m);
+        }
+        Ok(Seen { cloud, time, phase })
+    }
+
+    /// Takes the kernel means of a frame into the ensembles.
+    pub fn take(&mut self, seen: &Seen) {
+        let smoothing = &self.plan.smoothing;
+        let reach = (2.0 * smoothing.length).max(smoothing.spacing);
+        let cells = Cells::new(&seen.cloud, reach);
+        for (section, ensemble) in self.plan.sections.iter().zip(&mut self.averages.ensembles) {
+            let samples = mean::section(&seen.cloud, &cells, section, smoothing);
+            ensemble.add(seen.phase, &samples);
+        }
+    }
+
+    /// The averages of all frames taken in.
+    #[must_use]
+    pub fn finish(mut self) -> Averages {
+        let all: BTreeSet<&i64> = self.seen.iter().flatten().collect();
+        self.averages.drops = (self.seen.iter().map(BTreeSet::len).collect(), all.len());
+        self.averages
+    }
+}

@@ -1,0 +1,129 @@
+//! Averages as grid tables with units.
+//!
+//! Each section becomes a channel of its name with one table per phase, at the log time of the
+//! phase in the droplet period (without phases there is none of these), and a channel
+//! `NAME/time_mean` with the mean over all frames. Where a column has no frame behind it, its value is 0 and
+//! the count that belongs to it (`frames_metal`, `frames_liquid`) is 0.
+
+use artefact::Table;
+
+use crate::average::{Averages, Plan};
+use crate::ensemble::{Ensemble, Moments, Point};
+use crate::grid::{Cut, Section};
+
+const AXES: [&str; 3] = ["x_m", "y_m", "z_m"];
+
+/// A table with its channel and log time \[s\].
+pub type Placed = (String, f64, Table);
+
+/// Every table of `averages` with its channel and its log time.
+#[must_use]
+pub fn tables(plan: &Plan, averages: &Averages) -> Vec<Placed> {
+    let mut all = Vec::new();
+    for (section, ensemble) in plan.sections.iter().zip(&averages.ensembles) {
+        if plan.phases > 1 {
+            all.extend(phases(plan, section, (ensemble, averages)));
+        }
+        let frames: u32 = ensemble.frames.iter().sum();
+        let mut mean = table(section, &ensemble.time, plan.temperature)
+            .attribute("frames", "1", f64::from(frames))
+            .attribute("drops", "1", averages.drops.1 as f64);
+        if let Some(period) = plan.period {
+            mean = mean.attribute("period_s", "s", period);
+        }
+        all.push((format!("/{}/time_mean", section.name), 0.0, mean));
+    }
+    all
+}
+
+fn phases(plan: &Plan, section: &Section, means: (&Ensemble, &Averages)) -> Vec<Placed> {
+    let (ensemble, averages) = means;
+    let at = |k: usize| k as f64 / plan.phases as f64;
+    let points = ensemble.phases.iter().enumerate();
+    points
+        .map(|(k, points)| {
+            let moment = at(k) * plan.period.unwrap_or(1.0);
+            let table = table(section, points, plan.temperature)
+                .attribute("phase", "1", at(k))
+                .attribute("phase_time_s", "s", moment)
+                .attribute("frames", "1", f64::from(ensemble.frames[k]))
+                .attribute("drops", "1", averages.drops.0[k] as f64);
+            (format!("/{}", section.name), moment, table)
+        })
+        .collect()
+}
+
+/// One grid with its columns. Without temperature in the frames there is none here.
+#[must_use]
+pub fn table(section: &Section, points: &[Point], temperature: bool) -> Table {
+    let [a, b] = section.axes.map(|axis| AXES[axis]);
+    let mut table = Table::grid(&[(a, "m", &section.first), (b, "m", &section.second)]);
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let values = points.iter().map(|p| p.velocity[k].mean);
+        table = table.column(&format!("velocity_{axis}_m_s"), "m/s", values);
+    }
+    table = table.column("velocity_error_m_s", "m/s", points.iter().map(speed_error));
+    if temperature {
+        let mean = points.iter().map(|p| p.temperature.mean);
+        let error = points.iter().map(|p| p.temperature.standard_error());
+        table = table
+            .column("temperature_k", "K", mean)
+            .column("temperature_error_k", "K", error);
+    }
+    if matches!(section.cut, Cut::Surface { .. }) {
+        table = table.column("height_m", "m", points.iter().map(|p| p.height.mean));
+    }
+    table
+        .column("liquid_share", "1", points.iter().map(|p| p.share.mean))
+        .column("frames_metal", "1", points.iter().map(|p| count(&p.height)))
+        .column(
+            "frames_liquid",
+            "1",
+            points.iter().map(|p| count(&p.velocity[0])),
+        )
+}
+
+/// Standard error of the mean velocity: root of the sum over its components \[m/s\].
+fn speed_error(point: &Point) -> f64 {
+    let squares = point.velocity.iter().map(|m| m.standard_error().powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+fn count(moments: &Moments) -> f64 {
+    f64::from(moments.count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn section() -> Section {
+        let cut = Cut::Plane {
+            axis: 0,
+            at: 0.0,
+            half_thickness: 1.0,
+        };
+        Section::new("x0", cut, [[0.0, 1.0], [0.0, 2.0]], 1.0)
+    }
+
+    #[test]
+    fn without_temperature_there_is_no_temperature_grid() {
+        let points = vec![Point::default(); 6];
+        let cold = table(&section(), &points, false);
+        assert!(!cold.has("temperature_k") && !cold.has("temperature_error_k"));
+        assert!(cold.has("velocity_z_m_s"));
+        let hot = table(&section(), &points, true);
+        assert!(hot.has("temperature_k"));
+        assert_eq!(hot.shape, [2, 3]);
+        assert_eq!(hot.axis("y_m").unwrap(), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn only_the_surface_has_a_height() {
+        let points = vec![Point::default(); 6];
+        assert!(!table(&section(), &points, true).has("height_m"));
+        let mut above = section();
+        above.cut = Cut::Surface { layer: 1.0 };
+        assert!(table(&above, &points, true).has("height_m"));
+    }
+}
