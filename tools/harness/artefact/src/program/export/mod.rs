@@ -1,0 +1,183 @@
+//! `artefact export`: the same numbers for ParaView, NumPy or a spreadsheet.
+
+mod csv;
+mod fields;
+mod npz;
+mod series;
+mod vtk;
+
+use std::path::{Path, PathBuf};
+
+use artefact::{Channel, Reader};
+use clap::ValueEnum;
+
+use super::open::{channels, open};
+use super::sheet::{Form, Sheet};
+use super::trouble::{Trouble, Verdict, file_error};
+use super::{Source, Streams};
+use series::Series;
+
+/// For whom to write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Target {
+    /// ParaView: frames as .vtu, grids as .vti or .vtr, each channel with a .pvd over time; what
+    /// has no place in space (tables, scalars) as .csv.
+    #[value(alias = "vtk")]
+    Vtu,
+    /// NumPy: a .npz with one array per column.
+    Npz,
+    /// Any program: text with names and units in the first line.
+    Csv,
+}
+
+/// Arguments of `export`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  artefact export build/gmaw-quick/pool.mcap --to vtu --out build/paraview --channel /particles
+    then open build/paraview/particles.pvd in ParaView
+  artefact export build/gmaw-quick/arc.mcap --to csv --out build/csv
+Frames, tables and grids become one file per message, CHANNEL/CHANNEL_00012.vtu; records and other
+scalars become one file per channel with a row per message. Coordinates and units are those of the
+artefact (SI); ParaView shows units where they are stored as UNITS_LABEL.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    source: Source,
+    /// For whom to write.
+    #[arg(long, visible_alias = "format", value_enum)]
+    to: Target,
+    /// Folder to write into; made when it is not there.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Only these channels.
+    #[arg(long, value_name = "CHANNEL")]
+    channel: Vec<String>,
+    /// Only every N-th message of each channel, from the first on.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    every: u32,
+}
+
+pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Verdict, Trouble> {
+    let reader = open(&arguments.source.file, streams)?;
+    let channels = channels(&reader, &arguments.channel)?;
+    let mut names: Vec<String> = Vec::new();
+    for channel in &channels {
+        let mut name = file_name(&channel.name);
+        while names.contains(&name) {
+            name.push('_');
+        }
+        let export = Export {
+            reader: &reader,
+            channel,
+            target: arguments.to,
+            folder: &arguments.out,
+            name: &name,
+        };
+        let files = export.channel(arguments.every as usize)?;
+        writeln!(
+            streams.out,
+            "{}: {files} files {}",
+            channel.name,
+            arguments.out.join(&name).display()
+        )?;
+        names.push(name);
+    }
+    Ok(Verdict::Good)
+}
+
+/// The name of a channel as a file can bear it: `/section_x0/time_mean` is
+/// `section_x0_time_mean`.
+fn file_name(channel: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let name: String = channel
+        .trim_start_matches('/')
+        .chars()
+        .map(|c| if plain(c) { c } else { '_' })
+        .collect();
+    if name.is_empty() {
+        "channel".to_owned()
+    } else {
+        name
+    }
+}
+
+/// One channel on its way out.
+struct Export<'a> {
+    reader: &'a Reader,
+    channel: &'a Channel,
+    target: Target,
+    folder: &'a Path,
+    name: &'a str,
+}
+
+impl Export<'_> {
+    /// Writes every n-th message; gives the number of files.
+    fn channel(&self, every: usize) -> Result<usize, Trouble> {
+        let mut files = 0;
+        let mut series = Series::default();
+        let mut steps = Vec::new();
+        for index in (0..self.channel.messages).step_by(every) {
+            let sheet = Sheet::read(self.reader, self.channel, index)?;
+            if sheet.form == Form::Scalars {
+                series.push(sheet);
+                continue;
+            }
+            let file = self.sheet(&sheet, index)?;
+            steps.push((sheet.time_s, file));
+            files += 1;
+        }
+        if self.target == Target::Vtu && steps.iter().any(|(_, file)| !file.ends_with(".csv")) {
+            let text = vtk::collection(&steps);
+            write(
+                &self.folder.join(format!("{}.pvd", self.name)),
+                text.as_bytes(),
+            )?;
+            files += 1;
+        }
+        if !series.is_empty() {
+            self.series(&series)?;
+            files += 1;
+        }
+        Ok(files)
+    }
+
+    /// Writes one message; gives its file relative to the folder.
+    fn sheet(&self, sheet: &Sheet, index: usize) -> Result<String, Trouble> {
+        let (bytes, suffix) = match (self.target, sheet.form) {
+            (Target::Npz, _) => (npz::sheet(sheet)?, "npz"),
+            (Target::Vtu, Form::Frame) => (vtk::cloud(sheet), "vtu"),
+            (Target::Vtu, Form::Grid) if sheet.rows() > 0 => vtk::grid(sheet),
+            _ => (csv::sheet(sheet), "csv"),
+        };
+        let file = format!("{0}/{0}_{index:05}.{suffix}", self.name);
+        write(&self.folder.join(&file), &bytes)?;
+        Ok(file)
+    }
+
+    fn series(&self, series: &Series) -> Result<(), Trouble> {
+        let (bytes, suffix) = match self.target {
+            Target::Npz => (npz::series(series)?, "npz"),
+            Target::Vtu | Target::Csv => (csv::series(series), "csv"),
+        };
+        write(&self.folder.join(format!("{}.{suffix}", self.name)), &bytes)
+    }
+}
+
+/// Writes a file into a folder that is made when it is not there.
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Trouble> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(file_error(folder, "create"))?;
+    }
+    std::fs::write(path, bytes).map_err(file_error(path, "write"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::file_name;
+
+    #[test]
+    fn channels_become_file_names() {
+        assert_eq!(file_name("/particles"), "particles");
+        assert_eq!(file_name("/section_x0/time_mean"), "section_x0_time_mean");
+        assert_eq!(file_name("/"), "channel");
+    }
+}

@@ -1,0 +1,47 @@
+//! Opens what the user names: finished artefacts, and partial files up to their last whole chunk.
+
+use std::path::Path;
+
+use artefact::{Channel, Reader};
+
+use super::Streams;
+use super::trouble::Trouble;
+
+/// Whether the file is a JSON record and no MCAP file, by its name.
+pub(crate) fn is_json(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e == "json")
+}
+
+/// Opens an artefact; a partial file (`.part`) as far as it is whole, with a remark.
+pub(crate) fn open(path: &Path, streams: &mut Streams<'_>) -> Result<Reader, Trouble> {
+    if path.extension().is_none_or(|e| e != "part") {
+        return Ok(Reader::open(path)?);
+    }
+    let reader = Reader::recover(path)?;
+    writeln!(
+        streams.err,
+        "{}: not finished; read up to its last whole chunk, {} bytes lie behind it",
+        path.display(),
+        reader.lost_bytes()
+    )?;
+    Ok(reader)
+}
+
+/// The channels that are asked for, all when none is named.
+pub(crate) fn channels(reader: &Reader, wanted: &[String]) -> Result<Vec<Channel>, Trouble> {
+    let all = reader.channels();
+    for name in wanted {
+        if !all.iter().any(|c| c.name == *name) {
+            let present: Vec<&str> = all.iter().map(|c| c.name.as_str()).collect();
+            return Err(Trouble::Usage(format!(
+                "{}: has no channel '{name}'; it has {}",
+                reader.path().display(),
+                present.join(", ")
+            )));
+        }
+    }
+    let chosen = all.into_iter();
+    Ok(chosen
+        .filter(|c| wanted.is_empty() || wanted.contains(&c.name))
+        .collect())
+}

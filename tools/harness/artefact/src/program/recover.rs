@@ -1,0 +1,79 @@
+//! `artefact recover`: what is whole of a file whose run was killed, as a proper file.
+
+use std::path::{Path, PathBuf};
+
+use super::Streams;
+use super::trouble::{Trouble, Verdict};
+
+/// Arguments of `recover`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:
+  artefact recover build/gmaw-300a/pool.mcap.part
+writes build/gmaw-300a/pool.recovered.mcap with all messages up to the last whole chunk and a metadata
+record 'fusionline.recovered' that says so. The partial file stays: where a checkpoint stands beside
+it, the tool's --resume continues the run and loses nothing.")]
+pub(crate) struct Arguments {
+    /// The partial file NAME.mcap.part, or a truncated NAME.mcap.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Where to write; by default NAME.recovered.mcap beside it.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Writes over a file that exists.
+    #[arg(long)]
+    force: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Verdict, Trouble> {
+    let from = &arguments.file;
+    let to = arguments.out.clone().unwrap_or_else(|| beside(from));
+    if same(from, &to) {
+        return Err(Trouble::Usage(format!(
+            "--out {} is the file to be saved: name another",
+            to.display()
+        )));
+    }
+    if to.exists() && !arguments.force {
+        return Err(Trouble::Usage(format!(
+            "{} exists: name another file with --out, or add --force to write over it",
+            to.display()
+        )));
+    }
+    let saved = artefact::recover(from, &to)?;
+    writeln!(
+        streams.out,
+        "{}: {} messages saved, {} bytes behind the last whole chunk lost",
+        to.display(),
+        saved.messages,
+        saved.lost_bytes
+    )?;
+    Ok(Verdict::Good)
+}
+
+/// `pool.mcap.part` and `pool.mcap` become `pool.recovered.mcap`.
+fn beside(path: &Path) -> PathBuf {
+    let whole = match path.extension() {
+        Some(e) if e == "part" => path.with_extension(""),
+        _ => path.to_owned(),
+    };
+    whole.with_extension("recovered.mcap")
+}
+
+fn same(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_saved_file_stands_beside_the_partial_one() {
+        for name in ["a/pool.mcap.part", "a/pool.mcap"] {
+            assert_eq!(beside(Path::new(name)), Path::new("a/pool.recovered.mcap"));
+        }
+    }
+}

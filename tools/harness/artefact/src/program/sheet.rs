@@ -1,0 +1,212 @@
+//! A message of any schema as columns: what all commands look at.
+
+use artefact::{
+    Channel, Column, POINT_CLOUD, RECORD, Reader, Record, Result, Series, TABLE, Table, Values,
+};
+use serde_json::Value;
+
+/// What a message is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// Columns over particles.
+    Frame,
+    /// Columns over one index.
+    Table,
+    /// Columns over axes.
+    Grid,
+    /// Scalars; a channel of them is a series over time.
+    Scalars,
+}
+
+impl Form {
+    /// One word for people.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Frame => "points",
+            Self::Table => "rows",
+            Self::Grid => "nodes",
+            Self::Scalars => "values",
+        }
+    }
+}
+
+/// A message as columns.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sheet {
+    /// What it is.
+    pub(crate) form: Form,
+    /// Simulated time \[s\].
+    pub(crate) time_s: f64,
+    /// Length of each dimension; `[1]` for scalars.
+    pub(crate) shape: Vec<usize>,
+    /// Axes of a grid.
+    pub(crate) axes: Vec<Column>,
+    /// Columns of equal length.
+    pub(crate) columns: Vec<Column>,
+    /// Scalars that belong to a table or grid.
+    pub(crate) attributes: Vec<Column>,
+    /// Texts and truths of a JSON message, by path.
+    pub(crate) texts: Vec<(String, String)>,
+}
+
+impl Sheet {
+    /// Message `index` of a channel.
+    pub(crate) fn read(reader: &Reader, channel: &Channel, index: usize) -> Result<Self> {
+        let name = channel.name.as_str();
+        let mut sheet = match channel.schema.as_str() {
+            POINT_CLOUD => Self::frame(reader.frame(name, index)?),
+            TABLE => Self::table(reader.table_at(name, index)?),
+            RECORD => Self::record(reader.record_at(name, index)?),
+            _ => Self::json(&reader.json_at(name, index)?),
+        };
+        sheet.time_s = reader.times(name)?[index];
+        Ok(sheet)
+    }
+
+    fn empty(form: Form, shape: Vec<usize>) -> Self {
+        Self {
+            form,
+            time_s: 0.0,
+            shape,
+            axes: Vec::new(),
+            columns: Vec::new(),
+            attributes: Vec::new(),
+            texts: Vec::new(),
+        }
+    }
+
+    fn frame(frame: artefact::Frame) -> Self {
+        Self {
+            columns: frame.columns().to_vec(),
+            ..Self::empty(Form::Frame, vec![frame.len()])
+        }
+    }
+
+    fn table(table: Table) -> Self {
+        let form = if table.axes.is_empty() {
+            Form::Table
+        } else {
+            Form::Grid
+        };
+        let attributes = table.attributes.into_iter();
+        Self {
+            axes: table.axes.into_iter().map(series).collect(),
+            columns: table.columns.into_iter().map(series).collect(),
+            attributes: attributes
+                .map(|(name, q)| scalar(name, q.unit, q.value))
+                .collect(),
+            ..Self::empty(form, table.shape)
+        }
+    }
+
+    fn record(record: Record) -> Self {
+        let values = record.values.into_iter();
+        Self {
+            columns: values.map(|e| scalar(e.name, e.unit, e.value)).collect(),
+            ..Self::empty(Form::Scalars, vec![1])
+        }
+    }
+
+    /// The numbers and texts of any JSON value; names are paths joined by full stops.
+    pub(crate) fn json(value: &Value) -> Self {
+        let mut sheet = Self::empty(Form::Scalars, vec![1]);
+        sheet.walk(String::new(), value);
+        sheet
+    }
+
+    fn walk(&mut self, path: String, value: &Value) {
+        let below = |key: &str| {
+            if path.is_empty() {
+                key.to_owned()
+            } else {
+                format!("{path}.{key}")
+            }
+        };
+        match value {
+            Value::Object(map) => map.iter().for_each(|(key, v)| self.walk(below(key), v)),
+            Value::Array(items) => {
+                for (i, v) in items.iter().enumerate() {
+                    self.walk(below(&i.to_string()), v);
+                }
+            }
+            Value::Number(number) => {
+                let x = number.as_f64().unwrap_or(f64::NAN);
+                let unit = unit_of(&path).to_owned();
+                self.columns.push(scalar(path, unit, x));
+            }
+            Value::String(text) => self.texts.push((path, text.clone())),
+            other => self.texts.push((path, other.to_string())),
+        }
+    }
+
+    /// Number of entries of each column.
+    pub(crate) fn rows(&self) -> usize {
+        self.shape.iter().product()
+    }
+
+    /// Axes, columns and attributes.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Column> {
+        self.axes
+            .iter()
+            .chain(&self.columns)
+            .chain(&self.attributes)
+    }
+}
+
+fn series(series: Series) -> Column {
+    Column {
+        name: series.name,
+        unit: series.unit,
+        values: Values::F64(series.values),
+    }
+}
+
+fn scalar(name: String, unit: String, value: f64) -> Column {
+    Column {
+        name,
+        unit,
+        values: Values::F64(vec![value]),
+    }
+}
+
+/// Unit that the last part of a key states: `x_m` is in metres; `1` where it states none.
+fn unit_of(path: &str) -> &'static str {
+    let key = path.rsplit('.').find(|k| k.parse::<usize>().is_err());
+    let last = key.and_then(|k| k.rsplit_once('_')).map(|(_, unit)| unit);
+    match last {
+        Some("m") => "m",
+        Some("s") => "s",
+        Some("k") => "K",
+        Some("kg") => "kg",
+        Some("j") => "J",
+        Some("w") => "W",
+        Some("a") => "A",
+        Some("v") => "V",
+        Some("pa") => "Pa",
+        Some("m2") => "m2",
+        Some("m3") => "m3",
+        _ => "1",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_becomes_columns_named_by_path() {
+        let value = serde_json::json!({
+            "time_s": 0.5, "min_m": [1.0, 2.0], "name": "plate", "wet": true
+        });
+        let sheet = Sheet::json(&value);
+        let names: Vec<_> = sheet
+            .columns
+            .iter()
+            .map(|c| (c.name.as_str(), c.unit.as_str()))
+            .collect();
+        assert_eq!(names, [("time_s", "s"), ("min_m.0", "m"), ("min_m.1", "m")]);
+        assert_eq!(sheet.columns[2].values, Values::F64(vec![2.0]));
+        let texts: Vec<_> = sheet.texts.iter().map(|(_, t)| t.as_str()).collect();
+        assert_eq!(texts, ["plate", "true"]);
+    }
+}
