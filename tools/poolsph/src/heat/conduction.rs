@@ -1,0 +1,399 @@
+//! Heat conduction between particles (Komen 2019, first term of eq. 4.10).
+//!
+//! ```text
+//! m dh_a/dt = V sum_b 2 delta / (lambda N) k_ab (T_b - T_a) W_ab,    k_ab = 2 k_a k_b / (k_a + k_b)
+//! ```
+//!
+//! 1. lambda N = sum r^2 W (eqs. 3.96, 3.97) is that of the full lattice for every particle. What
+//!    a gains b then loses to the last bit, so energy is kept to round-off; a sum cut off by the
+//!    surface lets nothing through it, and a flat face completed by mirror images conducts along
+//!    itself as the inside does. With each particle's own lambda N neither would hold.
+//! 2. The 1/rho of eq. 3.98 belongs to the equation of motion alone. The mean of the
+//!    conductivities is the harmonic one, exact for layers in series; eq. 4.10 has the arithmetic.
+//! 3. Pairs at rest keep their rows ([`crate::rest`]) and may be taken together every few steps;
+//!    pairs with a moving particle are taken in every step, from [`crate::near`].
+//! 4. A pair at rest exchanges heat only if its temperatures differ by more than the tolerance, so
+//!    a particle without such a pair can be passed over: the result is the same to the last bit
+//!    as if every particle were visited. The tolerance itself costs at most its own size per
+//!    spacing of distance.
+//! 5. An open face (section 4.3, eq. 4.12) continues the plate: opposite to each neighbour b from
+//!    which the way on leads out of the plate stands an image of temperature 2 T_a - T_b.
+//!
+//! Explicit in time; with every step divided so that
+//! dt <= rho sum(r^2 W) / (6 (k/c)_max sum W), no particle leaves the range of its neighbours.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use neighbours::ROWS;
+use rayon::prelude::*;
+use run::Fault;
+use run::property::Curve;
+
+use super::bounds::{moments, outside};
+use super::caloric::Caloric;
+use super::held::Held;
+use super::ledger::Sum;
+use super::parameters::Parameters;
+use crate::near::Role;
+use crate::rest::{Plane, Rest, distance};
+use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::state::{Column, Metal, State};
+
+/// Crowding of a liquid over the lattice that the step limit allows for.
+const CROWDING: f64 = 1.1;
+
+/// What a particle is after an exchange.
+#[derive(Debug, Clone, Copy)]
+struct Exchanged {
+    a: u32,
+    enthalpy: f64,
+    temperature: f64,
+    /// Heat that left through an open face \[J\].
+    out: f64,
+    /// Has a pair that exchanges heat.
+    busy: bool,
+}
+
+/// Heat conduction as a stage.
+pub struct Conduction {
+    caloric: Arc<Caloric>,
+    metal: Metal,
+    /// 6 V / sum r^2 W of the lattice \[m3 m/m2\].
+    scale: f64,
+    limit: f64,
+    interval: u64,
+    tolerance: f64,
+    rest: Rest,
+    open: Vec<Plane>,
+    held: Vec<Held>,
+    /// 1/k \[m K/W\]; infinite for insulating walls.
+    resistivity: Vec<f64>,
+    seen: Vec<f64>,
+    awake: Vec<bool>,
+    visited: Vec<u32>,
+    saved: Option<Vec<f64>>,
+    substeps: u64,
+    out_open: Sum,
+    out_held: Sum,
+}
+
+impl Conduction {
+    /// Conduction in the metal of a scene.
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn new(
+        parameters: &Parameters,
+        caloric: Arc<Caloric>,
+        metal: Metal,
+    ) -> Result<Self, Fault> {
+        let (mirrors, open) = parameters.planes();
+        let both = |plane: &&Plane| mirrors.contains(plane);
+        if open.iter().find(both).is_some() {
+            return Err(Fault::at(
+                "/faces",
+                "a face is named both under mirror and under open",
+            ));
+        }
+        let (second, zeroth) = moments(metal);
+        Ok(Self {
+            scale: 6.0 * metal.volume() / second,
+            limit: metal.density * second / (6.0 * CROWDING * caloric.fastest() * zeroth),
+            interval: u64::from(parameters.rest_interval_steps.max(1)),
+            tolerance: parameters.exchange_tolerance_k,
+            rest: Rest::new(metal.smoothing_length, mirrors),
+            open,
+            held: Vec::new(),
+            resistivity: Vec::new(),
+            seen: Vec::new(),
+            awake: Vec::new(),
+            visited: Vec::new(),
+            saved: None,
+            substeps: 1,
+            out_open: Sum::default(),
+            out_held: Sum::default(),
+            caloric,
+            metal,
+        })
+    }
+
+    /// Prescribes the temperature of particles; `temperature` may depend on x, y, z and t.
+    pub fn hold(&mut self, particles: Range<usize>, temperature: Curve) {
+        self.held.push(Held {
+            particles,
+            temperature,
+        });
+    }
+
+    /// The largest step of the explicit scheme \[s\].
+    #[must_use]
+    pub fn limit(&self) -> f64 {
+        self.limit
+    }
+
+    /// Takes in new particles, changed rows, and temperatures that others have changed.
+    fn refresh(&mut self, state: &State) {
+        if let Some(saved) = self.saved.take() {
+            self.rest.restore(state, &saved);
+        }
+        self.rest.update(state);
+        self.seen.resize(state.len(), f64::NAN);
+        self.resistivity.resize(state.len(), f64::INFINITY);
+        self.awake.resize(state.len(), true);
+        for &a in self.rest.changed() {
+            self.awake[a as usize] = true;
+        }
+        for (a, (&now, seen)) in state.temperature.iter().zip(&mut self.seen).enumerate() {
+            // NaN, a particle not seen before, differs as well.
+            if seen.to_bits() != now.to_bits() {
+                *seen = now;
+                self.awake[a] = true;
+                if !state.wall[a] {
+                    self.resistivity[a] = 1.0 / self.caloric.conductivity(now);
+                }
+            }
+        }
+        for held in &self.held {
+            for a in held.particles.clone() {
+                self.resistivity[a] = 1.0 / self.caloric.conductivity(state.temperature[a]);
+            }
+        }
+    }
+
+    /// Exchanges heat between resting particles over `dt`.
+    fn exchange_at_rest(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        self.visited.clear();
+        let awake =
+            (self.awake.iter().enumerate()).filter(|(a, awake)| **awake && self.rest.holds(*a));
+        self.visited.extend(awake.map(|(a, _)| a as u32));
+        let sleepers = self.sleepers(state);
+        for &a in &sleepers {
+            self.awake[a as usize] = true;
+        }
+        self.visited.extend(sleepers);
+        let exchanged: Vec<Exchanged> = self
+            .visited
+            .par_iter()
+            .with_min_len(ROWS)
+            .map(|&a| self.at_rest(state, a as usize, dt))
+            .collect();
+        for one in &exchanged {
+            self.awake[one.a as usize] = one.busy;
+            self.out_open.add(one.out);
+        }
+        self.store(state, &exchanged)
+    }
+
+    /// Particles passed over so far that a neighbour has grown too different from.
+    fn sleepers(&self, state: &State) -> Vec<u32> {
+        let wakes = |a: &u32| {
+            let temperature = state.temperature[*a as usize];
+            (self.rest.row(*a as usize).iter())
+                .filter(move |link| !self.awake[link.to as usize])
+                .filter(move |link| {
+                    (state.temperature[link.to as usize] - temperature).abs() > self.tolerance
+                })
+                .map(|link| link.to)
+        };
+        let mut sleepers: Vec<u32> = self
+            .visited
+            .par_iter()
+            .with_min_len(ROWS)
+            .flat_map_iter(wakes)
+            .collect();
+        sleepers.sort_unstable();
+        sleepers.dedup();
+        sleepers
+    }
+
+    fn at_rest(&self, state: &State, a: usize, dt: f64) -> Exchanged {
+        let (temperature, resistivity) = (state.temperature[a], self.resistivity[a]);
+        let (mut gain, mut busy) = (0.0, false);
+        for link in self.rest.row(a) {
+            let b = link.to as usize;
+            let difference = state.temperature[b] - temperature;
+            if difference.abs() > self.tolerance {
+                busy = true;
+                gain += link.weight * 2.0 / (resistivity + self.resistivity[b]) * difference;
+            }
+        }
+        let lost = if busy && !self.open.is_empty() {
+            self.through_open_faces(state, a)
+        } else {
+            0.0
+        };
+        let enthalpy = state.enthalpy[a] + self.scale * dt * (gain - lost) / self.metal.mass();
+        Exchanged {
+            a: a as u32,
+            enthalpy,
+            temperature: self.caloric.temperature(enthalpy),
+            out: self.scale * dt * lost,
+            busy,
+        }
+    }
+
+    /// Sum of weight, conductivity and temperature difference toward the images of eq. 4.12.
+    fn through_open_faces(&self, state: &State, a: usize) -> f64 {
+        let (at, temperature, d) = (state.position[a], state.temperature[a], self.metal.spacing);
+        let beyond = |plane: &Plane, x: f64| plane.outward * (x - plane.at) > 1e-9 * d;
+        if !self
+            .open
+            .iter()
+            .any(|plane| beyond(plane, at[plane.axis] + plane.outward * d))
+        {
+            return 0.0;
+        }
+        let mut lost = 0.0;
+        for link in self.rest.row(a) {
+            let b = link.to as usize;
+            let difference = state.temperature[b] - temperature;
+            let (from, far) = (state.position[b], distance(at, state.position[b]));
+            let onward = |k: usize| at[k] + d * (at[k] - from[k]) / far;
+            let out = (self.open.iter()).any(|plane| beyond(plane, onward(plane.axis)));
+            if out && difference.abs() > self.tolerance {
+                let image = 1.0 / self.caloric.conductivity(temperature - difference);
+                lost += link.weight * 2.0 / (self.resistivity[a] + image) * difference;
+            }
+        }
+        lost
+    }
+
+    /// Exchanges heat of pairs with a moving particle over `dt`.
+    fn exchange_in_flow(&self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let near = &state.near;
+        let mut exchanged = Vec::with_capacity(near.len());
+        let chunks: Vec<Vec<Exchanged>> = near
+            .lists
+            .chunks()
+            .par_iter()
+            .zip(&near.pairs)
+            .map(|(chunk, pairs)| {
+                let rows =
+                    (0..chunk.rows()).filter(|k| near.role[chunk.first() + k] != Role::Backing);
+                rows.map(|k| {
+                    let weights = &pairs.value[chunk.range(k)];
+                    self.in_flow(state, chunk.first() + k, (chunk.row(k), weights), dt)
+                })
+                .collect()
+            })
+            .collect();
+        exchanged.extend(chunks.into_iter().flatten());
+        self.store(state, &exchanged)
+    }
+
+    fn in_flow(&self, state: &State, k: usize, row: (&[u32], &[f64]), dt: f64) -> Exchanged {
+        let near = &state.near;
+        let a = near.id[k] as usize;
+        let (temperature, resistivity) = (state.temperature[a], self.resistivity[a]);
+        let moves = near.role[k] == Role::Liquid;
+        let mut gain = 0.0;
+        for (&j, weight) in row.0.iter().zip(row.1) {
+            if moves || near.role[j as usize] == Role::Liquid {
+                let b = near.id[j as usize] as usize;
+                gain += weight * 2.0 / (resistivity + self.resistivity[b])
+                    * (state.temperature[b] - temperature);
+            }
+        }
+        let enthalpy = state.enthalpy[a] + self.scale * dt * gain / self.metal.mass();
+        Exchanged {
+            a: a as u32,
+            enthalpy,
+            temperature: self.caloric.temperature(enthalpy),
+            out: 0.0,
+            busy: true,
+        }
+    }
+
+    fn store(&self, state: &mut State, exchanged: &[Exchanged]) -> Result<(), StageError> {
+        for one in exchanged {
+            let a = one.a as usize;
+            if !self.caloric.covers(one.temperature) {
+                return Err(outside(state, a, one.temperature, &self.caloric));
+            }
+            state.enthalpy[a] = one.enthalpy;
+            state.temperature[a] = one.temperature;
+        }
+        Ok(())
+    }
+}
+
+impl Stage for Conduction {
+    fn name(&self) -> &'static str {
+        "conduction"
+    }
+
+    fn needs(&self) -> &'static [Column] {
+        &[Column::Temperature, Column::Enthalpy]
+    }
+
+    fn dt_limit(&self, _state: &State) -> Option<Limit> {
+        Some(Limit {
+            seconds: self.limit,
+            name: "conduction",
+        })
+    }
+
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        for held in &self.held {
+            held.prescribe(state, &self.caloric, &mut self.out_held)?;
+        }
+        let due = state.step % self.interval == 0;
+        let whole = self.interval as f64 * dt;
+        let limit = self.limit;
+        // A step at the very limit is whole, whatever its last bit.
+        let parts = |dt: f64| (dt / limit - 1e-9).ceil().max(1.0);
+        if due {
+            let n = parts(whole);
+            self.substeps = n as u64;
+            for _ in 0..self.substeps {
+                self.refresh(state);
+                self.exchange_at_rest(state, whole / n)?;
+            }
+        }
+        let n = parts(dt);
+        for _ in 0..n as u64 {
+            if !state.near.is_empty() {
+                self.refresh(state);
+                self.exchange_in_flow(state, dt / n)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let figure = |name, unit, value| Figure { name, unit, value };
+        let mut figures = vec![
+            figure("conducting_particles", "1", self.visited.len() as f64),
+            figure("conduction_substeps", "1", self.substeps as f64),
+        ];
+        if !self.open.is_empty() {
+            figures.push(figure(
+                "energy_out_open_faces_j",
+                "J",
+                self.out_open.value(),
+            ));
+        }
+        if !self.held.is_empty() {
+            figures.push(figure("energy_out_held_j", "J", self.out_held.value()));
+        }
+        figures
+    }
+
+    fn bytes(&self) -> usize {
+        self.rest.bytes() + 21 * self.seen.len()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        let mut saved = Vec::from(self.out_open.save());
+        saved.extend(self.out_held.save());
+        saved.extend(self.rest.save());
+        saved
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.out_open = Sum::restored(saved);
+        self.out_held = Sum::restored(&saved[2.min(saved.len())..]);
+        self.saved = Some(saved[4.min(saved.len())..].to_vec());
+    }
+}

@@ -1,0 +1,41 @@
+//! Particles whose temperature is prescribed: boundary values on a body of the scene.
+
+use std::ops::Range;
+
+use run::property::{Arguments, Curve};
+
+use super::caloric::Caloric;
+use super::ledger::Sum;
+use crate::stage::StageError;
+use crate::state::State;
+
+/// Consecutive particles with a prescribed temperature.
+#[derive(Debug, Clone)]
+pub(crate) struct Held {
+    /// Their indices.
+    pub(crate) particles: Range<usize>,
+    /// T(x, y, z, t) \[K\].
+    pub(crate) temperature: Curve,
+}
+
+impl Held {
+    /// Sets the temperatures of the moment; the heat that this takes away is added to `out`.
+    pub(crate) fn prescribe(
+        &self,
+        state: &mut State,
+        caloric: &Caloric,
+        out: &mut Sum,
+    ) -> Result<(), StageError> {
+        let mass = state.metal.mass();
+        for a in self.particles.clone() {
+            let at = Arguments::at(state.position[a], state.time);
+            let temperature = (self.temperature.value(&at))
+                .map_err(|fault| StageError::Data(format!("held temperature: {fault}")))?;
+            let enthalpy = caloric.enthalpy(temperature);
+            out.add(mass * (state.enthalpy[a] - enthalpy));
+            state.enthalpy[a] = enthalpy;
+            state.temperature[a] = temperature;
+        }
+        Ok(())
+    }
+}

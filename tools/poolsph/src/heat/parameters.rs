@@ -1,0 +1,217 @@
+//! What a scene says of the heat in the metal.
+
+use std::sync::Arc;
+
+use props::Table;
+use run::Fault;
+use run::property::{Arguments, Curve, Property};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::caloric::{Caloric, Melting};
+use crate::rest::Plane;
+
+/// Temperatures \[K\] between which a formula is taken as meant.
+const FORMULA_RANGE: (f64, f64) = (200.0, 6000.0);
+/// Rows by which a formula is tabulated, one per kelvin.
+const FORMULA_ROWS: usize = 5801;
+
+/// Heat conduction and melting (key `heat`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// kappa(T).
+    #[schemars(extend("x-unit" = "W/(m K)"))]
+    pub thermal_conductivity_w_m_k: Property,
+    /// c(T).
+    #[schemars(extend("x-unit" = "J/(kg K)"))]
+    pub specific_heat_j_kg_k: Property,
+    /// Melting; absent: the metal never melts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub melting: Option<MeltingParameters>,
+    /// Resting metal conducts once in so many steps, over all of them at once.
+    #[serde(default = "every_step")]
+    #[schemars(range(min = 1, max = 64))]
+    pub rest_interval_steps: u32,
+    /// Pairs of resting particles whose temperatures differ by no more exchange no heat, and
+    /// particles with no other pairs are passed over.
+    #[serde(default = "exchange_tolerance")]
+    #[schemars(extend("x-unit" = "K"), range(min = 0.0, max = 1.0))]
+    pub exchange_tolerance_k: f64,
+    /// Flat faces of the plate; absent: every face is that of a particle cloud.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faces: Option<Faces>,
+}
+
+fn every_step() -> u32 {
+    1
+}
+
+fn exchange_tolerance() -> f64 {
+    1e-4
+}
+
+/// The change between solid and liquid.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeltingParameters {
+    /// T_m.
+    #[schemars(extend("x-unit" = "K"), range(min = 1.0, max = 1e4))]
+    pub point_k: f64,
+    /// L.
+    #[schemars(extend("x-unit" = "J/kg"), range(min = 0.0, max = 1e8))]
+    pub latent_heat_j_kg: f64,
+}
+
+/// The box whose faces are flat, and what its faces are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Faces {
+    /// Lower corner.
+    #[schemars(extend("x-unit" = "m"))]
+    pub min_m: [f64; 3],
+    /// Upper corner.
+    #[schemars(extend("x-unit" = "m"))]
+    pub max_m: [f64; 3],
+    /// Faces through which nothing flows, completed by mirror images.
+    #[serde(default)]
+    pub mirror: Vec<Face>,
+    /// Faces through which heat leaves as if the plate went on (Komen 2019, section 4.3).
+    #[serde(default)]
+    pub open: Vec<Face>,
+}
+
+/// A face of a box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[allow(missing_docs, reason = "the names say all")]
+pub enum Face {
+    #[serde(rename = "x-")]
+    XMinus,
+    #[serde(rename = "x+")]
+    XPlus,
+    #[serde(rename = "y-")]
+    YMinus,
+    #[serde(rename = "y+")]
+    YPlus,
+    #[serde(rename = "z-")]
+    ZMinus,
+    #[serde(rename = "z+")]
+    ZPlus,
+}
+
+impl Faces {
+    /// The plane of a face.
+    #[must_use]
+    pub fn plane(&self, face: Face) -> Plane {
+        let (axis, upper) = match face {
+            Face::XMinus => (0, false),
+            Face::XPlus => (0, true),
+            Face::YMinus => (1, false),
+            Face::YPlus => (1, true),
+            Face::ZMinus => (2, false),
+            Face::ZPlus => (2, true),
+        };
+        Plane {
+            axis,
+            at: if upper { self.max_m } else { self.min_m }[axis],
+            outward: if upper { 1.0 } else { -1.0 },
+        }
+    }
+}
+
+impl Parameters {
+    /// The thermal properties.
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn caloric(&self) -> Result<Arc<Caloric>, Fault> {
+        let (conductivity, first) = table(
+            &self.thermal_conductivity_w_m_k,
+            "/thermal_conductivity_w_m_k",
+        )?;
+        let (specific_heat, second) = table(&self.specific_heat_j_kg_k, "/specific_heat_j_kg_k")?;
+        let range = (first.0.max(second.0), first.1.min(second.1));
+        if range.0 >= range.1 {
+            let what = "has no temperature in common with the thermal conductivity";
+            return Err(Fault::at("/specific_heat_j_kg_k", what));
+        }
+        let melting = self.melting.map(|m| Melting {
+            point: m.point_k,
+            latent_heat: m.latent_heat_j_kg,
+        });
+        Caloric::new(conductivity, &specific_heat, melting, range)
+            .map(Arc::new)
+            .map_err(|fault| Fault::at("", format!("properties of the metal: {fault}")))
+    }
+
+    /// Planes of the mirrored and of the open faces.
+    #[must_use]
+    pub fn planes(&self) -> (Vec<Plane>, Vec<Plane>) {
+        let Some(faces) = &self.faces else {
+            return (Vec::new(), Vec::new());
+        };
+        let planes = |names: &[Face]| names.iter().map(|face| faces.plane(*face)).collect();
+        (planes(&faces.mirror), planes(&faces.open))
+    }
+}
+
+/// A property of the temperature as a table, and where it holds \[K\].
+fn table(property: &Property, at: &str) -> Result<(Table, (f64, f64)), Fault> {
+    let curve = property.compile(at, &["T"])?;
+    let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+    let (nodes, values, range) = match &curve {
+        Curve::Constant(value) => (vec![0.0, 1.0], vec![*value; 2], everywhere),
+        Curve::Table(rows) => (
+            rows.temperatures().to_vec(),
+            rows.values().to_vec(),
+            curve.range_k().unwrap_or(everywhere),
+        ),
+        Curve::Formula(_) => {
+            let step = (FORMULA_RANGE.1 - FORMULA_RANGE.0) / (FORMULA_ROWS - 1) as f64;
+            let nodes: Vec<f64> = (0..FORMULA_ROWS)
+                .map(|row| FORMULA_RANGE.0 + row as f64 * step)
+                .collect();
+            let values: Result<Vec<f64>, _> = nodes
+                .iter()
+                .map(|t| curve.value(&Arguments::at_temperature(*t)))
+                .collect();
+            let values = values.map_err(|fault| Fault::at(at, fault.to_string()))?;
+            (nodes, values, FORMULA_RANGE)
+        }
+    };
+    Table::new(nodes, values)
+        .map(|table| (table, range))
+        .map_err(|fault| Fault::at(at, fault.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_gives_properties_and_faults_name_their_key() {
+        let text = r#"{"thermal_conductivity_w_m_k": {"expr": "73 - 0.01*T"},
+            "specific_heat_j_kg_k": {"t_k": [300, 1800], "value": [440, 800]},
+            "melting": {"point_k": 1750, "latent_heat_j_kg": 250e3},
+            "faces": {"min_m": [-0.01, -0.005, -0.005], "max_m": [0.01, 0.06, 0], "mirror": ["z+"]}}"#;
+        let parameters: Parameters = serde_json::from_str(text).unwrap();
+        let caloric = parameters.caloric().unwrap();
+        assert!((caloric.conductivity(1000.5) - 62.995).abs() < 1e-9);
+        assert_eq!(caloric.range(), (300.0, 1800.0));
+        let (mirrors, open) = parameters.planes();
+        assert_eq!((mirrors.len(), open.len()), (1, 0));
+        assert_eq!((mirrors[0].axis, mirrors[0].outward), (2, 1.0));
+        let faulty = Parameters {
+            specific_heat_j_kg_k: Property::Constant(-1.0),
+            ..parameters
+        };
+        assert!(faulty.caloric().unwrap_err().to_string().contains("-1"));
+    }
+
+    #[test]
+    fn unknown_keys_are_refused() {
+        let text =
+            r#"{"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 600, "latent": 1}"#;
+        assert!(serde_json::from_str::<Parameters>(text).is_err());
+    }
+}

@@ -1,0 +1,286 @@
+//! Exact and limiting cases of conduction and melting.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use run::property::{Curve, Property};
+
+use super::caloric::Melting;
+use super::caloric::tests::{plain, steel};
+use super::*;
+use crate::stage::Stage;
+use crate::state::{self, Column, Metal, Particle, State};
+
+/// A box of nx x ny x nz particles with its lower corner at the origin.
+fn lattice(metal: Metal, n: [usize; 3], caloric: &Caloric, t: impl Fn([f64; 3]) -> f64) -> State {
+    let mut state = State::new(metal, vec![Column::Temperature, Column::Enthalpy]);
+    for i in 0..n[0] * n[1] * n[2] {
+        let index = [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])];
+        let position = index.map(|k| (k as f64 + 0.5) * metal.spacing);
+        let temperature = t(position);
+        state.push(Particle {
+            position,
+            velocity: [0.0; 3],
+            phase: state::Phase::Solid,
+            droplet: false,
+            wall: false,
+            temperature,
+            enthalpy: caloric.enthalpy(temperature),
+        });
+    }
+    state
+}
+
+fn metal(density: f64, spacing: f64) -> Metal {
+    Metal {
+        density,
+        spacing,
+        smoothing_length: spacing,
+    }
+}
+
+/// Mirrors all faces of the box but those in `open`.
+fn parameters(metal: Metal, n: [usize; 3], open: Vec<Face>) -> Parameters {
+    let all = [
+        Face::XMinus,
+        Face::XPlus,
+        Face::YMinus,
+        Face::YPlus,
+        Face::ZMinus,
+        Face::ZPlus,
+    ];
+    Parameters {
+        thermal_conductivity_w_m_k: Property::Constant(1.0),
+        specific_heat_j_kg_k: Property::Constant(1.0),
+        melting: None,
+        rest_interval_steps: 1,
+        exchange_tolerance_k: 0.0,
+        faces: Some(Faces {
+            min_m: [0.0; 3],
+            max_m: n.map(|k| k as f64 * metal.spacing),
+            mirror: all.into_iter().filter(|f| !open.contains(f)).collect(),
+            open,
+        }),
+    }
+}
+
+fn march(state: &mut State, stage: &mut dyn Stage, dt: f64, steps: usize) {
+    for _ in 0..steps {
+        state.gather();
+        stage.advance(state, dt).unwrap();
+        state.step += 1;
+        state.time = state.step as f64 * dt;
+    }
+}
+
+/// Largest error of a decaying cosine over n spacings along x, t = 0.05 L^2 rho c/k.
+fn cosine_error(n: usize) -> f64 {
+    let size = [n, 3, 3];
+    let metal = metal(2.0, 1.0 / n as f64);
+    let caloric = Arc::new(plain(3.0, 0.5, None));
+    let mut state = lattice(metal, size, &caloric, |x| 10.0 + (PI * x[0]).cos());
+    let given = parameters(metal, size, vec![]);
+    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    let steps = 8 * n * n / 10;
+    let end = 0.05 / 3.0;
+    march(&mut state, &mut stage, end / steps as f64, steps);
+    let decay = (-PI * PI * 0.05).exp();
+    let exact = |x: [f64; 3]| 10.0 + decay * (PI * x[0]).cos();
+    let errors = (state.position.iter()).zip(&state.temperature);
+    errors
+        .map(|(x, t)| (t - exact(*x)).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn a_cosine_decays_with_second_order() {
+    let (coarse, fine) = (cosine_error(10), cosine_error(20));
+    let order = (coarse / fine).log2();
+    assert!(fine < 5e-4, "error {fine}");
+    assert!(
+        (1.9..2.1).contains(&order),
+        "order {order}: {coarse} {fine}"
+    );
+}
+
+fn noise(i: usize) -> f64 {
+    ((i as f64 * 12.9898).sin() * 43_758.545_3).fract().abs()
+}
+
+fn stored(state: &State) -> f64 {
+    state.enthalpy.iter().sum::<f64>() * state.metal.mass()
+}
+
+#[test]
+fn energy_is_kept_to_round_off_in_a_moving_melt() {
+    let metal = metal(7850.0, 0.5e-3);
+    let caloric = Arc::new(steel());
+    let mut state = lattice(metal, [9, 9, 9], &caloric, |_| 300.0);
+    for a in 0..state.len() {
+        state.enthalpy[a] = 2.3e6 * noise(a);
+        state.temperature[a] = caloric.temperature(state.enthalpy[a]);
+    }
+    state.flowing = true;
+    let before = stored(&state);
+    let given = parameters(metal, [9, 9, 9], vec![]);
+    let mut conduction = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    let mut phase = Phase::new(caloric, None);
+    for step in 0..200 {
+        march(&mut state, &mut phase, 1e-4, 1);
+        march(&mut state, &mut conduction, 1e-4, 1);
+        for a in 0..state.len() {
+            if state.phase[a] == state::Phase::Liquid {
+                for k in 0..3 {
+                    state.position[a][k] += 2e-5 * (noise(3 * a + k + step) - 0.5);
+                }
+            }
+        }
+    }
+    assert!(state.liquid() > 100 && state.liquid() < 729);
+    let drift = (stored(&state) - before) / before;
+    assert!(drift.abs() < 1e-13, "drift {drift:e}");
+}
+
+#[test]
+fn heat_does_not_leave_the_range_of_temperatures() {
+    let metal = metal(7850.0, 0.5e-3);
+    let caloric = Arc::new(steel());
+    let mut state = lattice(metal, [8, 8, 8], &caloric, |x| {
+        if x[0] < 2e-3 { 400.0 } else { 1500.0 }
+    });
+    let given = parameters(metal, [8, 8, 8], vec![]);
+    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    // Ten times the limit: divided within the stage.
+    let dt = 10.0 * stage.limit();
+    march(&mut state, &mut stage, dt, 20);
+    let inside = |t: &f64| (400.0 - 1e-9..1500.0 + 1e-9).contains(t);
+    assert!(state.temperature.iter().all(inside));
+    assert!(
+        stage
+            .figures()
+            .iter()
+            .any(|f| f.name == "conduction_substeps" && f.value > 9.5)
+    );
+}
+
+/// A hot spot in a cold box, with a tolerance, stepped `steps` times.
+fn spot(tolerance: f64, forget: bool) -> (State, f64) {
+    let metal = metal(7850.0, 0.5e-3);
+    let caloric = Arc::new(steel());
+    let size = [30, 30, 12];
+    let hot = |x: [f64; 3]| {
+        if x.iter().all(|x| *x < 2e-3) {
+            1500.0
+        } else {
+            300.0
+        }
+    };
+    let mut state = lattice(metal, size, &caloric, hot);
+    let mut given = parameters(metal, size, vec![]);
+    given.exchange_tolerance_k = tolerance;
+    let mut stage = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    let mut visited = 0.0;
+    for _ in 0..60 {
+        if forget {
+            let saved = stage.save();
+            stage = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+            stage.restore(&saved);
+        }
+        march(&mut state, &mut stage, 1e-3, 1);
+        visited += stage.figures()[0].value / state.len() as f64 / 60.0;
+    }
+    (state, visited)
+}
+
+#[test]
+fn passing_over_the_cold_changes_no_bit_and_a_tolerance_little() {
+    let (lazy, part) = spot(1e-4, false);
+    // A restored stage starts with every particle awake.
+    let (eager, all) = spot(1e-4, true);
+    assert!(part < 0.7 && all > 0.999, "visited {part} {all}");
+    assert!(lazy.enthalpy == eager.enthalpy);
+    let (exact, _) = spot(0.0, false);
+    let errors = lazy.temperature.iter().zip(&exact.temperature);
+    let worst = errors.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(worst < 2e-4, "tolerance costs {worst} K");
+}
+
+#[test]
+fn an_open_face_lets_a_steady_gradient_through() {
+    let metal = metal(1.0, 0.1);
+    let caloric = Arc::new(plain(2.0, 1.0, None));
+    let size = [12, 4, 4];
+    let slope = |x: [f64; 3]| 100.0 - 10.0 * x[0];
+    let mut state = lattice(metal, size, &caloric, slope);
+    let given = parameters(metal, size, vec![Face::XMinus, Face::XPlus]);
+    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    march(&mut state, &mut stage, 1e-4, 100);
+    let errors = state.position.iter().zip(&state.temperature);
+    let worst = errors
+        .map(|(x, t)| (t - slope(*x)).abs())
+        .fold(0.0, f64::max);
+    assert!(worst < 1e-10, "{worst}");
+}
+
+/// Relative error of the front of a one-phase Stefan problem with n spacings (Neumann's solution,
+/// Carslaw and Jaeger 1959, section 11.2): wall at 1 K above the melting point, solid at it.
+fn stefan_error(n: usize) -> f64 {
+    let size = [n, 3, 3];
+    let metal = metal(1.0, 1.0 / n as f64);
+    // Stefan number 1: lambda e^(lambda^2) erf(lambda) = 1/sqrt(pi).
+    let lambda = 0.620_062_640_1;
+    let melting = Melting {
+        point: 5.0,
+        latent_heat: 1.0,
+    };
+    let caloric = Arc::new(plain(1.0, 1.0, Some(melting)));
+    let mut state = lattice(metal, size, &caloric, |_| 5.0);
+    let mut given = parameters(metal, size, vec![]);
+    given
+        .faces
+        .as_mut()
+        .unwrap()
+        .mirror
+        .retain(|f| *f != Face::XMinus);
+    for j in 0..18 {
+        state.push(Particle {
+            position: [
+                -(0.5 + (j % 2) as f64) * metal.spacing,
+                (0.5 + (j / 2 % 3) as f64) * metal.spacing,
+                (0.5 + (j / 6) as f64) * metal.spacing,
+            ],
+            velocity: [0.0; 3],
+            phase: state::Phase::Solid,
+            droplet: false,
+            wall: true,
+            temperature: 6.0,
+            enthalpy: 0.0,
+        });
+    }
+    let plate = n * 9;
+    let mut stage = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    stage.hold(plate..plate + 18, Curve::Constant(6.0));
+    let end = 0.25;
+    let steps = (end / stage.limit()).ceil() as usize;
+    march(&mut state, &mut stage, end / steps as f64, steps);
+    // The boundary value sits half a spacing outside of the first particle.
+    let start = -0.5 * metal.spacing;
+    let latent: f64 = (state.enthalpy[..plate].iter())
+        .zip(&state.temperature)
+        .map(|(h, t)| h - (t - 5.0) - caloric.enthalpy(5.0))
+        .sum::<f64>()
+        * metal.spacing
+        / 9.0;
+    let front = 2.0 * lambda * f64::sqrt(end);
+    (latent - start) / front - 1.0
+}
+
+#[test]
+fn a_melting_front_follows_neumann() {
+    let (coarse, fine) = (stefan_error(20), stefan_error(80));
+    assert!(fine.abs() < 2e-3, "front off by {coarse} {fine}");
+    assert!(
+        fine.abs() < 0.5 * coarse.abs(),
+        "no convergence: {coarse} {fine}"
+    );
+}
