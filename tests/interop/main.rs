@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use artefact::{Frame, Header, Precision, Table, Version, Writer};
+use artefact::{Frame, Header, Precision, Record, Table, Version, Writer};
 use serde_json::Value;
 
 fn root() -> PathBuf {
@@ -48,7 +48,8 @@ fn ask(python: &Path, script: &str, arguments: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// Three frames of a thousand particles, and a table on a grid with uneven axes.
+/// Three frames of a thousand particles, one without any, and tables on grids with uneven and even
+/// axes whose values are 1000 times the node's number.
 fn sample(path: &Path) {
     let header = Header {
         kind: "particle-frames".to_owned(),
@@ -61,23 +62,33 @@ fn sample(path: &Path) {
     let mut writer = Writer::create(path, &header).unwrap();
     for step in 0..3 {
         let n = 1000 + step;
-        let position = (0..n).map(|i| [i as f64 * 1e-3, 0.0, -1e-3]);
-        let frame = Frame::new(Precision::F32)
-            .positions(position)
-            .scalar("temperature", "K", (0..n).map(|i| 300.0 + i as f64))
-            .flag("molten", (0..n).map(|i| u8::from(i > 500)))
-            .id("id", 0..n as u32);
         writer
-            .frame("/particles", 0.25 * step as f64, &frame)
+            .frame("/particles", 0.25 * step as f64, &particles(n))
             .unwrap();
     }
-    let table = Table::grid(&[
-        ("radius_m", "m", &[0.0, 1e-3, 3e-3]),
-        ("height_m", "m", &[0.0, 2e-3]),
-    ])
-    .column("temperature_k", "K", (0..6).map(|i| 1000.0 * f64::from(i)));
-    writer.table("/plasma", 0.5, &table).unwrap();
+    writer.frame("/pool", 0.0, &particles(0)).unwrap();
+    for (channel, height) in [("/plasma", 2e-3), ("/section", 1e-3)] {
+        let radius = if channel == "/plasma" { 3e-3 } else { 2e-3 };
+        let table = Table::grid(&[
+            ("radius_m", "m", &[0.0, 1e-3, radius]),
+            ("height_m", "m", &[0.0, height]),
+        ])
+        .column("temperature_k", "K", (0..6).map(|i| 1000.0 * f64::from(i)));
+        writer.table(channel, 0.5, &table).unwrap();
+    }
+    let record = Record::new().with("mass_kg", "kg", 0.5);
+    writer.record("/balance", 0.5, &record).unwrap();
     writer.finish().unwrap();
+}
+
+fn particles(n: usize) -> Frame {
+    let position = (0..n).map(|i| [i as f64 * 1e-3, 0.0, -1e-3]);
+    Frame::new(Precision::F32)
+        .positions(position)
+        .scalar("temperature", "K", (0..n).map(|i| 300.0 + i as f64))
+        .vector("velocity", "m/s", (0..n).map(|i| [0.0, i as f64, 1.0]))
+        .flag("molten", (0..n).map(|i| u8::from(i > 500)))
+        .id("id", 0..n as u32)
 }
 
 #[test]
@@ -97,7 +108,17 @@ fn point_clouds_are_read_by_the_packages_that_foxglove_publishes() {
     assert_eq!(found["stamp_s"], 0.5);
     assert_eq!(
         found["fields"],
-        serde_json::json!(["x", "y", "z", "temperature", "molten", "id"])
+        serde_json::json!([
+            "x",
+            "y",
+            "z",
+            "temperature",
+            "velocity_x",
+            "velocity_y",
+            "velocity_z",
+            "molten",
+            "id"
+        ])
     );
     assert_eq!(found["temperature_k"], serde_json::json!([300.0, 1301.0]));
     assert_eq!(found["metadata"]["fusionline"]["kind"], "particle-frames");
@@ -156,31 +177,40 @@ fn exports_open_in_the_library_that_paraview_reads_with() {
         "a series needs a .pvd: {written:?}"
     );
     let found = ask(&python, "open_exports.py", &readable);
-    let clouds: Vec<&Value> = found
-        .as_object()
-        .unwrap()
-        .iter()
-        .filter(|(name, _)| name.ends_with(".vtu"))
-        .map(|(_, value)| value)
-        .collect();
-    assert_eq!(clouds.len(), 3, "{found}");
-    for cloud in clouds {
-        let n = cloud["points"].as_u64().unwrap();
-        assert!((1000..1003).contains(&n));
+    for step in 0..3 {
+        let cloud = &found[format!("particles_0000{step}.vtu")];
+        let n = 1000 + step;
+        assert_eq!(cloud["points"], n, "{found}");
+        assert_eq!(cloud["time_s"], 0.25 * f64::from(step));
         assert_eq!(cloud["arrays"]["temperature"]["tuples"], n);
+        assert_eq!(cloud["arrays"]["temperature"]["unit"], "K");
+        assert_eq!(cloud["arrays"]["velocity"]["components"], 3);
+        assert_eq!(
+            cloud["arrays"]["id"]["range"],
+            serde_json::json!([0.0, f64::from(n - 1)])
+        );
     }
-    let grid = found
-        .as_object()
-        .unwrap()
-        .iter()
-        .find(|(name, _)| name.ends_with(".vtr") || name.ends_with(".vti"))
-        .map(|(_, value)| value)
-        .expect("the table on a grid is exported");
-    assert_eq!(grid["points"], 6);
-    assert_eq!(
-        grid["arrays"]["temperature_k"]["range"],
-        serde_json::json!([0.0, 5000.0])
-    );
+    assert_eq!(found["pool_00000.vtu"]["points"], 0, "a frame without any");
+    for (grid, radius, height) in [
+        ("plasma_00000.vtr", 3e-3, 2e-3),
+        ("section_00000.vti", 2e-3, 1e-3),
+    ] {
+        let nodes: Vec<[f64; 4]> = serde_json::from_value(found[grid]["nodes"].clone())
+            .unwrap_or_else(|e| panic!("{grid}: {e} in {found}"));
+        assert_eq!(nodes.len(), 6);
+        for [x, y, z, value] in nodes {
+            let i = [0.0, 1e-3, radius].iter().position(|r| near(*r, x));
+            let j = [0.0, height].iter().position(|h| near(*h, z));
+            let node = 2 * i.unwrap() + j.unwrap();
+            assert!(near(y, 0.0) && near(value, 1000.0 * node as f64), "{grid}");
+        }
+    }
+    let series = std::fs::read_to_string(folder.path().join("vtu/balance.csv")).unwrap();
+    assert_eq!(series, "log_time [s],mass_kg [kg]\r\n0.5,0.5\r\n");
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-9
 }
 
 #[test]
@@ -197,6 +227,12 @@ fn exports_open_in_numpy() {
         .collect();
     assert!(!readable.is_empty());
     let found = ask(&python, "open_exports.py", &readable);
-    let text = found.to_string();
-    assert!(text.contains("temperature"), "{text}");
+    let frame = &found["particles_00002.npz"]["arrays"];
+    assert_eq!(frame["temperature"]["shape"], serde_json::json!([1002]));
+    assert_eq!(frame["log_time_s"]["shape"], serde_json::json!([]));
+    let grid = &found["plasma_00000.npz"]["arrays"];
+    assert_eq!(grid["temperature_k"]["shape"], serde_json::json!([3, 2]));
+    assert_eq!(grid["radius_m"]["shape"], serde_json::json!([3]));
+    let series = &found["balance.npz"]["arrays"];
+    assert_eq!(series["mass_kg"]["shape"], serde_json::json!([1]));
 }

@@ -33,8 +33,19 @@ def vtk_file(path, suffix):
                 "tuples": array.GetNumberOfTuples(),
                 "components": array.GetNumberOfComponents(),
                 "range": list(array.GetRange(-1)),
+                "unit": array.GetInformation().Get(vtk.vtkDataArray.UNITS_LABEL()),
             }
-    return {"points": data.GetNumberOfPoints(), "bounds": list(data.GetBounds()), "arrays": arrays}
+    n = data.GetNumberOfPoints()
+    first = data.GetPointData().GetArray(0)
+    time = data.GetFieldData().GetArray("TimeValue")
+    return {
+        "points": n,
+        "bounds": list(data.GetBounds()),
+        "arrays": arrays,
+        "time_s": time.GetValue(0) if time else None,
+        # Place and first array of each point, where there are few.
+        "nodes": [[*data.GetPoint(i), first.GetTuple(i)[0]] for i in range(n)] if n <= 100 else None,
+    }
 
 
 def numpy_file(path):
