@@ -1,10 +1,19 @@
 //! Incompressible SPH weld pool and bead under a moving arc source.
 
+pub mod assemble;
+pub mod balance;
 pub mod domain;
+pub mod frames;
+pub mod heat;
 pub mod march;
 pub mod motion;
 pub mod near;
 pub mod rest;
+pub mod resume;
 pub mod scene;
+pub mod simulate;
 pub mod stage;
 pub mod state;
+pub mod tool;
+
+pub use tool::PoolSph;
