@@ -1,0 +1,18 @@
+//! Verification across the tools: exact cases, run through scenes and measured from what is written.
+//!
+//! Every case drives a tool as its users do (a scene, a patch, a command line), opens the artefact
+//! and compares it with an exact solution coded here. Nothing in this crate is shared with a solver:
+//! the only common ground is the file format.
+//!
+//! - [`case`] says what a case is, [`lab`] runs tools, [`norms`] measures, [`study`] turns three
+//!   resolutions into a record of error against run time.
+//! - [`cases`] holds one file per exact solution.
+
+pub mod case;
+pub mod cases;
+pub mod extreme;
+pub mod lab;
+pub mod norms;
+pub mod plasma;
+pub mod special;
+pub mod study;

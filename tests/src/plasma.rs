@@ -1,0 +1,92 @@
+//! Reads the fields of an arc and compares them with exact ones.
+
+use artefact::{Reader, Table};
+
+use crate::lab::{Finished, LabError};
+use crate::norms;
+
+/// The fields on (radius, height) that `arcfvm` wrote.
+#[derive(Debug, Clone)]
+pub struct Plasma {
+    table: Table,
+    /// Radii of the cell centres \[m\].
+    pub radius: Vec<f64>,
+    /// Heights of the cell centres \[m\].
+    pub height: Vec<f64>,
+}
+
+impl Plasma {
+    /// Reads channel `/plasma`.
+    ///
+    /// # Errors
+    /// When the artefact has no such channel or no such axes.
+    pub fn read(run: &Finished) -> Result<Self, LabError> {
+        let table = Reader::open_kind(&run.artefact, "arc-source", 1)?.table("/plasma")?;
+        let radius = table.axis("radius_m")?.to_vec();
+        let height = table.axis("height_m")?.to_vec();
+        Ok(Self {
+            table,
+            radius,
+            height,
+        })
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> u64 {
+        (self.radius.len() * self.height.len()) as u64
+    }
+
+    /// A field, radius by radius, height fastest.
+    ///
+    /// # Errors
+    /// When the field is absent.
+    pub fn field(&self, name: &str) -> Result<&[f64], LabError> {
+        Ok(self.table.values(name)?)
+    }
+
+    /// The exact field `f(r, z)` in the order of [`Plasma::field`].
+    pub fn sample(&self, f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+        self.radius
+            .iter()
+            .flat_map(|r| self.height.iter().map(|z| f(*r, *z)).collect::<Vec<_>>())
+            .collect()
+    }
+
+    /// Relative L2 and Linf error of a field against the exact one.
+    ///
+    /// # Errors
+    /// When the field is absent.
+    pub fn compare(
+        &self,
+        name: &str,
+        exact: impl Fn(f64, f64) -> f64,
+    ) -> Result<(f64, f64), LabError> {
+        Ok(norms::relative(self.field(name)?, &self.sample(exact)))
+    }
+
+    /// As [`Plasma::compare`] for a field that is known up to a constant: the volume means of both
+    /// are taken off first.
+    ///
+    /// # Errors
+    /// When the field is absent.
+    pub fn compare_shifted(
+        &self,
+        name: &str,
+        exact: impl Fn(f64, f64) -> f64,
+    ) -> Result<(f64, f64), LabError> {
+        let weight = self.sample(|r, _| r);
+        let found = centred(self.field(name)?, &weight);
+        Ok(norms::relative(
+            &found,
+            &centred(&self.sample(exact), &weight),
+        ))
+    }
+}
+
+/// `values` less their weighted mean.
+fn centred(values: &[f64], weight: &[f64]) -> Vec<f64> {
+    let total: f64 = weight.iter().sum();
+    let mean = values.iter().zip(weight).map(|(v, w)| v * w).sum::<f64>() / total;
+    values.iter().map(|v| v - mean).collect()
+}
