@@ -1,0 +1,221 @@
+//! Mass, momentum and energy of all metal, and whether they close.
+
+use artefact::Record;
+
+use crate::stage::Figure;
+use crate::state::{Phase, State};
+
+/// Conserved totals at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balance {
+    time: f64,
+    liquid: usize,
+    mass: f64,
+    from_wire: f64,
+    momentum: [f64; 3],
+    kinetic: f64,
+    height: f64,
+    heat: Option<Heat>,
+}
+
+/// The energies of a scene with heat.
+#[derive(Debug, Clone, PartialEq)]
+struct Heat {
+    /// Enthalpy of all metal \[J\].
+    stored: f64,
+    /// Cumulative sums of the stages \[J\].
+    parts: Vec<(&'static str, f64)>,
+}
+
+/// Totals at the start, against which later ones are held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Start {
+    /// Mass of the bodies \[kg\].
+    pub mass: f64,
+    /// Enthalpy of the bodies \[J\].
+    pub stored: f64,
+}
+
+impl Balance {
+    /// The totals of `state`, with the cumulative energies among `figures`.
+    #[must_use]
+    pub fn of(state: &State, figures: &[(&'static str, Figure)]) -> Self {
+        let mass = state.metal.mass();
+        let metal = || (0..state.len()).filter(|a| !state.wall[*a]);
+        let count = metal().count() as f64;
+        let mut momentum = [0.0; 3];
+        let mut kinetic = 0.0;
+        let mut height = 0.0;
+        for a in metal() {
+            height += state.position[a][2];
+            if state.phase[a] != Phase::Solid {
+                let u = state.velocity[a];
+                (0..3).for_each(|k| momentum[k] += mass * u[k]);
+                kinetic += 0.5 * mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+            }
+        }
+        let heat = (!state.enthalpy.is_empty()).then(|| Heat {
+            stored: mass * (0..state.len()).map(|a| state.enthalpy[a]).sum::<f64>(),
+            parts: figures
+                .iter()
+                .filter(|(_, figure)| figure.unit == "J")
+                .map(|(_, figure)| (figure.name, figure.value))
+                .collect(),
+        });
+        Self {
+            time: state.time,
+            liquid: state.liquid(),
+            mass: mass * count,
+            from_wire: mass * state.droplet.iter().filter(|d| **d).count() as f64,
+            momentum,
+            kinetic,
+            height: if count > 0.0 { height / count } else { 0.0 },
+            heat,
+        }
+    }
+
+    /// What later balances are held against.
+    #[must_use]
+    pub fn start(&self) -> Start {
+        Start {
+            mass: self.mass - self.from_wire,
+            stored: self.heat.as_ref().map_or(0.0, |heat| heat.stored),
+        }
+    }
+
+    /// (mass - start - droplets) / mass.
+    #[must_use]
+    pub fn mass_error(&self, start: Start) -> f64 {
+        (self.mass - self.from_wire - start.mass) / self.mass.max(f64::MIN_POSITIVE)
+    }
+
+    /// Energy in, energy out \[J\], and (in - out - stored) over the larger of them; `None` without heat.
+    #[must_use]
+    pub fn closure(&self, start: Start) -> Option<(f64, f64, f64)> {
+        let heat = self.heat.as_ref()?;
+        let sum = |prefix: &str| -> f64 {
+            let parts = heat
+                .parts
+                .iter()
+                .filter(|(name, _)| name.starts_with(prefix));
+            parts.map(|(_, value)| value).sum()
+        };
+        let (input, output) = (sum("energy_in_"), sum("energy_out_"));
+        let scale = input.abs().max(output.abs());
+        let missing = input - output - (heat.stored - start.stored);
+        let closure = if scale > 0.0 { missing / scale } else { 0.0 };
+        Some((input, output, closure))
+    }
+
+    /// The totals as written to `/balance`.
+    #[must_use]
+    pub fn record(&self, start: Start) -> Record {
+        let mut record = Record::new()
+            .with("time_s", "s", self.time)
+            .with("liquid_particles", "1", self.liquid as f64)
+            .with("mass_kg", "kg", self.mass)
+            .with("mass_droplets_kg", "kg", self.from_wire)
+            .with("momentum_x", "kg m/s", self.momentum[0])
+            .with("momentum_y", "kg m/s", self.momentum[1])
+            .with("momentum_z", "kg m/s", self.momentum[2])
+            .with("kinetic_energy_j", "J", self.kinetic)
+            .with("centre_of_mass_height_m", "m", self.height);
+        if let (Some(heat), Some((_, _, closure))) = (&self.heat, self.closure(start)) {
+            record = record.with("energy_stored_j", "J", heat.stored - start.stored);
+            for (name, value) in &heat.parts {
+                record = record.with(name, "J", *value);
+            }
+            record = record.with("closure", "1", closure);
+        }
+        record
+    }
+
+    /// The totals of the closing block: name, unit, value.
+    #[must_use]
+    pub fn closing(&self, start: Start) -> Vec<(&'static str, &'static str, f64)> {
+        let mut rows = vec![
+            ("mass_kg", "kg", self.mass),
+            ("mass_droplets_kg", "kg", self.from_wire),
+            ("mass_error", "1", self.mass_error(start)),
+        ];
+        if let (Some(heat), Some((input, output, closure))) = (&self.heat, self.closure(start)) {
+            rows.extend(heat.parts.iter().map(|(name, value)| (*name, "J", *value)));
+            rows.push(("energy_in_j", "J", input));
+            rows.push(("energy_out_j", "J", output));
+            rows.push(("energy_stored_j", "J", heat.stored - start.stored));
+            rows.push(("energy_balance", "1", closure));
+        }
+        rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::{Column, Metal, Particle};
+
+    fn state(enthalpy: f64) -> State {
+        let metal = Metal {
+            density: 1000.0,
+            spacing: 1e-2,
+            smoothing_length: 1e-2,
+        };
+        let mut state = State::new(metal, vec![Column::Enthalpy]);
+        for (phase, wall) in [
+            (Phase::Liquid, false),
+            (Phase::Solid, false),
+            (Phase::Solid, true),
+        ] {
+            state.push(Particle {
+                position: [0.0, 0.0, 0.5],
+                velocity: [0.0, 2.0, 0.0],
+                phase,
+                droplet: false,
+                wall,
+                temperature: 300.0,
+                enthalpy,
+            });
+        }
+        state
+    }
+
+    fn figure(name: &'static str, value: f64) -> (&'static str, Figure) {
+        let unit = if name.ends_with("_j") { "J" } else { "1" };
+        ("stage", Figure { name, unit, value })
+    }
+
+    #[test]
+    fn walls_have_no_mass_and_solids_no_momentum() {
+        let balance = Balance::of(&state(0.0), &[]);
+        let record = balance.record(balance.start());
+        assert!((record.get("mass_kg").unwrap() - 2e-3).abs() < 1e-18);
+        assert!((record.get("momentum_y").unwrap() - 2e-3).abs() < 1e-18);
+        assert!((record.get("kinetic_energy_j").unwrap() - 2e-3).abs() < 1e-18);
+        assert!(balance.mass_error(balance.start()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn energy_that_goes_missing_is_seen() {
+        let start = Balance::of(&state(0.0), &[]).start();
+        let figures = [
+            figure("energy_in_arc_j", 4.0),
+            figure("energy_out_radiation_j", 1.0),
+            figure("sweeps", 7.0),
+        ];
+        // Three particles of 1 g with 1000 J/kg hold 3 J.
+        let (_, _, closed) = Balance::of(&state(1000.0), &figures)
+            .closure(start)
+            .unwrap();
+        assert!(closed.abs() < 1e-15);
+        let (_, _, open) = Balance::of(&state(900.0), &figures).closure(start).unwrap();
+        assert!((open - 0.3 / 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn lost_mass_is_seen() {
+        let start = Balance::of(&state(0.0), &[]).start();
+        let mut fewer = state(0.0);
+        fewer.wall[1] = true;
+        assert!(Balance::of(&fewer, &[]).mass_error(start) < -0.9);
+    }
+}

@@ -1,0 +1,314 @@
+//! Bodies of the scene become particles.
+
+use std::collections::HashMap;
+
+use run::Fault;
+use run::property::{Arguments, Curve};
+
+use super::shape::Shape;
+use crate::heat::Caloric;
+use crate::state::{Particle, Phase, State};
+
+/// A later body comes no closer to an earlier one than this part of d.
+pub const CLEARANCE: f64 = 0.7;
+
+/// A plane that cuts a body: kept is where (x - point) . normal <= 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cut {
+    /// A point of the plane \[m\].
+    pub point: [f64; 3],
+    /// Direction of what is cut off; any length.
+    pub normal: [f64; 3],
+}
+
+/// A body ready to be filled.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its shape.
+    pub shape: Shape,
+    /// Origin of its lattice \[m\]; the lower corner of its box by default.
+    pub lattice: Option<[f64; 3]>,
+    /// Planes that cut it.
+    pub cuts: Vec<Cut>,
+    /// Solid or liquid at the start.
+    pub phase: Phase,
+    /// Belongs to the container.
+    pub wall: bool,
+    /// u at the start \[m/s\].
+    pub velocity: [f64; 3],
+    /// T at the start \[K\] over x, y, z, r.
+    pub temperature: Curve,
+    /// T that it keeps \[K\] over x, y, z, r, t.
+    pub held: Option<Curve>,
+}
+
+/// How a body came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Filled {
+    /// Particles placed.
+    pub placed: usize,
+    /// Lattice points left out because an earlier body is there.
+    pub left_out: usize,
+}
+
+/// Places of particles by cells, to find whether one is near.
+#[derive(Debug)]
+struct Occupied {
+    edge: f64,
+    cells: HashMap<[i64; 3], Vec<[f64; 3]>>,
+}
+
+impl Occupied {
+    fn cell(&self, p: [f64; 3]) -> [i64; 3] {
+        p.map(|x| (x / self.edge).floor() as i64)
+    }
+
+    fn insert(&mut self, p: [f64; 3]) {
+        self.cells.entry(self.cell(p)).or_default().push(p);
+    }
+
+    /// Whether a particle stands closer to `p` than the edge of a cell.
+    fn near(&self, p: [f64; 3]) -> bool {
+        let centre = self.cell(p);
+        (0..27).any(|k| {
+            let cell = [
+                centre[0] + k % 3 - 1,
+                centre[1] + k / 3 % 3 - 1,
+                centre[2] + k / 9 - 1,
+            ];
+            self.cells.get(&cell).is_some_and(|places| {
+                places.iter().any(|q| {
+                    let square: f64 = (0..3).map(|k| (p[k] - q[k]).powi(2)).sum();
+                    square < self.edge * self.edge
+                })
+            })
+        })
+    }
+}
+
+/// Fills `bodies` in order; `caloric` gives their enthalpy, and is absent where the scene has no
+/// heat. Body `i` gets the particles that follow those of the bodies before it.
+///
+/// # Errors
+/// A fault at the temperature of the body that does not fit the metal.
+pub fn fill(
+    state: &mut State,
+    bodies: &[Body],
+    caloric: Option<&Caloric>,
+) -> Result<Vec<Filled>, Fault> {
+    let d = state.metal.spacing;
+    let mut occupied = Occupied {
+        edge: CLEARANCE * d,
+        cells: HashMap::new(),
+    };
+    let mut filled = Vec::with_capacity(bodies.len());
+    for (i, body) in bodies.iter().enumerate() {
+        let points = body_points(body, d);
+        let (kept, crowded): (Vec<_>, Vec<_>) =
+            points.into_iter().partition(|p| !occupied.near(*p));
+        for &position in &kept {
+            let (temperature, enthalpy) = warmth(body, position, caloric)
+                .map_err(|what| Fault::at(&format!("/bodies/{i}/temperature_k"), what))?;
+            state.push(Particle {
+                position,
+                velocity: body.velocity,
+                phase: body.phase,
+                droplet: false,
+                wall: body.wall,
+                temperature,
+                enthalpy,
+            });
+        }
+        kept.iter().for_each(|p| occupied.insert(*p));
+        filled.push(Filled {
+            placed: kept.len(),
+            left_out: crowded.len(),
+        });
+    }
+    Ok(filled)
+}
+
+/// Temperature \[K\] and specific enthalpy \[J/kg\] of a body at a place.
+fn warmth(
+    body: &Body,
+    position: [f64; 3],
+    caloric: Option<&Caloric>,
+) -> Result<(f64, f64), String> {
+    let temperature = body
+        .temperature
+        .value(&Arguments::at(position, 0.0))
+        .map_err(|e| e.to_string())?;
+    let Some(caloric) = caloric else {
+        return Ok((temperature, 0.0));
+    };
+    if !caloric.covers(temperature) {
+        let (from, to) = caloric.range();
+        return Err(format!(
+            "{temperature} K at ({}, {}, {}) m is outside of the properties, {from} K to {to} K",
+            position[0], position[1], position[2]
+        ));
+    }
+    let enthalpy = caloric.enthalpy(temperature);
+    let liquid = body.phase == Phase::Liquid;
+    match caloric.melting_point().filter(|_| !body.wall) {
+        Some(point) if liquid != caloric.is_liquid(enthalpy) => Err(format!(
+            "{temperature} K does not fit a {} body that melts at {point} K",
+            if liquid { "liquid" } else { "solid" }
+        )),
+        _ => Ok((temperature, enthalpy)),
+    }
+}
+
+/// Lattice points of a body with its cuts made.
+fn body_points(body: &Body, d: f64) -> Vec<[f64; 3]> {
+    let mut points = body.shape.points(d, body.lattice);
+    for cut in &body.cuts {
+        let length = cut.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+        points.retain(|p| {
+            let beyond: f64 = (0..3).map(|k| (p[k] - cut.point[k]) * cut.normal[k]).sum();
+            // A point on the plane is kept, whatever the rounding.
+            beyond <= 1e-9 * d * length
+        });
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::domain::shape::{BoxShape, Container, Face, Sphere};
+    use crate::state::{Column, Metal};
+
+    const D: f64 = 1e-3;
+
+    fn empty() -> State {
+        let metal = Metal {
+            density: 7850.0,
+            spacing: D,
+            smoothing_length: D,
+        };
+        State::new(metal, vec![Column::Temperature, Column::Enthalpy])
+    }
+
+    fn body(shape: Shape, phase: Phase) -> Body {
+        Body {
+            shape,
+            lattice: None,
+            cuts: Vec::new(),
+            phase,
+            wall: false,
+            velocity: [0.0; 3],
+            temperature: Curve::Constant(300.0),
+            held: None,
+        }
+    }
+
+    /// 500 J/(kg K); with a melting point, 1 J/kg of latent heat.
+    fn plain(melting_point: Option<f64>) -> Caloric {
+        let text = match melting_point {
+            None => String::new(),
+            Some(t) => format!(r#","melting":{{"point_k":{t},"latent_heat_j_kg":1}}"#),
+        };
+        let text =
+            format!(r#"{{"thermal_conductivity_w_m_k":30,"specific_heat_j_kg_k":500{text}}}"#);
+        let heat: crate::heat::Parameters = serde_json::from_str(&text).unwrap();
+        heat.caloric().unwrap().as_ref().clone()
+    }
+
+    fn cube(edge: f64) -> Shape {
+        Shape::Box(BoxShape {
+            min_m: [0.0; 3],
+            max_m: [edge; 3],
+        })
+    }
+
+    fn put(state: &mut State, bodies: &[Body]) -> Vec<Filled> {
+        fill(state, bodies, Some(&plain(None))).unwrap()
+    }
+
+    #[test]
+    fn a_later_body_keeps_its_distance() {
+        let mut state = empty();
+        let mut ball = body(
+            Shape::Sphere(Sphere {
+                centre_m: [10.4 * D, 5.0 * D, 5.0 * D],
+                radius_m: 3.0 * D,
+            }),
+            Phase::Liquid,
+        );
+        ball.lattice = Some([0.17 * D; 3]);
+        let filled = put(&mut state, &[body(cube(10.0 * D), Phase::Solid), ball]);
+        assert_eq!(filled[0].placed, 1000);
+        assert!(filled[1].placed > 0 && filled[1].left_out > 0);
+        for a in 1000..state.len() {
+            for b in 0..1000 {
+                let (p, q) = (state.position[a], state.position[b]);
+                let square: f64 = (0..3).map(|k| (p[k] - q[k]).powi(2)).sum();
+                assert!(square.sqrt() >= CLEARANCE * D);
+            }
+        }
+        assert_eq!(state.liquid(), filled[1].placed);
+    }
+
+    #[test]
+    fn a_full_tank_leaves_no_gap_and_no_overlap() {
+        let mut state = empty();
+        let tank = Container {
+            min_m: [0.0; 3],
+            max_m: [6.0 * D; 3],
+            thickness_m: 2.0 * D,
+            open: vec![Face::ZHigh],
+        };
+        let mut wall = body(Shape::Container(tank), Phase::Solid);
+        wall.wall = true;
+        let filled = put(&mut state, &[wall, body(cube(6.0 * D), Phase::Liquid)]);
+        assert_eq!(
+            filled[1],
+            Filled {
+                placed: 216,
+                left_out: 0
+            }
+        );
+        assert_eq!(state.len(), 10 * 10 * 8);
+        assert_eq!(state.wall.iter().filter(|w| **w).count(), 584);
+    }
+
+    #[test]
+    fn cuts_and_temperatures_follow_the_scene() {
+        let mut state = empty();
+        let mut wedge = body(cube(10.0 * D), Phase::Solid);
+        wedge.cuts.push(Cut {
+            point: [5.0 * D; 3],
+            normal: [2.0, 0.0, 2.0],
+        });
+        let warm: run::property::Property =
+            serde_json::from_value(serde_json::json!({"expr": "300 + 1000*x"})).unwrap();
+        wedge.temperature = warm.compile("", &["x", "y", "z", "r"]).unwrap();
+        put(&mut state, &[wedge]);
+        assert_eq!(state.len(), 10 * 55);
+        let first = state.enthalpy[0];
+        for (p, (t, h)) in state
+            .position
+            .iter()
+            .zip(state.temperature.iter().zip(&state.enthalpy))
+        {
+            assert!(p[0] + p[2] <= 10.0 * D * (1.0 + 1e-12));
+            assert!((t - 300.0 - 1000.0 * p[0]).abs() < 1e-12);
+            assert!((h - first - 500.0 * (t - state.temperature[0])).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_body_must_be_as_warm_as_its_state_says() {
+        let steel = plain(Some(1750.0));
+        let refused = |phase, kelvin| {
+            let mut cold = body(cube(2.0 * D), phase);
+            cold.temperature = Curve::Constant(kelvin);
+            fill(&mut empty(), &[cold], Some(&steel)).map_err(|fault| fault.path().to_owned())
+        };
+        let path = "/bodies/0/temperature_k".to_owned();
+        assert_eq!(refused(Phase::Liquid, 1700.0), Err(path.clone()));
+        assert_eq!(refused(Phase::Solid, 1800.0), Err(path));
+        assert!(refused(Phase::Liquid, 1800.0).is_ok() && refused(Phase::Solid, 1700.0).is_ok());
+    }
+}

@@ -1,0 +1,4 @@
+//! What fills the domain: bodies at the start, droplets during the run.
+
+pub mod bodies;
+pub mod shape;

@@ -1,0 +1,323 @@
+//! Shapes of bodies, and the lattice points that fill them.
+//!
+//! A lattice point stands at `anchor + (i + 1/2) d`. A box whose edges are whole multiples of d is
+//! filled exactly: as many particles as its volume over d^3, the outer ones d/2 inside its faces.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A box along the axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxShape {
+    /// Lower corner \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub min_m: [f64; 3],
+    /// Upper corner \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub max_m: [f64; 3],
+}
+
+/// A coordinate axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// Across the weld.
+    X,
+    /// Along the weld.
+    Y,
+    /// Upwards.
+    Z,
+}
+
+/// A round bar along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cylinder {
+    /// Centre of the bar \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub centre_m: [f64; 3],
+    /// Direction of the bar.
+    pub axis: Axis,
+    /// Radius \[m\].
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+    /// Length \[m\].
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub length_m: f64,
+}
+
+/// A ball.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sphere {
+    /// Centre \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub centre_m: [f64; 3],
+    /// Radius \[m\].
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+}
+
+/// A face of a box by its outward direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Face {
+    /// Towards smaller x.
+    #[serde(rename = "x-")]
+    XLow,
+    /// Towards greater x.
+    #[serde(rename = "x+")]
+    XHigh,
+    /// Towards smaller y.
+    #[serde(rename = "y-")]
+    YLow,
+    /// Towards greater y.
+    #[serde(rename = "y+")]
+    YHigh,
+    /// Towards smaller z.
+    #[serde(rename = "z-")]
+    ZLow,
+    /// Towards greater z.
+    #[serde(rename = "z+")]
+    ZHigh,
+}
+
+impl Face {
+    /// Axis (0, 1, 2) and whether it is the upper side.
+    fn side(self) -> (usize, bool) {
+        match self {
+            Self::XLow => (0, false),
+            Self::XHigh => (0, true),
+            Self::YLow => (1, false),
+            Self::YHigh => (1, true),
+            Self::ZLow => (2, false),
+            Self::ZHigh => (2, true),
+        }
+    }
+}
+
+/// Walls outside of an inner box.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Container {
+    /// Lower corner of the hollow \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub min_m: [f64; 3],
+    /// Upper corner of the hollow \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub max_m: [f64; 3],
+    /// Thickness of the walls \[m\]; at least the support of the kernel makes them tight.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub thickness_m: f64,
+    /// Sides without a wall.
+    #[serde(default)]
+    pub open: Vec<Face>,
+}
+
+/// What a body looks like.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// A box along the axes.
+    Box(BoxShape),
+    /// A round bar.
+    Cylinder(Cylinder),
+    /// A ball.
+    Sphere(Sphere),
+    /// Walls around a box.
+    Container(Container),
+}
+
+impl Shape {
+    /// Lower and upper corner of the box around the shape \[m\].
+    #[must_use]
+    pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+        match self {
+            Self::Box(b) => (b.min_m, b.max_m),
+            Self::Cylinder(c) => around(c.centre_m, cylinder_half(c)),
+            Self::Sphere(s) => around(s.centre_m, [s.radius_m; 3]),
+            Self::Container(c) => {
+                let (mut low, mut high) = (c.min_m, c.max_m);
+                for axis in 0..3 {
+                    let walls = walls(c, axis);
+                    low[axis] -= if walls[0] { c.thickness_m } else { 0.0 };
+                    high[axis] += if walls[1] { c.thickness_m } else { 0.0 };
+                }
+                (low, high)
+            }
+        }
+    }
+
+    /// Lattice points of spacing `d` \[m\] within the shape, x fastest; `anchor` defaults to the
+    /// lower corner of the box around it.
+    #[must_use]
+    pub fn points(&self, d: f64, anchor: Option<[f64; 3]>) -> Vec<[f64; 3]> {
+        if let Self::Container(c) = self {
+            return container_points(c, d);
+        }
+        let (low, high) = self.bounds();
+        let anchor = anchor.unwrap_or(low);
+        let axes = [0, 1, 2].map(|k| lattice(anchor[k], low[k], high[k], d));
+        let mut points = product(&axes);
+        points.retain(|p| self.holds(*p));
+        points
+    }
+
+    fn holds(&self, p: [f64; 3]) -> bool {
+        match self {
+            Self::Box(_) | Self::Container(_) => true,
+            Self::Cylinder(c) => {
+                let along = axis_index(c.axis);
+                let square: f64 = (0..3)
+                    .filter(|k| *k != along)
+                    .map(|k| (p[k] - c.centre_m[k]).powi(2))
+                    .sum();
+                square <= c.radius_m * c.radius_m
+            }
+            Self::Sphere(s) => {
+                let square: f64 = (0..3).map(|k| (p[k] - s.centre_m[k]).powi(2)).sum();
+                square <= s.radius_m * s.radius_m
+            }
+        }
+    }
+}
+
+fn axis_index(axis: Axis) -> usize {
+    match axis {
+        Axis::X => 0,
+        Axis::Y => 1,
+        Axis::Z => 2,
+    }
+}
+
+fn cylinder_half(c: &Cylinder) -> [f64; 3] {
+    let mut half = [c.radius_m; 3];
+    half[axis_index(c.axis)] = 0.5 * c.length_m;
+    half
+}
+
+fn around(centre: [f64; 3], half: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+    (
+        [0, 1, 2].map(|k| centre[k] - half[k]),
+        [0, 1, 2].map(|k| centre[k] + half[k]),
+    )
+}
+
+/// Coordinates `anchor + (i + 1/2) d` within `low..high`.
+fn lattice(anchor: f64, low: f64, high: f64, d: f64) -> Vec<f64> {
+    // A billionth of d decides for a point on a face, so that rounding does not.
+    let slack = 1e-9;
+    let first = ((low - anchor) / d - 0.5 - slack).ceil() as i64;
+    let end = ((high - anchor) / d - 0.5 - slack).ceil() as i64;
+    (first..end)
+        .map(|i| anchor + (i as f64 + 0.5) * d)
+        .collect()
+}
+
+/// All combinations, x fastest.
+fn product(axes: &[Vec<f64>; 3]) -> Vec<[f64; 3]> {
+    let mut points = Vec::with_capacity(axes.iter().map(Vec::len).product());
+    for &z in &axes[2] {
+        for &y in &axes[1] {
+            points.extend(axes[0].iter().map(|&x| [x, y, z]));
+        }
+    }
+    points
+}
+
+/// Whether the lower and the upper side of an axis have a wall.
+fn walls(c: &Container, axis: usize) -> [bool; 2] {
+    [false, true].map(|upper| !c.open.iter().any(|face| face.side() == (axis, upper)))
+}
+
+/// Layers of the walls stand from the faces of the hollow outwards, so that the hollow has the size
+/// asked for even where that is no multiple of d.
+fn container_points(c: &Container, d: f64) -> Vec<[f64; 3]> {
+    let layers = (c.thickness_m / d - 1e-9).ceil() as usize;
+    let inner = [0, 1, 2].map(|k| lattice(c.min_m[k], c.min_m[k], c.max_m[k], d));
+    let outer = [0, 1, 2].map(|k| {
+        let [lower, upper] = walls(c, k).map(|wall| if wall { layers } else { 0 });
+        let below = (0..lower).rev().map(|i| c.min_m[k] - (i as f64 + 0.5) * d);
+        let above = (0..upper).map(|i| c.max_m[k] + (i as f64 + 0.5) * d);
+        below.chain(inner[k].iter().copied()).chain(above).collect()
+    });
+    let mut points = product(&outer);
+    points.retain(|p| (0..3).any(|k| p[k] < c.min_m[k] || p[k] > c.max_m[k]));
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    const D: f64 = 0.5e-3;
+
+    #[test]
+    fn the_plate_of_the_thesis_has_its_52000_particles() {
+        let plate = Shape::Box(BoxShape {
+            min_m: [-10e-3, 0.0, -5e-3],
+            max_m: [10e-3, 65e-3, 0.0],
+        });
+        let points = plate.points(D, None);
+        assert_eq!(points.len(), 52_000);
+        let top = points.iter().fold(f64::MIN, |m, p| m.max(p[2]));
+        assert!((top + 0.5 * D).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_anchor_shifts_the_lattice() {
+        let shape = Shape::Box(BoxShape {
+            min_m: [0.0; 3],
+            max_m: [4.0 * D; 3],
+        });
+        let shifted = shape.points(D, Some([0.25 * D; 3]));
+        assert_eq!(shifted.len(), 64);
+        assert!((shifted[0][0] - 0.75 * D).abs() < 1e-15);
+    }
+
+    #[test]
+    fn round_bodies_fill_their_volume() {
+        let (radius, length) = (10.0 * D, 20.0 * D);
+        let sphere = Shape::Sphere(Sphere {
+            centre_m: [1e-3, 2e-3, 3e-3],
+            radius_m: radius,
+        });
+        let volume = sphere.points(D, None).len() as f64 * D.powi(3);
+        let exact = 4.0 / 3.0 * PI * radius.powi(3);
+        assert!((volume / exact - 1.0).abs() < 0.02, "{}", volume / exact);
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let bar = Shape::Cylinder(Cylinder {
+                centre_m: [0.0; 3],
+                axis,
+                radius_m: radius,
+                length_m: length,
+            });
+            let volume = bar.points(D, None).len() as f64 * D.powi(3);
+            let exact = PI * radius * radius * length;
+            assert!((volume / exact - 1.0).abs() < 0.02, "{}", volume / exact);
+        }
+    }
+
+    #[test]
+    fn walls_stand_outside_of_the_hollow() {
+        let container = |open| {
+            Shape::Container(Container {
+                min_m: [0.0; 3],
+                max_m: [4.0 * D, 5.0 * D, 6.3 * D],
+                thickness_m: 2.0 * D,
+                open,
+            })
+        };
+        let closed = container(vec![]).points(D, None);
+        assert_eq!(closed.len(), 8 * 9 * 10 - 4 * 5 * 6);
+        let open = container(vec![Face::ZHigh]).points(D, None);
+        assert_eq!(open.len(), 8 * 9 * 8 - 4 * 5 * 6);
+        for p in &closed {
+            assert!((0..3).any(|k| {
+                let high = [4.0 * D, 5.0 * D, 6.3 * D][k];
+                p[k] < -0.49 * D || p[k] > high + 0.49 * D
+            }));
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! What is written of the particles: frames with a column for each physics that is active.
+
+use artefact::{Frame, Precision};
+use run::{Failure, Session};
+use serde::Serialize;
+
+use crate::scene::{FloatWidth, PoolOutput};
+use crate::state::{Column, Phase, State};
+
+/// JSON Schema of `/source`.
+const SOURCE_SCHEMA: &str = r#"{"type":"object","title":"Place of the heat source and phase of the droplet period","properties":{"time_s":{"type":"number"},"x_m":{"type":"number"},"y_m":{"type":"number"},"z_m":{"type":"number"},"phase":{"type":"number","minimum":0,"maximum":1},"droplet":{"type":"integer"}}}"#;
+
+/// JSON Schema of `/plate`.
+const PLATE_SCHEMA: &str = r#"{"type":"object","title":"The base metal and its particles","properties":{"min_m":{"type":"array","items":{"type":"number"}},"max_m":{"type":"array","items":{"type":"number"}},"spacing_m":{"type":"number"},"particle_volume_m3":{"type":"number"},"melting_point_k":{"type":"number"},"direction":{"type":"array","items":{"type":"number"}}}}"#;
+
+/// Place of the heat source at the time of a frame, as `/source` tells it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SourceNote {
+    /// Simulated time \[s\].
+    pub time_s: f64,
+    /// x of the axis \[m\].
+    pub x_m: f64,
+    /// y of the axis \[m\].
+    pub y_m: f64,
+    /// z of the surface that the arc stands on \[m\].
+    pub z_m: f64,
+    /// Phase of the droplet period, 0 at the birth of a droplet.
+    pub phase: f64,
+    /// Number of droplets born.
+    pub droplet: u64,
+}
+
+/// The base metal, as `/plate` tells it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlateNote {
+    /// Lower corner of the first solid body \[m\].
+    pub min_m: [f64; 3],
+    /// Upper corner \[m\].
+    pub max_m: [f64; 3],
+    /// d \[m\].
+    pub spacing_m: f64,
+    /// d^3 \[m3\].
+    pub particle_volume_m3: f64,
+    /// T_m \[K\], if the metal melts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub melting_point_k: Option<f64>,
+    /// Direction in which the source moves.
+    pub direction: [f64; 3],
+}
+
+/// Which columns the frames of a run have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    /// Width of the floats.
+    pub width: FloatWidth,
+    /// Frames have a column `wall`.
+    pub walls: bool,
+    /// Frames have a column `surface`.
+    pub surface: bool,
+}
+
+impl Layout {
+    /// The particles `ids` as a frame.
+    #[must_use]
+    pub fn frame(&self, state: &State, ids: &[usize]) -> Frame {
+        let precision = match self.width {
+            FloatWidth::F32 => Precision::F32,
+            FloatWidth::F64 => Precision::F64,
+        };
+        let moving = |a: &usize| match state.phase[*a] {
+            Phase::Liquid | Phase::Flying => state.velocity[*a],
+            Phase::Solid => [0.0; 3],
+        };
+        let mut frame = Frame::new(precision)
+            .positions(ids.iter().map(|a| state.position[*a]))
+            .vector("velocity", "m/s", ids.iter().map(moving));
+        if state.has(Column::Temperature) {
+            let temperature = ids.iter().map(|a| state.temperature[*a]);
+            frame = frame.scalar("temperature", "K", temperature);
+        }
+        if state.has(Column::Pressure) {
+            frame = frame.scalar("pressure", "Pa", ids.iter().map(|a| state.pressure[*a]));
+        }
+        let liquid = |a: &usize| u8::from(state.phase[*a] != Phase::Solid);
+        frame = frame
+            .flag("molten", ids.iter().map(liquid))
+            .flag("fused", ids.iter().map(|a| u8::from(state.fused[*a])))
+            .flag("droplet", ids.iter().map(|a| u8::from(state.droplet[*a])));
+        if self.walls {
+            frame = frame.flag("wall", ids.iter().map(|a| u8::from(state.wall[*a])));
+        }
+        frame.id("id", ids.iter().map(|a| *a as u32))
+    }
+
+    /// Writes all particles to `/particles`.
+    ///
+    /// # Errors
+    /// When the disk refuses or a value is not finite.
+    pub fn particles(&self, state: &State, session: &mut Session) -> Result<(), Failure> {
+        let ids: Vec<usize> = (0..state.len()).collect();
+        session.frame("/particles", state.time, &self.frame(state, &ids))
+    }
+
+    /// Writes the particles around the source at `centre` \[m\] to `/pool`.
+    ///
+    /// # Errors
+    /// As [`Layout::particles`].
+    pub fn pool(
+        &self,
+        state: &State,
+        pool: &PoolOutput,
+        centre: [f64; 3],
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        let inside = |a: &usize| {
+            let [x, y, _] = state.position[*a];
+            let ahead = y - centre[1];
+            (x - centre[0]).abs() <= pool.beside_m
+                && ahead <= pool.ahead_m
+                && ahead >= -pool.behind_m
+        };
+        let ids: Vec<usize> = (0..state.len()).filter(inside).collect();
+        session.frame("/pool", state.time, &self.frame(state, &ids))
+    }
+}
+
+/// Writes `/source`.
+///
+/// # Errors
+/// When the disk refuses.
+pub fn source(note: &SourceNote, session: &mut Session) -> Result<(), Failure> {
+    let schema = ("poolsph.source.v1", SOURCE_SCHEMA);
+    session.json("/source", note.time_s, schema, note)
+}
+
+/// Writes `/plate`.
+///
+/// # Errors
+/// When the disk refuses.
+pub fn plate(note: &PlateNote, session: &mut Session) -> Result<(), Failure> {
+    session.json("/plate", 0.0, ("poolsph.plate.v1", PLATE_SCHEMA), note)
+}

@@ -1,0 +1,146 @@
+//! Bodies in a scene.
+
+use run::property::Property;
+use run::scene::Fault;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::domain::bodies::{Body, Cut};
+use crate::domain::shape::Shape;
+use crate::state::Phase;
+
+/// What a body is at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StartState {
+    /// Rests until it melts.
+    Solid,
+    /// Moves.
+    Liquid,
+    /// Rests and never melts.
+    Wall,
+}
+
+/// A plane that cuts a body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutScene {
+    /// A point of the plane \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub point_m: [f64; 3],
+    /// Direction of what is cut off: kept is where (x - point) . normal <= 0.
+    pub normal: [f64; 3],
+}
+
+/// A shape filled with particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodyScene {
+    /// What it looks like.
+    pub shape: Shape,
+    /// Solid, liquid or wall.
+    pub state: StartState,
+    /// u at the start \[m/s\]; rest if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub velocity_m_s: Option<[f64; 3]>,
+    /// T at the start \[K\], a number or a formula in x, y, z, r; needed where the scene has heat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "K"))]
+    pub temperature_k: Option<Property>,
+    /// T that it keeps \[K\], a number or a formula in x, y, z, r, t: a boundary value. Free if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "K"))]
+    pub held_temperature_k: Option<Property>,
+    /// Planes that cut it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cuts: Vec<CutScene>,
+    /// Origin of its lattice \[m\]: points at origin + (i + 1/2) d. The lower corner of the box
+    /// around the shape if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m"))]
+    pub lattice_m: Option<[f64; 3]>,
+}
+
+impl BodyScene {
+    /// The body, checked; `at` is its JSON pointer, `heat` whether it needs a temperature.
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn body(&self, at: &str, heat: bool) -> Result<Body, Fault> {
+        self.check(at)?;
+        let temperature = match (&self.temperature_k, heat) {
+            (Some(property), _) => {
+                property.compile(&format!("{at}/temperature_k"), &["x", "y", "z", "r"])?
+            }
+            (None, false) => run::property::Curve::Constant(0.0),
+            (None, true) => {
+                let what = "has no key 'temperature_k' in K, which a scene with heat needs";
+                return Err(Fault::at(at, what));
+            }
+        };
+        let held = match (&self.held_temperature_k, heat) {
+            (None, _) => None,
+            (Some(property), true) => {
+                let at = format!("{at}/held_temperature_k");
+                Some(property.compile(&at, &["x", "y", "z", "r", "t"])?)
+            }
+            (Some(_), false) => {
+                let at = format!("{at}/held_temperature_k");
+                return Err(Fault::at(&at, "means nothing without the key 'heat'"));
+            }
+        };
+        let cut = |c: &CutScene| Cut {
+            point: c.point_m,
+            normal: c.normal,
+        };
+        Ok(Body {
+            shape: self.shape.clone(),
+            lattice: self.lattice_m,
+            cuts: self.cuts.iter().map(cut).collect(),
+            phase: match self.state {
+                StartState::Liquid => Phase::Liquid,
+                StartState::Solid | StartState::Wall => Phase::Solid,
+            },
+            wall: self.state == StartState::Wall,
+            velocity: self.velocity_m_s.unwrap_or_default(),
+            temperature,
+            held,
+        })
+    }
+
+    fn check(&self, at: &str) -> Result<(), Fault> {
+        let (low, high) = self.shape.bounds();
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            if high[k] <= low[k] {
+                let what = format!(
+                    "its upper corner in {axis}, {} m, is not above the lower, {} m",
+                    high[k], low[k]
+                );
+                return Err(Fault::at(&format!("{at}/shape"), what));
+            }
+        }
+        if matches!(self.shape, Shape::Container(_)) && self.state != StartState::Wall {
+            let what = "a container is made of walls: its state must be \"wall\"";
+            return Err(Fault::at(&format!("{at}/state"), what));
+        }
+        let moves = self
+            .velocity_m_s
+            .is_some_and(|v| v.iter().any(|u| *u != 0.0));
+        if moves && self.state != StartState::Liquid {
+            let what = "only a liquid body can have a velocity";
+            return Err(Fault::at(&format!("{at}/velocity_m_s"), what));
+        }
+        match self
+            .cuts
+            .iter()
+            .position(|c| c.normal.iter().all(|n| *n == 0.0))
+        {
+            Some(i) => Err(Fault::at(
+                &format!("{at}/cuts/{i}/normal"),
+                "has no direction: all components are zero",
+            )),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! The scene: what a person writes, typed. Optional physics is an absent key.
+
+mod body;
+mod check;
+mod output;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use body::{BodyScene, CutScene, StartState};
+pub use check::faults;
+pub use output::{FloatWidth, Output, PoolOutput, due};
+
+use crate::state::Metal;
+use crate::{heat, motion};
+
+/// Kind and version of the scenes that this tool reads.
+pub const KIND: (&str, u32) = ("poolsph.scene", 1);
+
+/// A weld pool, or any part of its physics.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// What it shows, in a line.
+    #[serde(default)]
+    pub title: String,
+    /// Particle diameter d = spacing of the lattice \[m\].
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub spacing_m: f64,
+    /// h of the kernel, whose support is 2h \[m\]; d if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub smoothing_length_m: Option<f64>,
+    /// Step and end.
+    pub time: Time,
+    /// rho of the metal \[kg/m3\].
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
+    pub density_kg_m3: f64,
+    /// What is there at the start, in order: a later body gives way to an earlier one.
+    #[schemars(length(min = 1))]
+    pub bodies: Vec<BodyScene>,
+    /// Motion of the liquid; absent: nothing moves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<motion::Parameters>,
+    /// When the liquid begins to move; absent: at once.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flow_start: Option<heat::FlowStart>,
+    /// Heat conduction and melting; absent: temperatures are of no account.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<heat::Parameters>,
+    /// What is written, and when.
+    pub output: Output,
+}
+
+/// Step and end of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// Step dt \[s\]; a stage that cannot take it whole divides it within itself.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub step_s: f64,
+    /// End of the run \[s\].
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub end_s: f64,
+}
+
+impl Scene {
+    /// The metal with its lattice.
+    #[must_use]
+    pub fn metal(&self) -> Metal {
+        Metal {
+            density: self.density_kg_m3,
+            spacing: self.spacing_m,
+            smoothing_length: self.smoothing_length_m.unwrap_or(self.spacing_m),
+        }
+    }
+
+    /// Number of steps: the end, to the nearest whole step.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        (self.time.end_s / self.time.step_s).round() as u64
+    }
+}

@@ -1,0 +1,78 @@
+//! What a run writes, and when.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Width of the floats of frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FloatWidth {
+    /// 4 bytes.
+    #[default]
+    F32,
+    /// 8 bytes.
+    F64,
+}
+
+/// Frames and series. A frame stands at the step nearest to its time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// All particles this often \[s\], from the start to the end.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub particles_interval_s: f64,
+    /// Masses, momentum and energies this often \[s\]; as often as the particles if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub balance_interval_s: Option<f64>,
+    /// Width of the floats.
+    #[serde(default)]
+    pub precision: FloatWidth,
+    /// Frequent frames around the moving source, for averages; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pool: Option<PoolOutput>,
+}
+
+/// Frequent frames of the particles in a box that moves with the source; all heights.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PoolOutput {
+    /// First frame not before \[s\].
+    #[schemars(range(min = 0.0), extend("x-unit" = "s"))]
+    pub from_s: f64,
+    /// This often \[s\].
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub interval_s: f64,
+    /// Half width of the box across the weld \[m\].
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub beside_m: f64,
+    /// Reach of the box behind the source \[m\].
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub behind_m: f64,
+    /// Reach of the box ahead of the source \[m\].
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub ahead_m: f64,
+}
+
+/// Whether something that is due every `interval` \[s\] is due at `step` of length `dt` \[s\]: at
+/// the step nearest to each of its times.
+#[must_use]
+pub fn due(step: u64, dt: f64, interval: f64) -> bool {
+    let turn = (step as f64 * dt / interval).round();
+    // Half a step rounds up, whatever the rounding of the quotient.
+    (turn * interval / dt + 0.5 + 1e-6).floor() as u64 == step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eight_frames_in_each_hundred_steps() {
+        let steps: Vec<u64> = (0..200).filter(|s| due(*s, 1e-4, 1.25e-3)).collect();
+        assert_eq!(steps[..8], [0, 13, 25, 38, 50, 63, 75, 88]);
+        assert_eq!(steps[8..], [100, 113, 125, 138, 150, 163, 175, 188]);
+        assert_eq!((0..=100_000).filter(|s| due(*s, 1e-4, 0.1)).count(), 101);
+        assert_eq!((0..10).filter(|s| due(*s, 1e-4, 1e-5)).count(), 10);
+    }
+}

@@ -1,0 +1,246 @@
+//! A run from the first step to the last: what is written when, and what stops it.
+
+use run::{Failure, Fault, Inputs, Plan, Session};
+
+use crate::assemble::{Assembled, assemble};
+use crate::balance::{Balance, Start};
+use crate::frames::{self, SourceNote};
+use crate::resume;
+use crate::scene::{Scene, due};
+use crate::stage::{Figure, StageError};
+use crate::state::State;
+
+/// All numbers of the state are looked at once in so many steps, and before anything is kept.
+const WATCH_STEPS: u64 = 20;
+
+/// What is done before a run, and told by `check`.
+///
+/// # Errors
+/// Every fault of the scene; an input that cannot be read.
+pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
+    let assembled = assemble(scene, inputs)?;
+    let state = &assembled.state;
+    let mut plan = Plan::new()
+        .count("particles", state.len() as u64)
+        .count("liquid at the start", state.liquid() as u64)
+        .count("steps", scene.steps());
+    for (i, filled) in assembled.filled.iter().enumerate() {
+        plan = plan.count(&format!("particles of body {i}"), filled.placed as u64);
+        if filled.left_out > 0 {
+            let left_out = filled.left_out as u64;
+            plan = plan.count(&format!("left out of body {i}"), left_out);
+        }
+        if filled.placed == 0 {
+            let what = "holds no particle: too thin for the spacing, cut away, or in another body";
+            return Err(Fault::at(&format!("/bodies/{i}"), what).into());
+        }
+    }
+    for stage in assembled.march.stages() {
+        plan = plan.stage(stage.name());
+        if let Some(limit) = stage.dt_limit(state) {
+            plan = plan.limit(&format!("step_{}", limit.name), limit.seconds, "s");
+        }
+    }
+    for column in assembled.layout.frame(state, &[]).columns() {
+        plan = plan.column(&column.name, &column.unit);
+    }
+    for (name, bytes) in state.memory() {
+        plan = plan.memory(name, bytes as u64);
+    }
+    for (name, why) in &assembled.left_out {
+        plan = plan.left_out(name, why);
+    }
+    Ok(plan)
+}
+
+/// Runs the scene.
+///
+/// # Errors
+/// Divergence, a table that ends, the disk, the user.
+pub fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
+    let assembled = assemble(scene, inputs)?;
+    let mut simulation = Simulation::begin(scene, assembled, session)?;
+    while simulation.run.state.step < scene.steps() {
+        simulation.step(session)?;
+    }
+    simulation.close(session);
+    Ok(())
+}
+
+/// A run under way.
+struct Simulation<'a> {
+    scene: &'a Scene,
+    run: Assembled,
+    start: Start,
+}
+
+impl<'a> Simulation<'a> {
+    /// Starts afresh, or where the checkpoint stands.
+    fn begin(scene: &'a Scene, mut run: Assembled, session: &mut Session) -> Result<Self, Failure> {
+        if let Some(mut checkpoint) = session.restored() {
+            let (state, march) = (&mut run.state, &mut run.march);
+            let start = resume::restore(&mut checkpoint, state, march, scene.time.step_s)?;
+            return Ok(Self { scene, run, start });
+        }
+        let start = Balance::of(&run.state, &run.march.figures()).start();
+        frames::plate(&run.plate, session)?;
+        let mut simulation = Self { scene, run, start };
+        simulation.write(session)?;
+        Ok(simulation)
+    }
+
+    fn step(&mut self, session: &mut Session) -> Result<(), Failure> {
+        let Assembled { march, state, .. } = &mut self.run;
+        let stepped = march
+            .step(state, |name, work| session.timed(name, work))
+            .map_err(|e| failure(e, state.time))?;
+        if let Some(limit) = stepped.limit {
+            if limit.seconds < stepped.dt {
+                session.substepped();
+            }
+            session.limit(&format!("step_{}", limit.name), limit.seconds, "s");
+        }
+        if state.step.is_multiple_of(WATCH_STEPS) {
+            watch(state)?;
+        }
+        self.write(session)?;
+        let (state, march, start) = (&self.run.state, &self.run.march, self.start);
+        session.progress(state.step, self.scene.steps(), || {
+            status(state, &march.figures())
+        });
+        session.keep(|checkpoint| resume::save(checkpoint, state, march, start))
+    }
+
+    /// Writes all that is due at the present step.
+    fn write(&mut self, session: &mut Session) -> Result<(), Failure> {
+        let Assembled {
+            march,
+            state,
+            layout,
+            ..
+        } = &self.run;
+        let output = &self.scene.output;
+        let is_due = |interval: f64| due(state.step, self.scene.time.step_s, interval);
+        let particles = is_due(output.particles_interval_s);
+        let centre = source(state);
+        let pool = output.pool.as_ref().filter(|pool| {
+            centre.is_some() && state.time >= pool.from_s - 1e-9 && is_due(pool.interval_s)
+        });
+        let balance = is_due(
+            output
+                .balance_interval_s
+                .unwrap_or(output.particles_interval_s),
+        );
+        if !(particles || pool.is_some() || balance) {
+            return Ok(());
+        }
+        watch(state)?;
+        if let Some(note) = centre.filter(|_| particles || pool.is_some()) {
+            frames::source(&note, session)?;
+        }
+        if particles {
+            layout.particles(state, session)?;
+        }
+        if let (Some(pool), Some(note)) = (pool, centre) {
+            layout.pool(state, pool, [note.x_m, note.y_m, note.z_m], session)?;
+        }
+        if balance {
+            let figures = march.figures();
+            let totals = Balance::of(state, &figures);
+            session.record("/balance", state.time, &totals.record(self.start))?;
+            for (stage, figure) in figures.iter().filter(|(_, f)| f.unit != "J") {
+                let name = format!("{stage}_{}", figure.name);
+                session.history(&name, figure.unit, state.time, figure.value);
+            }
+        }
+        Ok(())
+    }
+
+    /// Totals and memory for the record.
+    fn close(&self, session: &mut Session) {
+        let Assembled { march, state, .. } = &self.run;
+        let totals = Balance::of(state, &march.figures());
+        for (name, unit, value) in totals.closing(self.start) {
+            session.closing(name, unit, value);
+        }
+        for (name, bytes) in state.memory() {
+            session.memory(name, bytes as u64);
+        }
+        for stage in march.stages().filter(|stage| stage.bytes() > 0) {
+            session.memory(stage.name(), stage.bytes() as u64);
+        }
+    }
+}
+
+/// Where the source is, if the scene has one.
+fn source(_state: &State) -> Option<SourceNote> {
+    None
+}
+
+/// Numbers for the status row.
+fn status(
+    state: &State,
+    figures: &[(&'static str, Figure)],
+) -> Vec<(&'static str, f64, &'static str)> {
+    let mut row = vec![
+        ("time", state.time, "s"),
+        ("liquid", state.liquid() as f64, ""),
+    ];
+    let shown = figures.iter().filter(|(_, figure)| figure.unit != "J");
+    row.extend(shown.map(|(_, figure)| (figure.name, figure.value, figure.unit)));
+    row
+}
+
+/// Stops the run where a number is none.
+fn watch(state: &State) -> Result<(), Failure> {
+    for a in 0..state.len() {
+        let vector = |x: &[f64; 3]| x[0] + x[1] + x[2];
+        let scalar = |column: &Vec<f64>| column.get(a).copied().unwrap_or(0.0);
+        let found = [
+            ("position", "m", vector(&state.position[a])),
+            ("velocity", "m/s", vector(&state.velocity[a])),
+            ("temperature", "K", scalar(&state.temperature)),
+            ("enthalpy", "J/kg", scalar(&state.enthalpy)),
+            ("pressure", "Pa", scalar(&state.pressure)),
+        ];
+        if let Some((name, unit, value)) = found.iter().find(|(_, _, x)| !x.is_finite()) {
+            return Err(Failure::Diverged {
+                step: state.step,
+                time_s: state.time,
+                place: place(a, state.position[a]),
+                quantity: format!("{name} [{unit}]"),
+                what: format!("is {value}"),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn place(particle: usize, x: [f64; 3]) -> String {
+    format!(
+        "particle {particle} at ({:.4e}, {:.4e}, {:.4e}) m",
+        x[0], x[1], x[2]
+    )
+}
+
+/// An error of a stage as the failure of the run.
+fn failure(error: StageError, time_s: f64) -> Failure {
+    match error {
+        StageError::Diverged {
+            step,
+            particle,
+            place: at,
+            quantity,
+            value,
+            limit,
+            unit,
+        } => Failure::Diverged {
+            step,
+            time_s,
+            place: place(particle, at),
+            quantity: format!("{quantity} [{unit}]"),
+            what: format!("is {value:.4e} {unit}, beyond {limit:.4e} {unit}"),
+        },
+        StageError::Data(what) => Failure::Other(what),
+    }
+}
