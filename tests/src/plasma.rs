@@ -2,6 +2,7 @@
 
 use artefact::{Reader, Table};
 
+use crate::case::{Errors, Measurement, Target};
 use crate::lab::{Finished, LabError};
 use crate::norms;
 
@@ -35,6 +36,12 @@ impl Plasma {
     #[must_use]
     pub fn cells(&self) -> u64 {
         (self.radius.len() * self.height.len()) as u64
+    }
+
+    /// Index of cell `(i, j)` in a field.
+    #[must_use]
+    pub fn at(&self, i: usize, j: usize) -> usize {
+        i * self.height.len() + j
     }
 
     /// A field, radius by radius, height fastest.
@@ -89,4 +96,54 @@ fn centred(values: &[f64], weight: &[f64]) -> Vec<f64> {
     let total: f64 = weight.iter().sum();
     let mean = values.iter().zip(weight).map(|(v, w)| v * w).sum::<f64>() / total;
     values.iter().map(|v| v - mean).collect()
+}
+
+/// A number of the scene as it was run.
+///
+/// # Errors
+/// When the scene has no number at `path`.
+pub fn number(run: &Finished, path: &str) -> Result<f64, LabError> {
+    run.scene
+        .pointer(path)
+        .and_then(serde_json::Value::as_f64)
+        .ok_or_else(|| LabError::Content {
+            path: run.artefact.clone(),
+            what: format!("its scene has no number at {path}; the exact solution needs one there"),
+        })
+}
+
+/// A bound `max` on the error and `order` on the order of each quantity.
+#[must_use]
+pub fn targets(quantities: &[&'static str], max: f64, order: f64) -> Vec<Target> {
+    quantities
+        .iter()
+        .flat_map(|quantity| {
+            [
+                Target::Error { quantity, max },
+                Target::Order {
+                    quantity,
+                    min: order,
+                },
+            ]
+        })
+        .collect()
+}
+
+/// Puts errors and cost of a run together.
+///
+/// # Errors
+/// When the run record does not tell the wall time.
+pub fn measurement(
+    run: &Finished,
+    fields: &Plasma,
+    spacing_m: f64,
+    errors: Errors,
+) -> Result<Measurement, LabError> {
+    Ok(Measurement {
+        points: fields.cells(),
+        spacing_m,
+        steps: run.record["steps"].as_u64().unwrap_or(0),
+        run_time_s: run.wall_s()?,
+        errors,
+    })
 }

@@ -59,7 +59,10 @@ impl Layers {
         if z <= h {
             return ((k * z).sinh(), k * (k * z).cosh());
         }
-        let (value, slope) = ((k * h).sinh(), (k * h).cosh() * self.sigma[0] / self.sigma[1]);
+        let (value, slope) = (
+            (k * h).sinh(),
+            (k * h).cosh() * self.sigma[0] / self.sigma[1],
+        );
         let x = k * (z - h);
         (
             value * x.cosh() + slope * x.sinh(),

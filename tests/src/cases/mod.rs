@@ -1,9 +1,21 @@
 //! One file per exact solution.
 
+mod arc_elenbaas;
+mod arc_mms;
+mod arc_pinch;
+mod arc_poiseuille;
+mod arc_potential;
+
 use crate::case::Case;
 
 /// Every case, in the order in which `make verify` runs them.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Case>> {
-    vec![]
+    vec![
+        Box::new(arc_elenbaas::ArcElenbaas),
+        Box::new(arc_mms::ArcMms),
+        Box::new(arc_pinch::ArcPinch),
+        Box::new(arc_poiseuille::ArcPoiseuille),
+        Box::new(arc_potential::ArcPotential),
+    ]
 }
