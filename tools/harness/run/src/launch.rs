@@ -102,15 +102,13 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     let start = machine::now();
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study)?;
+    let mut session = open::<T>(run, &ready.header)?;
     if run.level() > Level::Quiet {
         head::<T>(run, &ready);
     }
-    let mut session = open::<T>(run, &ready.header)?;
     session.planned(&ready.plan);
     let ended = guarded(|| T::run(&ready.scene, &ready.inputs, &mut session));
-    session.progress.end();
-    let ledger = session.ledger();
-    let ended = ended.and_then(|()| session.finish());
+    let (ledger, ended) = session.end(ended);
     let record = RunRecord::new(
         &run.out,
         &ready.header,

@@ -59,11 +59,11 @@ mod tests {
     #[test]
     fn the_process_has_a_peak_of_memory() {
         let before = peak_memory_bytes();
-        let block = vec![1u8; 64 << 20];
+        let block = std::hint::black_box(vec![1u8; 64 << 20]);
         let after = peak_memory_bytes();
         if let (Some(before), Some(after)) = (before, after) {
             assert!(after >= before + (32 << 20), "{before} {after}");
         }
-        assert_eq!(block[block.len() - 1], 1);
+        assert_eq!(block.len(), 64 << 20);
     }
 }

@@ -149,6 +149,8 @@ pub(crate) fn bytes(bytes: u64) -> String {
 pub(crate) fn duration(seconds: f64) -> String {
     if !seconds.is_finite() {
         "-".to_owned()
+    } else if seconds < 1.0 {
+        format!("{:.0} ms", 1e3 * seconds)
     } else if seconds < 60.0 {
         format!("{seconds:.1} s")
     } else if seconds < 3600.0 {

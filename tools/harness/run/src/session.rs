@@ -328,8 +328,27 @@ impl Session {
     /// # Errors
     /// When the disk refuses.
     pub fn finish(self) -> Result<(), Failure> {
-        self.writer.finish()?;
-        remove(&self.checkpoint)
+        self.end(Ok(())).1
+    }
+
+    /// Ends the session as the stage ended; gives the ledger with all times.
+    pub(crate) fn end(self, ended: Result<(), Failure>) -> (Ledger, Result<(), Failure>) {
+        self.progress.end();
+        let start = Instant::now();
+        let mut ledger = self.ledger();
+        let Self {
+            writer,
+            checkpoint,
+            mut clock,
+            ..
+        } = self;
+        let ended = ended
+            .and_then(|()| Ok(writer.finish()?))
+            .and_then(|()| remove(&checkpoint));
+        clock.add("write", start.elapsed());
+        ledger.earlier_s += start.elapsed().as_secs_f64();
+        ledger.stages = clock.stages();
+        (ledger, ended)
     }
 }
 

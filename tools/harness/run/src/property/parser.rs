@@ -5,6 +5,9 @@
 
 use super::expression::{CONSTANTS, DEPTH, ONE, Operation, TWO, VARIABLES};
 
+/// Deepest nesting of parentheses.
+const NESTED: usize = 64;
+
 /// Compiles a formula that may use the variables in `names`; the error tells the column.
 pub(super) fn parse(text: &str, names: &[&str]) -> Result<Vec<Operation>, String> {
     let mut parser = Parser {
@@ -13,6 +16,7 @@ pub(super) fn parse(text: &str, names: &[&str]) -> Result<Vec<Operation>, String
         names,
         operations: Vec::new(),
         depth: 0,
+        nested: 0,
     };
     parser.sum()?;
     parser.skip_space();
@@ -27,7 +31,10 @@ struct Parser<'a> {
     at: usize,
     names: &'a [&'a str],
     operations: Vec<Operation>,
+    /// Values that wait for their operation.
     depth: usize,
+    /// Parentheses that are open.
+    nested: usize,
 }
 
 impl Parser<'_> {
@@ -58,15 +65,15 @@ impl Parser<'_> {
     }
 
     fn sign(&mut self) -> Result<(), String> {
-        match self.next_of("+-") {
-            Some('-') => {
-                self.sign()?;
-                self.operations.push(Operation::Negate);
-                Ok(())
-            }
-            Some(_) => self.sign(),
-            None => self.power(),
+        let mut negative = false;
+        while let Some(sign) = self.next_of("+-") {
+            negative ^= sign == '-';
         }
+        self.power()?;
+        if negative {
+            self.operations.push(Operation::Negate);
+        }
+        Ok(())
     }
 
     fn power(&mut self) -> Result<(), String> {
@@ -93,7 +100,7 @@ impl Parser<'_> {
             }
             Some('(') => {
                 self.at += 1;
-                self.sum()?;
+                self.inside()?;
                 self.close()
             }
             Some(c) => Err(self.wrong(
@@ -151,9 +158,9 @@ impl Parser<'_> {
 
     fn call(&mut self, name: &str, start: usize) -> Result<(), String> {
         let mut given = 1;
-        self.sum()?;
+        self.inside()?;
         while self.next_of(",").is_some() {
-            self.sum()?;
+            self.inside()?;
             given += 1;
         }
         self.close()?;
@@ -179,6 +186,17 @@ impl Parser<'_> {
             ));
         }
         self.reduce(operation, wanted - 1);
+        Ok(())
+    }
+
+    /// A sum within parentheses.
+    fn inside(&mut self) -> Result<(), String> {
+        self.nested += 1;
+        if self.nested > NESTED {
+            return Err(self.wrong(self.at, format!("more than {NESTED} parentheses are open")));
+        }
+        self.sum()?;
+        self.nested -= 1;
         Ok(())
     }
 

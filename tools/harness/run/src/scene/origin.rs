@@ -30,11 +30,8 @@ pub(crate) struct Document {
 impl Document {
     /// Reads and parses a file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let text = std::fs::read_to_string(path).map_err(|source| Failure::Io {
-            path: path.to_owned(),
-            action: "read",
-            source,
-        })?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|e| Failure::Usage(format!("{}: cannot read: {e}", path.display())))?;
         Self::parse(path, text)
     }
 

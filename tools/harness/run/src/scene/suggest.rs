@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// Endings of keys with their unit, longest first among those that overlap.
-const UNITS: [(&str, &str); 33] = [
+const UNITS: [(&str, &str); 38] = [
     ("_w_m2_k", "W/(m2 K)"),
     ("_w_m_k", "W/(m K)"),
     ("_j_kg_k", "J/(kg K)"),
@@ -24,6 +24,11 @@ const UNITS: [(&str, &str); 33] = [
     ("_pa_s", "Pa s"),
     ("_s_m", "S/m"),
     ("_1_k", "1/K"),
+    ("_k_s", "K/s"),
+    ("_k_m", "K/m"),
+    ("_j_m3", "J/m3"),
+    ("_1_s", "1/s"),
+    ("_1_m", "1/m"),
     ("_m3", "m3"),
     ("_m2", "m2"),
     ("_rad", "rad"),

@@ -50,11 +50,7 @@ fn explain(schema: &Value, scene: &Value, error: &ValidationError<'_>, found: &m
         Kind::AnyOf { context } | Kind::OneOfNotValid { context } => {
             match best_branch(path, context) {
                 Some(branch) => branch.iter().for_each(|e| explain(schema, scene, e, found)),
-                None => found.push(at(format!(
-                    "{} fits none of: {}",
-                    show(error.instance()),
-                    forms(node)
-                ))),
+                None => found.push(at(no_form(schema, error.instance(), node))),
             }
         }
         Kind::Type { kind } => found.push(at(format!(
@@ -76,6 +72,8 @@ fn explain(schema: &Value, scene: &Value, error: &ValidationError<'_>, found: &m
             )));
         }
         Kind::Enum { options } => found.push(at(none_of(error.instance(), options))),
+        Kind::MinItems { limit } => found.push(at(entries(error.instance(), "at least", *limit))),
+        Kind::MaxItems { limit } => found.push(at(entries(error.instance(), "at most", *limit))),
         Kind::Constant { expected_value } => {
             found.push(at(format!(
                 "is {}, wanted is {expected_value}",
@@ -103,6 +101,14 @@ fn missing(key: &str, node: Option<&Value>) -> String {
     format!("has no key '{key}'{unit}{described}")
 }
 
+fn entries(list: &Value, word: &str, limit: u64) -> String {
+    let found = list.as_array().map_or(0, Vec::len);
+    format!(
+        "{} has {found} entries, wanted are {word} {limit}",
+        show(list)
+    )
+}
+
 fn none_of(found: &Value, options: &Value) -> String {
     let words: Vec<&str> = options
         .as_array()
@@ -118,7 +124,7 @@ fn none_of(found: &Value, options: &Value) -> String {
     format!("{} is none of {options}{hint}", show(found))
 }
 
-/// The branch of a choice that the person meant: not excluded by type or tag, with fewest errors.
+/// The branch of a choice that the person meant: not excluded by type or tag, with fewest faults.
 fn best_branch<'a>(
     path: &str,
     context: &'a [Vec<ValidationError<'static>>],
@@ -138,44 +144,86 @@ fn best_branch<'a>(
         .iter()
         .filter(|branch| !branch.iter().any(excluded))
         .collect();
-    let fewest = left.iter().map(|branch| branch.len()).min()?;
-    let mut best = left.into_iter().filter(|branch| branch.len() == fewest);
+    // A fault within the value says less against a branch than one of the value itself.
+    let weight = |branch: &[ValidationError<'_>]| {
+        let own = branch.iter().filter(|e| e.instance_path().as_str() == path);
+        (
+            own.map(faults_in).sum::<usize>(),
+            branch.iter().map(faults_in).sum::<usize>(),
+        )
+    };
+    let fewest = left.iter().map(|branch| weight(branch)).min()?;
+    let mut best = left.into_iter().filter(|branch| weight(branch) == fewest);
     let first = best.next();
-    if best.next().is_some() && fewest > 1 {
+    if best.next().is_some() && fewest > (1, 1) {
         None
     } else {
         first
     }
 }
 
-/// The forms that a choice admits, by title or type.
-fn forms(node: Option<&Value>) -> String {
+/// How many faults an error stands for: each key that a branch does not know counts.
+fn faults_in(error: &ValidationError<'_>) -> usize {
+    match error.kind() {
+        Kind::AdditionalProperties { unexpected } | Kind::UnevaluatedProperties { unexpected } => {
+            unexpected.len()
+        }
+        _ => 1,
+    }
+}
+
+/// What to say of a value that fits no branch of a choice.
+fn no_form(schema: &Value, found: &Value, node: Option<&Value>) -> String {
     let branches = node
         .and_then(|n| n.get("anyOf").or_else(|| n.get("oneOf")))
         .and_then(Value::as_array);
-    let names = branches.into_iter().flatten().map(|branch| {
-        let text = |key: &str| branch.get(key).and_then(Value::as_str).map(str::to_owned);
-        let tag = branch
-            .get("properties")
-            .and_then(Value::as_object)
-            .and_then(|properties| {
-                properties
-                    .iter()
-                    .find_map(|(key, p)| p.get("const").map(|c| format!("{{\"{key}\": {c}, ...}}")))
-            });
-        let keys = || {
-            branch
+    let words: Option<Vec<Value>> =
+        branches.map(|all| all.iter().filter_map(|b| b.get("const").cloned()).collect());
+    match (words, branches) {
+        (Some(words), Some(all)) if words.len() == all.len() => {
+            none_of(found, &Value::Array(words))
+        }
+        _ => format!("{} fits none of: {}", show(found), forms(schema, branches)),
+    }
+}
+
+/// The forms that a choice admits, by tag, keys, title or type.
+fn forms(schema: &Value, branches: Option<&Vec<Value>>) -> String {
+    let resolved = |branch: &'_ Value| match branch.get("$ref").and_then(Value::as_str) {
+        Some(reference) => schema
+            .pointer(reference.trim_start_matches('#'))
+            .unwrap_or(branch)
+            .clone(),
+        None => branch.clone(),
+    };
+    let names = branches
+        .into_iter()
+        .flatten()
+        .map(resolved)
+        .filter(|b| b.get("type") != Some(&Value::from("null")))
+        .map(|branch| {
+            let text = |key: &str| branch.get(key).and_then(Value::as_str).map(str::to_owned);
+            let tag = branch
                 .get("properties")
                 .and_then(Value::as_object)
-                .map(key_list)
-        };
-        let constant = || branch.get("const").map(Value::to_string);
-        tag.or_else(constant)
-            .or_else(keys)
-            .or_else(|| text("title"))
-            .or_else(|| text("type"))
-            .unwrap_or_default()
-    });
+                .and_then(|properties| {
+                    properties.iter().find_map(|(key, p)| {
+                        p.get("const").map(|c| format!("{{\"{key}\": {c}, ...}}"))
+                    })
+                });
+            let keys = || {
+                branch
+                    .get("properties")
+                    .and_then(Value::as_object)
+                    .map(key_list)
+            };
+            let constant = || branch.get("const").map(Value::to_string);
+            tag.or_else(constant)
+                .or_else(keys)
+                .or_else(|| text("title"))
+                .or_else(|| text("type"))
+                .unwrap_or_default()
+        });
     names.collect::<Vec<_>>().join(" | ")
 }
 
