@@ -1,6 +1,13 @@
 //! Our files open in other people's programs: MCAP readers for Foxglove's point clouds, VTK for
 //! ParaView, NumPy. The readers are Python packages in `build/python`, installed by `make test`.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::print_stderr,
+    reason = "a test may fail, and says what it skips"
+)]
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,5 +1,7 @@
 //! `pipelines/rerun`: only what changed is made again, and an interrupted run is taken up.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -36,8 +36,9 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
         writeln!(streams.out, "{scene:#}")?;
         return Ok(Verdict::Good);
     }
+    let channels = channels(&reader, &arguments.channel)?;
     header(&reader, streams)?;
-    for channel in channels(&reader, &arguments.channel)? {
+    for channel in channels {
         describe(&reader, &channel, streams)?;
     }
     Ok(Verdict::Good)

@@ -1,0 +1,399 @@
+//! The program `artefact` as a user meets it: what it prints, and its exit codes.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use artefact::{Frame, Header, Precision, Record, Table, Version, Writer, beside};
+use tempfile::TempDir;
+
+/// What a call printed and how it ended.
+struct Told {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+fn artefact<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Told {
+    let output = Command::new(env!("CARGO_BIN_EXE_artefact"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    Told {
+        code: output.status.code().unwrap(),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+fn scene() -> serde_json::Value {
+    serde_json::json!({
+        "kind": "poolsph.scene", "version": 1, "title": "A drop", "spacing_m": 5e-4,
+        "time": {"step_s": 1e-4, "end_s": 2.0}
+    })
+}
+
+fn header() -> Header {
+    Header {
+        kind: "particle-frames".to_owned(),
+        version: Version::new(1, 0),
+        tool: "poolsph".to_owned(),
+        tool_version: "0.1.0".to_owned(),
+        scene: scene(),
+        inputs: [("arc".to_owned(), artefact::sha256(b"arc bytes"))].into(),
+    }
+}
+
+/// A small file: two frames whose second is hotter by `more` at particle 1, a table, two records.
+fn sample(folder: &Path, name: &str, more: f64) -> PathBuf {
+    let path = folder.join(name);
+    let mut writer = Writer::create(&path, &header()).unwrap();
+    fill(&mut writer, more);
+    writer.finish().unwrap();
+    path
+}
+
+fn fill(writer: &mut Writer, more: f64) {
+    for (time, hot) in [(0.0, 0.0), (0.5, more)] {
+        let frame = Frame::new(Precision::F64)
+            .positions([[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0]])
+            .scalar("temperature", "K", [300.0, 400.0 + hot])
+            .id("id", [0, 1]);
+        writer.frame("/particles", time, &frame).unwrap();
+        let record = Record::new().with("mass_kg", "kg", 0.25);
+        writer.record("/balance", time, &record).unwrap();
+    }
+    let table = Table::new(2).column("radius_m", "m", [0.0, 1e-3]);
+    writer.table("/surface", 0.0, &table).unwrap();
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn info_tells_who_wrote_what_with_units_and_ranges() {
+    let folder = folder();
+    let told = artefact(&["info", text(&sample(folder.path(), "a.mcap", 50.0))]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    for line in [
+        "kind        particle-frames 1.0",
+        "tool        poolsph 0.1.0",
+        "title       A drop",
+        &format!("scene       sha256 {}", header().scene_sha256()),
+        &format!("input       arc sha256 {}", artefact::sha256(b"arc bytes")),
+        "/particles  foxglove.PointCloud  2 messages, 0 s to 0.5 s",
+        "  last: 2 points",
+        "  temperature                      K        f64  300 .. 450",
+        "  mass_kg                          kg       f64  0.25",
+        "/surface  fusionline.table.v1  1 message, at 0 s",
+    ] {
+        assert!(told.out.lines().any(|l| l == line), "{line}\n{}", told.out);
+    }
+    let told = artefact(&["info", "--scene", text(&folder.path().join("a.mcap"))]);
+    let found: serde_json::Value = serde_json::from_str(&told.out).unwrap();
+    assert_eq!(found, scene());
+}
+
+#[test]
+fn ls_lists_messages_in_order_of_time() {
+    let folder = folder();
+    let told = artefact(&["ls", text(&sample(folder.path(), "a.mcap", 0.0))]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    let words: Vec<Vec<&str>> = told
+        .out
+        .lines()
+        .map(|l| l.split_whitespace().collect())
+        .collect();
+    assert_eq!(
+        words,
+        [
+            ["0", "/balance", "0", "1", "values"],
+            ["0", "/particles", "0", "2", "points"],
+            ["0", "/surface", "0", "2", "rows"],
+            ["0.5", "/balance", "1", "1", "values"],
+            ["0.5", "/particles", "1", "2", "points"],
+        ]
+    );
+}
+
+#[test]
+fn diff_measures_what_differs_and_says_where() {
+    let folder = folder();
+    let a = sample(folder.path(), "a.mcap", 0.0);
+    let same = sample(folder.path(), "same.mcap", 0.0);
+    let told = artefact(&["diff", text(&a), text(&same)]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    assert!(
+        told.out.ends_with("messages: equal; bytes: equal\n"),
+        "{}",
+        told.out
+    );
+
+    let b = sample(folder.path(), "b.mcap", 3.0);
+    let told = artefact(&["diff", text(&a), text(&b)]);
+    assert_eq!(told.code, 1);
+    assert!(
+        told.out
+            .ends_with("messages: different; bytes: different\n")
+    );
+    let row = told
+        .out
+        .lines()
+        .find(|l| l.contains("temperature"))
+        .unwrap();
+    let words: Vec<&str> = row.split_whitespace().collect();
+    // 3 K at one of four entries; the squares of A add up to 2 (300^2 + 400^2) K^2.
+    assert_eq!(
+        words[2..],
+        ["3.0000e0", "1.5000e0", "4.2426e-3", "1", "0.5,", "1"],
+        "{row}"
+    );
+    assert!(told.out.contains("/surface: equal (1 messages)"));
+}
+
+#[test]
+fn diff_tells_scenes_apart_and_does_not_count_them() {
+    let folder = folder();
+    let a = sample(folder.path(), "a.mcap", 0.0);
+    let b = folder.path().join("b.mcap");
+    let mut other = header();
+    other.scene["time"]["end_s"] = 3.0.into();
+    let mut writer = Writer::create(&b, &other).unwrap();
+    fill(&mut writer, 0.0);
+    writer.finish().unwrap();
+    let told = artefact(&["diff", text(&a), text(&b)]);
+    assert_eq!(told.code, 0, "{}", told.out);
+    assert!(
+        told.out.contains("scene time.end_s: 2 | 3\n"),
+        "{}",
+        told.out
+    );
+    assert!(told.out.ends_with("messages: equal; bytes: different\n"));
+}
+
+#[test]
+fn diff_finds_a_particle_by_its_id() {
+    let folder = folder();
+    let mut files = Vec::new();
+    for (name, order) in [("a.mcap", [0_u32, 1, 2]), ("b.mcap", [2, 0, 1])] {
+        let path = folder.path().join(name);
+        let mut writer = Writer::create(&path, &header()).unwrap();
+        let frame = Frame::new(Precision::F64)
+            .scalar("temperature", "K", order.map(|id| 300.0 + f64::from(id)))
+            .id("id", order);
+        writer.frame("/particles", 0.0, &frame).unwrap();
+        writer.finish().unwrap();
+        files.push(path);
+    }
+    let told = artefact(&["diff", text(&files[0]), text(&files[1])]);
+    assert_eq!(told.code, 0, "{}", told.out);
+    assert!(told.out.ends_with("messages: equal; bytes: different\n"));
+}
+
+#[test]
+fn what_a_killed_run_left_is_saved_and_read_as_it_is() {
+    let folder = folder();
+    let path = folder.path().join("pool.mcap");
+    let mut writer = Writer::create(&path, &header()).unwrap();
+    fill(&mut writer, 0.0);
+    drop(writer);
+    let part = beside(&path, ".part");
+    assert!(part.exists() && !path.exists());
+
+    let told = artefact(&["info", text(&part)]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    assert!(told.err.contains("not finished"), "{}", told.err);
+
+    let told = artefact(&["recover", text(&part)]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    // The records and the table behind the last frame waited for their chunk and are gone.
+    assert!(told.out.contains("3 messages saved"), "{}", told.out);
+    let saved = folder.path().join("pool.recovered.mcap");
+    assert!(part.exists(), "the partial file stays");
+    let told = artefact(&["validate", text(&saved)]);
+    assert_eq!(told.code, 0, "{}", told.out);
+    let told = artefact(&["info", text(&saved)]);
+    assert!(
+        told.out
+            .contains("recovered   from a run that did not finish: 3 messages saved")
+    );
+
+    let told = artefact(&["recover", text(&part)]);
+    assert_eq!(told.code, 2, "never writes over a file unasked");
+    assert!(told.err.contains("--force"), "{}", told.err);
+    let told = artefact(&["recover", text(&part), "--out", text(&part)]);
+    assert_eq!(told.code, 2, "never writes over its source");
+    // Under its final name, whose partial file is the source itself.
+    let told = artefact(&["recover", text(&part), "--out", text(&path)]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    assert!(part.exists(), "the partial file stays");
+}
+
+#[test]
+fn verify_hash_compares_scene_patches_and_inputs() {
+    let folder = folder();
+    let path = sample(folder.path(), "a.mcap", 0.0);
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    // Another order of keys and other spaces; a patch that leads to the scene that ran.
+    let base = file(
+        "scene.json",
+        "{\"version\": 1,\n \"kind\": \"poolsph.scene\", \"title\": \"A drop\", \"spacing_m\": 5e-4,\n \"time\": {\"end_s\": 9, \"step_s\": 1e-4, \"x\": 1}}",
+    );
+    let patch = file("patch.json", "{\"time\": {\"end_s\": 2.0, \"x\": null}}");
+    let arc = file("arc.mcap", "arc bytes");
+    let input = format!("arc={}", text(&arc));
+    let all = [
+        "verify-hash",
+        text(&path),
+        "--scene",
+        text(&base),
+        "--patch",
+        text(&patch),
+        "--input",
+        &input,
+    ];
+    let told = artefact(&all);
+    assert_eq!(told.code, 0, "{}{}", told.out, told.err);
+    let told = artefact(&all[..4]);
+    assert_eq!(told.code, 1, "without the patch");
+    assert!(told.out.contains("differs"), "{}", told.out);
+    std::fs::write(&arc, "other bytes").unwrap();
+    let told = artefact(&all);
+    assert_eq!(told.code, 1, "with another input");
+    let told = artefact(&[
+        "verify-hash",
+        text(&path),
+        "--input",
+        &format!("gas={}", text(&arc)),
+    ]);
+    assert_eq!(told.code, 1);
+    assert!(told.out.contains("made without an input of this name"));
+}
+
+#[test]
+fn export_takes_the_channels_and_messages_asked_for() {
+    let folder = folder();
+    let path = sample(folder.path(), "a.mcap", 0.0);
+    let out = folder.path().join("csv");
+    let told = artefact(&[
+        "export",
+        text(&path),
+        "--to",
+        "csv",
+        "--out",
+        text(&out),
+        "--channel",
+        "/particles",
+        "--every",
+        "2",
+    ]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    let files: Vec<_> = std::fs::read_dir(out.join("particles"))
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
+    assert_eq!(files, ["particles_00000.csv"]);
+    let rows = std::fs::read_to_string(out.join("particles/particles_00000.csv")).unwrap();
+    assert_eq!(
+        rows,
+        "x [m],y [m],z [m],temperature [K],id [1]\r\n0,0,0,300,0\r\n0.001,0,0,400,1\r\n"
+    );
+    assert!(!out.join("balance.csv").exists());
+}
+
+#[test]
+fn wrong_usage_is_told_apart_from_bad_files() {
+    let folder = folder();
+    let path = sample(folder.path(), "a.mcap", 0.0);
+    let file = text(&path);
+    let absent = folder.path().join("absent.mcap");
+    for (arguments, code, hint) in [
+        (vec!["inform", file], 2, "unrecognized subcommand"),
+        (vec!["export", file, "--to", "xls", "--out", "o"], 2, "vtu"),
+        (
+            vec!["export", file, "--to", "csv", "--out", "o", "--every", "0"],
+            2,
+            "1..",
+        ),
+        (
+            vec!["info", file, "--channel", "/plasma"],
+            2,
+            "it has /balance, /particles, /surface",
+        ),
+        (vec!["verify-hash", file, "--input", "arc"], 2, "NAME=FILE"),
+        (vec!["info", text(&absent)], 1, "cannot open"),
+    ] {
+        let told = artefact(&arguments);
+        assert_eq!(told.code, code, "{arguments:?}: {}", told.err);
+        assert!(told.err.contains(hint), "{arguments:?}: {}", told.err);
+        assert!(told.out.is_empty());
+    }
+}
+
+#[test]
+fn help_teaches_with_examples() {
+    for command in [
+        "info",
+        "ls",
+        "validate",
+        "diff",
+        "export",
+        "recover",
+        "verify-hash",
+    ] {
+        let told = artefact(&[command, "--help"]);
+        assert_eq!(told.code, 0);
+        assert!(
+            told.out.contains(&format!("artefact {command} build/")),
+            "{}",
+            told.out
+        );
+    }
+}
+
+#[test]
+fn a_gas_table_is_described_and_validated() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
+    let gas = root.join("pipelines/gases/argon-1atm.json");
+    let told = artefact(&["validate", text(&gas)]);
+    assert_eq!(told.code, 0, "{}", told.out);
+    let told = artefact(&["info", text(&gas)]);
+    assert!(
+        told.out.contains("kind        gas-table 1.0"),
+        "{}",
+        told.out
+    );
+    assert!(told.out.contains("viscosity_pa_s"), "{}", told.out);
+
+    let folder = folder();
+    let bad = folder.path().join("gas.json");
+    let mut table: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&gas).unwrap()).unwrap();
+    table["columns"][1]["values"][3] = serde_json::Value::Null;
+    table["columns"][2]["values"].as_array_mut().unwrap().pop();
+    std::fs::write(&bad, table.to_string()).unwrap();
+    let told = artefact(&["validate", text(&bad)]);
+    assert_eq!(told.code, 1);
+    let name = table["columns"][1]["name"].as_str().unwrap();
+    assert!(
+        told.out
+            .contains(&format!("column '{name}', row 3: null is not")),
+        "{}",
+        told.out
+    );
+    assert!(
+        told.out.contains("entries, 'temperature_k' has"),
+        "{}",
+        told.out
+    );
+}
