@@ -81,7 +81,9 @@ struct Curves {
 }
 
 fn curves(scene: &Scene) -> Result<Curves, Vec<Fault>> {
-    let diffusivity = scene.diffusivity_m2_s.compile("/diffusivity_m2_s", &["T"]);
+    let diffusivity = scene
+        .diffusivity_m2_s
+        .compile_positive("/diffusivity_m2_s", &["T"], "m2/s");
     let start = scene.start_k.compile("/start_k", &["x"]);
     let source = scene
         .source

@@ -69,11 +69,10 @@ impl Failure {
     #[must_use]
     pub fn outcome(&self) -> &'static str {
         match self {
-            Self::Usage(_) => "usage",
-            Self::Scene(_) => "invalid-scene",
-            Self::Diverged { .. } => "diverged",
+            // A value that is not finite is a divergence that only the writer noticed.
+            Self::Diverged { .. } | Self::Artefact(artefact::Error::NotFinite { .. }) => "diverged",
             Self::Interrupted { .. } => "interrupted",
-            Self::Artefact(_) | Self::Io { .. } | Self::Other(_) => "failed",
+            _ => "failed",
         }
     }
 }

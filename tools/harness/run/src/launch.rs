@@ -16,7 +16,7 @@ use crate::machine;
 use crate::plan::{Plan, duration};
 use crate::progress::Style;
 use crate::record::RunRecord;
-use crate::scene::{Loaded, load, located, schema_of, schema_text};
+use crate::scene::{Loaded, Merged, load, located, schema_of, schema_text};
 use crate::session::{Opening, Session};
 use crate::tool::{Tool, expected};
 
@@ -62,6 +62,7 @@ struct Ready<S> {
     inputs: Inputs,
     plan: Plan,
     header: Header,
+    merged: Merged,
 }
 
 fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
@@ -69,10 +70,7 @@ fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
     let Loaded { scene, merged } =
         load::<T::Scene>(&study.scene, &study.patches, &schema, expected::<T>())?;
     let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
-    let plan = T::plan(&scene, &inputs).map_err(|failure| match failure {
-        Failure::Scene(faults) => Failure::Scene(located(faults, &merged)),
-        other => other,
-    })?;
+    let plan = T::plan(&scene, &inputs).map_err(|failure| placed(failure, &merged))?;
     let header = Header {
         kind: T::ARTEFACT_KIND.to_owned(),
         version: T::ARTEFACT_VERSION,
@@ -86,7 +84,16 @@ fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
         inputs,
         plan,
         header,
+        merged,
     })
+}
+
+/// Adds file and line to the faults of a scene.
+fn placed(failure: Failure, merged: &Merged) -> Failure {
+    match failure {
+        Failure::Scene(faults) => Failure::Scene(located(faults, merged)),
+        other => other,
+    }
 }
 
 fn check<T: Tool>(study: &Study) -> Result<ExitCode, Failure> {
@@ -108,6 +115,7 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     }
     session.planned(&ready.plan);
     let ended = guarded(|| T::run(&ready.scene, &ready.inputs, &mut session));
+    let ended = ended.map_err(|failure| placed(failure, &ready.merged));
     let (ledger, ended) = session.end(ended);
     let record = RunRecord::new(
         &run.out,

@@ -122,3 +122,35 @@ mod finite_or_null {
         Ok(Option::deserialize(source)?.unwrap_or(f64::NAN))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ledger_survives_a_checkpoint_with_numbers_that_are_not_finite() {
+        let mut ledger = Ledger::default();
+        ledger.history("residual", "1", 0.0, f64::INFINITY);
+        ledger.history("residual", "1", 1.0, 0.1);
+        ledger.memory("columns", 8);
+        ledger.memory("columns", 16);
+        ledger.left_out("arc", "no key 'arc'");
+        set(&mut ledger.limits, "step", 1e-3, "s");
+        set(&mut ledger.limits, "step", 5e-4, "s");
+        let text = serde_json::to_string(&ledger).expect("JSON");
+        let back: Ledger = serde_json::from_str(&text).expect("a ledger");
+        assert!(
+            back.history[0].values[0].0.is_nan()
+                && (back.history[0].values[1].0 - 0.1).abs() < 1e-15
+        );
+        assert_eq!(
+            back.memory,
+            [Bytes {
+                name: "columns".to_owned(),
+                bytes: 16
+            }]
+        );
+        assert!(back.limits.len() == 1 && (back.limits[0].value - 5e-4).abs() < 1e-15);
+        assert_eq!(back.left_out, ledger.left_out);
+    }
+}

@@ -48,10 +48,11 @@ pub(crate) struct RunRecord {
     left_out: Vec<LeftOut>,
     limits: Vec<Limit>,
     pub(crate) closing: Vec<Limit>,
-    history: Vec<History>,
     scene_hash: String,
     inputs: Value,
     scene: Value,
+    /// Last, for it is long.
+    history: Vec<History>,
 }
 
 impl RunRecord {
@@ -135,6 +136,15 @@ fn place_of(failure: &Failure) -> Option<Value> {
         } => Some(json!({
             "step": step, "time_s": time_s, "place": place, "quantity": quantity, "what": what,
         })),
+        Failure::Artefact(artefact::Error::NotFinite {
+            channel,
+            column,
+            index,
+            value,
+            ..
+        }) => Some(json!({
+            "place": format!("channel '{channel}', entry {index}"), "quantity": column, "what": value.to_string(),
+        })),
         _ => None,
     }
 }
@@ -153,4 +163,91 @@ fn shares(stages: &[(String, f64)], wall_s: f64) -> Vec<Spent> {
             share: share(*seconds),
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use artefact::{Error, Version};
+
+    fn header() -> Header {
+        Header {
+            kind: "particle-frames".to_owned(),
+            version: Version::new(1, 0),
+            tool: "poolsph".to_owned(),
+            tool_version: "0.1.0".to_owned(),
+            scene: json!({"kind": "poolsph.scene", "version": 1}),
+            inputs: std::collections::BTreeMap::new(),
+        }
+    }
+
+    fn ended(failure: &Failure) -> RunRecord {
+        RunRecord::new(
+            Path::new("a.mcap"),
+            &header(),
+            machine::now(),
+            Ledger::default(),
+            Err(failure),
+        )
+    }
+
+    #[test]
+    fn a_value_that_is_not_finite_counts_as_divergence() {
+        let failure = Failure::Artefact(Error::NotFinite {
+            path: "a.mcap".into(),
+            channel: "/particles".to_owned(),
+            column: "temperature".to_owned(),
+            index: 7,
+            value: f64::NAN,
+        });
+        let record = ended(&failure);
+        assert_eq!((record.outcome.as_str(), record.exit_code), ("diverged", 1));
+        let divergence = record.divergence.expect("a place");
+        assert_eq!(divergence["place"], "channel '/particles', entry 7");
+        assert_eq!(divergence["quantity"], "temperature");
+    }
+
+    #[test]
+    fn every_failure_has_its_outcome_and_exit_code() {
+        let refused = || std::io::Error::other("disk full");
+        let cases = [
+            (Failure::Other("x".to_owned()), "failed", 1),
+            (
+                Failure::Io {
+                    path: "a".into(),
+                    action: "write",
+                    source: refused(),
+                },
+                "failed",
+                1,
+            ),
+            (Failure::Interrupted { resumable: true }, "interrupted", 130),
+            (Failure::Usage("x".to_owned()), "failed", 2),
+            (
+                Failure::Scene(vec![crate::Fault::at("/a", "x")]),
+                "failed",
+                2,
+            ),
+        ];
+        for (failure, outcome, code) in cases {
+            let record = ended(&failure);
+            assert_eq!(
+                (record.outcome.as_str(), record.exit_code),
+                (outcome, code),
+                "{failure}"
+            );
+            assert_eq!(record.message, Some(failure.to_string()));
+        }
+    }
+
+    #[test]
+    fn shares_add_to_the_whole() {
+        let spent = shares(&[("heat".to_owned(), 3.0), ("write".to_owned(), 1.0)], 5.0);
+        assert_eq!(
+            spent.iter().map(|s| s.name.as_str()).collect::<Vec<_>>(),
+            ["heat", "write", "other"]
+        );
+        assert!((spent.iter().map(|s| s.share).sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!((spent[2].wall_s - 1.0).abs() < 1e-12);
+    }
 }

@@ -198,3 +198,30 @@ fn a_formula_without_variables_costs_no_more_than_a_number() {
     let curve = property.compile("/q", &["x"]).expect("a formula");
     assert!((curve.constant().expect("constant") - 2.0 * PI).abs() < 1e-15);
 }
+
+#[test]
+fn quantities_that_must_be_positive_are_refused_at_their_row() {
+    let refused = |property: Property| {
+        property
+            .compile_positive("/rho", &["T"], "kg/m3")
+            .expect_err("wrong")
+            .to_string()
+    };
+    assert_eq!(
+        refused(Property::Constant(-7850.0)),
+        "/rho: -7850 kg/m3 is out of range: above 0 kg/m3"
+    );
+    let rows = refused(table(
+        &[300.0, 400.0, 500.0],
+        &[1.0, 2.0, 0.0],
+        Extrapolate::Error,
+    ));
+    assert_eq!(rows, "/rho/value/2: 0 kg/m3 is out of range: above 0 kg/m3");
+    let minus: Property = serde_json::from_str(r#"{"expr": "2 - 3"}"#).expect("a property");
+    assert!(refused(minus).contains("-1 kg/m3"));
+    assert!(
+        Property::Constant(7850.0)
+            .compile_positive("/rho", &["T"], "kg/m3")
+            .is_ok()
+    );
+}

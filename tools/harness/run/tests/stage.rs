@@ -47,9 +47,19 @@ fn finished(folder: &Path, words: &[&str]) -> (Option<i32>, String, String) {
     )
 }
 
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path).expect("a file")).expect("JSON")
+}
+
+/// The record, which must fit its published schema however the run ended.
 fn record(folder: &Path, name: &str) -> Value {
-    let text = std::fs::read_to_string(folder.join(name)).expect("a record");
-    serde_json::from_str(&text).expect("JSON")
+    let record = json(&folder.join(name));
+    let schema =
+        json(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../schemas/run-record.v1.json"));
+    if let Err(e) = jsonschema::validate(&schema, &record) {
+        panic!("{}: {e}", e.instance_path());
+    }
+    record
 }
 
 fn patch(folder: &Path, name: &str, text: &str) -> String {

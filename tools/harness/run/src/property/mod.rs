@@ -157,6 +157,31 @@ impl Property {
     }
 }
 
+impl Property {
+    /// As [`Property::compile`], for a quantity that must be above zero, such as a density:
+    /// numbers and rows that are not are refused. A formula is known only where it is evaluated.
+    ///
+    /// # Errors
+    /// A [`Fault`] at the very key that is wrong.
+    pub fn compile_positive(&self, at: &str, names: &[&str], unit: &str) -> Result<Curve, Fault> {
+        let refuse = |at: &str, value: f64| {
+            Fault::at(
+                at,
+                format!("{value} {unit} is out of range: above 0 {unit}"),
+            )
+        };
+        let curve = self.compile(at, names)?;
+        match &curve {
+            Curve::Constant(value) if *value <= 0.0 => Err(refuse(at, *value)),
+            Curve::Table(rows) => match rows.value.iter().position(|value| *value <= 0.0) {
+                Some(row) => Err(refuse(&format!("{at}/value/{row}"), rows.value[row])),
+                None => Ok(curve),
+            },
+            _ => Ok(curve),
+        }
+    }
+}
+
 impl TemperatureTable {
     fn compile(&self, at: &str, names: &[&str]) -> Result<Rows, Fault> {
         if !names.contains(&"T") {

@@ -19,7 +19,7 @@ pub use schema::{schema_of, schema_text};
 pub(crate) use suggest::nearest;
 
 use origin::Document;
-use patch::Merged;
+pub use patch::Merged;
 
 /// Kind and version that a tool reads.
 #[derive(Debug, Clone, Copy)]
