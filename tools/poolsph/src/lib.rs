@@ -3,6 +3,7 @@
 pub mod assemble;
 pub mod balance;
 pub mod domain;
+pub mod forces;
 pub mod frames;
 pub mod heat;
 pub mod march;

@@ -49,6 +49,9 @@ pub struct Near {
     pub velocity: Vec<[f64; 3]>,
     /// Force density \[N/m3\], `[m][3]`; zero after gathering, force stages add to it.
     pub force: Vec<[f64; 3]>,
+    /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
+    /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
+    pub virial: Vec<f64>,
     /// Neighbours within the support; the rows of [`Role::Backing`] are empty.
     pub lists: Lists,
     /// Kernel values in the order of `lists.chunks()`.
@@ -72,6 +75,7 @@ impl Near {
             position: Vec::new(),
             velocity: Vec::new(),
             force: Vec::new(),
+            virial: Vec::new(),
             lists: Lists::new(),
             pairs: Vec::new(),
             liquid_count: 0,
@@ -107,7 +111,7 @@ impl Near {
             .pairs
             .iter()
             .map(|chunk| 8 * (chunk.value.capacity() + chunk.slope.capacity()));
-        (4 + 1 + 3 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
+        (4 + 1 + 8 + 3 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
     }
 
     /// Collects members, sorts them by cell and finds their neighbours.
@@ -159,6 +163,8 @@ impl Near {
             .extend(self.id.iter().zip(&self.role).map(moving));
         self.force.clear();
         self.force.resize(self.id.len(), [0.0; 3]);
+        self.virial.clear();
+        self.virial.resize(self.id.len(), 0.0);
         self.search();
     }
 

@@ -58,6 +58,8 @@ pub struct Motion {
     viscosity: Viscosity,
     projection: Projection,
     predicted: Vec<[f64; 3]>,
+    /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
+    multiplier: Vec<f64>,
     solved: Solved,
     substeps: u32,
     speed: f64,
@@ -72,6 +74,7 @@ impl Motion {
             viscosity: Viscosity::new(parameters.viscosity_pa_s, metal),
             projection: Projection::default(),
             predicted: Vec::new(),
+            multiplier: Vec::new(),
             solved: Solved::default(),
             substeps: 0,
             speed: 0.0,
@@ -153,11 +156,16 @@ impl Motion {
         Ok(courant.max(viscous) as u32)
     }
 
+    /// Takes the results of the copy back to the particles.
     fn scatter(&mut self, state: &mut State) {
+        state.pressure.fill(0.0);
+        self.multiplier.clear();
+        self.multiplier.resize(state.len(), 0.0);
         let near = &state.near;
         for (a, (&id, role)) in near.id.iter().zip(&near.role).enumerate() {
             let id = id as usize;
-            state.pressure[id] = self.projection.pressure[a];
+            self.multiplier[id] = self.projection.pressure[a];
+            state.pressure[id] = near.virial[a];
             if *role == Role::Liquid && state.phase[id] == crate::state::Phase::Liquid {
                 state.position[id] = near.position[a];
                 state.velocity[id] = near.velocity[a];
@@ -198,9 +206,10 @@ impl Stage for Motion {
         }
         self.substeps = self.divide(state, dt)?;
         self.projection.pressure.clear();
+        let start = |&id: &u32| self.multiplier.get(id as usize).copied().unwrap_or(0.0);
         self.projection
             .pressure
-            .extend(state.near.id.iter().map(|&id| state.pressure[id as usize]));
+            .extend(state.near.id.iter().map(start));
         let part = dt / f64::from(self.substeps);
         let metal = state.metal;
         for k in 0..self.substeps {
@@ -209,6 +218,7 @@ impl Stage for Motion {
             }
             self.substep(&mut state.near, metal, part);
         }
+        self.projection.add_virial(&mut state.near, metal);
         self.speed = state
             .near
             .velocity
@@ -246,6 +256,14 @@ impl Stage for Motion {
     }
 
     fn bytes(&self) -> usize {
-        self.projection.bytes() + 24 * self.predicted.capacity()
+        self.projection.bytes() + 24 * self.predicted.capacity() + 8 * self.multiplier.capacity()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        self.multiplier.clone()
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.multiplier = saved.to_vec();
     }
 }

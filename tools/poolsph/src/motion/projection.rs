@@ -282,6 +282,36 @@ impl Projection {
         (sum.error / sum.bound.max(1.0), sum.turn)
     }
 
+    /// Adds the pair forces of p to [`Near::virial`], so that this holds the pressure which the
+    /// metal carries; wet solid particles get p itself, as they lack neighbours behind.
+    ///
+    /// In a disordered cloud the sum of `p_a + p_b` stands for a pressure that differs from p by
+    /// some per cent; the virial is what balances the outer forces.
+    pub fn add_virial(&self, near: &mut Near, metal: Metal) {
+        let share = metal.density * self.scales.force / 6.0;
+        let (pressure, role, position) = (&self.pressure, &near.role, &near.position);
+        near.virial
+            .par_chunks_mut(ROWS)
+            .zip(near.lists.chunks())
+            .zip(&near.pairs)
+            .for_each(|((virial, chunk), pairs)| {
+                for (k, virial) in virial.iter_mut().enumerate() {
+                    let a = chunk.first() + k;
+                    if role[a] != Role::Liquid {
+                        *virial = pressure[a];
+                        continue;
+                    }
+                    let mut sum = 0.0;
+                    for (&b, &slope) in chunk.row(k).iter().zip(&pairs.slope[chunk.range(k)]) {
+                        let b = b as usize;
+                        let square = squared(minus(position[a], position[b]));
+                        sum -= slope * square * (pressure[a] + pressure[b]);
+                    }
+                    *virial += share * sum;
+                }
+            });
+    }
+
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
