@@ -321,6 +321,32 @@ fn a_place_that_cannot_be_written_ends_with_1_before_any_work() {
 }
 
 #[test]
+fn a_full_disk_ends_with_1_and_leaves_no_artefact() {
+    // A limit on the size of files stands for the disk; without the signal it is a plain error.
+    let folder = temp();
+    let many = patch(
+        folder.path(),
+        "p.json",
+        r#"{"time": {"steps": 4000, "table_steps": 1}}"#,
+    );
+    let script = r#"trap "" XFSZ; ulimit -f 16; exec "$0" "$@""#;
+    let output = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", script])
+        .arg(program())
+        .args(["run", SCENE, "--out", "rod.mcap", "--patch", &many, "-q"])
+        .output()
+        .expect("a shell");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    assert!(
+        stderr.contains(".part: cannot write: File too large"),
+        "{stderr}"
+    );
+    assert!(!folder.path().join("rod.mcap").exists());
+}
+
+#[test]
 fn divergence_ends_with_1_and_its_place_in_the_record() {
     let folder = temp();
     let runaway = patch(
@@ -353,6 +379,26 @@ fn divergence_ends_with_1_and_its_place_in_the_record() {
         names(folder.path()),
         ["p.json", "rod.mcap.part", "rod.run.json"]
     );
+}
+
+#[test]
+fn a_temperature_beyond_a_table_ends_with_1_and_its_place() {
+    let folder = temp();
+    let narrow = r#"{"source": {"rate_k_s": 10}, "diffusivity_m2_s": {"t_k": [100, 401], "value": [0.01, 0.01]}}"#;
+    let narrow = patch(folder.path(), "p.json", narrow);
+    let (code, _, stderr) = finished(
+        folder.path(),
+        &["run", SCENE, "--out", "rod.mcap", "--patch", &narrow, "-q"],
+    );
+    assert_eq!(code, Some(1));
+    assert!(
+        stderr.contains("is outside of the table, 100 K to 401 K"),
+        "{stderr}"
+    );
+    let record = record(folder.path(), "rod.run.json");
+    assert_eq!(record["outcome"], "diverged");
+    let place = record["divergence"]["place"].as_str().expect("a place");
+    assert!(place.starts_with("point "), "{place}");
 }
 
 #[test]
