@@ -79,7 +79,7 @@ pub(crate) fn parse<T: Tool>(
 ) -> Result<Line, clap::Error> {
     let example: Vec<String> = T::EXAMPLE
         .lines()
-        .map(|line| format!("  {}", line.trim()))
+        .map(|line| format!("  {}", runnable(T::NAME, line.trim())))
         .collect();
     let after = format!(
         "Example, from the repository root:\n{}\n\nExit codes: 0 done, 1 failed, 2 usage or invalid scene, \
@@ -89,6 +89,8 @@ pub(crate) fn parse<T: Tool>(
     let command = Line::command()
         .name(T::NAME)
         .version(T::VERSION)
+        // A wrapped command could not be copied.
+        .term_width(0)
         .about(T::ABOUT)
         .after_help(after.clone())
         .mut_subcommand("run", |run| {
@@ -96,6 +98,17 @@ pub(crate) fn parse<T: Tool>(
         })
         .mut_subcommand("check", |check| check.mut_arg("inputs", inputs_help::<T>));
     Line::from_arg_matches(&command.try_get_matches_from(words)?)
+}
+
+/// A sample command that works from the repository root: `poolsph run ...` through cargo.
+fn runnable(name: &str, sample: &str) -> String {
+    match sample
+        .strip_prefix(name)
+        .filter(|rest| rest.starts_with(' '))
+    {
+        Some(rest) => format!("cargo run --release -p {name} --{rest}"),
+        None => sample.to_owned(),
+    }
 }
 
 fn inputs_help<T: Tool>(arg: clap::Arg) -> clap::Arg {
@@ -114,4 +127,24 @@ fn inputs_help<T: Tool>(arg: clap::Arg) -> clap::Arg {
         "An input file by name; {}",
         names.collect::<Vec<_>>().join("; ")
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_shown_as_commands_of_the_repository_root() {
+        let sample = "poolsph run a.json --out build/a.mcap";
+        assert_eq!(
+            runnable("poolsph", sample),
+            "cargo run --release -p poolsph -- run a.json --out build/a.mcap"
+        );
+        for already in [
+            "cargo run --release -p poolsph -- run a.json",
+            "poolsphere run a.json",
+        ] {
+            assert_eq!(runnable("poolsph", already), already);
+        }
+    }
 }

@@ -160,6 +160,7 @@ fn open<T: Tool>(run: &Run, header: &Header) -> Result<Session, Failure> {
         );
         return Err(Failure::Usage(what));
     }
+    create_folder(&run.out)?;
     Session::open(Opening {
         out: &run.out,
         header: header.clone(),
@@ -168,6 +169,18 @@ fn open<T: Tool>(run: &Run, header: &Header) -> Result<Session, Failure> {
         style: if run.quiet { Style::None } else { run.progress },
         level: run.level(),
         interrupt: Interrupt::listen()?,
+    })
+}
+
+/// Makes the folder of the artefact.
+fn create_folder(out: &Path) -> Result<(), Failure> {
+    let Some(folder) = out.parent() else {
+        return Ok(());
+    };
+    std::fs::create_dir_all(folder).map_err(|source| Failure::Io {
+        path: folder.to_owned(),
+        action: "create the folder",
+        source,
     })
 }
 
@@ -185,23 +198,23 @@ fn head<T: Tool>(run: &Run, ready: &Ready<T::Scene>) {
     line(&title::<T>(&run.study.scene));
     line(ready.plan.to_string().trim_end());
     line(&format!(
-        "  {:<10} {}",
+        "  {:<16} {}",
         "threads",
         rayon::current_num_threads()
     ));
     if run.level() == Level::Verbose {
         line(&format!(
-            "  {:<10} {}",
+            "  {:<16} {}",
             "scene",
             ready.header.scene_sha256()
         ));
         for (name, hash) in ready.inputs.hashes() {
-            line(&format!("  {:<10} {name} {hash}", "input"));
+            line(&format!("  {:<16} {name} {hash}", "input"));
         }
     }
     if run.resume {
         line(&format!(
-            "  {:<10} {}",
+            "  {:<16} {}",
             "resumes",
             beside(&run.out, ".checkpoint").display()
         ));

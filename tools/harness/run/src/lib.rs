@@ -1,10 +1,49 @@
 //! How every stage is run: command line, scene, clock, progress, record, checkpoint.
 //!
-//! A stage implements [`Tool`]; its program is one line:
+//! A stage implements [`Tool`]; its program is one line (`examples/rod.rs` is a whole stage):
 //!
-//! ```ignore
+//! ```no_run
+//! use run::{Failure, Fault, Inputs, Plan, Session, Tool};
+//! use schemars::JsonSchema;
+//! use serde::Deserialize;
+//!
+//! /// Free fall.
+//! #[derive(Deserialize, JsonSchema)]
+//! #[serde(deny_unknown_fields)]
+//! struct Scene {
+//!     /// Height above the floor.
+//!     #[schemars(range(min = 0.0))]
+//!     height_m: f64,
+//! }
+//!
+//! struct Fall;
+//!
+//! impl Tool for Fall {
+//!     const NAME: &'static str = "fall";
+//!     const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+//!     const ABOUT: &'static str = "Free fall to the floor.";
+//!     const EXAMPLE: &'static str = "fall run pipelines/fall/scene.json --out build/fall.mcap";
+//!     const SCENE_KIND: &'static str = "fall.scene";
+//!     const ARTEFACT_KIND: &'static str = "fall-time";
+//!     type Scene = Scene;
+//!
+//!     fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
+//!         if scene.height_m > 1e4 {
+//!             let what = format!("{} m is out of range: at most 1e4 m without air", scene.height_m);
+//!             return Err(Fault::at("/height_m", what).into());
+//!         }
+//!         Ok(Plan::new().stage("fall").left_out("air", "never computed"))
+//!     }
+//!
+//!     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
+//!         let time_s = session.timed("fall", || (2.0 * scene.height_m / 9.80665).sqrt());
+//!         session.closing("time", "s", time_s);
+//!         session.record("/fall", 0.0, &artefact::Record::new().with("time", "s", time_s))
+//!     }
+//! }
+//!
 //! fn main() -> std::process::ExitCode {
-//!     run::main::<arcfvm::ArcFvm>()
+//!     run::main::<Fall>()
 //! }
 //! ```
 //!

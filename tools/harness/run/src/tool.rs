@@ -29,7 +29,8 @@ pub trait Tool {
     const VERSION: &'static str;
     /// One sentence for `--help`.
     const ABOUT: &'static str;
-    /// Sample commands for `--help`, one per line, that work from the repository root.
+    /// Sample commands for `--help`, one per line, that work from the repository root: `poolsph
+    /// run ...` is shown as `cargo run --release -p poolsph -- run ...`.
     const EXAMPLE: &'static str;
     /// Kind of its scene: `poolsph.scene`.
     const SCENE_KIND: &'static str;

@@ -95,9 +95,9 @@ fn a_run_writes_artefact_and_record_and_says_what_it_did() {
     assert_eq!((code, stdout.as_str()), (Some(0), ""), "{stderr}");
     assert_eq!(names(folder.path()), ["rod.mcap", "rod.run.json"]);
     for part in [
-        "points     21",
+        "points           21",
         "step_conduction",
-        "left out   source",
+        "left out         source",
         "time s",
         "heat",
         "conduction",
@@ -209,7 +209,7 @@ fn check_prints_the_plan_and_writes_nothing() {
     let (code, stdout, stderr) = finished(folder.path(), &["check", SCENE]);
     assert_eq!((code, stderr.as_str()), (Some(0), ""));
     assert!(
-        stdout.contains("points     21") && stdout.contains("1.2500e-1 s"),
+        stdout.contains("points           21") && stdout.contains("1.2500e-1 s"),
         "{stdout}"
     );
     assert!(names(folder.path()).is_empty());
@@ -311,13 +311,30 @@ fn usage_and_scene_faults_end_with_2() {
 #[test]
 fn a_place_that_cannot_be_written_ends_with_1_before_any_work() {
     let folder = temp();
-    let (code, _, stderr) = finished(folder.path(), &["run", SCENE, "--out", "absent/rod.mcap"]);
-    assert_eq!(code, Some(1));
-    assert!(
-        stderr.contains("absent/rod.mcap.part: cannot create"),
-        "{stderr}"
+    let file = patch(folder.path(), "file", "not a folder");
+    for (out, wanted) in [
+        ("file/rod.mcap", "file: cannot create the folder"),
+        ("/proc/rod.mcap", "/proc/rod.mcap.part: cannot create"),
+    ] {
+        let (code, _, stderr) = finished(folder.path(), &["run", SCENE, "--out", out]);
+        assert_eq!(code, Some(1));
+        assert!(stderr.contains(wanted), "{stderr}");
+    }
+    assert_eq!(names(folder.path()), [file]);
+}
+
+#[test]
+fn the_folder_of_the_artefact_is_made() {
+    let folder = temp();
+    let (code, _, stderr) = finished(
+        folder.path(),
+        &["run", SCENE, "--out", "build/study/rod.mcap", "-q"],
     );
-    assert!(names(folder.path()).is_empty());
+    assert_eq!(code, Some(0), "{stderr}");
+    assert_eq!(
+        names(&folder.path().join("build/study")),
+        ["rod.mcap", "rod.run.json"]
+    );
 }
 
 #[test]
