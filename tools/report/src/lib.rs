@@ -1,4 +1,19 @@
 //! Pictures, tables and error against run time from artefacts and records.
+//!
+//! `report page` makes one page of a study, `report index` one of all evidence, `report validate`
+//! compares a weld with published values. Every input is optional: a page shows what there is, and
+//! a study without an arc has no section about one. Pages are single files: pictures are embedded,
+//! nothing is fetched from anywhere.
 
+pub mod command;
 mod draw;
+mod html;
+mod index;
 mod measure;
+mod page;
+mod picture;
+mod plot;
+mod records;
+mod targets;
+mod validate;
+mod weld;

@@ -32,6 +32,7 @@ impl Canvas {
     }
 
     /// Colour at column `x`, row `y`, if that is inside.
+    #[cfg(test)]
     pub(crate) fn get(&self, x: i64, y: i64) -> Option<Rgb> {
         self.index(x, y).map(|i| self.pixels[i])
     }

@@ -1,0 +1,114 @@
+//! The command line of `report`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use run::Failure;
+
+use crate::{index, page, validate};
+
+/// Pictures, plots and tables from artefacts and records, as self-contained HTML pages.
+#[derive(Debug, Parser)]
+#[command(
+    name = "report",
+    version,
+    after_help = "Example, from the repository root:\n  \
+    target/release/report page --study gmaw-quick --out build/gmaw-quick/report.html \
+    --pool build/gmaw-quick/pool.mcap"
+)]
+struct Line {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Debug, Subcommand)]
+enum Action {
+    /// One page about a study; it shows what there is of it.
+    Page(PageFiles),
+    /// One page about all evidence: exact cases, extreme cases, speed, studies.
+    Index(Folders),
+    /// Compares a weld with published values; exit code 1 where a tolerance is missed.
+    Validate {
+        /// Particle frames of the weld.
+        #[arg(long)]
+        pool: PathBuf,
+        /// Published values.
+        #[arg(long)]
+        targets: PathBuf,
+    },
+}
+
+/// Files of a study page.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PageFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Arc source.
+    #[arg(long)]
+    pub(crate) arc: Option<PathBuf>,
+    /// Particle frames of the pool.
+    #[arg(long)]
+    pub(crate) pool: Option<PathBuf>,
+    /// Mean fields.
+    #[arg(long)]
+    pub(crate) mean: Option<PathBuf>,
+    /// Published values.
+    #[arg(long)]
+    pub(crate) targets: Option<PathBuf>,
+}
+
+/// Folders of the index.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Folders {
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Records of exact cases.
+    #[arg(long)]
+    pub(crate) verify: Option<PathBuf>,
+    /// Records of extreme cases.
+    #[arg(long)]
+    pub(crate) stability: Option<PathBuf>,
+    /// Records of speed.
+    #[arg(long)]
+    pub(crate) bench: Option<PathBuf>,
+    /// Where each study has a folder with its report.
+    #[arg(long)]
+    pub(crate) studies: Option<PathBuf>,
+}
+
+/// The whole program.
+#[must_use]
+pub fn main() -> ExitCode {
+    let line = match Line::try_parse() {
+        Ok(line) => line,
+        Err(e) => {
+            // Help and version go to stdout with code 0, errors to stderr with code 2.
+            let _ = e.print();
+            return ExitCode::from(u8::try_from(e.exit_code()).unwrap_or(2));
+        }
+    };
+    let done = match &line.action {
+        Action::Page(files) => page::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
+        Action::Validate { pool, targets } => validate::run(pool, targets),
+    };
+    done.unwrap_or_else(|failure| run::report_failure("report", &failure))
+}
+
+/// Writes a page, with the folder that it lies in.
+pub(crate) fn save(path: &Path, html: &str) -> Result<(), Failure> {
+    if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(|source| Failure::Io {
+            path: folder.to_owned(),
+            action: "create",
+            source,
+        })?;
+    }
+    Ok(artefact::write_atomically(path, html.as_bytes())?)
+}

@@ -1,0 +1,166 @@
+//! Mass and energy: what came in, what went out, what is there.
+
+use artefact::{Reader, Record};
+use run::Failure;
+
+use super::Named;
+use crate::html::{Rows, escape, figure, side_by_side};
+use crate::plot::{Line, Plot};
+use crate::records::{RunRecord, figure as digits};
+
+/// The section; nothing where nothing was balanced.
+pub(super) fn section(
+    pool: Option<&Reader>,
+    arc: Option<&Reader>,
+    records: &[Named],
+) -> Result<String, Failure> {
+    let mut out = String::new();
+    if let Some(reader) = pool.filter(|r| r.has("/balance")) {
+        out += &series(&reader.records("/balance")?);
+    }
+    if let Some(reader) = arc.filter(|r| r.has("/balance")) {
+        out += &heads(&reader.record("/balance")?);
+    }
+    out += &closing(records);
+    Ok(out)
+}
+
+/// Balances of the pool over time.
+fn series(records: &[(f64, Record)]) -> String {
+    let Some((_, first)) = records.first() else {
+        return String::new();
+    };
+    let line = |name: &str, label: &str, factor: f64| {
+        let at = |(t, r): &(f64, Record)| r.get(name).ok().map(|v| [*t, factor * v]);
+        Line::new(label, records.iter().filter_map(at).collect())
+    };
+    let of_unit = |unit: &str| -> Vec<&str> {
+        let entries = first.values.iter().filter(|e| e.unit == unit);
+        entries.map(|e| e.name.as_str()).collect()
+    };
+    let mut figures = Vec::new();
+    let mut energy = Plot::new("time [s]", "energy [kJ]").through(0.0);
+    for name in of_unit("J")
+        .into_iter()
+        .filter(|n| n.contains("energy") && !n.contains("kinetic"))
+    {
+        energy.add(line(name, &readable(name), 1e-3));
+    }
+    push(
+        &mut figures,
+        &energy,
+        "Energy that came in, went out and is stored since the start. What is stored must be \
+          what came in less what went out.",
+    );
+    let mut mass = Plot::new("time [s]", "mass [g]");
+    for name in of_unit("kg") {
+        mass.add(line(name, &readable(name), 1e3));
+    }
+    push(
+        &mut figures,
+        &mass,
+        "Mass of all particles: it grows by the droplets and by nothing else.",
+    );
+    let mut liquid = Plot::new("time [s]", "liquid particles").through(0.0);
+    liquid.add(line("liquid_particles", "", 1.0));
+    push(
+        &mut figures,
+        &liquid,
+        "Particles that are liquid: level where melting and freezing are in balance.",
+    );
+    let mut closure = Plot::new("time [s]", "closure of energy [%]").through(0.0);
+    closure.add(line("closure", "", 100.0));
+    push(
+        &mut figures,
+        &closure,
+        "What is missing in the balance of energy, as a share of what came in. Zero is perfect.",
+    );
+    side_by_side(&figures)
+}
+
+fn push(figures: &mut Vec<String>, plot: &Plot, caption: &str) {
+    if !plot.is_empty() {
+        figures.push(figure(&plot.svg(), caption));
+    }
+}
+
+/// `energy_in_arc_j` reads "in: arc".
+fn readable(name: &str) -> String {
+    let bare = name
+        .trim_end_matches("_j")
+        .trim_end_matches("_kg")
+        .trim_start_matches("energy_");
+    let words = bare.replace('_', " ");
+    for (prefix, side) in [("in ", "in: "), ("out ", "out: ")] {
+        if let Some(rest) = words.strip_prefix(prefix) {
+            return format!("{side}{rest}");
+        }
+    }
+    words
+}
+
+/// The balance of the arc as a table.
+fn heads(record: &Record) -> String {
+    let mut table = Rows::new(&["Arc", "#Value", "Unit"]);
+    for entry in &record.values {
+        let name = entry
+            .name
+            .trim_end_matches(&format!("_{}", entry.unit.to_lowercase()));
+        let unit = if entry.unit == "1" {
+            String::new()
+        } else {
+            entry.unit.clone()
+        };
+        table.row([
+            escape(&name.replace('_', " ")),
+            digits(entry.value),
+            escape(&unit),
+        ]);
+    }
+    heading("Balance of the arc", table.render())
+}
+
+/// Conserved totals of every program.
+fn closing(records: &[Named]) -> String {
+    let mut table = Rows::new(&["Program", "Total", "#Value", "Unit"]);
+    for (_, record) in records {
+        let RunRecord { tool, closing, .. } = record;
+        for total in closing {
+            let unit = if total.unit == "1" { "" } else { &total.unit };
+            table.row([
+                escape(tool),
+                escape(&total.name.replace('_', " ")),
+                digits(total.value),
+                escape(unit),
+            ]);
+        }
+    }
+    heading("Totals at the end", table.render())
+}
+
+fn heading(title: &str, body: String) -> String {
+    if body.is_empty() {
+        return body;
+    }
+    format!("<h3>{}</h3>\n{body}", escape(title))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_energies_read_as_words() {
+        assert_eq!(readable("energy_in_arc_j"), "in: arc");
+        assert_eq!(readable("energy_out_radiation_j"), "out: radiation");
+        assert_eq!(readable("energy_stored_j"), "stored");
+        assert_eq!(readable("mass_kg"), "mass");
+    }
+
+    #[test]
+    fn a_balance_without_closure_has_no_plot_of_it() {
+        let record = |m: f64| Record::new().with("mass_kg", "kg", m);
+        let html = series(&[(0.0, record(1.0)), (1.0, record(2.0))]);
+        assert!(html.contains("mass [g]") && !html.contains("closure"));
+    }
+}

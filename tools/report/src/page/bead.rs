@@ -1,0 +1,192 @@
+//! The bead: pictures, measures, and how they change along the weld.
+
+use artefact::Reader;
+use run::Failure;
+
+use super::{encoding, tiles};
+use crate::html::{figure, note, picture, side_by_side};
+use crate::picture::bead::{self, Paint, View};
+use crate::picture::cross;
+use crate::plot::{Line, Plot};
+use crate::weld::{PARTICLES, Stretch, Weld};
+
+/// Moments of the series of pictures, as shares of the time computed.
+const MOMENTS: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// The section; nothing without particles.
+pub(super) fn section(
+    reader: &Reader,
+    weld: &Weld,
+    stretch: Option<&Stretch>,
+) -> Result<String, Failure> {
+    let mut body = String::new();
+    if let Some(stretch) = stretch {
+        body += &tiles(&facts(weld, stretch));
+        if !stretch.frozen {
+            body += &note(&format!(
+                "Nothing of this weld has frozen beyond its run-in yet: the measures are the greatest \
+                 ones {:.2} s into the weld, not those of a finished bead.",
+                weld.time
+            ));
+        }
+    }
+    let earlier = earlier(reader)?;
+    let mut all: Vec<&Weld> = earlier.iter().collect();
+    all.push(weld);
+    let paint = Paint::of(&all);
+    body += &views(weld, &paint)?;
+    if let Some(stretch) = stretch {
+        body += &sections(weld, &paint, stretch)?;
+        body += &along(stretch);
+    }
+    body += &growth(&earlier, &paint)?;
+    Ok(body)
+}
+
+fn earlier(reader: &Reader) -> Result<Vec<Weld>, Failure> {
+    let count = reader.count(PARTICLES);
+    if count < 5 {
+        return Ok(Vec::new());
+    }
+    let index = |part: f64| (part * (count - 1) as f64).round() as usize;
+    Ok(MOMENTS
+        .iter()
+        .map(|m| Weld::read(reader, index(*m)))
+        .collect::<Result<_, _>>()?)
+}
+
+fn facts(weld: &Weld, stretch: &Stretch) -> Vec<(String, String)> {
+    let mut facts = Vec::new();
+    for (name, words) in [
+        ("penetration", "penetration below the original surface"),
+        ("fused_width", "greatest width fused below the surface"),
+        ("reinforcement", "height above the surface"),
+        ("bead_width", "width of the bead above the surface"),
+    ] {
+        if let Some(measure) = stretch.get(name) {
+            let [low, high] = measure.range.map(|v| 1e3 * v);
+            let range = if stretch.frozen {
+                format!("{words}; {low:.1} to {high:.1} mm along the weld")
+            } else {
+                format!("{words}, so far")
+            };
+            facts.push((format!("{:.1} mm", 1e3 * measure.value), range));
+        }
+    }
+    if let Some(measure) = stretch.get("dilution") {
+        let words = "dilution: fused plate in the whole bead".to_owned();
+        facts.push((format!("{:.0} %", 100.0 * measure.value), words));
+    }
+    let liquid = weld.liquid.iter().filter(|l| **l).count();
+    facts.push((format!("{:.2} s", weld.time), "of welding shown".to_owned()));
+    facts.push((
+        format!("{}", weld.position.len()),
+        format!(
+            "particles of {:.2} mm, {liquid} of them liquid now",
+            1e3 * weld.plate.spacing_m
+        ),
+    ));
+    facts
+}
+
+fn views(weld: &Weld, paint: &Paint) -> Result<String, Failure> {
+    let mut out = String::new();
+    let captions = [
+        (
+            View::Above,
+            "The weld from above. Yellow is the hottest liquid, dark red the coolest; blue-grey metal \
+             was liquid and has frozen, grey metal never melted.",
+        ),
+        (
+            View::Side,
+            "The weld from the side: how high the bead stands above the plate, and drops on their way.",
+        ),
+    ];
+    for (view, caption) in captions {
+        if let Some(canvas) = bead::picture(weld, paint, view) {
+            let image = picture(&canvas, caption).map_err(|e| encoding(&e))?;
+            out += &figure(&image, &format!("{caption} Time {:.2} s.", weld.time));
+        }
+    }
+    Ok(out)
+}
+
+fn sections(weld: &Weld, paint: &Paint, stretch: &Stretch) -> Result<String, Failure> {
+    let mut out = String::new();
+    if let Some(place) = stretch.place() {
+        let (section, measures) = weld.section(place);
+        if let Some(canvas) = cross::across(weld, &section, &measures) {
+            let state = if stretch.frozen {
+                "in the middle of the frozen stretch"
+            } else {
+                "where the weld is deepest so far; not all of it has frozen"
+            };
+            let caption = format!(
+                "Section across the weld at y = {:.1} mm, {state}. The orange line encloses all metal that \
+                 has ever been liquid; arrows measure it from the dashed original surface.",
+                1e3 * place
+            );
+            let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;
+            out += &figure(&image, &caption);
+        }
+    }
+    if let Some(canvas) = cross::along(weld, paint) {
+        let caption = "Section along the centre of the weld: the pool under the arc, its tail, the bead \
+                       behind it, and the green fusion line below.";
+        let image = picture(&canvas, caption).map_err(|e| encoding(&e))?;
+        out += &figure(&image, caption);
+    }
+    Ok(out)
+}
+
+/// The measures over the place along the weld.
+fn along(stretch: &Stretch) -> String {
+    if stretch.beads.len() < 3 {
+        return String::new();
+    }
+    let line = |name: &str, value: fn(&crate::measure::bead::Bead) -> f64| {
+        let points = stretch
+            .beads
+            .iter()
+            .map(|(y, bead)| [1e3 * y, 1e3 * value(bead)]);
+        Line::new(name, points.collect())
+    };
+    let mut depth = Plot::new("place along the weld y [mm]", "depth and height [mm]").through(0.0);
+    depth.add(line("penetration", |b| b.penetration));
+    depth.add(line("height of the bead", |b| b.reinforcement));
+    let mut width = Plot::new("place along the weld y [mm]", "width [mm]").through(0.0);
+    width.add(line("fused below the surface", |b| b.fused_width));
+    width.add(line("bead above the surface", |b| b.bead_width));
+    let what = if stretch.frozen {
+        format!(
+            "over the {:.0} mm of frozen weld that the measures above are medians of",
+            1e3 * stretch.length()
+        )
+    } else {
+        "over all that has melted so far".to_owned()
+    };
+    side_by_side(&[
+        figure(
+            &depth.svg(),
+            &format!("Penetration and height {what}. Level lines mean a steady weld."),
+        ),
+        figure(&width.svg(), &format!("Widths {what}.")),
+    ])
+}
+
+/// How the bead came to be.
+fn growth(earlier: &[Weld], paint: &Paint) -> Result<String, Failure> {
+    let mut out = String::new();
+    for weld in earlier {
+        if let Some(canvas) = bead::picture(weld, paint, View::Above) {
+            let words = format!("The weld from above at {:.2} s.", weld.time);
+            let image = picture(&canvas, &words).map_err(|e| encoding(&e))?;
+            out += &figure(&image, &words);
+        }
+    }
+    Ok(if out.is_empty() {
+        out
+    } else {
+        format!("<details>\n<summary>Earlier moments</summary>\n{out}</details>\n")
+    })
+}

@@ -1,0 +1,88 @@
+//! The averaged flow.
+
+use artefact::Reader;
+use run::Failure;
+
+use super::encoding;
+use crate::draw::axes::number;
+use crate::html::{escape, figure, picture};
+use crate::picture::mean::{Field, Style, phases, single};
+use crate::plot::{Line, Plot};
+
+/// Channel and name of a section, in the order shown.
+const SECTIONS: [(&str, &str); 3] = [
+    ("/section_x0", "Along the weld, in its centre plane"),
+    ("/section_y0", "Across the weld, under the arc"),
+    ("/surface", "The surface, from above"),
+];
+/// Melting point assumed where the frames tell none \[K\].
+const MELTING: f64 = 1750.0;
+
+/// The section; nothing where no liquid was averaged.
+pub(super) fn section(reader: &Reader, melting: Option<f64>) -> Result<String, Failure> {
+    let mut out = String::new();
+    let mut speeds = Plot::new("phase of the droplet period", "mean speed [m/s]").through(0.0);
+    for (channel, title) in SECTIONS {
+        let time = Field::all(reader, &format!("{channel}/time_mean"))?;
+        let cycle = Field::all(reader, channel)?;
+        let mut every = time.clone();
+        every.extend(cycle.iter().cloned());
+        let Some(style) = Style::of(&every, melting.unwrap_or(MELTING)) else {
+            continue;
+        };
+        out += &one(title, time.first(), &cycle, &style)?;
+        let points = cycle
+            .iter()
+            .filter_map(|f| Some([f.phase?, f.mean_speed()?]));
+        speeds.add(Line::new(title, points.collect()).marked());
+    }
+    if !speeds.is_empty() {
+        out += &figure(
+            &speeds.svg(),
+            "Mean speed in each section over the droplet period. A drop that strikes the pool lifts the curve; \
+             how fast it falls again tells how fast the pool calms down.",
+        );
+    }
+    Ok(out)
+}
+
+fn one(
+    title: &str,
+    time: Option<&Field>,
+    cycle: &[Field],
+    style: &Style,
+) -> Result<String, Failure> {
+    let mut out = String::new();
+    let colour = if style.heat() { "temperature" } else { "speed" };
+    let reference = number(style.reference());
+    if let Some(field) = time
+        && let Some(canvas) = single(field, style)
+    {
+        let caption = format!(
+            "{title}, mean over {} frames{}. Arrows are the velocity relative to the arc (the arrow below the \
+             picture is {reference} m/s), colour is {colour}, grey is solid.",
+            field.frames,
+            if field.drops > 0.0 {
+                format!(" of {} droplets", field.drops)
+            } else {
+                String::new()
+            }
+        );
+        let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;
+        out += &figure(&image, &caption);
+    }
+    let filled: Vec<Field> = cycle.iter().filter(|f| f.frames > 0.0).cloned().collect();
+    if let Some(canvas) = phases(&filled, style) {
+        let caption = format!(
+            "The same, phase by phase of the droplet period, first down the left column, then down the right. \
+             All pictures share the colours and the arrow of {reference} m/s."
+        );
+        let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;
+        out += &figure(&image, &caption);
+    }
+    Ok(if out.is_empty() {
+        out
+    } else {
+        format!("<h3>{}</h3>\n{out}", escape(title))
+    })
+}

@@ -1,0 +1,103 @@
+//! The page of a study.
+
+mod arc;
+mod balance;
+mod bead;
+mod compare;
+mod mean;
+mod runs;
+
+use artefact::Reader;
+use run::Failure;
+
+use crate::command::{PageFiles, save};
+use crate::html::{Page, escape, paragraph};
+use crate::records::RunRecord;
+use crate::targets::Targets;
+use crate::weld::Weld;
+
+/// A program's record under the name of its artefact.
+type Named = (&'static str, RunRecord);
+
+/// Writes the page of a study.
+pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
+    let open = |path: &Option<std::path::PathBuf>, kind| match path {
+        Some(path) => Reader::open_kind(path, kind, 1).map(Some),
+        None => Ok(None),
+    };
+    let arc = open(&files.arc, "arc-source")?;
+    let pool = open(&files.pool, "particle-frames")?;
+    let mean = open(&files.mean, "mean-fields")?;
+    let targets = match &files.targets {
+        Some(path) => Some(Targets::read(path)?),
+        None => None,
+    };
+    let records: Vec<Named> = [
+        ("arc", &files.arc),
+        ("pool", &files.pool),
+        ("mean", &files.mean),
+    ]
+    .into_iter()
+    .filter_map(|(name, path)| Some((name, RunRecord::beside(path.as_deref()?)?)))
+    .collect();
+    let weld = match &pool {
+        Some(reader) => Weld::last(reader)?,
+        None => None,
+    };
+    let stretch = weld.as_ref().and_then(Weld::bead);
+    let mut page = Page::new(&files.study, &lead(&records));
+    if let (Some(reader), Some(weld)) = (&pool, &weld) {
+        page.section("The bead", bead::section(reader, weld, stretch.as_ref())?);
+    }
+    if let Some(targets) = &targets {
+        let body = compare::section(targets, stretch.as_ref());
+        page.section("Against experiment and simulation", body);
+    }
+    if let Some(reader) = &mean {
+        let melting = weld.as_ref().and_then(|w| w.plate.melting_point_k);
+        page.section("The flow in the pool", mean::section(reader, melting)?);
+    }
+    if let Some(reader) = &arc {
+        page.section("The arc", arc::section(reader)?);
+    }
+    let body = balance::section(pool.as_ref(), arc.as_ref(), &records)?;
+    page.section("Mass and energy", body);
+    page.section("How it was computed", runs::section(&records));
+    save(&files.out, &page.render())
+}
+
+/// Titles of the scenes, each once.
+fn lead(records: &[Named]) -> String {
+    let mut said: Vec<&str> = Vec::new();
+    for (_, record) in records {
+        if let Some(title) = record.title()
+            && !said.contains(&title)
+        {
+            said.push(title);
+        }
+    }
+    said.into_iter().map(paragraph).collect()
+}
+
+/// A picture that could not be encoded.
+fn encoding(error: &png::EncodingError) -> Failure {
+    Failure::Other(format!("a picture could not be encoded: {error}"))
+}
+
+/// Facts as tiles: value and what it is.
+fn tiles(facts: &[(String, String)]) -> String {
+    if facts.is_empty() {
+        return String::new();
+    }
+    let tile = |(value, name): &(String, String)| {
+        format!(
+            "<li><b>{}</b><span>{}</span></li>\n",
+            escape(value),
+            escape(name)
+        )
+    };
+    format!(
+        "<ul class=\"tiles\">\n{}</ul>\n",
+        facts.iter().map(tile).collect::<String>()
+    )
+}

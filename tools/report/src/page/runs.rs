@@ -1,0 +1,142 @@
+//! How the study was computed: programs, active stages, memory, what was left out.
+
+use super::Named;
+use crate::html::{Rows, escape, figure, note};
+use crate::plot::{Line, Plot};
+use crate::records::{RunRecord, bytes, duration, figure as digits};
+
+/// The section; nothing without records.
+pub(super) fn section(records: &[Named]) -> String {
+    let mut table = Rows::new(&[
+        "Program",
+        "Ended",
+        "#Time",
+        "#Steps",
+        "#Threads",
+        "#Peak memory",
+        "Started",
+    ]);
+    for (_, record) in records {
+        table.row([
+            escape(&format!("{} {}", record.tool, record.tool_version)),
+            escape(&record.outcome),
+            duration(record.wall_s),
+            record.steps.to_string(),
+            record.threads.to_string(),
+            record
+                .peak_memory_bytes
+                .map_or_else(|| "\u{2013}".to_owned(), bytes),
+            escape(&record.start),
+        ]);
+    }
+    let mut out = table.render();
+    for (_, record) in records {
+        out += &one(record);
+    }
+    out
+}
+
+fn one(record: &RunRecord) -> String {
+    let mut out = String::new();
+    for warning in &record.warnings {
+        out += &note(&format!("Warning: {warning}"));
+    }
+    for text in &record.notes {
+        out += &note(text);
+    }
+    out += &stages(record);
+    out += &memory(record);
+    out += &limits(record);
+    let mut left_out = Rows::new(&["Left out", "Why"]);
+    for absent in &record.left_out {
+        left_out.row([escape(&absent.name), escape(&absent.why)]);
+    }
+    out += &left_out.render();
+    out += &history(record);
+    out += &scene(record);
+    if out.is_empty() {
+        return out;
+    }
+    format!("<h3>{}</h3>\n{out}", escape(&record.tool))
+}
+
+fn stages(record: &RunRecord) -> String {
+    let mut table = Rows::new(&["Active stage", "#Time", "#Share", "", "#Per step"]);
+    for stage in &record.stages {
+        let per_step = match record.steps {
+            0 => "\u{2013}".to_owned(),
+            n => format!("{:.3} ms", 1e3 * stage.wall_s / n as f64),
+        };
+        table.row([
+            escape(&stage.name),
+            duration(stage.wall_s),
+            format!("{:.1} %", 100.0 * stage.share),
+            format!(
+                "<span class=\"bar\" style=\"width:{:.1}rem\"></span>",
+                (10.0 * stage.share).clamp(0.0, 10.0)
+            ),
+            per_step,
+        ]);
+    }
+    table.render()
+}
+
+fn memory(record: &RunRecord) -> String {
+    let mut table = Rows::new(&["Memory of", "#Size"]);
+    for part in &record.memory {
+        table.row([escape(&part.name), bytes(part.bytes)]);
+    }
+    table.render()
+}
+
+fn limits(record: &RunRecord) -> String {
+    let mut table = Rows::new(&["Limit", "#Value", "Unit"]);
+    for limit in &record.limits {
+        let unit = if limit.unit == "1" { "" } else { &limit.unit };
+        table.row([
+            escape(&limit.name.replace('_', " ")),
+            digits(limit.value),
+            escape(unit),
+        ]);
+    }
+    table.render()
+}
+
+/// Residuals and other histories; residuals on logarithmic axes.
+fn history(record: &RunRecord) -> String {
+    let mut residuals = Plot::new("iteration", "residual").log_log();
+    for history in record
+        .history
+        .iter()
+        .filter(|h| h.name.contains("residual"))
+    {
+        let points = history
+            .at
+            .iter()
+            .zip(&history.values)
+            .map(|(a, v)| [*a, *v]);
+        let name = history
+            .name
+            .trim_start_matches("residual_")
+            .replace('_', " ");
+        residuals.add(Line::new(&name, points.collect()));
+    }
+    if residuals.is_empty() {
+        return String::new();
+    }
+    figure(
+        &residuals.svg(),
+        "How the residuals of the equations fell: lower is closer to a solution.",
+    )
+}
+
+fn scene(record: &RunRecord) -> String {
+    if record.scene.is_null() {
+        return String::new();
+    }
+    let text = serde_json::to_string_pretty(&record.scene).unwrap_or_default();
+    format!(
+        "<details>\n<summary>The scene</summary>\n<pre>{}</pre>\n</details>\n",
+        escape(&text)
+    )
+}

@@ -1,0 +1,360 @@
+//! Averaged flow: arrows over temperature, per phase and over time.
+
+use artefact::{Reader, Table};
+
+use super::{WIDTH, bar_beside, heat_scale, quantile, scale_bar};
+use crate::draw::axes::{Axes, Scale, number};
+use crate::draw::canvas::{Canvas, Rect};
+use crate::draw::colour::{INK, Map, PLATE, Rgb, WHITE, hex};
+use crate::draw::contour::Grid;
+use crate::draw::letters::{Hand, Stand, write};
+
+/// A grid of means, in millimetres, with what the pictures need.
+#[derive(Debug, Clone)]
+pub(crate) struct Field {
+    first: Vec<f64>,
+    second: Vec<f64>,
+    axes: [char; 2],
+    velocity: [Vec<f64>; 2],
+    temperature: Option<Vec<f64>>,
+    metal: Vec<bool>,
+    liquid: Vec<bool>,
+    /// Phase of the droplet period; `None` for a mean over time.
+    pub(crate) phase: Option<f64>,
+    /// Frames averaged.
+    pub(crate) frames: f64,
+    /// Droplets averaged.
+    pub(crate) drops: f64,
+}
+
+impl Field {
+    /// Reads a table of `mean-fields`.
+    ///
+    /// # Errors
+    /// When a column is absent.
+    pub(crate) fn read(table: &Table) -> artefact::Result<Self> {
+        let letter = |k: usize| {
+            table
+                .axes
+                .get(k)
+                .and_then(|a| a.name.chars().next())
+                .unwrap_or('?')
+        };
+        let axes = [letter(0), letter(1)];
+        let mm = |k: usize| -> Vec<f64> {
+            let axis = table.axes.get(k).map(|a| a.values.as_slice());
+            axis.unwrap_or_default().iter().map(|v| 1e3 * v).collect()
+        };
+        let velocity = |k: usize| {
+            table
+                .values(&format!("velocity_{}_m_s", axes[k]))
+                .map(<[f64]>::to_vec)
+        };
+        let present = |name: &str| -> artefact::Result<Vec<bool>> {
+            let counts = table.values(name)?;
+            let most = counts.iter().copied().fold(0.0, f64::max);
+            // Seen in at least a third of the frames that saw anything: not a chance visitor.
+            Ok(counts
+                .iter()
+                .map(|c| *c > 0.0 && *c >= most / 3.0)
+                .collect())
+        };
+        Ok(Self {
+            first: mm(0),
+            second: mm(1),
+            axes,
+            velocity: [velocity(0)?, velocity(1)?],
+            temperature: table.values("temperature_k").ok().map(<[f64]>::to_vec),
+            metal: present("frames_metal")?,
+            liquid: present("frames_liquid")?,
+            phase: table.scalar("phase").ok(),
+            frames: table.scalar("frames").unwrap_or(0.0),
+            drops: table.scalar("drops").unwrap_or(0.0),
+        })
+    }
+
+    /// Every table of a channel.
+    ///
+    /// # Errors
+    /// When a table cannot be read.
+    pub(crate) fn all(reader: &Reader, channel: &str) -> artefact::Result<Vec<Self>> {
+        (0..reader.count(channel))
+            .map(|i| Self::read(&reader.table_at(channel, i)?))
+            .collect()
+    }
+
+    fn speed(&self, n: usize) -> f64 {
+        self.velocity[0][n].hypot(self.velocity[1][n])
+    }
+
+    /// Speeds in the plane where there is liquid \[m/s\].
+    pub(crate) fn speeds(&self) -> impl Iterator<Item = f64> {
+        (0..self.liquid.len())
+            .filter(|n| self.liquid[*n])
+            .map(|n| self.speed(n))
+    }
+
+    /// Mean speed in the plane over the liquid, weighted by nothing but the grid \[m/s\].
+    pub(crate) fn mean_speed(&self) -> Option<f64> {
+        let (sum, count) = self.speeds().fold((0.0, 0.0), |(s, c), u| (s + u, c + 1.0));
+        (count > 0.0).then(|| sum / count)
+    }
+
+    fn hottest(&self) -> impl Iterator<Item = f64> {
+        let temperature = self.temperature.as_deref().unwrap_or_default();
+        temperature
+            .iter()
+            .zip(&self.liquid)
+            .filter(|(_, l)| **l)
+            .map(|(t, _)| *t)
+    }
+
+    /// Whether the second axis runs to the right (seen from above, the welding direction does).
+    fn turned(&self) -> bool {
+        self.axes == ['x', 'y']
+    }
+
+    /// Index and place of each grid point in the picture: right, up.
+    fn points(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
+        let rows = self.second.len();
+        (0..self.first.len() * rows).map(move |n| {
+            let (a, b) = (self.first[n / rows], self.second[n % rows]);
+            (n, if self.turned() { [b, -a] } else { [a, b] })
+        })
+    }
+
+    /// Velocity in the picture: right, up.
+    fn flow(&self, n: usize) -> [f64; 2] {
+        let [u, v] = [self.velocity[0][n], self.velocity[1][n]];
+        if self.turned() { [v, -u] } else { [u, v] }
+    }
+
+    fn titles(&self) -> [String; 2] {
+        let name = |axis: char| match axis {
+            'x' => "across x [mm]".to_owned(),
+            'y' => "along, from the arc y' [mm]".to_owned(),
+            _ => "height z [mm]".to_owned(),
+        };
+        if self.turned() {
+            [name('y'), "across, -x [mm]".to_owned()]
+        } else {
+            [name(self.axes[0]), name(self.axes[1])]
+        }
+    }
+
+    /// Range to the right and upwards of what holds metal.
+    fn window(&self) -> Option<[[f64; 2]; 2]> {
+        let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        for (n, at) in self.points() {
+            if self.metal[n] {
+                for (r, v) in range.iter_mut().zip(at) {
+                    *r = [r[0].min(v), r[1].max(v)];
+                }
+            }
+        }
+        let filled = range.iter().all(|r| r[0] < r[1]);
+        filled.then(|| range.map(|r| [r[0] - 0.4, r[1] + 0.4]))
+    }
+}
+
+/// Colours and the arrow scale that all pictures of a series share.
+#[derive(Debug, Clone)]
+pub(crate) struct Style {
+    scale: Scale,
+    heat: bool,
+    /// Speed whose arrow is `ARROW` grid spacings long \[m/s\].
+    reference: f64,
+}
+
+/// Length of the arrow of the reference speed, in millimetres.
+const ARROW: f64 = 1.6;
+
+impl Style {
+    /// What suits all of `fields`; nothing where no liquid is.
+    pub(crate) fn of(fields: &[Field], melting: f64) -> Option<Self> {
+        let fast = quantile(fields.iter().flat_map(Field::speeds), 0.98)?;
+        let power = 10.0_f64.powf(fast.max(1e-6).log10().floor());
+        let reference = [1.0, 2.0, 5.0, 10.0]
+            .into_iter()
+            .map(|m| m * power)
+            .find(|s| *s >= 0.7 * fast);
+        let hot = quantile(fields.iter().flat_map(Field::hottest), 0.998);
+        let speed = Scale {
+            map: Map::Viridis,
+            range: [0.0, fast.max(1e-6)],
+            title: "speed in the plane [m/s]".to_owned(),
+        };
+        Some(Self {
+            heat: hot.is_some(),
+            scale: hot.map_or(speed, |hot| heat_scale(melting, hot)),
+            reference: reference.unwrap_or(power),
+        })
+    }
+
+    /// The speed that the reference arrow stands for \[m/s\].
+    pub(crate) fn reference(&self) -> f64 {
+        self.reference
+    }
+
+    /// Whether colour is temperature; else it is speed.
+    pub(crate) fn heat(&self) -> bool {
+        self.heat
+    }
+}
+
+/// One field over the full width; nothing where no metal is.
+pub(crate) fn single(field: &Field, style: &Style) -> Option<Canvas> {
+    let [x, y] = field.window()?;
+    let scale = (WIDTH as f64 - 330.0) / (x[1] - x[0]);
+    let scale = scale.min(900.0 / (y[1] - y[0]));
+    let axes = Axes::equal([130.0, 40.0], scale, x, y);
+    let height = axes.area.h + 40.0 + 140.0;
+    let mut canvas = Canvas::new(WIDTH, height.max(330.0) as usize);
+    paint(&mut canvas, &axes, field, style);
+    let [right, up] = field.titles();
+    axes.draw(&mut canvas, &right, &up);
+    bar_beside(&mut canvas, &style.scale, axes.area);
+    key(&mut canvas, [130.0, height - 40.0], style, scale);
+    scale_bar(
+        &mut canvas,
+        [130.0 + axes.area.w - 320.0, height - 40.0],
+        scale,
+    );
+    Some(canvas)
+}
+
+/// All phases in two columns, with one scale; nothing where no metal is.
+pub(crate) fn phases(fields: &[Field], style: &Style) -> Option<Canvas> {
+    let windows = fields.iter().filter_map(Field::window);
+    let [x, y] =
+        windows.reduce(|a, b| [0, 1].map(|k| [a[k][0].min(b[k][0]), a[k][1].max(b[k][1])]))?;
+    let (left, gap) = (110.0, 90.0);
+    let width = (WIDTH as f64 - left - gap - 190.0) / 2.0;
+    let scale = width / (x[1] - x[0]);
+    let high = scale * (y[1] - y[0]);
+    let rows = fields.len().div_ceil(2);
+    let pitch = high + 74.0;
+    let height = rows as f64 * pitch + 150.0;
+    let mut canvas = Canvas::new(WIDTH, height as usize);
+    let mut last = None;
+    for (n, field) in fields.iter().enumerate() {
+        // Down the first column, then down the second.
+        let (column, row) = (n / rows, n % rows);
+        let corner = [
+            left + column as f64 * (width + gap),
+            44.0 + row as f64 * pitch,
+        ];
+        let axes = Axes::equal(corner, scale, x, y);
+        paint(&mut canvas, &axes, field, style);
+        let bottom = row + 1 == rows || n + 1 == fields.len();
+        let [right, up] = field.titles();
+        axes.draw(
+            &mut canvas,
+            if bottom { &right } else { "" },
+            if column == 0 { &up } else { "" },
+        );
+        let name = format!("phase {:.3}", field.phase.unwrap_or(0.0));
+        write(
+            &mut canvas,
+            [corner[0] + 4.0, corner[1] - 16.0],
+            &name,
+            Hand::Title,
+            (Stand::Left, INK),
+        );
+        last = Some(axes);
+    }
+    let area = Rect {
+        x: left + width + gap,
+        y: 44.0,
+        w: width,
+        h: last?.area.h.max(260.0),
+    };
+    bar_beside(&mut canvas, &style.scale, area);
+    key(&mut canvas, [left, height - 34.0], style, scale);
+    scale_bar(&mut canvas, [left + width + gap, height - 34.0], scale);
+    Some(canvas)
+}
+
+fn paint(canvas: &mut Canvas, axes: &Axes, field: &Field, style: &Style) {
+    let rows = field.second.len();
+    let spacing = if rows > 1 {
+        field.second[1] - field.second[0]
+    } else {
+        1.0
+    };
+    let share =
+        |flags: &[bool]| -> Vec<f64> { flags.iter().map(|f| f64::from(u8::from(*f))).collect() };
+    let (metal, liquid) = (share(&field.metal), share(&field.liquid));
+    let shown: Vec<f64> = match &field.temperature {
+        Some(t) if style.heat => t.clone(),
+        _ => (0..metal.len()).map(|n| field.speed(n)).collect(),
+    };
+    let grid = |values| Grid {
+        first: &field.first,
+        second: &field.second,
+        values,
+    };
+    // Only values of grid points that hold metal enter the colour.
+    let product: Vec<f64> = shown.iter().zip(&metal).map(|(v, m)| v * m).collect();
+    let (metal, liquid, product) = (grid(&metal), grid(&liquid), grid(&product));
+    let place = |p: [f64; 2]| if field.turned() { [-p[1], p[0]] } else { p };
+    axes.paint(canvas, |p| {
+        let [a, b] = place(p);
+        let share = metal.sample(a, b).filter(|share| *share >= 0.5)?;
+        let molten = liquid.sample(a, b).is_some_and(|l| l >= 0.5);
+        let value = product.sample(a, b)? / share;
+        Some(if molten {
+            style.scale.colour(value)
+        } else {
+            PLATE
+        })
+    });
+    let pixels = axes.area.w / (axes.x[1] - axes.x[0]);
+    for (n, at) in field.points() {
+        if field.liquid[n] && axes.holds(at) {
+            arrow(
+                canvas,
+                axes.pixel(at),
+                field.flow(n),
+                (style.reference, pixels, spacing),
+            );
+        }
+    }
+}
+
+fn arrow(
+    canvas: &mut Canvas,
+    at: [f64; 2],
+    u: [f64; 2],
+    (reference, pixels, spacing): (f64, f64, f64),
+) {
+    let length = ARROW * pixels * u[0].hypot(u[1]) / reference;
+    if length < 0.06 * spacing * pixels {
+        return;
+    }
+    let scale = ARROW * pixels / reference;
+    let half = [0.5 * u[0] * scale, -0.5 * u[1] * scale];
+    let (tail, tip) = (
+        [at[0] - half[0], at[1] - half[1]],
+        [at[0] + half[0], at[1] + half[1]],
+    );
+    canvas.arrow(tail, tip, WHITE, 5.0);
+    canvas.arrow(tail, tip, ARROWS, 2.6);
+}
+
+/// Near to black, cool: stands out on every colour of hot metal.
+const ARROWS: Rgb = hex(0x0a_1a2a);
+
+/// The reference arrow with its speed.
+fn key(canvas: &mut Canvas, at: [f64; 2], style: &Style, pixels: f64) {
+    let end = [at[0] + ARROW * pixels, at[1]];
+    canvas.arrow(at, end, ARROWS, 3.0);
+    let words = format!("{} m/s", number(style.reference));
+    write(
+        canvas,
+        [end[0] + 14.0, at[1]],
+        &words,
+        Hand::Small,
+        (Stand::Left, INK),
+    );
+}

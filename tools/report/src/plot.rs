@@ -1,0 +1,429 @@
+//! Line plots as SVG that takes the colours of the page around it.
+//!
+//! Ink is `currentColor` and the ground is transparent, so that a plot reads on a light and on a
+//! dark page. Series differ in colour (Okabe and Ito's, which the colour-blind tell apart) and in
+//! the shape of their marks.
+
+use crate::draw::axes::{number, ticks};
+use crate::html::escape;
+
+const COLOURS: [&str; 7] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8f7f3f",
+];
+const WIDTH: f64 = 640.0;
+const HEIGHT: f64 = 380.0;
+/// Left, right, top, bottom.
+const MARGIN: [f64; 4] = [68.0, 18.0, 14.0, 50.0];
+/// Height of a row of the legend.
+const ROW: f64 = 18.0;
+
+/// How an axis runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Run {
+    /// Linear.
+    Even,
+    /// By powers of ten.
+    Log,
+}
+
+/// A line, with marks at its points if they are few.
+#[derive(Debug, Clone)]
+pub(crate) struct Line {
+    /// What it shows.
+    pub(crate) name: String,
+    /// Its points.
+    pub(crate) points: Vec<[f64; 2]>,
+    /// Thin, dashed and grey: a slope or a bound to compare with.
+    pub(crate) guide: bool,
+    /// Marks at the points.
+    pub(crate) marks: bool,
+}
+
+impl Line {
+    /// A line without marks.
+    pub(crate) fn new(name: &str, points: Vec<[f64; 2]>) -> Self {
+        Self {
+            name: name.to_owned(),
+            points,
+            guide: false,
+            marks: false,
+        }
+    }
+
+    /// With marks at the points.
+    pub(crate) fn marked(mut self) -> Self {
+        self.marks = true;
+        self
+    }
+
+    /// As a guide for the eye.
+    pub(crate) fn guide(mut self) -> Self {
+        self.guide = true;
+        self
+    }
+}
+
+/// A plot of lines.
+#[derive(Debug, Clone)]
+pub(crate) struct Plot {
+    x_title: String,
+    y_title: String,
+    run: [Run; 2],
+    lines: Vec<Line>,
+    /// Ranges that must be seen.
+    least: [Option<f64>; 2],
+}
+
+impl Plot {
+    /// An empty plot with linear axes.
+    pub(crate) fn new(x_title: &str, y_title: &str) -> Self {
+        Self {
+            x_title: x_title.to_owned(),
+            y_title: y_title.to_owned(),
+            run: [Run::Even, Run::Even],
+            lines: Vec::new(),
+            least: [None, None],
+        }
+    }
+
+    /// With logarithmic axes; points that are not positive are left out.
+    pub(crate) fn log_log(mut self) -> Self {
+        self.run = [Run::Log, Run::Log];
+        self
+    }
+
+    /// With the y axis through `value`.
+    pub(crate) fn through(mut self, value: f64) -> Self {
+        self.least[1] = Some(value);
+        self
+    }
+
+    /// Adds a line; nothing if no point of it can be shown.
+    pub(crate) fn add(&mut self, mut line: Line) {
+        line.points.retain(|p| self.shows(*p));
+        if !line.points.is_empty() {
+            self.lines.push(line);
+        }
+    }
+
+    fn shows(&self, point: [f64; 2]) -> bool {
+        (0..2).all(|k| point[k].is_finite() && (self.run[k] == Run::Even || point[k] > 0.0))
+    }
+
+    /// Whether there is nothing to show.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.lines.is_empty()
+    }
+
+    /// The plot as SVG; nothing if it is empty.
+    pub(crate) fn svg(&self) -> String {
+        if self.lines.is_empty() {
+            return String::new();
+        }
+        let rows = self.legend_rows();
+        let top = MARGIN[2] + rows.len() as f64 * ROW;
+        let frame = Frame {
+            left: MARGIN[0],
+            right: WIDTH - MARGIN[1],
+            top,
+            bottom: top + HEIGHT - MARGIN[2] - MARGIN[3],
+            x: self.range(0),
+            y: self.range(1),
+            run: self.run,
+        };
+        let total = frame.bottom + MARGIN[3];
+        let mut out = format!(
+            "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {total}\" role=\"img\" aria-label=\"{} over {}\" \
+             font-family=\"system-ui, sans-serif\" font-size=\"13\" fill=\"currentColor\">\n",
+            escape(&self.y_title),
+            escape(&self.x_title)
+        );
+        out += &self.legend(&rows);
+        out += &frame.grid(&self.x_title, &self.y_title);
+        let mut colour = 0;
+        for line in &self.lines {
+            out += &draw(line, &frame, colour);
+            colour += usize::from(!line.guide);
+        }
+        out + "</svg>\n"
+    }
+
+    fn range(&self, k: usize) -> [f64; 2] {
+        let values = self
+            .lines
+            .iter()
+            .flat_map(|l| l.points.iter().map(|p| p[k]));
+        let all = values.chain(self.least[k]);
+        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+            (l.min(v), h.max(v))
+        });
+        match self.run[k] {
+            Run::Log if high > low * 1.5 => [low / 1.4, high * 1.4],
+            Run::Log => [low / 3.0, high * 3.0],
+            Run::Even if high > low => {
+                let pad = if k == 0 { 0.0 } else { 0.05 * (high - low) };
+                [low - pad, high + pad]
+            }
+            Run::Even => [
+                low - 0.5 * low.abs().max(1e-9),
+                high + 0.5 * high.abs().max(1e-9),
+            ],
+        }
+    }
+
+    /// Indices of lines by row of the legend.
+    fn legend_rows(&self) -> Vec<Vec<usize>> {
+        let mut rows: Vec<Vec<usize>> = Vec::new();
+        let mut width = f64::INFINITY;
+        for (i, line) in self
+            .lines
+            .iter()
+            .enumerate()
+            .filter(|(_, l)| !l.name.is_empty())
+        {
+            let own = entry_width(&line.name);
+            if width + own > WIDTH - MARGIN[0] {
+                rows.push(Vec::new());
+                width = 0.0;
+            }
+            if let Some(row) = rows.last_mut() {
+                row.push(i);
+            }
+            width += own;
+        }
+        rows
+    }
+
+    fn legend(&self, rows: &[Vec<usize>]) -> String {
+        let mut out = String::new();
+        for (r, row) in rows.iter().enumerate() {
+            let y = MARGIN[2] + r as f64 * ROW;
+            let mut x = MARGIN[0];
+            for &i in row {
+                let line = &self.lines[i];
+                let colour = self.lines[..i].iter().filter(|l| !l.guide).count();
+                out += &stroke(line, &format!("M{x:.1} {y:.1}h20"), colour);
+                if line.marks {
+                    out += &mark(colour, [x + 10.0, y]);
+                }
+                out += &text([x + 26.0, y + 4.5], "start", &line.name);
+                x += entry_width(&line.name);
+            }
+        }
+        out
+    }
+}
+
+fn entry_width(name: &str) -> f64 {
+    44.0 + 7.1 * name.chars().count() as f64
+}
+
+struct Frame {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+    x: [f64; 2],
+    y: [f64; 2],
+    run: [Run; 2],
+}
+
+impl Frame {
+    fn pixel(&self, point: [f64; 2]) -> [f64; 2] {
+        let u = share(point[0], self.x, self.run[0]);
+        let v = share(point[1], self.y, self.run[1]);
+        [
+            self.left + u * (self.right - self.left),
+            self.bottom - v * (self.bottom - self.top),
+        ]
+    }
+
+    fn grid(&self, x_title: &str, y_title: &str) -> String {
+        let mut out = String::new();
+        let faint = "stroke=\"currentColor\" stroke-opacity=\"0.14\" fill=\"none\"";
+        for tick in marks(self.x, self.run[0], 7.0) {
+            let [x, _] = self.pixel([tick, self.y[0]]);
+            out += &format!(
+                "<path {faint} d=\"M{x:.1} {:.1}V{:.1}\"/>",
+                self.top, self.bottom
+            );
+            out += &text([x, self.bottom + 18.0], "middle", &label(tick, self.run[0]));
+        }
+        for tick in marks(self.y, self.run[1], 6.0) {
+            let [_, y] = self.pixel([self.x[0], tick]);
+            out += &format!(
+                "<path {faint} d=\"M{:.1} {y:.1}H{:.1}\"/>",
+                self.left, self.right
+            );
+            out += &text([self.left - 8.0, y + 4.5], "end", &label(tick, self.run[1]));
+        }
+        out += &format!(
+            "<path stroke=\"currentColor\" stroke-opacity=\"0.55\" fill=\"none\" d=\"M{:.1} {:.1}V{:.1}H{:.1}\"/>\n",
+            self.left, self.top, self.bottom, self.right
+        );
+        let middle = 0.5 * (self.left + self.right);
+        out += &text([middle, self.bottom + 40.0], "middle", x_title);
+        let (x, y) = (14.0, 0.5 * (self.top + self.bottom));
+        out += &format!(
+            "<text transform=\"translate({x} {y:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+            escape(y_title)
+        );
+        out
+    }
+}
+
+fn share(value: f64, range: [f64; 2], run: Run) -> f64 {
+    match run {
+        Run::Even => (value - range[0]) / (range[1] - range[0]),
+        Run::Log => (value / range[0]).ln() / (range[1] / range[0]).ln(),
+    }
+}
+
+/// Where ticks stand: round numbers, or powers of ten with 2 and 5 between where there are few.
+fn marks(range: [f64; 2], run: Run, wanted: f64) -> Vec<f64> {
+    if run == Run::Even {
+        return ticks(range, wanted);
+    }
+    let (low, high) = (
+        range[0].log10().floor() as i32,
+        range[1].log10().ceil() as i32,
+    );
+    let inside = |v: &f64| *v >= range[0] && *v <= range[1];
+    let decades: Vec<f64> = (low..=high).map(|e| 10.0_f64.powi(e)).collect();
+    let tens: Vec<f64> = decades.iter().copied().filter(inside).collect();
+    match tens.len() {
+        0..=2 => decades
+            .iter()
+            .flat_map(|d| [*d, 2.0 * d, 5.0 * d])
+            .filter(inside)
+            .collect(),
+        3..=8 => tens,
+        n => tens.into_iter().step_by(n.div_ceil(7)).collect(),
+    }
+}
+
+fn label(value: f64, run: Run) -> String {
+    match run {
+        Run::Even => number(value).replace('-', "\u{2212}"),
+        Run::Log if (0.01..=9999.0).contains(&value) => number(value),
+        Run::Log => {
+            let power = value.log10().floor() as i32;
+            let lead = (value / 10.0_f64.powi(power)).round();
+            let raised = power.to_string().replace('-', "\u{2212}");
+            let sup = format!("10\u{200a}^{raised}");
+            if lead > 1.5 {
+                format!("{lead}\u{b7}{sup}")
+            } else {
+                sup
+            }
+        }
+    }
+}
+
+/// Text; a trailing `^n` becomes a superscript.
+fn text(at: [f64; 2], anchor: &str, words: &str) -> String {
+    let body = match words.split_once("\u{200a}^") {
+        Some((base, power)) => format!(
+            "{}<tspan dy=\"-5\" font-size=\"10\">{}</tspan>",
+            escape(base),
+            escape(power)
+        ),
+        None => escape(words),
+    };
+    format!(
+        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{body}</text>\n",
+        at[0], at[1]
+    )
+}
+
+fn draw(line: &Line, frame: &Frame, colour: usize) -> String {
+    let mut path = String::new();
+    for (i, point) in line.points.iter().enumerate() {
+        let [x, y] = frame.pixel(*point);
+        path += &format!("{}{x:.1} {y:.1}", if i == 0 { "M" } else { "L" });
+    }
+    let mut out = stroke(line, &path, colour);
+    if line.marks {
+        for point in &line.points {
+            out += &mark(colour, frame.pixel(*point));
+        }
+    }
+    out
+}
+
+fn stroke(line: &Line, path: &str, colour: usize) -> String {
+    if line.guide {
+        return format!(
+            "<path d=\"{path}\" fill=\"none\" stroke=\"currentColor\" stroke-opacity=\"0.6\" \
+             stroke-width=\"1.2\" stroke-dasharray=\"5 4\"/>\n"
+        );
+    }
+    let (hue, dash) = (
+        COLOURS[colour % COLOURS.len()],
+        ["", "7 3", "2 3"][(colour / COLOURS.len()) % 3],
+    );
+    format!(
+        "<path d=\"{path}\" fill=\"none\" stroke=\"{hue}\" stroke-width=\"2\" stroke-dasharray=\"{dash}\" \
+         stroke-linejoin=\"round\"/>\n"
+    )
+}
+
+fn mark(colour: usize, [x, y]: [f64; 2]) -> String {
+    let hue = COLOURS[colour % COLOURS.len()];
+    let path = match colour % 4 {
+        0 => format!(
+            "M{:.1} {y:.1}a4.2 4.2 0 1 0 8.4 0a4.2 4.2 0 1 0 -8.4 0z",
+            x - 4.2
+        ),
+        1 => format!("M{:.1} {:.1}h7.6v7.6h-7.6z", x - 3.8, y - 3.8),
+        2 => format!("M{x:.1} {:.1}l4.8 8.4h-9.6z", y - 5.4),
+        _ => format!("M{x:.1} {:.1}l5 5l-5 5l-5 -5z", y - 5.0),
+    };
+    format!("<path d=\"{path}\" fill=\"{hue}\"/>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_to_show_is_nothing() {
+        let mut plot = Plot::new("x", "y").log_log();
+        plot.add(Line::new(
+            "a",
+            vec![[0.0, 1.0], [1.0, f64::NAN], [-1.0, 2.0]],
+        ));
+        assert!(plot.is_empty() && plot.svg().is_empty());
+    }
+
+    #[test]
+    fn a_power_law_is_a_straight_line_on_logarithmic_axes() {
+        let frame = Frame {
+            left: 0.0,
+            right: 300.0,
+            top: 0.0,
+            bottom: 300.0,
+            x: [1.0, 1000.0],
+            y: [1e-6, 1.0],
+            run: [Run::Log, Run::Log],
+        };
+        let at: Vec<[f64; 2]> = [1.0, 10.0, 100.0, 1000.0]
+            .iter()
+            .map(|x: &f64| frame.pixel([*x, x.powi(-2)]))
+            .collect();
+        for pair in at.windows(2) {
+            assert!((pair[1][0] - pair[0][0] - 100.0).abs() < 1e-9);
+            assert!((pair[1][1] - pair[0][1] - 100.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn ticks_of_a_decade_have_steps_between() {
+        assert_eq!(marks([1.0, 9.0], Run::Log, 5.0), [1.0, 2.0, 5.0]);
+        assert_eq!(
+            marks([0.5, 2000.0], Run::Log, 5.0),
+            [1.0, 10.0, 100.0, 1000.0]
+        );
+        assert_eq!(label(1e-3, Run::Log), "10\u{200a}^\u{2212}3");
+    }
+}

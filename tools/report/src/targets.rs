@@ -1,0 +1,310 @@
+//! Published values and how far the study is from them.
+//!
+//! A targets file lists measures of the bead with their published values. A row with a tolerance
+//! is judged, a row without one is shown for comparison only. The bead of an experiment is frozen:
+//! while nothing of the weld has frozen, its measures are shown but nothing is judged.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::weld::Stretch;
+
+/// Where a published value comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Kind {
+    /// Measured.
+    Experiment,
+    /// Computed by others.
+    Simulation,
+}
+
+impl Kind {
+    /// The word for people.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Kind::Experiment => "experiment",
+            Kind::Simulation => "simulation",
+        }
+    }
+}
+
+/// Which side of the value is allowed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Bound {
+    /// Value - tolerance to value + tolerance.
+    #[default]
+    Within,
+    /// Up to value + tolerance.
+    AtMost,
+    /// From value - tolerance on.
+    AtLeast,
+}
+
+/// One published value.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Target {
+    /// Measure: penetration, fused_width, fused_half_width, reinforcement, bead_width, area_above,
+    /// area_below or dilution.
+    pub(crate) measure: String,
+    /// What the measure is called in the source.
+    pub(crate) title: String,
+    /// Published value.
+    pub(crate) value: f64,
+    /// Its unit: m, m2 or 1.
+    pub(crate) unit: String,
+    /// Where it is published.
+    pub(crate) source: String,
+    /// Experiment or simulation.
+    pub(crate) kind: Kind,
+    /// Greatest difference allowed, in the unit; absent: shown, not judged.
+    #[serde(default)]
+    pub(crate) tolerance: Option<f64>,
+    /// Which side is allowed.
+    #[serde(default)]
+    pub(crate) bound: Bound,
+}
+
+/// A targets file.
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct Targets {
+    /// The rows.
+    pub(crate) targets: Vec<Target>,
+}
+
+impl Targets {
+    /// Reads a targets file (kind `targets`, version 1).
+    ///
+    /// # Errors
+    /// When the file cannot be read, is of another kind or version, or does not fit.
+    pub(crate) fn read(path: &Path) -> artefact::Result<Self> {
+        artefact::json_artefact(path, "targets", 1)
+    }
+}
+
+/// What became of a target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// Inside the tolerance.
+    Holds,
+    /// Outside the tolerance.
+    Missed,
+    /// Without a tolerance: for comparison.
+    Shown,
+    /// Nothing of the weld has frozen yet.
+    NotYet,
+    /// The measure could not be taken.
+    Unknown,
+}
+
+/// A target with what was measured.
+#[derive(Debug, Clone)]
+pub(crate) struct Row {
+    /// The target.
+    pub(crate) target: Target,
+    /// Measured value.
+    pub(crate) measured: Option<f64>,
+    /// Least and greatest value along the weld.
+    pub(crate) range: Option<[f64; 2]>,
+    /// What became of it.
+    pub(crate) verdict: Verdict,
+}
+
+/// Compares every target with a stretch of weld; `None` where there is no weld.
+pub(crate) fn compare(targets: &Targets, stretch: Option<&Stretch>) -> Vec<Row> {
+    let row = |target: &Target| {
+        let found = stretch.and_then(|s| s.get(&target.measure));
+        let frozen = stretch.is_some_and(|s| s.frozen);
+        Row {
+            target: target.clone(),
+            measured: found.map(|m| m.value),
+            range: found.map(|m| m.range),
+            verdict: judge(target, found.map(|m| m.value), frozen),
+        }
+    };
+    targets.targets.iter().map(row).collect()
+}
+
+fn judge(target: &Target, measured: Option<f64>, frozen: bool) -> Verdict {
+    let Some(measured) = measured.filter(|m| m.is_finite()) else {
+        return Verdict::Unknown;
+    };
+    let Some(tolerance) = target.tolerance else {
+        return Verdict::Shown;
+    };
+    if !frozen {
+        return Verdict::NotYet;
+    }
+    let off = measured - target.value;
+    // A trillionth of the value forgives the last bits of decimal numbers.
+    let room = tolerance + 1e-12 * target.value.abs();
+    let holds = match target.bound {
+        Bound::Within => off.abs() <= room,
+        Bound::AtMost => off <= room,
+        Bound::AtLeast => -off <= room,
+    };
+    if holds {
+        Verdict::Holds
+    } else {
+        Verdict::Missed
+    }
+}
+
+impl Row {
+    /// The value in the unit for people, without the unit.
+    pub(crate) fn shown(&self, value: f64) -> String {
+        let (factor, _) = people(&self.target.unit);
+        let scaled = factor * value;
+        let text = if factor > 1.0 {
+            format!("{scaled:.1}")
+        } else {
+            format!("{scaled:.2}")
+        };
+        text.replace('-', "\u{2212}")
+    }
+
+    /// The unit for people.
+    pub(crate) fn unit(&self) -> &str {
+        people(&self.target.unit).1
+    }
+
+    /// Measured less published, with its sign and unit.
+    pub(crate) fn difference(&self) -> String {
+        match self.measured {
+            None => "\u{2013}".to_owned(),
+            Some(m) => {
+                let off = m - self.target.value;
+                let sign = if off >= 0.0 { "+" } else { "" };
+                format!("{sign}{} {}", self.shown(off), self.unit())
+            }
+        }
+    }
+
+    /// The tolerance in words.
+    pub(crate) fn tolerance(&self) -> String {
+        let Some(tolerance) = self.target.tolerance else {
+            return "\u{2013}".to_owned();
+        };
+        let (value, unit) = (self.target.value, self.unit());
+        match self.target.bound {
+            Bound::Within => format!("\u{b1} {} {unit}", self.shown(tolerance)),
+            Bound::AtMost => format!("at most {} {unit}", self.shown(value + tolerance)),
+            Bound::AtLeast => format!("at least {} {unit}", self.shown(value - tolerance)),
+        }
+    }
+
+    /// The verdict in plain words, and whether the target holds where it is judged.
+    pub(crate) fn words(&self) -> (String, Option<bool>) {
+        match self.verdict {
+            Verdict::Holds => ("agrees within the tolerance".to_owned(), Some(true)),
+            Verdict::Missed => {
+                let large = self.measured.is_some_and(|m| m > self.target.value);
+                let side = if large { "too large" } else { "too small" };
+                (format!("misses the tolerance: {side}"), Some(false))
+            }
+            Verdict::Shown => ("for comparison, not judged".to_owned(), None),
+            Verdict::NotYet => (
+                "not judged: no part of this weld has frozen yet".to_owned(),
+                None,
+            ),
+            Verdict::Unknown => ("could not be measured".to_owned(), None),
+        }
+    }
+}
+
+/// Factor and unit for people.
+fn people(unit: &str) -> (f64, &str) {
+    match unit {
+        "m" => (1e3, "mm"),
+        "m2" => (1e6, "mm\u{b2}"),
+        "1" => (1.0, ""),
+        other => (1.0, other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::bead::Bead;
+
+    fn target(bound: Bound, tolerance: Option<f64>) -> Target {
+        Target {
+            measure: "penetration".to_owned(),
+            title: "penetration".to_owned(),
+            value: 2.9e-3,
+            unit: "m".to_owned(),
+            source: "somewhere".to_owned(),
+            kind: Kind::Experiment,
+            tolerance,
+            bound,
+        }
+    }
+
+    fn stretch(depth: f64, frozen: bool) -> Stretch {
+        let bead = Bead {
+            penetration: depth,
+            ..Bead::default()
+        };
+        Stretch {
+            frozen,
+            beads: vec![(0.0, bead); 3],
+        }
+    }
+
+    fn verdict(target: Target, depth: f64, frozen: bool) -> Verdict {
+        let targets = Targets {
+            targets: vec![target],
+        };
+        compare(&targets, Some(&stretch(depth, frozen)))[0].verdict
+    }
+
+    #[test]
+    fn the_tolerance_decides_and_its_end_belongs_to_it() {
+        let within = || target(Bound::Within, Some(0.5e-3));
+        assert_eq!(verdict(within(), 2.4e-3, true), Verdict::Holds);
+        assert_eq!(verdict(within(), 2.39e-3, true), Verdict::Missed);
+        assert_eq!(verdict(within(), 3.41e-3, true), Verdict::Missed);
+        let most = || target(Bound::AtMost, Some(0.5e-3));
+        assert_eq!(verdict(most(), 1e-3, true), Verdict::Holds);
+        assert_eq!(verdict(most(), 3.5e-3, true), Verdict::Missed);
+        let least = || target(Bound::AtLeast, Some(0.5e-3));
+        assert_eq!(verdict(least(), 9e-3, true), Verdict::Holds);
+        assert_eq!(verdict(least(), 2.3e-3, true), Verdict::Missed);
+    }
+
+    #[test]
+    fn what_cannot_be_judged_is_not() {
+        assert_eq!(
+            verdict(target(Bound::Within, None), 9.0, true),
+            Verdict::Shown
+        );
+        assert_eq!(
+            verdict(target(Bound::Within, Some(1.0)), 2.9e-3, false),
+            Verdict::NotYet
+        );
+        let mut unknown = target(Bound::Within, Some(1.0));
+        unknown.measure = "beauty".to_owned();
+        assert_eq!(verdict(unknown, 2.9e-3, true), Verdict::Unknown);
+        let none = compare(
+            &Targets {
+                targets: vec![target(Bound::Within, Some(1.0))],
+            },
+            None,
+        );
+        assert_eq!(none[0].verdict, Verdict::Unknown);
+    }
+
+    #[test]
+    fn rows_speak_millimetres() {
+        let targets = Targets {
+            targets: vec![target(Bound::Within, Some(0.5e-3))],
+        };
+        let row = &compare(&targets, Some(&stretch(2.2e-3, true)))[0];
+        assert_eq!(row.difference(), "\u{2212}0.7 mm");
+        assert_eq!(row.tolerance(), "\u{b1} 0.5 mm");
+        assert_eq!(row.words().0, "misses the tolerance: too small");
+    }
+}

@@ -1,0 +1,61 @@
+//! `report validate`: a weld against published values, row by row.
+
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+use artefact::Reader;
+use run::Failure;
+
+use crate::targets::{Row, Targets, Verdict, compare};
+use crate::weld::Weld;
+
+/// Prints each row; the exit code is 1 where a tolerance is missed or cannot be judged.
+pub(crate) fn run(pool: &Path, targets: &Path) -> Result<ExitCode, Failure> {
+    let targets = Targets::read(targets)?;
+    let reader = Reader::open_kind(pool, "particle-frames", 1)?;
+    let stretch = Weld::last(&reader)?.and_then(|weld| weld.bead());
+    let rows = compare(&targets, stretch.as_ref());
+    let text = table(&rows);
+    let mut out = std::io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.map_err(|source| Failure::Io {
+        path: "stdout".into(),
+        action: "write",
+        source,
+    })?;
+    let failed = |row: &Row| {
+        let judged = row.target.tolerance.is_some();
+        judged && row.verdict != Verdict::Holds
+    };
+    Ok(if rows.iter().any(failed) {
+        ExitCode::from(1)
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// The rows for people, in columns of fixed width.
+fn table(rows: &[Row]) -> String {
+    let mut text = format!(
+        "{:<34} {:<11} {:>9} {:>9} {:>10}  {:<16} verdict\n",
+        "measure", "kind", "published", "found", "difference", "tolerance"
+    );
+    for row in rows {
+        let unit = row.unit();
+        let found = row
+            .measured
+            .map_or_else(|| "-".to_owned(), |m| format!("{} {unit}", row.shown(m)));
+        text += &format!(
+            "{:<34} {:<11} {:>9} {:>9} {:>10}  {:<16} {}\n",
+            row.target.title,
+            row.target.kind.word(),
+            format!("{} {unit}", row.shown(row.target.value)),
+            found,
+            row.difference(),
+            row.tolerance(),
+            row.words().0
+        );
+    }
+    text
+}

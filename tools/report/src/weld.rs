@@ -1,0 +1,269 @@
+//! The weld as its last frame shows it: particles, plate, source, and the stretch that has frozen.
+
+use artefact::{Frame, Reader};
+use serde::Deserialize;
+
+use crate::measure::bead::{self, Bead};
+use crate::measure::section::{Metal, Plane, Section};
+
+/// Channel of all particles.
+pub(crate) const PARTICLES: &str = "/particles";
+/// What lies closer to the start of the weld than this is run-in, not bead \[m\].
+const RUN_IN: f64 = 8e-3;
+/// Distance from liquid metal at which a section counts as frozen \[m\].
+const CLEAR: f64 = 1e-3;
+
+/// What the pool tells once of the plate.
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct Plate {
+    /// Particle spacing \[m\].
+    pub(crate) spacing_m: f64,
+    /// Lower corner of the base metal \[m\].
+    #[serde(default)]
+    pub(crate) min_m: Option<[f64; 3]>,
+    /// Upper corner of the base metal \[m\].
+    #[serde(default)]
+    pub(crate) max_m: Option<[f64; 3]>,
+    /// Melting point \[K\].
+    #[serde(default)]
+    pub(crate) melting_point_k: Option<f64>,
+}
+
+/// Where the source is.
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(crate) struct Source {
+    pub(crate) x_m: f64,
+    pub(crate) y_m: f64,
+}
+
+/// The particles of one frame with what is known of them.
+#[derive(Debug, Clone)]
+pub(crate) struct Weld {
+    /// Simulated time \[s\].
+    pub(crate) time: f64,
+    /// Positions x (across), y (along), z (up) \[m\].
+    pub(crate) position: Vec<[f64; 3]>,
+    /// Temperatures \[K\], where the run computed them.
+    pub(crate) temperature: Option<Vec<f64>>,
+    /// Liquid now.
+    pub(crate) liquid: Vec<bool>,
+    /// Has ever been liquid.
+    pub(crate) fused: Vec<bool>,
+    /// Plate.
+    pub(crate) plate: Plate,
+    /// Source at this moment, if there is one.
+    pub(crate) source: Option<Source>,
+}
+
+impl Weld {
+    /// The last frame of the artefact; `None` when it has none.
+    ///
+    /// # Errors
+    /// When a message cannot be read or a column is absent.
+    pub(crate) fn last(reader: &Reader) -> artefact::Result<Option<Self>> {
+        match reader.count(PARTICLES) {
+            0 => Ok(None),
+            n => Self::read(reader, n - 1).map(Some),
+        }
+    }
+
+    /// The frame with an index.
+    ///
+    /// # Errors
+    /// When a message cannot be read or a column is absent.
+    pub(crate) fn read(reader: &Reader, index: usize) -> artefact::Result<Self> {
+        let frame = reader.frame(PARTICLES, index)?;
+        let plate: Plate = reader.json_at("/plate", 0)?;
+        let mut weld = Self {
+            time: frame.time_s,
+            position: frame.position_vectors()?,
+            temperature: if frame.has("temperature") {
+                Some(frame.f64("temperature")?)
+            } else {
+                None
+            },
+            liquid: flags(&frame, "molten")?,
+            fused: flags(
+                &frame,
+                if frame.has("fused") {
+                    "fused"
+                } else {
+                    "molten"
+                },
+            )?,
+            plate,
+            source: source_at(reader, frame.time_s)?,
+        };
+        if frame.has("wall") {
+            let metal: Vec<bool> = frame.u8("wall")?.iter().map(|w| *w == 0).collect();
+            weld.retain(&metal);
+        }
+        Ok(weld)
+    }
+
+    fn retain(&mut self, keep: &[bool]) {
+        fn only<T: Copy>(values: &mut Vec<T>, keep: &[bool]) {
+            let kept = values.iter().zip(keep).filter(|(_, k)| **k);
+            *values = kept.map(|(v, _)| *v).collect();
+        }
+        only(&mut self.position, keep);
+        only(&mut self.liquid, keep);
+        only(&mut self.fused, keep);
+        if let Some(temperature) = &mut self.temperature {
+            only(temperature, keep);
+        }
+    }
+
+    /// The particles as the measures need them.
+    pub(crate) fn metal(&self) -> Metal<'_> {
+        Metal {
+            position: &self.position,
+            fused: &self.fused,
+            spacing: self.plate.spacing_m,
+        }
+    }
+
+    /// The weld's centre plane \[m\].
+    pub(crate) fn centre(&self) -> f64 {
+        match (self.source, self.plate.min_m, self.plate.max_m) {
+            (Some(source), _, _) => source.x_m,
+            (None, Some(low), Some(high)) => 0.5 * (low[0] + high[0]),
+            _ => 0.0,
+        }
+    }
+
+    /// The section across the weld at `place` \[m\], with its measures.
+    pub(crate) fn section(&self, place: f64) -> (Section, Bead) {
+        let section = Section::cut(&self.metal(), Plane::Across, place);
+        let bead = bead::measure(&section, self.centre(), self.plate.spacing_m);
+        (section, bead)
+    }
+
+    /// Least and greatest y of the particles that `counts` names \[m\].
+    fn extent(&self, counts: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
+        let y = self.position.iter().enumerate().filter(|(i, _)| counts(*i));
+        y.map(|(_, p)| p[1]).fold(None, |range, y| match range {
+            None => Some([y, y]),
+            Some([low, high]) => Some([low.min(y), high.max(y)]),
+        })
+    }
+
+    /// Measures of the bead along its frozen stretch; of the whole fused stretch, as far as it has
+    /// come, when nothing has frozen.
+    pub(crate) fn bead(&self) -> Option<Stretch> {
+        let [start, end] = self.extent(|i| self.fused[i])?;
+        let step = 2.0 * self.plate.spacing_m;
+        let liquid: Vec<f64> = (0..self.liquid.len())
+            .filter(|i| self.liquid[*i])
+            .map(|i| self.position[i][1])
+            .collect();
+        let clear = |y: f64| liquid.iter().all(|l| (l - y).abs() > CLEAR);
+        let from = start + RUN_IN;
+        let to = end - RUN_IN;
+        let count = ((to - from) / step).floor().max(-1.0) as i64;
+        let mut places: Vec<f64> = (0..=count).map(|k| from + k as f64 * step).collect();
+        let frozen = places.iter().take_while(|y| clear(**y)).count();
+        places.truncate(frozen);
+        if places.len() >= 3 {
+            return Some(self.stretch(&places, true));
+        }
+        let count = ((end - start) / step).floor() as i64;
+        let places: Vec<f64> = (0..=count).map(|k| start + k as f64 * step).collect();
+        Some(self.stretch(&places, false))
+    }
+
+    fn stretch(&self, places: &[f64], frozen: bool) -> Stretch {
+        let beads = places.iter().map(|y| (*y, self.section(*y).1)).collect();
+        Stretch { frozen, beads }
+    }
+}
+
+/// Sections measured one after another along the weld.
+#[derive(Debug, Clone)]
+pub(crate) struct Stretch {
+    /// Whether all of it has frozen and lies beyond the run-in: the bead that an experiment shows.
+    pub(crate) frozen: bool,
+    /// Place \[m\] and measures of each section, in the order of y.
+    pub(crate) beads: Vec<(f64, Bead)>,
+}
+
+/// A measure over a stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Measure {
+    /// Median over a frozen stretch; greatest value while nothing has frozen.
+    pub(crate) value: f64,
+    /// Least and greatest value.
+    pub(crate) range: [f64; 2],
+}
+
+impl Stretch {
+    /// A measure by its name in the targets; `None` for an unknown name.
+    pub(crate) fn get(&self, name: &str) -> Option<Measure> {
+        let mut values: Vec<f64> = self
+            .beads
+            .iter()
+            .map(|(_, bead)| named(bead, name))
+            .collect::<Option<_>>()?;
+        values.sort_by(f64::total_cmp);
+        let (low, high) = (*values.first()?, *values.last()?);
+        let half = values.len() / 2;
+        let median = if values.len() % 2 == 1 {
+            values[half]
+        } else {
+            0.5 * (values[half - 1] + values[half])
+        };
+        Some(Measure {
+            value: if self.frozen { median } else { high },
+            range: [low, high],
+        })
+    }
+
+    /// Length measured \[m\].
+    pub(crate) fn length(&self) -> f64 {
+        match (self.beads.first(), self.beads.last()) {
+            (Some(a), Some(b)) => b.0 - a.0,
+            _ => 0.0,
+        }
+    }
+
+    /// The section to show: the middle of a frozen stretch, else the deepest.
+    pub(crate) fn place(&self) -> Option<f64> {
+        if self.frozen {
+            return self.beads.get(self.beads.len() / 2).map(|b| b.0);
+        }
+        let deepest =
+            |a: &&(f64, Bead), b: &&(f64, Bead)| a.1.penetration.total_cmp(&b.1.penetration);
+        self.beads.iter().max_by(deepest).map(|b| b.0)
+    }
+}
+
+fn named(bead: &Bead, name: &str) -> Option<f64> {
+    Some(match name {
+        "penetration" => bead.penetration,
+        "fused_width" => bead.fused_width,
+        "fused_half_width" => bead.fused_half_width,
+        "reinforcement" => bead.reinforcement,
+        "bead_width" => bead.bead_width,
+        "area_above" => bead.area_above,
+        "area_below" => bead.area_below,
+        "dilution" => bead.dilution(),
+        _ => return None,
+    })
+}
+
+fn flags(frame: &Frame, name: &str) -> artefact::Result<Vec<bool>> {
+    Ok(frame.u8(name)?.iter().map(|flag| *flag != 0).collect())
+}
+
+/// The source at the last moment of its channel that is not after `time`.
+fn source_at(reader: &Reader, time: f64) -> artefact::Result<Option<Source>> {
+    if !reader.has("/source") {
+        return Ok(None);
+    }
+    let times = reader.times("/source")?;
+    let after = times.partition_point(|t| *t <= time + 1e-9);
+    match after.checked_sub(1) {
+        Some(index) => reader.json_at("/source", index).map(Some),
+        None => Ok(None),
+    }
+}

@@ -1,0 +1,199 @@
+//! Pages and verdicts from artefacts with known content.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod sample;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own that stays after the test, so that pages can be looked at.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn report(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_report"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn page(folder: &Path, inputs: &[(&str, &str)]) -> String {
+    let out = folder.join("report.html");
+    let mut words = vec!["page".to_owned(), "--study".to_owned(), "sample".to_owned()];
+    words.extend(["--out".to_owned(), out.display().to_string()]);
+    for (name, file) in inputs {
+        words.extend([format!("--{name}"), folder.join(file).display().to_string()]);
+    }
+    let output = report(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    std::fs::read_to_string(out).unwrap()
+}
+
+#[test]
+fn a_whole_study_has_every_section_and_its_measures_are_those_of_the_sample() {
+    let folder = folder("whole");
+    sample::weld(&folder.join("pool.mcap"), 8.0, true);
+    sample::means(&folder.join("mean.mcap"));
+    sample::arc(&folder.join("arc.mcap"));
+    sample::targets(&folder.join("targets.json"), sample::DEEP);
+    let inputs = [
+        ("pool", "pool.mcap"),
+        ("mean", "mean.mcap"),
+        ("arc", "arc.mcap"),
+        ("targets", "targets.json"),
+    ];
+    let html = page(&folder, &inputs);
+    for heading in [
+        "The bead",
+        "Against experiment and simulation",
+        "The flow in the pool",
+        "The arc",
+        "Mass and energy",
+        "How it was computed",
+    ] {
+        assert!(html.contains(&format!(">{heading}</h2>")), "{heading}");
+    }
+    assert!(html.contains("<b>2.9 mm</b>"), "penetration");
+    assert!(
+        html.contains("All 3 measures that are judged agree"),
+        "verdict"
+    );
+    assert!(html.matches("data:image/png;base64,").count() >= 8);
+    assert!(html.contains("no key &apos;gas_shear&apos;") || html.contains("no key 'gas_shear'"));
+    // Nothing is fetched: every source is embedded, every link is inside the page.
+    assert!(!html.contains("http:") && !html.contains("https:") && !html.contains("<script"));
+    assert_eq!(
+        html.matches("src=\"").count(),
+        html.matches("src=\"data:").count()
+    );
+}
+
+#[test]
+fn what_is_absent_has_no_section() {
+    let folder = folder("bare");
+    sample::weld(&folder.join("pool.mcap"), 8.0, false);
+    let html = page(&folder, &[("pool", "pool.mcap")]);
+    assert!(html.contains(">The bead</h2>"));
+    for heading in ["The arc", "The flow in the pool", "Against experiment"] {
+        assert!(!html.contains(&format!(">{heading}")), "{heading}");
+    }
+    assert!(!html.contains("close to melting") && !html.contains("temperature of liquid"));
+}
+
+#[test]
+fn a_young_weld_is_measured_but_not_judged() {
+    let folder = folder("young");
+    sample::weld(&folder.join("pool.mcap"), 1.0, true);
+    sample::targets(&folder.join("targets.json"), sample::DEEP);
+    let html = page(
+        &folder,
+        &[("pool", "pool.mcap"), ("targets", "targets.json")],
+    );
+    assert!(html.contains("not judged: no part of this weld has frozen yet"));
+    assert!(html.contains("Nothing of this weld has frozen"));
+    let pool = folder.join("pool.mcap").display().to_string();
+    let targets = folder.join("targets.json").display().to_string();
+    let output = report(&["validate", "--pool", &pool, "--targets", &targets]);
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
+fn validation_ends_with_one_where_a_tolerance_is_missed() {
+    let folder = folder("validate");
+    let pool = folder.join("pool.mcap");
+    sample::weld(&pool, 8.0, true);
+    let targets = folder.join("targets.json");
+    for (depth, code, words) in [
+        (sample::DEEP, 0, "agrees within the tolerance"),
+        (sample::DEEP + 1e-3, 1, "misses the tolerance: too small"),
+    ] {
+        sample::targets(&targets, depth);
+        let (p, t) = (pool.display().to_string(), targets.display().to_string());
+        let output = report(&["validate", "--pool", &p, "--targets", &t]);
+        assert_eq!(output.status.code(), Some(code));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(text.lines().count() == 5 && text.contains(words), "{text}");
+    }
+}
+
+#[test]
+fn a_file_of_another_kind_is_refused_by_name() {
+    let folder = folder("kind");
+    sample::arc(&folder.join("arc.mcap"));
+    let file = folder.join("arc.mcap").display().to_string();
+    let out = folder.join("x.html").display().to_string();
+    let output = report(&["page", "--study", "s", "--out", &out, "--pool", &file]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        said.contains("arc-source") && said.contains("particle-frames"),
+        "{said}"
+    );
+}
+
+#[test]
+fn the_index_plots_errors_and_links_studies() {
+    let folder = folder("index");
+    let put = |path: &str, value: serde_json::Value| {
+        let path = folder.join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, value.to_string()).unwrap();
+    };
+    let level = |n: f64, e: f64| {
+        serde_json::json!({"points": n * n, "spacing_m": 0.01 / n, "steps": 10.0 * n, "run_time_s": 1e-5 * n.powi(3), "threads": 2,
+            "errors": {"temperature_linf": e / (n * n), "velocity_l2": 10.0 * e / (n * n), "flux": null}})
+    };
+    put(
+        "verify/plate.json",
+        serde_json::json!({"case": "plate", "tool": "poolsph", "reference": "somebody (1959)",
+        "levels": [level(20.0, 1.0), level(40.0, 1.0), level(80.0, 1.0)], "order": {"temperature_linf": 2.0, "velocity_l2": 2.0, "flux": null},
+        "targets": {"temperature_linf": {"at_points": 6400, "max": 1e-3, "found": 1.6e-4, "holds": true}}, "holds": true,
+        "series": [{"method": "sor", "levels": [level(20.0, 2.0), level(40.0, 2.1)], "order": {"temperature_linf": 1.9}}]}),
+    );
+    put(
+        "stability/stiff.json",
+        serde_json::json!({"case": "stiff", "tool": "poolsph", "holds": false, "runs": [
+        {"name": "large-step", "parameters": {"time": {"step_s": 1.0}}, "outcome": "failed", "expected": ["refused"],
+         "limits": [{"name": "step_viscosity", "value": 1e-3, "unit": "s"}], "conservation": [], "message": "boom", "holds": false}]}),
+    );
+    put(
+        "bench/speed.json",
+        serde_json::json!({"threads": 2, "figures": [{"name": "pair sweep", "ns": 3.25}]}),
+    );
+    put("studies/gmaw/report.html", serde_json::json!("x"));
+    put("verify/broken.json", serde_json::json!({"case": 1}));
+    let at = |name: &str| folder.join(name).display().to_string();
+    let output = report(&[
+        "index",
+        "--out",
+        &at("report/index.html"),
+        "--verify",
+        &at("verify"),
+        "--stability",
+        &at("stability"),
+        "--bench",
+        &at("bench"),
+        "--studies",
+        &at("studies"),
+    ]);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let html = std::fs::read_to_string(folder.join("report/index.html")).unwrap();
+    assert!(html.contains("../studies/gmaw/report.html"));
+    assert!(html.contains("1 of 1 cases meet all of their targets"));
+    assert!(html.contains("0 of 1 runs with stiff or extreme parameters"));
+    assert!(html.contains("broken.json is not a record that can be shown"));
+    assert!(html.contains("pair sweep") && html.contains("3.250"));
+    assert_eq!(html.matches("<svg").count(), 2);
+}

@@ -1,0 +1,331 @@
+//! Artefacts with known content: a bead of half-ellipses, a vortex, a Gaussian arc.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use artefact::{Frame, Header, Precision, Record, Table, Version, Writer};
+use serde_json::{Value, json};
+
+/// Particle spacing of the weld \[m\].
+pub(crate) const D: f64 = 0.5e-3;
+/// Depth of the fused metal below the surface \[m\].
+pub(crate) const DEEP: f64 = 2.9e-3;
+/// Half of its width \[m\].
+pub(crate) const HALF: f64 = 6.1e-3;
+/// Height of the bead \[m\].
+pub(crate) const HIGH: f64 = 3.2e-3;
+/// Speed of the source \[m/s\].
+const SPEED: f64 = 5e-3;
+/// Where the weld starts \[m\].
+const START: f64 = 5e-3;
+
+pub(crate) fn header(kind: &str, tool: &str) -> Header {
+    Header {
+        kind: kind.to_owned(),
+        version: Version::new(1, 0),
+        tool: tool.to_owned(),
+        tool_version: "0.1.0".to_owned(),
+        scene: json!({}),
+        inputs: BTreeMap::new(),
+    }
+}
+
+/// A weld up to `end` seconds, in five frames; with temperature or without.
+pub(crate) fn weld(path: &Path, end: f64, temperature: bool) {
+    let mut writer = Writer::create(path, &header("particle-frames", "poolsph")).unwrap();
+    let plate = json!({"min_m": [-0.012, 0.0, -0.006], "max_m": [0.012, 0.05, 0.0], "spacing_m": D,
+        "particle_volume_m3": D.powi(3), "melting_point_k": 1750.0, "direction": [0, 1, 0]});
+    writer
+        .json("/plate", 0.0, ("test.plate", "{}"), &plate)
+        .unwrap();
+    for n in 0..5 {
+        let time = end * f64::from(n) / 4.0;
+        let source = json!({"time_s": time, "x_m": 0.0, "y_m": START + SPEED * time, "z_m": 0.0,
+            "phase": 0.0, "droplet": (time / 0.01) as i64});
+        writer
+            .json("/source", time, ("test.source", "{}"), &source)
+            .unwrap();
+        writer
+            .frame("/particles", time, &frame(time, temperature))
+            .unwrap();
+        let put = 2600.0 * time;
+        let record = Record::new()
+            .with("mass_kg", "kg", 0.45 + 1.16e-3 * time)
+            .with(
+                "liquid_particles",
+                "1",
+                2500.0 * (1.0 - (-3.0 * time).exp()),
+            )
+            .with("energy_in_arc_j", "J", put)
+            .with("energy_in_droplets_j", "J", 0.9 * put)
+            .with("energy_out_radiation_j", "J", 0.1 * put)
+            .with("energy_stored_j", "J", 1.8 * put)
+            .with("closure", "1", 1e-4 * time);
+        writer.record("/balance", time, &record).unwrap();
+    }
+    writer.finish().unwrap();
+    record(
+        path,
+        "poolsph",
+        json!([
+        {"name": "motion", "wall_s": 41.0, "share": 0.68}, {"name": "conduction", "wall_s": 12.5, "share": 0.21},
+        {"name": "surface", "wall_s": 6.6, "share": 0.11}]),
+    );
+}
+
+fn frame(time: f64, temperature: bool) -> Frame {
+    let source = START + SPEED * time;
+    let (mut position, mut heat, mut molten, mut fused) = (vec![], vec![], vec![], vec![]);
+    for (i, j, k) in lattice([-24, 24], [0, 100], [-12, 8]) {
+        let p = [i, j, k].map(|n| (f64::from(n) + 0.5) * D);
+        let along = if p[1] > source {
+            (p[1] - source) / 5e-3
+        } else {
+            ((START - p[1]) / 4e-3).max(0.0)
+        };
+        let up = if k < 0 { DEEP } else { HIGH };
+        let inside = (p[0] / HALF).powi(2) + (p[2] / up).powi(2) + along.powi(2) < 1.0;
+        if k >= 0 && !inside {
+            continue;
+        }
+        let r = ((p[0] / 6e-3).powi(2)
+            + ((p[1] - source + 4e-3) / 10e-3).powi(2)
+            + (p[2] / 4e-3).powi(2))
+        .sqrt();
+        let t = 300.0 + 2200.0 * (-0.42 * r * r).exp();
+        position.push(p);
+        heat.push(t);
+        molten.push(u8::from(inside && t > 1750.0));
+        fused.push(u8::from(inside));
+    }
+    let frame = Frame::new(Precision::F32)
+        .positions(position)
+        .flag("molten", molten)
+        .flag("fused", fused);
+    if temperature {
+        frame.scalar("temperature", "K", heat)
+    } else {
+        frame
+    }
+}
+
+fn lattice(x: [i32; 2], y: [i32; 2], z: [i32; 2]) -> impl Iterator<Item = (i32, i32, i32)> {
+    (x[0]..x[1])
+        .flat_map(move |i| (y[0]..y[1]).flat_map(move |j| (z[0]..z[1]).map(move |k| (i, j, k))))
+}
+
+/// Eight phases and the mean of a vortex in the centre plane and an inflow at the surface.
+pub(crate) fn means(path: &Path) {
+    let mut writer = Writer::create(path, &header("mean-fields", "avg")).unwrap();
+    let along: Vec<f64> = (-40..=16).map(|i| f64::from(i) * D).collect();
+    let up: Vec<f64> = (-12..=10).map(|i| f64::from(i) * D).collect();
+    let across: Vec<f64> = (-20..=20).map(|i| f64::from(i) * D).collect();
+    for n in 0..8 {
+        let phase = f64::from(n) / 8.0;
+        let strength = 0.2 + 0.3 * (-4.0 * phase).exp();
+        writer
+            .table(
+                "/section_x0",
+                phase * 0.01,
+                &vortex(&along, &up, strength).attribute("phase", "1", phase),
+            )
+            .unwrap();
+        writer
+            .table(
+                "/surface",
+                phase * 0.01,
+                &inflow(&across, &along, strength).attribute("phase", "1", phase),
+            )
+            .unwrap();
+    }
+    writer
+        .table("/section_x0/time_mean", 0.0, &vortex(&along, &up, 0.3))
+        .unwrap();
+    writer
+        .table("/surface/time_mean", 0.0, &inflow(&across, &along, 0.3))
+        .unwrap();
+    writer.finish().unwrap();
+    record(
+        path,
+        "avg",
+        json!([{"name": "read", "wall_s": 1.0, "share": 0.4}, {"name": "mean", "wall_s": 1.5, "share": 0.6}]),
+    );
+}
+
+/// Velocity in the two axes, temperature, liquid, metal.
+type Point = ([f64; 2], f64, bool, bool);
+
+fn table(axes: [(&str, &[f64]); 2], names: [&str; 2], point: impl Fn(f64, f64) -> Point) -> Table {
+    let points: Vec<Point> = axes[0]
+        .1
+        .iter()
+        .flat_map(|a| axes[1].1.iter().map(|b| point(*a, *b)).collect::<Vec<_>>())
+        .collect();
+    let count = |yes: bool| if yes { 50.0 } else { 0.0 };
+    Table::grid(&[(axes[0].0, "m", axes[0].1), (axes[1].0, "m", axes[1].1)])
+        .column(names[0], "m/s", points.iter().map(|p| p.0[0]))
+        .column(names[1], "m/s", points.iter().map(|p| p.0[1]))
+        .column("temperature_k", "K", points.iter().map(|p| p.1))
+        .column("frames_metal", "1", points.iter().map(|p| count(p.3)))
+        .column("frames_liquid", "1", points.iter().map(|p| count(p.2)))
+        .attribute("frames", "1", 50.0)
+        .attribute("drops", "1", 50.0)
+}
+
+fn vortex(along: &[f64], up: &[f64], strength: f64) -> Table {
+    table(
+        [("y_m", along), ("z_m", up)],
+        ["velocity_y_m_s", "velocity_z_m_s"],
+        |y, z| {
+            let u = [strength * z / 3e-3, -strength * (y + 5e-3) / 8e-3];
+            let r = ((y + 5e-3) / 10e-3).powi(2) + (z / 3.5e-3).powi(2);
+            (u, 2300.0 - 500.0 * r, r < 1.0, r < 1.0 || z <= 0.0)
+        },
+    )
+}
+
+fn inflow(across: &[f64], along: &[f64], strength: f64) -> Table {
+    table(
+        [("x_m", across), ("y_m", along)],
+        ["velocity_x_m_s", "velocity_y_m_s"],
+        |x, y| {
+            let r = (x / 6e-3).powi(2) + ((y + 5e-3) / 10e-3).powi(2);
+            (
+                [-strength * x / 6e-3, -strength * y / 10e-3],
+                2300.0 - 500.0 * r,
+                r < 1.0,
+                true,
+            )
+        },
+    )
+}
+
+/// An arc whose fields are Gaussians.
+pub(crate) fn arc(path: &Path) {
+    let mut writer = Writer::create(path, &header("arc-source", "arcfvm")).unwrap();
+    let radius: Vec<f64> = (0..60).map(|i| 1e-4 + 2e-4 * f64::from(i)).collect();
+    let height: Vec<f64> = (0..50).map(|k| -3e-3 + 2.4e-4 * f64::from(k)).collect();
+    let gauss = |r: f64, w: f64| (-(r / w).powi(2)).exp();
+    let grid = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+        radius
+            .iter()
+            .flat_map(|r| height.iter().map(|z| f(*r, *z)).collect::<Vec<_>>())
+            .collect()
+    };
+    let material = |r: f64, z: f64| {
+        if z < 0.0 {
+            2.0
+        } else if z > 5e-3 && r < 0.6e-3 {
+            1.0
+        } else {
+            0.0
+        }
+    };
+    let plasma = Table::grid(&[("radius_m", "m", &radius), ("height_m", "m", &height)])
+        .column(
+            "temperature_k",
+            "K",
+            grid(&|r, z| {
+                if z < 0.0 {
+                    1000.0
+                } else {
+                    300.0 + 19_000.0 * gauss(r, 2e-3 + 0.3 * (5e-3 - z).max(0.0))
+                }
+            }),
+        )
+        .column(
+            "radial_velocity_m_s",
+            "m/s",
+            grid(&|r, z| {
+                if z < 0.0 {
+                    0.0
+                } else {
+                    30.0 * r / 1e-3 * gauss(z, 1.5e-3)
+                }
+            }),
+        )
+        .column(
+            "axial_velocity_m_s",
+            "m/s",
+            grid(&|r, z| {
+                if z < 0.0 {
+                    0.0
+                } else {
+                    -200.0 * gauss(r, 1.5e-3) * (z / 5e-3).min(1.0)
+                }
+            }),
+        )
+        .column("material", "1", grid(&material));
+    writer.table("/plasma", 0.0, &plasma).unwrap();
+    let curve = |peak: f64, w: f64| {
+        radius
+            .iter()
+            .map(move |r| peak * gauss(*r, w))
+            .collect::<Vec<f64>>()
+    };
+    let surface = Table::new(radius.len())
+        .column("radius_m", "m", radius.iter().copied())
+        .column("heat_flux_total_w_m2", "W/m2", curve(1.2e8, 3e-3))
+        .column("heat_flux_electron_w_m2", "W/m2", curve(0.5e8, 2e-3))
+        .column("heat_flux_convection_w_m2", "W/m2", curve(0.6e8, 3e-3))
+        .column("heat_flux_emission_w_m2", "W/m2", curve(-1e6, 4e-3))
+        .column("arc_pressure_pa", "Pa", curve(450.0, 2e-3))
+        .column("gas_temperature_k", "K", curve(12_000.0, 4e-3))
+        .column("current_density_a_m2", "A/m2", curve(1.5e7, 2.5e-3))
+        .attribute("gas_temperature_height_m", "m", 9e-5);
+    writer.table("/surface", 0.0, &surface).unwrap();
+    let depth: Vec<f64> = (0..20).map(|k| 1e-4 + 3e-4 * f64::from(k)).collect();
+    let force = |sign: f64| {
+        radius
+            .iter()
+            .flat_map(|r| {
+                depth
+                    .iter()
+                    .map(|d| sign * 1e5 * gauss(*r, 4e-3) * gauss(*d, 2e-3) * r / 2e-3)
+                    .collect::<Vec<_>>()
+            })
+            .collect::<Vec<f64>>()
+    };
+    let lorentz = Table::grid(&[("radius_m", "m", &radius), ("depth_m", "m", &depth)])
+        .column("lorentz_radial_n_m3", "N/m3", force(-1.0))
+        .column("lorentz_axial_n_m3", "N/m3", force(-0.5));
+    writer.table("/lorentz", 0.0, &lorentz).unwrap();
+    let balance = Record::new()
+        .with("current_a", "A", 300.0)
+        .with("voltage_v", "V", 31.5)
+        .with("power_w", "W", 9450.0)
+        .with("heat_base_metal_w", "W", 4100.0)
+        .with("closure", "1", 3e-8);
+    writer.record("/balance", 0.0, &balance).unwrap();
+    writer.finish().unwrap();
+    record(
+        path,
+        "arcfvm",
+        json!([{"name": "energy", "wall_s": 20.0, "share": 0.5}, {"name": "momentum", "wall_s": 20.0, "share": 0.5}]),
+    );
+}
+
+fn record(artefact: &Path, tool: &str, stages: Value) {
+    let record = json!({"kind": "run-record", "version": "1.0", "tool": tool, "tool_version": "0.1.0", "outcome": "done",
+        "start": "2026-01-01T00:00:00Z", "wall_s": 60.1, "steps": 10_000, "threads": 2, "stages": stages,
+        "memory": [{"name": "columns", "bytes": 12_345_678}], "peak_memory_bytes": 98_000_000,
+        "left_out": [{"name": "gas_shear", "why": "no key 'gas_shear'"}],
+        "limits": [{"name": "step_viscosity", "value": 1.2e-3, "unit": "s"}],
+        "closing": [{"name": "energy_balance", "unit": "1", "value": 2e-4}],
+        "history": [{"name": "residual_energy", "unit": "1", "at": [1, 10, 100], "values": [1.0, 1e-3, 1e-6]}],
+        "scene": {"title": format!("Sample of {tool}")}});
+    std::fs::write(artefact.with_extension("run.json"), record.to_string()).unwrap();
+}
+
+/// Published values of the sample weld.
+pub(crate) fn targets(path: &Path, depth: f64) {
+    let text = json!({"kind": "targets", "version": "1.0", "targets": [
+        {"measure": "penetration", "title": "penetration", "value": depth, "unit": "m", "source": "a paper",
+         "kind": "experiment", "tolerance": 0.5e-3},
+        {"measure": "fused_half_width", "title": "half width", "value": HALF, "unit": "m", "source": "a paper",
+         "kind": "experiment", "tolerance": 0.5e-3},
+        {"measure": "reinforcement", "title": "height", "value": 5e-3, "unit": "m", "source": "a paper",
+         "kind": "experiment", "tolerance": 0.5e-3, "bound": "at-most"},
+        {"measure": "penetration", "title": "penetration", "value": 2.2e-3, "unit": "m", "source": "a thesis", "kind": "simulation"}]});
+    std::fs::write(path, text.to_string()).unwrap();
+}
