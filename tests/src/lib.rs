@@ -13,6 +13,7 @@ pub mod cases;
 pub mod extreme;
 pub mod lab;
 pub mod norms;
+mod particles;
 pub mod plasma;
 pub mod special;
 pub mod study;

@@ -1,0 +1,74 @@
+//! `pool-hydrostatic`: liquid at rest under gravity.
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::lab::{Finished, Lab, LabError};
+use crate::particles::{Frames, mean, measurement, number};
+
+/// The case.
+pub(super) struct PoolHydrostatic;
+
+impl Case for PoolHydrostatic {
+    fn name(&self) -> &'static str {
+        "pool-hydrostatic"
+    }
+
+    fn tool(&self) -> &'static str {
+        "poolsph"
+    }
+
+    fn reference(&self) -> &'static str {
+        "p = rho g (H - z), u = 0"
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        vec![
+            Target::Error {
+                quantity: "pressure_l2",
+                max: 0.01,
+            },
+            Target::Error {
+                quantity: "speed_residual",
+                max: 0.005,
+            },
+        ]
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+        let spacing = [1e-3, 0.75e-3, 0.5e-3, 0.375e-3][level.clamp(1, 4) as usize - 1];
+        let patch = serde_json::json!({"spacing_m": spacing});
+        let run = lab.run("poolsph", self.name(), &format!("level{level}"), &patch)?;
+        let frames = Frames::read(&run.artefact, "pressure")?;
+        let liquid = frames.liquid();
+        measurement(&run, liquid.len(), errors(&run, &frames, &liquid)?)
+    }
+}
+
+fn errors(run: &Finished, frames: &Frames, liquid: &[usize]) -> Result<Errors, LabError> {
+    let density = number(run, "/density_kg_m3")?;
+    let gravity = -number(run, "/flow/gravity_m_s2/2")?;
+    let [width, length] = [0, 1].map(|k| number(run, &format!("/bodies/1/shape/box/max_m/{k}")));
+    // The surface stands where the volume of the liquid puts it.
+    let volume = liquid.len() as f64 * number(run, "/spacing_m")?.powi(3);
+    let height = volume / (width? * length?);
+    let bottom = density * gravity * height;
+    let late = frames.second_half();
+    let miss = |a: &usize| {
+        let pressure = mean(late.clone().map(|k| frames.scalar[k][*a]));
+        let z = mean(late.clone().map(|k| frames.position[k][*a][2]));
+        (pressure - density * gravity * (height - z)) / bottom
+    };
+    let misses: Vec<f64> = liquid.iter().map(miss).collect();
+    let speed = |k: usize| {
+        let squares = liquid.iter().map(|a| {
+            let u = frames.velocity[k][*a];
+            u[0] * u[0] + u[1] * u[1] + u[2] * u[2]
+        });
+        mean(squares).sqrt()
+    };
+    let fastest = late.map(speed).fold(0.0, f64::max);
+    Ok(Errors::from([
+        ("pressure_l2".to_owned(), mean(misses.iter().map(|m| m * m)).sqrt()),
+        ("pressure_linf".to_owned(), misses.iter().fold(0.0, |w, m| m.abs().max(w))),
+        ("speed_residual".to_owned(), fastest / (gravity * height).sqrt()),
+    ]))
+}
