@@ -67,8 +67,17 @@ fn errors(run: &Finished, frames: &Frames, liquid: &[usize]) -> Result<Errors, L
     };
     let fastest = late.map(speed).fold(0.0, f64::max);
     Ok(Errors::from([
-        ("pressure_l2".to_owned(), mean(misses.iter().map(|m| m * m)).sqrt()),
-        ("pressure_linf".to_owned(), misses.iter().fold(0.0, |w, m| m.abs().max(w))),
-        ("speed_residual".to_owned(), fastest / (gravity * height).sqrt()),
+        (
+            "pressure_l2".to_owned(),
+            mean(misses.iter().map(|m| m * m)).sqrt(),
+        ),
+        (
+            "pressure_linf".to_owned(),
+            misses.iter().fold(0.0, |w, m| m.abs().max(w)),
+        ),
+        (
+            "speed_residual".to_owned(),
+            fastest / (gravity * height).sqrt(),
+        ),
     ]))
 }
