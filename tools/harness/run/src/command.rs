@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{ArgAction, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -52,6 +53,9 @@ pub(crate) struct Run {
     /// Goes on from FILE.mcap.checkpoint to the same bytes as an undisturbed run.
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Wall time between two checkpoints [default: what suits the tool, mostly 60].
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) checkpoint_s: Option<Duration>,
     /// How progress is shown.
     #[arg(long, value_enum, default_value_t = Style::Auto)]
     pub(crate) progress: Style,
@@ -61,6 +65,12 @@ pub(crate) struct Run {
     /// Says hashes and checkpoints as well.
     #[arg(short, long, action = ArgAction::SetTrue)]
     pub(crate) verbose: bool,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let wrong = || format!("'{text}' is no time in seconds, for example 60");
+    let seconds: f64 = text.parse().map_err(|_| wrong())?;
+    Duration::try_from_secs_f64(seconds).map_err(|_| wrong())
 }
 
 impl Run {

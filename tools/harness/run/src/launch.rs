@@ -70,7 +70,7 @@ fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
     let Loaded { scene, merged } =
         load::<T::Scene>(&study.scene, &study.patches, &schema, expected::<T>())?;
     let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
-    let plan = T::plan(&scene, &inputs).map_err(|failure| placed(failure, &merged))?;
+    let plan = guarded(|| T::plan(&scene, &inputs)).map_err(|failure| placed(failure, &merged))?;
     let header = Header {
         kind: T::ARTEFACT_KIND.to_owned(),
         version: T::ARTEFACT_VERSION,
@@ -134,7 +134,7 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
 }
 
 /// A panic is a fault of ours; the run still ends with a record and exit code 1.
-fn guarded(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+fn guarded<R>(work: impl FnOnce() -> Result<R, Failure>) -> Result<R, Failure> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let text = panic
             .downcast_ref::<String>()
@@ -165,7 +165,9 @@ fn open<T: Tool>(run: &Run, header: &Header) -> Result<Session, Failure> {
         out: &run.out,
         header: header.clone(),
         resume: run.resume,
-        checkpoint_every: Duration::try_from_secs_f64(T::CHECKPOINT_S).unwrap_or(Duration::MAX),
+        checkpoint_every: run.checkpoint_s.unwrap_or_else(|| {
+            Duration::try_from_secs_f64(T::CHECKPOINT_S).unwrap_or(Duration::MAX)
+        }),
         style: if run.quiet { Style::None } else { run.progress },
         level: run.level(),
         interrupt: Interrupt::listen()?,
