@@ -166,6 +166,14 @@ fn wrong_properties_are_refused_where_they_are_wrong() {
         falling.starts_with("/k/t_k/1: 200 K does not rise above 300 K"),
         "{falling}"
     );
+    let cold = refused(
+        table(&[-1.0, 200.0], &[1.0, 2.0], Extrapolate::Error),
+        &["T"],
+    );
+    assert!(
+        cold.starts_with("/k/t_k/0: -1 K is out of range: at least 0 K"),
+        "{cold}"
+    );
     let unequal = refused(
         table(&[300.0, 400.0, 500.0], &[1.0, 2.0], Extrapolate::Error),
         &["T"],

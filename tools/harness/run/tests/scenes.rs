@@ -231,6 +231,26 @@ fn choices_are_named() {
 }
 
 #[test]
+fn a_mistyped_tag_and_a_value_in_place_of_an_object_are_told() {
+    expect(
+        r#""sphere""#,
+        r#""spere""#,
+        &["scene.json:10:6: /shapes/1/spere: unknown key; did you mean 'sphere'?"],
+    );
+    let text = r#"{"current_a": 300, "speed_m_s": 0.005}"#;
+    expect(
+        text,
+        "300",
+        &[r#"/arc: is 300 (a number), wanted is {"current_a", "speed_m_s"}"#],
+    );
+    expect(
+        r#"{"t_k": [300, 1800], "value": [60, 30]}"#,
+        r#""60""#,
+        &[r#""60" fits none of: number | {"t_k""#],
+    );
+}
+
+#[test]
 fn all_faults_are_told_at_once_in_the_order_of_the_file() {
     let text = GOOD
         .replace("5e-4", "-1")

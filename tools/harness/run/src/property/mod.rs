@@ -196,6 +196,10 @@ impl TemperatureTable {
                 format!("{n} temperatures and {m} values; wanted are equally many, at least 2");
             return Err(Fault::at(at, what));
         }
+        if self.t_k[0].is_nan() || self.t_k[0] < 0.0 {
+            let what = format!("{} K is out of range: at least 0 K", self.t_k[0]);
+            return Err(Fault::at(&format!("{at}/t_k/0"), what));
+        }
         if let Some(i) = (1..n).find(|&i| self.t_k[i] <= self.t_k[i - 1]) {
             let what = format!(
                 "{} K does not rise above {} K before it",

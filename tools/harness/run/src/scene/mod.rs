@@ -1,5 +1,6 @@
 //! From scene files to a typed scene: reading, patching, validating, locating every fault.
 
+mod choice;
 mod fault;
 mod origin;
 mod patch;

@@ -4,6 +4,7 @@ use jsonschema::error::{TypeKind, ValidationErrorKind as Kind};
 use jsonschema::{JsonType, ValidationError};
 use serde_json::{Map, Value};
 
+use super::choice::{best_branch, no_form};
 use super::fault::Fault;
 use super::suggest::{instead_of, nearest, unit_of};
 
@@ -50,7 +51,7 @@ fn explain(schema: &Value, scene: &Value, error: &ValidationError<'_>, found: &m
         Kind::AnyOf { context } | Kind::OneOfNotValid { context } => {
             match best_branch(path, context) {
                 Some(branch) => branch.iter().for_each(|e| explain(schema, scene, e, found)),
-                None => found.push(at(no_form(schema, error.instance(), node))),
+                None => found.push(no_form(schema, path, error.instance(), node)),
             }
         }
         Kind::Type { kind } => found.push(at(format!(
@@ -109,7 +110,7 @@ fn entries(list: &Value, word: &str, limit: u64) -> String {
     )
 }
 
-fn none_of(found: &Value, options: &Value) -> String {
+pub(super) fn none_of(found: &Value, options: &Value) -> String {
     let words: Vec<&str> = options
         .as_array()
         .into_iter()
@@ -122,120 +123,6 @@ fn none_of(found: &Value, options: &Value) -> String {
         .map(|meant| format!("; did you mean \"{meant}\"?"))
         .unwrap_or_default();
     format!("{} is none of {options}{hint}", show(found))
-}
-
-/// The branch of a choice that the person meant: not excluded by type or tag, with fewest faults.
-fn best_branch<'a>(
-    path: &str,
-    context: &'a [Vec<ValidationError<'static>>],
-) -> Option<&'a Vec<ValidationError<'static>>> {
-    let excluded = |e: &ValidationError<'_>| {
-        let own = e.instance_path().as_str();
-        match e.kind() {
-            Kind::Type { .. } | Kind::Enum { .. } => own == path,
-            // A tag, such as "shape": "box", is a constant directly in the object.
-            Kind::Constant { .. } => own
-                .strip_prefix(path)
-                .is_some_and(|rest| rest.matches('/').count() <= 1),
-            _ => false,
-        }
-    };
-    let left: Vec<_> = context
-        .iter()
-        .filter(|branch| !branch.iter().any(excluded))
-        .collect();
-    // A fault within the value says less against a branch than one of the value itself.
-    let weight = |branch: &[ValidationError<'_>]| {
-        let own = branch.iter().filter(|e| e.instance_path().as_str() == path);
-        (
-            own.map(faults_in).sum::<usize>(),
-            branch.iter().map(faults_in).sum::<usize>(),
-        )
-    };
-    let fewest = left.iter().map(|branch| weight(branch)).min()?;
-    let mut best = left.into_iter().filter(|branch| weight(branch) == fewest);
-    let first = best.next();
-    if best.next().is_some() && fewest > (1, 1) {
-        None
-    } else {
-        first
-    }
-}
-
-/// How many faults an error stands for: each key that a branch does not know counts.
-fn faults_in(error: &ValidationError<'_>) -> usize {
-    match error.kind() {
-        Kind::AdditionalProperties { unexpected } | Kind::UnevaluatedProperties { unexpected } => {
-            unexpected.len()
-        }
-        _ => 1,
-    }
-}
-
-/// What to say of a value that fits no branch of a choice.
-fn no_form(schema: &Value, found: &Value, node: Option<&Value>) -> String {
-    let branches = node
-        .and_then(|n| n.get("anyOf").or_else(|| n.get("oneOf")))
-        .and_then(Value::as_array);
-    let words: Option<Vec<Value>> =
-        branches.map(|all| all.iter().filter_map(|b| b.get("const").cloned()).collect());
-    match (words, branches) {
-        (Some(words), Some(all)) if words.len() == all.len() => {
-            none_of(found, &Value::Array(words))
-        }
-        _ => format!("{} fits none of: {}", show(found), forms(schema, branches)),
-    }
-}
-
-/// The forms that a choice admits, by tag, keys, title or type.
-fn forms(schema: &Value, branches: Option<&Vec<Value>>) -> String {
-    let resolved = |branch: &'_ Value| match branch.get("$ref").and_then(Value::as_str) {
-        Some(reference) => schema
-            .pointer(reference.trim_start_matches('#'))
-            .unwrap_or(branch)
-            .clone(),
-        None => branch.clone(),
-    };
-    let names = branches
-        .into_iter()
-        .flatten()
-        .map(resolved)
-        .filter(|b| b.get("type") != Some(&Value::from("null")))
-        .map(|branch| {
-            let text = |key: &str| branch.get(key).and_then(Value::as_str).map(str::to_owned);
-            let tag = branch
-                .get("properties")
-                .and_then(Value::as_object)
-                .and_then(|properties| {
-                    properties.iter().find_map(|(key, p)| {
-                        p.get("const").map(|c| format!("{{\"{key}\": {c}, ...}}"))
-                    })
-                });
-            let keys = || {
-                branch
-                    .get("properties")
-                    .and_then(Value::as_object)
-                    .map(key_list)
-            };
-            let constant = || branch.get("const").map(Value::to_string);
-            tag.or_else(constant)
-                .or_else(keys)
-                .or_else(|| text("title"))
-                .or_else(|| text("type"))
-                .unwrap_or_default()
-        });
-    names.collect::<Vec<_>>().join(" | ")
-}
-
-fn key_list(properties: &Map<String, Value>) -> String {
-    format!(
-        "{{{}}}",
-        properties
-            .keys()
-            .map(|k| format!("\"{k}\""))
-            .collect::<Vec<_>>()
-            .join(", ")
-    )
 }
 
 /// The schema that holds the keyword at `keyword`.
@@ -305,7 +192,7 @@ fn wanted(kind: &TypeKind) -> String {
     }
 }
 
-fn type_of(value: &Value) -> &'static str {
+pub(super) fn type_of(value: &Value) -> &'static str {
     match value {
         Value::Null => "null",
         Value::Bool(_) => "true or false",
@@ -317,7 +204,7 @@ fn type_of(value: &Value) -> &'static str {
 }
 
 /// A value, shortened where it is long.
-fn show(value: &Value) -> String {
+pub(super) fn show(value: &Value) -> String {
     let text = value.to_string();
     match text.char_indices().nth(60) {
         Some((end, _)) => format!("{}...", &text[..end]),
