@@ -13,8 +13,10 @@ pub mod rest;
 pub mod resume;
 pub mod scene;
 pub mod simulate;
+pub mod source;
 pub mod stage;
 pub mod state;
+pub mod surface;
 pub mod tool;
 
 pub use tool::PoolSph;

@@ -4,6 +4,8 @@
 //! of what the stages declare. Particles keep their index for life; new ones are appended.
 
 use crate::near::Near;
+use crate::source::Place;
+use crate::surface::Patch;
 
 /// The one metal and the lattice that its particles start on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +59,8 @@ pub enum Column {
     Enthalpy,
     /// [`State::pressure`].
     Pressure,
+    /// [`State::surface`].
+    Surface,
 }
 
 /// All particles at one time. Index = identity.
@@ -84,9 +88,12 @@ pub struct State {
     pub temperature: Vec<f64>,
     /// Specific enthalpy \[J/kg\], `[n]` or empty.
     pub enthalpy: Vec<f64>,
-    /// p \[Pa\], `[n]` or empty: the accumulated pressure that keeps the density, warm start of the
-    /// next step and what frames show.
+    /// p \[Pa\], `[n]` or empty: the pressure that the metal carries, from all pair forces.
     pub pressure: Vec<f64>,
+    /// What the surface is at each particle, `[n]` or empty.
+    pub surface: Vec<Patch>,
+    /// Where the arc stands, if there is one.
+    pub source: Option<Place>,
     /// Liquid particles move. False until enough of them are there (Komen 2019, section 4.3).
     pub flowing: bool,
     /// The moving particles and all that they touch, gathered afresh each step.
@@ -132,6 +139,8 @@ impl State {
             temperature: Vec::new(),
             enthalpy: Vec::new(),
             pressure: Vec::new(),
+            surface: Vec::new(),
+            source: None,
             flowing: false,
             near: Near::new(metal),
             columns,
@@ -184,6 +193,7 @@ impl State {
                 Column::Temperature => self.temperature.push(particle.temperature),
                 Column::Enthalpy => self.enthalpy.push(particle.enthalpy),
                 Column::Pressure => self.pressure.push(0.0),
+                Column::Surface => self.surface.push(Patch::default()),
             }
         }
     }
@@ -206,6 +216,7 @@ impl State {
             ("temperature", 8 * self.temperature.len()),
             ("enthalpy", 8 * self.enthalpy.len()),
             ("pressure", 8 * self.pressure.len()),
+            ("surface", size_of::<Patch>() * self.surface.len()),
             ("near", self.near.bytes()),
         ];
         bytes.retain(|(_, held)| *held > 0);

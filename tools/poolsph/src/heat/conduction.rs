@@ -338,7 +338,7 @@ impl Stage for Conduction {
         for held in &self.held {
             held.prescribe(state, &self.caloric, &mut self.out_held)?;
         }
-        let due = state.step % self.interval == 0;
+        let due = state.step.is_multiple_of(self.interval);
         let whole = self.interval as f64 * dt;
         let limit = self.limit;
         // A step at the very limit is whole, whatever its last bit.

@@ -1,0 +1,223 @@
+//! Normals, levels and areas in the band of particles along the surface.
+
+use kernels::CubicSpline;
+use rayon::prelude::*;
+
+use super::Patch;
+use super::area::Polygon;
+use super::{Cloud, tangents};
+use crate::near::{dot, minus, plus, squared};
+
+/// A particle deeper than this many spacings is not of the band.
+const BAND: f64 = 1.75;
+/// A particle deeper than this many spacings below the surface owns nothing of it.
+const OWNERS: f64 = 1.25;
+/// Half the edge of the largest polygon, in spacings.
+const PATCH: f64 = 0.95;
+/// Times that normals are averaged over neighbours.
+const TURNS: usize = 4;
+/// Times that levels are averaged over neighbours.
+const LEVELS: usize = 4;
+/// Rows per unit of parallel work.
+const GRAIN: usize = 128;
+
+/// A neighbour of a member.
+#[derive(Debug, Clone, Copy)]
+struct Link {
+    /// Its number among the members.
+    to: u32,
+    /// W of the pair times its |grad C|.
+    trust: f64,
+    weight: f64,
+    dx: [f64; 3],
+}
+
+/// The band, with buffers that are kept from step to step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Band {
+    /// Numbers in the cloud; the first `width` are of the band, the others deeper.
+    members: Vec<u32>,
+    width: usize,
+    /// Number among the members, by number in the cloud.
+    slots: Vec<u32>,
+    links: Vec<Vec<Link>>,
+    patches: Vec<Patch>,
+    next: Vec<Patch>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Band {
+    /// Completes the `coloured` patches of a cloud.
+    pub(super) fn complete(
+        &mut self,
+        cloud: &Cloud<'_>,
+        kernel: CubicSpline<3>,
+        spacing: f64,
+        coloured: &mut [Patch],
+    ) {
+        self.collect(cloud, coloured, spacing);
+        self.link(cloud, kernel);
+        let volume = spacing * spacing * spacing;
+        for _ in 0..TURNS {
+            self.pass(|own, links, all| turned(own, links, all, (kernel.value(0.0), volume)));
+        }
+        self.trust();
+        for _ in 0..LEVELS {
+            self.pass(|own, links, all| levelled(own, links, all, kernel.value(0.0)));
+        }
+        let mut owned = std::mem::take(&mut self.next);
+        (0..self.width)
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|k| Patch {
+                area: self.owned(cloud, spacing, k),
+                ..self.patches[k]
+            })
+            .collect_into_vec(&mut owned);
+        for (&k, patch) in self.members.iter().zip(&owned) {
+            coloured[k as usize] = *patch;
+        }
+        self.next = owned;
+    }
+
+    /// Members of the band, then the deeper particles that they touch.
+    fn collect(&mut self, cloud: &Cloud<'_>, coloured: &[Patch], spacing: f64) {
+        self.members.clear();
+        self.slots.clear();
+        self.slots.resize(coloured.len(), NONE);
+        for (k, patch) in coloured.iter().enumerate() {
+            if patch.depth <= BAND * spacing {
+                self.slots[k] = self.members.len() as u32;
+                self.members.push(k as u32);
+            }
+        }
+        self.width = self.members.len();
+        for k in 0..self.width {
+            for &b in cloud.row(self.members[k] as usize) {
+                if self.slots[b as usize] == NONE {
+                    self.slots[b as usize] = self.members.len() as u32;
+                    self.members.push(b);
+                }
+            }
+        }
+        self.patches.clear();
+        self.patches
+            .extend(self.members.iter().map(|k| coloured[*k as usize]));
+        if self.links.len() < self.width {
+            self.links.resize(self.width, Vec::new());
+        }
+    }
+
+    fn link(&mut self, cloud: &Cloud<'_>, kernel: CubicSpline<3>) {
+        let (members, slots) = (&self.members[..self.width], &self.slots);
+        let rows = self.links.par_iter_mut().zip(members).with_min_len(GRAIN);
+        rows.for_each(|(links, &k)| {
+            links.clear();
+            links.extend(cloud.row(k as usize).iter().map(|&b| {
+                let dx = minus(cloud.places[b as usize], cloud.places[k as usize]);
+                Link {
+                    to: slots[b as usize],
+                    trust: 0.0,
+                    weight: kernel.value(squared(dx).sqrt()),
+                    dx,
+                }
+            }));
+        });
+    }
+
+    /// Trust is in what has much of a gradient, and only in the band.
+    fn trust(&mut self) {
+        let (patches, width) = (&self.patches, self.width);
+        let rows = self.links[..width].par_iter_mut().with_min_len(GRAIN);
+        rows.for_each(|links| {
+            for link in links {
+                if (link.to as usize) < width {
+                    let gradient = patches[link.to as usize].gradient;
+                    link.trust = link.weight * squared(gradient).sqrt();
+                }
+            }
+        });
+    }
+
+    fn pass(&mut self, average: impl Fn(Patch, &[Link], &[Patch]) -> Patch + Sync) {
+        let (patches, links) = (&self.patches, &self.links);
+        patches[..self.width]
+            .par_iter()
+            .zip(links)
+            .with_min_len(GRAIN)
+            .map(|(own, links)| average(*own, links, patches))
+            .collect_into_vec(&mut self.next);
+        self.patches[..self.width].copy_from_slice(&self.next);
+    }
+
+    /// Area that the band's particle `k` owns: what the planes toward its neighbours leave of its
+    /// plane. A plane lies halfway between two particles; where their levels disagree by e, both
+    /// move it by half of the mean rise times e, so that on a plane the areas fit together exactly
+    /// as those of a power diagram do, however wrong the levels are.
+    fn owned(&self, cloud: &Cloud<'_>, spacing: f64, k: usize) -> f64 {
+        let own = &self.patches[k];
+        if own.depth > OWNERS * spacing || squared(own.normal) <= 0.0 {
+            return 0.0;
+        }
+        let (u, v) = tangents(own.normal);
+        let at = self.members[k] as usize;
+        let mut polygon = Polygon::square(PATCH * spacing);
+        for &b in cloud.row(at) {
+            let to = minus(cloud.places[b as usize], cloud.places[at]);
+            let rise = dot(to, own.normal);
+            let mut offset = 0.5 * squared(to) - own.depth * rise;
+            let slot = self.slots[b as usize] as usize;
+            let other = &self.patches[slot];
+            let mean = if slot < self.width {
+                0.5 * (rise + dot(to, other.normal))
+            } else {
+                rise
+            };
+            offset += 0.5 * mean * (own.depth - other.depth - mean);
+            polygon.cut([dot(to, u), dot(to, v)], offset);
+            if polygon.is_empty() {
+                return 0.0;
+            }
+        }
+        polygon.area()
+    }
+}
+
+/// Averages grad C and takes the normal from it. The sum is not divided by that of the weights, so
+/// that particles with many neighbours on the surface count most.
+fn turned(own: Patch, links: &[Link], all: &[Patch], (at_zero, volume): (f64, f64)) -> Patch {
+    let mut sum = own.gradient.map(|x| x * at_zero);
+    for link in links {
+        sum = plus(sum, link.weight, all[link.to as usize].gradient);
+    }
+    let length = squared(sum).sqrt();
+    if length <= 0.0 {
+        return own;
+    }
+    Patch {
+        normal: sum.map(|x| -x / length),
+        gradient: sum.map(|x| x * volume),
+        ..own
+    }
+}
+
+/// Averages the level of the surface. The mean of both normals makes the step from one particle
+/// to the next exact on a plane and on a sphere, so that averaging does not flatten curves.
+fn levelled(own: Patch, links: &[Link], all: &[Patch], at_zero: f64) -> Patch {
+    let mut trust = at_zero * squared(own.gradient).sqrt();
+    let mut level = trust * own.depth;
+    for link in links {
+        let other = &all[link.to as usize];
+        trust += link.trust;
+        level += link.trust
+            * (other.depth + 0.5 * (dot(own.normal, link.dx) + dot(other.normal, link.dx)));
+    }
+    if trust <= 0.0 {
+        return own;
+    }
+    Patch {
+        depth: level / trust,
+        ..own
+    }
+}

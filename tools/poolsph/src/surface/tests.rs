@@ -1,0 +1,165 @@
+//! Areas of a plane, a tilted plane and a sphere, for aligned, turned and jittered lattices.
+
+use super::*;
+use crate::near::dot;
+use crate::state::Particle;
+
+const METAL: Metal = Metal {
+    density: 7850.0,
+    spacing: 1.0,
+    smoothing_length: 1.0,
+};
+
+fn noise(i: usize) -> f64 {
+    ((i as f64 * 12.9898).sin() * 43_758.545_3).fract().abs() - 0.5
+}
+
+/// Rotation by `turn` about the axis (1, 2, 3), (1, 0, 0), ... (Rodrigues).
+fn turned(x: [f64; 3], axis: [f64; 3], turn: f64) -> [f64; 3] {
+    let length = squared(axis).sqrt();
+    let k = axis.map(|c| c / length);
+    let (sin, cos) = turn.sin_cos();
+    let along = dot(k, x) * (1.0 - cos);
+    let across = cross(k, x);
+    std::array::from_fn(|i| x[i] * cos + across[i] * sin + k[i] * along)
+}
+
+/// Particles of a lattice turned and shaken, of which `inside` is kept.
+fn cloud(
+    half: i32,
+    (axis, turn, jitter): ([f64; 3], f64, f64),
+    inside: impl Fn([f64; 3]) -> bool,
+) -> State {
+    let mut state = State::new(METAL, vec![Column::Surface]);
+    let mut count = 0;
+    for i in -half..half {
+        for j in -half..half {
+            for k in -half..half {
+                count += 3;
+                let at = [i, j, k].map(|n| f64::from(n) + 0.5);
+                let mut position = turned(at, axis, turn);
+                for (c, x) in position.iter_mut().enumerate() {
+                    *x += jitter * noise(count + c);
+                }
+                if inside(position) {
+                    state.push(Particle {
+                        position,
+                        velocity: [0.0; 3],
+                        phase: Phase::Solid,
+                        droplet: false,
+                        wall: false,
+                        temperature: 0.0,
+                        enthalpy: 0.0,
+                    });
+                }
+            }
+        }
+    }
+    Surface::new(METAL).advance(&mut state, 0.0).unwrap();
+    state
+}
+
+/// Measured over true area of a plane, seen through a smooth window.
+fn plane(lattice: ([f64; 3], f64, f64), normal: [f64; 3], level: f64) -> f64 {
+    let edge = 11.0;
+    let (u, v) = tangents(normal);
+    let state = cloud(22, lattice, |x| {
+        dot(x, normal) < level
+            && dot(x, normal) > level - 6.0
+            && dot(x, u).abs() < edge + 4.0
+            && dot(x, v).abs() < edge + 4.0
+    });
+    let window = |s: f64| {
+        let x = (s / edge).clamp(-1.0, 1.0);
+        0.5 * (1.0 + (std::f64::consts::PI * x).cos())
+    };
+    let mut sum = 0.0;
+    for (x, patch) in state.position.iter().zip(&state.surface) {
+        if dot(*x, normal) > level - 3.0 {
+            sum += patch.area * window(dot(*x, u)) * window(dot(*x, v));
+        }
+    }
+    sum / (edge * edge)
+}
+
+#[test]
+fn planes_have_their_area() {
+    let flat = [0.0, 0.0, 1.0];
+    let tilted = [0.5, 0.0, 0.75_f64.sqrt()];
+    for (normal, name) in [(flat, "flat"), (tilted, "tilted by 30 degrees")] {
+        for (turn, jitter) in [(0.0, 0.0), (0.0, 0.3), (0.7, 0.0), (1.9, 0.2)] {
+            let found = plane(([1.0, 2.0, 3.0], turn, jitter), normal, 0.0);
+            assert!(
+                (found - 1.0).abs() < 0.01,
+                "{name}, turned {turn}, jitter {jitter}: {found}"
+            );
+        }
+    }
+}
+
+/// Area, and area projected upwards, over those of a sphere of as many particles.
+fn sphere(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
+    let state = cloud(20, lattice, |x| squared(x).sqrt() < radius);
+    let real = (state.len() as f64 * 0.75 / std::f64::consts::PI).cbrt();
+    let disc = std::f64::consts::PI * real * real;
+    let area: f64 = state.surface.iter().map(|patch| patch.area).sum();
+    let up = |p: &Patch| p.area * p.normal[2].max(0.0);
+    [
+        area / (4.0 * disc),
+        state.surface.iter().map(up).sum::<f64>() / disc,
+    ]
+}
+
+#[test]
+fn spheres_have_their_area() {
+    // 18 spacings: the radius of 9 mm that a bead has.
+    for (radius, bound) in [(18.0, 0.01), (9.0, 0.015)] {
+        for (turn, jitter) in [(0.0, 0.0), (0.7, 0.0), (1.9, 0.2)] {
+            let [whole, up] = sphere(radius, ([1.0, 2.0, 3.0], turn, jitter));
+            let what = format!("radius {radius}, turned {turn}, jitter {jitter}: {whole} {up}");
+            assert!((whole - 1.0).abs() < bound, "{what}");
+            assert!((up - 1.0).abs() < 2.0 * bound, "{what}");
+        }
+    }
+}
+
+#[test]
+fn normals_of_a_sphere_point_outwards() {
+    let state = cloud(12, ([3.0, 1.0, 2.0], 0.4, 0.1), |x| {
+        squared(x).sqrt() < 10.0
+    });
+    for (x, patch) in state.position.iter().zip(&state.surface) {
+        if patch.area > 0.5 {
+            let cosine = dot(*x, patch.normal) / squared(*x).sqrt();
+            assert!(cosine > 0.98, "{cosine}");
+        }
+    }
+}
+
+#[test]
+fn the_flowing_part_is_measured_as_the_whole_is() {
+    let mut state = cloud(8, ([1.0, 2.0, 3.0], 0.3, 0.1), |x| {
+        x[2] < 3.0 && x[2] > -5.0
+    });
+    let whole = state.surface.clone();
+    for a in 0..state.len() {
+        if state.position[a][2] > 0.0 && state.position[a][0].abs() < 4.0 {
+            state.phase[a] = Phase::Liquid;
+        }
+    }
+    state.flowing = true;
+    state.gather();
+    let mut stage = Surface::new(METAL);
+    stage.advance(&mut state, 0.0).unwrap();
+    let liquid = |a: &usize| {
+        state.phase[*a] == Phase::Liquid
+            && state.position[*a][0].abs() < 1.0
+            && state.position[*a][1].abs() < 4.0
+    };
+    let inner: Vec<usize> = (0..state.len()).filter(liquid).collect();
+    assert!(inner.len() > 40);
+    for a in inner {
+        let off = (state.surface[a].area - whole[a].area).abs();
+        assert!(off < 1e-3, "{off}");
+    }
+}
