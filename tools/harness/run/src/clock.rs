@@ -10,9 +10,10 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    pub(crate) fn start() -> Self {
+    /// A clock that has run since `start`.
+    pub(crate) fn since(start: Instant) -> Self {
         Self {
-            start: Instant::now(),
+            start,
             stages: Vec::new(),
         }
     }

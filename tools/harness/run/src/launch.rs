@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::ExitCode;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use artefact::{Header, beside};
 
@@ -106,10 +106,10 @@ fn title<T: Tool>(scene: &Path) -> String {
 }
 
 fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
-    let start = machine::now();
+    let (start, began) = (machine::now(), Instant::now());
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study)?;
-    let mut session = open::<T>(run, &ready.header)?;
+    let mut session = open::<T>(run, &ready.header, began)?;
     if run.level() > Level::Quiet {
         head::<T>(run, &ready);
     }
@@ -145,7 +145,7 @@ fn guarded<R>(work: impl FnOnce() -> Result<R, Failure>) -> Result<R, Failure> {
     })
 }
 
-fn open<T: Tool>(run: &Run, header: &Header) -> Result<Session, Failure> {
+fn open<T: Tool>(run: &Run, header: &Header, began: Instant) -> Result<Session, Failure> {
     if run.out.is_dir() {
         return Err(Failure::Usage(format!(
             "--out {}: is a folder",
@@ -162,6 +162,7 @@ fn open<T: Tool>(run: &Run, header: &Header) -> Result<Session, Failure> {
     }
     create_folder(&run.out)?;
     Session::open(Opening {
+        began,
         out: &run.out,
         header: header.clone(),
         resume: run.resume,

@@ -23,6 +23,8 @@ const CHECKPOINT_SHARE: u32 = 20;
 /// How a session is opened.
 #[derive(Debug)]
 pub(crate) struct Opening<'a> {
+    /// When scene and plan were begun.
+    pub(crate) began: Instant,
     pub(crate) out: &'a Path,
     pub(crate) header: Header,
     pub(crate) resume: bool,
@@ -55,6 +57,7 @@ impl Session {
     /// When the artefact cannot be created.
     pub fn quiet(out: &Path, header: Header) -> Result<Self, Failure> {
         Self::open(Opening {
+            began: Instant::now(),
             out,
             header,
             resume: false,
@@ -68,7 +71,8 @@ impl Session {
     pub(crate) fn open(opening: Opening<'_>) -> Result<Self, Failure> {
         let checkpoint = beside(opening.out, ".checkpoint");
         let mut ledger = Ledger::default();
-        let mut clock = Clock::start();
+        let mut clock = Clock::since(opening.began);
+        clock.add("plan", opening.began.elapsed());
         let (writer, restored) = if opening.resume {
             let restored = Checkpoint::read(&checkpoint, &opening.header)?;
             let position: Position = restored.json(POSITION)?;
