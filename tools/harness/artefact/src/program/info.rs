@@ -3,7 +3,7 @@
 use artefact::{Channel, RECOVERED, Reader};
 
 use super::open::{channels, is_json, open};
-use super::sheet::{Form, Sheet};
+use super::sheet::{Form, Sheet, short};
 use super::trouble::{Trouble, Verdict};
 use super::{Source, Streams, json};
 
@@ -97,8 +97,8 @@ fn describe(reader: &Reader, channel: &Channel, streams: &mut Streams<'_>) -> Re
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let range = match values.len() {
             0 => "no entry".to_owned(),
-            1 => format!("{low}"),
-            _ => format!("{low} .. {high}"),
+            1 => short(low),
+            _ => format!("{} .. {}", short(low), short(high)),
         };
         let kind = column.values.type_name();
         writeln!(

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::Streams;
-use super::sheet::Sheet;
+use super::sheet::{Sheet, short};
 use super::trouble::{Trouble, file_error};
 use super::validate::schema_faults;
 
@@ -138,12 +138,16 @@ fn list(key: &str, value: &Value, streams: &mut Streams<'_>) -> Result<(), Troub
         writeln!(streams.out, "{key:<28} (the scene as it ran)")?;
         return Ok(());
     }
-    writeln!(streams.out, "{key}")?;
     let items: Vec<(String, &Value)> = match value {
         Value::Array(items) => items.iter().map(|v| (String::new(), v)).collect(),
         Value::Object(map) => map.iter().map(|(k, v)| (k.clone(), v)).collect(),
         _ => Vec::new(),
     };
+    if items.is_empty() {
+        writeln!(streams.out, "{key:<28} none")?;
+        return Ok(());
+    }
+    writeln!(streams.out, "{key}")?;
     for (name, item) in items.iter().take(SHOWN) {
         writeln!(streams.out, "  {}", line(name, item))?;
     }
@@ -159,21 +163,30 @@ fn line(name: &str, item: &Value) -> String {
         return format!("{name:<32} {unit:<10} {} entries", values.len());
     }
     let sheet = Sheet::json(item);
-    let texts = sheet.texts.iter().map(|(k, t)| match k.as_str() {
-        "" | "name" => t.clone(),
-        key => format!("{key} {t}"),
+    let unit = item["unit"].as_str().unwrap_or_default();
+    let texts = sheet.texts.iter().filter(|(k, _)| k != "unit");
+    let texts = texts.map(|(key, text)| match key.as_str() {
+        "" | "name" | "why" => text.clone(),
+        key => format!("{key} {text}"),
     });
     let numbers = sheet.columns.iter().map(|c| {
         let x = c.values.to_f64()[0];
         match c.name.as_str() {
-            "" => format!("{x}"),
-            key => format!("{key} {x}"),
+            "" => short(x),
+            "value" => format!("{} {unit}", short(x)),
+            "bytes" => format!("{x} bytes"),
+            "share" => format!("{:.1} %", 100.0 * x),
+            "wall_s" => format!("{} s", short(x)),
+            key => format!("{key} {}", short(x)),
         }
     });
-    let parts: Vec<String> = texts.chain(numbers).collect();
-    if name.is_empty() {
-        parts.join("  ")
-    } else {
-        format!("{name:<26} {}", parts.join("  "))
+    let mut parts: Vec<String> = texts.chain(numbers).collect();
+    if !name.is_empty() {
+        parts.insert(0, name.to_owned());
     }
+    // What comes first is a name where more follows.
+    if parts.len() > 1 {
+        parts[0] = format!("{:<26}", parts[0]);
+    }
+    parts.join("  ")
 }

@@ -189,9 +189,43 @@ fn unit_of(path: &str) -> &'static str {
     }
 }
 
+/// A number for people: six digits, a power of ten where it is very small or large.
+pub(crate) fn short(x: f64) -> String {
+    let size = x.abs();
+    if size > 0.0 && !(1e-4..1e7).contains(&size) {
+        let text = format!("{x:.5e}");
+        return match text.split_once('e') {
+            Some((digits, power)) if digits.contains('.') => {
+                let digits = digits.trim_end_matches('0').trim_end_matches('.');
+                format!("{digits}e{power}")
+            }
+            _ => text,
+        };
+    }
+    let text = format!("{x:.5e}");
+    text.parse::<f64>()
+        .map_or(text, |rounded| rounded.to_string())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_for_people_have_six_digits() {
+        let cases = [
+            (0.0, "0"),
+            (0.00169560000000002, "0.0016956"),
+            (-4.596542261792e-12, "-4.59654e-12"),
+            (2e9, "2e9"),
+            (4715.466136120171, "4715.47"),
+            (52000.0, "52000"),
+            (f64::NAN, "NaN"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(short(x), text);
+        }
+    }
 
     #[test]
     fn json_becomes_columns_named_by_path() {
