@@ -21,3 +21,4 @@ pub mod grid;
 pub mod mean;
 pub mod phase;
 pub mod scene;
+pub mod stage;

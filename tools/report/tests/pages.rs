@@ -61,7 +61,8 @@ fn a_whole_study_has_every_section_and_its_measures_are_those_of_the_sample() {
     ] {
         assert!(html.contains(&format!(">{heading}</h2>")), "{heading}");
     }
-    assert!(html.contains("<b>2.9 mm</b>"), "penetration");
+    // The lowest fused particles have their centres 2.75 mm deep, their lower faces 3 mm.
+    assert!(html.contains("<b>3.0 mm</b>"), "penetration");
     assert!(
         html.contains("All 3 measures that are judged agree"),
         "verdict"

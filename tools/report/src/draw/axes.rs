@@ -57,19 +57,19 @@ impl Axes {
     pub(crate) fn draw(&self, canvas: &mut Canvas, x_title: &str, y_title: &str) {
         canvas.border(self.area, INK, 2.0);
         let bottom = self.area.y + self.area.h;
-        for tick in ticks(self.x, self.area.w / 130.0) {
+        for tick in ticks(self.x, self.area.w / 150.0) {
             let at = self.pixel([tick, self.y[0]]);
             canvas.line(at, [at[0], at[1] + 8.0], INK, 2.0);
             write(
                 canvas,
-                [at[0], bottom + 24.0],
+                [at[0], bottom + 26.0],
                 &number(tick),
                 Hand::Small,
                 (Stand::Middle, INK),
             );
         }
         let mut widest = 0.0_f64;
-        for tick in ticks(self.y, self.area.h / 70.0) {
+        for tick in ticks(self.y, self.area.h / 80.0) {
             let at = self.pixel([self.x[0], tick]);
             let text = number(tick);
             widest = widest.max(Hand::Small.width(&text));
@@ -85,12 +85,12 @@ impl Axes {
         let middle = self.area.x + self.area.w / 2.0;
         write(
             canvas,
-            [middle, bottom + 52.0],
+            [middle, bottom + 60.0],
             x_title,
             Hand::Plain,
             (Stand::Middle, INK),
         );
-        let left = self.area.x - 30.0 - widest;
+        let left = self.area.x - 36.0 - widest;
         let height = self.area.y + self.area.h / 2.0;
         write_upwards(canvas, [left, height], y_title, Hand::Plain, INK);
     }
@@ -150,7 +150,7 @@ impl Scale {
         }
         canvas.border(rect, INK, 2.0);
         let mut widest = 0.0_f64;
-        for tick in ticks(self.range, rect.h / 60.0) {
+        for tick in ticks(self.range, rect.h / 70.0) {
             let t = (tick - self.range[0]) / (self.range[1] - self.range[0]);
             let y = rect.y + (1.0 - t) * rect.h;
             let text = number(tick);

@@ -1,6 +1,7 @@
 //! A picture in memory: rectangles, lines, arrows, and its PNG.
 
 use super::colour::{Rgb, WHITE, mix};
+use super::palette;
 
 /// A picture; row 0 is the top.
 #[derive(Debug, Clone)]
@@ -157,16 +158,14 @@ impl Canvas {
     pub(crate) fn png(&self) -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
+        let indexed = palette::index(&self.pixels);
+        encoder.set_color(png::ColorType::Indexed);
         encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::Balanced);
-        let data: Vec<u8> = self
-            .pixels
-            .iter()
-            .flat_map(|p| p.map(|part| (part * 255.0).round().clamp(0.0, 255.0) as u8))
-            .collect();
+        encoder.set_palette(indexed.colours.concat());
+        encoder.set_compression(png::Compression::High);
+        encoder.set_filter(png::Filter::NoFilter);
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&data)?;
+        writer.write_image_data(&indexed.pixels)?;
         writer.finish()?;
         Ok(bytes)
     }
@@ -237,9 +236,9 @@ mod tests {
         let mut canvas = Canvas::new(3, 2);
         canvas.blend(1, 0, [1.0, 0.0, 0.0], 1.0);
         let bytes = canvas.png().unwrap();
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .unwrap();
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().unwrap();
         let mut data = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut data).unwrap();
         assert_eq!(&data[..9], &[255, 255, 255, 255, 0, 0, 255, 255, 255]);

@@ -88,9 +88,9 @@ mod tests {
 
     #[test]
     fn maps_start_and_end_at_their_anchors() {
-        assert_eq!(Map::Viridis.at(0.0), hex(0x44_0154));
-        assert_eq!(Map::Inferno.at(1.0), hex(0xfc_ffa4));
-        assert_eq!(Map::Inferno.at(f64::NAN), hex(0x00_0004));
+        assert_eq!(Map::Viridis.at(0.0).to_vec(), hex(0x44_0154));
+        assert_eq!(Map::Inferno.at(1.0).to_vec(), hex(0xfc_ffa4));
+        assert_eq!(Map::Inferno.at(f64::NAN).to_vec(), hex(0x00_0004));
     }
 
     #[test]

@@ -30,8 +30,8 @@ pub(crate) enum Stand {
 impl Hand {
     fn font(self) -> (FontWeight, RasterHeight) {
         match self {
-            Hand::Small => (FontWeight::Regular, RasterHeight::Size20),
-            Hand::Plain => (FontWeight::Regular, RasterHeight::Size24),
+            Hand::Small => (FontWeight::Regular, RasterHeight::Size24),
+            Hand::Plain => (FontWeight::Bold, RasterHeight::Size24),
             Hand::Title => (FontWeight::Bold, RasterHeight::Size24),
         }
     }

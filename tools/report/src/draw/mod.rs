@@ -6,3 +6,4 @@ pub(crate) mod colour;
 pub(crate) mod contour;
 pub(crate) mod discs;
 pub(crate) mod letters;
+pub(crate) mod palette;

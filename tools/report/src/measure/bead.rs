@@ -151,6 +151,8 @@ fn crossing(at: [f64; 2], value: [f64; 2], level: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::measure::section::{Metal, Plane};
 
@@ -221,7 +223,6 @@ mod tests {
             }
             assert!((bead.fused_half_width - bead.fused_width / 2.0).abs() < 0.5 * D);
         }
-        println!("mean errors in spacings {:?}", mean.map(|e| e / D));
         assert!(
             mean.iter().all(|e| e.abs() < 0.25 * D),
             "mean errors {mean:?} m"
@@ -231,7 +232,7 @@ mod tests {
     #[test]
     fn areas_and_dilution_are_those_of_the_ellipse() {
         let bead = found(5e-3, 2.5e-3, 3e-3, 0.0);
-        let (below, above) = (0.5 * 3.14159 * 5e-3 * 2.5e-3, 0.5 * 3.14159 * 5e-3 * 3e-3);
+        let (below, above) = (0.5 * PI * 5e-3 * 2.5e-3, 0.5 * PI * 5e-3 * 3e-3);
         assert!(
             (bead.area_below / below - 1.0).abs() < 0.08,
             "{}",

@@ -80,13 +80,26 @@ fn facts(weld: &Weld, stretch: &Stretch) -> Vec<(String, String)> {
     let liquid = weld.liquid.iter().filter(|l| **l).count();
     facts.push((format!("{:.2} s", weld.time), "of welding shown".to_owned()));
     facts.push((
-        format!("{}", weld.position.len()),
+        grouped(weld.position.len()),
         format!(
-            "particles of {:.2} mm, {liquid} of them liquid now",
-            1e3 * weld.plate.spacing_m
+            "particles of {:.2} mm, {} of them liquid now",
+            1e3 * weld.plate.spacing_m,
+            grouped(liquid)
         ),
     ));
     facts
+}
+
+/// A count with its thousands set apart.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let parts: Vec<&str> = digits
+        .as_bytes()
+        .rchunks(3)
+        .rev()
+        .filter_map(|p| std::str::from_utf8(p).ok())
+        .collect();
+    parts.join("\u{2009}")
 }
 
 fn views(weld: &Weld, paint: &Paint) -> Result<String, Failure> {

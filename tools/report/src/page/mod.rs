@@ -76,7 +76,10 @@ fn lead(records: &[Named]) -> String {
             said.push(title);
         }
     }
-    said.into_iter().map(paragraph).collect()
+    match said.as_slice() {
+        [] => String::new(),
+        all => paragraph(&all.join(" \u{b7} ")),
+    }
 }
 
 /// A picture that could not be encoded.

@@ -113,7 +113,7 @@ impl Plasma {
     pub(crate) fn picture(&self) -> Option<Canvas> {
         let reach = self.reach();
         let (low, high) = (*self.height.first()?, *self.height.last()?);
-        let low = low.max(-0.35 * (high - low));
+        let low = low.max(-0.12 * high);
         let scale = ((WIDTH as f64 - 560.0) / (2.0 * reach)).min(980.0 / (high - low));
         let left = 0.5 * (WIDTH as f64 - 2.0 * reach * scale);
         let axes = Axes::equal([left, 60.0], scale, [-reach, reach], [low, high]);
@@ -282,27 +282,12 @@ pub(crate) fn lorentz(table: &Table) -> artefact::Result<Option<Canvas>> {
         let [r, d] = inside(p);
         Some(colours.colour(grid(&size).sample(r, d)?))
     });
-    let pitch = wide / 24.0;
-    for i in 0..24 {
-        for k in 0..(deep / pitch) as usize {
-            let p = [(f64::from(i) + 0.5) * pitch, -(k as f64 + 0.5) * pitch];
-            let [r, d] = inside(p);
-            if let (Some(a), Some(b)) = (grid(radial).sample(r, d), grid(axial).sample(r, d)) {
-                let size = a.hypot(b);
-                let length = 0.9 * pitch * scale * (size / most).min(1.0).sqrt();
-                if length > 5.0 {
-                    let half = [0.5 * length * a / size, -0.5 * length * b / size];
-                    let at = axes.pixel(p);
-                    canvas.arrow(
-                        [at[0] - half[0], at[1] - half[1]],
-                        [at[0] + half[0], at[1] + half[1]],
-                        WHITE,
-                        3.0,
-                    );
-                }
-            }
-        }
-    }
+    let force = |p: [f64; 2]| {
+        let [r, d] = inside(p);
+        let parts = [grid(radial).sample(r, d)?, grid(axial).sample(r, d)?];
+        Some(parts.map(|part| part / most))
+    };
+    arrows(&mut canvas, &axes, force);
     axes.draw(&mut canvas, "radius r [mm]", "height z [mm]");
     let bar = Rect {
         x: axes.area.x + axes.area.w + 28.0,
@@ -313,4 +298,30 @@ pub(crate) fn lorentz(table: &Table) -> artefact::Result<Option<Canvas>> {
     colours.bar(&mut canvas, bar);
     scale_bar(&mut canvas, [150.0, total - 30.0], scale);
     Ok(Some(canvas))
+}
+
+/// Arrows on an even lattice; a vector of length 1 fills its place, lengths go as the root.
+fn arrows(canvas: &mut Canvas, axes: &Axes, vector: impl Fn([f64; 2]) -> Option<[f64; 2]>) {
+    let pitch = (axes.x[1] - axes.x[0]) / 24.0;
+    let pixels = 0.9 * pitch * axes.area.w / (axes.x[1] - axes.x[0]);
+    let rows = ((axes.y[1] - axes.y[0]) / pitch) as usize;
+    for place in 0..24 * rows {
+        let (i, k) = (place / rows, place % rows);
+        let p = [
+            axes.x[0] + (i as f64 + 0.5) * pitch,
+            axes.y[1] - (k as f64 + 0.5) * pitch,
+        ];
+        let Some([a, b]) = vector(p) else { continue };
+        let size = a.hypot(b);
+        let length = pixels * size.min(1.0).sqrt();
+        if length > 5.0 {
+            let half = [0.5 * length * a / size, -0.5 * length * b / size];
+            let at = axes.pixel(p);
+            let (tail, tip) = (
+                [at[0] - half[0], at[1] - half[1]],
+                [at[0] + half[0], at[1] + half[1]],
+            );
+            canvas.arrow(tail, tip, WHITE, 3.0);
+        }
+    }
 }

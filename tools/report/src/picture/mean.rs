@@ -129,6 +129,14 @@ impl Field {
         if self.turned() { [v, -u] } else { [u, v] }
     }
 
+    /// Grid spacing \[mm\].
+    fn spacing(&self) -> f64 {
+        match self.second.as_slice() {
+            [a, b, ..] => b - a,
+            _ => 1.0,
+        }
+    }
+
     fn titles(&self) -> [String; 2] {
         let name = |axis: char| match axis {
             'x' => "across x [mm]".to_owned(),
@@ -162,12 +170,38 @@ impl Field {
 pub(crate) struct Style {
     scale: Scale,
     heat: bool,
-    /// Speed whose arrow is `ARROW` grid spacings long \[m/s\].
+    /// Speed of the reference arrow \[m/s\].
     reference: f64,
 }
 
-/// Length of the arrow of the reference speed, in millimetres.
-const ARROW: f64 = 1.6;
+/// Least distance between arrows \[px\].
+const APART: f64 = 34.0;
+/// Length of the arrow of the reference speed, in distances between arrows.
+const ARROW: f64 = 1.9;
+
+/// How arrows are laid out in a picture.
+#[derive(Debug, Clone, Copy)]
+struct Lattice {
+    /// Arrows stand at every so many grid points.
+    every: usize,
+    /// Pixels per m/s.
+    scale: f64,
+    /// Length of the reference arrow \[px\].
+    reference: f64,
+}
+
+impl Lattice {
+    /// For a grid spacing of `spacing` pixels.
+    fn new(spacing: f64, style: &Style) -> Self {
+        let every = (APART / spacing.max(1.0)).ceil().max(1.0);
+        let reference = ARROW * every * spacing;
+        Self {
+            every: every as usize,
+            scale: reference / style.reference,
+            reference,
+        }
+    }
+}
 
 impl Style {
     /// What suits all of `fields`; nothing where no liquid is.
@@ -214,7 +248,12 @@ pub(crate) fn single(field: &Field, style: &Style) -> Option<Canvas> {
     let [right, up] = field.titles();
     axes.draw(&mut canvas, &right, &up);
     bar_beside(&mut canvas, &style.scale, axes.area);
-    key(&mut canvas, [130.0, height - 40.0], style, scale);
+    key(
+        &mut canvas,
+        [130.0, height - 40.0],
+        style,
+        scale * field.spacing(),
+    );
     scale_bar(
         &mut canvas,
         [130.0 + axes.area.w - 320.0, height - 40.0],
@@ -228,7 +267,8 @@ pub(crate) fn phases(fields: &[Field], style: &Style) -> Option<Canvas> {
     let windows = fields.iter().filter_map(Field::window);
     let [x, y] =
         windows.reduce(|a, b| [0, 1].map(|k| [a[k][0].min(b[k][0]), a[k][1].max(b[k][1])]))?;
-    let (left, gap) = (110.0, 90.0);
+    let spacing = fields.first()?.spacing();
+    let (left, gap) = (120.0, 90.0);
     let width = (WIDTH as f64 - left - gap - 190.0) / 2.0;
     let scale = width / (x[1] - x[0]);
     let high = scale * (y[1] - y[0]);
@@ -270,18 +310,17 @@ pub(crate) fn phases(fields: &[Field], style: &Style) -> Option<Canvas> {
         h: last?.area.h.max(260.0),
     };
     bar_beside(&mut canvas, &style.scale, area);
-    key(&mut canvas, [left, height - 34.0], style, scale);
+    key(&mut canvas, [left, height - 34.0], style, scale * spacing);
     scale_bar(&mut canvas, [left + width + gap, height - 34.0], scale);
     Some(canvas)
 }
 
 fn paint(canvas: &mut Canvas, axes: &Axes, field: &Field, style: &Style) {
+    let lattice = Lattice::new(
+        field.spacing() * axes.area.w / (axes.x[1] - axes.x[0]),
+        style,
+    );
     let rows = field.second.len();
-    let spacing = if rows > 1 {
-        field.second[1] - field.second[0]
-    } else {
-        1.0
-    };
     let share =
         |flags: &[bool]| -> Vec<f64> { flags.iter().map(|f| f64::from(u8::from(*f))).collect() };
     let (metal, liquid) = (share(&field.metal), share(&field.liquid));
@@ -309,45 +348,33 @@ fn paint(canvas: &mut Canvas, axes: &Axes, field: &Field, style: &Style) {
             PLATE
         })
     });
-    let pixels = axes.area.w / (axes.x[1] - axes.x[0]);
     for (n, at) in field.points() {
-        if field.liquid[n] && axes.holds(at) {
-            arrow(
-                canvas,
-                axes.pixel(at),
-                field.flow(n),
-                (style.reference, pixels, spacing),
-            );
+        let row = [n / rows, n % rows];
+        let chosen = row.iter().all(|i| i.is_multiple_of(lattice.every));
+        if chosen && field.liquid[n] && axes.holds(at) {
+            arrow(canvas, axes.pixel(at), field.flow(n), lattice);
         }
     }
 }
 
-fn arrow(
-    canvas: &mut Canvas,
-    at: [f64; 2],
-    u: [f64; 2],
-    (reference, pixels, spacing): (f64, f64, f64),
-) {
-    let length = ARROW * pixels * u[0].hypot(u[1]) / reference;
-    if length < 0.06 * spacing * pixels {
+fn arrow(canvas: &mut Canvas, at: [f64; 2], u: [f64; 2], lattice: Lattice) {
+    let half = [0.5 * u[0] * lattice.scale, -0.5 * u[1] * lattice.scale];
+    if half[0].hypot(half[1]) < 2.0 {
         return;
     }
-    let scale = ARROW * pixels / reference;
-    let half = [0.5 * u[0] * scale, -0.5 * u[1] * scale];
-    let (tail, tip) = (
-        [at[0] - half[0], at[1] - half[1]],
-        [at[0] + half[0], at[1] + half[1]],
-    );
-    canvas.arrow(tail, tip, WHITE, 5.0);
-    canvas.arrow(tail, tip, ARROWS, 2.6);
+    let tail = [at[0] - half[0], at[1] - half[1]];
+    let tip = [at[0] + half[0], at[1] + half[1]];
+    canvas.arrow(tail, tip, WHITE, 4.4);
+    canvas.arrow(tail, tip, ARROWS, 2.4);
 }
 
 /// Near to black, cool: stands out on every colour of hot metal.
 const ARROWS: Rgb = hex(0x0a_1a2a);
 
 /// The reference arrow with its speed.
-fn key(canvas: &mut Canvas, at: [f64; 2], style: &Style, pixels: f64) {
-    let end = [at[0] + ARROW * pixels, at[1]];
+fn key(canvas: &mut Canvas, at: [f64; 2], style: &Style, spacing: f64) {
+    let lattice = Lattice::new(spacing, style);
+    let end = [at[0] + lattice.reference, at[1]];
     canvas.arrow(at, end, ARROWS, 3.0);
     let words = format!("{} m/s", number(style.reference));
     write(

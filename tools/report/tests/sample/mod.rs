@@ -204,92 +204,9 @@ fn inflow(across: &[f64], along: &[f64], strength: f64) -> Table {
 pub(crate) fn arc(path: &Path) {
     let mut writer = Writer::create(path, &header("arc-source", "arcfvm")).unwrap();
     let radius: Vec<f64> = (0..60).map(|i| 1e-4 + 2e-4 * f64::from(i)).collect();
-    let height: Vec<f64> = (0..50).map(|k| -3e-3 + 2.4e-4 * f64::from(k)).collect();
-    let gauss = |r: f64, w: f64| (-(r / w).powi(2)).exp();
-    let grid = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
-        radius
-            .iter()
-            .flat_map(|r| height.iter().map(|z| f(*r, *z)).collect::<Vec<_>>())
-            .collect()
-    };
-    let material = |r: f64, z: f64| {
-        if z < 0.0 {
-            2.0
-        } else if z > 5e-3 && r < 0.6e-3 {
-            1.0
-        } else {
-            0.0
-        }
-    };
-    let plasma = Table::grid(&[("radius_m", "m", &radius), ("height_m", "m", &height)])
-        .column(
-            "temperature_k",
-            "K",
-            grid(&|r, z| {
-                if z < 0.0 {
-                    1000.0
-                } else {
-                    300.0 + 19_000.0 * gauss(r, 2e-3 + 0.3 * (5e-3 - z).max(0.0))
-                }
-            }),
-        )
-        .column(
-            "radial_velocity_m_s",
-            "m/s",
-            grid(&|r, z| {
-                if z < 0.0 {
-                    0.0
-                } else {
-                    30.0 * r / 1e-3 * gauss(z, 1.5e-3)
-                }
-            }),
-        )
-        .column(
-            "axial_velocity_m_s",
-            "m/s",
-            grid(&|r, z| {
-                if z < 0.0 {
-                    0.0
-                } else {
-                    -200.0 * gauss(r, 1.5e-3) * (z / 5e-3).min(1.0)
-                }
-            }),
-        )
-        .column("material", "1", grid(&material));
-    writer.table("/plasma", 0.0, &plasma).unwrap();
-    let curve = |peak: f64, w: f64| {
-        radius
-            .iter()
-            .map(move |r| peak * gauss(*r, w))
-            .collect::<Vec<f64>>()
-    };
-    let surface = Table::new(radius.len())
-        .column("radius_m", "m", radius.iter().copied())
-        .column("heat_flux_total_w_m2", "W/m2", curve(1.2e8, 3e-3))
-        .column("heat_flux_electron_w_m2", "W/m2", curve(0.5e8, 2e-3))
-        .column("heat_flux_convection_w_m2", "W/m2", curve(0.6e8, 3e-3))
-        .column("heat_flux_emission_w_m2", "W/m2", curve(-1e6, 4e-3))
-        .column("arc_pressure_pa", "Pa", curve(450.0, 2e-3))
-        .column("gas_temperature_k", "K", curve(12_000.0, 4e-3))
-        .column("current_density_a_m2", "A/m2", curve(1.5e7, 2.5e-3))
-        .attribute("gas_temperature_height_m", "m", 9e-5);
-    writer.table("/surface", 0.0, &surface).unwrap();
-    let depth: Vec<f64> = (0..20).map(|k| 1e-4 + 3e-4 * f64::from(k)).collect();
-    let force = |sign: f64| {
-        radius
-            .iter()
-            .flat_map(|r| {
-                depth
-                    .iter()
-                    .map(|d| sign * 1e5 * gauss(*r, 4e-3) * gauss(*d, 2e-3) * r / 2e-3)
-                    .collect::<Vec<_>>()
-            })
-            .collect::<Vec<f64>>()
-    };
-    let lorentz = Table::grid(&[("radius_m", "m", &radius), ("depth_m", "m", &depth)])
-        .column("lorentz_radial_n_m3", "N/m3", force(-1.0))
-        .column("lorentz_axial_n_m3", "N/m3", force(-0.5));
-    writer.table("/lorentz", 0.0, &lorentz).unwrap();
+    writer.table("/plasma", 0.0, &plasma(&radius)).unwrap();
+    writer.table("/surface", 0.0, &surface(&radius)).unwrap();
+    writer.table("/lorentz", 0.0, &lorentz(&radius)).unwrap();
     let balance = Record::new()
         .with("current_a", "A", 300.0)
         .with("voltage_v", "V", 31.5)
@@ -298,11 +215,75 @@ pub(crate) fn arc(path: &Path) {
         .with("closure", "1", 3e-8);
     writer.record("/balance", 0.0, &balance).unwrap();
     writer.finish().unwrap();
-    record(
-        path,
-        "arcfvm",
-        json!([{"name": "energy", "wall_s": 20.0, "share": 0.5}, {"name": "momentum", "wall_s": 20.0, "share": 0.5}]),
-    );
+    let stages = json!([{"name": "energy", "wall_s": 20.0, "share": 0.5}, {"name": "momentum", "wall_s": 20.0, "share": 0.5}]);
+    record(path, "arcfvm", stages);
+}
+
+fn gauss(r: f64, w: f64) -> f64 {
+    (-(r / w).powi(2)).exp()
+}
+
+fn grid(radius: &[f64], other: &[f64], f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let pairs = radius
+        .iter()
+        .flat_map(|r| other.iter().map(move |z| (*r, *z)));
+    pairs.map(|(r, z)| f(r, z)).collect()
+}
+
+fn plasma(radius: &[f64]) -> Table {
+    let height: Vec<f64> = (0..50).map(|k| -3e-3 + 2.4e-4 * f64::from(k)).collect();
+    let gas = |z: f64, value: f64| if z < 0.0 { 0.0 } else { value };
+    let width = |z: f64| 2e-3 + 0.3 * (5e-3 - z).max(0.0);
+    let temperature = grid(radius, &height, |r, z| {
+        300.0 + gas(z, 19_000.0 * gauss(r, width(z)))
+    });
+    let radial = grid(radius, &height, |r, z| gas(z, 3e4 * r * gauss(z, 1.5e-3)));
+    let axial = grid(radius, &height, |r, z| {
+        gas(z, -200.0 * gauss(r, 1.5e-3) * (z / 5e-3).min(1.0))
+    });
+    let material = grid(radius, &height, |r, z| {
+        match (z < 0.0, z > 5e-3 && r < 0.6e-3) {
+            (true, _) => 2.0,
+            (_, true) => 1.0,
+            _ => 0.0,
+        }
+    });
+    Table::grid(&[("radius_m", "m", radius), ("height_m", "m", &height)])
+        .column("temperature_k", "K", temperature)
+        .column("radial_velocity_m_s", "m/s", radial)
+        .column("axial_velocity_m_s", "m/s", axial)
+        .column("material", "1", material)
+}
+
+fn surface(radius: &[f64]) -> Table {
+    let curve = |peak: f64, w: f64| {
+        radius
+            .iter()
+            .map(move |r| peak * gauss(*r, w))
+            .collect::<Vec<f64>>()
+    };
+    Table::new(radius.len())
+        .column("radius_m", "m", radius.iter().copied())
+        .column("heat_flux_total_w_m2", "W/m2", curve(1.2e8, 3e-3))
+        .column("heat_flux_electron_w_m2", "W/m2", curve(0.5e8, 2e-3))
+        .column("heat_flux_convection_w_m2", "W/m2", curve(0.6e8, 3e-3))
+        .column("heat_flux_emission_w_m2", "W/m2", curve(-1e6, 4e-3))
+        .column("arc_pressure_pa", "Pa", curve(450.0, 2e-3))
+        .column("gas_temperature_k", "K", curve(12_000.0, 4e-3))
+        .column("current_density_a_m2", "A/m2", curve(1.5e7, 2.5e-3))
+        .attribute("gas_temperature_height_m", "m", 9e-5)
+}
+
+fn lorentz(radius: &[f64]) -> Table {
+    let depth: Vec<f64> = (0..20).map(|k| 1e-4 + 3e-4 * f64::from(k)).collect();
+    let force = |peak: f64| {
+        grid(radius, &depth, |r, d| {
+            peak * gauss(r, 4e-3) * gauss(d, 2e-3) * r / 2e-3
+        })
+    };
+    Table::grid(&[("radius_m", "m", radius), ("depth_m", "m", &depth)])
+        .column("lorentz_radial_n_m3", "N/m3", force(-1e5))
+        .column("lorentz_axial_n_m3", "N/m3", force(-0.5e5))
 }
 
 fn record(artefact: &Path, tool: &str, stages: Value) {

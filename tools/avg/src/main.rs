@@ -1,0 +1,7 @@
+//! `avg`: averages of particle frames.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    run::main::<avg::stage::Avg>()
+}

@@ -1,0 +1,138 @@
+//! The program: plan, run, record.
+
+use artefact::Reader;
+use run::{Failure, Fault, Input, Inputs, Plan as Shown, Session, Tool};
+
+use crate::average::{AverageError, Averages, Averaging, Plan};
+use crate::fields;
+use crate::scene::Scene;
+
+/// Kind and major version of the frames that are averaged.
+const FRAMES: (&str, u32) = ("particle-frames", 1);
+/// Fewer frames in a phase than this give no standard error worth the name.
+const FEW_FRAMES: u32 = 3;
+
+/// Averages of particle frames.
+#[derive(Debug)]
+pub struct Avg;
+
+impl Tool for Avg {
+    const NAME: &'static str = "avg";
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+    const ABOUT: &'static str =
+        "Averages particle frames over time and over equal phases of the droplet period.";
+    const EXAMPLE: &'static str = "target/release/avg run pipelines/gmaw-300a/avg.json \
+         --input frames=build/gmaw-300a/pool.mcap --out build/gmaw-300a/mean.mcap";
+    const SCENE_KIND: &'static str = "avg.scene";
+    const ARTEFACT_KIND: &'static str = "mean-fields";
+    const INPUTS: &'static [Input] = &[Input {
+        name: "frames",
+        what: "particle frames to average (particle-frames 1.x)",
+        required: true,
+    }];
+
+    type Scene = Scene;
+
+    fn plan(scene: &Scene, inputs: &Inputs) -> Result<Shown, Failure> {
+        let faults = scene.faults();
+        if !faults.is_empty() {
+            let located = |(path, what): (String, String)| Fault::at(&path, what);
+            return Err(faults.into_iter().map(located).collect::<Vec<_>>().into());
+        }
+        let (_, plan) = open(scene, inputs)?;
+        Ok(shown(&plan, scene))
+    }
+
+    fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
+        let (reader, plan) = open(scene, inputs)?;
+        let mut averaging = Averaging::new(scene, &plan);
+        let total = plan.frames.len() as u64;
+        for (done, index) in plan.frames.iter().enumerate() {
+            let cloud = session.timed("read", || averaging.read(&reader, *index));
+            let cloud = cloud.map_err(failure)?;
+            session.timed("mean", || averaging.take(&cloud));
+            session.progress(done as u64 + 1, total, || {
+                vec![
+                    ("time", cloud.time, "s"),
+                    ("phase", cloud.phase as f64, "1"),
+                ]
+            });
+            session.stopped()?;
+        }
+        let averages = averaging.finish();
+        for (channel, time, table) in fields::tables(&plan, &averages) {
+            session.table(&channel, time, &table)?;
+        }
+        close(session, &plan, &averages);
+        Ok(())
+    }
+}
+
+fn open(scene: &Scene, inputs: &Inputs) -> Result<(Reader, Plan), Failure> {
+    let reader = Reader::open_kind(inputs.path("frames")?, FRAMES.0, FRAMES.1)?;
+    let plan = Plan::new(scene, &reader).map_err(failure)?;
+    Ok((reader, plan))
+}
+
+/// What the scene asked for and the frames do not hold is a fault of the scene.
+fn failure(error: AverageError) -> Failure {
+    let text = error.to_string();
+    match error {
+        AverageError::Artefact(e) => e.into(),
+        AverageError::NoSpacing => Fault::at("", text).into(),
+        AverageError::NoFrames { .. } => Fault::at("/time", text).into(),
+        AverageError::NoSource { .. } => Failure::Other(text),
+    }
+}
+
+fn shown(plan: &Plan, scene: &Scene) -> Shown {
+    let points: usize = plan.sections.iter().map(crate::grid::Section::len).sum();
+    let mut shown = Shown::new()
+        .stage("read")
+        .stage("mean")
+        .count("frames", plan.frames.len() as u64)
+        .count("phases", plan.phases as u64)
+        .count("grid points", points as u64)
+        .count("particles in a frame", plan.particles as u64)
+        .column("velocity", "m/s")
+        .memory("ensembles", plan.ensemble_bytes())
+        .memory("one frame", plan.frame_bytes());
+    if plan.temperature {
+        shown = shown.column("temperature", "K");
+    } else {
+        shown = shown.left_out("temperature", "the frames carry none");
+    }
+    if scene.follow.is_none() {
+        shown = shown.left_out("moving frame of reference", "the scene names no 'follow'");
+    }
+    if scene.phases.is_none() {
+        shown = shown.left_out("phases of the droplets", "the scene names no 'phases'");
+    }
+    shown
+}
+
+fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
+    let Some(ensemble) = averages.ensembles.first() else {
+        return;
+    };
+    let least = ensemble.frames.iter().min().copied().unwrap_or(0);
+    if least == 0 {
+        let empty = ensemble.frames.iter().filter(|n| **n == 0).count();
+        session.warn(format!(
+            "{empty} of {} phases have no frame: the frames were not written at these phases",
+            plan.phases
+        ));
+    } else if least < FEW_FRAMES && plan.phases > 1 {
+        session.note(format!(
+            "a phase has {least} frames only: its standard errors mean little"
+        ));
+    }
+    session.closing("frames", "1", plan.frames.len() as f64);
+    session.closing("frames_least_in_a_phase", "1", f64::from(least));
+    if plan.phases > 1 {
+        session.closing("drops", "1", averages.drops.1 as f64);
+    }
+    if let Some(period) = plan.period {
+        session.closing("droplet_period", "s", period);
+    }
+}
