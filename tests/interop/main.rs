@@ -243,3 +243,57 @@ fn exports_open_in_numpy() {
     let series = &found["balance.npz"]["arrays"];
     assert_eq!(series["mass_kg"]["shape"], serde_json::json!([1]));
 }
+
+/// The Python programs in a page of ours.
+fn programs_in(page: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(root().join(page)).unwrap();
+    let blocks = text.split("```python\n").skip(1);
+    blocks
+        .map(|block| block.split("```").next().unwrap().to_owned())
+        .collect()
+}
+
+/// Runs a program on `file` and gives what it printed.
+fn print_of(python: &Path, folder: &Path, program: &str, file: &Path) -> String {
+    let script = folder.join("program.py");
+    std::fs::write(&script, program).unwrap();
+    let output = Command::new(python)
+        .arg(&script)
+        .arg(file)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}\nin\n{program}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn the_programs_that_our_pages_show_do_what_they_say() {
+    let Some(python) = python() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frames.mcap");
+    sample(&file);
+    let programs = programs_in("tools/harness/artefact/FORMAT.md");
+    let [frames, tables] = programs.as_slice() else {
+        panic!("{} programs", programs.len());
+    };
+    let told = print_of(&python, folder.path(), frames, &file);
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!(lines.len(), 3, "{told}");
+    assert!(lines[2].starts_with("0.5 s 1002 1.001"), "{told}");
+    assert!(lines[2].contains("\"temperature\":\"K\""), "{told}");
+    let told = print_of(&python, folder.path(), tables, &file);
+    assert_eq!(
+        told,
+        "/plasma temperature_k K (3, 2) 5000.0\n/section temperature_k K (3, 2) 5000.0\n"
+    );
+
+    let readme = programs_in("README.md");
+    assert_eq!(readme.len(), 1, "the README shows one program");
+    let name = "build/gmaw-quick/pool.mcap";
+    assert!(readme[0].contains(name), "{}", readme[0]);
+    let program = readme[0].replace(name, file.to_str().unwrap());
+    let told = print_of(&python, folder.path(), &program, &file);
+    let last = told.lines().last().unwrap();
+    assert_eq!(last, "0.5 s 1301.0 K", "{told}");
+}
