@@ -1,6 +1,6 @@
 //! Scenes with faults: exit code 2, with file, line, key, value, unit and range; nothing is run.
 
-use crate::workplace::{Place, SCENE, Told, header, tell};
+use crate::workplace::{Place, SCENE, Told, header, root, tell};
 
 /// Checks and runs `avg` on a scene in which `from` became `to`; both must say the same.
 fn refused(from: &str, to: &str) -> Told {
@@ -130,4 +130,49 @@ fn a_faulty_patch_and_an_absent_scene_are_named() {
     );
     told.must(2, &["absent.json", "No such file"]);
     tell("avg", &["check", scene]).must(2, &["frames"]);
+}
+
+/// Each stage with a scene of its own.
+const STAGES: [(&str, &str); 2] = [
+    ("arcfvm", "pipelines/verify/arc-potential/scene.json"),
+    ("poolsph", "pipelines/verify/pool-hydrostatic/scene.json"),
+];
+
+#[test]
+fn every_stage_refuses_what_no_scene_may_say() {
+    let place = Place::new();
+    for (tool, scene) in STAGES {
+        let scene = root().join(scene);
+        let scene = scene.to_str().unwrap();
+        for (name, patch, words) in [
+            (
+                "unknown",
+                "{\n  \"tittle\": \"A\"\n}",
+                vec!["unknown.json:2:", "/tittle: unknown key", "'title'"],
+            ),
+            (
+                "type",
+                "{\n\n  \"title\": 3\n}",
+                vec!["type.json:3:", "/title: is 3 (a number), wanted is a text"],
+            ),
+            (
+                "version",
+                "{\"version\": 2}",
+                vec!["version.json:1:", "/version"],
+            ),
+            (
+                "malformed",
+                "{\n  \"title\": \"A\"\n  \"kind\": 1\n}",
+                vec!["malformed.json:3:", "not valid JSON"],
+            ),
+        ] {
+            let patch = place.file(&format!("{name}.json"), patch);
+            let patch = patch.to_str().unwrap();
+            let out = place.path("out.mcap");
+            let arguments = ["--patch", patch, "--out", out.to_str().unwrap()];
+            let told = tell(tool, &[&["run", scene][..], &arguments].concat());
+            told.must(2, &words);
+            assert!(!out.exists() && !place.path("out.mcap.part").exists());
+        }
+    }
 }

@@ -52,6 +52,11 @@ pub(crate) fn told(command: &mut Command) -> Told {
     }
 }
 
+pub(crate) fn root() -> PathBuf {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    tests.parent().unwrap().to_owned()
+}
+
 /// A folder of its own for each test.
 pub(crate) struct Place {
     folder: TempDir,
