@@ -1,17 +1,23 @@
 //! Heat in the metal: enthalpy, conduction, melting, the arc and the losses.
 
+mod arc;
 mod bounds;
 pub mod caloric;
 mod conduction;
 mod held;
 pub mod ledger;
+mod losses;
 mod parameters;
 mod phase;
 
+pub use arc::{Arc, ArcParameters, Onto, Part};
 pub use caloric::Caloric;
 pub use conduction::Conduction;
+pub use losses::{Evaporation, LossParameters, Losses, Where};
 pub use parameters::{Face, Faces, MeltingParameters, Parameters};
 pub use phase::{FlowStart, Phase};
 
+#[cfg(test)]
+mod surface_tests;
 #[cfg(test)]
 mod tests;

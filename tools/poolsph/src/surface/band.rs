@@ -18,6 +18,10 @@ const PATCH: f64 = 0.95;
 const TURNS: usize = 4;
 /// Times that levels are averaged over neighbours.
 const LEVELS: usize = 4;
+/// Upward part of the normal from which the area seen from above is a share of the plane.
+const FLAT: f64 = 0.85;
+/// Upward part of the normal up to which it is not.
+const STEEP: f64 = 0.7;
 /// Rows per unit of parallel work.
 const GRAIN: usize = 128;
 
@@ -66,19 +70,29 @@ impl Band {
         for _ in 0..LEVELS {
             self.pass(|own, links, all| levelled(own, links, all, kernel.value(0.0)));
         }
-        let mut owned = std::mem::take(&mut self.next);
+        self.each(|band, k| Patch {
+            area: band.owned(cloud, spacing, k),
+            ..band.patches[k]
+        });
+        self.each(|band, k| Patch {
+            seen: band.seen(cloud, spacing, k),
+            ..band.patches[k]
+        });
+        let members = self.members.iter().zip(&self.patches);
+        for (&k, patch) in members.take(self.width) {
+            coloured[k as usize] = *patch;
+        }
+    }
+
+    fn each(&mut self, make: impl Fn(&Self, usize) -> Patch + Sync) {
+        let mut next = std::mem::take(&mut self.next);
         (0..self.width)
             .into_par_iter()
             .with_min_len(GRAIN)
-            .map(|k| Patch {
-                area: self.owned(cloud, spacing, k),
-                ..self.patches[k]
-            })
-            .collect_into_vec(&mut owned);
-        for (&k, patch) in self.members.iter().zip(&owned) {
-            coloured[k as usize] = *patch;
-        }
-        self.next = owned;
+            .map(|k| make(self, k))
+            .collect_into_vec(&mut next);
+        self.patches[..self.width].copy_from_slice(&next);
+        self.next = next;
     }
 
     /// Members of the band, then the deeper particles that they touch.
@@ -181,6 +195,38 @@ impl Band {
             }
         }
         polygon.area()
+    }
+
+    /// Area of member `k` as seen from above.
+    ///
+    /// Where the surface is not steep, a power diagram of the places in the horizontal plane,
+    /// weighted by the height of the surface above each: it leaves neither gap nor overlap, so
+    /// that what falls from above is taken whole. At edges, the area times the normal.
+    fn seen(&self, cloud: &Cloud<'_>, spacing: f64, k: usize) -> f64 {
+        let own = &self.patches[k];
+        let up = own.normal[2];
+        let slant = own.area * up.max(0.0);
+        let part = ((up - STEEP) / (FLAT - STEEP)).clamp(0.0, 1.0);
+        if part <= 0.0 || own.area <= 0.0 {
+            return slant;
+        }
+        let at = self.members[k] as usize;
+        let height = own.depth / up;
+        let mut polygon = Polygon::square(PATCH * spacing);
+        for &b in cloud.row(at) {
+            let slot = self.slots[b as usize] as usize;
+            let other = &self.patches[slot];
+            if slot < self.width && other.area > 0.0 && other.normal[2] > 0.5 * STEEP {
+                let [x, y, _] = minus(cloud.places[b as usize], cloud.places[at]);
+                let above = other.depth / other.normal[2];
+                let lift = above * above - height * height;
+                polygon.cut([x, y], 0.5 * (x * x + y * y + lift));
+                if polygon.is_empty() {
+                    return (1.0 - part) * slant;
+                }
+            }
+        }
+        part * polygon.area() + (1.0 - part) * slant
     }
 }
 

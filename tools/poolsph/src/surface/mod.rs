@@ -33,6 +33,8 @@ pub struct Patch {
     pub normal: [f64; 3],
     /// Area that the particle owns \[m2\]; zero off the surface.
     pub area: f64,
+    /// Area as seen from above \[m2\].
+    pub seen: f64,
     /// Distance to the surface along the normal \[m\].
     pub depth: f64,
     /// grad C \[1/m\].
@@ -42,18 +44,19 @@ pub struct Patch {
 impl Patch {
     /// All numbers, for a checkpoint.
     #[must_use]
-    pub fn save(&self) -> [f64; 8] {
+    pub fn save(&self) -> [f64; 9] {
         let ([a, b, c], [d, e, f]) = (self.normal, self.gradient);
-        [a, b, c, self.area, self.depth, d, e, f]
+        [a, b, c, self.area, self.seen, self.depth, d, e, f]
     }
 
     /// The patch of which `saved` are the numbers.
     #[must_use]
-    pub fn restored(saved: [f64; 8]) -> Self {
-        let [a, b, c, area, depth, d, e, f] = saved;
+    pub fn restored(saved: [f64; 9]) -> Self {
+        let [a, b, c, area, seen, depth, d, e, f] = saved;
         Self {
             normal: [a, b, c],
             area,
+            seen,
             depth,
             gradient: [d, e, f],
         }

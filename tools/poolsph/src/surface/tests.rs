@@ -103,7 +103,7 @@ fn sphere(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
     let real = (state.len() as f64 * 0.75 / std::f64::consts::PI).cbrt();
     let disc = std::f64::consts::PI * real * real;
     let area: f64 = state.surface.iter().map(|patch| patch.area).sum();
-    let up = |p: &Patch| p.area * p.normal[2].max(0.0);
+    let up = |p: &Patch| p.seen;
     [
         area / (4.0 * disc),
         state.surface.iter().map(up).sum::<f64>() / disc,

@@ -1,0 +1,202 @@
+//! Heat through the surface: what is put in is what is prescribed, and cooling follows its law.
+
+use std::f64::consts::PI;
+use std::sync::Arc as Shared;
+
+use run::property::{Formula, Property};
+
+use super::caloric::tests::plain;
+use super::*;
+use crate::near::dot;
+use crate::stage::Stage;
+use crate::state::{self, Column, Metal, Particle, State};
+use crate::surface::Surface;
+
+const METAL: Metal = Metal {
+    density: 1.0,
+    spacing: 1.0,
+    smoothing_length: 1.0,
+};
+
+/// The part of a lattice that is inside, at 500 K, c = 1 J/(kg K).
+fn body(half: [i32; 3], inside: impl Fn([f64; 3]) -> bool) -> State {
+    let columns = vec![Column::Surface, Column::Temperature, Column::Enthalpy];
+    let mut state = State::new(METAL, columns);
+    for i in -half[0]..half[0] {
+        for j in -half[1]..half[1] {
+            for k in -half[2]..half[2] {
+                let position = [i, j, k].map(|n| f64::from(n) + 0.5);
+                if inside(position) {
+                    state.push(Particle {
+                        position,
+                        velocity: [0.0; 3],
+                        phase: state::Phase::Solid,
+                        droplet: false,
+                        wall: false,
+                        temperature: 500.0,
+                        enthalpy: 500.0,
+                    });
+                }
+            }
+        }
+    }
+    Surface::new(METAL).advance(&mut state, 0.0).unwrap();
+    state
+}
+
+/// A Gaussian of radius 5 (standard deviation) and peak 1 W/m2.
+fn gaussian(onto: Onto) -> Arc {
+    let expr = "exp(-r^2/50)".to_owned();
+    let parameters = ArcParameters {
+        flux_w_m2: Some(Property::Formula(Formula { expr })),
+        parts: None,
+        on: onto,
+    };
+    let caloric = Shared::new(plain(1.0, 1.0, None));
+    Arc::new(&parameters, caloric, METAL, None).unwrap()
+}
+
+/// Heat put in within a second \[J\], and the change of the energy.
+fn put(mut state: State, onto: Onto) -> f64 {
+    let before: f64 = state.enthalpy.iter().sum();
+    let mut arc = gaussian(onto);
+    arc.advance(&mut state, 1.0).unwrap();
+    let change = state.enthalpy.iter().sum::<f64>() - before;
+    let figures = arc.figures();
+    let told = figures
+        .iter()
+        .find(|f| f.name == "energy_in_arc_j")
+        .unwrap();
+    assert!((told.value / change - 1.0).abs() < 1e-9);
+    change
+}
+
+#[test]
+fn a_plane_takes_what_is_prescribed() {
+    let state = body([25, 25, 6], |x| x[2] < 0.0);
+    let ratio = put(state, Onto::Projected) / (2.0 * PI * 25.0);
+    assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
+}
+
+#[test]
+fn a_plane_inclined_by_30_degrees_takes_what_is_prescribed() {
+    let normal = [0.5, 0.0, 0.75_f64.sqrt()];
+    let tilted = || {
+        body([28, 25, 20], |x| {
+            dot(x, normal) < 0.0 && dot(x, normal) > -6.0
+        })
+    };
+    let ratio = put(tilted(), Onto::Projected) / (2.0 * PI * 25.0);
+    assert!((ratio - 1.0).abs() < 0.01, "projected {ratio}");
+    let ratio = put(tilted(), Onto::Area) / (2.0 * PI * 25.0 / normal[2]);
+    assert!((ratio - 1.0).abs() < 0.01, "area {ratio}");
+}
+
+#[test]
+fn a_sphere_takes_what_is_prescribed() {
+    let radius = 18.0_f64;
+    let state = body([20; 3], |x| dot(x, x).sqrt() < radius);
+    let ratio =
+        put(state, Onto::Projected) / (2.0 * PI * 25.0 * (1.0 - (-radius * radius / 50.0).exp()));
+    assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
+}
+
+#[test]
+fn parts_of_a_table_are_told_apart() {
+    let r = [0.0, 5.0, 10.0, 15.0];
+    let table = artefact::Table::new(4)
+        .column("radius_m", "m", r)
+        .column(
+            "heat_flux_convection_w_m2",
+            "W/m2",
+            [2.0, 4.0 / 3.0, 2.0 / 3.0, 0.0],
+        )
+        .column(
+            "heat_flux_electron_w_m2",
+            "W/m2",
+            [-0.5, -1.0 / 3.0, -1.0 / 6.0, 0.0],
+        );
+    let mut parameters = ArcParameters {
+        flux_w_m2: None,
+        parts: Some(vec![Part::Convection, Part::Electron]),
+        on: Onto::Projected,
+    };
+    let caloric = Shared::new(plain(1.0, 1.0, None));
+    let mut state = body([20, 20, 4], |x| x[2] < 0.0);
+    let make = |p: &ArcParameters| Arc::new(p, Shared::clone(&caloric), METAL, Some(&table));
+    let mut arc = make(&parameters).unwrap();
+    arc.advance(&mut state, 2.0).unwrap();
+    let figures = arc.figures();
+    let cone = PI * 15.0 * 15.0 / 3.0;
+    for (name, heat) in [
+        ("energy_in_arc_convection_j", 4.0),
+        ("energy_in_arc_electron_j", -1.0),
+    ] {
+        let found = figures.iter().find(|f| f.name == name).unwrap().value;
+        assert!((found / (heat * cone) - 1.0).abs() < 0.01, "{name} {found}");
+    }
+    parameters.parts = Some(vec![Part::Ion]);
+    let fault = make(&parameters).err().unwrap().to_string();
+    assert!(fault.contains("heat_flux_ion_w_m2"), "{fault}");
+}
+
+#[test]
+fn a_ball_cools_by_newtons_law() {
+    let radius = 12.0_f64;
+    let mut state = body([14; 3], |x| dot(x, x).sqrt() < radius);
+    let mass = state.len() as f64;
+    let parameters = LossParameters {
+        surroundings_k: 300.0,
+        emissivity: None,
+        transfer_w_m2_k: Some(0.01),
+        evaporation: None,
+        on: Where::All,
+    };
+    let caloric = Shared::new(plain(1e4, 1.0, None));
+    let mut losses = Losses::new(parameters, Shared::clone(&caloric));
+    for _ in 0..100 {
+        losses.advance(&mut state, 1.0).unwrap();
+        // Well stirred: the exact law is that of a body of one temperature.
+        let mean = state.enthalpy.iter().sum::<f64>() / mass;
+        state.enthalpy.fill(mean);
+        state.temperature.fill(mean);
+    }
+    let area = 4.0 * PI * (mass * 0.75 / PI).powf(2.0 / 3.0);
+    let exact = 200.0 * (-0.01 * area / mass * 100.0).exp();
+    let ratio = (state.temperature[0] - 300.0) / exact;
+    assert!((ratio - 1.0).abs() < 0.005, "{ratio}");
+    let out = losses.figures()[0].value;
+    assert!((out / (mass * (500.0 - state.temperature[0])) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn radiation_and_vapour_have_their_size() {
+    let iron = Evaporation {
+        boiling_point_k: 3134.0,
+        latent_heat_j_kg: 6.09e6,
+        molar_mass_kg_mol: 0.05585,
+    };
+    // At the boiling point: L p sqrt(M / (2 pi R T)), 1 atm.
+    let exact = 6.09e6 * 101_325.0 * (0.05585 / (2.0 * PI * 8.314_462_618 * 3134.0)).sqrt();
+    assert!((iron.heat(3134.0) / exact - 1.0).abs() < 1e-12);
+    let mut state = body([3; 3], |_| true);
+    let parameters = LossParameters {
+        surroundings_k: 300.0,
+        emissivity: Some(0.5),
+        transfer_w_m2_k: None,
+        evaporation: None,
+        on: Where::Top,
+    };
+    let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)));
+    losses.advance(&mut state, 1e-3).unwrap();
+    let up = |p: &crate::surface::Patch| {
+        if p.normal[2] > 0.5_f64.sqrt() {
+            p.area
+        } else {
+            0.0
+        }
+    };
+    let area: f64 = state.surface.iter().map(up).sum();
+    let exact = 0.5 * 5.670_374_419e-8 * (500.0_f64.powi(4) - 300.0_f64.powi(4)) * area * 1e-3;
+    assert!((losses.figures()[0].value / exact - 1.0).abs() < 1e-12);
+}
