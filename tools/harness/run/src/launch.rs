@@ -201,23 +201,23 @@ fn head<T: Tool>(run: &Run, ready: &Ready<T::Scene>) {
     line(&title::<T>(&run.study.scene));
     line(ready.plan.to_string().trim_end());
     line(&format!(
-        "  {:<16} {}",
+        "  {:<20} {}",
         "threads",
         rayon::current_num_threads()
     ));
     if run.level() == Level::Verbose {
         line(&format!(
-            "  {:<16} {}",
+            "  {:<20} {}",
             "scene",
             ready.header.scene_sha256()
         ));
         for (name, hash) in ready.inputs.hashes() {
-            line(&format!("  {:<16} {name} {hash}", "input"));
+            line(&format!("  {:<20} {name} {hash}", "input"));
         }
     }
     if run.resume {
         line(&format!(
-            "  {:<16} {}",
+            "  {:<20} {}",
             "resumes",
             beside(&run.out, ".checkpoint").display()
         ));

@@ -94,7 +94,7 @@ impl Plan {
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut row = |name: &str, text: String| writeln!(f, "  {name:<16} {text}");
+        let mut row = |name: &str, text: String| writeln!(f, "  {name:<20} {text}");
         if !self.stages.is_empty() {
             row("stages", self.stages.join(", "))?;
         }

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use crate::console::line;
 use crate::plan::duration;
 
-/// A number of the status: name, value, unit (`""` for none).
+/// A number of the status: name, value, unit (`""` or `"1"` for none).
 pub(crate) type Field = (&'static str, f64, &'static str);
 
 /// Shortest time between two looks of the bar.
@@ -136,10 +136,9 @@ fn time_left(spent: f64, done: u64, rest: u64) -> f64 {
 }
 
 fn words(fields: &[Field]) -> String {
-    let word = |(name, value, unit): &Field| {
-        format!("{name} {} {unit}", figure(*value))
-            .trim_end()
-            .to_owned()
+    let word = |(name, value, unit): &Field| match *unit {
+        "" | "1" => format!("{name} {}", figure(*value)),
+        unit => format!("{name} {} {unit}", figure(*value)),
     };
     fields.iter().map(word).collect::<Vec<_>>().join("  ")
 }
@@ -147,7 +146,7 @@ fn words(fields: &[Field]) -> String {
 fn heading(fields: &[Field]) -> String {
     let mut text = format!("{:>10} {:>10} {:>13}", "done", "of", "left");
     for (name, _, unit) in fields {
-        let title = if unit.is_empty() {
+        let title = if matches!(*unit, "" | "1") {
             (*name).to_owned()
         } else {
             format!("{name} {unit}")
@@ -189,7 +188,8 @@ mod tests {
 
     #[test]
     fn rows_stand_under_their_heading() {
-        let fields = [("time", 0.125, "s"), ("liquid", 1234.0, "")];
+        let fields = [("time", 0.125, "s"), ("liquid", 1234.0, "1")];
+        assert_eq!(words(&fields), "time 0.1250 s  liquid 1234");
         let (head, row) = (heading(&fields), row(10, 200, &fields, 3725.0));
         assert_eq!(head.len(), row.len());
         assert!(

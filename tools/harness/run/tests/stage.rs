@@ -95,9 +95,9 @@ fn a_run_writes_artefact_and_record_and_says_what_it_did() {
     assert_eq!((code, stdout.as_str()), (Some(0), ""), "{stderr}");
     assert_eq!(names(folder.path()), ["rod.mcap", "rod.run.json"]);
     for part in [
-        "points           21",
+        "points               21",
         "step_conduction",
-        "left out         source",
+        "left out             source",
         "time s",
         "heat",
         "conduction",
@@ -209,7 +209,7 @@ fn check_prints_the_plan_and_writes_nothing() {
     let (code, stdout, stderr) = finished(folder.path(), &["check", SCENE]);
     assert_eq!((code, stderr.as_str()), (Some(0), ""));
     assert!(
-        stdout.contains("points           21") && stdout.contains("1.2500e-1 s"),
+        stdout.contains("points               21") && stdout.contains("1.2500e-1 s"),
         "{stdout}"
     );
     assert!(names(folder.path()).is_empty());
