@@ -99,6 +99,16 @@ pub(crate) fn side_by_side(figures: &[String]) -> String {
     }
 }
 
+/// Tables beside each other where there is room.
+pub(crate) fn beside(tables: &[String]) -> String {
+    let filled = tables.iter().filter(|t| !t.is_empty());
+    let all: String = filled.map(String::as_str).collect();
+    if all.is_empty() {
+        return all;
+    }
+    format!("<div class=\"tables\">\n{all}</div>\n")
+}
+
 /// A picture inside the page; `describes` is read where it cannot be seen.
 ///
 /// # Errors

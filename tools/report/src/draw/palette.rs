@@ -1,6 +1,6 @@
 //! Few colours for many pixels: median cut (Heckbert 1982).
 //!
-//! Colours are sorted into 32^3 bins; boxes of bins are halved at the median of their longest side
+//! Colours are sorted into 64^3 bins; boxes of bins are halved at the median of their longest side
 //! until there are as many as the palette holds. Pictures of shaded particles become a third as
 //! large, and the eye sees no difference.
 
@@ -11,7 +11,7 @@ use super::colour::Rgb;
 /// Most colours of a palette.
 const MOST: usize = 256;
 /// Bits per channel of a bin.
-const BITS: u32 = 5;
+const BITS: u32 = 6;
 
 /// Colours and, for each pixel, which.
 #[derive(Debug, Clone, PartialEq, Eq)]

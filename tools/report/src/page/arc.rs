@@ -3,34 +3,32 @@
 use artefact::{Reader, Record, Table};
 use run::Failure;
 
-use super::{encoding, tiles};
+use super::{encoding, grouped, tiles};
 use crate::html::{figure, picture, side_by_side};
 use crate::picture::arc::{Plasma, lorentz};
 use crate::plot::{Line, Plot};
 
 /// A curve of `/surface`: column, name, factor to the unit shown.
-type Curve = (&'static str, &'static str, f64);
+type Curve<'a> = (&'a str, &'a str, f64);
 
-const HEAT: [Curve; 6] = [
-    ("heat_flux_total_w_m2", "total", 1e-6),
-    (
-        "heat_flux_convection_w_m2",
-        "conduction and convection",
-        1e-6,
-    ),
-    ("heat_flux_radiation_w_m2", "radiation of the arc", 1e-6),
-    ("heat_flux_electron_w_m2", "electrons", 1e-6),
-    ("heat_flux_ion_w_m2", "ions", 1e-6),
-    ("heat_flux_emission_w_m2", "radiation of the surface", 1e-6),
+/// Parts of the heat by the middle of their column's name.
+const PARTS: [(&str, &str); 7] = [
+    ("total", "total"),
+    ("convection", "conduction and convection"),
+    ("radiation", "radiation of the arc"),
+    ("electron", "electrons"),
+    ("ion", "ions"),
+    ("emission", "radiation of the surface"),
+    ("vapour", "evaporation"),
 ];
-const CURRENT: [Curve; 3] = [
+const CURRENT: [Curve<'static>; 3] = [
     ("current_density_a_m2", "all", 1e-6),
     ("ion_current_density_a_m2", "ions", 1e-6),
     ("electron_current_density_a_m2", "electrons", 1e-6),
 ];
-const PRESSURE: [Curve; 1] = [("arc_pressure_pa", "", 1.0)];
-const SPEED: [Curve; 1] = [("gas_radial_velocity_m_s", "", 1.0)];
-const GAS: [Curve; 1] = [("gas_temperature_k", "", 1e-3)];
+const PRESSURE: [Curve<'static>; 1] = [("arc_pressure_pa", "", 1.0)];
+const SPEED: [Curve<'static>; 1] = [("gas_radial_velocity_m_s", "", 1.0)];
+const GAS: [Curve<'static>; 1] = [("gas_temperature_k", "", 1e-3)];
 /// What lies beyond the radius where every curve is below this share of its peak is not shown.
 const SHOWN: f64 = 0.01;
 
@@ -48,8 +46,8 @@ pub(super) fn section(reader: &Reader) -> Result<String, Failure> {
     out += &tiles(&facts(balance.as_ref(), plasma.as_ref()));
     if let Some(canvas) = plasma.as_ref().and_then(Plasma::picture) {
         let caption = "The arc in a plane through its axis. Right of the axis the temperature of the gas, with \
-                       lines of equal temperature; left its speed, with arrows along the flow. Brown is the wire, \
-                       grey the base metal.";
+                       lines at 5, 10, 15, 20 and 25 thousand kelvin; left its speed, with arrows along the flow. \
+                       Brown is the wire, grey the base metal.";
         let image = picture(&canvas, caption).map_err(|e| encoding(&e))?;
         out += &figure(&image, caption);
     }
@@ -82,7 +80,7 @@ fn facts(balance: Option<&Record>, plasma: Option<&Plasma>) -> Vec<(String, Stri
     }
     if let Some(hottest) = plasma.and_then(Plasma::hottest) {
         let words = "highest gas temperature".to_owned();
-        facts.push((format!("{:.0} K", hottest.round()), words));
+        facts.push((format!("{} K", grouped(hottest.round() as usize)), words));
     }
     if let Some(fastest) = plasma.and_then(Plasma::fastest) {
         facts.push((format!("{fastest:.0} m/s"), "highest gas speed".to_owned()));
@@ -95,15 +93,16 @@ fn surface(table: &Table) -> String {
         return String::new();
     };
     let end = reach(table, radius);
+    let heat = heat(table);
     let height = |name: &str| {
         table.scalar(name).map_or_else(
             |_| String::new(),
             |h| format!(", {:.2} mm above it", 1e3 * h),
         )
     };
-    let kinds: [(&[Curve], &str, String); 5] = [
+    let kinds: [(&[Curve<'_>], &str, String); 5] = [
         (
-            &HEAT,
+            &heat,
             "heat flux [W/mm\u{b2}]",
             "Heat that enters the base metal, by the way it comes. Losses are negative.".to_owned(),
         ),
@@ -134,23 +133,49 @@ fn surface(table: &Table) -> String {
             ),
         ),
     ];
-    let mut figures = Vec::new();
-    for (curves, title, caption) in kinds {
-        let mut plot = Plot::new("radius r [mm]", title).through(0.0);
-        for (column, name, factor) in curves {
-            if let Ok(values) = table.values(column) {
-                let inside = radius.iter().zip(values).filter(|(r, _)| **r <= end);
-                plot.add(Line::new(
-                    name,
-                    inside.map(|(r, v)| [1e3 * r, factor * v]).collect(),
-                ));
-            }
-        }
-        if !plot.is_empty() {
-            figures.push(figure(&plot.svg(), &caption));
+    let figures: Vec<String> = kinds
+        .into_iter()
+        .map(|(curves, title, caption)| (plot(table, (radius, end), curves, title), caption))
+        .filter(|(plot, _)| !plot.is_empty())
+        .map(|(plot, caption)| figure(&plot.svg(), &caption))
+        .collect();
+    side_by_side(&figures)
+}
+
+/// Curves over the radius \[m\] up to an end.
+fn plot(table: &Table, (radius, end): (&[f64], f64), curves: &[Curve<'_>], title: &str) -> Plot {
+    let mut plot = Plot::new("radius r [mm]", title).through(0.0);
+    for (column, name, factor) in curves {
+        if let Ok(values) = table.values(column) {
+            let inside = radius.iter().zip(values).filter(|(r, _)| **r <= end);
+            let points = inside.map(|(r, v)| [1e3 * r, factor * v]);
+            plot.add(Line::new(name, points.collect()));
         }
     }
-    side_by_side(&figures)
+    plot
+}
+
+/// Every part of the heat flux that the table has, the known ones first.
+fn heat(table: &Table) -> Vec<Curve<'_>> {
+    let part = |column: &'_ str| -> Option<String> {
+        let part = column.strip_prefix("heat_flux_")?.strip_suffix("_w_m2")?;
+        Some(part.to_owned())
+    };
+    let rank = |column: &str| {
+        let part = part(column);
+        PARTS
+            .iter()
+            .position(|p| Some(p.0) == part.as_deref())
+            .unwrap_or(PARTS.len())
+    };
+    let columns = table.columns.iter().map(|c| c.name.as_str());
+    let mut found: Vec<&str> = columns.filter(|c| part(c).is_some()).collect();
+    found.sort_by_key(|c| rank(c));
+    let named = |column: &'_ str| PARTS.get(rank(column)).map(|p| p.1);
+    found
+        .into_iter()
+        .map(|c| (c, named(c).unwrap_or(c), 1e-6))
+        .collect()
 }
 
 /// Radius beyond which heat flux and current are below a hundredth of their peaks \[m\].

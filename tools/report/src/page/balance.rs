@@ -4,7 +4,7 @@ use artefact::{Reader, Record};
 use run::Failure;
 
 use super::Named;
-use crate::html::{Rows, escape, figure, side_by_side};
+use crate::html::{Rows, beside, escape, figure, side_by_side};
 use crate::plot::{Line, Plot};
 use crate::records::{RunRecord, figure as digits};
 
@@ -99,25 +99,41 @@ fn readable(name: &str) -> String {
     words
 }
 
-/// The balance of the arc as a table.
+/// The balance of the arc: one table for each family of names.
 fn heads(record: &Record) -> String {
-    let mut table = Rows::new(&["Arc", "#Value", "Unit"]);
-    for entry in &record.values {
-        let name = entry
-            .name
-            .trim_end_matches(&format!("_{}", entry.unit.to_lowercase()));
-        let unit = if entry.unit == "1" {
-            String::new()
-        } else {
-            entry.unit.clone()
-        };
-        table.row([
-            escape(&name.replace('_', " ")),
-            digits(entry.value),
-            escape(&unit),
-        ]);
+    let mut families: Vec<(&str, Rows)> = Vec::new();
+    for (prefix, title) in [
+        ("", "Arc"),
+        ("heat_", "Heat in the gas"),
+        ("base_", "Base metal"),
+        ("wire_", "Wire"),
+    ] {
+        families.push((prefix, Rows::new(&[title, "#Value", "Unit"])));
     }
-    heading("Balance of the arc", table.render())
+    for entry in &record.values {
+        let name = bare(&entry.name, &entry.unit);
+        let own = |f: &&mut (&str, Rows)| !f.0.is_empty() && name.starts_with(f.0);
+        let family = match families.iter_mut().find(own) {
+            Some(family) => family,
+            None => &mut families[0],
+        };
+        let words = name
+            .strip_prefix(family.0)
+            .unwrap_or(&name)
+            .replace('_', " ");
+        let unit = if entry.unit == "1" { "" } else { &entry.unit };
+        family
+            .1
+            .row([escape(&words), digits(entry.value), escape(unit)]);
+    }
+    let tables: Vec<String> = families.iter().map(|f| f.1.render()).collect();
+    heading("Balance of the arc", beside(&tables))
+}
+
+/// A name without the unit at its end: `wire_feed_m_s` in m/s is `wire_feed`.
+fn bare(name: &str, unit: &str) -> String {
+    let ending = format!("_{}", unit.to_lowercase().replace(['/', ' ', '*'], "_"));
+    name.strip_suffix(&ending).unwrap_or(name).to_owned()
 }
 
 /// Conserved totals of every program.
@@ -129,7 +145,7 @@ fn closing(records: &[Named]) -> String {
             let unit = if total.unit == "1" { "" } else { &total.unit };
             table.row([
                 escape(tool),
-                escape(&total.name.replace('_', " ")),
+                escape(&bare(&total.name, &total.unit).replace('_', " ")),
                 digits(total.value),
                 escape(unit),
             ]);
@@ -155,6 +171,19 @@ mod tests {
         assert_eq!(readable("energy_out_radiation_j"), "out: radiation");
         assert_eq!(readable("energy_stored_j"), "stored");
         assert_eq!(readable("mass_kg"), "mass");
+    }
+
+    #[test]
+    fn units_at_the_end_of_names_are_not_said_twice() {
+        assert_eq!(bare("wire_feed_m_s", "m/s"), "wire_feed");
+        assert_eq!(bare("power_w", "W"), "power");
+        assert_eq!(bare("closure", "1"), "closure");
+        let html = heads(
+            &Record::new()
+                .with("base_total_w", "W", 1.0)
+                .with("current_a", "A", 2.0),
+        );
+        assert!(html.contains("Base metal") && html.contains(">total<") && !html.contains("Wire"));
     }
 
     #[test]

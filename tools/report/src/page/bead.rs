@@ -3,7 +3,7 @@
 use artefact::Reader;
 use run::Failure;
 
-use super::{encoding, tiles};
+use super::{encoding, grouped, tiles};
 use crate::html::{figure, note, picture, side_by_side};
 use crate::picture::bead::{self, Paint, View};
 use crate::picture::cross;
@@ -88,18 +88,6 @@ fn facts(weld: &Weld, stretch: &Stretch) -> Vec<(String, String)> {
         ),
     ));
     facts
-}
-
-/// A count with its thousands set apart.
-fn grouped(count: usize) -> String {
-    let digits = count.to_string();
-    let parts: Vec<&str> = digits
-        .as_bytes()
-        .rchunks(3)
-        .rev()
-        .filter_map(|p| std::str::from_utf8(p).ok())
-        .collect();
-    parts.join("\u{2009}")
 }
 
 fn views(weld: &Weld, paint: &Paint) -> Result<String, Failure> {

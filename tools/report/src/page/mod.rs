@@ -104,3 +104,15 @@ fn tiles(facts: &[(String, String)]) -> String {
         facts.iter().map(tile).collect::<String>()
     )
 }
+
+/// A count with its thousands set apart.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let parts: Vec<&str> = digits
+        .as_bytes()
+        .rchunks(3)
+        .rev()
+        .filter_map(|p| std::str::from_utf8(p).ok())
+        .collect();
+    parts.join("\u{2009}")
+}

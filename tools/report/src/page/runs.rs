@@ -1,7 +1,7 @@
 //! How the study was computed: programs, active stages, memory, what was left out.
 
 use super::Named;
-use crate::html::{Rows, escape, figure, note};
+use crate::html::{Rows, beside, escape, figure, note};
 use crate::plot::{Line, Plot};
 use crate::records::{RunRecord, bytes, duration, figure as digits};
 
@@ -45,13 +45,11 @@ fn one(record: &RunRecord) -> String {
         out += &note(text);
     }
     out += &stages(record);
-    out += &memory(record);
-    out += &limits(record);
     let mut left_out = Rows::new(&["Left out", "Why"]);
     for absent in &record.left_out {
         left_out.row([escape(&absent.name), escape(&absent.why)]);
     }
-    out += &left_out.render();
+    out += &beside(&[memory(record), limits(record), left_out.render()]);
     out += &history(record);
     out += &scene(record);
     if out.is_empty() {

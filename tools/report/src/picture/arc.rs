@@ -3,15 +3,16 @@
 use artefact::Table;
 
 use super::{WIDTH, quantile, scale_bar};
-use crate::draw::axes::{Axes, Scale, number};
+use crate::draw::axes::{Axes, Scale};
 use crate::draw::canvas::{Canvas, Rect};
 use crate::draw::colour::{Map, PLATE, Rgb, WHITE, hex};
 use crate::draw::contour::Grid;
-use crate::draw::letters::{Hand, Stand, write};
 
 const WIRE: Rgb = hex(0xb0_8d5b);
 /// Isotherms \[K\].
 const ISOTHERMS: [f64; 5] = [5_000.0, 10_000.0, 15_000.0, 20_000.0, 25_000.0];
+/// Gas hotter than this is worth seeing \[K\].
+const HOT: f64 = 4_000.0;
 
 /// Temperature, flow and current on the (radius, height) grid of an arc.
 #[derive(Debug, Clone)]
@@ -63,20 +64,27 @@ impl Plasma {
             .reduce(f64::max)
     }
 
-    /// Radius of what is worth seeing \[mm\]: the gas hotter than 2,000 K, with room.
-    fn reach(&self) -> f64 {
+    /// Radius and height up to which there is hot gas \[mm\], with room; all without temperature.
+    fn reach(&self) -> [f64; 2] {
         let rows = self.height.len();
-        let most = self.radius.last().copied().unwrap_or(1.0);
+        let last = |axis: &[f64]| axis.last().copied().unwrap_or(1.0);
+        let all = [last(&self.radius), last(&self.height)];
         let Some(temperature) = &self.temperature else {
-            return most;
+            return all;
         };
-        let hot = (0..temperature.len()).filter(|n| self.gas(*n) && temperature[*n] > 2000.0);
-        let wide = hot.map(|n| self.radius[n / rows]).fold(0.0, f64::max);
-        if wide > 0.0 {
-            (1.15 * wide).min(most)
-        } else {
-            most
-        }
+        let hot = (0..temperature.len()).filter(|n| self.gas(*n) && temperature[*n] > HOT);
+        let ends = hot.fold([0.0_f64; 2], |[wide, high], n| {
+            let at = [self.radius[n / rows], self.height[n % rows]];
+            [wide.max(at[0]), high.max(at[1])]
+        });
+        let room = |k: usize, factor: f64| {
+            if ends[k] > 0.0 {
+                (factor * ends[k]).min(all[k])
+            } else {
+                all[k]
+            }
+        };
+        [room(0, 1.1), room(1, 1.6)]
     }
 
     fn grid<'a>(&'a self, values: &'a [f64]) -> Grid<'a> {
@@ -111,8 +119,8 @@ impl Plasma {
 
     /// The arc, mirrored at its axis: temperature on the right, speed on the left.
     pub(crate) fn picture(&self) -> Option<Canvas> {
-        let reach = self.reach();
-        let (low, high) = (*self.height.first()?, *self.height.last()?);
+        let [reach, high] = self.reach();
+        let low = *self.height.first()?;
         let low = low.max(-0.12 * high);
         let scale = ((WIDTH as f64 - 560.0) / (2.0 * reach)).min(980.0 / (high - low));
         let left = 0.5 * (WIDTH as f64 - 2.0 * reach * scale);
@@ -190,22 +198,6 @@ impl Plasma {
             let mut lines = grid.contour(level);
             lines.retain(|[a, b]| self.gas(self.nearest(*a)) && self.gas(self.nearest(*b)));
             axes.segments(canvas, &lines, (WHITE, 2.0));
-            let inside = |p: &&[[f64; 2]; 2]| axes.holds(p[0]);
-            let far = lines
-                .iter()
-                .filter(inside)
-                .max_by(|a, b| a[0][0].total_cmp(&b[0][0]));
-            if let Some([at, _]) = far {
-                let place = axes.pixel(*at);
-                let words = format!("{} kK", number(level / 1000.0));
-                write(
-                    canvas,
-                    [place[0] - 6.0, place[1]],
-                    &words,
-                    Hand::Small,
-                    (Stand::Right, WHITE),
-                );
-            }
         }
     }
 
