@@ -443,7 +443,7 @@ fn a_warning_that_matters_ends_with_3() {
 }
 
 /// A run of some seconds.
-const LONG: &str = r#"{"time": {"steps": 3000000, "table_steps": 10000}}"#;
+const LONG: &str = r#"{"time": {"steps": 1500000, "table_steps": 10000}}"#;
 
 fn started(folder: &Path, out: &str) -> Child {
     let long = patch(folder, "long.json", LONG);
@@ -520,18 +520,18 @@ fn an_interrupted_run_ends_with_130_and_goes_on_to_the_same_bytes() {
         assert!(folder.path().join("cut.mcap.checkpoint").exists());
         let record = record(folder.path(), "cut.run.json");
         assert_eq!(record["outcome"], "interrupted");
-        assert!(record["steps"].as_u64().expect("steps") < 3_000_000);
+        assert!(record["steps"].as_u64().expect("steps") < 1_500_000);
     }
     let whole = undisturbed(folder.path());
     assert!(resumed(folder.path()) == whole);
     let record = record(folder.path(), "cut.run.json");
     assert_eq!(
         (&record["outcome"], &record["resumed"], &record["steps"]),
-        (&"done".into(), &1.into(), &3_000_000.into())
+        (&"done".into(), &1.into(), &1_500_000.into())
     );
     assert_eq!(
         record["history"][0]["values"].as_array().map(Vec::len),
-        Some(300)
+        Some(150)
     );
 }
 
