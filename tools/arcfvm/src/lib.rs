@@ -1,1 +1,81 @@
-//! Axisymmetric finite-volume arc plasma between a wire and a base metal.
+//! A steady, axisymmetric, laminar arc plasma in local thermodynamic equilibrium between a wire and
+//! a base metal (Komen 2019, sections 3.2 and 5.2).
+
+pub mod assemble;
+pub mod case;
+pub mod error;
+mod feed;
+pub mod fields;
+pub mod frames;
+pub mod grid;
+pub mod heat;
+pub mod march;
+pub mod material;
+mod plan;
+pub mod properties;
+pub mod residual;
+pub mod resume;
+pub mod scene;
+pub mod settings;
+pub mod solver;
+pub mod surface;
+pub mod transport;
+
+use run::{Failure, Input, Inputs, Plan, Session, Tool};
+
+use assemble::{GasFile, assemble};
+use case::Case;
+use scene::{Gas, Scene};
+use settings::Settings;
+use solver::{Arc, Stopwatch};
+
+/// The stage `arcfvm`.
+#[derive(Debug, Clone, Copy)]
+pub struct ArcFvm;
+
+impl Stopwatch for Session {
+    fn timed<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R {
+        Session::timed(self, name, work)
+    }
+}
+
+impl Tool for ArcFvm {
+    const NAME: &'static str = "arcfvm";
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+    const ABOUT: &'static str =
+        "A steady axisymmetric arc plasma between a wire and a base metal, by finite volumes.";
+    const EXAMPLE: &'static str = "cargo run --release -p arcfvm -- run pipelines/gmaw-300a/arc.json \
+         --input gas=pipelines/gases/argon-1atm.json --out build/arc.mcap";
+    const SCENE_KIND: &'static str = "arcfvm.scene";
+    const ARTEFACT_KIND: &'static str = "arc-source";
+    const INPUTS: &'static [Input] = &[Input {
+        name: "gas",
+        what: "gas table (gas-table 1.x)",
+        required: false,
+    }];
+    type Scene = Scene;
+
+    fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
+        Ok(plan::plan(scene, &case(scene, inputs)?))
+    }
+
+    fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
+        let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
+        march::march(&mut arc, &scene.iterate, session)?;
+        let balance = arc.settle();
+        arc.within_table()?;
+        march::close(&arc, balance.as_ref(), session);
+        frames::write(&arc, balance.as_ref(), &scene.sample, session)
+    }
+}
+
+/// Reads the inputs that the scene asks for and assembles the problem.
+fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
+    let gas = match (&scene.gas, inputs.get("gas")) {
+        (Gas::Table(_), Some(path)) => {
+            Some(artefact::json_artefact::<GasFile>(path, "gas-table", 1)?)
+        }
+        _ => None,
+    };
+    assemble(scene, gas.as_ref())
+}

@@ -1,6 +1,6 @@
 //! Preconditioned Krylov solvers.
 
-use crate::{Error, FivePoint, Multigrid, Outcome};
+use crate::{Error, FivePoint, Outcome, Precondition};
 
 /// Stopping rule: the L1 residual falls to `reduction` of its first value, or to `floor` (in the
 /// unit of the source), or `iterations` are spent.
@@ -83,7 +83,7 @@ impl Krylov {
 pub fn conjugate_gradient(
     equation: &FivePoint,
     x: &mut [f64],
-    precondition: &mut Multigrid,
+    precondition: &mut impl Precondition,
     rule: Krylov,
     work: &mut Workspace,
 ) -> Result<Outcome, Error> {
@@ -133,7 +133,7 @@ pub fn conjugate_gradient(
 pub fn bicgstab(
     equation: &FivePoint,
     x: &mut [f64],
-    precondition: &mut Multigrid,
+    precondition: &mut impl Precondition,
     rule: Krylov,
     work: &mut Workspace,
 ) -> Result<Outcome, Error> {
@@ -193,6 +193,7 @@ pub fn bicgstab(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Incomplete, Multigrid};
 
     /// A layered conductor: conductivity `ratio` in the lower half, 1 above; insulated sides, a
     /// current through the top, ground below. Convection `flow` upward makes it unsymmetric.
@@ -244,6 +245,30 @@ mod tests {
                 assert!(o.iterations < 60, "ratio {ratio}, n {n}: {o:?}");
             }
         }
+    }
+
+    #[test]
+    fn incomplete_factors_serve_both_methods() {
+        for ratio in [1.0, 1e12, 1e-7] {
+            let (a, n) = (layers(97, ratio, 0.0), 97);
+            let mut factors = Incomplete::default();
+            factors.rebuild(&a).unwrap();
+            let mut work = Workspace::default();
+            let rule = Krylov {
+                iterations: 200,
+                ..RULE
+            };
+            let mut x = vec![0.0; n * n];
+            let o = conjugate_gradient(&a, &mut x, &mut factors, rule, &mut work).unwrap();
+            assert!(o.last <= 1e-10 * o.first, "ratio {ratio}: {o:?}");
+        }
+        let a = layers(64, 10.0, 30.0);
+        let mut factors = Incomplete::default();
+        factors.rebuild(&a).unwrap();
+        let mut x = vec![0.0; 64 * 64];
+        let mut work = Workspace::default();
+        let o = bicgstab(&a, &mut x, &mut factors, RULE, &mut work).unwrap();
+        assert!(o.last <= 1e-10 * o.first, "{o:?}");
     }
 
     #[test]

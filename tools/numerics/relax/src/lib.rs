@@ -10,23 +10,33 @@
 //! Three solvers share it:
 //! - [`sor`]: red-black successive over-relaxation (eqs 3.58 to 3.63). The colour of a cell is
 //!   `(i + j) mod 2`; the printed `i * NJ + j` (eq. 3.61) is a checkerboard only for odd `NJ`.
+//! - [`Incomplete`]: an incomplete factorisation; a preconditioner that any contrast of coefficients
+//!   leaves calm.
 //! - [`Multigrid`]: an aggregation hierarchy with red-black smoothing; a preconditioner.
 //! - [`conjugate_gradient`] for symmetric and [`bicgstab`] for other equations, both preconditioned.
 //!
 //! Every cell gathers from its neighbours and every sum is serial, so results are bitwise
 //! independent of the number of threads.
 
+mod incomplete;
 mod krylov;
 mod multigrid;
 pub mod sor;
 mod stencil;
 
+pub use incomplete::Incomplete;
 pub use krylov::{Krylov, Workspace, bicgstab, conjugate_gradient};
 pub use multigrid::Multigrid;
 pub use sor::Sor;
 pub use stencil::{Coefficients, FivePoint};
 
 use thiserror::Error;
+
+/// An approximate inverse.
+pub trait Precondition {
+    /// `out` becomes an approximate solution with `rhs` as the source.
+    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]);
+}
 
 /// How a solve ended.
 #[derive(Debug, Clone, Copy, PartialEq)]

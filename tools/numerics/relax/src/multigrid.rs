@@ -8,7 +8,7 @@
 //! it stands. A direction whose coupling is weak by a factor of four is not coarsened.
 
 use crate::sor::{Colour, sweep};
-use crate::{Error, FivePoint};
+use crate::{Error, FivePoint, Precondition};
 
 /// Coarsest level: at most this many cells.
 const COARSEST: usize = 16;
@@ -87,9 +87,11 @@ impl Multigrid {
         self.levels[k].step = (1, 1);
         Ok(())
     }
+}
 
-    /// One cycle: `out` becomes an approximate solution with `rhs` as the source.
-    pub fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
+impl Precondition for Multigrid {
+    /// One cycle.
+    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
         let visits = self.visits;
         if let Some(top) = self.levels.first_mut() {
             top.equation.source.copy_from_slice(rhs);

@@ -242,6 +242,16 @@ impl FivePoint {
         }
     }
 
+    /// As [`FivePoint::under_relax`], with a factor for every cell.
+    pub fn under_relax_each(&mut self, x: &[f64], relaxation: impl Fn(usize) -> f64) {
+        let columns = self.centre.iter_mut().zip(&mut self.source).zip(x);
+        for (k, ((centre, source), x)) in columns.enumerate() {
+            let relaxed = *centre / relaxation(k);
+            *source += (relaxed - *centre) * x;
+            *centre = relaxed;
+        }
+    }
+
     /// Checks that coefficients are finite and central ones positive.
     ///
     /// # Errors

@@ -1,0 +1,249 @@
+//! The grid and which body fills each cell.
+
+use crate::assemble::Faults;
+use crate::case::GAS;
+use crate::grid::{Grid, Spacing, faces};
+use crate::scene::{Body, Scene, Shape, Sides, SpacingScene};
+
+/// Most cells of a scene.
+const MOST_CELLS: usize = 4_000_000;
+
+/// Grid and materials.
+pub(crate) struct Layout {
+    pub(crate) grid: Grid,
+    pub(crate) material: Vec<usize>,
+}
+
+impl Layout {
+    /// Bodies in the order of their names; body `n` is material `n + 1`.
+    pub(crate) fn bodies(scene: &Scene) -> Vec<(&String, &Body)> {
+        scene.bodies.iter().collect()
+    }
+
+    pub(crate) fn new(scene: &Scene, faults: &mut Faults) -> Option<Self> {
+        let (r, z) = (scene.domain.r_m, scene.domain.z_m);
+        if !(r[0] >= 0.0 && r[1] > r[0]) {
+            faults.add(
+                "/domain/r_m",
+                format!("{r:?} m does not rise from 0 or more"),
+            );
+            return None;
+        }
+        if z[1] <= z[0] {
+            faults.add("/domain/z_m", format!("{z:?} m does not rise"));
+            return None;
+        }
+        let (mut r_breaks, mut z_breaks) = (r.to_vec(), z.to_vec());
+        for (name, body) in &scene.bodies {
+            let Shape::Ring(ring) = &body.shape;
+            let at = format!("/bodies/{name}/shape/ring");
+            inside(&format!("{at}/r_m"), ring.r_m, r, faults);
+            inside(&format!("{at}/z_m"), ring.z_m, z, faults);
+            r_breaks.extend(ring.r_m);
+            z_breaks.extend(ring.z_m);
+        }
+        spans(scene, [r, z], [&mut r_breaks, &mut z_breaks], faults);
+        let r_spacing = spacing(&scene.grid.r, "/grid/r", faults)?;
+        let z_spacing = spacing(&scene.grid.z, "/grid/z", faults)?;
+        let rf = faces(&tidy(r_breaks, r), &r_spacing);
+        let zf = faces(&tidy(z_breaks, z), &z_spacing);
+        let (nr, nz) = (rf.len() - 1, zf.len() - 1);
+        if nr < 2 || nz < 2 || nr.saturating_mul(nz) > MOST_CELLS {
+            let what = format!("gives {nr} x {nz} cells; wanted are 2 x 2 to {MOST_CELLS} in all");
+            faults.add("/grid", what);
+            return None;
+        }
+        let grid = Grid::new(rf, zf);
+        let material = fill(scene, &grid, faults);
+        Some(Self { grid, material })
+    }
+
+    pub(crate) fn is_gas(&self, k: usize) -> bool {
+        self.material[k] == GAS
+    }
+
+    pub(crate) fn place(&self, k: usize) -> String {
+        let (i, j) = (k % self.grid.nr, k / self.grid.nr);
+        format!(
+            "r = {:.4e} m, z = {:.4e} m",
+            self.grid.rc[i], self.grid.zc[j]
+        )
+    }
+
+    /// The lowest row above the cells of `material` on the axis.
+    pub(crate) fn row_above(&self, material: usize) -> Option<usize> {
+        let last = (0..self.grid.nz)
+            .rev()
+            .find(|j| self.material[self.grid.cell(0, *j)] == material)?;
+        (last + 1 < self.grid.nz).then_some(last + 1)
+    }
+
+    /// For each gas cell within `depth` of an electrode, straight off its surface, the first cell
+    /// beyond; itself elsewhere.
+    pub(crate) fn sheath(&self, bodies: &[(&String, &Body)], depth: f64) -> Vec<usize> {
+        let grid = &self.grid;
+        let mut from: Vec<usize> = (0..grid.len()).collect();
+        let is_electrode = |k: usize| {
+            let body = self.material[k].checked_sub(1).map(|n| bodies[n].1);
+            body.is_some_and(|b| b.anode.is_some() || b.cathode.is_some())
+        };
+        for k in (0..grid.len()).filter(|k| is_electrode(*k)) {
+            let (i, j) = (k % grid.nr, k / grid.nr);
+            let up: Vec<_> = (j + 1..grid.nz)
+                .map(|n| (grid.cell(i, n), grid.dz[n]))
+                .collect();
+            let down: Vec<_> = (0..j)
+                .rev()
+                .map(|n| (grid.cell(i, n), grid.dz[n]))
+                .collect();
+            let out: Vec<_> = (i + 1..grid.nr)
+                .map(|n| (grid.cell(n, j), grid.dr[n]))
+                .collect();
+            let within: Vec<_> = (0..i)
+                .rev()
+                .map(|n| (grid.cell(n, j), grid.dr[n]))
+                .collect();
+            for line in [up, down, out, within] {
+                self.sheath_line(&line, depth, &mut from);
+            }
+        }
+        from
+    }
+
+    fn sheath_line(&self, line: &[(usize, f64)], depth: f64, from: &mut [usize]) {
+        let mut reached = 0.0;
+        let mut thin = Vec::new();
+        for (cell, width) in line {
+            if !self.is_gas(*cell) {
+                return;
+            }
+            // A cell belongs to the sheath if its centre does.
+            if reached + 0.5 * width > depth {
+                for k in thin {
+                    from[k] = *cell;
+                }
+                return;
+            }
+            thin.push(*cell);
+            reached += width;
+        }
+    }
+}
+
+fn inside(at: &str, span: [f64; 2], domain: [f64; 2], faults: &mut Faults) {
+    let slack = 1e-9 * (domain[1] - domain[0]);
+    if span[1] <= span[0] || span[0] < domain[0] - slack || span[1] > domain[1] + slack {
+        faults.add(
+            at,
+            format!("{span:?} m does not rise within the domain, {domain:?} m"),
+        );
+    }
+}
+
+fn spacing(scene: &SpacingScene, at: &str, faults: &mut Faults) -> Option<Spacing> {
+    let found = match scene {
+        SpacingScene::Uniform(value) => Spacing::uniform(*value),
+        SpacingScene::Graded(g) => Spacing {
+            at: g.at_m.clone(),
+            spacing: g.spacing_m.clone(),
+        },
+    };
+    if found.at.len() != found.spacing.len() || found.at.is_empty() {
+        faults.add(at, "wants as many positions as spacings, one or more");
+        return None;
+    }
+    if found.at.windows(2).any(|w| w[1] <= w[0]) {
+        faults.add(&format!("{at}/at_m"), "does not rise");
+        return None;
+    }
+    if found.spacing.iter().any(|s| *s <= 0.0) {
+        faults.add(at, "spacings are above 0 m");
+        return None;
+    }
+    Some(found)
+}
+
+/// Ends of the parts of sides become faces.
+fn spans(scene: &Scene, domain: [[f64; 2]; 2], breaks: [&mut Vec<f64>; 2], faults: &mut Faults) {
+    let [r_breaks, z_breaks] = breaks;
+    let mut take = |at: &str, along_r: bool, span: Option<[f64; 2]>| {
+        if let Some(span) = span {
+            inside(at, span, domain[usize::from(!along_r)], faults);
+            if along_r {
+                r_breaks.extend(span)
+            } else {
+                z_breaks.extend(span)
+            }
+        }
+    };
+    if let Some(c) = &scene.current {
+        each(&c.edges, "/current/edges", |at, r, e| take(at, r, e.over_m));
+    }
+    if let Some(f) = &scene.flow {
+        each(&f.edges, "/flow/edges", |at, r, e| take(at, r, e.over_m));
+    }
+    if let Some(h) = &scene.heat {
+        each(&h.edges, "/heat/edges", |at, r, e| take(at, r, e.over_m));
+    }
+}
+
+/// Visits every condition with its path and whether its side runs along the radius.
+pub(crate) fn each<T>(sides: &Sides<T>, at: &str, mut visit: impl FnMut(&str, bool, &T)) {
+    let all = [
+        ("inner", false, &sides.inner),
+        ("outer", false, &sides.outer),
+        ("bottom", true, &sides.bottom),
+        ("top", true, &sides.top),
+    ];
+    for (name, along_r, list) in all {
+        for (n, edge) in list.iter().enumerate() {
+            visit(&format!("{at}/{name}/{n}"), along_r, edge);
+        }
+    }
+}
+
+/// Sorted breaks within the domain, without those that coincide.
+fn tidy(mut breaks: Vec<f64>, domain: [f64; 2]) -> Vec<f64> {
+    let slack = 1e-9 * (domain[1] - domain[0]);
+    breaks.retain(|b| *b >= domain[0] && *b <= domain[1]);
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup_by(|a, b| (*a - *b).abs() <= slack);
+    breaks
+}
+
+fn fill(scene: &Scene, grid: &Grid, faults: &mut Faults) -> Vec<usize> {
+    let mut material = vec![GAS; grid.len()];
+    for (n, (name, body)) in scene.bodies.iter().enumerate() {
+        let Shape::Ring(ring) = &body.shape;
+        let mut filled = 0;
+        for j in 0..grid.nz {
+            for i in 0..grid.nr {
+                let (r, z) = (grid.rc[i], grid.zc[j]);
+                let within =
+                    r > ring.r_m[0] && r < ring.r_m[1] && z > ring.z_m[0] && z < ring.z_m[1];
+                if !within {
+                    continue;
+                }
+                let k = grid.cell(i, j);
+                if material[k] != GAS {
+                    let other = scene.bodies.keys().nth(material[k] - 1);
+                    let other = other.map_or("", String::as_str);
+                    faults.add(
+                        &format!("/bodies/{name}/shape"),
+                        format!("overlaps \"{other}\""),
+                    );
+                    return material;
+                }
+                material[k] = n + 1;
+                filled += 1;
+            }
+        }
+        if filled == 0 {
+            faults.add(
+                &format!("/bodies/{name}/shape"),
+                "holds no cell of the grid",
+            );
+        }
+    }
+    material
+}

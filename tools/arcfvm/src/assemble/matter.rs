@@ -1,0 +1,287 @@
+//! Materials of the gas and of the bodies.
+
+use props::Table;
+use run::property::{Arguments, Curve, Property};
+use serde::Deserialize;
+
+use crate::assemble::Faults;
+use crate::error::Error;
+use crate::heat::{Electrode, Evaporation, Role};
+use crate::material::{Enthalpy, Law, Material, Melting, REFERENCE_K};
+use crate::scene::{self, BeyondTable, Body, Gas, Scene, SpecificHeat};
+
+/// Names that a material law may use.
+const NAMES: [&str; 3] = ["r", "z", "T"];
+
+/// A gas table as its file holds it.
+#[derive(Debug, Clone, Deserialize)]
+pub struct GasFile {
+    columns: Vec<Column>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct Column {
+    name: String,
+    values: Vec<f64>,
+}
+
+impl GasFile {
+    fn column(&self, name: &str) -> Result<&[f64], Error> {
+        let found = self.columns.iter().find(|c| c.name == name);
+        let found = found.ok_or_else(|| Error::GasTable(format!("has no column {name}")))?;
+        Ok(&found.values)
+    }
+
+    fn table(&self, name: &str) -> Result<Table, Error> {
+        let (t, values) = (self.column("temperature_k")?, self.column(name)?);
+        Table::new(t.to_vec(), values.to_vec()).map_err(|e| Error::GasTable(format!("{name}: {e}")))
+    }
+
+    /// The gas as a material; `hold` keeps the end values beyond the table.
+    ///
+    /// # Errors
+    /// When a column is missing or is not a table.
+    pub fn material(&self, hold: bool) -> Result<Material, Error> {
+        let law = |name: &str| self.table(name).map(|t| Some(Law::Table(t)));
+        let specific_heat = self.table("specific_heat_j_kg_k")?;
+        let bad = |e: props::Error| Error::GasTable(format!("specific_heat_j_kg_k: {e}"));
+        Ok(Material {
+            name: "gas".to_owned(),
+            density: law("density_kg_m3")?,
+            viscosity: law("viscosity_pa_s")?,
+            thermal_conductivity: law("thermal_conductivity_w_m_k")?,
+            electric_conductivity: law("electric_conductivity_s_m")?,
+            net_emission: law("net_emission_w_m3")?,
+            melting: None,
+            end_k: (!hold).then(|| specific_heat.last()),
+            enthalpy: Some(Enthalpy::new(&specific_heat, None).map_err(bad)?),
+        })
+    }
+}
+
+/// The gas, then the bodies in the order of their names.
+pub(crate) fn materials(
+    scene: &Scene,
+    gas: Option<&GasFile>,
+    faults: &mut Faults,
+) -> Vec<Material> {
+    let mut all = vec![gas_material(scene, gas, faults)];
+    for (name, body) in &scene.bodies {
+        all.push(body_material(scene, name, body, faults));
+    }
+    all
+}
+
+fn gas_material(scene: &Scene, file: Option<&GasFile>, faults: &mut Faults) -> Material {
+    match (&scene.gas, file) {
+        (Gas::Table(table), Some(file)) => {
+            match file.material(table.beyond_table == BeyondTable::Hold) {
+                Ok(material) => material,
+                Err(e) => {
+                    faults.add("/gas/table", e.to_string());
+                    Material::default()
+                }
+            }
+        }
+        (Gas::Table(_), None) => {
+            faults.add("/gas/table", "wants the input \"gas\": --input gas=FILE");
+            Material::default()
+        }
+        (Gas::Given(given), _) => {
+            let (flow, heat) = (scene.flow.is_some(), scene.heat.is_some());
+            let mut law = |property: &Option<Property>, name: &str, needed: bool| {
+                read(
+                    property.as_ref(),
+                    &format!("/gas/given/{name}"),
+                    needed,
+                    faults,
+                )
+            };
+            Material {
+                name: "gas".to_owned(),
+                density: law(&given.density_kg_m3, "density_kg_m3", flow),
+                viscosity: law(&given.viscosity_pa_s, "viscosity_pa_s", flow),
+                thermal_conductivity: law(
+                    &given.thermal_conductivity_w_m_k,
+                    "thermal_conductivity_w_m_k",
+                    heat,
+                ),
+                electric_conductivity: law(
+                    &given.electric_conductivity_s_m,
+                    "electric_conductivity_s_m",
+                    scene.current.is_some(),
+                ),
+                net_emission: law(&given.net_emission_w_m3, "net_emission_w_m3", false),
+                enthalpy: enthalpy(
+                    given.specific_heat_j_kg_k.as_ref(),
+                    None,
+                    "/gas/given/specific_heat_j_kg_k",
+                    heat,
+                    faults,
+                ),
+                melting: None,
+                end_k: None,
+            }
+        }
+    }
+}
+
+fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) -> Material {
+    let (current, heat) = (scene.current.is_some(), scene.heat.is_some());
+    let metal = &body.material;
+    let at = format!("/bodies/{name}/material");
+    let density = metal.density_kg_m3.map(Law::Constant);
+    if density.is_none() && body.moving.is_some() && heat {
+        faults.add(&at, "a moving body wants density_kg_m3");
+    }
+    if body.anode.is_some() && body.cathode.is_some() {
+        faults.add(
+            &format!("/bodies/{name}"),
+            "is anode and cathode; one of both at most",
+        );
+    }
+    let melting = metal.melting.as_ref().map(|m| Melting {
+        point: m.point_k,
+        half_range: m.half_range_k,
+        latent_heat: m.latent_heat_j_kg,
+    });
+    let path = format!("{at}/specific_heat_j_kg_k");
+    Material {
+        name: name.to_owned(),
+        density,
+        viscosity: None,
+        thermal_conductivity: read(
+            metal.thermal_conductivity_w_m_k.as_ref(),
+            &format!("{at}/thermal_conductivity_w_m_k"),
+            heat,
+            faults,
+        ),
+        electric_conductivity: read(
+            metal.electric_conductivity_s_m.as_ref(),
+            &format!("{at}/electric_conductivity_s_m"),
+            current,
+            faults,
+        ),
+        net_emission: None,
+        melting,
+        enthalpy: enthalpy(
+            metal.specific_heat_j_kg_k.as_ref(),
+            melting,
+            &path,
+            heat,
+            faults,
+        ),
+        end_k: None,
+    }
+}
+
+/// A law that may be absent unless the physics needs it; its constants are not negative.
+fn read(property: Option<&Property>, at: &str, needed: bool, faults: &mut Faults) -> Option<Law> {
+    let Some(property) = property else {
+        if needed {
+            faults.add(at, "is missing; the physics of this scene needs it");
+        }
+        return None;
+    };
+    match faults.keep(property.compile(at, &NAMES))? {
+        Curve::Constant(value) if value < 0.0 => {
+            faults.add(at, format!("{value} is below 0"));
+            None
+        }
+        Curve::Constant(value) => Some(Law::Constant(value)),
+        Curve::Table(rows) => {
+            if let Some(n) = rows.values().iter().position(|v| *v < 0.0) {
+                faults.add(
+                    &format!("{at}/value/{n}"),
+                    format!("{} is below 0", rows.values()[n]),
+                );
+                return None;
+            }
+            match Table::new(rows.temperatures().to_vec(), rows.values().to_vec()) {
+                Ok(table) => Some(Law::Table(table)),
+                Err(e) => {
+                    faults.add(at, e.to_string());
+                    None
+                }
+            }
+        }
+        Curve::Formula(formula) => Some(Law::formula(move |r, z, t| {
+            let at = Arguments {
+                x: r,
+                r,
+                z,
+                temperature: t,
+                ..Arguments::default()
+            };
+            formula.value(&at)
+        })),
+    }
+}
+
+fn enthalpy(
+    heat: Option<&SpecificHeat>,
+    melting: Option<Melting>,
+    at: &str,
+    needed: bool,
+    faults: &mut Faults,
+) -> Option<Enthalpy> {
+    let Some(heat) = heat else {
+        if needed {
+            faults.add(at, "is missing; heat needs it");
+        }
+        return None;
+    };
+    let table = match (heat, melting) {
+        (SpecificHeat::Constant(value), None) => return Some(Enthalpy::Linear(*value)),
+        (SpecificHeat::Constant(value), Some(_)) => {
+            Table::new(vec![REFERENCE_K, 2.0 * REFERENCE_K], vec![*value; 2])
+        }
+        (SpecificHeat::Table(t), _) => Table::new(t.t_k.clone(), t.value.clone()),
+    };
+    match table.and_then(|t| Enthalpy::new(&t, melting)) {
+        Ok(enthalpy) => Some(enthalpy),
+        Err(e) => {
+            faults.add(at, e.to_string());
+            None
+        }
+    }
+}
+
+fn vapour(evaporation: Option<&scene::Evaporation>) -> Option<Evaporation> {
+    evaporation.map(|e| Evaporation {
+        boiling: e.boiling_k,
+        latent_heat: e.latent_heat_j_kg,
+        molar_mass: e.molar_mass_kg_mol,
+    })
+}
+
+/// The electrode that a body is.
+pub(crate) fn electrode(name: &str, body: &Body) -> Option<Electrode> {
+    let (role, emissivity, evaporation) = match (&body.anode, &body.cathode) {
+        (Some(a), _) => (
+            Role::Anode {
+                work_function: a.work_function_v,
+            },
+            a.emissivity,
+            vapour(a.evaporation.as_ref()),
+        ),
+        (None, Some(c)) => (
+            Role::Cathode {
+                work_function: c.work_function_v,
+                ionisation_voltage: c.ionisation_voltage_v,
+                richardson: c.richardson_a_m2_k2,
+            },
+            c.emissivity,
+            vapour(c.evaporation.as_ref()),
+        ),
+        (None, None) => return None,
+    };
+    Some(Electrode {
+        name: name.to_owned(),
+        absorbs: matches!(role, Role::Cathode { .. }),
+        role,
+        emissivity,
+        surroundings: REFERENCE_K,
+        evaporation,
+    })
+}

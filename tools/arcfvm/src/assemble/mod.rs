@@ -1,0 +1,323 @@
+//! From the scene to the problem: the only place that asks what the scene contains.
+
+mod edges;
+mod layout;
+mod matter;
+
+use run::property::{Arguments, Curve, Property};
+use run::{Failure, Fault};
+
+use crate::case::{Case, FeedRule, FlowCase, Gravity, HeatCase, MovingPlate, PotentialCase, Wire};
+use crate::grid::Grid;
+use crate::heat::{Surfaces, contacts};
+use crate::material::REFERENCE_K;
+use crate::scene::{Body, Scene};
+use layout::Layout;
+pub use matter::GasFile;
+
+/// Names that given values may use: edges, sources, forces, the start.
+const PLACE: [&str; 2] = ["r", "z"];
+
+/// Collects faults, so that all are told at once.
+#[derive(Debug, Default)]
+pub(crate) struct Faults(Vec<Fault>);
+
+impl Faults {
+    pub(crate) fn add(&mut self, at: &str, what: impl Into<String>) {
+        self.0.push(Fault::at(at, what));
+    }
+
+    /// The value, or nothing with the fault kept.
+    pub(crate) fn keep<T>(&mut self, result: Result<T, Fault>) -> Option<T> {
+        result.map_err(|fault| self.0.push(fault)).ok()
+    }
+
+    fn done(self) -> Result<(), Failure> {
+        if self.0.is_empty() {
+            Ok(())
+        } else {
+            Err(Failure::Scene(self.0))
+        }
+    }
+}
+
+/// The whole problem; `gas` is the gas table where the scene names one.
+///
+/// # Errors
+/// Every contradiction in the scene.
+pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
+    let mut faults = Faults::default();
+    let layout = Layout::new(scene, &mut faults);
+    let materials = matter::materials(scene, gas, &mut faults);
+    let Some(layout) = layout else {
+        faults.done()?;
+        return Err(Failure::Other("the scene has no grid".to_owned()));
+    };
+    let (grid, bodies) = (&layout.grid, Layout::bodies(scene));
+    let wire = wire(&layout, &bodies, &mut faults);
+    let start = start(scene, &layout, wire.as_ref(), &mut faults);
+    let potential = scene.current.as_ref().map(|current| PotentialCase {
+        edges: edges::current(scene, grid, &mut faults),
+        driven: edges::driven(scene),
+        source: cell_source(
+            grid,
+            current.source_a_m3.as_ref(),
+            "/current/source_a_m3",
+            &mut faults,
+        ),
+        sheath: current.sheath_m.map(|depth| layout.sheath(&bodies, depth)),
+    });
+    let flow = scene
+        .flow
+        .as_ref()
+        .map(|_| flow(scene, &layout, &materials, &mut faults));
+    let heat = scene.heat.as_ref().map(|heat| HeatCase {
+        edges: edges::heat(scene, grid, &mut faults),
+        source: cell_source(
+            grid,
+            heat.source_w_m3.as_ref(),
+            "/heat/source_w_m3",
+            &mut faults,
+        ),
+        surfaces: surfaces(&layout, &bodies, heat.absorbed_radiation),
+        plate: plate(&bodies, &mut faults),
+    });
+    faults.done()?;
+    let surface_row = bodies
+        .iter()
+        .position(|(_, b)| b.cathode.is_some())
+        .and_then(|n| layout.row_above(n + 1));
+    Ok(Case {
+        material: layout.material,
+        materials,
+        start,
+        potential,
+        flow,
+        heat,
+        wire,
+        surface_row,
+        grid: layout.grid,
+    })
+}
+
+/// A property in r, z, T at one place.
+pub(crate) fn value(curve: &Curve, r: f64, z: f64, t: f64) -> Result<f64, String> {
+    let at = Arguments {
+        x: r,
+        r,
+        z,
+        temperature: t,
+        ..Arguments::default()
+    };
+    curve.value(&at).map_err(|e| e.to_string())
+}
+
+/// A given source of every cell, times its volume.
+fn cell_source(
+    grid: &Grid,
+    property: Option<&Property>,
+    at: &str,
+    faults: &mut Faults,
+) -> Option<Vec<f64>> {
+    let curve = faults.keep(property?.compile(at, &PLACE))?;
+    let mut all = Vec::with_capacity(grid.len());
+    for j in 0..grid.nz {
+        for i in 0..grid.nr {
+            match value(&curve, grid.rc[i], grid.zc[j], REFERENCE_K) {
+                Ok(v) => all.push(v * grid.volume(i, j)),
+                Err(what) => {
+                    faults.add(at, what);
+                    return None;
+                }
+            }
+        }
+    }
+    Some(all)
+}
+
+fn face_force(
+    grid: &Grid,
+    property: Option<&Property>,
+    at: &str,
+    radial: bool,
+    faults: &mut Faults,
+) -> Vec<f64> {
+    let faces = if radial {
+        grid.radial_faces()
+    } else {
+        grid.axial_faces()
+    };
+    let mut all = vec![0.0; faces];
+    let Some(curve) = property.and_then(|p| faults.keep(p.compile(at, &PLACE))) else {
+        return all;
+    };
+    let wide = if radial { grid.nr + 1 } else { grid.nr };
+    for (k, out) in all.iter_mut().enumerate() {
+        let (i, j) = (k % wide, k / wide);
+        let (r, z) = if radial {
+            (grid.rf[i], grid.zc[j])
+        } else {
+            (grid.rc[i], grid.zf[j])
+        };
+        match value(&curve, r, z, REFERENCE_K) {
+            Ok(v) => *out = v,
+            Err(what) => {
+                faults.add(at, what);
+                break;
+            }
+        }
+    }
+    all
+}
+
+fn flow(
+    scene: &Scene,
+    layout: &Layout,
+    materials: &[crate::material::Material],
+    faults: &mut Faults,
+) -> FlowCase {
+    let grid = &layout.grid;
+    let (edges, closed) = edges::flow(scene, layout, faults);
+    let given = scene.flow.as_ref();
+    let radial = given.and_then(|f| f.force_radial_n_m3.as_ref());
+    let axial = given.and_then(|f| f.force_axial_n_m3.as_ref());
+    let force = (radial.is_some() || axial.is_some()).then(|| {
+        [
+            face_force(grid, radial, "/flow/force_radial_n_m3", true, faults),
+            face_force(grid, axial, "/flow/force_axial_n_m3", false, faults),
+        ]
+    });
+    let density = materials.first().and_then(|m| m.density.as_ref());
+    let gravity = given
+        .and_then(|f| f.gravity_m_s2)
+        .map(|acceleration| Gravity {
+            acceleration,
+            reference_density: density.map_or(0.0, |d| d.at(grid.rc[0], grid.zc[0], REFERENCE_K)),
+        });
+    FlowCase {
+        edges,
+        gravity,
+        force,
+        closed,
+    }
+}
+
+fn start(scene: &Scene, layout: &Layout, wire: Option<&Wire>, faults: &mut Faults) -> Vec<f64> {
+    let grid = &layout.grid;
+    let mut all = vec![REFERENCE_K; grid.len()];
+    let at = "/start/temperature_k";
+    let Some(curve) = faults.keep(scene.start.temperature_k.compile(at, &PLACE)) else {
+        return all;
+    };
+    let top = wire.map_or(grid.nz, |w| w.tip);
+    for j in 0..grid.nz {
+        for i in 0..grid.nr {
+            let k = grid.cell(i, j);
+            match value(&curve, grid.rc[i], grid.zc[j], REFERENCE_K) {
+                Ok(t) if t > 0.0 => all[k] = t,
+                Ok(t) => {
+                    faults.add(at, format!("{t} K is not above 0 K at {}", layout.place(k)));
+                    return all;
+                }
+                Err(what) => {
+                    faults.add(at, what);
+                    return all;
+                }
+            }
+            let Some(channel) = scene.start.channel.as_ref().filter(|_| layout.is_gas(k)) else {
+                continue;
+            };
+            if grid.rc[i] < channel.radius_m && j < top {
+                all[k] = channel.temperature_k;
+            }
+        }
+    }
+    all
+}
+
+fn surfaces(
+    layout: &Layout,
+    bodies: &[(&String, &Body)],
+    absorbed: Option<f64>,
+) -> Option<Surfaces> {
+    let mut electrodes = Vec::new();
+    let mut index = vec![None; bodies.len() + 1];
+    for (n, (name, body)) in bodies.iter().enumerate() {
+        if let Some(electrode) = matter::electrode(name, body) {
+            index[n + 1] = Some(electrodes.len());
+            electrodes.push(electrode);
+        }
+    }
+    let contacts = contacts(&layout.grid, &layout.material, |m| index[m]);
+    (!electrodes.is_empty()).then_some(Surfaces {
+        electrodes,
+        contacts,
+        absorbed,
+    })
+}
+
+fn plate(bodies: &[(&String, &Body)], faults: &mut Faults) -> Option<MovingPlate> {
+    let mut all = bodies.iter().enumerate().filter_map(|(n, (name, b))| {
+        let moving = b.moving.as_ref()?;
+        Some((
+            name,
+            MovingPlate {
+                speed: moving.speed_m_s,
+                ahead: moving.ahead_m,
+                material: n + 1,
+            },
+        ))
+    });
+    let first = all.next();
+    if let Some((name, _)) = all.next() {
+        faults.add(
+            &format!("/bodies/{name}/moving"),
+            "a second moving body; only one can move",
+        );
+    }
+    first.map(|(_, plate)| plate)
+}
+
+fn wire(layout: &Layout, bodies: &[(&String, &Body)], faults: &mut Faults) -> Option<Wire> {
+    let mut found = None;
+    for (n, (name, body)) in bodies.iter().enumerate() {
+        let at = format!("/bodies/{name}/feed");
+        let Some(feed) = body.feed.as_ref() else {
+            continue;
+        };
+        let rule = match (feed.speed_m_s, feed.drop_temperature_k) {
+            (Some(speed), None) => FeedRule::Speed(speed),
+            (None, Some(t)) => FeedRule::Melting(t),
+            _ => {
+                faults.add(&at, "wants exactly one of speed_m_s and drop_temperature_k");
+                continue;
+            }
+        };
+        let crate::scene::Shape::Ring(ring) = &body.shape;
+        let grid = &layout.grid;
+        let top = grid.zf[grid.nz];
+        if ring.r_m[0] > 0.0 || (ring.z_m[1] - top).abs() > 1e-9 {
+            faults.add(
+                &at,
+                format!("a fed wire reaches from the axis to the top at {top} m"),
+            );
+            continue;
+        }
+        let Some(density) = body.material.density_kg_m3 else {
+            faults.add(&at, "a fed wire wants material/density_kg_m3");
+            continue;
+        };
+        if found.is_some() {
+            faults.add(&at, "a second fed body; only one can be fed");
+        }
+        found = Some(Wire {
+            material: n + 1,
+            columns: grid.rf.partition_point(|r| *r < ring.r_m[1] - 1e-12),
+            tip: grid.zf.partition_point(|z| *z < ring.z_m[0] - 1e-12),
+            section: std::f64::consts::PI * ring.r_m[1] * ring.r_m[1],
+            density,
+            feed: Some(rule),
+        });
+    }
+    found
+}

@@ -1,0 +1,202 @@
+//! The assembled problem: grid, materials, edges, and what is solved. Physics reads this, never
+//! the scene.
+
+use crate::grid::Grid;
+use crate::heat::Surfaces;
+use crate::material::Material;
+
+/// Index of the gas among the materials.
+pub const GAS: usize = 0;
+
+/// One value per face of the four sides of the domain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edges<T> {
+    /// Smallest radius (the axis, if that is zero), `[nz]`.
+    pub inner: Vec<T>,
+    /// Largest radius, `[nz]`.
+    pub outer: Vec<T>,
+    /// Lowest height, `[nr]`.
+    pub bottom: Vec<T>,
+    /// Greatest height, `[nr]`.
+    pub top: Vec<T>,
+}
+
+impl<T: Clone> Edges<T> {
+    /// The same value everywhere.
+    #[must_use]
+    pub fn uniform(grid: &Grid, value: T) -> Self {
+        Self {
+            inner: vec![value.clone(); grid.nz],
+            outer: vec![value.clone(); grid.nz],
+            bottom: vec![value.clone(); grid.nr],
+            top: vec![value; grid.nr],
+        }
+    }
+}
+
+/// What the potential meets at an edge face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PotentialEdge {
+    /// No current crosses.
+    Insulated,
+    /// Fixed potential \[V\].
+    Voltage(f64),
+    /// Current into the domain \[A\].
+    Current(f64),
+    /// The one potential at which all such faces together let in the driven current.
+    Driven,
+}
+
+/// What the flow meets at an edge face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FlowEdge {
+    /// Fixed velocity, radial and axial \[m/s\]: a wall (zero) or an inlet.
+    Velocity([f64; 2]),
+    /// Fixed pressure \[Pa\]; gas drawn in comes from rest.
+    Open(f64),
+    /// No flow through, no stress along: the axis or a plane of symmetry.
+    Slip,
+}
+
+/// What heat meets at an edge face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum HeatEdge {
+    /// No conduction; what flows in is as warm as the cell.
+    Insulated,
+    /// Fixed temperature \[K\].
+    Temperature(f64),
+    /// Heat flux into the domain \[W/m2\].
+    Flux(f64),
+}
+
+/// The potential, where it is solved.
+#[derive(Debug, Clone)]
+pub struct PotentialCase {
+    /// Edges.
+    pub edges: Edges<PotentialEdge>,
+    /// Current into the domain through all driven faces \[A\].
+    pub driven: Option<f64>,
+    /// Current source of each cell \[A\], `[nr nz]`; manufactured solutions only.
+    pub source: Option<Vec<f64>>,
+    /// For each cell, the cell whose conductivity it takes (the sheath rule); itself mostly.
+    pub sheath: Option<Vec<usize>>,
+}
+
+/// Gravity acting on the excess of density.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gravity {
+    /// Downward acceleration \[m/s2\].
+    pub acceleration: f64,
+    /// Density of the gas at rest around \[kg/m3\], whose weight the pressure leaves out.
+    pub reference_density: f64,
+}
+
+/// The flow, where it is solved.
+#[derive(Debug, Clone)]
+pub struct FlowCase {
+    /// Edges.
+    pub edges: Edges<FlowEdge>,
+    /// Gravity.
+    pub gravity: Option<Gravity>,
+    /// Given forces on radial and axial faces \[N/m3\]; manufactured solutions only.
+    pub force: Option<[Vec<f64>; 2]>,
+    /// Whether no edge fixes the pressure, so that it is known up to a constant.
+    pub closed: bool,
+}
+
+/// Heat that a moving plate carries away (Komen 2019, eq. 5.22).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovingPlate {
+    /// Welding speed \[m/s\].
+    pub speed: f64,
+    /// Distance ahead at which the plate is compared \[m\].
+    pub ahead: f64,
+    /// Material of the plate.
+    pub material: usize,
+}
+
+/// How fast a wire is fed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FeedRule {
+    /// Given speed \[m/s\].
+    Speed(f64),
+    /// As fast as it melts into drops of this temperature \[K\] (Komen 2019, eq. 5.27).
+    Melting(f64),
+}
+
+/// The wire that is fed down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wire {
+    /// Material of the wire.
+    pub material: usize,
+    /// Columns `0..columns` hold the wire.
+    pub columns: usize,
+    /// Lowest row of the wire.
+    pub tip: usize,
+    /// Cross-section \[m2\].
+    pub section: f64,
+    /// Density of the wire \[kg/m3\].
+    pub density: f64,
+    /// Feeding, if there is any.
+    pub feed: Option<FeedRule>,
+}
+
+/// Heat, where it is solved.
+#[derive(Debug, Clone)]
+pub struct HeatCase {
+    /// Edges.
+    pub edges: Edges<HeatEdge>,
+    /// Heat source of each cell \[W\], `[nr nz]`; manufactured solutions only.
+    pub source: Option<Vec<f64>>,
+    /// Surfaces of wire and base metal with electrode heat.
+    pub surfaces: Option<Surfaces>,
+    /// The moving plate.
+    pub plate: Option<MovingPlate>,
+}
+
+/// The whole problem.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Grid.
+    pub grid: Grid,
+    /// Material of each cell, `[nr nz]`.
+    pub material: Vec<usize>,
+    /// Materials; the first is the gas.
+    pub materials: Vec<Material>,
+    /// Temperature at the start \[K\], `[nr nz]`.
+    pub start: Vec<f64>,
+    /// Current and potential.
+    pub potential: Option<PotentialCase>,
+    /// Flow and pressure.
+    pub flow: Option<FlowCase>,
+    /// Heat and temperature.
+    pub heat: Option<HeatCase>,
+    /// The wire, where there is one.
+    pub wire: Option<Wire>,
+    /// Row of the lowest gas cell above the base metal, where there is one.
+    pub surface_row: Option<usize>,
+}
+
+impl Case {
+    /// Whether cell `(i, j)` holds gas.
+    #[must_use]
+    #[inline]
+    pub fn is_gas(&self, i: usize, j: usize) -> bool {
+        self.material[self.grid.cell(i, j)] == GAS
+    }
+
+    /// The material of cell `k`.
+    #[must_use]
+    #[inline]
+    pub fn of(&self, k: usize) -> &Material {
+        &self.materials[self.material[k]]
+    }
+
+    /// A cell with its position, for messages.
+    #[must_use]
+    pub fn place(&self, k: usize) -> String {
+        let (i, j) = (k % self.grid.nr, k / self.grid.nr);
+        let (r, z) = (self.grid.rc[i] * 1e3, self.grid.zc[j] * 1e3);
+        format!("cell ({i}, {j}) r = {r:.3} mm z = {z:.3} mm")
+    }
+}

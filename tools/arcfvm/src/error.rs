@@ -1,0 +1,106 @@
+//! Why a run can fail.
+
+use thiserror::Error;
+
+use crate::case::Case;
+
+/// Everything that stops `arcfvm`, with the values and units on both sides.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// A number left the reals.
+    #[error("iteration {iteration}: {equation} diverged at {place}: {what}")]
+    Diverged {
+        /// Equation.
+        equation: &'static str,
+        /// Cell with its position.
+        place: String,
+        /// Outer iteration.
+        iteration: usize,
+        /// What was found.
+        what: String,
+    },
+    /// A temperature beyond the gas table, where the scene does not ask to hold its end values.
+    #[error(
+        "{place}: temperature {found:.0} K above table end {end:.0} K ({material}); \
+         set gas.beyond_table to \"hold\" to keep the end values"
+    )]
+    AboveTable {
+        /// Cell with its position.
+        place: String,
+        /// Temperature found \[K\].
+        found: f64,
+        /// End of the table \[K\].
+        end: f64,
+        /// Material and property.
+        material: String,
+    },
+    /// A gas table that cannot be used.
+    #[error("gas table: {0}")]
+    GasTable(String),
+    /// A scene that contradicts itself.
+    #[error("{path}: {what}")]
+    Scene {
+        /// JSON path.
+        path: String,
+        /// What is wrong, with the allowed range.
+        what: String,
+    },
+}
+
+impl From<Error> for run::Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::Diverged {
+                equation,
+                place,
+                iteration,
+                what,
+            } => Self::Diverged {
+                step: iteration as u64,
+                time_s: 0.0,
+                place,
+                quantity: equation.to_owned(),
+                what,
+            },
+            other => Self::Other(other.to_string()),
+        }
+    }
+}
+
+impl Error {
+    /// A field that diverged.
+    pub fn diverged(equation: &'static str, iteration: usize, place: String, what: String) -> Self {
+        Self::Diverged {
+            equation,
+            place,
+            iteration,
+            what,
+        }
+    }
+
+    /// A solver's error, with the cell's position.
+    pub fn solver(
+        equation: &'static str,
+        iteration: usize,
+        case: &Case,
+        error: &relax::Error,
+    ) -> Self {
+        let (column, row) = match error {
+            relax::Error::NotFinite { column, row, .. }
+            | relax::Error::NotPositive { column, row, .. } => (*column, *row),
+        };
+        // Staggered cells reach one beyond the grid.
+        let cell = case
+            .grid
+            .cell(column.min(case.grid.nr - 1), row.min(case.grid.nz - 1));
+        Self::diverged(equation, iteration, case.place(cell), error.to_string())
+    }
+
+    /// A scene error at `path`.
+    pub fn scene(path: impl Into<String>, what: impl Into<String>) -> Self {
+        Self::Scene {
+            path: path.into(),
+            what: what.into(),
+        }
+    }
+}

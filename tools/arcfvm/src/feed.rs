@@ -1,0 +1,49 @@
+//! How fast the wire is fed (Komen 2019, eq. 5.27).
+
+use crate::case::FeedRule;
+use crate::heat::balance::electrodes;
+use crate::solver::Arc;
+
+/// Voltage whose power melts the wire at the start \[V\]; the iteration finds the right speed.
+const FEED_START_V: f64 = 6.0;
+
+impl Arc {
+    /// The speed at which the wire would be fed, if it is.
+    pub(crate) fn next_feed(&self) -> Option<f64> {
+        let wire = self.case.wire?;
+        let rule = wire.feed?;
+        let enthalpy = self.case.materials[wire.material].enthalpy.as_ref()?;
+        let heating = self.heating.as_ref()?;
+        let all = electrodes(&heating.setup, &heating.energy, &heating.sources);
+        let surfaces = heating.setup.surfaces.as_ref();
+        let name = &self.case.materials[wire.material].name;
+        let own = surfaces.and_then(|s| s.electrodes.iter().position(|e| e.name == *name));
+        let surface = own.map_or(0.0, |n| all[n].sum());
+        let joule = self.electric.as_ref().map_or(0.0, |e| {
+            let cells = e.potential.joule.iter().zip(&self.case.material);
+            cells
+                .filter(|(_, m)| **m == wire.material)
+                .map(|(j, _)| j)
+                .sum()
+        });
+        Some(wire.speed(rule, surface + joule, enthalpy))
+    }
+
+    /// The speed before anything is known.
+    pub(crate) fn first_feed(&self) -> f64 {
+        let Some((wire, rule)) = self.case.wire.and_then(|w| Some((w, w.feed?))) else {
+            return 0.0;
+        };
+        let current = self
+            .case
+            .potential
+            .as_ref()
+            .and_then(|p| p.driven)
+            .unwrap_or(0.0);
+        match (rule, &self.case.materials[wire.material].enthalpy) {
+            (FeedRule::Speed(speed), _) => speed,
+            (rule, Some(enthalpy)) => wire.speed(rule, FEED_START_V * current.abs(), enthalpy),
+            (FeedRule::Melting(_), None) => 0.0,
+        }
+    }
+}

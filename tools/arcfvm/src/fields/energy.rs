@@ -1,0 +1,330 @@
+//! Temperature from the balance of enthalpy (Komen 2019, eqs 3.6, 5.8, 5.9).
+//!
+//! The flux through a face is `F h_P + A (h_P - h_E)` with A the hybrid coefficient of the mass flux
+//! and of `g = G (T_P - T_E) / (h_P - h_E)`, G being the conductance in W/K. Written in temperature,
+//! the equation holds across materials whose enthalpies differ, and its sum over all cells is that of
+//! the edges: no heat is lost between cells. At the surface of an electrode the gas conducts at film
+//! temperature (eqs 5.17, 5.18).
+
+use relax::{Coefficients, Error, FivePoint, Outcome};
+
+use crate::case::{Case, GAS, HeatCase, HeatEdge};
+use crate::fields::Solver;
+use crate::fields::energy_edges::{Beyond, FaceOf, Side, edge_of};
+use crate::heat::{Contact, FaceIndex, Surfaces};
+use crate::properties::Properties;
+use crate::transport::{dirichlet, hybrid};
+
+/// Temperatures and everything that the balance is made of.
+#[derive(Debug, Clone)]
+pub struct Energy {
+    /// Temperature \[K\], `[nr nz]`.
+    pub temperature: Vec<f64>,
+    /// Conductance of radial faces \[W/K\].
+    pub radial: Vec<f64>,
+    /// Conductance of axial faces \[W/K\].
+    pub axial: Vec<f64>,
+    /// Mass flux through radial faces, outward \[kg/s\].
+    pub mass_radial: Vec<f64>,
+    /// Mass flux through axial faces, upward, of gas and of wire \[kg/s\].
+    pub mass_axial: Vec<f64>,
+    /// Heat into each cell \[W\] and its slope with the temperature \[W/K\]: Joule heat, radiation,
+    /// surfaces, plate, given sources.
+    pub source: Vec<[f64; 2]>,
+    on_electrode: Vec<bool>,
+    equation: FivePoint,
+    scratch: Vec<f64>,
+    solver: Solver,
+}
+
+/// How one solve of the energy went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyResidual {
+    /// Sum of the unbalanced heat of all cells before the solve \[W\].
+    pub heat: f64,
+    /// Largest change of temperature \[K\].
+    pub change: f64,
+    /// Cells whose change was limited.
+    pub limited: usize,
+    /// The linear solve.
+    pub outcome: Outcome,
+}
+
+/// Relaxation of the temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Under-relaxation of the gas, in (0, 1].
+    pub relaxation: f64,
+    /// Largest change of a cell in one iteration \[K\].
+    pub limit: f64,
+}
+
+/// The scheme's coefficient in W/K for the neighbour at `(t_e, h_e)` of `(t_p, h_p)`.
+fn coefficient(
+    mass_out: f64,
+    conductance: f64,
+    here: (f64, f64),
+    there: (f64, f64),
+    slope: impl Fn() -> f64,
+    scheme: fn(f64, f64) -> f64,
+) -> f64 {
+    if mass_out == 0.0 {
+        return conductance;
+    }
+    let (dt, dh) = (here.0 - there.0, here.1 - there.1);
+    let heat_capacity = if dt.abs() > 1e-3 { dh / dt } else { slope() };
+    scheme(mass_out, conductance / heat_capacity) * heat_capacity
+}
+
+impl Energy {
+    /// Starts from `case.start`.
+    #[must_use]
+    pub fn new(case: &Case, solver: Solver) -> Self {
+        let grid = &case.grid;
+        let mut on_electrode = vec![false; grid.len()];
+        let surfaces = case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
+        for contact in surfaces.iter().flat_map(|s| &s.contacts) {
+            on_electrode[contact.gas] = true;
+        }
+        Self {
+            on_electrode,
+            temperature: case.start.clone(),
+            radial: vec![0.0; grid.radial_faces()],
+            axial: vec![0.0; grid.axial_faces()],
+            mass_radial: vec![0.0; grid.radial_faces()],
+            mass_axial: vec![0.0; grid.axial_faces()],
+            source: vec![[0.0; 2]; grid.len()],
+            equation: FivePoint::new(grid.nr, grid.nz),
+            scratch: vec![0.0; grid.len()],
+            solver,
+        }
+    }
+
+    /// Conductances at the present temperatures.
+    pub fn conduct(&mut self, case: &Case, surfaces: Option<&Surfaces>, properties: &Properties) {
+        let (grid, kappa) = (&case.grid, &properties.thermal);
+        let series = |a: f64, b: f64, area: f64| if a + b > 0.0 { area / (a + b) } else { 0.0 };
+        for j in 0..grid.nz {
+            for i in 0..=grid.nr {
+                let half = |c: usize| 0.5 * grid.dr[c] / kappa[grid.cell(c, j)];
+                let west = if i > 0 { half(i - 1) } else { 0.0 };
+                let east = if i < grid.nr { half(i) } else { 0.0 };
+                self.radial[grid.radial_face(i, j)] = series(west, east, grid.area(i, j));
+            }
+        }
+        for j in 0..=grid.nz {
+            for i in 0..grid.nr {
+                let half = |c: usize| 0.5 * grid.dz[c] / kappa[grid.cell(i, c)];
+                let south = if j > 0 { half(j - 1) } else { 0.0 };
+                let north = if j < grid.nz { half(j) } else { 0.0 };
+                self.axial[grid.axial_face(i, j)] = series(south, north, grid.ring[i]);
+            }
+        }
+        for contact in surfaces.iter().flat_map(|s| &s.contacts) {
+            let conductance = self.film(case, contact, kappa[contact.metal]);
+            match contact.face {
+                FaceIndex::Radial(face) => self.radial[face] = conductance,
+                FaceIndex::Axial(face) => self.axial[face] = conductance,
+            }
+        }
+    }
+
+    /// Gas at the mean of both temperatures in series with half a metal cell (eqs 5.17, 5.18).
+    fn film(&self, case: &Case, contact: &Contact, metal: f64) -> f64 {
+        let film = 0.5 * (self.temperature[contact.gas] + self.temperature[contact.metal]);
+        let [r, z] = contact.place;
+        let law = case.of(contact.gas).thermal_conductivity.as_ref();
+        let gas = law.map_or(0.0, |l| l.at(r, z, film));
+        contact.area / (contact.gas_half / gas + contact.metal_half / metal)
+    }
+
+    /// Heat flux from the gas into the metal of a contact \[W/m2\].
+    #[must_use]
+    pub fn convection(&self, contact: &Contact) -> f64 {
+        let conductance = match contact.face {
+            FaceIndex::Radial(face) => self.radial[face],
+            FaceIndex::Axial(face) => self.axial[face],
+        };
+        let difference = self.temperature[contact.gas] - self.temperature[contact.metal];
+        conductance * difference / contact.area
+    }
+
+    fn equation(
+        &self,
+        case: &Case,
+        heat: &HeatCase,
+        properties: &Properties,
+        i: usize,
+        j: usize,
+    ) -> Coefficients {
+        let (grid, h) = (&case.grid, &properties.enthalpy);
+        let k = grid.cell(i, j);
+        let here = (self.temperature[k], h[k]);
+        let slope = || {
+            case.of(k)
+                .enthalpy
+                .as_ref()
+                .map_or(1.0, |e| e.slope(here.0))
+        };
+        let mut c = Coefficients::default();
+        let faces = self.faces(case, i, j);
+        let mut sides = [0.0; 4];
+        for (side, face) in sides.iter_mut().zip(faces) {
+            match face.beyond {
+                Beyond::Cell(n) => {
+                    let there = (self.temperature[n], h[n]);
+                    *side =
+                        coefficient(face.mass_out, face.conductance, here, there, slope, hybrid);
+                }
+                Beyond::Edge(edge) => {
+                    let (a, t) = self.edge(case, heat, edge, face, here);
+                    c.centre += a;
+                    c.source += a * t;
+                    if let HeatEdge::Flux(flux) = *edge_of(heat, edge) {
+                        c.source += flux * face.area;
+                    }
+                }
+            }
+        }
+        [c.east, c.west, c.north, c.south] = sides;
+        let [value, slope] = self.source[k];
+        c.source += value - slope * here.0;
+        c.centre += sides.iter().sum::<f64>() - slope;
+        c
+    }
+
+    /// Coefficient and temperature of an edge face.
+    pub(crate) fn edge(
+        &self,
+        case: &Case,
+        heat: &HeatCase,
+        edge: Side,
+        face: FaceOf,
+        here: (f64, f64),
+    ) -> (f64, f64) {
+        let HeatEdge::Temperature(t) = *edge_of(heat, edge) else {
+            return (0.0, 0.0);
+        };
+        let Some(enthalpy) = &case.of(face.own).enthalpy else {
+            return (0.0, 0.0);
+        };
+        let there = (t, enthalpy.at(t));
+        let slope = || enthalpy.slope(here.0);
+        (
+            coefficient(
+                face.mass_out,
+                face.conductance,
+                here,
+                there,
+                slope,
+                dirichlet,
+            ),
+            t,
+        )
+    }
+
+    pub(crate) fn faces(&self, case: &Case, i: usize, j: usize) -> [FaceOf; 4] {
+        let grid = &case.grid;
+        let own = grid.cell(i, j);
+        let radial = |at: usize, sign: f64, beyond: Beyond| {
+            let face = grid.radial_face(at, j);
+            let (mass_out, conductance) = (sign * self.mass_radial[face], self.radial[face]);
+            FaceOf {
+                own,
+                beyond,
+                mass_out,
+                conductance,
+                area: grid.area(at, j),
+            }
+        };
+        let axial = |at: usize, sign: f64, beyond: Beyond| {
+            let face = grid.axial_face(i, at);
+            let (mass_out, conductance) = (sign * self.mass_axial[face], self.axial[face]);
+            FaceOf {
+                own,
+                beyond,
+                mass_out,
+                conductance,
+                area: grid.ring[i],
+            }
+        };
+        let side = |inside: bool, cell: usize, edge: Side| {
+            if inside {
+                Beyond::Cell(cell)
+            } else {
+                Beyond::Edge(edge)
+            }
+        };
+        [
+            radial(i + 1, 1.0, side(i + 1 < grid.nr, own + 1, Side::Outer(j))),
+            radial(i, -1.0, side(i > 0, own.wrapping_sub(1), Side::Inner(j))),
+            axial(
+                j + 1,
+                1.0,
+                side(j + 1 < grid.nz, own + grid.nr, Side::Top(i)),
+            ),
+            axial(
+                j,
+                -1.0,
+                side(j > 0, own.wrapping_sub(grid.nr), Side::Bottom(i)),
+            ),
+        ]
+    }
+
+    /// Under-relaxation of cell `k`. Metal conducts almost linearly: relaxing it would only let its
+    /// heat spread slowly, but for a wire that melts as it is fed. Gas on an electrode is relaxed twice as much,
+    /// the film's conductance being taken from the iteration before.
+    fn relaxation(&self, case: &Case, k: usize, gas: f64) -> f64 {
+        if case.material[k] == GAS {
+            return if self.on_electrode[k] { 0.5 * gas } else { gas };
+        }
+        let fed = case
+            .wire
+            .filter(|w| w.material == case.material[k] && w.feed.is_some());
+        let t = self.temperature[k];
+        let melting = fed
+            .and(case.of(k).melting)
+            .filter(|m| (t - m.point).abs() < 2.0 * m.half_range);
+        if melting.is_some() { 0.5 } else { 1.0 }
+    }
+
+    /// One under-relaxed solve.
+    ///
+    /// # Errors
+    /// When the equation is not usable or temperatures leave the numbers.
+    pub fn solve(
+        &mut self,
+        case: &Case,
+        heat: &HeatCase,
+        properties: &Properties,
+        step: Step,
+    ) -> Result<EnergyResidual, Error> {
+        let mut equation = std::mem::replace(&mut self.equation, FivePoint::new(0, 0));
+        equation.fill(|i, j| self.equation(case, heat, properties, i, j));
+        self.equation = equation;
+        self.equation.residual(&self.temperature, &mut self.scratch);
+        let unbalanced = self.scratch.iter().map(|r| r.abs()).sum();
+        let relaxation: Vec<f64> = (0..self.scratch.len())
+            .map(|k| self.relaxation(case, k, step.relaxation))
+            .collect();
+        self.equation
+            .under_relax_each(&self.temperature, |k| relaxation[k]);
+        self.scratch.copy_from_slice(&self.temperature);
+        let outcome = self.solver.solve(&self.equation, &mut self.temperature)?;
+        let (mut change, mut limited) = (0.0_f64, 0);
+        for (t, old) in self.temperature.iter_mut().zip(&self.scratch) {
+            let wanted = *t - old;
+            if wanted.abs() > step.limit {
+                limited += 1;
+                *t = old + step.limit.copysign(wanted);
+            }
+            change = change.max((*t - old).abs());
+        }
+        Ok(EnergyResidual {
+            heat: unbalanced,
+            change,
+            limited,
+            outcome,
+        })
+    }
+}

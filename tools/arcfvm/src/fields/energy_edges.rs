@@ -1,0 +1,95 @@
+//! Heat through the edges of the domain.
+
+use crate::case::{Case, HeatCase, HeatEdge};
+use crate::fields::energy::Energy;
+use crate::properties::Properties;
+
+/// Heat through the edges \[W\]; what enters is positive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct EdgeHeat {
+    /// By conduction and given fluxes.
+    pub conduction: f64,
+    /// Where mass crosses.
+    pub flow: f64,
+    /// Sum of the amounts exchanged, for scale.
+    pub size: f64,
+}
+
+impl Energy {
+    fn through_edge(
+        &self,
+        case: &Case,
+        heat: &HeatCase,
+        properties: &Properties,
+        (edge, face): (Side, FaceOf),
+        all: &mut EdgeHeat,
+    ) {
+        let here = (self.temperature[face.own], properties.enthalpy[face.own]);
+        let (a, t) = self.edge(case, heat, edge, face, here);
+        let exchange = a * (t - here.0);
+        let flux = match *edge_of(heat, edge) {
+            HeatEdge::Flux(flux) => flux * face.area,
+            _ => 0.0,
+        };
+        all.size += exchange.abs() + flux.abs();
+        all.conduction += flux;
+        if face.mass_out == 0.0 {
+            all.conduction += exchange;
+        } else {
+            all.flow += exchange - face.mass_out * here.1;
+        }
+    }
+
+    /// Heat through all edges.
+    #[must_use]
+    pub fn edges(&self, case: &Case, heat: &HeatCase, properties: &Properties) -> EdgeHeat {
+        let grid = &case.grid;
+        let mut all = EdgeHeat::default();
+        for j in 0..grid.nz {
+            let whole = j == 0 || j + 1 == grid.nz;
+            for i in (0..grid.nr).filter(|i| whole || *i == 0 || *i + 1 == grid.nr) {
+                for face in self.faces(case, i, j) {
+                    if let Beyond::Edge(edge) = face.beyond {
+                        self.through_edge(case, heat, properties, (edge, face), &mut all);
+                    }
+                }
+            }
+        }
+        all
+    }
+}
+
+/// A side of the domain with the index along it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Side {
+    Inner(usize),
+    Outer(usize),
+    Bottom(usize),
+    Top(usize),
+}
+
+/// What lies beyond a face.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Beyond {
+    Cell(usize),
+    Edge(Side),
+}
+
+/// A face as its cell sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FaceOf {
+    pub(crate) own: usize,
+    pub(crate) beyond: Beyond,
+    pub(crate) mass_out: f64,
+    pub(crate) conductance: f64,
+    pub(crate) area: f64,
+}
+
+pub(crate) fn edge_of(heat: &HeatCase, side: Side) -> &HeatEdge {
+    match side {
+        Side::Inner(j) => &heat.edges.inner[j],
+        Side::Outer(j) => &heat.edges.outer[j],
+        Side::Bottom(i) => &heat.edges.bottom[i],
+        Side::Top(i) => &heat.edges.top[i],
+    }
+}

@@ -1,0 +1,223 @@
+//! Velocities, pressure and mass fluxes on the staggered grid.
+
+use crate::case::{Case, FlowCase, FlowEdge, GAS, HeatEdge};
+use crate::grid::Grid;
+
+/// Whether a face velocity is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Face {
+    /// Known, at a wall or inlet \[m/s\].
+    Fixed(f64),
+    /// Between two gas cells, or an open edge.
+    Solved,
+}
+
+/// Velocities, pressure and mass fluxes.
+#[derive(Debug, Clone)]
+pub struct Flow {
+    /// Radial velocity at radial faces \[m/s\].
+    pub radial: Vec<f64>,
+    /// Axial velocity at axial faces \[m/s\].
+    pub axial: Vec<f64>,
+    /// Pressure above that of the gas at rest \[Pa\], `[nr nz]`.
+    pub pressure: Vec<f64>,
+    /// Mass flux through radial faces, outward \[kg/s\].
+    pub mass_radial: Vec<f64>,
+    /// Mass flux through axial faces, upward \[kg/s\].
+    pub mass_axial: Vec<f64>,
+    /// What each radial face is.
+    pub radial_kind: Vec<Face>,
+    /// What each axial face is.
+    pub axial_kind: Vec<Face>,
+    /// Density at edge faces where gas of a known temperature enters \[kg/m3\].
+    inlet_density: Inlets,
+}
+
+/// Density of gas entering at the outer, bottom and top edges, if its temperature is given.
+#[derive(Debug, Clone, Default)]
+struct Inlets {
+    outer: Vec<Option<f64>>,
+    bottom: Vec<Option<f64>>,
+    top: Vec<Option<f64>>,
+}
+
+impl Flow {
+    /// Gas at rest, but for the fixed velocities.
+    #[must_use]
+    pub fn new(case: &Case, setup: &FlowCase) -> Self {
+        let grid = &case.grid;
+        let fixed = |edge: FlowEdge, axis: usize| match edge {
+            FlowEdge::Velocity(v) => Face::Fixed(v[axis]),
+            FlowEdge::Open(_) => Face::Solved,
+            FlowEdge::Slip => Face::Fixed(0.0),
+        };
+        let mut radial_kind = vec![Face::Fixed(0.0); grid.radial_faces()];
+        for j in 0..grid.nz {
+            for i in 1..grid.nr {
+                if case.is_gas(i - 1, j) && case.is_gas(i, j) {
+                    radial_kind[grid.radial_face(i, j)] = Face::Solved;
+                }
+            }
+            if case.is_gas(grid.nr - 1, j) {
+                radial_kind[grid.radial_face(grid.nr, j)] = fixed(setup.edges.outer[j], 0);
+            }
+            if case.is_gas(0, j) && grid.rf[0] > 0.0 {
+                radial_kind[grid.radial_face(0, j)] = fixed(setup.edges.inner[j], 0);
+            }
+        }
+        let mut axial_kind = vec![Face::Fixed(0.0); grid.axial_faces()];
+        for i in 0..grid.nr {
+            for j in 1..grid.nz {
+                if case.is_gas(i, j - 1) && case.is_gas(i, j) {
+                    axial_kind[grid.axial_face(i, j)] = Face::Solved;
+                }
+            }
+            if case.is_gas(i, 0) {
+                axial_kind[grid.axial_face(i, 0)] = fixed(setup.edges.bottom[i], 1);
+            }
+            if case.is_gas(i, grid.nz - 1) {
+                axial_kind[grid.axial_face(i, grid.nz)] = fixed(setup.edges.top[i], 1);
+            }
+        }
+        let start = |kinds: &[Face]| {
+            kinds
+                .iter()
+                .map(|k| if let Face::Fixed(v) = k { *v } else { 0.0 })
+                .collect::<Vec<_>>()
+        };
+        Self {
+            radial: start(&radial_kind),
+            axial: start(&axial_kind),
+            pressure: vec![0.0; grid.len()],
+            mass_radial: vec![0.0; grid.radial_faces()],
+            mass_axial: vec![0.0; grid.axial_faces()],
+            radial_kind,
+            axial_kind,
+            inlet_density: inlets(case),
+        }
+    }
+
+    /// Density carried through radial face `i` of row `j` \[kg/m3\]: that of the edge where it is known
+    /// and the gas comes from there or its velocity is given, else that of the cell.
+    pub(crate) fn radial_density(&self, grid: &Grid, density: &[f64], i: usize, j: usize) -> f64 {
+        if i == grid.nr {
+            let own = density[grid.cell(i - 1, j)];
+            let face = grid.radial_face(i, j);
+            let known = self.radial[face] < 0.0 || self.radial_kind[face] != Face::Solved;
+            return self.inlet_density.outer[j].filter(|_| known).unwrap_or(own);
+        }
+        if i == 0 {
+            return density[grid.cell(0, j)];
+        }
+        0.5 * (density[grid.cell(i - 1, j)] + density[grid.cell(i, j)])
+    }
+
+    /// Density carried through axial face `j` of column `i` \[kg/m3\].
+    pub(crate) fn axial_density(&self, grid: &Grid, density: &[f64], i: usize, j: usize) -> f64 {
+        let speed = self.axial[grid.axial_face(i, j)];
+        let fixed = self.axial_kind[grid.axial_face(i, j)] != Face::Solved;
+        if j == 0 {
+            let own = density[grid.cell(i, 0)];
+            return self.inlet_density.bottom[i]
+                .filter(|_| fixed || speed > 0.0)
+                .unwrap_or(own);
+        }
+        if j == grid.nz {
+            let own = density[grid.cell(i, j - 1)];
+            return self.inlet_density.top[i]
+                .filter(|_| fixed || speed < 0.0)
+                .unwrap_or(own);
+        }
+        0.5 * (density[grid.cell(i, j - 1)] + density[grid.cell(i, j)])
+    }
+
+    /// Mass that leaves cell `(i, j)` more than enters it \[kg/s\].
+    #[must_use]
+    pub fn imbalance(&self, grid: &Grid, i: usize, j: usize) -> f64 {
+        let (r, z) = (grid.radial_face(i, j), grid.axial_face(i, j));
+        self.mass_radial[r + 1] - self.mass_radial[r] + self.mass_axial[z + grid.nr]
+            - self.mass_axial[z]
+    }
+
+    /// Mean mass flow through a section \[kg/s\], for scale: that found, or that which the range of
+    /// pressure could drive.
+    #[must_use]
+    pub fn throughput(&self, case: &Case, density: &[f64]) -> f64 {
+        let grid = &case.grid;
+        let sum = |fluxes: &[f64]| fluxes.iter().map(|m| m.abs()).sum::<f64>();
+        let found = sum(&self.mass_radial) / (grid.nr + 1) as f64
+            + sum(&self.mass_axial) / (grid.nz + 1) as f64;
+        let gas = |k: &usize| case.material[*k] == GAS;
+        let range = |values: &[f64]| {
+            let cells = (0..grid.len()).filter(gas).map(|k| values[k]);
+            cells.fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)))
+        };
+        let (low, high) = range(&self.pressure);
+        let (_, densest) = range(density);
+        let section: f64 = grid.ring.iter().sum();
+        found + section * ((high - low).max(0.0) * densest.max(0.0)).sqrt()
+    }
+
+    /// Sum of the volume forces \[N\], for scale.
+    #[must_use]
+    pub fn forces(&self, case: &Case, setup: &FlowCase, lorentz: Option<[&[f64]; 2]>) -> f64 {
+        let grid = &case.grid;
+        let given = setup
+            .force
+            .as_ref()
+            .map(|f| [f[0].as_slice(), f[1].as_slice()]);
+        let mut sum = 0.0;
+        for [radial, axial] in [lorentz, given].into_iter().flatten() {
+            for (k, force) in radial.iter().enumerate() {
+                if self.radial_kind[k] == Face::Solved {
+                    let (i, j) = (k % (grid.nr + 1), k / (grid.nr + 1));
+                    sum += force.abs() * grid.volume(i.min(grid.nr - 1), j);
+                }
+            }
+            for (k, force) in axial.iter().enumerate() {
+                if self.axial_kind[k] == Face::Solved {
+                    let (i, j) = (k % grid.nr, k / grid.nr);
+                    sum += force.abs() * grid.volume(i, j.min(grid.nz - 1));
+                }
+            }
+        }
+        sum
+    }
+
+    /// Face mass fluxes from velocities and density.
+    pub(crate) fn carry(&mut self, grid: &Grid, density: &[f64]) {
+        for j in 0..grid.nz {
+            for i in 0..=grid.nr {
+                let face = grid.radial_face(i, j);
+                let rho = self.radial_density(grid, density, i, j);
+                self.mass_radial[face] = rho * grid.area(i, j) * self.radial[face];
+            }
+        }
+        for j in 0..=grid.nz {
+            for i in 0..grid.nr {
+                let face = grid.axial_face(i, j);
+                let rho = self.axial_density(grid, density, i, j);
+                self.mass_axial[face] = rho * grid.ring[i] * self.axial[face];
+            }
+        }
+    }
+}
+
+/// Densities of the gas at edges whose temperature is given.
+fn inlets(case: &Case) -> Inlets {
+    let grid = &case.grid;
+    let density =
+        |edge: Option<HeatEdge>, r: f64, z: f64| match (edge, &case.materials[GAS].density) {
+            (Some(HeatEdge::Temperature(t)), Some(law)) => Some(law.at(r, z, t)),
+            _ => None,
+        };
+    let edges = case.heat.as_ref().map(|h| &h.edges);
+    let (r_end, z_end) = (grid.rf[grid.nr], grid.zf[grid.nz]);
+    let along_z = |f: &dyn Fn(usize) -> Option<f64>| (0..grid.nz).map(f).collect();
+    let along_r = |f: &dyn Fn(usize) -> Option<f64>| (0..grid.nr).map(f).collect();
+    Inlets {
+        outer: along_z(&|j| density(edges.map(|e| e.outer[j]), r_end, grid.zc[j])),
+        bottom: along_r(&|i| density(edges.map(|e| e.bottom[i]), grid.rc[i], grid.zf[0])),
+        top: along_r(&|i| density(edges.map(|e| e.top[i]), grid.rc[i], z_end)),
+    }
+}

@@ -1,0 +1,203 @@
+//! What is written: the artefact `arc-source`.
+
+use artefact::{Record, Table};
+use run::{Failure, Session};
+
+use crate::case::PotentialCase;
+use crate::fields::magnetic::AtCentre;
+use crate::heat::balance::Balance;
+use crate::scene::Sample;
+use crate::solver::{Arc, Electric};
+use crate::surface;
+
+/// Writes every channel that the solved fields fill.
+///
+/// # Errors
+/// When the artefact cannot be written.
+pub fn write(
+    arc: &Arc,
+    balance: Option<&Balance>,
+    sample: &Sample,
+    session: &mut Session,
+) -> Result<(), Failure> {
+    session.table("/plasma", 0.0, &plasma(arc))?;
+    if let Some(table) = surface::table(arc, sample) {
+        session.table("/surface", 0.0, &table)?;
+    }
+    if let Some(table) = lorentz(arc) {
+        session.table("/lorentz", 0.0, &table)?;
+    }
+    session.record("/balance", 0.0, &record(arc, balance))
+}
+
+/// Values of every cell in the order of a grid table, the height running fastest.
+fn by_height(arc: &Arc, value: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    let grid = &arc.case.grid;
+    (0..grid.nr)
+        .flat_map(|i| (0..grid.nz).map(move |j| (i, j)))
+        .map(|(i, j)| value(i, j))
+        .collect()
+}
+
+/// Fields of every cell.
+fn plasma(arc: &Arc) -> Table {
+    let grid = &arc.case.grid;
+    let mut table = Table::grid(&[("radius_m", "m", &grid.rc), ("height_m", "m", &grid.zc)]);
+    let cell = |i: usize, j: usize| grid.cell(i, j);
+    if arc.heating.is_some() {
+        let t = arc.temperature();
+        table = table.column("temperature_k", "K", by_height(arc, |i, j| t[cell(i, j)]));
+    }
+    if let Some(flowing) = &arc.flowing {
+        let flow = &flowing.flow;
+        let radial = |i, j| {
+            let face = grid.radial_face(i, j);
+            0.5 * (flow.radial[face] + flow.radial[face + 1])
+        };
+        let axial = |i, j| {
+            let face = grid.axial_face(i, j);
+            0.5 * (flow.axial[face] + flow.axial[face + grid.nr])
+        };
+        let pressure = |i, j| flow.pressure[cell(i, j)];
+        table = table
+            .column("radial_velocity_m_s", "m/s", by_height(arc, radial))
+            .column("axial_velocity_m_s", "m/s", by_height(arc, axial))
+            .column("pressure_pa", "Pa", by_height(arc, pressure));
+    }
+    if let Some(electric) = &arc.electric {
+        let value = |i, j| electric.potential.value[cell(i, j)];
+        table = table.column("potential_v", "V", by_height(arc, value));
+        for (name, unit, part) in PARTS {
+            let value = |i, j| part(&electric.magnetic.at_centre(grid, &electric.potential, i, j));
+            table = table.column(name, unit, by_height(arc, value));
+        }
+    }
+    let material = |i, j| arc.case.material[cell(i, j)] as f64;
+    table.column(
+        "material",
+        "1",
+        by_height(arc, |i, j| role(arc, material(i, j))),
+    )
+}
+
+type Part = (&'static str, &'static str, fn(&AtCentre) -> f64);
+const PARTS: [Part; 5] = [
+    ("current_radial_a_m2", "A/m2", |c| c.current_radial),
+    ("current_axial_a_m2", "A/m2", |c| c.current_axial),
+    ("magnetic_field_t", "T", |c| c.field),
+    ("lorentz_radial_n_m3", "N/m3", |c| c.force_radial),
+    ("lorentz_axial_n_m3", "N/m3", |c| c.force_axial),
+];
+
+/// 0 gas, 1 wire, 2 base metal, 3 and above any other body in the order of names.
+fn role(arc: &Arc, material: f64) -> f64 {
+    let index = material as usize;
+    let wire = arc.case.wire.map(|w| w.material);
+    let base = surface::base(arc);
+    if index == 0 {
+        0.0
+    } else if Some(index) == wire {
+        1.0
+    } else if Some(index) == base {
+        2.0
+    } else {
+        2.0 + material
+    }
+}
+
+/// Lorentz force in the base metal against radius and depth.
+fn lorentz(arc: &Arc) -> Option<Table> {
+    let Electric {
+        potential,
+        magnetic,
+        ..
+    } = arc.electric.as_ref()?;
+    let grid = &arc.case.grid;
+    let above = arc.case.surface_row?;
+    let surface = grid.zf[above];
+    let depth: Vec<f64> = (0..above).rev().map(|j| surface - grid.zc[j]).collect();
+    let mut table = Table::grid(&[("radius_m", "m", &grid.rc), ("depth_m", "m", &depth)]);
+    for (name, unit, part) in &PARTS[3..] {
+        let mut values = Vec::with_capacity(grid.nr * above);
+        for i in 0..grid.nr {
+            let row = (0..above).rev();
+            values.extend(row.map(|j| part(&magnetic.at_centre(grid, potential, i, j))));
+        }
+        table = table.column(name, unit, values);
+    }
+    Some(table)
+}
+
+/// Currents, voltages, powers and the heat balance.
+fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
+    let mut record = Record::new();
+    if let (Some(electric), Some(setup)) = (&arc.electric, &arc.case.potential) {
+        record = electrical(arc, electric, setup, record);
+    }
+    if let Some(balance) = balance {
+        record = heat(arc, balance, record);
+    }
+    if let Some(wire) = arc.case.wire {
+        record = record.with("wire_feed_m_s", "m/s", arc.feed).with(
+            "wire_volume_m3_s",
+            "m3/s",
+            arc.feed * wire.section,
+        );
+    }
+    record
+}
+
+fn electrical(arc: &Arc, electric: &Electric, setup: &PotentialCase, record: Record) -> Record {
+    let grid = &arc.case.grid;
+    let power = electric.potential.power(grid, setup);
+    let mut record = record.with("power_column_w", "W", power);
+    let Some(current) = setup.driven else {
+        return record;
+    };
+    let column = electric.potential.drive;
+    let cathode = surface::ion_power(arc) / current.abs();
+    record = record
+        .with("current_a", "A", current)
+        .with("voltage_column_v", "V", column)
+        .with("voltage_cathode_v", "V", cathode)
+        .with("voltage_v", "V", column + cathode)
+        .with("power_w", "W", (column + cathode) * current);
+    if let Some(drop) = surface::wire_drop(arc) {
+        record = record.with("voltage_wire_v", "V", drop);
+    }
+    record
+}
+
+fn heat(arc: &Arc, balance: &Balance, record: Record) -> Record {
+    let scale = surface::power(arc, balance);
+    let mut record = record
+        .with("heat_joule_w", "W", balance.joule)
+        .with("heat_given_w", "W", balance.given)
+        .with("heat_radiation_w", "W", balance.radiation)
+        .with("heat_plate_motion_w", "W", balance.plate)
+        .with("heat_edges_w", "W", balance.edges)
+        .with("heat_flow_w", "W", balance.flow)
+        .with("heat_drops_w", "W", balance.drops);
+    let names = arc.case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
+    let names = names.iter().flat_map(|s| &s.electrodes).map(|e| &e.name);
+    for (name, one) in names.zip(&balance.electrodes) {
+        let parts = [
+            ("convection", one.convection),
+            ("radiation", one.radiation),
+            ("electron", one.electron),
+            ("ion", one.ion),
+            ("emission", one.emission),
+            ("vapour", one.vapour),
+            ("joule", one.joule),
+            ("total", one.sum()),
+        ];
+        for (part, value) in parts {
+            record = record.with(&format!("{name}_{part}_w"), "W", value);
+        }
+    }
+    record.with("closure_w", "W", balance.closure()).with(
+        "closure",
+        "1",
+        crate::residual::part(balance.closure(), scale),
+    )
+}

@@ -1,0 +1,117 @@
+//! The heat balance: what enters, what leaves, part by part.
+
+use crate::case::{Case, HeatCase};
+use crate::fields::energy::Energy;
+use crate::heat::sources::Sources;
+use crate::properties::Properties;
+
+/// Heat of one electrode by part \[W\].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ElectrodeHeat {
+    /// Conducted from the gas.
+    pub convection: f64,
+    /// Taken up from the arc's radiation.
+    pub radiation: f64,
+    /// Electrons.
+    pub electron: f64,
+    /// Ions.
+    pub ion: f64,
+    /// Surface radiation.
+    pub emission: f64,
+    /// Vapour.
+    pub vapour: f64,
+    /// Joule heat within the metal.
+    pub joule: f64,
+}
+
+impl ElectrodeHeat {
+    /// Sum of the parts \[W\].
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.convection
+            + self.radiation
+            + self.electron
+            + self.ion
+            + self.emission
+            + self.vapour
+            + self.joule
+    }
+}
+
+/// All heat of the domain \[W\]; what enters is positive.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Balance {
+    /// Joule heat.
+    pub joule: f64,
+    /// Given sources.
+    pub given: f64,
+    /// Radiation of the gas.
+    pub radiation: f64,
+    /// Electrodes.
+    pub electrodes: Vec<ElectrodeHeat>,
+    /// Carried away by the moving plate.
+    pub plate: f64,
+    /// Through the edges by conduction.
+    pub edges: f64,
+    /// Through the edges with gas and metal.
+    pub flow: f64,
+    /// With drops from the wire.
+    pub drops: f64,
+}
+
+impl Balance {
+    /// Adds up the present state; `speed` is that of the wire \[m/s\].
+    #[must_use]
+    pub fn new(
+        case: &Case,
+        heat: &HeatCase,
+        energy: &Energy,
+        properties: &Properties,
+        sources: &Sources,
+        speed: f64,
+    ) -> Self {
+        let through = energy.edges(case, heat, properties);
+        let drops = case
+            .wire
+            .map_or(0.0, |w| w.drops(case, speed, &properties.enthalpy));
+        Self {
+            joule: sources.joule,
+            given: sources.given,
+            radiation: -sources.emission.iter().sum::<f64>(),
+            electrodes: electrodes(heat, energy, sources),
+            plate: -sources.plate,
+            edges: through.conduction,
+            flow: through.flow,
+            drops: -drops,
+        }
+    }
+
+    /// What enters more than leaves \[W\]: zero where the energy equation holds.
+    #[must_use]
+    pub fn closure(&self) -> f64 {
+        // Conduction from gas to metal stays within the domain.
+        let surface = |e: &ElectrodeHeat| e.sum() - e.convection - e.joule;
+        let surfaces: f64 = self.electrodes.iter().map(surface).sum();
+        let inner = self.joule + self.given + self.radiation + surfaces;
+        inner + self.plate + self.edges + self.flow + self.drops
+    }
+}
+
+/// Heat of every electrode without its Joule heat.
+#[must_use]
+pub fn electrodes(heat: &HeatCase, energy: &Energy, sources: &Sources) -> Vec<ElectrodeHeat> {
+    let Some(surfaces) = &heat.surfaces else {
+        return Vec::new();
+    };
+    let mut all = vec![ElectrodeHeat::default(); surfaces.electrodes.len()];
+    for (contact, found) in surfaces.contacts.iter().zip(&sources.contacts) {
+        let one = &mut all[contact.electrode];
+        one.convection += energy.convection(contact) * contact.area;
+        one.radiation += found.absorbed * contact.area;
+        one.electron += found.parts.electron * contact.area;
+        one.ion += found.parts.ion * contact.area;
+        one.emission += found.parts.emission * contact.area;
+        one.vapour += found.parts.vapour * contact.area;
+    }
+    all
+}

@@ -1,0 +1,224 @@
+//! Heat that an electrode takes up or gives off at its surface, per area (Komen 2019, eqs 5.16,
+//! 5.19 to 5.21, 5.24).
+//!
+//! Conduction from the gas is part of the energy equation. The anode takes up `|j| phi`. The cathode
+//! gives off `j_e phi` by the electrons of Richardson and Dushman, never more than carry the whole
+//! current, and takes up `(|j| - j_e) V_i` from ions. Radiation goes off as `eps sigma (T^4 - Ta^4)`
+//! (eq. 4.10; eqs 5.16 and 5.19 leave out the surroundings), vapour as Hertz and Knudsen tell for
+//! evaporation into a gas free of it.
+
+/// Charge of the electron over Boltzmann's constant \[K/V\].
+const KELVIN_PER_VOLT: f64 = 11_604.518_12;
+/// Stefan-Boltzmann constant \[W/(m2 K4)\].
+const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
+/// Molar gas constant \[J/(mol K)\].
+const MOLAR_GAS: f64 = 8.314_462_618;
+/// Pressure at the boiling point \[Pa\].
+const ATMOSPHERE: f64 = 101_325.0;
+
+/// Which way current crosses the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Role {
+    /// Takes up electrons.
+    Anode {
+        /// Work function \[V\].
+        work_function: f64,
+    },
+    /// Emits electrons and takes up ions.
+    Cathode {
+        /// Work function \[V\].
+        work_function: f64,
+        /// Ionisation voltage of the gas \[V\].
+        ionisation_voltage: f64,
+        /// Richardson constant \[A/(m2 K2)\].
+        richardson: f64,
+    },
+}
+
+/// Vapour leaving a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evaporation {
+    /// Boiling point at 1 atm \[K\].
+    pub boiling: f64,
+    /// Latent heat \[J/kg\].
+    pub latent_heat: f64,
+    /// Molar mass \[kg/mol\].
+    pub molar_mass: f64,
+}
+
+/// A metal that current enters or leaves through the gas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Electrode {
+    /// Name of the body.
+    pub name: String,
+    /// Anode or cathode.
+    pub role: Role,
+    /// Emissivity.
+    pub emissivity: f64,
+    /// Temperature of the surroundings \[K\].
+    pub surroundings: f64,
+    /// Evaporation.
+    pub evaporation: Option<Evaporation>,
+    /// Whether it takes its part of the arc's radiation.
+    pub absorbs: bool,
+}
+
+/// Heat fluxes into the metal \[W/m2\].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SurfaceHeat {
+    /// Electrons: taken up (anode) or emitted (cathode).
+    pub electron: f64,
+    /// Ions that recombine.
+    pub ion: f64,
+    /// Surface radiation, a loss.
+    pub emission: f64,
+    /// Vapour, a loss.
+    pub vapour: f64,
+}
+
+impl SurfaceHeat {
+    /// Sum of the parts.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.electron + self.ion + self.emission + self.vapour
+    }
+}
+
+impl Evaporation {
+    /// Heat carried off by vapour at temperature `t` \[W/m2\] (eq. 5.24 without vapour in the gas;
+    /// saturation pressure by Clausius and Clapeyron from the boiling point).
+    #[must_use]
+    pub fn heat(&self, t: f64) -> f64 {
+        let molar = self.latent_heat * self.molar_mass / MOLAR_GAS;
+        let pressure = ATMOSPHERE * (molar * (1.0 / self.boiling - 1.0 / t)).exp();
+        let root = (self.molar_mass / (2.0 * std::f64::consts::PI * MOLAR_GAS * t)).sqrt();
+        self.latent_heat * pressure * root
+    }
+}
+
+impl Electrode {
+    /// Current density of emitted electrons \[A/m2\] where the whole is `current` (eq. 5.20).
+    #[must_use]
+    pub fn emitted(&self, current: f64, t: f64) -> f64 {
+        match self.role {
+            Role::Anode { .. } => 0.0,
+            Role::Cathode {
+                work_function,
+                richardson,
+                ..
+            } => {
+                let thermionic = richardson * t * t * (-work_function * KELVIN_PER_VOLT / t).exp();
+                thermionic.min(current)
+            }
+        }
+    }
+
+    /// Heat at surface temperature `t` \[K\] with the current density `current` \[A/m2\].
+    #[must_use]
+    pub fn heat(&self, current: f64, t: f64) -> SurfaceHeat {
+        let (electron, ion) = match self.role {
+            Role::Anode { work_function } => (current * work_function, 0.0),
+            Role::Cathode {
+                work_function,
+                ionisation_voltage,
+                ..
+            } => {
+                let emitted = self.emitted(current, t);
+                (
+                    -emitted * work_function,
+                    (current - emitted) * ionisation_voltage,
+                )
+            }
+        };
+        let fourth = t.powi(4) - self.surroundings.powi(4);
+        SurfaceHeat {
+            electron,
+            ion,
+            emission: -self.emissivity * STEFAN_BOLTZMANN * fourth,
+            vapour: -self.evaporation.map_or(0.0, |e| e.heat(t)),
+        }
+    }
+
+    /// Slope of the sum of [`Electrode::heat`] with temperature \[W/(m2 K)\], never positive.
+    #[must_use]
+    pub fn slope(&self, current: f64, t: f64) -> f64 {
+        let step = 1e-4 * t;
+        let (low, high) = (
+            self.heat(current, t - step).sum(),
+            self.heat(current, t + step).sum(),
+        );
+        ((high - low) / (2.0 * step)).min(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cathode() -> Electrode {
+        Electrode {
+            name: "base".into(),
+            role: Role::Cathode {
+                work_function: 3.85,
+                ionisation_voltage: 15.68,
+                richardson: 1.2e6,
+            },
+            emissivity: 0.4,
+            surroundings: 300.0,
+            evaporation: None,
+            absorbs: true,
+        }
+    }
+
+    #[test]
+    fn a_cold_cathode_lives_on_ions_and_a_hot_one_on_electrons() {
+        let e = cathode();
+        let cold = e.heat(1e7, 300.0);
+        assert!((cold.ion - 1e7 * 15.68).abs() < 1e-3);
+        assert!(cold.electron.abs() < 1e-12 && cold.emission.abs() < 1e-12);
+        let hot = e.heat(1e7, 5000.0);
+        assert!(hot.ion.abs() < 1e-9);
+        assert!((hot.electron + 1e7 * 3.85).abs() < 1e-3);
+    }
+
+    #[test]
+    fn richardson_and_dushman_at_2000_k() {
+        // 1.2e6 * 4e6 * exp(-3.85 * 11604.518 / 2000), worked out by hand.
+        let want = 4.8e12 * (-22.338_697_4_f64).exp();
+        assert!((cathode().emitted(1e9, 2000.0) - want).abs() < 1e-6 * want);
+    }
+
+    #[test]
+    fn an_anode_gains_its_work_function() {
+        let e = Electrode {
+            role: Role::Anode {
+                work_function: 4.65,
+            },
+            ..cathode()
+        };
+        assert!((e.heat(2e7, 300.0).sum() - 9.3e7).abs() < 1e-3);
+    }
+
+    #[test]
+    fn iron_evaporates_as_hertz_and_knudsen_say() {
+        let iron = Evaporation {
+            boiling: 3100.0,
+            latent_heat: 6.1e6,
+            molar_mass: 0.055_845,
+        };
+        // At the boiling point: L p0 sqrt(M / (2 pi R T)).
+        let want = 6.1e6
+            * 101_325.0
+            * (0.055_845 / (std::f64::consts::TAU * 8.314_462_618 * 3100.0)).sqrt();
+        assert!((iron.heat(3100.0) - want).abs() < 1e-9 * want);
+        assert!(iron.heat(2000.0) < 1e-3 * want);
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_heat() {
+        let e = cathode();
+        let t = 2600.0;
+        let fine = (e.heat(1e7, t + 0.01).sum() - e.heat(1e7, t - 0.01).sum()) / 0.02;
+        assert!((e.slope(1e7, t) - fine).abs() < 1e-4 * fine.abs());
+    }
+}

@@ -1,0 +1,187 @@
+//! Heat into every cell, and the parts that it is made of (Komen 2019, eq. 5.8).
+
+use crate::case::{Case, HeatCase};
+use crate::fields::potential::Potential;
+use crate::heat::{Contact, FaceIndex, SurfaceHeat, Surfaces, radiation};
+use crate::properties::Properties;
+
+/// Heat of one contact \[W/m2\].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactHeat {
+    /// Current density \[A/m2\].
+    pub current: f64,
+    /// Emitted electrons \[A/m2\].
+    pub emitted: f64,
+    /// Electrons, ions, surface radiation, vapour.
+    pub parts: SurfaceHeat,
+    /// Radiation of the arc taken up.
+    pub absorbed: f64,
+}
+
+/// The heat sources of one iteration.
+#[derive(Debug, Clone, Default)]
+pub struct Sources {
+    /// Radiation of each cell \[W\], empty where the gas does not shine.
+    pub emission: Vec<f64>,
+    /// Heat of each contact.
+    pub contacts: Vec<ContactHeat>,
+    /// Radiation taken up by each contact \[W/m2\]; renewed now and then.
+    absorbed: Vec<f64>,
+    /// Heat carried away by the moving plate \[W\].
+    pub plate: f64,
+    /// Given sources \[W\].
+    pub given: f64,
+    given_size: f64,
+    /// Joule heat \[W\].
+    pub joule: f64,
+}
+
+/// What the sources read.
+#[derive(Debug, Clone, Copy)]
+pub struct Reads<'a> {
+    /// The problem.
+    pub case: &'a Case,
+    /// The heat's setup.
+    pub heat: &'a HeatCase,
+    /// Properties.
+    pub properties: &'a Properties,
+    /// Currents, where there are any.
+    pub potential: Option<&'a Potential>,
+    /// Temperature \[K\].
+    pub temperature: &'a [f64],
+}
+
+/// Current density through a contact \[A/m2\].
+fn current(potential: &Potential, contact: &Contact) -> f64 {
+    let current = match contact.face {
+        FaceIndex::Radial(face) => potential.radial[face],
+        FaceIndex::Axial(face) => potential.axial[face],
+    };
+    current.abs() / contact.area
+}
+
+impl Sources {
+    /// Works out all sources and writes value and slope of each cell to `out`; `view` renews how
+    /// the surfaces see the radiation.
+    pub fn update(&mut self, reads: Reads<'_>, view: bool, out: &mut [[f64; 2]]) {
+        out.fill([0.0; 2]);
+        self.joule = 0.0;
+        if let Some(potential) = reads.potential {
+            for (cell, joule) in out.iter_mut().zip(&potential.joule) {
+                cell[0] += joule;
+            }
+            self.joule = potential.joule.iter().sum();
+        }
+        self.given = 0.0;
+        if let Some(given) = &reads.heat.source {
+            for (cell, value) in out.iter_mut().zip(given) {
+                cell[0] += value;
+            }
+            self.given = given.iter().sum();
+            self.given_size = given.iter().map(|g| g.abs()).sum();
+        }
+        self.shine(reads, out);
+        if let Some(surfaces) = &reads.heat.surfaces {
+            self.surfaces(reads, surfaces, view, out);
+        }
+        self.carry_away(reads, out);
+    }
+
+    /// Radiation that each contact takes up \[W/m2\].
+    #[must_use]
+    pub fn absorbed(&self) -> &[f64] {
+        &self.absorbed
+    }
+
+    /// Takes up what each contact took up before.
+    pub fn restore(&mut self, absorbed: Vec<f64>) {
+        self.absorbed = absorbed;
+    }
+
+    /// Sum of the amounts \[W\], for scale.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let shine: f64 = self.emission.iter().map(|e| e.abs()).sum();
+        self.joule + self.given_size + shine
+    }
+
+    fn shine(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
+        let (case, emission) = (reads.case, &reads.properties.emission);
+        self.emission.resize(emission.len(), 0.0);
+        for (k, value) in emission.iter().enumerate() {
+            let (i, j) = (k % case.grid.nr, k / case.grid.nr);
+            let volume = case.grid.volume(i, j);
+            self.emission[k] = value * volume;
+            let Some(law) = case.of(k).net_emission.as_ref().filter(|_| *value > 0.0) else {
+                continue;
+            };
+            let (r, z, t) = (case.grid.rc[i], case.grid.zc[j], reads.temperature[k]);
+            let slope = (law.at(r, z, 1.001 * t) - value) / (0.001 * t);
+            out[k][0] -= value * volume;
+            out[k][1] -= slope.max(0.0) * volume;
+        }
+    }
+
+    fn surfaces(
+        &mut self,
+        reads: Reads<'_>,
+        surfaces: &Surfaces,
+        view: bool,
+        out: &mut [[f64; 2]],
+    ) {
+        let count = surfaces.contacts.len();
+        self.contacts.resize(count, ContactHeat::default());
+        self.absorbed.resize(count, 0.0);
+        if view {
+            self.view(reads, surfaces);
+        }
+        for (n, contact) in surfaces.contacts.iter().enumerate() {
+            let electrode = &surfaces.electrodes[contact.electrode];
+            let current = reads.potential.map_or(0.0, |p| current(p, contact));
+            let t = reads.temperature[contact.metal];
+            let parts = electrode.heat(current, t);
+            let emitted = electrode.emitted(current, t);
+            self.contacts[n] = ContactHeat {
+                current,
+                emitted,
+                parts,
+                absorbed: self.absorbed[n],
+            };
+            let cell = &mut out[contact.metal];
+            cell[0] += contact.area * (parts.sum() + self.absorbed[n]);
+            cell[1] += contact.area * electrode.slope(current, t);
+        }
+    }
+
+    fn view(&mut self, reads: Reads<'_>, surfaces: &Surfaces) {
+        let Some(part) = surfaces.absorbed.filter(|_| !self.emission.is_empty()) else {
+            return;
+        };
+        let absorbs = |c: &Contact| surfaces.electrodes[c.electrode].absorbs;
+        let chosen: Vec<usize> = (0..surfaces.contacts.len())
+            .filter(|n| absorbs(&surfaces.contacts[*n]))
+            .collect();
+        let contacts: Vec<&Contact> = chosen.iter().map(|n| &surfaces.contacts[*n]).collect();
+        let flux = radiation::absorbed(&reads.case.grid, &contacts, &self.emission, part);
+        for (n, value) in chosen.into_iter().zip(flux) {
+            self.absorbed[n] = value;
+        }
+    }
+
+    fn carry_away(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
+        self.plate = 0.0;
+        let Some(plate) = reads.heat.plate else {
+            return;
+        };
+        let case = reads.case;
+        for (k, cell) in out.iter_mut().enumerate() {
+            if case.material[k] == plate.material {
+                let (i, j) = (k % case.grid.nr, k / case.grid.nr);
+                let (loss, slope) = plate.loss(case, i, j, reads.temperature);
+                cell[0] -= loss;
+                cell[1] -= slope;
+                self.plate += loss;
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Material laws: what a cell's density, viscosity, conductivities and enthalpy are.
+
+use std::fmt;
+use std::sync::Arc;
+
+use props::{Integral, Table};
+
+/// Temperature at which every enthalpy is zero \[K\].
+pub const REFERENCE_K: f64 = 300.0;
+
+/// A law in radius \[m\], height \[m\] and temperature \[K\].
+pub type Formula = Arc<dyn Fn(f64, f64, f64) -> f64 + Send + Sync>;
+
+/// One property of a material.
+#[derive(Clone)]
+pub enum Law {
+    /// The same everywhere.
+    Constant(f64),
+    /// Against temperature, held beyond the ends.
+    Table(Table),
+    /// A formula in r, z and T.
+    Formula(Formula),
+}
+
+impl fmt::Debug for Law {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant(value) => write!(f, "Constant({value})"),
+            Self::Table(table) => write!(f, "Table({} nodes)", table.nodes().len()),
+            Self::Formula(_) => write!(f, "Formula"),
+        }
+    }
+}
+
+impl Law {
+    /// The value at radius `r`, height `z`, temperature `t`.
+    #[must_use]
+    #[inline]
+    pub fn at(&self, r: f64, z: f64, t: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Table(table) => table.held(t),
+            Self::Formula(formula) => formula(r, z, t),
+        }
+    }
+
+    /// A law from a formula.
+    pub fn formula(f: impl Fn(f64, f64, f64) -> f64 + Send + Sync + 'static) -> Self {
+        Self::Formula(Arc::new(f))
+    }
+}
+
+/// Enthalpy against temperature, zero at 300 K.
+#[derive(Debug, Clone)]
+pub enum Enthalpy {
+    /// Constant specific heat \[J/(kg K)\].
+    Linear(f64),
+    /// The integral of a table, and its value at 300 K.
+    Integral(Integral, f64),
+}
+
+impl Enthalpy {
+    /// From a specific heat that is a table; `melting` adds a latent heat as a triangle of the
+    /// specific heat around the melting point.
+    ///
+    /// # Errors
+    /// When the table is not positive.
+    pub fn new(specific_heat: &Table, melting: Option<Melting>) -> Result<Self, props::Error> {
+        let table = match melting {
+            Some(m) => m.add_to(specific_heat)?,
+            None => specific_heat.clone(),
+        };
+        let integral = Integral::new(&table)?;
+        let zero = integral.value(REFERENCE_K);
+        Ok(Self::Integral(integral, zero))
+    }
+
+    /// Enthalpy at `t` \[J/kg\].
+    #[must_use]
+    #[inline]
+    pub fn at(&self, t: f64) -> f64 {
+        match self {
+            Self::Linear(cp) => cp * (t - REFERENCE_K),
+            Self::Integral(integral, zero) => integral.value(t) - zero,
+        }
+    }
+
+    /// Specific heat at `t` \[J/(kg K)\].
+    #[must_use]
+    #[inline]
+    pub fn slope(&self, t: f64) -> f64 {
+        match self {
+            Self::Linear(cp) => *cp,
+            Self::Integral(integral, _) => integral.slope(t),
+        }
+    }
+
+    /// Temperature at enthalpy `h` \[K\].
+    #[must_use]
+    #[inline]
+    pub fn temperature(&self, h: f64) -> f64 {
+        match self {
+            Self::Linear(cp) => REFERENCE_K + h / cp,
+            Self::Integral(integral, zero) => integral.inverse(h + zero),
+        }
+    }
+}
+
+/// A latent heat spread over a range of temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Melting {
+    /// Middle of the range \[K\].
+    pub point: f64,
+    /// Half of the range \[K\].
+    pub half_range: f64,
+    /// Latent heat \[J/kg\].
+    pub latent_heat: f64,
+}
+
+impl Melting {
+    fn add_to(&self, table: &Table) -> Result<Table, props::Error> {
+        let (low, high) = (self.point - self.half_range, self.point + self.half_range);
+        let mut nodes: Vec<f64> = table.nodes().to_vec();
+        nodes.extend([low, self.point, high]);
+        nodes.sort_by(f64::total_cmp);
+        nodes.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        let peak = self.latent_heat / self.half_range;
+        let rise = |t: f64| peak * (1.0 - (t - self.point).abs() / self.half_range).max(0.0);
+        let values = nodes.iter().map(|t| table.held(*t) + rise(*t)).collect();
+        Table::new(nodes, values)
+    }
+}
+
+/// What fills a cell. Absent laws belong to fields that the scene does not solve.
+#[derive(Debug, Clone, Default)]
+pub struct Material {
+    /// Name, for messages.
+    pub name: String,
+    /// Density \[kg/m3\].
+    pub density: Option<Law>,
+    /// Dynamic viscosity \[Pa s\]; a gas only.
+    pub viscosity: Option<Law>,
+    /// Thermal conductivity \[W/(m K)\].
+    pub thermal_conductivity: Option<Law>,
+    /// Electric conductivity \[S/m\].
+    pub electric_conductivity: Option<Law>,
+    /// Net emission, a loss of volume \[W/m3\]; a gas only.
+    pub net_emission: Option<Law>,
+    /// Enthalpy \[J/kg\].
+    pub enthalpy: Option<Enthalpy>,
+    /// Melting; its latent heat is part of the enthalpy.
+    pub melting: Option<Melting>,
+    /// End of the tables \[K\], if they end.
+    pub end_k: Option<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn latent_heat_adds_exactly_once() {
+        let cp = Table::new(vec![300.0, 3000.0], vec![600.0, 600.0]).unwrap();
+        let melting = Melting {
+            point: 1750.0,
+            half_range: 25.0,
+            latent_heat: 250e3,
+        };
+        let h = Enthalpy::new(&cp, Some(melting)).unwrap();
+        assert!((h.at(1700.0) - 600.0 * 1400.0).abs() < 1e-6);
+        assert!((h.at(2000.0) - (600.0 * 1700.0 + 250e3)).abs() < 1e-6);
+        for t in [310.0, 1749.0, 1751.0, 2500.0, 3500.0] {
+            assert!((h.temperature(h.at(t)) - t).abs() < 1e-8, "{t}");
+        }
+    }
+
+    #[test]
+    fn enthalpy_is_zero_at_the_reference() {
+        let cp = Table::new(vec![200.0, 900.0], vec![500.0, 900.0]).unwrap();
+        let h = Enthalpy::new(&cp, None).unwrap();
+        assert!(h.at(REFERENCE_K).abs() < 1e-9);
+        assert!(h.at(250.0) < 0.0);
+        assert!((Enthalpy::Linear(1000.0).temperature(2e5) - 500.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,37 @@
+//! What `arcfvm check` tells before anything runs.
+
+use run::Plan;
+
+use crate::case::{Case, GAS};
+use crate::scene::Scene;
+
+/// Columns of 8 bytes per cell: state, equation, solver and its hierarchy, measured by count.
+const COLUMNS_CURRENT: usize = 30;
+const COLUMNS_FLOW: usize = 60;
+const COLUMNS_HEAT: usize = 32;
+
+/// The plan of an assembled scene.
+#[must_use]
+pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
+    let n = case.grid.len();
+    let gas = case.material.iter().filter(|m| **m == GAS).count();
+    let bytes = |columns: usize| (8 * columns * n) as u64;
+    let mut plan = Plan::new()
+        .count("cells", n as u64)
+        .count("radial_cells", case.grid.nr as u64)
+        .count("axial_cells", case.grid.nz as u64)
+        .count("gas_cells", gas as u64);
+    let parts = [
+        ("current", scene.current.is_some(), COLUMNS_CURRENT),
+        ("flow", scene.flow.is_some(), COLUMNS_FLOW),
+        ("heat", scene.heat.is_some(), COLUMNS_HEAT),
+    ];
+    for (name, active, columns) in parts {
+        plan = if active {
+            plan.stage(name).memory(name, bytes(columns))
+        } else {
+            plan.left_out(name, &format!("no key '{name}'"))
+        };
+    }
+    plan
+}

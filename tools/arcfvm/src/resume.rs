@@ -1,0 +1,61 @@
+//! What a checkpoint holds: everything that the next iteration reads.
+
+use artefact::Checkpoint;
+
+use crate::solver::Arc;
+
+/// Puts the state into a checkpoint.
+///
+/// # Errors
+/// When a value cannot be stored.
+pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
+    c.put_json("iteration", &arc.iteration)?;
+    c.put_f64("feed", &[arc.feed]);
+    if let Some(electric) = &arc.electric {
+        c.put_f64("potential", &electric.potential.value);
+        c.put_f64("drive", &[electric.potential.drive]);
+    }
+    if let Some(flowing) = &arc.flowing {
+        let flow = &flowing.flow;
+        c.put_f64("velocity_radial", &flow.radial);
+        c.put_f64("velocity_axial", &flow.axial);
+        c.put_f64("pressure", &flow.pressure);
+        c.put_f64("mass_radial", &flow.mass_radial);
+        c.put_f64("mass_axial", &flow.mass_axial);
+    }
+    if let Some(heating) = &arc.heating {
+        c.put_f64("temperature", &heating.energy.temperature);
+        c.put_f64("absorbed", heating.sources.absorbed());
+    }
+    Ok(())
+}
+
+/// Takes the state out of a checkpoint.
+///
+/// # Errors
+/// When a column is missing or damaged.
+pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
+    arc.iteration = c.json("iteration")?;
+    arc.feed = one(c, "feed")?;
+    if let Some(electric) = &mut arc.electric {
+        electric.potential.value = c.f64("potential")?;
+        electric.potential.drive = one(c, "drive")?;
+    }
+    if let Some(flowing) = &mut arc.flowing {
+        let flow = &mut flowing.flow;
+        flow.radial = c.f64("velocity_radial")?;
+        flow.axial = c.f64("velocity_axial")?;
+        flow.pressure = c.f64("pressure")?;
+        flow.mass_radial = c.f64("mass_radial")?;
+        flow.mass_axial = c.f64("mass_axial")?;
+    }
+    if let Some(heating) = &mut arc.heating {
+        heating.energy.temperature = c.f64("temperature")?;
+        heating.sources.restore(c.f64("absorbed")?);
+    }
+    Ok(())
+}
+
+fn one(c: &mut Checkpoint, name: &str) -> artefact::Result<f64> {
+    Ok(c.f64(name)?.first().copied().unwrap_or_default())
+}

@@ -1,0 +1,69 @@
+//! How the equations are iterated.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The outer iteration.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Iterate {
+    /// Most iterations.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub most: usize,
+    /// Every residual is below this part of its scale at the end: force, mass flow, power, current.
+    #[schemars(range(min = 1e-14, max = 0.1))]
+    pub tolerance: f64,
+    /// Under-relaxation of the velocities.
+    #[schemars(range(min = 0.01, max = 0.99))]
+    pub velocity_relaxation: f64,
+    /// Under-relaxation of the pressure.
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub pressure_relaxation: f64,
+    /// Under-relaxation of the temperature.
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub temperature_relaxation: f64,
+    /// Largest change of a temperature in one iteration.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub temperature_step_k: f64,
+    /// Coupling of velocity and pressure.
+    pub coupling: Coupling,
+    /// Solver of the equation of each field.
+    pub solver: LinearSolver,
+}
+
+impl Default for Iterate {
+    fn default() -> Self {
+        Self {
+            most: 5000,
+            tolerance: 1e-6,
+            velocity_relaxation: 0.9,
+            pressure_relaxation: 1.0,
+            temperature_relaxation: 0.99,
+            temperature_step_k: 2000.0,
+            coupling: Coupling::Simplec,
+            solver: LinearSolver::Incomplete,
+        }
+    }
+}
+
+/// How velocity corrections follow the pressure correction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Coupling {
+    /// Komen (2019), eqs 3.74, 3.76.
+    Simple,
+    /// Van Doormaal and Raithby (1984).
+    Simplec,
+}
+
+/// Solver of the equation of each field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LinearSolver {
+    /// Red-black successive over-relaxation (Komen 2019, eqs 3.62, 3.63).
+    Sor,
+    /// Krylov methods preconditioned by incomplete factors.
+    Incomplete,
+    /// Krylov methods preconditioned by a multigrid cycle.
+    Multigrid,
+}

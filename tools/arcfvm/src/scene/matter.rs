@@ -1,0 +1,206 @@
+//! The gas and the bodies.
+
+use run::property::{Property, TemperatureTable};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The gas: a table named on the command line, or properties given here.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Gas {
+    /// The gas table of the input `gas`.
+    Table(GasTable),
+    /// Properties given here.
+    Given(Box<GivenGas>),
+}
+
+/// How the gas table is used.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GasTable {
+    /// What a converged temperature above the end of the table means.
+    #[serde(default)]
+    pub beyond_table: BeyondTable,
+}
+
+/// What a temperature above the end of the gas table means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BeyondTable {
+    /// The run fails.
+    #[default]
+    Error,
+    /// The values at the end are kept.
+    Hold,
+}
+
+/// Properties of the gas in r, z (m), T (K); those of physics that is absent may be absent.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GivenGas {
+    /// Density.
+    pub density_kg_m3: Option<Property>,
+    /// Dynamic viscosity.
+    pub viscosity_pa_s: Option<Property>,
+    /// Specific heat.
+    pub specific_heat_j_kg_k: Option<SpecificHeat>,
+    /// Thermal conductivity.
+    pub thermal_conductivity_w_m_k: Option<Property>,
+    /// Electric conductivity.
+    pub electric_conductivity_s_m: Option<Property>,
+    /// Radiation that leaves a volume.
+    pub net_emission_w_m3: Option<Property>,
+}
+
+/// A specific heat: a number, or a table over temperature held at its ends.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum SpecificHeat {
+    /// The same everywhere \[J/(kg K)\].
+    Constant(#[schemars(extend("exclusiveMinimum" = 0.0))] f64),
+    /// Over temperature.
+    Table(TemperatureTable),
+}
+
+/// A body.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Where it is.
+    pub shape: Shape,
+    /// What it is made of.
+    pub material: Metal,
+    /// Electrode that takes up electrons.
+    pub anode: Option<Anode>,
+    /// Electrode that emits electrons.
+    pub cathode: Option<Cathode>,
+    /// Fed down along the axis, as a wire; one body at most.
+    pub feed: Option<Feed>,
+    /// A plate moving past the arc; one body at most.
+    pub moving: Option<Moving>,
+}
+
+/// Where a body is.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// Between two radii and two heights.
+    Ring(Ring),
+}
+
+/// Between two radii and two heights.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ring {
+    /// Inner and outer radius; an inner radius of 0 makes a cylinder.
+    #[schemars(extend("x-unit" = "m"))]
+    pub r_m: [f64; 2],
+    /// Lower and upper height.
+    #[schemars(extend("x-unit" = "m"))]
+    pub z_m: [f64; 2],
+}
+
+/// Properties of a body in r, z (m), T (K); those of physics that is absent may be absent.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Metal {
+    /// Density.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub density_kg_m3: Option<f64>,
+    /// Specific heat.
+    pub specific_heat_j_kg_k: Option<SpecificHeat>,
+    /// Thermal conductivity.
+    pub thermal_conductivity_w_m_k: Option<Property>,
+    /// Electric conductivity.
+    pub electric_conductivity_s_m: Option<Property>,
+    /// Melting.
+    pub melting: Option<Melting>,
+}
+
+/// Latent heat spread over a range of temperature.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Melting {
+    /// Middle of the range.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub point_k: f64,
+    /// Half of the range.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub half_range_k: f64,
+    /// Latent heat.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub latent_heat_j_kg: f64,
+}
+
+/// Electrode that takes up electrons (Komen 2019, eq. 5.16).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Anode {
+    /// Work function.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub work_function_v: f64,
+    /// Emissivity.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub emissivity: f64,
+    /// Evaporation; absent: none.
+    pub evaporation: Option<Evaporation>,
+}
+
+/// Electrode that emits electrons (Komen 2019, eqs 5.19 to 5.21).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cathode {
+    /// Work function.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub work_function_v: f64,
+    /// Ionisation voltage of the gas.
+    #[schemars(range(min = 0.0, max = 30.0))]
+    pub ionisation_voltage_v: f64,
+    /// Richardson constant.
+    #[schemars(range(min = 0.0))]
+    pub richardson_a_m2_k2: f64,
+    /// Emissivity.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub emissivity: f64,
+    /// Evaporation; absent: none.
+    pub evaporation: Option<Evaporation>,
+}
+
+/// Vapour leaving a surface (Komen 2019, eq. 5.24).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Evaporation {
+    /// Boiling point at 1 atm.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub boiling_k: f64,
+    /// Latent heat.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub latent_heat_j_kg: f64,
+    /// Molar mass.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub molar_mass_kg_mol: f64,
+}
+
+/// How a wire is fed: exactly one of both.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Feed {
+    /// Given speed.
+    #[schemars(range(min = 0.0))]
+    pub speed_m_s: Option<f64>,
+    /// As fast as it melts into drops of this temperature (Komen 2019, eq. 5.27).
+    #[schemars(extend("exclusiveMinimum" = 300.0))]
+    pub drop_temperature_k: Option<f64>,
+}
+
+/// A plate moving past the arc (Komen 2019, eq. 5.22).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Moving {
+    /// Welding speed.
+    #[schemars(range(min = 0.0))]
+    pub speed_m_s: f64,
+    /// Distance ahead at which the plate is compared.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub ahead_m: f64,
+}

@@ -1,0 +1,75 @@
+//! Solvers and relaxation, from the scene.
+
+use relax::{Krylov, Sor};
+
+use crate::fields::pressure::{self, Relaxation};
+use crate::fields::{Method, Solver};
+use crate::scene::{Coupling, Iterate, LinearSolver};
+
+/// Solvers and relaxation of every field.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Solver of the potential.
+    pub potential: Solver,
+    /// Solver of each momentum equation.
+    pub momentum: Solver,
+    /// Solver of the pressure correction.
+    pub pressure: Solver,
+    /// Solver of the energy.
+    pub energy: Solver,
+    /// Relaxation of the flow.
+    pub flow: Relaxation,
+    /// Relaxation of the temperature.
+    pub heat_relaxation: f64,
+    /// Largest change of a temperature in one iteration \[K\].
+    pub heat_step: f64,
+    /// Whether what surfaces see is renewed in every iteration.
+    pub view_always: bool,
+}
+
+impl From<&Iterate> for Settings {
+    fn from(scene: &Iterate) -> Self {
+        let rule = |reduction, iterations| Krylov {
+            reduction,
+            floor: 0.0,
+            iterations,
+        };
+        let sor = |relaxation, sweeps, reduction| {
+            Method::Sor(Sor {
+                relaxation,
+                sweeps,
+                reduction,
+            })
+        };
+        let (potential, pressure, energy) = match scene.solver {
+            LinearSolver::Incomplete => (
+                Method::Incomplete(rule(1e-2, 300)),
+                Method::Incomplete(rule(1e-2, 100)),
+                Method::Incomplete(rule(1e-3, 50)),
+            ),
+            LinearSolver::Multigrid => (
+                Method::Multigrid(rule(1e-3, 60)),
+                Method::Multigrid(rule(1e-2, 30)),
+                Method::Multigrid(rule(1e-2, 20)),
+            ),
+            LinearSolver::Sor => (sor(1.8, 200, 1e-2), sor(1.7, 100, 3e-2), sor(1.0, 60, 1e-2)),
+        };
+        Self {
+            potential: Solver::new(potential, true),
+            momentum: Solver::new(sor(1.0, 4, 1e-3), false),
+            pressure: Solver::new(pressure, true),
+            energy: Solver::new(energy, false),
+            flow: Relaxation {
+                velocity: scene.velocity_relaxation,
+                pressure: scene.pressure_relaxation,
+                coupling: match scene.coupling {
+                    Coupling::Simple => pressure::Coupling::Simple,
+                    Coupling::Simplec => pressure::Coupling::Simplec,
+                },
+            },
+            heat_relaxation: scene.temperature_relaxation,
+            heat_step: scene.temperature_step_k,
+            view_always: false,
+        }
+    }
+}

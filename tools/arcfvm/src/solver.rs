@@ -1,0 +1,399 @@
+//! The algorithm (Komen 2019, figs 3.10 and 5.2).
+
+use crate::case::{Case, FlowCase, GAS, HeatCase, PotentialCase};
+use crate::error::Error;
+use crate::fields::energy::{Energy, Step};
+use crate::fields::flow::Flow;
+use crate::fields::magnetic::Magnetic;
+use crate::fields::potential::Potential;
+use crate::fields::pressure::{FlowProperties, FlowResidual, FlowSolver};
+use crate::heat::balance::Balance;
+use crate::heat::sources::{Reads, Sources};
+use crate::properties::Properties;
+use crate::residual::{Residuals, part};
+use crate::settings::Settings;
+
+/// Iterations between two looks at which surface sees which gas shine.
+const VIEW_EVERY: usize = 20;
+/// Relaxation of the speed of the wire.
+const FEED_RELAXATION: f64 = 0.1;
+/// Temperature that no arc reaches \[K\].
+const ABSURD_K: f64 = 1e5;
+/// Speed that no gas here reaches \[m/s\].
+const ABSURD_M_S: f64 = 1e5;
+
+/// Tells how long the parts of an iteration take.
+pub trait Stopwatch {
+    /// Does `work` and books its time under `name`.
+    fn timed<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R;
+}
+
+/// No clock.
+impl Stopwatch for () {
+    fn timed<R>(&mut self, _name: &'static str, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+}
+
+/// Currents and their field.
+#[derive(Debug, Clone)]
+pub struct Electric {
+    pub(crate) setup: PotentialCase,
+    /// Potential and currents.
+    pub potential: Potential,
+    /// Magnetic field and Lorentz force.
+    pub magnetic: Magnetic,
+}
+
+/// The flow and its solver.
+#[derive(Debug, Clone)]
+pub struct Flowing {
+    setup: FlowCase,
+    /// Velocities and pressure.
+    pub flow: Flow,
+    solver: FlowSolver,
+}
+
+/// Temperatures and heat sources.
+#[derive(Debug, Clone)]
+pub struct Heating {
+    pub(crate) setup: HeatCase,
+    /// Temperatures.
+    pub energy: Energy,
+    /// Sources of the last iteration.
+    pub sources: Sources,
+}
+
+/// The arc: every solved field, iterated to a steady state.
+#[derive(Debug, Clone)]
+pub struct Arc {
+    /// The problem.
+    pub case: Case,
+    settings: Settings,
+    /// Iterations done.
+    pub iteration: usize,
+    /// Properties of every cell.
+    pub properties: Properties,
+    /// Currents, where solved.
+    pub electric: Option<Electric>,
+    /// Flow, where solved.
+    pub flowing: Option<Flowing>,
+    /// Heat, where solved.
+    pub heating: Option<Heating>,
+    /// Speed of the wire \[m/s\].
+    pub feed: f64,
+}
+
+impl Arc {
+    /// Memory for what `case` solves.
+    #[must_use]
+    pub fn new(case: Case, settings: Settings) -> Self {
+        let grid = &case.grid;
+        let electric = case.potential.clone().map(|setup| Electric {
+            setup,
+            potential: Potential::new(grid, settings.potential.clone()),
+            magnetic: Magnetic::new(grid),
+        });
+        let flowing = case.flow.clone().map(|setup| {
+            let [momentum, pressure] = [settings.momentum.clone(), settings.pressure.clone()];
+            let solver = FlowSolver::new(grid, settings.flow, momentum, pressure);
+            Flowing {
+                flow: Flow::new(&case, &setup),
+                setup,
+                solver,
+            }
+        });
+        let heating = case.heat.clone().map(|setup| Heating {
+            setup,
+            energy: Energy::new(&case, settings.energy.clone()),
+            sources: Sources::default(),
+        });
+        let properties = Properties::new(&case);
+        let mut arc = Self {
+            case,
+            settings,
+            iteration: 0,
+            properties,
+            electric,
+            flowing,
+            heating,
+            feed: 0.0,
+        };
+        arc.feed = arc.first_feed();
+        arc
+    }
+
+    /// Temperatures: solved, or those of the start \[K\].
+    #[must_use]
+    pub fn temperature(&self) -> &[f64] {
+        self.heating
+            .as_ref()
+            .map_or(&self.case.start, |h| &h.energy.temperature)
+    }
+
+    /// One iteration: properties, current and field, momentum and pressure, heat.
+    ///
+    /// # Errors
+    /// When a field diverges; names the equation and the place.
+    pub fn iterate(&mut self, clock: &mut impl Stopwatch) -> Result<Residuals, Error> {
+        self.iteration += 1;
+        let mut residuals = Residuals::default();
+        clock.timed("properties", || self.take_properties());
+        if self.electric.is_some() {
+            residuals.charge = Some(clock.timed("current", || self.solve_current())?);
+        }
+        if self.flowing.is_some() {
+            let found = clock.timed("flow", || self.solve_flow())?;
+            (residuals.force, residuals.mass) = (Some(found[0]), Some(found[1]));
+        }
+        if self.heating.is_some() {
+            clock.timed("heat sources", || self.take_sources());
+            let (heat, limited) = clock.timed("heat", || self.solve_heat())?;
+            (residuals.heat, residuals.limited) = (Some(heat), limited);
+        }
+        if let Some(feed) = self.next_feed() {
+            residuals.feed = Some((feed / self.feed - 1.0).abs());
+            self.feed += FEED_RELAXATION * (feed - self.feed);
+        }
+        Ok(residuals)
+    }
+
+    /// Brings properties, conductances and sources to the last temperatures, so that what is
+    /// written belongs together; returns the balance.
+    pub fn settle(&mut self) -> Option<Balance> {
+        self.take_properties();
+        self.take_sources();
+        let heating = self.heating.as_ref()?;
+        let Heating {
+            setup,
+            energy,
+            sources,
+        } = heating;
+        let mut balance = Balance::new(
+            &self.case,
+            setup,
+            energy,
+            &self.properties,
+            sources,
+            self.feed,
+        );
+        if let (Some(electric), Some(surfaces)) = (&self.electric, &setup.surfaces) {
+            let joule = &electric.potential.joule;
+            for (n, one) in balance.electrodes.iter_mut().enumerate() {
+                let contact = surfaces.contacts.iter().find(|c| c.electrode == n);
+                let material = contact.map(|c| self.case.material[c.metal]);
+                let own = joule.iter().zip(&self.case.material);
+                one.joule = own
+                    .filter(|(_, m)| Some(**m) == material)
+                    .map(|(j, _)| j)
+                    .sum();
+            }
+        }
+        Some(balance)
+    }
+
+    fn take_properties(&mut self) {
+        let Self {
+            case,
+            properties,
+            heating,
+            ..
+        } = self;
+        let temperature = heating
+            .as_ref()
+            .map_or(&case.start, |h| &h.energy.temperature);
+        properties.update(case, temperature);
+    }
+
+    fn solve_current(&mut self) -> Result<f64, Error> {
+        let Self {
+            case,
+            properties,
+            electric,
+            iteration,
+            ..
+        } = self;
+        let Some(Electric {
+            setup,
+            potential,
+            magnetic,
+        }) = electric
+        else {
+            return Ok(0.0);
+        };
+        let outcome = potential
+            .solve(case, setup, &properties.electric)
+            .map_err(|e| Error::solver("potential", *iteration, case, &e))?;
+        magnetic.update(&case.grid, potential);
+        Ok(part(outcome.first, potential.throughput(&case.grid)))
+    }
+
+    fn solve_flow(&mut self) -> Result<[f64; 2], Error> {
+        let Self {
+            case,
+            properties,
+            electric,
+            flowing,
+            iteration,
+            ..
+        } = self;
+        let Some(Flowing {
+            setup,
+            flow,
+            solver,
+        }) = flowing
+        else {
+            return Ok([0.0; 2]);
+        };
+        let magnetic = electric.as_ref().map(|e| &e.magnetic);
+        let lorentz = magnetic.map(|m| [m.force_radial.as_slice(), m.force_axial.as_slice()]);
+        let reads = FlowProperties {
+            density: &properties.density,
+            viscosity: &properties.viscosity,
+            lorentz,
+        };
+        let found = solver
+            .pass(case, setup, flow, reads)
+            .map_err(|(name, e)| Error::solver(name, *iteration, case, &e))?;
+        check(case, "velocity", "m/s", *iteration, &flow.axial, ABSURD_M_S)?;
+        let FlowResidual {
+            radial,
+            axial,
+            inertia,
+            mass,
+            ..
+        } = found;
+        let forces = inertia + flow.forces(case, setup, lorentz);
+        let throughput = flow.throughput(case, &properties.density);
+        Ok([part(radial + axial, forces), part(mass, throughput)])
+    }
+
+    fn take_sources(&mut self) {
+        let Self {
+            case,
+            properties,
+            electric,
+            flowing,
+            heating,
+            iteration,
+            feed,
+            ..
+        } = self;
+        let Some(Heating {
+            setup,
+            energy,
+            sources,
+        }) = heating
+        else {
+            return;
+        };
+        if let Some(flowing) = flowing {
+            energy
+                .mass_radial
+                .copy_from_slice(&flowing.flow.mass_radial);
+            energy.mass_axial.copy_from_slice(&flowing.flow.mass_axial);
+        }
+        if let Some(wire) = case.wire {
+            wire.carry(case, *feed, &mut energy.mass_axial);
+        }
+        energy.conduct(case, setup.surfaces.as_ref(), properties);
+        let reads = Reads {
+            case,
+            heat: setup,
+            properties,
+            potential: electric.as_ref().map(|e| &e.potential),
+            temperature: &energy.temperature,
+        };
+        let view = *iteration % VIEW_EVERY == 1 || self.settings.view_always;
+        sources.update(reads, view, &mut energy.source);
+    }
+
+    fn solve_heat(&mut self) -> Result<(f64, usize), Error> {
+        let Self {
+            case,
+            properties,
+            heating,
+            iteration,
+            settings,
+            ..
+        } = self;
+        let Some(Heating {
+            setup,
+            energy,
+            sources,
+        }) = heating
+        else {
+            return Ok((0.0, 0));
+        };
+        let scale = sources.size() + energy.edges(case, setup, properties).size;
+        let step = Step {
+            relaxation: settings.heat_relaxation,
+            limit: settings.heat_step,
+        };
+        let found = energy
+            .solve(case, setup, properties, step)
+            .map_err(|e| Error::solver("energy", *iteration, case, &e))?;
+        check(
+            case,
+            "temperature",
+            "K",
+            *iteration,
+            &energy.temperature,
+            ABSURD_K,
+        )?;
+        if let Some(k) = energy.temperature.iter().position(|t| *t <= 0.0) {
+            let what = format!("temperature {} K", energy.temperature[k]);
+            return Err(Error::diverged("energy", *iteration, case.place(k), what));
+        }
+        Ok((part(found.heat, scale), found.limited))
+    }
+
+    /// The first gas cell above the end of the gas table, if that is an error.
+    ///
+    /// # Errors
+    /// [`Error::AboveTable`].
+    pub fn within_table(&self) -> Result<(), Error> {
+        let Some(end) = self.case.materials[GAS]
+            .end_k
+            .filter(|_| self.heating.is_some())
+        else {
+            return Ok(());
+        };
+        let cells = self.temperature().iter().enumerate();
+        match cells
+            .into_iter()
+            .find(|(k, t)| self.case.material[*k] == GAS && **t > end)
+        {
+            Some((k, t)) => Err(Error::AboveTable {
+                place: self.case.place(k),
+                found: *t,
+                end,
+                material: "gas".to_owned(),
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Stops at the first value beyond `most`.
+fn check(
+    case: &Case,
+    quantity: &'static str,
+    unit: &str,
+    iteration: usize,
+    values: &[f64],
+    most: f64,
+) -> Result<(), Error> {
+    match values.iter().position(|v| v.abs() > most) {
+        Some(k) => {
+            let what = format!("{quantity} {:.3e} {unit}", values[k]);
+            Err(Error::diverged(
+                quantity,
+                iteration,
+                case.place(k.min(case.grid.len() - 1)),
+                what,
+            ))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,218 @@
+//! The source that the pool reads: heat, current, gas and pressure against radius on the base metal.
+
+use artefact::Table;
+
+use crate::case::GAS;
+use crate::heat::balance::Balance;
+use crate::heat::sources::ContactHeat;
+use crate::heat::{Contact, Role, Surfaces};
+use crate::scene::Sample;
+use crate::solver::Arc;
+
+/// Material of the base metal: the cathode, where there is one.
+#[must_use]
+pub fn base(arc: &Arc) -> Option<usize> {
+    let row = arc.case.surface_row?;
+    Some(arc.case.material[arc.case.grid.cell(0, row - 1)])
+}
+
+fn surfaces(arc: &Arc) -> Option<(&Surfaces, &[ContactHeat])> {
+    let heating = arc.heating.as_ref()?;
+    Some((
+        arc.case.heat.as_ref()?.surfaces.as_ref()?,
+        &heating.sources.contacts,
+    ))
+}
+
+/// Heat of all ions at cathodes \[W\]; over the current it is the cathode drop (Komen 2019,
+/// eq. 5.29, with the areas that the sum needs).
+#[must_use]
+pub fn ion_power(arc: &Arc) -> f64 {
+    let Some((surfaces, found)) = surfaces(arc) else {
+        return 0.0;
+    };
+    surfaces
+        .contacts
+        .iter()
+        .zip(found)
+        .map(|(c, f)| c.area * f.parts.ion)
+        .sum()
+}
+
+/// Voltage over the wire on the axis \[V\].
+#[must_use]
+pub fn wire_drop(arc: &Arc) -> Option<f64> {
+    let (wire, electric) = (arc.case.wire?, arc.electric.as_ref()?);
+    let tip = electric.potential.value[arc.case.grid.cell(0, wire.tip)];
+    Some(electric.potential.drive - tip)
+}
+
+/// Power for scale \[W\]: that of current and ions, or all that is given and exchanged.
+#[must_use]
+pub fn power(arc: &Arc, balance: &Balance) -> f64 {
+    let electric = balance.joule + ion_power(arc);
+    if electric > 0.0 {
+        electric
+    } else {
+        balance.given.abs() + balance.edges.abs() + balance.flow.abs()
+    }
+}
+
+/// The upward contacts of the base metal's top row, by column.
+fn columns<'a>(arc: &Arc, surfaces: &'a Surfaces) -> Vec<Option<(usize, &'a Contact)>> {
+    let grid = &arc.case.grid;
+    let mut all = vec![None; grid.nr];
+    let Some(row) = arc.case.surface_row else {
+        return all;
+    };
+    for (n, contact) in surfaces.contacts.iter().enumerate() {
+        let i = contact.metal % grid.nr;
+        if contact.metal / grid.nr + 1 == row && contact.gas == grid.cell(i, row) {
+            all[i] = Some((n, contact));
+        }
+    }
+    all
+}
+
+/// The table of the surface, where there is a base metal, heat, current and flow.
+#[must_use]
+pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
+    let (surfaces, found) = surfaces(arc)?;
+    let row = arc.case.surface_row?;
+    let (heating, _) = (arc.heating.as_ref()?, arc.flowing.as_ref()?);
+    let rows: Vec<(usize, usize, &Contact)> = columns(arc, surfaces)
+        .into_iter()
+        .enumerate()
+        .filter_map(|(i, c)| c.map(|(n, c)| (i, n, c)))
+        .collect();
+    let electrode = &surfaces.electrodes[rows.first()?.2.electrode];
+    let ionisation = match electrode.role {
+        Role::Cathode {
+            ionisation_voltage, ..
+        } => ionisation_voltage,
+        Role::Anode { .. } => 0.0,
+    };
+    let per = |value: &dyn Fn(&ContactHeat) -> f64| -> Vec<f64> {
+        rows.iter().map(|(_, n, _)| value(&found[*n])).collect()
+    };
+    let convection: Vec<f64> = rows
+        .iter()
+        .map(|(_, _, c)| heating.energy.convection(c))
+        .collect();
+    let total = rows
+        .iter()
+        .zip(&convection)
+        .map(|((_, n, _), q)| q + found[*n].absorbed + found[*n].parts.sum());
+    let table = gas_columns(arc, sample, row, &rows)
+        .column(
+            "heat_flux_convection_w_m2",
+            "W/m2",
+            convection.iter().copied(),
+        )
+        .column("heat_flux_radiation_w_m2", "W/m2", per(&|f| f.absorbed))
+        .column(
+            "heat_flux_electron_w_m2",
+            "W/m2",
+            per(&|f| f.parts.electron),
+        )
+        .column("heat_flux_ion_w_m2", "W/m2", per(&|f| f.parts.ion))
+        .column(
+            "heat_flux_emission_w_m2",
+            "W/m2",
+            per(&|f| f.parts.emission),
+        )
+        .column("heat_flux_vapour_w_m2", "W/m2", per(&|f| f.parts.vapour))
+        .column("heat_flux_total_w_m2", "W/m2", total)
+        .column("current_density_a_m2", "A/m2", per(&|f| f.current))
+        .column(
+            "ion_current_density_a_m2",
+            "A/m2",
+            per(&|f| f.current - f.emitted),
+        )
+        .column("electron_current_density_a_m2", "A/m2", per(&|f| f.emitted))
+        .column("ionisation_voltage_v", "V", per(&|_| ionisation));
+    Some(table)
+}
+
+/// A column of the base metal's surface: its index, and its contact with that one's index.
+type Row<'a> = (usize, usize, &'a Contact);
+
+/// Radius, gas, pressure and temperature of the metal.
+fn gas_columns(arc: &Arc, sample: &Sample, row: usize, rows: &[Row<'_>]) -> Table {
+    let (grid, t) = (&arc.case.grid, arc.temperature());
+    let of = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        rows.iter().map(|(i, ..)| value(*i)).collect()
+    };
+    let temperature = |i: usize| gas_temperature(arc, i, row, sample.temperature_height_m);
+    let velocity = |i: usize| gas_velocity(arc, i, row, sample.velocity_height_m);
+    let pressure = |i: usize| {
+        arc.flowing
+            .as_ref()
+            .map_or(0.0, |f| f.flow.pressure[grid.cell(i, row)])
+    };
+    Table::new(rows.len())
+        .column("radius_m", "m", of(&|i| grid.rc[i]))
+        .column("gas_temperature_k", "K", of(&temperature))
+        .column("gas_radial_velocity_m_s", "m/s", of(&velocity))
+        .column("arc_pressure_pa", "Pa", of(&pressure))
+        .column(
+            "surface_temperature_k",
+            "K",
+            of(&|i| t[grid.cell(i, row - 1)]),
+        )
+        .attribute("gas_temperature_height_m", "m", sample.temperature_height_m)
+        .attribute("gas_velocity_height_m", "m", sample.velocity_height_m)
+}
+
+/// Linear between the known values `(height, value)`, held beyond the ends.
+fn between(known: &[(f64, f64)], height: f64) -> f64 {
+    let above = known.partition_point(|(z, _)| *z <= height);
+    if above == 0 {
+        return known[0].1;
+    }
+    if above == known.len() {
+        return known[above - 1].1;
+    }
+    let ((z0, v0), (z1, v1)) = (known[above - 1], known[above]);
+    v0 + (v1 - v0) * (height - z0) / (z1 - z0)
+}
+
+/// Temperature of the gas at `height` over column `i`, from that of the metal upward \[K\].
+fn gas_temperature(arc: &Arc, i: usize, row: usize, height: f64) -> f64 {
+    let (grid, t) = (&arc.case.grid, arc.temperature());
+    let surface = grid.zf[row];
+    let mut known = vec![(0.0, t[grid.cell(i, row - 1)])];
+    let gas = (row..grid.nz).take_while(|j| arc.case.material[grid.cell(i, *j)] == GAS);
+    known.extend(gas.map(|j| (grid.zc[j] - surface, t[grid.cell(i, j)])));
+    between(&known, height)
+}
+
+/// Radial velocity of the gas at `height` over column `i`, zero on the surface \[m/s\].
+fn gas_velocity(arc: &Arc, i: usize, row: usize, height: f64) -> f64 {
+    let grid = &arc.case.grid;
+    let Some(flowing) = &arc.flowing else {
+        return 0.0;
+    };
+    let at = |j: usize| {
+        let face = grid.radial_face(i, j);
+        0.5 * (flowing.flow.radial[face] + flowing.flow.radial[face + 1])
+    };
+    let surface = grid.zf[row];
+    let mut known = vec![(0.0, 0.0)];
+    let gas = (row..grid.nz).take_while(|j| arc.case.material[grid.cell(i, *j)] == GAS);
+    known.extend(gas.map(|j| (grid.zc[j] - surface, at(j))));
+    between(&known, height)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::between;
+
+    #[test]
+    fn samples_lie_on_the_line_between_their_neighbours() {
+        let known = [(0.0, 1.0), (1.0, 3.0), (3.0, -1.0)];
+        assert!((between(&known, 0.5) - 2.0).abs() < 1e-15);
+        assert!((between(&known, 2.0) - 1.0).abs() < 1e-15);
+        assert!((between(&known, 9.0) + 1.0).abs() < 1e-15);
+    }
+}
