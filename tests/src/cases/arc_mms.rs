@@ -89,7 +89,7 @@ impl Case for ArcMms {
         ];
         let mut targets = plasma::targets(&central, 5e-3, 1.9);
         for quantity in ["upwind_radial_velocity_l2", "upwind_axial_velocity_l2"] {
-            targets.push(Target::Order { quantity, min: 0.9 });
+            targets.push(Target::Order { quantity, min: 1.0 });
         }
         targets
     }
@@ -99,7 +99,8 @@ impl Case for ArcMms {
         let grid = serde_json::json!({"r": spacing, "z": spacing});
         let folder = lab.root.join("pipelines/verify").join(self.name());
         let mut upwind: Value = read_json(&folder.join("upwind.patch.json"))?;
-        upwind["grid"] = grid.clone();
+        // The upwind branch shows its order only on finer grids.
+        upwind["grid"] = serde_json::json!({"r": spacing / 4.0, "z": spacing / 4.0});
         let central = serde_json::json!({ "grid": grid });
         let run = lab.run("arcfvm", self.name(), &format!("level{level}"), &central)?;
         let fields = Plasma::read(&run)?;
