@@ -40,7 +40,7 @@ fn page(folder: &Path, inputs: &[(&str, &str)]) -> String {
 #[test]
 fn a_whole_study_has_every_section_and_its_measures_are_those_of_the_sample() {
     let folder = folder("whole");
-    sample::weld(&folder.join("pool.mcap"), 8.0, true);
+    sample::weld(&folder.join("pool.mcap"), (8.0, 5), true);
     sample::means(&folder.join("mean.mcap"));
     sample::arc(&folder.join("arc.mcap"));
     sample::targets(&folder.join("targets.json"), sample::DEEP);
@@ -80,7 +80,7 @@ fn a_whole_study_has_every_section_and_its_measures_are_those_of_the_sample() {
 #[test]
 fn what_is_absent_has_no_section() {
     let folder = folder("bare");
-    sample::weld(&folder.join("pool.mcap"), 8.0, false);
+    sample::weld(&folder.join("pool.mcap"), (8.0, 2), false);
     let html = page(&folder, &[("pool", "pool.mcap")]);
     assert!(html.contains(">The bead</h2>"));
     for heading in ["The arc", "The flow in the pool", "Against experiment"] {
@@ -92,7 +92,7 @@ fn what_is_absent_has_no_section() {
 #[test]
 fn a_young_weld_is_measured_but_not_judged() {
     let folder = folder("young");
-    sample::weld(&folder.join("pool.mcap"), 1.0, true);
+    sample::weld(&folder.join("pool.mcap"), (1.0, 2), true);
     sample::targets(&folder.join("targets.json"), sample::DEEP);
     let html = page(
         &folder,
@@ -110,7 +110,7 @@ fn a_young_weld_is_measured_but_not_judged() {
 fn validation_ends_with_one_where_a_tolerance_is_missed() {
     let folder = folder("validate");
     let pool = folder.join("pool.mcap");
-    sample::weld(&pool, 8.0, true);
+    sample::weld(&pool, (8.0, 2), true);
     let targets = folder.join("targets.json");
     for (depth, code, words) in [
         (sample::DEEP, 0, "agrees within the tolerance"),

@@ -70,6 +70,7 @@ fn shown(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),
+        Value::Number(n) if n.is_i64() || n.is_u64() => n.to_string(),
         Value::Number(n) => n.as_f64().map_or_else(|| n.to_string(), digits),
         Value::Array(parts) => parts.iter().map(shown).collect::<Vec<_>>().join(", "),
         other => other.to_string(),

@@ -137,16 +137,23 @@ pub(super) fn section(study: &Study) -> String {
     let mut time = Plot::new("run time [s]", "error").log_log();
     let mut points = Plot::new("points, cells or particles", "error").log_log();
     for quantity in study.quantities() {
-        let levels = std::iter::once((study.method(), &study.levels));
-        let others = study.series.iter().map(|s| (s.method.as_str(), &s.levels));
-        for (method, levels) in levels.chain(others) {
+        let own = std::iter::once((study.method(), &study.levels, &study.order));
+        let others = study
+            .series
+            .iter()
+            .map(|s| (s.method.as_str(), &s.levels, &s.order));
+        for (method, levels, orders) in own.chain(others) {
             let name = if study.series.is_empty() {
                 quantity.replace('_', " ")
             } else {
                 format!("{}, {method}", quantity.replace('_', " "))
             };
             time.add(curve(&name, levels, quantity, |l| l.run_time_s));
-            points.add(curve(&name, levels, quantity, |l| l.points));
+            let order = match order(orders, quantity).as_str() {
+                "\u{2013}" => name,
+                order => format!("{name} (order {order})"),
+            };
+            points.add(curve(&order, levels, quantity, |l| l.points));
         }
     }
     guides(&mut points, study);
@@ -170,13 +177,13 @@ fn curve(name: &str, levels: &[Level], quantity: &str, at: impl Fn(&Level) -> f6
     Line::new(name, levels.iter().filter_map(point).collect()).marked()
 }
 
-/// Slopes of first and second order through the coarsest level, over the number of points. How
+/// Slopes of first and second order, a little above the coarsest level, over the number of points. How
 /// spacing falls with points is taken from the levels themselves.
 fn guides(plot: &mut Plot, study: &Study) {
     let (Some(first), Some(last)) = (study.levels.first(), study.levels.last()) else {
         return;
     };
-    let worst = first.errors.values().flatten().copied().fold(0.0, f64::max);
+    let worst = 1.8 * first.errors.values().flatten().copied().fold(0.0, f64::max);
     let ratio = last.spacing_m / first.spacing_m;
     if !(worst > 0.0 && ratio > 0.0 && ratio < 1.0) {
         return;

@@ -30,16 +30,16 @@ pub(crate) fn header(kind: &str, tool: &str) -> Header {
     }
 }
 
-/// A weld up to `end` seconds, in five frames; with temperature or without.
-pub(crate) fn weld(path: &Path, end: f64, temperature: bool) {
+/// A weld up to `end` seconds, in `count` frames; with temperature or without.
+pub(crate) fn weld(path: &Path, (end, count): (f64, u32), temperature: bool) {
     let mut writer = Writer::create(path, &header("particle-frames", "poolsph")).unwrap();
-    let plate = json!({"min_m": [-0.012, 0.0, -0.006], "max_m": [0.012, 0.05, 0.0], "spacing_m": D,
+    let plate = json!({"min_m": [-0.009, 0.0, -0.005], "max_m": [0.009, 0.05, 0.0], "spacing_m": D,
         "particle_volume_m3": D.powi(3), "melting_point_k": 1750.0, "direction": [0, 1, 0]});
     writer
         .json("/plate", 0.0, ("test.plate", "{}"), &plate)
         .unwrap();
-    for n in 0..5 {
-        let time = end * f64::from(n) / 4.0;
+    for n in 0..count {
+        let time = end * f64::from(n) / f64::from(count - 1);
         let source = json!({"time_s": time, "x_m": 0.0, "y_m": START + SPEED * time, "z_m": 0.0,
             "phase": 0.0, "droplet": (time / 0.01) as i64});
         writer
@@ -76,7 +76,7 @@ pub(crate) fn weld(path: &Path, end: f64, temperature: bool) {
 fn frame(time: f64, temperature: bool) -> Frame {
     let source = START + SPEED * time;
     let (mut position, mut heat, mut molten, mut fused) = (vec![], vec![], vec![], vec![]);
-    for (i, j, k) in lattice([-24, 24], [0, 100], [-12, 8]) {
+    for (i, j, k) in lattice([-18, 18], [0, 100], [-10, 8]) {
         let p = [i, j, k].map(|n| (f64::from(n) + 0.5) * D);
         let along = if p[1] > source {
             (p[1] - source) / 5e-3
