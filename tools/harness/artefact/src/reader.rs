@@ -176,6 +176,14 @@ impl Reader {
             .collect())
     }
 
+    /// Simulated time of a message \[s\].
+    ///
+    /// # Errors
+    /// When channel or index are absent.
+    pub fn time(&self, channel: &str, index: usize) -> Result<f64> {
+        Ok(time_s(self.place(channel, index, "")?.1.log_time))
+    }
+
     /// Number of messages of a channel; 0 when it is absent.
     #[must_use]
     pub fn count(&self, channel: &str) -> usize {

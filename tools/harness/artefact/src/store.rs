@@ -212,10 +212,12 @@ impl Store {
     fn parse_summary(&self, mut bytes: &[u8]) -> Result<Index> {
         let mut index = Index::default();
         let mut places = Vec::new();
+        let mut counts = BTreeMap::new();
         while let Some((opcode, body, rest)) = split_record(bytes) {
             bytes = rest;
             match parse_record(opcode, body).map_err(|e| self.damaged("the summary", e))? {
                 Record::ChunkIndex(chunk) => places.push(chunk),
+                Record::Statistics(statistics) => counts = statistics.channel_message_counts,
                 Record::MetadataIndex(m) => {
                     if let Some((op::METADATA, body)) = self.record_at(m.offset)? {
                         index.learn(
@@ -228,24 +230,48 @@ impl Store {
             }
         }
         for chunk in places {
-            let mut times = BTreeMap::new();
-            for &offset in chunk.message_index_offsets.values() {
-                let at = || format!("message index at byte {offset}");
-                let Some((op::MESSAGE_INDEX, body)) = self.record_at(offset)? else {
-                    return Err(self.damaged(at(), "it is not there"));
-                };
-                let Ok(Record::MessageIndex(m)) = parse_record(op::MESSAGE_INDEX, &body) else {
-                    return Err(self.damaged(at(), "it cannot be read"));
-                };
-                times.insert(m.channel_id, m.records.iter().map(|r| r.log_time).collect());
-            }
             index.chunks.push(ChunkPlace {
+                times: self.times(&chunk)?,
                 offset: chunk.chunk_start_offset,
                 length: chunk.chunk_length,
-                times,
             });
         }
+        self.must_count(&index, &counts)?;
         Ok(index)
+    }
+
+    /// When each message of a chunk was, by channel.
+    fn times(&self, chunk: &records::ChunkIndex) -> Result<BTreeMap<u16, Vec<u64>>> {
+        let mut times = BTreeMap::new();
+        for (&channel, &offset) in &chunk.message_index_offsets {
+            let wrong = |what| Err(self.damaged(format!("message index at byte {offset}"), what));
+            let Some((op::MESSAGE_INDEX, body)) = self.record_at(offset)? else {
+                return wrong("it is not there");
+            };
+            match parse_record(op::MESSAGE_INDEX, &body) {
+                Ok(Record::MessageIndex(m)) if m.channel_id == channel => {
+                    times.insert(channel, m.records.iter().map(|r| r.log_time).collect());
+                }
+                _ => return wrong("it cannot be read"),
+            }
+        }
+        Ok(times)
+    }
+
+    /// Refuses message indices, which have no checksum of their own, that lost messages.
+    fn must_count(&self, index: &Index, counts: &BTreeMap<u16, u64>) -> Result<()> {
+        for (id, info) in &index.channels {
+            let chunks = index.chunks.iter();
+            let found: usize = chunks.filter_map(|c| Some(c.times.get(id)?.len())).sum();
+            let expected = counts.get(id).copied().unwrap_or(0);
+            if found as u64 != expected {
+                return Err(self.damaged(
+                    format!("channel '{}'", info.name),
+                    format!("the index lists {found} messages, the summary counts {expected}"),
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// Decompresses a chunk with its checksum checked before any message is given out; `learn`

@@ -59,7 +59,7 @@ impl Sheet {
             RECORD => Self::record(reader.record_at(name, index)?),
             _ => Self::json(&reader.json_at(name, index)?),
         };
-        sheet.time_s = reader.times(name)?[index];
+        sheet.time_s = reader.time(name, index)?;
         Ok(sheet)
     }
 

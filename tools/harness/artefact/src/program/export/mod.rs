@@ -72,12 +72,14 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
             folder: &arguments.out,
             name: &name,
         };
-        let files = export.channel(arguments.every as usize)?;
+        let (files, first) = export.channel(arguments.every as usize)?;
+        let plural = if files == 1 { "" } else { "s" };
+        let first = arguments.out.join(first);
         writeln!(
             streams.out,
-            "{}: {files} files {}",
+            "{}: {files} file{plural}, {}",
             channel.name,
-            arguments.out.join(&name).display()
+            first.display()
         )?;
         names.push(name);
     }
@@ -110,9 +112,8 @@ struct Export<'a> {
 }
 
 impl Export<'_> {
-    /// Writes every n-th message; gives the number of files.
-    fn channel(&self, every: usize) -> Result<usize, Trouble> {
-        let mut files = 0;
+    /// Writes every n-th message; gives the number of files, and the one to open.
+    fn channel(&self, every: usize) -> Result<(usize, String), Trouble> {
         let mut series = Series::default();
         let mut steps = Vec::new();
         for index in (0..self.channel.messages).step_by(every) {
@@ -123,21 +124,22 @@ impl Export<'_> {
             }
             let file = self.sheet(&sheet, index)?;
             steps.push((sheet.time_s, file));
-            files += 1;
         }
+        let mut files = steps.len();
+        let mut first = steps
+            .first()
+            .map_or(String::new(), |(_, file)| file.clone());
         if self.target == Target::Vtu && steps.iter().any(|(_, file)| !file.ends_with(".csv")) {
+            first = format!("{}.pvd", self.name);
             let text = vtk::collection(&steps);
-            write(
-                &self.folder.join(format!("{}.pvd", self.name)),
-                text.as_bytes(),
-            )?;
+            write(&self.folder.join(&first), text.as_bytes())?;
             files += 1;
         }
         if !series.is_empty() {
-            self.series(&series)?;
+            first = self.series(&series)?;
             files += 1;
         }
-        Ok(files)
+        Ok((files, first))
     }
 
     /// Writes one message; gives its file relative to the folder.
@@ -153,12 +155,15 @@ impl Export<'_> {
         Ok(file)
     }
 
-    fn series(&self, series: &Series) -> Result<(), Trouble> {
+    /// Writes scalars over time; gives their file relative to the folder.
+    fn series(&self, series: &Series) -> Result<String, Trouble> {
         let (bytes, suffix) = match self.target {
             Target::Npz => (npz::series(series)?, "npz"),
             Target::Vtu | Target::Csv => (csv::series(series), "csv"),
         };
-        write(&self.folder.join(format!("{}.{suffix}", self.name)), &bytes)
+        let file = format!("{}.{suffix}", self.name);
+        write(&self.folder.join(&file), &bytes)?;
+        Ok(file)
     }
 }
 
