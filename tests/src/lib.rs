@@ -16,4 +16,5 @@ pub mod norms;
 mod particles;
 pub mod plasma;
 pub mod special;
+mod spot;
 pub mod study;

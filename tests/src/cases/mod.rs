@@ -7,6 +7,9 @@ mod arc_poiseuille;
 mod arc_potential;
 mod pool_drop_pressure;
 mod pool_hydrostatic;
+mod pool_rosenthal;
+mod pool_stefan;
+mod pool_surface_heat;
 
 use crate::case::Case;
 
@@ -21,5 +24,8 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_potential::ArcPotential),
         Box::new(pool_drop_pressure::PoolDropPressure),
         Box::new(pool_hydrostatic::PoolHydrostatic),
+        Box::new(pool_rosenthal::PoolRosenthal),
+        Box::new(pool_stefan::PoolStefan),
+        Box::new(pool_surface_heat::PoolSurfaceHeat),
     ]
 }
