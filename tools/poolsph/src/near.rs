@@ -5,7 +5,7 @@
 //! moment of gathering: what melts during a step starts to move in the next.
 
 use kernels::CubicSpline;
-use neighbours::{Grid, Lists};
+use neighbours::{Grid, Lists, ROWS};
 use rayon::prelude::*;
 
 use crate::state::{Metal, Phase, State};
@@ -30,8 +30,8 @@ pub enum Role {
 pub struct PairChunk {
     /// W \[1/m3\].
     pub value: Vec<f64>,
-    /// (dW/dr)/r \[1/m5\].
-    pub slope: Vec<f64>,
+    /// (dW/dr)/r \[1/m5\]; the same bits seen from both sides, so that pair forces cancel.
+    pub slope: Vec<f32>,
 }
 
 /// Compact particles: liquid ones, and solid ones around them.
@@ -52,6 +52,12 @@ pub struct Near {
     /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
     /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
     pub virial: Vec<f64>,
+    /// Sum of W, the own one included \[1/m3\], `[m]`; zero for [`Role::Backing`].
+    pub number: Vec<f64>,
+    /// Sum of grad W \[1/m4\], `[m]`: points inwards at a free surface.
+    pub gradient: Vec<[f64; 3]>,
+    /// Sum of |grad W|^2 over liquid neighbours \[1/m8\], `[m]`.
+    pub squares: Vec<f64>,
     /// Neighbours within the support; the rows of [`Role::Backing`] are empty.
     pub lists: Lists,
     /// Kernel values in the order of `lists.chunks()`.
@@ -76,10 +82,13 @@ impl Near {
             velocity: Vec::new(),
             force: Vec::new(),
             virial: Vec::new(),
+            number: Vec::new(),
+            gradient: Vec::new(),
+            squares: Vec::new(),
             lists: Lists::new(),
             pairs: Vec::new(),
             liquid_count: 0,
-            grid: Grid::new(support),
+            grid: Grid::new(0.5 * support),
             liquid_grid: Grid::new(support),
             candidates: Vec::new(),
             places: Vec::new(),
@@ -110,8 +119,8 @@ impl Near {
         let pairs = self
             .pairs
             .iter()
-            .map(|chunk| 8 * (chunk.value.capacity() + chunk.slope.capacity()));
-        (4 + 1 + 8 + 3 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
+            .map(|chunk| 8 * chunk.value.capacity() + 4 * chunk.slope.capacity());
+        (4 + 1 + 3 * 8 + 4 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
     }
 
     /// Collects members, sorts them by cell and finds their neighbours.
@@ -161,6 +170,7 @@ impl Near {
         self.velocity.clear();
         self.velocity
             .extend(self.id.iter().zip(&self.role).map(moving));
+        self.grid.renumber();
         self.force.clear();
         self.force.resize(self.id.len(), [0.0; 3]);
         self.virial.clear();
@@ -168,9 +178,14 @@ impl Near {
         self.search();
     }
 
-    /// Finds the neighbours and kernel values for the present positions of the copy.
-    pub(crate) fn search(&mut self) {
+    /// Finds the neighbours after particles of the copy have moved.
+    pub(crate) fn refresh(&mut self) {
         self.grid.bin(&self.position);
+        self.search();
+    }
+
+    /// Neighbours and kernel values for the positions in the grid.
+    fn search(&mut self) {
         let role = &self.role;
         let support = self.kernel.support();
         self.lists.build(
@@ -183,30 +198,54 @@ impl Near {
         self.weigh();
     }
 
-    /// Kernel values of all pairs.
-    fn weigh(&mut self) {
-        let (kernel, position) = (self.kernel, &self.position);
+    /// Kernel values of all pairs, and their sums over the rows.
+    pub(crate) fn weigh(&mut self) {
+        let (kernel, position, role) = (self.kernel, &self.position, &self.role);
+        let own = kernel.value(0.0);
         self.pairs
             .resize_with(self.lists.chunks().len(), PairChunk::default);
+        self.number.resize(position.len(), 0.0);
+        self.gradient.resize(position.len(), [0.0; 3]);
+        self.squares.resize(position.len(), 0.0);
         self.pairs
             .par_iter_mut()
             .zip(self.lists.chunks())
-            .for_each(|(pairs, chunk)| {
+            .zip(self.number.par_chunks_mut(ROWS))
+            .zip(self.gradient.par_chunks_mut(ROWS))
+            .zip(self.squares.par_chunks_mut(ROWS))
+            .for_each(|((((pairs, chunk), number), gradient), squares)| {
                 let n = chunk.index().len();
                 pairs.value.resize(n, 0.0);
                 pairs.slope.resize(n, 0.0);
                 for k in 0..chunk.rows() {
-                    let place = position[chunk.first() + k];
+                    let a = chunk.first() + k;
                     let range = chunk.range(k);
                     let (value, slope) = (
                         &mut pairs.value[range.clone()],
                         &mut pairs.slope[range.clone()],
                     );
-                    for ((&b, value), slope) in chunk.row(k).iter().zip(value).zip(slope) {
-                        let r = squared(minus(place, position[b as usize])).sqrt();
-                        let sample = kernel.sample(r);
-                        (*value, *slope) = (sample.value, sample.slope);
+                    let row = chunk.row(k);
+                    for (&b, value) in row.iter().zip(value.iter_mut()) {
+                        *value = squared(minus(position[a], position[b as usize]));
                     }
+                    for (value, slope) in value.iter_mut().zip(slope.iter_mut()) {
+                        let sample = kernel.sample(value.sqrt());
+                        (*value, *slope) = (sample.value, sample.slope as f32);
+                    }
+                    let mut sums = (own, [0.0; 3], 0.0);
+                    for ((&b, &value), &slope) in row.iter().zip(&*value).zip(&*slope) {
+                        let dx = minus(position[a], position[b as usize]);
+                        let slope = f64::from(slope);
+                        sums.0 += value;
+                        sums.1 = plus(sums.1, slope, dx);
+                        if role[b as usize] == Role::Liquid {
+                            sums.2 += slope * slope * squared(dx);
+                        }
+                    }
+                    if role[a] == Role::Backing {
+                        sums.0 = 0.0;
+                    }
+                    (number[k], gradient[k], squares[k]) = sums;
                 }
             });
     }

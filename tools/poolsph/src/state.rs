@@ -88,7 +88,8 @@ pub struct State {
     pub temperature: Vec<f64>,
     /// Specific enthalpy \[J/kg\], `[n]` or empty.
     pub enthalpy: Vec<f64>,
-    /// p \[Pa\], `[n]` or empty: the pressure that the metal carries, from all pair forces.
+    /// p \[Pa\], `[n]` or empty: the pressure that the metal carries, from all pair forces,
+    /// as a mean over some milliseconds.
     pub pressure: Vec<f64>,
     /// What the surface is at each particle, `[n]` or empty.
     pub surface: Vec<Patch>,

@@ -72,6 +72,14 @@ impl Grid {
         &self.order
     }
 
+    /// Renumbers the points as sorted: for a caller that has reordered its own columns by
+    /// [`Grid::order`].
+    pub fn renumber(&mut self) {
+        for (place, index) in self.order.iter_mut().enumerate() {
+            *index = number(place);
+        }
+    }
+
     /// Positions in the order of [`Grid::order`].
     #[must_use]
     pub fn sorted(&self) -> &[[f64; 3]] {

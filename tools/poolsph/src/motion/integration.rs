@@ -4,7 +4,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::projection::{Projection, Solved, Tolerance};
+use super::homogenising::Homogenising;
+use super::projection::{Projection, Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::near::{Near, Role, plus, squared};
 use crate::stage::{Figure, Limit, Stage, StageError};
@@ -12,8 +13,22 @@ use crate::state::{Column, Metal, State};
 
 /// A particle may cross this part of its diameter in one substep.
 const COURANT: f64 = 0.4;
+/// Pressure is shown as the mean over about this time \[s\]: single steps push unevenly, as the
+/// density is kept only to a tolerance, and it is their mean that balances the forces.
+const PRESSURE_TIME: f64 = 5e-3;
 /// More substeps than this are no longer a flow.
 const SUBSTEPS_MAX: u32 = 32;
+
+/// How the liquid is kept incompressible.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// [`super::projection`]: no compression at the end of the step.
+    #[default]
+    Projection,
+    /// [`super::homogenising`]: Komen (2019), section 3.3.4.
+    Homogenising,
+}
 
 /// How the liquid moves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +41,9 @@ pub struct Parameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s2"))]
     pub gravity_m_s2: Option<[f64; 3]>,
+    /// How the density is kept.
+    #[serde(default)]
+    pub method: Method,
     /// Mean relative density error at which the pressure is good enough.
     #[serde(default = "default_tolerance")]
     #[schemars(range(min = 1e-9, max = 0.1))]
@@ -41,7 +59,7 @@ pub struct Parameters {
 }
 
 fn default_tolerance() -> f64 {
-    1e-4
+    5e-5
 }
 
 fn default_sweeps_min() -> u32 {
@@ -57,6 +75,7 @@ pub struct Motion {
     parameters: Parameters,
     viscosity: Viscosity,
     projection: Projection,
+    homogenising: Homogenising,
     predicted: Vec<[f64; 3]>,
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
@@ -72,7 +91,8 @@ impl Motion {
         Self {
             parameters,
             viscosity: Viscosity::new(parameters.viscosity_pa_s, metal),
-            projection: Projection::default(),
+            projection: Projection::new(metal),
+            homogenising: Homogenising::new(metal),
             predicted: Vec::new(),
             multiplier: Vec::new(),
             solved: Solved::default(),
@@ -100,17 +120,19 @@ impl Motion {
         }
     }
 
-    fn substep(&mut self, near: &mut Near, metal: Metal, dt: f64) {
-        self.predict(near, metal, dt);
-        self.projection.prepare(near, metal, dt);
+    fn substep(&mut self, near: &mut Near, step: Step) {
+        let dt = step.dt;
+        self.predict(near, step.metal, dt);
         let tolerance = Tolerance {
             density: self.parameters.density_tolerance,
             sweeps_min: self.parameters.sweeps_min,
             sweeps_max: self.parameters.sweeps_max,
         };
-        let solved = self
-            .projection
-            .solve(near, &mut self.predicted, dt, tolerance);
+        let predicted = &mut self.predicted;
+        let solved = match self.parameters.method {
+            Method::Projection => self.projection.solve(near, predicted, step, tolerance),
+            Method::Homogenising => self.homogenising.solve(near, predicted, step, tolerance),
+        };
         self.solved.sweeps += solved.sweeps;
         self.solved.density_error = self.solved.density_error.max(solved.density_error);
         std::mem::swap(&mut near.velocity, &mut self.predicted);
@@ -157,14 +179,19 @@ impl Motion {
     }
 
     /// Takes the results of the copy back to the particles.
-    fn scatter(&mut self, state: &mut State) {
+    fn scatter(&mut self, state: &mut State, dt: f64) {
+        let weight = (dt / PRESSURE_TIME).min(1.0);
+        for (virial, &id) in state.near.virial.iter_mut().zip(&state.near.id) {
+            let before = state.pressure[id as usize];
+            *virial = before + weight * (*virial - before);
+        }
         state.pressure.fill(0.0);
         self.multiplier.clear();
         self.multiplier.resize(state.len(), 0.0);
         let near = &state.near;
         for (a, (&id, role)) in near.id.iter().zip(&near.role).enumerate() {
             let id = id as usize;
-            self.multiplier[id] = self.projection.pressure[a];
+            self.multiplier[id] = f64::from(self.projection.pressure[a]);
             state.pressure[id] = near.virial[a];
             if *role == Role::Liquid && state.phase[id] == crate::state::Phase::Liquid {
                 state.position[id] = near.position[a];
@@ -206,19 +233,21 @@ impl Stage for Motion {
         }
         self.substeps = self.divide(state, dt)?;
         self.projection.pressure.clear();
-        let start = |&id: &u32| self.multiplier.get(id as usize).copied().unwrap_or(0.0);
+        let start = |&id: &u32| self.multiplier.get(id as usize).copied().unwrap_or(0.0) as f32;
         self.projection
             .pressure
             .extend(state.near.id.iter().map(start));
-        let part = dt / f64::from(self.substeps);
-        let metal = state.metal;
+        let step = Step {
+            metal: state.metal,
+            dt: dt / f64::from(self.substeps),
+            share: 1.0 / f64::from(self.substeps),
+        };
         for k in 0..self.substeps {
             if k > 0 {
-                state.near.search();
+                state.near.refresh();
             }
-            self.substep(&mut state.near, metal, part);
+            self.substep(&mut state.near, step);
         }
-        self.projection.add_virial(&mut state.near, metal);
         self.speed = state
             .near
             .velocity
@@ -226,7 +255,7 @@ impl Stage for Motion {
             .map(|u| squared(*u))
             .fold(0.0, f64::max)
             .sqrt();
-        self.scatter(state);
+        self.scatter(state, dt);
         Ok(())
     }
 
@@ -256,7 +285,10 @@ impl Stage for Motion {
     }
 
     fn bytes(&self) -> usize {
-        self.projection.bytes() + 24 * self.predicted.capacity() + 8 * self.multiplier.capacity()
+        self.projection.bytes()
+            + self.homogenising.bytes()
+            + 24 * self.predicted.capacity()
+            + 8 * self.multiplier.capacity()
     }
 
     fn save(&self) -> Vec<f64> {

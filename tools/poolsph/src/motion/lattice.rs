@@ -6,7 +6,11 @@
 
 use kernels::CubicSpline;
 
+use crate::near::{plus, squared};
 use crate::state::Metal;
+
+/// Waves per axis that the search for the stiffest mode tries.
+const WAVES: u32 = 9;
 
 /// Kernel sums over the points of a cubic lattice around one of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +21,9 @@ pub struct Lattice {
     pub moment: f64,
     /// Sum of |grad W|^2 \[1/m8\].
     pub gradient_squared: f64,
+    /// Largest of |sum of grad W sin(k.r)|^2 over all waves k, in parts of the sum above: the
+    /// stiffest mode of the pressure, 2.8 for h = d.
+    pub stiffest: f64,
 }
 
 impl Lattice {
@@ -27,6 +34,7 @@ impl Lattice {
         let d = metal.spacing;
         let reach = (kernel.support() / d).ceil() as i32;
         let (mut number, mut moment, mut gradient_squared) = (0.0, 0.0, 0.0);
+        let mut points = Vec::new();
         for i in -reach..=reach {
             for j in -reach..=reach {
                 for k in -reach..=reach {
@@ -35,6 +43,7 @@ impl Lattice {
                     let slope = kernel.slope(r);
                     moment -= metal.volume() * slope * (d * f64::from(i)).powi(2);
                     gradient_squared += (slope * r).powi(2);
+                    points.push(([i, j, k].map(f64::from), slope * d));
                 }
             }
         }
@@ -42,8 +51,26 @@ impl Lattice {
             number,
             moment,
             gradient_squared,
+            stiffest: stiffest(&points) / gradient_squared,
         }
     }
+}
+
+/// Largest |sum of grad W sin(k.r)|^2 over waves along and across the axes of the lattice, for
+/// points (r/d, |grad W| d/r).
+fn stiffest(points: &[([f64; 3], f64)]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for wave in 0..WAVES.pow(3) {
+        let index = [wave % WAVES, wave / WAVES % WAVES, wave / WAVES / WAVES];
+        let k = index.map(|i| std::f64::consts::PI * f64::from(i) / f64::from(WAVES - 1));
+        let mut sum = [0.0; 3];
+        for (r, slope) in points {
+            let phase = k[0] * r[0] + k[1] * r[1] + k[2] * r[2];
+            sum = plus(sum, slope * phase.sin(), *r);
+        }
+        largest = largest.max(squared(sum));
+    }
+    largest
 }
 
 #[cfg(test)]
@@ -69,5 +96,6 @@ mod tests {
             (narrow.number - 1.0003).abs() < 1e-3 && (narrow.moment - 1.0203).abs() < 1e-3,
             "{narrow:?}"
         );
+        assert!((narrow.stiffest - 2.8).abs() < 0.03, "{narrow:?}");
     }
 }

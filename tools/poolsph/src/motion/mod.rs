@@ -1,8 +1,12 @@
 //! Motion of the liquid: viscosity and forces predict, a pressure corrects.
 
+pub mod homogenising;
 pub mod integration;
 pub mod lattice;
 pub mod projection;
 pub mod viscosity;
 
-pub use integration::{Motion, Parameters};
+pub use integration::{Method, Motion, Parameters};
+
+#[cfg(test)]
+mod tests;

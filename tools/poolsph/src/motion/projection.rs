@@ -15,23 +15,30 @@
 //! sweeps per iteration, starting from the last pressure. Wet solid particles have a pressure of
 //! their own, by the same condition on their density, and infinite mass: walls push, never pull.
 //! A particle of the free surface lacks neighbours, so its condition is slack and its p zero.
+//!
+//! Sweeps run in single precision, which is far below the tolerance; the force of the p found is
+//! added in double precision, so that momentum is kept to round-off.
 
 use rayon::prelude::*;
 
 use neighbours::{Chunk, ROWS};
 
 use super::lattice::Lattice;
-use crate::near::{Near, PairChunk, Role, dot, minus, plus, squared};
+use crate::near::{Near, PairChunk, Role, minus, plus, squared};
 use crate::state::Metal;
 
-/// Step of the gradient in units of the diagonal. The largest eigenvalue of D^-1 A is 2.82 on the
-/// filled cubic lattice; disordered clouds come somewhat above.
-const STEP: f64 = 0.31;
+/// Step of the gradient in parts of what the stiffest mode of the filled lattice allows;
+/// disordered clouds are somewhat stiffer.
+const STEP: f64 = 0.87;
+
+/// Least diagonal in parts of the lattice's: a particle at the edge of another's reach must not
+/// answer with a pressure without bound, which would strike when the two come closer.
+const DIAGONAL_LEAST: f64 = 0.1;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
 pub struct Tolerance {
-    /// Mean over all particles with pressure or excess of |C + dt J u|.
+    /// Mean over the liquid of the excess of C + dt J u, and of its lack where p > 0.
     pub density: f64,
     /// Fewest sweeps.
     pub sweeps_min: u32,
@@ -39,198 +46,219 @@ pub struct Tolerance {
     pub sweeps_max: u32,
 }
 
+/// The step to take.
+#[derive(Debug, Clone, Copy)]
+pub struct Step {
+    /// The metal.
+    pub metal: Metal,
+    /// \[s\].
+    pub dt: f64,
+    /// Part of the whole step that this one is: weight of its pressure in the virial.
+    pub share: f64,
+}
+
 /// How a solve ended.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Solved {
     /// Sweeps made.
     pub sweeps: u32,
-    /// Mean of |C + dt J u| over the particles bound by it, predicted for the end of the step.
+    /// What [`Tolerance::density`] bounds, predicted for the end of the step.
     pub density_error: f64,
 }
 
 /// Scratch of the solver; all slices `[m]` in the order of [`Near`].
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Projection {
     /// p \[Pa\].
-    pub pressure: Vec<f64>,
-    /// Relative density excess C before the step.
-    pub excess: Vec<f64>,
-    extrapolated: Vec<f64>,
-    advanced: Vec<f64>,
-    diagonal: Vec<f64>,
-    residual: Vec<f64>,
-    acceleration: Vec<[f64; 3]>,
+    pub pressure: Vec<f32>,
+    /// x from the first particle on \[m\], and the p that the sweep tries.
+    tried: Vec<[f32; 4]>,
+    advanced: Vec<f32>,
+    diagonal: Vec<f32>,
+    residual: Vec<f32>,
+    /// First u*, then the acceleration by p.
+    field: Vec<[f32; 4]>,
     partial: Vec<Partial>,
+    lattice: Lattice,
     scales: Scales,
 }
 
 /// Sums over one chunk of rows, added in the order of the chunks.
 #[derive(Debug, Clone, Copy, Default)]
 struct Partial {
-    error: f64,
-    bound: f64,
+    excess: f64,
+    lack: f64,
     turn: f64,
 }
 
-/// nu, nu/(rho kappa), W_0.
+/// Factors of the step.
 #[derive(Debug, Clone, Copy, Default)]
 struct Scales {
+    /// nu, the volume that makes the lattice exactly dense \[m3\].
     volume: f64,
+    /// nu/(rho kappa).
     force: f64,
-    own: f64,
+    /// Step of the gradient in units of the diagonal.
+    step: f32,
 }
 
 impl Projection {
-    /// Density excess and diagonal at the present positions.
-    pub fn prepare(&mut self, near: &Near, metal: Metal, dt: f64) {
+    /// A solver for particles of `metal`.
+    #[must_use]
+    pub fn new(metal: Metal) -> Self {
         let lattice = Lattice::of(metal);
         let volume = 1.0 / lattice.number;
-        let force = volume / (metal.density * lattice.moment);
-        self.scales = Scales {
-            volume,
-            force,
-            own: near.kernel.value(0.0),
-        };
-        let n = near.len();
-        for column in [
-            &mut self.excess,
-            &mut self.diagonal,
-            &mut self.extrapolated,
-            &mut self.advanced,
-        ] {
-            column.resize(n, 0.0);
+        Self {
+            pressure: Vec::new(),
+            tried: Vec::new(),
+            advanced: Vec::new(),
+            diagonal: Vec::new(),
+            residual: Vec::new(),
+            field: Vec::new(),
+            partial: Vec::new(),
+            lattice,
+            scales: Scales {
+                volume,
+                force: volume / (metal.density * lattice.moment),
+                step: (STEP / lattice.stiffest) as f32,
+            },
         }
-        self.residual.resize(n, 0.0);
-        self.acceleration.resize(n, [0.0; 3]);
-        self.partial.resize(n.div_ceil(ROWS), Partial::default());
-        let scales = self.scales;
-        self.excess
-            .par_chunks_mut(ROWS)
-            .zip(self.diagonal.par_chunks_mut(ROWS))
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|(((excess, diagonal), chunk), pairs)| {
-                for k in 0..chunk.rows() {
-                    let (sum, squares) = density_row(near, chunk, pairs, k);
-                    excess[k] = scales.volume * (scales.own + sum) - 1.0;
-                    diagonal[k] = dt * dt * scales.volume * scales.force * squares;
-                }
-            });
     }
 
-    /// Finds p for the predicted velocities and turns these into the final ones.
+    /// Finds p for the predicted velocities and turns these into the final ones. `near.virial`
+    /// gets the share of p in the pressure which the metal carries.
     pub fn solve(
         &mut self,
-        near: &Near,
+        near: &mut Near,
         predicted: &mut [[f64; 3]],
-        dt: f64,
+        step: Step,
         tolerance: Tolerance,
     ) -> Solved {
         let mut solved = Solved::default();
         if near.is_empty() {
             return solved;
         }
+        let dt = step.dt;
+        self.prepare(near, dt);
         self.start(near, predicted, dt);
         let mut momentum = 1.0_f64;
+        let liquid = near.liquid_count().max(1) as f64;
         while solved.sweeps < tolerance.sweeps_max {
             self.accelerate(near);
             self.relax(near, dt);
-            let (error, turn) = self.gathered();
+            let sum = self.gathered();
             solved.sweeps += 1;
-            solved.density_error = error;
-            if solved.sweeps >= tolerance.sweeps_min && error <= tolerance.density {
-                std::mem::swap(&mut self.pressure, &mut self.extrapolated);
+            solved.density_error = sum.excess.max(sum.lack) / liquid;
+            if solved.sweeps >= tolerance.sweeps_min && solved.density_error <= tolerance.density {
                 break;
             }
-            let next = if turn > 0.0 {
-                1.0
+            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let (weight, next) = if sum.turn > 0.0 {
+                (0.0, 1.0)
             } else {
-                0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt())
-            };
-            let weight = if turn > 0.0 {
-                0.0
-            } else {
-                (momentum - 1.0) / next
+                ((momentum - 1.0) / next, next)
             };
             momentum = next;
-            self.extrapolate(weight);
+            self.extrapolate(weight as f32);
         }
-        if solved.sweeps == tolerance.sweeps_max {
-            std::mem::swap(&mut self.pressure, &mut self.extrapolated);
-            self.accelerate(near);
+        for (p, tried) in self.pressure.iter_mut().zip(&self.tried) {
+            *p = tried[3];
         }
-        let acceleration = &self.acceleration;
-        predicted
-            .par_iter_mut()
-            .zip(acceleration)
-            .with_min_len(1024)
-            .for_each(|(u, acc)| *u = plus(*u, dt, *acc));
+        self.push(near, predicted, step);
         solved
     }
 
-    /// Fixed part of the residual, C + dt J u*, and the first point.
+    /// Columns of the present positions.
+    fn prepare(&mut self, near: &Near, dt: f64) {
+        let Scales { volume, force, .. } = self.scales;
+        let n = near.len();
+        self.pressure.resize(n, 0.0);
+        self.advanced.resize(n, 0.0);
+        self.residual.resize(n, 0.0);
+        self.field.resize(n, [0.0; 4]);
+        self.partial.resize(n.div_ceil(ROWS), Partial::default());
+        self.diagonal.clear();
+        let scale = dt * dt * volume * force;
+        let least = DIAGONAL_LEAST * self.lattice.gradient_squared;
+        let diagonal = (0..n).map(|a| match near.role[a] {
+            Role::Liquid => {
+                (scale * (near.squares[a] + squared(near.gradient[a])).max(least)) as f32
+            }
+            Role::Wet if near.squares[a] > 0.0 => (scale * near.squares[a].max(least)) as f32,
+            _ => 0.0,
+        });
+        self.diagonal.extend(diagonal);
+        let origin = near.position[0];
+        self.tried.clear();
+        let places = near
+            .position
+            .iter()
+            .zip(&self.diagonal)
+            .zip(&mut self.pressure);
+        self.tried.extend(places.map(|((place, diagonal), p)| {
+            if *diagonal <= 0.0 {
+                *p = 0.0;
+            }
+            let [x, y, z] = minus(*place, origin);
+            [x as f32, y as f32, z as f32, *p]
+        }));
+    }
+
+    /// Fixed part of the residual, C + dt J u*.
     fn start(&mut self, near: &Near, predicted: &[[f64; 3]], dt: f64) {
-        let (excess, scales) = (&self.excess, self.scales);
+        for (field, u) in self.field.iter_mut().zip(predicted) {
+            *field = [u[0] as f32, u[1] as f32, u[2] as f32, 0.0];
+        }
+        let (volume, tried, field) = (self.scales.volume, &self.tried, &self.field);
+        let scale = (dt * volume) as f32;
         self.residual
             .par_chunks_mut(ROWS)
             .zip(near.lists.chunks())
             .zip(&near.pairs)
             .for_each(|((residual, chunk), pairs)| {
                 for (k, residual) in residual.iter_mut().enumerate() {
-                    let rate = scales.volume * rate_row(near, chunk, pairs, (k, predicted));
-                    *residual = excess[chunk.first() + k] + dt * rate;
+                    let excess = volume * near.number[chunk.first() + k] - 1.0;
+                    let rate = rate_row(chunk, pairs, k, (tried, field));
+                    *residual = excess as f32 + scale * rate;
                 }
             });
-        for (p, (&diagonal, role)) in self
-            .pressure
-            .iter_mut()
-            .zip(self.diagonal.iter().zip(&near.role))
-        {
-            if diagonal <= 0.0 || *role == Role::Backing {
-                *p = 0.0;
-            }
-        }
-        self.extrapolated.copy_from_slice(&self.pressure);
     }
 
     /// acc = -J^T y / mass (eq. 3.94).
     fn accelerate(&mut self, near: &Near) {
-        let (pressure, scale) = (&self.extrapolated, self.scales.force);
-        self.acceleration
+        let tried = &self.tried;
+        let scale = [-1.0_f32, -1.0, -1.0, 0.0].map(|sign| sign * self.scales.force as f32);
+        self.field
             .par_chunks_mut(ROWS)
             .zip(near.lists.chunks())
             .zip(&near.pairs)
             .for_each(|((out, chunk), pairs)| {
                 for (k, out) in out.iter_mut().enumerate() {
                     let a = chunk.first() + k;
+                    *out = [0.0; 4];
                     if near.role[a] != Role::Liquid {
-                        *out = [0.0; 3];
                         continue;
                     }
-                    let (place, own) = (near.position[a], pressure[a]);
-                    let mut sum = [0.0; 3];
+                    let own = tried[a];
+                    let mut sum = [0.0_f32; 4];
                     for (&b, &slope) in chunk.row(k).iter().zip(&pairs.slope[chunk.range(k)]) {
-                        let b = b as usize;
-                        sum = plus(
-                            sum,
-                            slope * (own + pressure[b]),
-                            minus(place, near.position[b]),
-                        );
+                        let other = tried[b as usize];
+                        let weight = slope * (own[3] + other[3]);
+                        for i in 0..4 {
+                            sum[i] += weight * (own[i] - other[i]);
+                        }
                     }
-                    *out = sum.map(|x| -scale * x);
+                    *out = std::array::from_fn(|i| scale[i] * sum[i]);
                 }
             });
     }
 
     /// One projected gradient step from y; leaves the new point in `advanced`.
     fn relax(&mut self, near: &Near, dt: f64) {
-        let (acceleration, scales) = (&self.acceleration, self.scales);
-        let (residual, diagonal, y, old) = (
-            &self.residual,
-            &self.diagonal,
-            &self.extrapolated,
-            &self.pressure,
-        );
+        let (tried, field) = (&self.tried, &self.field);
+        let (residual, diagonal, old) = (&self.residual, &self.diagonal, &self.pressure);
+        let scale = (dt * dt * self.scales.volume) as f32;
+        let step = self.scales.step;
         self.advanced
             .par_chunks_mut(ROWS)
             .zip(&mut self.partial)
@@ -240,74 +268,75 @@ impl Projection {
                 *partial = Partial::default();
                 for (k, out) in out.iter_mut().enumerate() {
                     let a = chunk.first() + k;
-                    if diagonal[a] <= 0.0 || near.role[a] == Role::Backing {
-                        *out = 0.0;
+                    *out = 0.0;
+                    if diagonal[a] <= 0.0 {
                         continue;
                     }
-                    let rate = scales.volume * rate_row(near, chunk, pairs, (k, acceleration));
-                    let error = residual[a] + dt * dt * rate;
-                    *out = (y[a] + STEP * error / diagonal[a]).max(0.0);
-                    if error > 0.0 || y[a] > 0.0 {
-                        partial.error += error.abs();
-                        partial.bound += 1.0;
+                    let error = residual[a] + scale * rate_row(chunk, pairs, k, (tried, field));
+                    let y = tried[a][3];
+                    *out = (y + step * error / diagonal[a]).max(0.0);
+                    if error > 0.0 {
+                        partial.excess += f64::from(error);
+                    } else if y > 0.0 {
+                        partial.lack -= f64::from(error);
                     }
-                    partial.turn += diagonal[a] * (y[a] - *out) * (*out - old[a]);
+                    partial.turn += f64::from(diagonal[a] * (y - *out) * (*out - old[a]));
                 }
             });
     }
 
     /// y = p_new + weight (p_new - p); p = p_new.
-    fn extrapolate(&mut self, weight: f64) {
-        let points = self
-            .extrapolated
-            .iter_mut()
-            .zip(&self.advanced)
-            .zip(&mut self.pressure);
-        for ((y, &new), p) in points {
-            *y = (new + weight * (new - *p)).max(0.0);
+    fn extrapolate(&mut self, weight: f32) {
+        let points = self.tried.iter_mut().zip(&self.advanced);
+        for ((y, &new), p) in points.zip(&mut self.pressure) {
+            y[3] = (new + weight * (new - *p)).max(0.0);
             *p = new;
         }
     }
 
-    /// Mean error over the bound particles, and whether the momentum points uphill.
-    fn gathered(&self) -> (f64, f64) {
-        let sum = self
-            .partial
+    /// Sums over all particles.
+    fn gathered(&self) -> Partial {
+        self.partial
             .iter()
             .fold(Partial::default(), |sum, part| Partial {
-                error: sum.error + part.error,
-                bound: sum.bound + part.bound,
+                excess: sum.excess + part.excess,
+                lack: sum.lack + part.lack,
                 turn: sum.turn + part.turn,
-            });
-        (sum.error / sum.bound.max(1.0), sum.turn)
+            })
     }
 
-    /// Adds the pair forces of p to [`Near::virial`], so that this holds the pressure which the
-    /// metal carries; wet solid particles get p itself, as they lack neighbours behind.
+    /// Adds dt acc(p) to the velocities and the virial of p to that of the forces.
     ///
     /// In a disordered cloud the sum of `p_a + p_b` stands for a pressure that differs from p by
-    /// some per cent; the virial is what balances the outer forces.
-    pub fn add_virial(&self, near: &mut Near, metal: Metal) {
-        let share = metal.density * self.scales.force / 6.0;
+    /// some per cent; the virial is what balances the outer forces. Wet solid particles lack
+    /// neighbours behind, they get p itself.
+    fn push(&self, near: &mut Near, predicted: &mut [[f64; 3]], step: Step) {
+        let scale = step.dt * self.scales.force;
+        let share = step.share * step.metal.density * self.scales.force / 6.0;
         let (pressure, role, position) = (&self.pressure, &near.role, &near.position);
         near.virial
             .par_chunks_mut(ROWS)
+            .zip(predicted.par_chunks_mut(ROWS))
             .zip(near.lists.chunks())
             .zip(&near.pairs)
-            .for_each(|((virial, chunk), pairs)| {
-                for (k, virial) in virial.iter_mut().enumerate() {
+            .for_each(|(((virial, predicted), chunk), pairs)| {
+                for (k, (virial, u)) in virial.iter_mut().zip(predicted).enumerate() {
                     let a = chunk.first() + k;
+                    let own = f64::from(pressure[a]);
                     if role[a] != Role::Liquid {
-                        *virial = pressure[a];
+                        *virial = own;
                         continue;
                     }
-                    let mut sum = 0.0;
+                    let (mut sum, mut stretched) = ([0.0; 3], 0.0);
                     for (&b, &slope) in chunk.row(k).iter().zip(&pairs.slope[chunk.range(k)]) {
                         let b = b as usize;
-                        let square = squared(minus(position[a], position[b]));
-                        sum -= slope * square * (pressure[a] + pressure[b]);
+                        let dx = minus(position[a], position[b]);
+                        let weight = f64::from(slope) * (own + f64::from(pressure[b]));
+                        sum = plus(sum, weight, dx);
+                        stretched -= weight * squared(dx);
                     }
-                    *virial += share * sum;
+                    *virial += share * stretched;
+                    *u = plus(*u, -scale, sum);
                 }
             });
     }
@@ -315,50 +344,27 @@ impl Projection {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.excess.capacity() * (6 * 8 + 24)
+        self.tried.capacity() * (4 * 4 + 2 * 16)
     }
 }
 
-/// Sum of W and the sum of squares of J's row.
-#[inline]
-fn density_row(near: &Near, chunk: &Chunk, pairs: &PairChunk, k: usize) -> (f64, f64) {
-    let a = chunk.first() + k;
-    let (place, moves) = (near.position[a], near.role[a] == Role::Liquid);
-    let (mut sum, mut squares, mut gradient) = (0.0, 0.0, [0.0; 3]);
-    let range = chunk.range(k);
-    for ((&b, &w), &slope) in chunk
-        .row(k)
-        .iter()
-        .zip(&pairs.value[range.clone()])
-        .zip(&pairs.slope[range])
-    {
-        let dx = minus(place, near.position[b as usize]);
-        sum += w;
-        gradient = plus(gradient, slope, dx);
-        if near.role[b as usize] == Role::Liquid {
-            squares += slope * slope * squared(dx);
-        }
-    }
-    if moves {
-        squares += squared(gradient);
-    }
-    (sum, squares)
-}
-
-/// Sum of grad W . (u_a - u_b).
+/// Sum of grad W . (u_a - u_b). Fields are zero in the fourth place, which is summed all the same:
+/// four numbers at once are faster than three.
 #[inline]
 fn rate_row(
-    near: &Near,
     chunk: &Chunk,
     pairs: &PairChunk,
-    (k, field): (usize, &[[f64; 3]]),
-) -> f64 {
+    k: usize,
+    (place, field): (&[[f32; 4]], &[[f32; 4]]),
+) -> f32 {
     let a = chunk.first() + k;
-    let (place, own) = (near.position[a], field[a]);
-    let mut sum = 0.0;
+    let (x, u) = (place[a], field[a]);
+    let mut sum = [0.0_f32; 4];
     for (&b, &slope) in chunk.row(k).iter().zip(&pairs.slope[chunk.range(k)]) {
-        let b = b as usize;
-        sum += slope * dot(minus(place, near.position[b]), minus(own, field[b]));
+        let (y, v) = (place[b as usize], field[b as usize]);
+        for i in 0..4 {
+            sum[i] += slope * (x[i] - y[i]) * (u[i] - v[i]);
+        }
     }
-    sum
+    sum[0] + sum[1] + sum[2] + sum[3]
 }

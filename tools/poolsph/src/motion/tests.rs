@@ -1,0 +1,235 @@
+//! Exact and limiting cases of the motion.
+
+use super::*;
+use crate::forces::tension::{self, Tension};
+use crate::march::March;
+use crate::stage::{Stage, StageError};
+use crate::state::{Column, Metal, Particle, Phase, State};
+
+const METAL: Metal = Metal {
+    density: 7850.0,
+    spacing: 0.5e-3,
+    smoothing_length: 0.5e-3,
+};
+
+fn parameters(method: Method) -> Parameters {
+    let text = r#"{"viscosity_pa_s": 0.004, "density_tolerance": 1e-6}"#;
+    Parameters {
+        method,
+        ..serde_json::from_str(text).unwrap()
+    }
+}
+
+/// The cells of a box, each as `phase` says, with velocities as `velocity` says.
+fn block(
+    cells: [i32; 3],
+    phase: impl Fn([i32; 3]) -> Phase,
+    velocity: impl Fn([f64; 3]) -> [f64; 3],
+) -> State {
+    let mut state = State::new(METAL, vec![Column::Pressure]);
+    state.flowing = true;
+    for cell in 0..cells.iter().product() {
+        let index = [
+            cell % cells[0],
+            cell / cells[0] % cells[1],
+            cell / cells[0] / cells[1],
+        ];
+        let position = index.map(|i| METAL.spacing * (f64::from(i) + 0.5));
+        let phase = phase(index);
+        state.push(Particle {
+            position,
+            velocity: if phase == Phase::Liquid {
+                velocity(position)
+            } else {
+                [0.0; 3]
+            },
+            phase,
+            droplet: false,
+            wall: phase == Phase::Solid,
+            temperature: 0.0,
+            enthalpy: 0.0,
+        });
+    }
+    state
+}
+
+/// A tank of 6 x 6 x 8 liquid cells with two layers of wall.
+fn tank() -> State {
+    block(
+        [10, 10, 12],
+        |[i, j, k]| {
+            if k < 2 || [i, j].iter().any(|i| !(2..8).contains(i)) {
+                Phase::Solid
+            } else if k < 10 {
+                Phase::Liquid
+            } else {
+                Phase::Flying
+            }
+        },
+        |_| [0.0; 3],
+    )
+}
+
+fn march(method: Method, gravity: bool, tension: bool) -> March {
+    let mut after: Vec<Box<dyn Stage>> = Vec::new();
+    if tension {
+        let parameters = tension::Parameters {
+            surface_tension_n_m: 1.0,
+        };
+        after.push(Box::new(Tension::new(parameters, METAL)));
+    }
+    let parameters = Parameters {
+        gravity_m_s2: gravity.then_some([0.0, 0.0, -9.8]),
+        ..parameters(method)
+    };
+    after.push(Box::new(Motion::new(parameters, METAL)));
+    March::new(Vec::new(), after, 1e-4)
+}
+
+fn steps(march: &mut March, state: &mut State, steps: u32) -> Result<(), StageError> {
+    for _ in 0..steps {
+        march.step(state, |_, work| work())?;
+    }
+    Ok(())
+}
+
+#[test]
+fn liquid_at_rest_carries_its_weight() {
+    let mut state = tank();
+    let mut march = march(Method::Projection, true, false);
+    steps(&mut march, &mut state, 100).unwrap();
+    let (surface, mut error, mut count) = (10.0 * METAL.spacing, 0.0, 0.0);
+    let bottom = METAL.density * 9.8 * 8.0 * METAL.spacing;
+    for a in (0..state.len()).filter(|a| state.phase[*a] == Phase::Liquid) {
+        let speed = state.velocity[a].iter().map(|u| u * u).sum::<f64>().sqrt();
+        assert!(
+            speed < 0.005 * (9.8 * 8.0 * METAL.spacing).sqrt(),
+            "{speed}"
+        );
+        error += state.pressure[a] - METAL.density * 9.8 * (surface - state.position[a][2]);
+        count += 1.0;
+    }
+    // The mean has all but e^-2 of its end after 10 ms.
+    let settled = 1.0 - (-2.0_f64).exp();
+    let deviation = (error / count + (1.0 - settled) * 0.5 * bottom) / bottom;
+    assert!(deviation.abs() < 0.01, "{deviation}");
+}
+
+#[test]
+fn free_flight_keeps_momentum() {
+    for method in [Method::Projection, Method::Homogenising] {
+        let whirl = |x: [f64; 3]| [0.3 + 40.0 * x[1], -90.0 * x[0], 0.2 - 60.0 * x[2]];
+        let mut state = block([7, 6, 5], |_| Phase::Liquid, whirl);
+        let sum = |state: &State| {
+            let add = |sum: [f64; 3], u: &[f64; 3]| [sum[0] + u[0], sum[1] + u[1], sum[2] + u[2]];
+            state.velocity.iter().fold([0.0; 3], add)
+        };
+        let before = sum(&state);
+        steps(&mut march(method, false, true), &mut state, 30).unwrap();
+        let after = sum(&state);
+        let size: f64 = state.velocity.iter().flatten().map(|u| u.abs()).sum();
+        for axis in 0..3 {
+            let change = (after[axis] - before[axis]).abs() / size;
+            assert!(change < 1e-12, "{method:?}, axis {axis}: {change:e}");
+        }
+    }
+}
+
+#[test]
+fn a_parabola_feels_its_curvature() {
+    // u_x = s z^2 has the viscous acceleration 2 s nu everywhere, a uniform shear has none.
+    let slope = 1e4;
+    let mut state = block(
+        [8, 8, 8],
+        |_| Phase::Liquid,
+        |x| [slope * x[2] * x[2], 30.0 * x[2], 0.0],
+    );
+    state.gather();
+    let near = &state.near;
+    let mut change = vec![[0.0; 3]; near.len()];
+    viscosity::Viscosity::new(0.004, METAL).apply(near, 1.0, &mut change);
+    let exact = 2.0 * slope * 0.004 / METAL.density;
+    let inner = |x: &[f64; 3]| x.iter().all(|x| (x / METAL.spacing - 4.0).abs() < 2.0);
+    let mut seen = 0;
+    for (x, change) in near.position.iter().zip(&change).filter(|(x, _)| inner(x)) {
+        assert!(
+            (change[0] / exact - 1.0).abs() < 1e-9,
+            "{change:?} at {x:?}"
+        );
+        assert!(change[1].abs() < 1e-9 * exact && change[2].abs() < 1e-9 * exact);
+        seen += 1;
+    }
+    assert_eq!(seen, 64);
+}
+
+#[test]
+fn same_bytes_on_one_thread_and_on_two() {
+    for method in [Method::Projection, Method::Homogenising] {
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.build().unwrap().install(|| {
+                let mut state = tank();
+                steps(&mut march(method, true, true), &mut state, 20).unwrap();
+                let bits = |x: &f64| x.to_bits();
+                let all = state.position.iter().chain(&state.velocity).flatten();
+                all.chain(&state.pressure).map(bits).collect::<Vec<_>>()
+            })
+        };
+        assert!(run(1) == run(2), "{method:?}");
+    }
+}
+
+#[test]
+fn a_resumed_march_takes_the_same_steps() {
+    let mut state = tank();
+    let mut first = march(Method::Projection, true, true);
+    steps(&mut first, &mut state, 10).unwrap();
+    let mut resumed = state.clone();
+    let mut second = march(Method::Projection, true, true);
+    for (from, to) in first.stages().zip(second.stages_mut()) {
+        to.restore(&from.save());
+    }
+    steps(&mut first, &mut state, 5).unwrap();
+    steps(&mut second, &mut resumed, 5).unwrap();
+    assert!(state.position == resumed.position && state.pressure == resumed.pressure);
+}
+
+#[test]
+fn divergence_is_named() {
+    for speed in [1e4, f64::NAN] {
+        let mut state = tank();
+        let wild = state
+            .phase
+            .iter()
+            .position(|p| *p == Phase::Liquid)
+            .unwrap();
+        state.velocity[wild] = [0.0, 0.0, speed];
+        let mut march = march(Method::Projection, true, false);
+        let Err(StageError::Diverged {
+            step,
+            particle,
+            quantity,
+            ..
+        }) = steps(&mut march, &mut state, 1)
+        else {
+            panic!("a speed of {speed} m/s was taken");
+        };
+        assert!((step, particle, quantity) == (0, wild, "speed"));
+    }
+}
+
+#[test]
+fn the_fastest_particle_divides_the_step() {
+    let mut state = block([5, 5, 5], |_| Phase::Liquid, |_| [0.0, 0.0, 3.0]);
+    let mut march = march(Method::Projection, false, false);
+    steps(&mut march, &mut state, 1).unwrap();
+    let figures = march.figures();
+    let substeps = figures
+        .iter()
+        .find(|(_, f)| f.name == "substeps")
+        .unwrap()
+        .1;
+    assert!((substeps.value - 2.0).abs() < 1e-12);
+    let limit = march.limit(&state).unwrap();
+    assert!(limit.name == "courant" && (limit.seconds - 0.4 * 0.5e-3 / 3.0).abs() < 1e-9);
+}
