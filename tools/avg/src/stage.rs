@@ -128,8 +128,8 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
         ));
     }
     session.closing("frames", "1", plan.frames.len() as f64);
-    session.closing("frames_least_in_a_phase", "1", f64::from(least));
     if plan.phases > 1 {
+        session.closing("frames_least_in_a_phase", "1", f64::from(least));
         session.closing("drops", "1", averages.drops.1 as f64);
     }
     if let Some(period) = plan.period {

@@ -37,8 +37,10 @@ pub(crate) fn run(pool: &Path, targets: &Path) -> Result<ExitCode, Failure> {
 
 /// The rows for people, in columns of fixed width.
 fn table(rows: &[Row]) -> String {
+    let titles = rows.iter().map(|r| r.target.title.chars().count());
+    let wide = titles.chain([7]).max().unwrap_or(7);
     let mut text = format!(
-        "{:<34} {:<11} {:>9} {:>9} {:>10}  {:<16} verdict\n",
+        "{:<wide$}  {:<11} {:>9} {:>9} {:>10}  {:<16} verdict\n",
         "measure", "kind", "published", "found", "difference", "tolerance"
     );
     for row in rows {
@@ -47,7 +49,7 @@ fn table(rows: &[Row]) -> String {
             .measured
             .map_or_else(|| "-".to_owned(), |m| format!("{} {unit}", row.shown(m)));
         text += &format!(
-            "{:<34} {:<11} {:>9} {:>9} {:>10}  {:<16} {}\n",
+            "{:<wide$}  {:<11} {:>9} {:>9} {:>10}  {:<16} {}\n",
             row.target.title,
             row.target.kind.word(),
             format!("{} {unit}", row.shown(row.target.value)),

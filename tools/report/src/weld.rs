@@ -10,6 +10,10 @@ use crate::measure::section::{Metal, Plane, Section};
 pub(crate) const PARTICLES: &str = "/particles";
 /// What lies closer to the start of the weld than this is run-in, not bead \[m\].
 const RUN_IN: f64 = 8e-3;
+/// Metal shown before and behind what has been fused \[m\].
+const ROOM: f64 = 6e-3;
+/// Least length shown along the weld \[m\].
+const LEAST_SHOWN: f64 = 40e-3;
 /// Distance from liquid metal at which a section counts as frozen \[m\].
 const CLEAR: f64 = 1e-3;
 
@@ -146,6 +150,19 @@ impl Weld {
             None => Some([y, y]),
             Some([low, high]) => Some([low.min(y), high.max(y)]),
         })
+    }
+
+    /// Range of y worth showing \[m\]: what has been fused, with room, at least `LEAST_SHOWN`; all
+    /// where that is most of the metal or where nothing has been fused.
+    pub(crate) fn window(&self) -> Option<[f64; 2]> {
+        let all = self.extent(|_| true)?;
+        let Some([start, end]) = self.extent(|i| self.fused[i]) else {
+            return Some(all);
+        };
+        let more = (0.5 * (LEAST_SHOWN - (end - start))).max(ROOM);
+        let window = [all[0].max(start - more), all[1].min(end + more)];
+        let most = window[1] - window[0] > 0.75 * (all[1] - all[0]);
+        Some(if most { all } else { window })
     }
 
     /// Measures of the bead along its frozen stretch; of the whole fused stretch, as far as it has

@@ -57,7 +57,7 @@ impl Axes {
     pub(crate) fn draw(&self, canvas: &mut Canvas, x_title: &str, y_title: &str) {
         canvas.border(self.area, INK, 2.0);
         let bottom = self.area.y + self.area.h;
-        for tick in ticks(self.x, self.area.w / 150.0) {
+        for tick in ticks(self.x, (self.area.w / 150.0).min(10.0)) {
             let at = self.pixel([tick, self.y[0]]);
             canvas.line(at, [at[0], at[1] + 8.0], INK, 2.0);
             write(
@@ -69,7 +69,7 @@ impl Axes {
             );
         }
         let mut widest = 0.0_f64;
-        for tick in ticks(self.y, self.area.h / 80.0) {
+        for tick in ticks(self.y, (self.area.h / 80.0).min(10.0)) {
             let at = self.pixel([self.x[0], tick]);
             let text = number(tick);
             widest = widest.max(Hand::Small.width(&text));
@@ -150,7 +150,7 @@ impl Scale {
         }
         canvas.border(rect, INK, 2.0);
         let mut widest = 0.0_f64;
-        for tick in ticks(self.range, rect.h / 70.0) {
+        for tick in ticks(self.range, (rect.h / 70.0).min(8.0)) {
             let t = (tick - self.range[0]) / (self.range[1] - self.range[0]);
             let y = rect.y + (1.0 - t) * rect.h;
             let text = number(tick);

@@ -73,13 +73,14 @@ fn place(colour: [u8; 3]) -> [u8; 3] {
 fn cut(bins: Vec<Bin>) -> Vec<Vec<Bin>> {
     let mut boxes = vec![bins];
     while boxes.len() < MOST {
-        // The box whose pixels suffer most: many of them, far apart.
+        // The box whose pixels suffer most: far apart above all, then many. Were it many above all,
+        // small things such as colour bars would lose their colours to large plain faces.
         let worst = boxes
             .iter()
             .enumerate()
             .max_by_key(|(_, bins)| {
                 let (_, width) = longest(bins);
-                u64::from(width).pow(2) * bins.iter().map(|b| b.count).sum::<u64>()
+                u64::from(width).pow(4) * bins.iter().map(|b| b.count).sum::<u64>()
             })
             .map(|(n, bins)| (n, longest(bins)));
         let Some((n, (side, width))) = worst else {

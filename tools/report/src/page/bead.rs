@@ -73,7 +73,7 @@ fn facts(weld: &Weld, stretch: &Stretch) -> Vec<(String, String)> {
             facts.push((format!("{:.1} mm", 1e3 * measure.value), range));
         }
     }
-    if let Some(measure) = stretch.get("dilution") {
+    if let Some(measure) = stretch.get("dilution").filter(|_| stretch.frozen) {
         let words = "dilution: fused plate in the whole bead".to_owned();
         facts.push((format!("{:.0} %", 100.0 * measure.value), words));
     }
@@ -126,7 +126,8 @@ fn sections(weld: &Weld, paint: &Paint, stretch: &Stretch) -> Result<String, Fai
                 "Section across the weld at y = {:.1} mm, {state}. The orange line encloses all metal that \
                  has ever been liquid; arrows measure it from the dashed original surface.",
                 1e3 * place
-            );
+            )
+            .replace("= -", "= \u{2212}");
             let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;
             out += &figure(&image, &caption);
         }

@@ -9,11 +9,9 @@ pub(super) fn section(targets: &Targets, stretch: Option<&Stretch>) -> String {
     let rows = compare(targets, stretch);
     let mut table = Rows::new(&[
         "Measure",
-        "Source",
-        "Kind",
         "#Published",
+        "From",
         "#This study",
-        "#Along the weld",
         "#Difference",
         "Tolerance",
         "Verdict",
@@ -24,30 +22,23 @@ pub(super) fn section(targets: &Targets, stretch: Option<&Stretch>) -> String {
     paragraph(&summary(&rows)) + &table.render()
 }
 
-fn cells(row: &Row) -> [String; 9] {
+fn cells(row: &Row) -> [String; 7] {
     let unit = row.unit();
-    let range = row.range.map_or_else(
-        || "\u{2013}".to_owned(),
-        |[low, high]| {
-            format!(
-                "{}\u{2009}\u{2013}\u{2009}{}",
-                row.shown(low),
-                row.shown(high)
-            )
-        },
-    );
     let found = row.measured.map_or_else(
         || "\u{2013}".to_owned(),
         |m| format!("{} {unit}", row.shown(m)),
     );
+    let range = row.range.map_or_else(String::new, |[low, high]| {
+        let span = format!("{} to {} along the weld", row.shown(low), row.shown(high));
+        format!("<br><small>{span}</small>")
+    });
     let (words, holds) = row.words();
+    let kind = row.target.kind.word();
     [
         escape(&row.target.title),
-        escape(&row.target.source),
-        row.target.kind.word().to_owned(),
         format!("{} {unit}", row.shown(row.target.value)),
-        found,
-        range,
+        format!("{kind}<br><small>{}</small>", escape(&row.target.source)),
+        found + &range,
         row.difference(),
         row.tolerance(),
         verdict(&words, holds),
@@ -62,8 +53,8 @@ fn summary(rows: &[Row]) -> String {
         count(Verdict::NotYet),
     );
     if early > 0 {
-        return "The published bead is finished and cold; this weld is still liquid all along. Its values \
-                so far stand beside the published ones, and nothing is judged."
+        return "The published bead is finished and cold; nothing of this weld has frozen beyond its run-in. Its \
+                values so far stand beside the published ones, and nothing is judged."
             .to_owned();
     }
     match (held, missed) {

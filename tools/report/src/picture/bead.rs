@@ -95,7 +95,10 @@ impl View {
 /// Draws the weld as seen from `view`; nothing without particles.
 pub(crate) fn picture(weld: &Weld, paint: &Paint, view: View) -> Option<Canvas> {
     let radius = 0.56e3 * weld.plate.spacing_m;
+    let [from, to] = weld.window()?;
+    let shown = |i: &usize| (from..=to).contains(&weld.position[*i][1]);
     let discs: Vec<Disc> = (0..weld.position.len())
+        .filter(shown)
         .map(|i| Disc {
             at: view.turn(weld.position[i]),
             colour: paint.colour(weld, i),

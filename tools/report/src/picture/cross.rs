@@ -13,6 +13,8 @@ use crate::weld::Weld;
 
 const FUSION: Rgb = hex(0xd5_5e00);
 const GAUGE: Rgb = hex(0x00_3f7d);
+/// What is smaller gets no gauge \[m\].
+const SHOWN: f64 = 0.2e-3;
 
 fn millimetres(values: &[f64]) -> Vec<f64> {
     values.iter().map(|v| 1e3 * v).collect()
@@ -92,7 +94,9 @@ pub(crate) fn across(weld: &Weld, section: &Section, bead: &Bead) -> Option<Canv
 /// The section along the centre plane, coloured by temperature, with the fusion line.
 pub(crate) fn along(weld: &Weld, paint: &Paint) -> Option<Canvas> {
     let section = Section::cut(&weld.metal(), Plane::Along, weld.centre());
-    let (across, up) = (extent(&section, true)?, extent(&section, false)?);
+    let (all, up) = (extent(&section, true)?, extent(&section, false)?);
+    let [from, to] = weld.window()?.map(|v| 1e3 * v);
+    let across = [all[0].max(from - 0.4), all[1].min(to + 0.4)];
     let mut v = view(&section, across, up, [110.0, 190.0]);
     let nearest = nearest(weld, &section);
     let fused = section.fused_fraction();
@@ -202,7 +206,7 @@ fn gauges(canvas: &mut Canvas, axes: &Axes, bead: &Bead, centre: f64) {
     let mm = |v: f64| 1e3 * v;
     let wide = mm(bead.fused_width.max(bead.bead_width)) / 2.0;
     let label = |name: &str, value: f64| format!("{name} {:.1} mm", mm(value));
-    if bead.penetration > 0.0 {
+    if bead.penetration > SHOWN {
         let x = centre + wide + 0.8;
         upright(
             canvas,
@@ -211,7 +215,7 @@ fn gauges(canvas: &mut Canvas, axes: &Axes, bead: &Bead, centre: f64) {
             &label("penetration", bead.penetration),
         );
     }
-    if bead.reinforcement > 0.0 {
+    if bead.reinforcement > SHOWN {
         let x = centre + wide + 0.8;
         upright(
             canvas,
@@ -220,7 +224,7 @@ fn gauges(canvas: &mut Canvas, axes: &Axes, bead: &Bead, centre: f64) {
             &label("height", bead.reinforcement),
         );
     }
-    if bead.fused_width > 0.0 {
+    if bead.fused_width > SHOWN {
         let z = -mm(bead.penetration) - 0.7;
         level(
             canvas,
@@ -233,7 +237,7 @@ fn gauges(canvas: &mut Canvas, axes: &Axes, bead: &Bead, centre: f64) {
             &label("fused width", bead.fused_width),
         );
     }
-    if bead.bead_width > 0.0 {
+    if bead.bead_width > SHOWN {
         let z = mm(bead.reinforcement) + 0.6;
         level(
             canvas,
@@ -261,9 +265,12 @@ fn upright(canvas: &mut Canvas, axes: &Axes, [x, from, to]: [f64; 3], words: &st
     } else {
         (Stand::Right, -18.0)
     };
+    // The words of a short gauge stand away from the surface, where the other gauge begins.
+    let short = (20.0 - 0.5 * (a[1] - b[1]).abs()).max(0.0);
+    let away = if from < 0.0 { short } else { -short };
     write(
         canvas,
-        [a[0] + shift, 0.5 * (a[1] + b[1])],
+        [a[0] + shift, 0.5 * (a[1] + b[1]) + away],
         words,
         Hand::Small,
         (stand, GAUGE),
