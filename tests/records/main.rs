@@ -103,7 +103,7 @@ fn the_record_of_an_exact_case_fits_its_schema() {
 #[test]
 fn the_record_of_an_extreme_case_fits_its_schema() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/scene.json");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
     let case: Extreme = serde_json::from_value(serde_json::json!({
         "case": "drop",
         "tool": "poolsph",
