@@ -7,13 +7,23 @@ use run::property::Curve;
 use run::{Failure, Fault, Inputs};
 
 use crate::domain::bodies::{self, Body, Filled};
+use crate::domain::droplet::Droplets;
+use crate::forces::arc_pressure::ArcPressure;
+use crate::forces::buoyancy::Buoyancy;
+use crate::forces::gas_shear::{Gas, GasShear};
+use crate::forces::lorentz::Lorentz;
+use crate::forces::marangoni::Marangoni;
+use crate::forces::tension::Tension;
 use crate::frames::{Layout, PlateNote};
 use crate::heat::{self, Caloric, Conduction};
 use crate::march::March;
 use crate::motion::Motion;
 use crate::scene::{Scene, StartState};
+use crate::source::Path;
+use crate::source::arc::ArcSource;
 use crate::stage::Stage;
 use crate::state::{Column, State};
+use crate::surface::Surface;
 
 /// Physics that a scene does not have, and what says so.
 pub type LeftOut = Vec<(&'static str, String)>;
@@ -35,6 +45,7 @@ pub struct Assembled {
 }
 
 /// Stages ahead of the gathering of the moving particles, and after it.
+#[derive(Default)]
 struct Parts {
     before: Vec<Box<dyn Stage>>,
     after: Vec<Box<dyn Stage>>,
@@ -46,76 +57,77 @@ impl Parts {
         self.left_out.push((key, format!("no key '{key}'")));
     }
 
-    /// Takes a stage if its key is there, and notes it as left out if not.
+    /// Takes a stage of the domain if its key is there, and notes it as left out if not.
+    fn ahead<P>(
+        &mut self,
+        key: &'static str,
+        part: Option<P>,
+        make: impl FnOnce(P) -> Result<Box<dyn Stage>, Failure>,
+    ) -> Result<(), Failure> {
+        match part {
+            Some(part) => self.before.push(make(part)?),
+            None => self.leave_out(key),
+        }
+        Ok(())
+    }
+
+    /// As [`Parts::ahead`], for a stage that works on what has been gathered.
     fn when<P>(
         &mut self,
         key: &'static str,
         part: Option<P>,
-        make: impl FnOnce(P) -> Box<dyn Stage>,
-    ) {
+        make: impl FnOnce(P) -> Result<Box<dyn Stage>, Failure>,
+    ) -> Result<(), Failure> {
         match part {
-            Some(part) => self.after.push(make(part)),
+            Some(part) => self.after.push(make(part)?),
             None => self.leave_out(key),
         }
+        Ok(())
     }
 }
+
+/// What the stages are made from.
+struct Source<'a> {
+    scene: &'a Scene,
+    caloric: Option<Arc<Caloric>>,
+    arc: Option<ArcSource>,
+}
+
+/// Particles with a temperature that they keep.
+type Held = Vec<(Range<usize>, Curve)>;
 
 /// Checks the scene and makes the run.
 ///
 /// # Errors
 /// Every fault of the scene at once; an input that cannot be read.
-pub fn assemble(scene: &Scene, _inputs: &Inputs) -> Result<Assembled, Failure> {
+pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let mut faults = crate::scene::faults(scene);
     let bodies = checked_bodies(scene, &mut faults);
     if !faults.is_empty() {
         return Err(Failure::Scene(faults));
     }
-    let heat = Heat::of(scene)?;
-    // The particles come before the stages, which hold the temperature of some; the columns come
-    // from stages that know nothing of particles.
-    let columns = columns(&stages(scene, heat.as_ref(), Vec::new())?);
+    let source = Source::read(scene, inputs)?;
+    // The columns come from stages that know nothing of particles; then the particles, some of
+    // which the stages keep at a temperature.
+    let columns = columns(&source.stages(Vec::new())?);
     let mut state = State::new(scene.metal(), columns);
-    let caloric = heat.as_ref().map(|heat| heat.caloric.as_ref());
-    let filled = bodies::fill(&mut state, &bodies, caloric)?;
-    let parts = stages(scene, heat.as_ref(), held(&bodies, &filled))?;
-    state.flowing = scene.flow_start.is_none();
+    let filled = bodies::fill(&mut state, &bodies, source.caloric.as_deref())?;
+    let parts = source.stages(held(&bodies, &filled))?;
+    state.flowing = scene.flow.is_some() && scene.flow_start.is_none();
+    state.source = scene.source.map(|source| source.place(0.0));
     Ok(Assembled {
         march: March::new(parts.before, parts.after, scene.time.step_s),
         layout: Layout {
             width: scene.output.precision,
             walls: state.wall.contains(&true),
-            surface: false,
+            surface: state.has(Column::Surface),
         },
-        plate: plate(scene, heat.as_ref()),
+        plate: source.plate(),
         state,
         filled,
         left_out: parts.left_out,
     })
 }
-
-/// Heat as the scene has it.
-struct Heat<'a> {
-    parameters: &'a heat::Parameters,
-    caloric: Arc<Caloric>,
-}
-
-impl<'a> Heat<'a> {
-    fn of(scene: &'a Scene) -> Result<Option<Self>, Fault> {
-        let Some(parameters) = &scene.heat else {
-            return Ok(None);
-        };
-        let caloric = parameters
-            .caloric()
-            .map_err(|fault| fault.within("/heat"))?;
-        Ok(Some(Self {
-            parameters,
-            caloric,
-        }))
-    }
-}
-
-/// Particles with a temperature that they keep.
-type Held = Vec<(Range<usize>, Curve)>;
 
 fn held(bodies: &[Body], filled: &[Filled]) -> Held {
     let mut first = 0;
@@ -126,36 +138,6 @@ fn held(bodies: &[Body], filled: &[Filled]) -> Held {
         held.extend(body.held.clone().map(|curve| (range, curve)));
     }
     held
-}
-
-/// The stages in the order of a step (Komen 2019, fig. 3.16).
-fn stages(scene: &Scene, heat: Option<&Heat>, held: Held) -> Result<Parts, Fault> {
-    let metal = scene.metal();
-    let mut parts = Parts {
-        before: Vec::new(),
-        after: Vec::new(),
-        left_out: Vec::new(),
-    };
-    match heat {
-        None => parts.leave_out("heat"),
-        Some(Heat {
-            parameters,
-            caloric,
-        }) => {
-            let mut conduction = Conduction::new(parameters, caloric.clone(), metal)
-                .map_err(|fault| fault.within("/heat"))?;
-            for (particles, curve) in held {
-                conduction.hold(particles, curve);
-            }
-            parts.after.push(Box::new(conduction));
-            let phase = heat::Phase::new(caloric.clone(), scene.flow_start);
-            parts.after.push(Box::new(phase));
-        }
-    }
-    parts.when("flow", scene.flow, |flow| {
-        Box::new(Motion::new(flow, metal))
-    });
-    Ok(parts)
 }
 
 /// Optional columns of all stages.
@@ -177,17 +159,141 @@ fn checked_bodies(scene: &Scene, faults: &mut Vec<Fault>) -> Vec<Body> {
     bodies
 }
 
-/// The first solid body is the base metal; without one, the first body of any kind stands for it.
-fn plate(scene: &Scene, heat: Option<&Heat>) -> PlateNote {
-    let solid = scene.bodies.iter().find(|b| b.state == StartState::Solid);
-    let bounds = solid.or(scene.bodies.first()).map(|b| b.shape.bounds());
-    let (min_m, max_m) = bounds.unwrap_or_default();
-    PlateNote {
-        min_m,
-        max_m,
-        spacing_m: scene.spacing_m,
-        particle_volume_m3: scene.spacing_m.powi(3),
-        melting_point_k: heat.and_then(|heat| heat.caloric.melting_point()),
-        direction: [0.0, 1.0, 0.0],
+impl<'a> Source<'a> {
+    fn read(scene: &'a Scene, inputs: &Inputs) -> Result<Self, Failure> {
+        let caloric = match &scene.heat {
+            Some(heat) => Some(heat.caloric().map_err(|fault| fault.within("/heat"))?),
+            None => None,
+        };
+        let wanted =
+            scene.gas_shear.is_some() || scene.lorentz.is_some() || scene.arc_pressure.is_some();
+        let arc = match (wanted, inputs.get("arc")) {
+            (false, None) => None,
+            (true, None) => Some(ArcSource::read(inputs.path("arc")?)?),
+            (_, Some(path)) => Some(ArcSource::read(path)?),
+        };
+        Ok(Self {
+            scene,
+            caloric,
+            arc,
+        })
     }
+
+    /// The stages in the order of a step (Komen 2019, fig. 3.16).
+    fn stages(&self, held: Held) -> Result<Parts, Failure> {
+        let mut parts = Parts::default();
+        let scene = self.scene;
+        parts.ahead("source", scene.source, |source| Ok(Box::new(Path(source))))?;
+        parts.ahead("droplets", scene.droplets, |droplets| {
+            let stage = Droplets::new(droplets, scene.metal(), self.caloric.as_ref())
+                .map_err(|fault| fault.within("/droplets"))?;
+            Ok(Box::new(stage))
+        })?;
+        self.heat(&mut parts, held)?;
+        self.forces(&mut parts)?;
+        parts.when("flow", scene.flow, |flow| {
+            Ok(Box::new(Motion::new(flow, scene.metal())))
+        })?;
+        let surface = columns(&parts).contains(&Column::Surface);
+        if surface {
+            let surface = Surface::new(scene.metal());
+            parts.after.insert(0, Box::new(surface));
+        }
+        Ok(parts)
+    }
+
+    fn heat(&self, parts: &mut Parts, held: Held) -> Result<(), Failure> {
+        let (Some(heat), Some(caloric)) = (&self.scene.heat, &self.caloric) else {
+            parts.leave_out("heat");
+            return Ok(());
+        };
+        let mut conduction = Conduction::new(heat, caloric.clone(), self.scene.metal())
+            .map_err(|fault| fault.within("/heat"))?;
+        for (particles, curve) in held {
+            conduction.hold(particles, curve);
+        }
+        parts.after.push(Box::new(conduction));
+        parts.when("arc", self.scene.arc.as_ref(), |arc| {
+            let surface = self.arc.as_ref().map(ArcSource::surface);
+            let stage = heat::Arc::new(arc, caloric.clone(), self.scene.metal(), surface)
+                .map_err(|fault| fault.within("/arc"))?;
+            Ok(Box::new(stage))
+        })?;
+        parts.when("losses", self.scene.losses, |losses| {
+            Ok(Box::new(heat::Losses::new(losses, caloric.clone())))
+        })?;
+        parts.when("melting", heat.melting, |_| {
+            let start = self.scene.flow_start;
+            Ok(Box::new(heat::Phase::new(caloric.clone(), start)))
+        })
+    }
+
+    fn forces(&self, parts: &mut Parts) -> Result<(), Failure> {
+        let (scene, metal) = (self.scene, self.scene.metal());
+        let flow = scene.flow;
+        parts.when("marangoni", scene.marangoni, |marangoni| {
+            Ok(Box::new(Marangoni::new(marangoni)))
+        })?;
+        parts.when("gas_shear", scene.gas_shear.as_ref(), |shear| {
+            let viscosity = flow.map_or(0.0, |flow| flow.viscosity_pa_s);
+            let stage = GasShear::new(shear, self.gas()?, viscosity, metal)
+                .map_err(|fault| fault.within("/gas_shear"))?;
+            Ok(Box::new(stage))
+        })?;
+        parts.when("lorentz", scene.lorentz, |_| {
+            let table = self
+                .arc()?
+                .lorentz()?
+                .ok_or_else(|| Fault::at("/lorentz", "the input 'arc' holds no Lorentz force"))?;
+            Ok(Box::new(Lorentz::new(table, metal)))
+        })?;
+        parts.when("arc_pressure", scene.arc_pressure, |_| {
+            let pressure = self.arc()?.radial("arc_pressure_pa")?;
+            Ok(Box::new(ArcPressure::new(pressure, metal)))
+        })?;
+        parts.when("buoyancy", scene.buoyancy, |buoyancy| {
+            let gravity = flow.and_then(|flow| flow.gravity_m_s2).unwrap_or_default();
+            Ok(Box::new(Buoyancy::new(buoyancy, gravity, metal)))
+        })?;
+        parts.when("tension", scene.tension, |tension| {
+            Ok(Box::new(Tension::new(tension, metal)))
+        })
+    }
+
+    fn arc(&self) -> Result<&ArcSource, Failure> {
+        let missing = || Failure::Usage("this scene needs --input arc=FILE".to_owned());
+        self.arc.as_ref().ok_or_else(missing)
+    }
+
+    fn gas(&self) -> Result<Gas, Failure> {
+        let arc = self.arc()?;
+        Ok(Gas {
+            speed: arc.radial("gas_radial_velocity_m_s")?,
+            height: arc.scalar("gas_velocity_height_m")?,
+            temperature: arc.radial("gas_temperature_k")?,
+        })
+    }
+
+    /// The first solid body is the base metal; without one, the first body stands for it.
+    fn plate(&self) -> PlateNote {
+        let bodies = &self.scene.bodies;
+        let solid = bodies.iter().find(|b| b.state == StartState::Solid);
+        let bounds = solid.or(bodies.first()).map(|b| b.shape.bounds());
+        let (min_m, max_m) = bounds.unwrap_or_default();
+        let velocity = self.scene.source.map(|source| source.velocity_m_s);
+        PlateNote {
+            min_m,
+            max_m,
+            spacing_m: self.scene.spacing_m,
+            particle_volume_m3: self.scene.spacing_m.powi(3),
+            melting_point_k: self.caloric.as_ref().and_then(|c| c.melting_point()),
+            direction: velocity.and_then(unit).unwrap_or([0.0, 1.0, 0.0]),
+        }
+    }
+}
+
+/// Direction of a vector; `None` for zero.
+fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length > 0.0).then(|| v.map(|x| x / length))
 }

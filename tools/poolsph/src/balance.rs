@@ -98,7 +98,9 @@ impl Balance {
                 .parts
                 .iter()
                 .filter(|(name, _)| name.starts_with(prefix));
-            parts.map(|(_, value)| value).sum()
+            parts
+                .map(|(_, value)| value)
+                .fold(0.0, |sum, value| sum + value)
         };
         let (input, output) = (sum("energy_in_"), sum("energy_out_"));
         let scale = input.abs().max(output.abs());

@@ -7,6 +7,9 @@ use serde::Serialize;
 use crate::scene::{FloatWidth, PoolOutput};
 use crate::state::{Column, Phase, State};
 
+/// A particle that owns this part of d^2 of the surface counts as surface.
+const EXPOSED: f64 = 0.1;
+
 /// JSON Schema of `/source`.
 const SOURCE_SCHEMA: &str = r#"{"type":"object","title":"Place of the heat source and phase of the droplet period","properties":{"time_s":{"type":"number"},"x_m":{"type":"number"},"y_m":{"type":"number"},"z_m":{"type":"number"},"phase":{"type":"number","minimum":0,"maximum":1},"droplet":{"type":"integer"}}}"#;
 
@@ -88,6 +91,11 @@ impl Layout {
             .flag("droplet", ids.iter().map(|a| u8::from(state.droplet[*a])));
         if self.walls {
             frame = frame.flag("wall", ids.iter().map(|a| u8::from(state.wall[*a])));
+        }
+        if self.surface {
+            let least = EXPOSED * state.metal.spacing * state.metal.spacing;
+            let exposed = |a: &usize| u8::from(state.surface[*a].area > least);
+            frame = frame.flag("surface", ids.iter().map(exposed));
         }
         frame.id("id", ids.iter().map(|a| *a as u32))
     }

@@ -5,6 +5,7 @@ use artefact::{Checkpoint, Result};
 use crate::balance::Start;
 use crate::march::March;
 use crate::state::{Phase, State};
+use crate::surface::Patch;
 
 /// Puts all that the rest of a run depends on into a checkpoint.
 ///
@@ -22,6 +23,8 @@ pub fn save(checkpoint: &mut Checkpoint, state: &State, march: &March, start: St
     checkpoint.put_f64("temperature", &state.temperature);
     checkpoint.put_f64("enthalpy", &state.enthalpy);
     checkpoint.put_f64("pressure", &state.pressure);
+    let patches: Vec<f64> = state.surface.iter().flat_map(Patch::save).collect();
+    checkpoint.put_f64("surface", &patches);
     checkpoint.put_u8("flowing", &[u8::from(state.flowing)]);
     checkpoint.put_u64("step", &[state.step]);
     checkpoint.put_f64("start", &[start.mass, start.stored]);
@@ -51,6 +54,12 @@ pub fn restore(
     state.temperature = checkpoint.f64("temperature")?;
     state.enthalpy = checkpoint.f64("enthalpy")?;
     state.pressure = checkpoint.f64("pressure")?;
+    let patches = checkpoint.f64("surface")?;
+    let (patches, _) = patches.as_chunks();
+    state.surface = patches
+        .iter()
+        .map(|saved| Patch::restored(*saved))
+        .collect();
     state.flowing = checkpoint.u8("flowing")?.first().is_some_and(|f| *f != 0);
     state.step = checkpoint.u64("step")?.first().copied().unwrap_or(0);
     state.time = state.step as f64 * dt;

@@ -10,6 +10,8 @@ use crate::scene::{Scene, due};
 use crate::stage::{Figure, StageError};
 use crate::state::State;
 
+/// A particle that crosses so many diameters in a step belongs to no flow.
+const LEAP: f64 = 12.8;
 /// All numbers of the state are looked at once in so many steps, and before anything is kept.
 const WATCH_STEPS: u64 = 20;
 
@@ -100,6 +102,7 @@ impl<'a> Simulation<'a> {
             }
             session.limit(&format!("step_{}", limit.name), limit.seconds, "s");
         }
+        bounded(state, stepped.dt)?;
         if state.step.is_multiple_of(WATCH_STEPS) {
             watch(state)?;
         }
@@ -173,8 +176,17 @@ impl<'a> Simulation<'a> {
 }
 
 /// Where the source is, if the scene has one.
-fn source(_state: &State) -> Option<SourceNote> {
-    None
+fn source(state: &State) -> Option<SourceNote> {
+    let place = state.source?;
+    let [x_m, y_m, z_m] = place.position;
+    Some(SourceNote {
+        time_s: state.time,
+        x_m,
+        y_m,
+        z_m,
+        phase: place.phase,
+        droplet: place.droplets,
+    })
 }
 
 /// Numbers for the status row.
@@ -186,9 +198,31 @@ fn status(
         ("time", state.time, "s"),
         ("liquid", state.liquid() as f64, ""),
     ];
-    let shown = figures.iter().filter(|(_, figure)| figure.unit != "J");
+    let shown = figures
+        .iter()
+        .filter(|(_, figure)| figure.unit != "J" && figure.name != "liquid_particles");
     row.extend(shown.map(|(_, figure)| (figure.name, figure.value, figure.unit)));
     row
+}
+
+/// Stops the run where a particle has become too fast for any step.
+fn bounded(state: &State, dt: f64) -> Result<(), Failure> {
+    let limit = LEAP * state.metal.spacing / dt;
+    for &id in &state.near.id {
+        let a = id as usize;
+        let u = state.velocity[a];
+        let speed = (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]).sqrt();
+        if speed.is_nan() || speed > limit {
+            return Err(Failure::Diverged {
+                step: state.step,
+                time_s: state.time,
+                place: place(a, state.position[a]),
+                quantity: "speed [m/s]".to_owned(),
+                what: format!("is {speed:.4e} m/s, beyond {limit:.4e} m/s"),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Stops the run where a number is none.

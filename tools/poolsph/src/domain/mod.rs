@@ -1,4 +1,5 @@
 //! What fills the domain: bodies at the start, droplets during the run.
 
 pub mod bodies;
+pub mod droplet;
 pub mod shape;

@@ -1,3 +1,11 @@
 //! Forces on the liquid, one file each (Komen 2019, eq. 4.1).
 
+pub mod arc_pressure;
+pub mod buoyancy;
+pub mod gas_shear;
+pub mod lorentz;
+pub mod marangoni;
 pub mod tension;
+
+#[cfg(test)]
+mod tests;

@@ -35,17 +35,47 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         );
         faults.push(Fault::at("/smoothing_length_m", what));
     }
-    if scene.flow_start.is_some() && scene.flow.is_none() {
-        faults.push(Fault::at(
-            "/flow_start",
-            "nothing flows without the key 'flow'",
-        ));
-    }
-    if scene.flow_start.is_some() && scene.heat.is_none() {
-        faults.push(Fault::at(
-            "/flow_start",
-            "nothing melts without the key 'heat'",
-        ));
+    faults.extend(dependences(scene));
+    faults
+}
+
+/// Keys that mean nothing without another.
+fn dependences(scene: &Scene) -> Vec<Fault> {
+    let flow = ("flow", scene.flow.is_some());
+    let heat = ("heat", scene.heat.is_some());
+    let source = ("source", scene.source.is_some());
+    let needs = [
+        ("flow_start", scene.flow_start.is_some(), vec![flow, heat]),
+        ("arc", scene.arc.is_some(), vec![heat]),
+        ("losses", scene.losses.is_some(), vec![heat]),
+        ("tension", scene.tension.is_some(), vec![flow]),
+        ("marangoni", scene.marangoni.is_some(), vec![flow, heat]),
+        ("buoyancy", scene.buoyancy.is_some(), vec![flow, heat]),
+        ("gas_shear", scene.gas_shear.is_some(), vec![flow, source]),
+        ("lorentz", scene.lorentz.is_some(), vec![flow, source]),
+        (
+            "arc_pressure",
+            scene.arc_pressure.is_some(),
+            vec![flow, source],
+        ),
+        ("droplets", scene.droplets.is_some(), vec![flow, source]),
+    ];
+    let missing = |(key, there, needs): (&'static str, bool, Vec<(&'static str, bool)>)| {
+        let absent = needs
+            .into_iter()
+            .filter(move |(_, is_there)| there && !is_there);
+        absent.map(move |(other, _)| {
+            Fault::at(
+                &format!("/{key}"),
+                format!("means nothing without the key '{other}'"),
+            )
+        })
+    };
+    let mut faults: Vec<Fault> = needs.into_iter().flat_map(missing).collect();
+    let weightless = scene.flow.is_some_and(|flow| flow.gravity_m_s2.is_none());
+    if scene.buoyancy.is_some() && weightless {
+        let what = "means nothing without the key 'gravity_m_s2' in 'flow'";
+        faults.push(Fault::at("/buoyancy", what));
     }
     faults
 }

@@ -11,8 +11,10 @@ pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
 pub use output::{FloatWidth, Output, PoolOutput, due};
 
+use crate::domain::droplet;
+use crate::forces::{arc_pressure, buoyancy, gas_shear, lorentz, marangoni, tension};
 use crate::state::Metal;
-use crate::{heat, motion};
+use crate::{heat, motion, source};
 
 /// Kind and version of the scenes that this tool reads.
 pub const KIND: (&str, u32) = ("poolsph.scene", 1);
@@ -45,9 +47,39 @@ pub struct Scene {
     /// When the liquid begins to move; absent: at once.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow_start: Option<heat::FlowStart>,
+    /// Surface tension; absent: the surface pulls nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension: Option<tension::Parameters>,
+    /// Pull of the surface towards greater tension; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marangoni: Option<marangoni::Parameters>,
+    /// Buoyancy; absent: the density does not depend on the temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub buoyancy: Option<buoyancy::Parameters>,
+    /// The moving axis of the arc; absent: there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<source::Parameters>,
+    /// Shear by the gas of the input `arc`; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gas_shear: Option<gas_shear::Parameters>,
+    /// Lorentz force of the input `arc`; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lorentz: Option<lorentz::Parameters>,
+    /// Pressure of the input `arc` on the surface; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arc_pressure: Option<arc_pressure::Parameters>,
+    /// Droplets from the wire; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub droplets: Option<droplet::Parameters>,
     /// Heat conduction and melting; absent: temperatures are of no account.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat: Option<heat::Parameters>,
+    /// Heat of the arc on the surface; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arc: Option<heat::ArcParameters>,
+    /// Heat that the surface gives off; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub losses: Option<heat::LossParameters>,
     /// What is written, and when.
     pub output: Output,
 }

@@ -1,5 +1,10 @@
 //! The moving arc: where it stands and where in the droplet's period it is.
 
+pub mod arc;
+mod path;
+
+pub use path::{Parameters, Path};
+
 /// Where the arc stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
@@ -9,4 +14,19 @@ pub struct Place {
     pub phase: f64,
     /// Droplets born so far.
     pub droplets: u64,
+}
+
+impl Place {
+    /// Distance of `x` from the axis \[m\] and the unit vector outwards; no direction on the axis.
+    #[must_use]
+    #[inline]
+    pub fn around(&self, x: [f64; 3]) -> (f64, [f64; 2]) {
+        let (dx, dy) = (x[0] - self.position[0], x[1] - self.position[1]);
+        let r = (dx * dx + dy * dy).sqrt();
+        if r > 0.0 {
+            (r, [dx / r, dy / r])
+        } else {
+            (0.0, [0.0; 2])
+        }
+    }
 }

@@ -1,0 +1,94 @@
+//! The pressure of the arc on the surface: F = -p dA/dV n, with the outward normal n.
+//!
+//! Komen (2019, section 4.4.1) takes the pressure from the gas speed by Bernoulli's law and finds it
+//! too small; here it is the arc's own, at the same distance from the axis.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::near::{Role, plus};
+use crate::source::arc::Radial;
+use crate::stage::{Figure, Stage, StageError};
+use crate::state::{Column, Metal, State};
+
+/// The pressure of the arc (key `arc_pressure`).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {}
+
+/// The stage that presses on the surface.
+pub struct ArcPressure {
+    pressure: Radial,
+    volume: f64,
+    pressed: f64,
+}
+
+impl ArcPressure {
+    /// The pressure \[Pa\] over the distance from the axis.
+    #[must_use]
+    pub fn new(pressure: Radial, metal: Metal) -> Self {
+        Self {
+            pressure,
+            volume: metal.volume(),
+            pressed: 0.0,
+        }
+    }
+}
+
+impl Stage for ArcPressure {
+    fn name(&self) -> &'static str {
+        "arc_pressure"
+    }
+
+    fn needs(&self) -> &'static [Column] {
+        &[Column::Surface]
+    }
+
+    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+        self.pressed = 0.0;
+        let Some(axis) = state.source else {
+            return Ok(());
+        };
+        let (near, surface) = (&mut state.near, &state.surface);
+        for k in 0..near.len() {
+            let patch = &surface[near.id[k] as usize];
+            if near.role[k] != Role::Liquid || patch.area <= 0.0 {
+                continue;
+            }
+            let (r, _) = axis.around(near.position[k]);
+            let push = self.pressure.at(r) * patch.area;
+            near.force[k] = plus(near.force[k], -push / self.volume, patch.normal);
+            self.pressed += push * patch.normal[2];
+        }
+        Ok(())
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![Figure {
+            name: "arc_force",
+            unit: "N",
+            value: self.pressed,
+        }]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::tests::{on_top, pool};
+
+    #[test]
+    fn the_force_is_the_pressure_times_the_area() {
+        let mut state = pool(|_| 1800.0);
+        let d = state.metal.spacing;
+        on_top(&mut state, d * d);
+        let pressure = Radial::new(vec![0.0, 1.0], vec![500.0, 500.0]);
+        let mut stage = ArcPressure::new(pressure, state.metal);
+        stage.advance(&mut state, 1e-4).unwrap();
+        let volume = state.metal.volume();
+        let total: f64 = state.near.force.iter().map(|f| f[2] * volume).sum();
+        let area: f64 = state.surface.iter().map(|p| p.area).sum();
+        assert!((total + 500.0 * area).abs() < 1e-12);
+        assert!((stage.figures()[0].value - 500.0 * area).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,167 @@
+//! Shear by the gas that flows outwards over the surface (Komen 2019, eq. 4.7, fig. 4.2).
+//!
+//! Gas and liquid meet at half a diameter from the particle and at the height dz' from the gas speed
+//! u_gas; with one stress across both layers
+//!
+//! ```text
+//! tau = mu_gas mu (u_gas - u_r) / (mu_gas d/2 + mu dz')        F = tau dA/dV
+//! ```
+//!
+//! u_r = (x u_x + y u_y)/r; the square root in print loses the sign. The shear acts along the
+//! surface: what of the direction outwards points along the normal is taken off.
+
+use run::Fault;
+use run::property::{Curve, Property};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::near::{Role, dot, plus};
+use crate::source::arc::Radial;
+use crate::stage::{Stage, StageError};
+use crate::state::{Column, Metal, State};
+
+/// Shear by the gas (key `gas_shear`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// mu_gas(T) of the gas \[Pa s\].
+    #[schemars(extend("x-unit" = "Pa s"))]
+    pub gas_viscosity_pa_s: Property,
+}
+
+/// The gas above the surface, over the distance from the axis.
+#[derive(Debug, Clone)]
+pub struct Gas {
+    /// Speed outwards \[m/s\].
+    pub speed: Radial,
+    /// Height at which it has this speed \[m\].
+    pub height: f64,
+    /// T of the gas \[K\].
+    pub temperature: Radial,
+}
+
+/// The stage that drags the surface outwards.
+pub struct GasShear {
+    gas: Gas,
+    gas_viscosity: Curve,
+    viscosity: f64,
+    metal: Metal,
+}
+
+impl GasShear {
+    /// Shear on liquid of `viscosity` \[Pa s\].
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn new(
+        parameters: &Parameters,
+        gas: Gas,
+        viscosity: f64,
+        metal: Metal,
+    ) -> Result<Self, Fault> {
+        let gas_viscosity = parameters
+            .gas_viscosity_pa_s
+            .compile("/gas_viscosity_pa_s", &["T"])?;
+        Ok(Self {
+            gas,
+            gas_viscosity,
+            viscosity,
+            metal,
+        })
+    }
+
+    /// tau \[Pa\] at the distance `r` \[m\] on liquid that moves outwards with `speed` \[m/s\].
+    fn stress(&self, r: f64, speed: f64) -> Result<f64, StageError> {
+        // Beyond the table the gas rests and is cold: no shear.
+        let kelvin = self.gas.temperature.at(r);
+        if kelvin <= 0.0 {
+            return Ok(0.0);
+        }
+        let gas = self
+            .gas_viscosity
+            .at_temperature(kelvin)
+            .map_err(|e| StageError::Data(format!("viscosity of the gas: {e}")))?;
+        let resistance = 0.5 * gas * self.metal.spacing + self.viscosity * self.gas.height;
+        Ok(gas * self.viscosity * (self.gas.speed.at(r) - speed) / resistance)
+    }
+}
+
+impl Stage for GasShear {
+    fn name(&self) -> &'static str {
+        "gas_shear"
+    }
+
+    fn needs(&self) -> &'static [Column] {
+        &[Column::Surface]
+    }
+
+    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+        let Some(axis) = state.source else {
+            return Ok(());
+        };
+        let (near, surface) = (&mut state.near, &state.surface);
+        for k in 0..near.len() {
+            let patch = &surface[near.id[k] as usize];
+            if near.role[k] != Role::Liquid || patch.area <= 0.0 {
+                continue;
+            }
+            let (r, [x, y]) = axis.around(near.position[k]);
+            let outward = [x, y, 0.0];
+            let stress = self.stress(r, dot(near.velocity[k], outward))?;
+            let along = plus(outward, -dot(outward, patch.normal), patch.normal);
+            let per_volume = stress * patch.area / self.metal.volume();
+            near.force[k] = plus(near.force[k], per_volume, along);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::tests::{on_top, pool};
+
+    fn stage(metal: Metal, viscosity: f64) -> GasShear {
+        let flat = |value| Radial::new(vec![0.0, 1.0], vec![value, value]);
+        let gas = Gas {
+            speed: flat(50.0),
+            height: 3e-5,
+            temperature: flat(1e4),
+        };
+        let parameters = Parameters {
+            gas_viscosity_pa_s: Property::Constant(2e-4),
+        };
+        GasShear::new(&parameters, gas, viscosity, metal).unwrap()
+    }
+
+    #[test]
+    fn stiff_liquid_feels_the_newtonian_stress_of_the_gas() {
+        let mut state = pool(|_| 1800.0);
+        let d = state.metal.spacing;
+        on_top(&mut state, d * d);
+        // mu_gas u/dz' = 333.3 Pa once the liquid layer no longer yields.
+        stage(state.metal, 1e6).advance(&mut state, 1e-4).unwrap();
+        for (k, force) in state.near.force.iter().enumerate() {
+            let patch = state.surface[state.near.id[k] as usize];
+            let expected = if state.near.role[k] == Role::Liquid && patch.area > 0.0 {
+                2e-4 * 50.0 / 3e-5
+            } else {
+                0.0
+            };
+            let found = (force[0] * force[0] + force[1] * force[1]).sqrt() * d;
+            assert!((found - expected).abs() < 1e-5 * 333.0, "{found}");
+            let x = state.near.position[k];
+            assert!(force[0] * x[0] + force[1] * x[1] >= 0.0 && force[2].abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn one_stress_crosses_both_layers() {
+        let metal = pool(|_| 0.0).metal;
+        let stage = stage(metal, 4e-3);
+        let tau = stage.stress(1e-3, 0.2).unwrap();
+        let wall = 50.0 - tau * 3e-5 / 2e-4;
+        let inside = wall - tau * 0.5 * metal.spacing / 4e-3;
+        assert!((inside - 0.2).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,160 @@
+//! The Lorentz force of the arc's current in the metal (Komen 2019, eq. 4.1 and section 4.2.1).
+//!
+//! The arc gives j x B over the distance from its axis and the depth in a flat plate. The depth of a
+//! particle is taken from the surface above it: the mean height of the surface particles within the
+//! support of the kernel, seen from above.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::near::{Near, Role, plus};
+use crate::source::{Place, arc};
+use crate::stage::{Stage, StageError};
+use crate::state::{Column, Metal, State};
+use crate::surface::Patch;
+
+/// A patch that looks upwards at least this much is surface seen from above.
+const UPWARD: f64 = 0.3;
+
+/// The Lorentz force (key `lorentz`).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {}
+
+/// The stage that lets the current pull.
+pub struct Lorentz {
+    table: arc::Lorentz,
+    heights: Heights,
+}
+
+impl Lorentz {
+    /// The force of `table` in `metal`.
+    #[must_use]
+    pub fn new(table: arc::Lorentz, metal: Metal) -> Self {
+        Self {
+            table,
+            heights: Heights {
+                edge: metal.support(),
+                origin: [0.0; 2],
+                side: 0,
+                cells: Vec::new(),
+            },
+        }
+    }
+}
+
+/// Heights of the surface by squares of the plan, around the axis.
+struct Heights {
+    edge: f64,
+    origin: [f64; 2],
+    /// Squares along each side.
+    side: usize,
+    /// Area and area times height.
+    cells: Vec<(f64, f64)>,
+}
+
+impl Heights {
+    /// Sums the surface of the copy within `reach` \[m\] of the axis into squares.
+    fn measure(&mut self, near: &Near, surface: &[Patch], axis: Place, reach: f64) {
+        self.side = (2.0 * reach / self.edge) as usize + 1;
+        self.origin = [axis.position[0] - reach, axis.position[1] - reach];
+        self.cells.clear();
+        self.cells.resize(self.side * self.side, (0.0, 0.0));
+        for (x, &id) in near.position.iter().zip(&near.id) {
+            let patch = &surface[id as usize];
+            if patch.area <= 0.0 || patch.normal[2] <= UPWARD {
+                continue;
+            }
+            if let Some([i, j]) = self.square(*x) {
+                let cell = &mut self.cells[j * self.side + i];
+                cell.0 += patch.area;
+                cell.1 += patch.area * x[2];
+            }
+        }
+    }
+
+    fn square(&self, x: [f64; 3]) -> Option<[usize; 2]> {
+        let along = [0, 1].map(|k| ((x[k] - self.origin[k]) / self.edge).floor());
+        let inside = along.iter().all(|c| *c >= 0.0 && *c < self.side as f64);
+        inside.then(|| along.map(|c| c as usize))
+    }
+
+    /// Height of the surface above `x` \[m\]: the mean of the square and those around it.
+    fn above(&self, x: [f64; 3]) -> Option<f64> {
+        let [i, j] = self.square(x)?;
+        let (mut area, mut moment) = (0.0, 0.0);
+        for row in j.saturating_sub(1)..=(j + 1).min(self.side - 1) {
+            for column in i.saturating_sub(1)..=(i + 1).min(self.side - 1) {
+                let cell = self.cells[row * self.side + column];
+                area += cell.0;
+                moment += cell.1;
+            }
+        }
+        (area > 0.0).then(|| moment / area)
+    }
+}
+
+impl Stage for Lorentz {
+    fn name(&self) -> &'static str {
+        "lorentz"
+    }
+
+    fn needs(&self) -> &'static [Column] {
+        &[Column::Surface]
+    }
+
+    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+        let Some(axis) = state.source else {
+            return Ok(());
+        };
+        let (near, surface) = (&mut state.near, &state.surface);
+        self.heights
+            .measure(near, surface, axis, self.table.radius());
+        for k in 0..near.len() {
+            if near.role[k] != Role::Liquid {
+                continue;
+            }
+            let x = near.position[k];
+            let (r, [outward_x, outward_y]) = axis.around(x);
+            let top = self.heights.above(x).unwrap_or(axis.position[2]);
+            let (radial, axial) = self.table.at(r, (top - x[2]).max(0.0));
+            let force = [radial * outward_x, radial * outward_y, axial];
+            near.force[k] = plus(near.force[k], 1.0, force);
+        }
+        Ok(())
+    }
+
+    fn bytes(&self) -> usize {
+        16 * self.heights.cells.capacity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::tests::{on_top, pool};
+
+    #[test]
+    fn depth_counts_from_the_surface_above() {
+        let mut state = pool(|_| 1800.0);
+        let d = state.metal.spacing;
+        on_top(&mut state, d * d);
+        // Radial force -1e6 r, axial force -1e7 depth: both exact between the rows.
+        let axes = [vec![1e-4, 1e-2], vec![0.0, 1e-2]];
+        let radial = vec![-1e2, -1e2, -1e4, -1e4];
+        let axial = vec![0.0, -1e5, 0.0, -1e5];
+        let mut stage = Lorentz::new(arc::Lorentz::new(axes, radial, axial), state.metal);
+        stage.advance(&mut state, 1e-4).unwrap();
+        let near = &state.near;
+        for (k, force) in near.force.iter().enumerate() {
+            let x = near.position[k];
+            let expected = match near.role[k] {
+                Role::Liquid => [-1e6 * x[0], -1e6 * x[1], -1e7 * (-0.5 * d - x[2])],
+                _ => [0.0; 3],
+            };
+            for (found, expected) in force.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-6 * 1e4, "{force:?} at {x:?}");
+            }
+        }
+    }
+}

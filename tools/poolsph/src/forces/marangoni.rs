@@ -1,0 +1,174 @@
+//! The Marangoni effect (Komen 2019, eq. 4.1, first term): the surface pulls towards where its
+//! tension is greater.
+//!
+//! ```text
+//! F = (d gamma/d T) (dA/dV) (grad T - n (n . grad T))
+//! ```
+//!
+//! The gradient of the temperature is that of the neighbours with the kernel gradient corrected to
+//! be exact for a linear field, at the surface as well as inside.
+
+use neighbours::ROWS;
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::near::{Near, Role, dot, minus, plus};
+use crate::stage::{Stage, StageError};
+use crate::state::{Column, State};
+
+/// Dependence of the surface tension on the temperature (key `marangoni`).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// d gamma/d T \[N/(m K)\]; positive pulls towards the hot.
+    #[schemars(extend("x-unit" = "N/(m K)"), range(min = -0.1, max = 0.1))]
+    pub slope_n_m_k: f64,
+}
+
+/// The stage that drags the surface along.
+pub struct Marangoni {
+    parameters: Parameters,
+    temperature: Vec<f64>,
+}
+
+impl Marangoni {
+    /// The effect with these parameters.
+    #[must_use]
+    pub fn new(parameters: Parameters) -> Self {
+        Self {
+            parameters,
+            temperature: Vec::new(),
+        }
+    }
+}
+
+/// grad T at row `k` of a chunk, exact for linear fields; zero where the neighbours span no space.
+fn gradient<S: Copy + Into<f64>>(
+    near: &Near,
+    temperature: &[f64],
+    a: usize,
+    row: &[u32],
+    slope: &[S],
+) -> [f64; 3] {
+    let mut moment = [[0.0; 3]; 3];
+    let mut sum = [0.0; 3];
+    for (&b, &slope) in row.iter().zip(slope) {
+        let b = b as usize;
+        let dx = minus(near.position[b], near.position[a]);
+        // The kernel falls with distance: -slope is the weight.
+        let weight = -slope.into();
+        sum = plus(sum, weight * (temperature[b] - temperature[a]), dx);
+        for (line, x) in moment.iter_mut().zip(dx) {
+            *line = plus(*line, weight * x, dx);
+        }
+    }
+    solve(moment, sum).unwrap_or_default()
+}
+
+/// x of M x = v by Cramer's rule for symmetric M; `None` where M is nearly singular.
+fn solve(m: [[f64; 3]; 3], v: [f64; 3]) -> Option<[f64; 3]> {
+    let minor = |i: usize, j: usize| {
+        let (r, s) = ((i + 1) % 3, (i + 2) % 3);
+        let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+        m[r][c] * m[s][d] - m[r][d] * m[s][c]
+    };
+    let determinant: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
+    let size = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
+    if determinant.abs() <= 1e-6 * size.powi(3) || size <= 0.0 {
+        return None;
+    }
+    Some([0, 1, 2].map(|j| (0..3).map(|i| minor(i, j) * v[i]).sum::<f64>() / determinant))
+}
+
+impl Stage for Marangoni {
+    fn name(&self) -> &'static str {
+        "marangoni"
+    }
+
+    fn needs(&self) -> &'static [Column] {
+        &[Column::Temperature, Column::Surface]
+    }
+
+    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+        let per_volume = self.parameters.slope_n_m_k / state.metal.volume();
+        self.temperature.clear();
+        let kelvin = state
+            .near
+            .id
+            .iter()
+            .map(|&id| state.temperature[id as usize]);
+        self.temperature.extend(kelvin);
+        let (temperature, surface) = (&self.temperature, &state.surface);
+        let mut force = std::mem::take(&mut state.near.force);
+        let near = &state.near;
+        force
+            .par_chunks_mut(ROWS)
+            .zip(near.lists.chunks())
+            .zip(&near.pairs)
+            .for_each(|((force, chunk), pairs)| {
+                for (k, force) in force.iter_mut().enumerate() {
+                    let a = chunk.first() + k;
+                    let patch = &surface[near.id[a] as usize];
+                    if near.role[a] != Role::Liquid || patch.area <= 0.0 {
+                        continue;
+                    }
+                    let slope = &pairs.slope[chunk.range(k)];
+                    let gradient = gradient(near, temperature, a, chunk.row(k), slope);
+                    let along = plus(gradient, -dot(gradient, patch.normal), patch.normal);
+                    *force = plus(*force, per_volume * patch.area, along);
+                }
+            });
+        state.near.force = force;
+        Ok(())
+    }
+
+    fn bytes(&self) -> usize {
+        8 * self.temperature.capacity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::tests::{on_top, pool};
+
+    #[test]
+    fn a_flat_surface_is_pulled_by_slope_times_gradient() {
+        // 2e5 K/m along x, and a drop inwards that must not act.
+        let mut state = pool(|x| 1800.0 + 2e5 * x[0] + 3e5 * x[2]);
+        let d = state.metal.spacing;
+        on_top(&mut state, d * d);
+        let mut stage = Marangoni::new(Parameters { slope_n_m_k: 1e-4 });
+        stage.advance(&mut state, 1e-4).unwrap();
+        let mut pulled = 0;
+        for (k, force) in state.near.force.iter().enumerate() {
+            let patch = state.surface[state.near.id[k] as usize];
+            if state.near.role[k] == Role::Liquid && patch.area > 0.0 {
+                // 20 Pa over a layer of d.
+                assert!((force[0] * d - 20.0).abs() < 1e-9, "{force:?}");
+                assert!(force[1].abs() * d < 1e-9 && force[2].abs() * d < 1e-9);
+                pulled += 1;
+            } else {
+                assert_eq!(*force, [0.0; 3]);
+            }
+        }
+        assert!(pulled > 20);
+    }
+
+    #[test]
+    fn too_few_neighbours_give_no_gradient() {
+        assert_eq!(
+            solve([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]], [1.0; 3]),
+            None
+        );
+        let x = solve(
+            [[2.0, 1.0, 0.0], [1.0, 3.0, 0.5], [0.0, 0.5, 1.0]],
+            [4.0, 8.5, 4.0],
+        )
+        .unwrap();
+        for (found, expected) in x.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((found - expected).abs() < 1e-12);
+        }
+    }
+}

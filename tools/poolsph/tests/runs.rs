@@ -1,0 +1,250 @@
+//! The program as a user meets it: same bytes, columns of the active physics, located faults.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+fn program() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_poolsph"))
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// A drop that falls into a small tank of liquid on a plate that conducts heat and melts.
+fn scene() -> Value {
+    json!({
+        "kind": "poolsph.scene", "version": 1, "title": "Drop and tank",
+        "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 0.02}, "density_kg_m3": 7850,
+        "bodies": [
+            {"shape": {"container": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 4e-3], "thickness_m": 1e-3, "open": ["z+"]}},
+             "state": "wall", "temperature_k": 300, "held_temperature_k": {"expr": "300 + 1000*t"}},
+            {"shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 1e-3]}}, "state": "solid", "temperature_k": 1740},
+            {"shape": {"box": {"min_m": [0, 0, 1e-3], "max_m": [4e-3, 4e-3, 2.5e-3]}}, "state": "liquid", "temperature_k": 2100},
+            {"shape": {"sphere": {"centre_m": [2e-3, 2e-3, 4e-3], "radius_m": 1e-3}}, "state": "liquid",
+             "velocity_m_s": [0, 0, -1], "temperature_k": 2300}
+        ],
+        "flow": {"viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]},
+        "tension": {"surface_tension_n_m": 1.0},
+        "heat": {
+            "thermal_conductivity_w_m_k": {"t_k": [300, 1750, 3000], "value": [60, 30, 35]},
+            "specific_heat_j_kg_k": 700,
+            "melting": {"point_k": 1750, "latent_heat_j_kg": 250e3},
+            "rest_interval_steps": 4
+        },
+        "output": {"particles_interval_s": 2e-3, "balance_interval_s": 1e-3, "precision": "f64"}
+    })
+}
+
+fn write(folder: &Path, name: &str, value: &Value) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, value.to_string()).unwrap();
+    path
+}
+
+fn run(scene: &Path, out: &Path, more: &[&str]) -> Output {
+    program()
+        .arg("run")
+        .arg(scene)
+        .arg("--out")
+        .arg(out)
+        .args(["--progress", "none"])
+        .args(more)
+        .output()
+        .unwrap()
+}
+
+fn finished(scene: &Path, out: &Path, more: &[&str]) -> Vec<u8> {
+    let output = run(scene, out, more);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    std::fs::read(out).unwrap()
+}
+
+fn record(out: &Path) -> Value {
+    let text = std::fs::read_to_string(out.with_extension("run.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+fn closing(record: &Value, name: &str) -> f64 {
+    let rows = record["closing"].as_array().unwrap();
+    let row = rows.iter().find(|row| row["name"] == name);
+    row.unwrap_or_else(|| panic!("no '{name}' in {rows:?}"))["value"]
+        .as_f64()
+        .unwrap()
+}
+
+#[test]
+fn threads_do_not_show_and_totals_close() {
+    let folder = folder();
+    let scene = write(folder.path(), "scene.json", &scene());
+    let (one, two) = (
+        folder.path().join("one.mcap"),
+        folder.path().join("two.mcap"),
+    );
+    let first = finished(&scene, &one, &["--threads", "1"]);
+    let second = finished(&scene, &two, &["--threads", "2"]);
+    assert!(first == second, "the bytes depend on the number of threads");
+    let record = record(&one);
+    assert!(closing(&record, "mass_error").abs() < 1e-12);
+    assert!(closing(&record, "energy_balance").abs() < 5e-3);
+    assert!(closing(&record, "energy_stored_j").abs() > 1.0);
+}
+
+/// Starts a run, lets it take some steps, interrupts it and takes it up.
+#[test]
+fn an_interrupted_run_ends_in_the_same_bytes() {
+    let folder = folder();
+    let mut long = scene();
+    long["time"]["end_s"] = json!(0.1);
+    let scene = write(folder.path(), "scene.json", &long);
+    let whole = finished(&scene, &folder.path().join("whole.mcap"), &[]);
+    let out = folder.path().join("broken.mcap");
+    let mut child = program()
+        .arg("run")
+        .arg(&scene)
+        .arg("--out")
+        .arg(&out)
+        .args(["--progress", "none"])
+        .spawn()
+        .unwrap();
+    // The first balance records are on their way once the file exists; then a little more.
+    let part = folder.path().join("broken.mcap.part");
+    let start = Instant::now();
+    while !part.exists() && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(150));
+    let pid = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let code = child.wait().unwrap().code();
+    assert_eq!(
+        code,
+        Some(130),
+        "the run must be interrupted before its end"
+    );
+    let resumed = finished(&scene, &out, &["--resume"]);
+    assert!(whole == resumed, "the resumed run differs");
+}
+
+#[test]
+fn absent_physics_has_no_column() {
+    let folder = folder();
+    let mut cold = scene();
+    let map = cold.as_object_mut().unwrap();
+    map.remove("heat");
+    map.remove("tension");
+    cold["bodies"][0]
+        .as_object_mut()
+        .unwrap()
+        .remove("held_temperature_k");
+    cold["time"]["end_s"] = json!(1e-3);
+    let scene = write(folder.path(), "scene.json", &cold);
+    let out = folder.path().join("cold.mcap");
+    finished(&scene, &out, &[]);
+    let reader = artefact::Reader::open_kind(&out, "particle-frames", 1).unwrap();
+    let frame = reader
+        .frames("/particles")
+        .unwrap()
+        .next()
+        .unwrap()
+        .unwrap();
+    let names: Vec<&str> = frame.columns().iter().map(|c| c.name.as_str()).collect();
+    let expected = [
+        "x",
+        "y",
+        "z",
+        "velocity_x",
+        "velocity_y",
+        "velocity_z",
+        "pressure",
+        "molten",
+        "fused",
+        "droplet",
+        "wall",
+        "id",
+    ];
+    assert_eq!(names, expected);
+    let left_out = record(&out)["left_out"].to_string();
+    assert!(
+        left_out.contains("heat") && left_out.contains("tension"),
+        "{left_out}"
+    );
+}
+
+#[test]
+fn faults_of_a_scene_are_told_together_and_located() {
+    let folder = folder();
+    let mut bad = scene();
+    bad["bodies"][1]["temperature_k"] = json!(1900);
+    let path = write(folder.path(), "warm.json", &bad);
+    let output = run(&path, &folder.path().join("out.mcap"), &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        said.contains("/bodies/1/temperature_k") && said.contains("1750"),
+        "{said}"
+    );
+
+    let mut bad = scene();
+    bad["bodies"][0]["state"] = json!("solid");
+    bad["bodies"][2]["velocity_m_s"] = json!([0, 0]);
+    bad["tensions"] = json!({});
+    let path = write(folder.path(), "keys.json", &bad);
+    let output = run(&path, &folder.path().join("out.mcap"), &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        said.contains("tension") && said.contains("/bodies/2/velocity_m_s"),
+        "{said}"
+    );
+
+    let mut bad = scene();
+    bad["bodies"][0]["state"] = json!("solid");
+    bad["time"]["end_s"] = json!(1e-9);
+    bad["smoothing_length_m"] = json!(1e-4);
+    let path = write(folder.path(), "sense.json", &bad);
+    let output = run(&path, &folder.path().join("out.mcap"), &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    for path in ["/bodies/0/state", "/time/end_s", "/smoothing_length_m"] {
+        assert!(said.contains(path), "{said}");
+    }
+}
+
+#[test]
+fn divergence_names_step_place_and_quantity() {
+    let folder = folder();
+    let mut wild = scene();
+    wild["bodies"][3]["velocity_m_s"] = json!([0, 0, -1e4]);
+    let scene = write(folder.path(), "wild.json", &wild);
+    let out = folder.path().join("wild.mcap");
+    let output = run(&scene, &out, &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("speed") && said.contains("particle"),
+        "{said}"
+    );
+    let record = record(&out);
+    assert_eq!(record["outcome"], "diverged");
+    assert!(!out.exists(), "a diverged run must not look finished");
+}
+
+#[test]
+fn the_schema_on_disk_is_that_of_the_program() {
+    let output = program().arg("schema").output().unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schemas/poolsph.scene.v1.json");
+    let kept = std::fs::read_to_string(path).unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(kept == printed, "run `make schemas`");
+}
