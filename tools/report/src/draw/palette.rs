@@ -80,7 +80,7 @@ fn cut(bins: Vec<Bin>) -> Vec<Vec<Bin>> {
             .enumerate()
             .max_by_key(|(_, bins)| {
                 let (_, width) = longest(bins);
-                u64::from(width).pow(4) * bins.iter().map(|b| b.count).sum::<u64>()
+                u64::from(width).pow(3) * bins.iter().map(|b| b.count).sum::<u64>()
             })
             .map(|(n, bins)| (n, longest(bins)));
         let Some((n, (side, width))) = worst else {

@@ -9,6 +9,9 @@ use crate::html::{Rows, escape, figure, paragraph, side_by_side, verdict};
 use crate::plot::{Line, Plot};
 use crate::records::figure as digits;
 
+/// More lines than this make a plot hard to read.
+const MOST_LINES: usize = 8;
+
 /// One resolution.
 #[derive(Debug, Clone, Deserialize)]
 struct Level {
@@ -70,6 +73,21 @@ impl Study {
         self.method.as_deref().unwrap_or("default")
     }
 
+    /// Quantities to plot: all, or where that would be too many lines those that targets name.
+    fn plotted(&self) -> Vec<&str> {
+        let all = self.quantities();
+        if all.len() * (1 + self.series.len()) <= MOST_LINES {
+            return all;
+        }
+        let named = |q: &&str| {
+            self.targets
+                .keys()
+                .any(|t| t.strip_prefix("order_").unwrap_or(t) == *q)
+        };
+        let chosen: Vec<&str> = all.iter().copied().filter(named).collect();
+        if chosen.is_empty() { all } else { chosen }
+    }
+
     /// Quantities with an error, in the order of their names.
     fn quantities(&self) -> Vec<&str> {
         let first = self.levels.first();
@@ -101,13 +119,17 @@ pub(super) fn summary(studies: &[Study]) -> String {
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let (error, order) = worst.map_or_else(
             || ("\u{2013}".to_owned(), "\u{2013}".to_owned()),
-            |(name, error)| (digits(error), order(&study.order, name)),
+            |(name, error)| {
+                let which = escape(&name.replace('_', " "));
+                let error = format!("{}<br><small>{which}</small>", digits(error));
+                (error, order(&study.order, name))
+            },
         );
         let word = if study.holds { "all met" } else { "missed" };
         table.row([
             format!("<a href=\"#{0}\">{0}</a>", escape(&study.case)),
             escape(&study.tool),
-            digits(finest.points),
+            whole(finest.points),
             format!("{} s", digits(finest.run_time_s)),
             error,
             order,
@@ -117,7 +139,7 @@ pub(super) fn summary(studies: &[Study]) -> String {
     let held = studies.iter().filter(|s| s.holds).count();
     let words = format!(
         "{held} of {} cases meet all of their targets. Errors are computed from the written files by code that \
-         shares nothing with the solvers, relative to the largest exact value.",
+         shares nothing with the solvers.",
         studies.len()
     );
     paragraph(&words) + &table.render()
@@ -136,7 +158,7 @@ pub(super) fn section(study: &Study) -> String {
     out += &paragraph(&study.reference);
     let mut time = Plot::new("run time [s]", "error").log_log();
     let mut points = Plot::new("points, cells or particles", "error").log_log();
-    for quantity in study.quantities() {
+    for quantity in study.plotted() {
         let own = std::iter::once((study.method(), &study.levels, &study.order));
         let others = study
             .series
@@ -167,9 +189,19 @@ pub(super) fn section(study: &Study) -> String {
             "Error over the number of points. Dashed: slopes of first and second order.",
         ),
     ]);
+    if study.plotted().len() < study.quantities().len() {
+        out += &paragraph(
+            "The plots show what the targets name; the other errors are in the table of all levels.",
+        );
+    }
     out += &targets(study);
     out += &levels(study);
     out
+}
+
+/// A count.
+fn whole(count: f64) -> String {
+    format!("{count:.0}")
 }
 
 fn curve(name: &str, levels: &[Level], quantity: &str, at: impl Fn(&Level) -> f64) -> Line {
@@ -183,7 +215,11 @@ fn guides(plot: &mut Plot, study: &Study) {
     let (Some(first), Some(last)) = (study.levels.first(), study.levels.last()) else {
         return;
     };
-    let worst = 1.8 * first.errors.values().flatten().copied().fold(0.0, f64::max);
+    let shown = study
+        .plotted()
+        .into_iter()
+        .filter_map(|q| *first.errors.get(q)?);
+    let worst = 1.8 * shown.fold(0.0, f64::max);
     let ratio = last.spacing_m / first.spacing_m;
     if !(worst > 0.0 && ratio > 0.0 && ratio < 1.0) {
         return;
@@ -202,7 +238,7 @@ fn targets(study: &Study) -> String {
     for (name, target) in &study.targets {
         let bound = match (target.max, target.min, target.at_points) {
             (Some(max), _, Some(points)) => {
-                format!("at most {} at {} points", digits(max), digits(points))
+                format!("at most {} at {} points", digits(max), whole(points))
             }
             (Some(max), _, None) => format!("at most {}", digits(max)),
             (None, Some(min), _) => format!("at least {}", digits(min)),
@@ -244,9 +280,9 @@ fn levels(study: &Study) -> String {
         for level in levels {
             let mut cells = vec![
                 escape(method),
-                digits(level.points),
+                whole(level.points),
                 format!("{} mm", digits(1e3 * level.spacing_m)),
-                digits(level.steps),
+                whole(level.steps),
                 format!("{} s", digits(level.run_time_s)),
                 level.threads.to_string(),
             ];
