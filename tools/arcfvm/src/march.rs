@@ -3,6 +3,7 @@
 use run::{Failure, Session};
 
 use crate::heat::balance::Balance;
+use crate::pace::Pace;
 use crate::residual::{Residuals, part};
 use crate::resume;
 use crate::scene::Iterate;
@@ -17,8 +18,11 @@ const HISTORY_EVERY: usize = 10;
 /// # Errors
 /// When a field diverges or the user interrupts.
 pub fn march(arc: &mut Arc, rule: &Iterate, session: &mut Session) -> Result<(), Failure> {
+    let mut pace = Pace::new(rule.velocity_relaxation, rule.temperature_relaxation);
     if let Some(mut checkpoint) = session.restored() {
         resume::restore(arc, &mut checkpoint)?;
+        pace = checkpoint.json("pace")?;
+        pace.set(arc);
     }
     let mut last = Residuals::default();
     while arc.iteration < rule.most {
@@ -36,7 +40,19 @@ pub fn march(arc: &mut Arc, rule: &Iterate, session: &mut Session) -> Result<(),
             session.steps(arc.iteration as u64);
             return Ok(());
         }
-        session.keep(|c| resume::keep(arc, c))?;
+        if pace.watch(last.worst()) {
+            pace.set(arc);
+            session.history(
+                "temperature_relaxation",
+                "1",
+                arc.iteration as f64,
+                pace.temperature,
+            );
+        }
+        session.keep(|c| {
+            c.put_json("pace", &pace)?;
+            resume::keep(arc, c)
+        })?;
     }
     session.warn(format!(
         "not converged after {} iterations: greatest residual {:.1e}, wanted {:.1e}",

@@ -1,6 +1,6 @@
 //! The algorithm (Komen 2019, figs 3.10 and 5.2).
 
-use crate::case::{Case, FlowCase, GAS, HeatCase, PotentialCase};
+use crate::case::{Case, FlowCase, HeatCase, PotentialCase};
 use crate::error::Error;
 use crate::fields::energy::{Energy, Step};
 use crate::fields::flow::Flow;
@@ -9,6 +9,7 @@ use crate::fields::potential::Potential;
 use crate::fields::pressure::{FlowProperties, FlowResidual, FlowSolver};
 use crate::heat::balance::Balance;
 use crate::heat::sources::{Reads, Sources};
+use crate::limits::check;
 use crate::properties::Properties;
 use crate::residual::{Residuals, part};
 use crate::settings::Settings;
@@ -121,6 +122,14 @@ impl Arc {
         };
         arc.feed = arc.first_feed();
         arc
+    }
+
+    /// Sets the under-relaxation of velocities and temperature.
+    pub fn relax(&mut self, velocity: f64, temperature: f64) {
+        self.settings.heat_relaxation = temperature;
+        if let Some(flowing) = &mut self.flowing {
+            flowing.solver.relaxation.velocity = velocity;
+        }
     }
 
     /// Temperatures: solved, or those of the start \[K\].
@@ -346,54 +355,5 @@ impl Arc {
             return Err(Error::diverged("energy", *iteration, case.place(k), what));
         }
         Ok((part(found.heat, scale), found.limited))
-    }
-
-    /// The first gas cell above the end of the gas table, if that is an error.
-    ///
-    /// # Errors
-    /// [`Error::AboveTable`].
-    pub fn within_table(&self) -> Result<(), Error> {
-        let Some(end) = self.case.materials[GAS]
-            .end_k
-            .filter(|_| self.heating.is_some())
-        else {
-            return Ok(());
-        };
-        let cells = self.temperature().iter().enumerate();
-        match cells
-            .into_iter()
-            .find(|(k, t)| self.case.material[*k] == GAS && **t > end)
-        {
-            Some((k, t)) => Err(Error::AboveTable {
-                place: self.case.place(k),
-                found: *t,
-                end,
-                material: "gas".to_owned(),
-            }),
-            None => Ok(()),
-        }
-    }
-}
-
-/// Stops at the first value beyond `most`.
-fn check(
-    case: &Case,
-    quantity: &'static str,
-    unit: &str,
-    iteration: usize,
-    values: &[f64],
-    most: f64,
-) -> Result<(), Error> {
-    match values.iter().position(|v| v.abs() > most) {
-        Some(k) => {
-            let what = format!("{quantity} {:.3e} {unit}", values[k]);
-            Err(Error::diverged(
-                quantity,
-                iteration,
-                case.place(k.min(case.grid.len() - 1)),
-                what,
-            ))
-        }
-        None => Ok(()),
     }
 }

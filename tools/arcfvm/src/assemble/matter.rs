@@ -13,6 +13,11 @@ use crate::scene::{self, BeyondTable, Body, Gas, Scene, SpecificHeat};
 /// Names that a material law may use.
 const NAMES: [&str; 3] = ["r", "z", "T"];
 
+/// Temperature to which a table is extended at least \[K\].
+const EXTENDED_K: f64 = 60_000.0;
+/// Rows of the extension.
+const EXTENDED_ROWS: usize = 40;
+
 /// A gas table as its file holds it.
 #[derive(Debug, Clone, Deserialize)]
 pub struct GasFile {
@@ -37,13 +42,36 @@ impl GasFile {
         Table::new(t.to_vec(), values.to_vec()).map_err(|e| Error::GasTable(format!("{name}: {e}")))
     }
 
-    /// The gas as a material; `hold` keeps the end values beyond the table.
+    /// The rows of `name`, with one more beyond the end where the table is to go on.
+    fn rows(&self, name: &str, beyond: BeyondTable) -> Result<Table, Error> {
+        let table = self.table(name)?;
+        if beyond != BeyondTable::Extend {
+            return Ok(table);
+        }
+        let (mut t, mut y) = (table.nodes().to_vec(), table.values().to_vec());
+        let (t_end, y_end) = (t[t.len() - 1], y[y.len() - 1]);
+        let slope = table.slope(t_end);
+        let last = EXTENDED_K.max(2.0 * t_end);
+        // Enough rows for the curve of the density.
+        for k in 1..=EXTENDED_ROWS {
+            let next = t_end + (last - t_end) * k as f64 / EXTENDED_ROWS as f64;
+            t.push(next);
+            y.push(match name {
+                "density_kg_m3" => y_end * t_end / next,
+                "viscosity_pa_s" => y_end,
+                _ => (y_end + slope * (next - t_end)).max(0.5 * y_end),
+            });
+        }
+        Table::new(t, y).map_err(|e| Error::GasTable(format!("{name}: {e}")))
+    }
+
+    /// The gas as a material.
     ///
     /// # Errors
     /// When a column is missing or is not a table.
-    pub fn material(&self, hold: bool) -> Result<Material, Error> {
-        let law = |name: &str| self.table(name).map(|t| Some(Law::Table(t)));
-        let specific_heat = self.table("specific_heat_j_kg_k")?;
+    pub fn material(&self, beyond: BeyondTable) -> Result<Material, Error> {
+        let law = |name: &str| self.rows(name, beyond).map(|t| Some(Law::Table(t)));
+        let specific_heat = self.rows("specific_heat_j_kg_k", beyond)?;
         let bad = |e: props::Error| Error::GasTable(format!("specific_heat_j_kg_k: {e}"));
         Ok(Material {
             name: "gas".to_owned(),
@@ -53,7 +81,7 @@ impl GasFile {
             electric_conductivity: law("electric_conductivity_s_m")?,
             net_emission: law("net_emission_w_m3")?,
             melting: None,
-            end_k: (!hold).then(|| specific_heat.last()),
+            end_k: (beyond == BeyondTable::Error).then(|| specific_heat.last()),
             enthalpy: Some(Enthalpy::new(&specific_heat, None).map_err(bad)?),
         })
     }
@@ -74,15 +102,13 @@ pub(crate) fn materials(
 
 fn gas_material(scene: &Scene, file: Option<&GasFile>, faults: &mut Faults) -> Material {
     match (&scene.gas, file) {
-        (Gas::Table(table), Some(file)) => {
-            match file.material(table.beyond_table == BeyondTable::Hold) {
-                Ok(material) => material,
-                Err(e) => {
-                    faults.add("/gas/table", e.to_string());
-                    Material::default()
-                }
+        (Gas::Table(table), Some(file)) => match file.material(table.beyond_table) {
+            Ok(material) => material,
+            Err(e) => {
+                faults.add("/gas/table", e.to_string());
+                Material::default()
             }
-        }
+        },
         (Gas::Table(_), None) => {
             faults.add("/gas/table", "wants the input \"gas\": --input gas=FILE");
             Material::default()
@@ -284,4 +310,44 @@ pub(crate) fn electrode(name: &str, body: &Body) -> Option<Electrode> {
         surroundings: REFERENCE_K,
         evaporation,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file() -> GasFile {
+        let names = [
+            ("temperature_k", [300.0, 10_000.0, 20_000.0]),
+            ("density_kg_m3", [1.6, 0.04, 0.01]),
+            ("viscosity_pa_s", [2e-5, 2e-4, 1e-4]),
+            ("specific_heat_j_kg_k", [520.0, 1500.0, 9000.0]),
+            ("thermal_conductivity_w_m_k", [0.02, 1.0, 3.0]),
+            ("electric_conductivity_s_m", [1e-5, 3000.0, 9000.0]),
+            ("net_emission_w_m3", [0.0, 1e9, 3e10]),
+        ];
+        let column = |(name, values): (&str, [f64; 3])| Column {
+            name: name.to_owned(),
+            values: values.to_vec(),
+        };
+        GasFile {
+            columns: names.into_iter().map(column).collect(),
+        }
+    }
+
+    #[test]
+    fn an_extended_table_goes_on_and_a_held_one_does_not() {
+        let extended = file().material(BeyondTable::Extend).unwrap();
+        let at = |law: &Option<Law>, t: f64| law.as_ref().unwrap().at(0.0, 0.0, t);
+        assert!((at(&extended.density, 40_000.0) - 0.005).abs() < 1e-5);
+        assert!((at(&extended.net_emission, 25_000.0) - 4.45e10).abs() < 1.0);
+        assert!((at(&extended.viscosity, 50_000.0) - 1e-4).abs() < 1e-15);
+        let held = file().material(BeyondTable::Hold).unwrap();
+        assert!((at(&held.net_emission, 25_000.0) - 3e10).abs() < 1.0);
+        assert_eq!(
+            file().material(BeyondTable::Error).unwrap().end_k,
+            Some(20_000.0)
+        );
+        assert_eq!(held.end_k, None);
+    }
 }

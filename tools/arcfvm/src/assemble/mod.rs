@@ -15,6 +15,8 @@ use crate::scene::{Body, Scene};
 use layout::Layout;
 pub use matter::GasFile;
 
+/// How far a hot channel reaches up the wire, in its radius: an arc spreads over the wire's side.
+const CLIMB: f64 = 0.5;
 /// Names that given values may use: edges, sources, forces, the start.
 const PLACE: [&str; 2] = ["r", "z"];
 
@@ -209,7 +211,12 @@ fn start(scene: &Scene, layout: &Layout, wire: Option<&Wire>, faults: &mut Fault
     let Some(curve) = faults.keep(scene.start.temperature_k.compile(at, &PLACE)) else {
         return all;
     };
-    let top = wire.map_or(grid.nz, |w| w.tip);
+    let climb = scene
+        .start
+        .channel
+        .as_ref()
+        .map_or(0.0, |c| CLIMB * c.radius_m);
+    let top = wire.map_or(grid.nz, |w| grid.row_of(grid.zf[w.tip] + climb));
     for j in 0..grid.nz {
         for i in 0..grid.nr {
             let k = grid.cell(i, j);

@@ -32,6 +32,8 @@ pub enum BeyondTable {
     Error,
     /// The values at the end are kept.
     Hold,
+    /// The table goes on: density as 1/T, viscosity as it ends, all else along its last two rows.
+    Extend,
 }
 
 /// Properties of the gas in r, z (m), T (K); those of physics that is absent may be absent.

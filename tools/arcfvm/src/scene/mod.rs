@@ -145,7 +145,8 @@ pub struct Start {
     /// Everywhere, in r, z \[K\].
     #[serde(default = "room")]
     pub temperature_k: Property,
-    /// Hot gas below the wire, or over the whole height without one; absent: none.
+    /// Hot gas below and around the tip of the wire, or over the whole height without one; absent:
+    /// none.
     pub channel: Option<Channel>,
 }
 
