@@ -16,10 +16,12 @@ pub(super) struct Bench {
 /// The scalars in a line, the lists as tables.
 pub(super) fn section(bench: &Bench) -> String {
     let mut facts = Vec::new();
+    let mut title = String::new();
     let mut tables = String::new();
     for (key, value) in &bench.entries {
         match value {
             Value::Array(rows) if rows.iter().any(Value::is_object) => tables += &table(rows),
+            Value::String(name) if key == "name" => title = format!("<h3>{}</h3>\n", escape(name)),
             Value::Null => {}
             other => facts.push(format!("{}: {}", key.replace('_', " "), shown(other))),
         }
@@ -29,7 +31,7 @@ pub(super) fn section(bench: &Bench) -> String {
     } else {
         format!("<p>{}</p>\n", escape(&facts.join(" \u{b7} ")))
     };
-    facts + &tables
+    title + &facts + &tables
 }
 
 fn table(rows: &[Value]) -> String {
@@ -84,10 +86,10 @@ mod tests {
     #[test]
     fn every_key_becomes_a_column_once() {
         let bench: Bench = serde_json::from_value(serde_json::json!({
-            "threads": 2, "rows": [{"name": "sweep", "ns": 3.5}, {"name": "sort", "ns": 8.25, "note": "x"}]}))
+            "name": "cores", "threads": 2, "rows": [{"name": "sweep", "ns": 3.5}, {"name": "sort", "ns": 8.25, "note": "x"}]}))
         .unwrap();
         let html = section(&bench);
-        assert!(html.contains("threads: 2"));
+        assert!(html.contains("<h3>cores</h3>") && html.contains("threads: 2"));
         assert_eq!(html.matches("<th").count(), 3 + 1);
         assert!(html.contains("8.250") && html.contains("sweep"));
     }

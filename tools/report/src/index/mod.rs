@@ -72,14 +72,20 @@ fn all<T: DeserializeOwned>(
     Ok(notes + &summary(&records) + &bodies)
 }
 
-/// JSON files of a folder in the order of their names; none where there is no such folder.
+/// JSON files of a folder in the order of their names, without the run records of artefacts; none
+/// where there is no such folder.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut found: Vec<PathBuf> = entries(folder)?
         .into_iter()
-        .filter(|p| p.is_file() && p.extension().is_some_and(|e| e == "json"))
+        .filter(|p| p.is_file() && record(p))
         .collect();
     found.sort();
     Ok(found)
+}
+
+fn record(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.ends_with(".json") && !name.ends_with(".run.json")
 }
 
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -170,6 +176,12 @@ mod tests {
         );
         assert_eq!(way, "../gmaw/report.html");
         assert_eq!(relative(Path::new(""), Path::new("a/b.html")), "a/b.html");
+    }
+
+    #[test]
+    fn records_of_runs_are_no_evidence() {
+        assert!(record(Path::new("a/cores.json")));
+        assert!(!record(Path::new("a/flow.run.json")) && !record(Path::new("a/flow.mcap")));
     }
 
     #[test]
