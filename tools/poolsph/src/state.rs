@@ -93,6 +93,8 @@ pub struct State {
     pub pressure: Vec<f64>,
     /// What the surface is at each particle, `[n]` or empty.
     pub surface: Vec<Patch>,
+    /// Particles with an area, ascending; follows from [`State::surface`].
+    pub exposed: Vec<u32>,
     /// Where the arc stands, if there is one.
     pub source: Option<Place>,
     /// Liquid particles move. False until enough of them are there (Komen 2019, section 4.3).
@@ -141,6 +143,7 @@ impl State {
             enthalpy: Vec::new(),
             pressure: Vec::new(),
             surface: Vec::new(),
+            exposed: Vec::new(),
             source: None,
             flowing: false,
             near: Near::new(metal),

@@ -14,7 +14,6 @@
 //! nothing. The cross-section pi d^2/4 of eq. 4.10 would pass on 78.5 % of every flux.
 
 use props::Table;
-use rayon::prelude::*;
 use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
@@ -26,8 +25,8 @@ use super::ledger::Sum;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Column, Metal, Phase, State};
 
-/// Particles per unit of parallel work.
-const GRAIN: usize = 4096;
+/// Most fluxes at once.
+const PARTS: usize = Part::ALL.len();
 
 /// Heat of the arc (key `arc`): of the arc input, or of a formula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -143,6 +142,8 @@ pub struct Arc {
     caloric: std::sync::Arc<Caloric>,
     metal: Metal,
     fluxes: Vec<Flux>,
+    /// Distance beyond which there is no heat \[m\].
+    reach: f64,
     onto: Onto,
     power: f64,
 }
@@ -180,7 +181,9 @@ impl Arc {
                 read.collect::<Result<_, _>>()?
             }
         };
+        let reach = fluxes.iter().map(Flux::reach).fold(0.0, f64::max);
         Ok(Self {
+            reach,
             caloric,
             metal,
             fluxes,
@@ -190,24 +193,31 @@ impl Arc {
     }
 
     /// Heat of each flux into particle `a` in a second \[W\]; `None` where the arc does not reach.
-    fn heating(&self, state: &State, a: usize) -> Option<Result<Vec<f64>, StageError>> {
+    fn heating(&self, state: &State, a: usize) -> Option<Result<[f64; PARTS], StageError>> {
+        let axis = state.source.map_or([0.0; 3], |source| source.position);
+        let [x, y, _] = state.position[a];
+        let (dx, dy) = (x - axis[0], y - axis[1]);
+        let square = dx * dx + dy * dy;
+        if square > self.reach * self.reach || state.wall[a] || state.phase[a] == Phase::Flying {
+            return None;
+        }
         let patch = &state.surface[a];
         let area = match self.onto {
             Onto::Projected => patch.seen,
             Onto::Area if patch.normal[2] > 0.0 => patch.area,
             Onto::Area => 0.0,
         };
-        if area <= 0.0 || state.wall[a] || state.phase[a] == Phase::Flying {
+        if area <= 0.0 {
             return None;
         }
-        let axis = state.source.map_or([0.0; 3], |source| source.position);
-        let [x, y, _] = state.position[a];
-        let r = (x - axis[0]).hypot(y - axis[1]);
-        if self.fluxes.iter().all(|flux| r > flux.reach()) {
-            return None;
+        let mut heat = [0.0; PARTS];
+        for (heat, flux) in heat.iter_mut().zip(&self.fluxes) {
+            match flux.at(square.sqrt(), state.time) {
+                Ok(q) => *heat = q * area,
+                Err(fault) => return Some(Err(fault)),
+            }
         }
-        let heat = |flux: &Flux| flux.at(r, state.time).map(|q| q * area);
-        Some(self.fluxes.iter().map(heat).collect())
+        Some(Ok(heat))
     }
 }
 
@@ -243,13 +253,12 @@ impl Stage for Arc {
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        let heated: Vec<(usize, Result<Vec<f64>, StageError>)> = (0..state.len())
-            .into_par_iter()
-            .with_min_len(GRAIN)
-            .filter_map(|a| self.heating(state, a).map(|heat| (a, heat)))
-            .collect();
         self.power = 0.0;
-        for (a, heat) in heated {
+        for k in 0..state.exposed.len() {
+            let a = state.exposed[k] as usize;
+            let Some(heat) = self.heating(state, a) else {
+                continue;
+            };
             let mut gain = 0.0;
             for (flux, power) in self.fluxes.iter_mut().zip(heat?) {
                 flux.put.add(power * dt);

@@ -34,9 +34,10 @@ use super::bounds::{moments, outside};
 use super::caloric::Caloric;
 use super::held::Held;
 use super::ledger::Sum;
+use super::open::Open;
 use super::parameters::Parameters;
 use crate::near::Role;
-use crate::rest::{Plane, Rest, distance};
+use crate::rest::{Plane, Rest};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, State};
 
@@ -53,6 +54,8 @@ struct Exchanged {
     out: f64,
     /// Has a pair that exchanges heat.
     busy: bool,
+    /// Has such a pair with a particle that is passed over.
+    wakes: bool,
 }
 
 /// Heat conduction as a stage.
@@ -65,13 +68,13 @@ pub struct Conduction {
     interval: u64,
     tolerance: f64,
     rest: Rest,
-    open: Vec<Plane>,
+    open: Open,
     held: Vec<Held>,
-    /// 1/k \[m K/W\]; infinite for insulating walls.
-    resistivity: Vec<f64>,
-    seen: Vec<f64>,
+    /// T \[K\] and 1/k \[m K/W\], the latter infinite for insulating walls.
+    thermal: Vec<[f64; 2]>,
     awake: Vec<bool>,
     visited: Vec<u32>,
+    exchanged: Vec<Exchanged>,
     saved: Option<Vec<f64>>,
     substeps: u64,
     out_open: Sum,
@@ -103,12 +106,12 @@ impl Conduction {
             interval: u64::from(parameters.rest_interval_steps.max(1)),
             tolerance: parameters.exchange_tolerance_k,
             rest: Rest::new(metal.smoothing_length, mirrors),
-            open,
+            open: Open::new(open, metal.spacing, parameters.exchange_tolerance_k),
             held: Vec::new(),
-            resistivity: Vec::new(),
-            seen: Vec::new(),
+            thermal: Vec::new(),
             awake: Vec::new(),
             visited: Vec::new(),
+            exchanged: Vec::new(),
             saved: None,
             substeps: 1,
             out_open: Sum::default(),
@@ -138,25 +141,24 @@ impl Conduction {
             self.rest.restore(state, &saved);
         }
         self.rest.update(state);
-        self.seen.resize(state.len(), f64::NAN);
-        self.resistivity.resize(state.len(), f64::INFINITY);
+        self.thermal.resize(state.len(), [f64::NAN, f64::INFINITY]);
         self.awake.resize(state.len(), true);
         for &a in self.rest.changed() {
             self.awake[a as usize] = true;
         }
-        for (a, (&now, seen)) in state.temperature.iter().zip(&mut self.seen).enumerate() {
+        for (a, (&now, seen)) in state.temperature.iter().zip(&mut self.thermal).enumerate() {
             // NaN, a particle not seen before, differs as well.
-            if seen.to_bits() != now.to_bits() {
-                *seen = now;
+            if seen[0].to_bits() != now.to_bits() {
+                seen[0] = now;
                 self.awake[a] = true;
                 if !state.wall[a] {
-                    self.resistivity[a] = 1.0 / self.caloric.conductivity(now);
+                    seen[1] = 1.0 / self.caloric.conductivity(now);
                 }
             }
         }
         for held in &self.held {
             for a in held.particles.clone() {
-                self.resistivity[a] = 1.0 / self.caloric.conductivity(state.temperature[a]);
+                self.thermal[a][1] = 1.0 / self.caloric.conductivity(state.temperature[a]);
             }
         }
     }
@@ -167,59 +169,61 @@ impl Conduction {
         let awake =
             (self.awake.iter().enumerate()).filter(|(a, awake)| **awake && self.rest.holds(*a));
         self.visited.extend(awake.map(|(a, _)| a as u32));
-        let sleepers = self.sleepers(state);
-        for &a in &sleepers {
-            self.awake[a as usize] = true;
-        }
-        self.visited.extend(sleepers);
-        let exchanged: Vec<Exchanged> = self
-            .visited
-            .par_iter()
-            .with_min_len(ROWS)
+        let mut exchanged = std::mem::take(&mut self.exchanged);
+        let visited = self.visited.par_iter().with_min_len(ROWS);
+        visited
             .map(|&a| self.at_rest(state, a as usize, dt))
-            .collect();
+            .collect_into_vec(&mut exchanged);
+        let sleepers = self.sleepers(&exchanged);
+        exchanged.extend(
+            sleepers
+                .iter()
+                .map(|&a| self.at_rest(state, a as usize, dt)),
+        );
+        self.visited.extend(sleepers);
         for one in &exchanged {
             self.awake[one.a as usize] = one.busy;
             self.out_open.add(one.out);
         }
-        self.store(state, &exchanged)
+        let stored = self.store(state, &exchanged);
+        self.exchanged = exchanged;
+        stored
     }
 
     /// Particles passed over so far that a neighbour has grown too different from.
-    fn sleepers(&self, state: &State) -> Vec<u32> {
-        let wakes = |a: &u32| {
-            let temperature = state.temperature[*a as usize];
-            (self.rest.row(*a as usize).iter())
-                .filter(move |link| !self.awake[link.to as usize])
-                .filter(move |link| {
-                    (state.temperature[link.to as usize] - temperature).abs() > self.tolerance
-                })
-                .map(|link| link.to)
-        };
-        let mut sleepers: Vec<u32> = self
-            .visited
-            .par_iter()
-            .with_min_len(ROWS)
-            .flat_map_iter(wakes)
-            .collect();
+    fn sleepers(&self, exchanged: &[Exchanged]) -> Vec<u32> {
+        let mut sleepers = Vec::new();
+        for one in exchanged.iter().filter(|one| one.wakes) {
+            let temperature = self.thermal[one.a as usize][0];
+            let links = self.rest.row(one.a as usize).iter();
+            let asleep = links.filter(|link| {
+                let difference = self.thermal[link.to as usize][0] - temperature;
+                !self.awake[link.to as usize] && difference.abs() > self.tolerance
+            });
+            sleepers.extend(asleep.map(|link| link.to));
+        }
         sleepers.sort_unstable();
         sleepers.dedup();
         sleepers
     }
 
     fn at_rest(&self, state: &State, a: usize, dt: f64) -> Exchanged {
-        let (temperature, resistivity) = (state.temperature[a], self.resistivity[a]);
-        let (mut gain, mut busy) = (0.0, false);
+        let [temperature, resistivity] = self.thermal[a];
+        let (mut gain, mut busy, mut wakes) = (0.0, false, false);
         for link in self.rest.row(a) {
             let b = link.to as usize;
-            let difference = state.temperature[b] - temperature;
+            let [other, resists] = self.thermal[b];
+            let difference = other - temperature;
             if difference.abs() > self.tolerance {
                 busy = true;
-                gain += link.weight * 2.0 / (resistivity + self.resistivity[b]) * difference;
+                wakes |= !self.awake[b];
+                gain += link.weight * 2.0 / (resistivity + resists) * difference;
             }
         }
-        let lost = if busy && !self.open.is_empty() {
-            self.through_open_faces(state, a)
+        let lost = if busy {
+            let row = self.rest.row(a);
+            self.open
+                .lost(&state.position, &self.thermal, row, a, &self.caloric)
         } else {
             0.0
         };
@@ -230,33 +234,8 @@ impl Conduction {
             temperature: self.caloric.temperature(enthalpy),
             out: self.scale * dt * lost,
             busy,
+            wakes,
         }
-    }
-
-    /// Sum of weight, conductivity and temperature difference toward the images of eq. 4.12.
-    fn through_open_faces(&self, state: &State, a: usize) -> f64 {
-        let (at, temperature, d) = (state.position[a], state.temperature[a], self.metal.spacing);
-        let beyond = |plane: &Plane, x: f64| plane.outward * (x - plane.at) > 1e-9 * d;
-        if !self
-            .open
-            .iter()
-            .any(|plane| beyond(plane, at[plane.axis] + plane.outward * d))
-        {
-            return 0.0;
-        }
-        let mut lost = 0.0;
-        for link in self.rest.row(a) {
-            let b = link.to as usize;
-            let difference = state.temperature[b] - temperature;
-            let (from, far) = (state.position[b], distance(at, state.position[b]));
-            let onward = |k: usize| at[k] + d * (at[k] - from[k]) / far;
-            let out = (self.open.iter()).any(|plane| beyond(plane, onward(plane.axis)));
-            if out && difference.abs() > self.tolerance {
-                let image = 1.0 / self.caloric.conductivity(temperature - difference);
-                lost += link.weight * 2.0 / (self.resistivity[a] + image) * difference;
-            }
-        }
-        lost
     }
 
     /// Exchanges heat of pairs with a moving particle over `dt`.
@@ -285,14 +264,14 @@ impl Conduction {
     fn in_flow(&self, state: &State, k: usize, row: (&[u32], &[f64]), dt: f64) -> Exchanged {
         let near = &state.near;
         let a = near.id[k] as usize;
-        let (temperature, resistivity) = (state.temperature[a], self.resistivity[a]);
+        let [temperature, resistivity] = self.thermal[a];
         let moves = near.role[k] == Role::Liquid;
         let mut gain = 0.0;
         for (&j, weight) in row.0.iter().zip(row.1) {
             if moves || near.role[j as usize] == Role::Liquid {
                 let b = near.id[j as usize] as usize;
-                gain += weight * 2.0 / (resistivity + self.resistivity[b])
-                    * (state.temperature[b] - temperature);
+                let [other, resists] = self.thermal[b];
+                gain += weight * 2.0 / (resistivity + resists) * (other - temperature);
             }
         }
         let enthalpy = state.enthalpy[a] + self.scale * dt * gain / self.metal.mass();
@@ -302,6 +281,7 @@ impl Conduction {
             temperature: self.caloric.temperature(enthalpy),
             out: 0.0,
             busy: true,
+            wakes: false,
         }
     }
 
@@ -367,7 +347,7 @@ impl Stage for Conduction {
             figure("conducting_particles", "1", self.visited.len() as f64),
             figure("conduction_substeps", "1", self.substeps as f64),
         ];
-        if !self.open.is_empty() {
+        if self.open.any() {
             figures.push(figure(
                 "energy_out_open_faces_j",
                 "J",
@@ -381,7 +361,7 @@ impl Stage for Conduction {
     }
 
     fn bytes(&self) -> usize {
-        self.rest.bytes() + 21 * self.seen.len()
+        self.rest.bytes() + 21 * self.thermal.len()
     }
 
     fn save(&self) -> Vec<f64> {

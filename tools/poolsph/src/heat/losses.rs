@@ -10,7 +10,6 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,8 +25,9 @@ const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 const MOLAR_GAS: f64 = 8.314_462_618;
 /// Pressure at the boiling point \[Pa\].
 const ATMOSPHERE: f64 = 101_325.0;
-/// Particles per unit of parallel work.
-const GRAIN: usize = 4096;
+/// Below this part of the boiling point the vapour pressure is under 1e-12 of that at it, for any
+/// metal (Trouton's rule), and vapour is left out.
+const COLD: f64 = 0.25;
 
 /// Heat given off at the surface (key `losses`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -124,7 +124,8 @@ impl Losses {
             .emissivity
             .map(|eps| eps * STEFAN_BOLTZMANN * (t.powi(4) - around.powi(4)));
         let transfer = p.transfer_w_m2_k.map(|psi| psi * (t - around));
-        let vapour = p.evaporation.map(|vapour| vapour.heat(t));
+        let hot = |vapour: &Evaporation| t > COLD * vapour.boiling_point_k;
+        let vapour = p.evaporation.filter(hot).map(|vapour| vapour.heat(t));
         Some([radiation, transfer, vapour].map(|q| q.unwrap_or(0.0) * patch.area))
     }
 }
@@ -139,13 +140,15 @@ impl Stage for Losses {
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        let cooled: Vec<(usize, [f64; 3])> = (0..state.len())
-            .into_par_iter()
-            .with_min_len(GRAIN)
-            .filter_map(|a| self.cooling(state, a).map(|out| (a, out)))
-            .collect();
         let mass = state.metal.mass();
-        for (a, [radiation, transfer, vapour]) in cooled {
+        for k in 0..state.exposed.len() {
+            let a = state.exposed[k] as usize;
+            let Some([radiation, transfer, vapour]) = self.cooling(state, a) else {
+                continue;
+            };
+            if (radiation + transfer + vapour).to_bits() == 0 {
+                continue;
+            }
             self.radiated.add(radiation * dt);
             self.transferred.add(transfer * dt);
             self.evaporated.add(vapour * dt);

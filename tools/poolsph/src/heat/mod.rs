@@ -7,6 +7,7 @@ mod conduction;
 mod held;
 pub mod ledger;
 mod losses;
+mod open;
 mod parameters;
 mod phase;
 

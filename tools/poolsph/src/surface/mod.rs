@@ -70,6 +70,8 @@ pub struct Surface {
     depth: Depth,
     band: Band,
     coloured: Vec<Patch>,
+    /// Which particles have an area.
+    exposed: Vec<bool>,
     /// Particles that did not fly at the last look at all of them.
     resting: usize,
     total: f64,
@@ -98,6 +100,7 @@ impl Surface {
             depth: Depth::new(kernel),
             band: Band::default(),
             coloured: Vec::new(),
+            exposed: Vec::new(),
             resting: 0,
             total: 0.0,
         }
@@ -126,6 +129,7 @@ impl Surface {
         for (a, patch) in ids.into_iter().zip(coloured) {
             state.surface[a] = patch;
         }
+        self.exposed.clear();
     }
 
     /// Measures the particles within reach of the flow.
@@ -150,6 +154,7 @@ impl Surface {
         for ((&id, role), patch) in near.id.iter().zip(&near.role).zip(&coloured) {
             if *role != Role::Backing {
                 state.surface[id as usize] = *patch;
+                self.exposed[id as usize] = patch.area > 0.0;
             }
         }
         self.coloured = coloured;
@@ -217,10 +222,22 @@ impl Stage for Surface {
             self.whole(state);
         }
         self.resting = resting;
+        if self.exposed.is_empty() {
+            let exposed = state.surface.iter().map(|patch| patch.area > 0.0);
+            self.exposed.extend(exposed);
+        }
+        self.exposed.resize(state.len(), false);
         if !state.near.is_empty() {
             self.near(state);
         }
-        self.total = state.surface.iter().map(|patch| patch.area).sum();
+        state.exposed.clear();
+        let exposed = self.exposed.iter().enumerate().filter(|(_, is)| **is);
+        state.exposed.extend(exposed.map(|(a, _)| a as u32));
+        let areas = state
+            .exposed
+            .iter()
+            .map(|a| state.surface[*a as usize].area);
+        self.total = areas.sum();
         Ok(())
     }
 
