@@ -9,5 +9,6 @@
 
 mod artefacts;
 mod disk;
+mod gases;
 mod scenes;
 mod workplace;

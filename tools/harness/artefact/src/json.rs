@@ -55,10 +55,18 @@ pub fn json_artefact<T: DeserializeOwned>(
 }
 
 fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T> {
-    serde_json::from_str(text).map_err(|e| Error::Json {
+    serde_json::from_str(text).map_err(|e| json_error(path, &e))
+}
+
+/// An error of the JSON reader with file, line and column, each said once.
+#[must_use]
+pub fn json_error(path: &Path, error: &serde_json::Error) -> Error {
+    let text = error.to_string();
+    let what = text.split(" at line ").next().unwrap_or(&text);
+    Error::Json {
         path: path.to_owned(),
-        line: e.line(),
-        column: e.column(),
-        what: e.to_string(),
-    })
+        line: error.line(),
+        column: error.column(),
+        what: what.to_owned(),
+    }
 }

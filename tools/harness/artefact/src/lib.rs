@@ -60,7 +60,7 @@ pub use contents::Channel;
 pub use error::{Error, Result};
 pub use frame::{Column, Frame};
 pub use header::{Header, Identity, METADATA, Version, canonical, sha256, sha256_file};
-pub use json::json_artefact;
+pub use json::{json_artefact, json_error};
 pub use message::{POINT_CLOUD, RECORD, TABLE};
 pub use reader::Reader;
 pub use recover::{RECOVERED, Saved, recover};

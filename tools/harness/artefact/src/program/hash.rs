@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use artefact::{canonical, sha256, sha256_file};
+use artefact::{canonical, json_error, sha256, sha256_file};
 use serde_json::{Map, Value};
 
 use super::open::open;
@@ -97,14 +97,7 @@ fn scene_hash(path: &Path, patches: &[PathBuf]) -> Result<String, Trouble> {
 
 fn read(path: &Path) -> Result<Value, Trouble> {
     let text = std::fs::read_to_string(path).map_err(file_error(path, "read"))?;
-    serde_json::from_str(&text).map_err(|e| {
-        Trouble::Artefact(artefact::Error::Json {
-            path: path.to_owned(),
-            line: e.line(),
-            column: e.column(),
-            what: e.to_string(),
-        })
-    })
+    serde_json::from_str(&text).map_err(|e| json_error(path, &e).into())
 }
 
 /// JSON Merge Patch (RFC 7386): objects merge, `null` removes, all else replaces.

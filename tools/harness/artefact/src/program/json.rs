@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use artefact::json_error;
 use serde_json::Value;
 
 use super::Streams;
@@ -42,14 +43,7 @@ fn kind(value: &Value) -> Option<&str> {
 
 fn read(path: &Path) -> Result<Value, Trouble> {
     let text = std::fs::read_to_string(path).map_err(file_error(path, "read"))?;
-    serde_json::from_str(&text).map_err(|e| {
-        Trouble::Artefact(artefact::Error::Json {
-            path: path.to_owned(),
-            line: e.line(),
-            column: e.column(),
-            what: e.to_string(),
-        })
-    })
+    serde_json::from_str(&text).map_err(|e| json_error(path, &e).into())
 }
 
 /// All that is wrong with a JSON file, and what it is when nothing is.

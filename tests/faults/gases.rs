@@ -1,0 +1,74 @@
+//! Gas tables with faults: told with file, column and row before anything is computed.
+
+use serde_json::Value;
+
+use crate::workplace::{Place, Told, root, tell};
+
+/// Checks the arc of a study with a gas table that `change` spoilt.
+fn told(change: impl Fn(&mut Value)) -> Told {
+    let text = std::fs::read_to_string(root().join("pipelines/gases/argon-1atm.json")).unwrap();
+    let mut table: Value = serde_json::from_str(&text).unwrap();
+    change(&mut table);
+    told_text(&serde_json::to_string_pretty(&table).unwrap())
+}
+
+fn told_text(text: &str) -> Told {
+    let place = Place::new();
+    let gas = place.file("gas.json", text);
+    let scene = root().join("pipelines/gmaw-300a/arc.json");
+    let input = format!("gas={}", gas.display());
+    let told = tell(
+        "arcfvm",
+        &["check", scene.to_str().unwrap(), "--input", &input],
+    );
+    assert!([0, 1, 2].contains(&told.code), "{told:?}");
+    told
+}
+
+#[test]
+fn a_sound_table_is_accepted() {
+    told(|_| ()).must(0, &["arcfvm"]);
+}
+
+#[test]
+fn another_kind_and_a_newer_version_are_refused_by_name() {
+    told(|t| t["kind"] = "steel-table".into()).must(1, &["'steel-table'", "'gas-table'"]);
+    told(|t| t["version"] = "2.0".into())
+        .must(1, &["gas.json", "version 2.0", "reads version 1.x"]);
+    told(|t| t["version"] = "new".into()).must(1, &["gas.json:", "'new' is not a version"]);
+}
+
+#[test]
+fn a_truncated_table_is_placed_at_its_line() {
+    let text =
+        "{\n  \"kind\": \"gas-table\",\n  \"version\": \"1.0\",\n  \"columns\": [\n    {\"na";
+    told_text(text).must(1, &["gas.json:5:", "EOF"]);
+}
+
+#[test]
+fn a_value_that_is_no_number_is_placed_at_its_line() {
+    let told = told(|t| t["columns"][1]["values"][3] = Value::Null);
+    told.must(1, &["gas.json:", "null"]);
+}
+
+#[test]
+fn a_missing_column_is_named() {
+    let told = told(|t| {
+        let columns = t["columns"].as_array_mut().unwrap();
+        columns.retain(|c| c["name"] != "viscosity_pa_s");
+    });
+    assert_ne!(told.code, 0);
+    told.must(told.code, &["no column viscosity_pa_s"]);
+}
+
+#[test]
+fn columns_of_unequal_length_and_temperatures_that_do_not_rise_are_refused() {
+    let short = told(|t| {
+        t["columns"][1]["values"].as_array_mut().unwrap().pop();
+    });
+    assert_ne!(short.code, 0);
+    short.must(short.code, &["density_kg_m3", "equal length"]);
+    let flat = told(|t| t["columns"][0]["values"][3] = t["columns"][0]["values"][2].clone());
+    assert_ne!(flat.code, 0);
+    flat.must(flat.code, &["row 3", "does not exceed"]);
+}
