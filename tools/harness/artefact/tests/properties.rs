@@ -276,13 +276,12 @@ fn first_chunk(bytes: &[u8]) -> usize {
     at
 }
 
-/// A small file of every kind of message, and what it holds.
+/// A small file of JSON and frames in several chunks, and what it holds.
 fn small(file: &Path) -> (Vec<u8>, Vec<Message>) {
     let messages = vec![
         Message::Record(1.5),
         Message::Record(2.5),
         Message::Frame(vec![[0.5, 1.0, -2.0]; 3]),
-        Message::Table(vec![1.0, 2.0]),
         Message::Frame(vec![[0.25, 1.0, -2.0]; 2]),
     ];
     write(file, &messages);
