@@ -57,6 +57,8 @@ pub(crate) struct Weld {
     pub(crate) plate: Plate,
     /// Source at this moment, if there is one.
     pub(crate) source: Option<Source>,
+    /// Particles that have left the plate over its edges; they are not among the others.
+    pub(crate) lost: usize,
 }
 
 impl Weld {
@@ -97,12 +99,31 @@ impl Weld {
             )?,
             plate,
             source: source_at(reader, frame.time_s)?,
+            lost: 0,
         };
         if frame.has("wall") {
             let metal: Vec<bool> = frame.u8("wall")?.iter().map(|w| *w == 0).collect();
             weld.retain(&metal);
         }
+        weld.leave_out_lost();
         Ok(weld)
+    }
+
+    /// Leaves out what is beside or below the plate: it is no part of the bead.
+    fn leave_out_lost(&mut self) {
+        let (Some(low), Some(high)) = (self.plate.min_m, self.plate.max_m) else {
+            return;
+        };
+        let d = self.plate.spacing_m;
+        let over = |p: &[f64; 3]| {
+            let above = (0..2).all(|k| p[k] > low[k] - d && p[k] < high[k] + d);
+            above && p[2] > low[2] - d
+        };
+        let kept: Vec<bool> = self.position.iter().map(over).collect();
+        self.lost = kept.iter().filter(|k| !**k).count();
+        if self.lost > 0 {
+            self.retain(&kept);
+        }
     }
 
     fn retain(&mut self, keep: &[bool]) {

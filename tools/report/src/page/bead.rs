@@ -30,6 +30,12 @@ pub(super) fn section(
             ));
         }
     }
+    if weld.lost > 0 {
+        body += &note(&format!(
+            "{} particles have left the plate over its edges; they are neither shown nor measured.",
+            grouped(weld.lost)
+        ));
+    }
     let earlier = earlier(reader)?;
     let mut all: Vec<&Weld> = earlier.iter().collect();
     all.push(weld);

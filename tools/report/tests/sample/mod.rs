@@ -98,6 +98,11 @@ fn frame(time: f64, temperature: bool) -> Frame {
         molten.push(u8::from(inside && t > 1750.0));
         fused.push(u8::from(inside));
     }
+    // A drop that has fallen past the plate is no penetration.
+    position.push([0.02, 0.03, -0.02]);
+    heat.push(2000.0);
+    molten.push(1);
+    fused.push(1);
     let frame = Frame::new(Precision::F32)
         .positions(position)
         .flag("molten", molten)
