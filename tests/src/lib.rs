@@ -2,7 +2,8 @@
 //!
 //! Every case drives a tool as its users do (a scene, a patch, a command line), opens the artefact
 //! and compares it with an exact solution coded here. Nothing in this crate is shared with a solver:
-//! the only common ground is the file format.
+//! the only common ground is the file format. ([`speed`] times the numerical cores and checks
+//! nothing.)
 //!
 //! - [`case`] says what a case is, [`lab`] runs tools, [`norms`] measures, [`study`] turns three
 //!   resolutions into a record of error against run time.
@@ -16,5 +17,6 @@ pub mod norms;
 mod particles;
 pub mod plasma;
 pub mod special;
+pub mod speed;
 mod spot;
 pub mod study;

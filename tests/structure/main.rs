@@ -23,7 +23,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "kernels" => &["neighbours"],
         "run" => &["artefact"],
         "report" => &["artefact", "run"],
-        "verification" => &["artefact"],
+        "verification" => &["artefact", "kernels", "neighbours", "relax"],
         _ => return NUMERICS.iter().chain(&HARNESS).copied().collect(),
     };
     set.iter().copied().collect()
