@@ -1,6 +1,6 @@
 //! Columns of the particles and the metal they are made of.
 //!
-//! A column that no stage needs stays empty: [`State::allocate`] gives length only to the union
+//! A column that no stage needs stays empty: [`State::new`] is told the union
 //! of what the stages declare. Particles keep their index for life; new ones are appended.
 
 use crate::near::Near;

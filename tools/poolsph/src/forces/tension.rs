@@ -15,7 +15,7 @@
 //! grains, and a drop behaves as if its tension were a tenth.
 //!
 //! The exchange spreads the pull over more depth, so that the tension grows by a factor
-//! ([`GAIN`]) while the cohesive pressure stays. c follows from the continuum limit
+//! (`GAIN`, measured) while the cohesive pressure stays. c follows from the continuum limit
 //! ([`mean_field`], 1.232 for h = d; print: 1.2) and this factor.
 
 use rayon::prelude::*;
