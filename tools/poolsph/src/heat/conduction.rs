@@ -106,7 +106,7 @@ impl Conduction {
             interval: u64::from(parameters.rest_interval_steps.max(1)),
             tolerance: parameters.exchange_tolerance_k,
             rest: Rest::new(metal.smoothing_length, mirrors),
-            open: Open::new(open, metal.spacing, parameters.exchange_tolerance_k),
+            open: Open::new(open, metal.spacing, parameters),
             held: Vec::new(),
             thermal: Vec::new(),
             awake: Vec::new(),

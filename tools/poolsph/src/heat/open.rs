@@ -2,8 +2,13 @@
 //!
 //! Opposite to each neighbour b from which the way on, a spacing beyond a, leads out of the plate
 //! stands an image of temperature 2 T_a - T_b, with the conductivity of that temperature.
+//!
+//! The image is never colder than the surroundings. Without this bound a face loses more than it
+//! gains wherever the conductivity falls with temperature, and the more so the colder it gets: it
+//! would run away to 0 K.
 
 use super::caloric::Caloric;
+use super::parameters::Parameters;
 use crate::rest::{Link, Plane, distance};
 
 /// The open faces of the plate.
@@ -13,14 +18,18 @@ pub(crate) struct Open {
     spacing: f64,
     /// Smaller differences of temperature \[K\] exchange no heat.
     tolerance: f64,
+    /// T of the plate far away \[K\].
+    surroundings: f64,
 }
 
 impl Open {
-    pub(crate) fn new(planes: Vec<Plane>, spacing: f64, tolerance: f64) -> Self {
+    pub(crate) fn new(planes: Vec<Plane>, spacing: f64, parameters: &Parameters) -> Self {
+        let faces = parameters.faces.as_ref();
         Self {
             planes,
             spacing,
-            tolerance,
+            tolerance: parameters.exchange_tolerance_k,
+            surroundings: faces.map_or(0.0, |faces| faces.surroundings_k),
         }
     }
 
@@ -56,8 +65,10 @@ impl Open {
             let onward = |k: usize| at[k] + d * (at[k] - from[k]) / far;
             let out = (self.planes.iter()).any(|plane| beyond(plane, onward(plane.axis)));
             if out && difference.abs() > self.tolerance {
-                let image = 1.0 / caloric.conductivity(temperature - difference);
-                lost += link.weight * 2.0 / (resistivity + image) * difference;
+                // An image colder than its particle takes heat, one warmer gives some.
+                let image = (temperature - difference).max(self.surroundings.min(temperature));
+                let resists = 1.0 / caloric.conductivity(image);
+                lost += link.weight * 2.0 / (resistivity + resists) * (temperature - image);
             }
         }
         lost

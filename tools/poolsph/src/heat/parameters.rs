@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 use super::caloric::{Caloric, Melting};
 use crate::rest::Plane;
 
+/// Temperatures \[K\] that a metal can have; a run that leaves them has diverged.
+const POSSIBLE: (f64, f64) = (0.0, 1e5);
 /// Temperatures \[K\] between which a formula is taken as meant.
 const FORMULA_RANGE: (f64, f64) = (200.0, 6000.0);
 /// Rows by which a formula is tabulated, one per kelvin.
@@ -47,6 +49,10 @@ fn every_step() -> u32 {
     1
 }
 
+fn room() -> f64 {
+    300.0
+}
+
 fn exchange_tolerance() -> f64 {
     1e-4
 }
@@ -79,6 +85,10 @@ pub struct Faces {
     /// Faces through which heat leaves as if the plate went on (Komen 2019, section 4.3).
     #[serde(default)]
     pub open: Vec<Face>,
+    /// Temperature of the plate far beyond its open faces; nothing beyond them is colder.
+    #[serde(default = "room")]
+    #[schemars(extend("x-unit" = "K"), range(min = 0.0, max = 1e4))]
+    pub surroundings_k: f64,
 }
 
 /// A face of a box.
@@ -158,7 +168,7 @@ impl Parameters {
 /// A property of the temperature as a table, and where it holds \[K\].
 fn table(property: &Property, at: &str) -> Result<(Table, (f64, f64)), Fault> {
     let curve = property.compile(at, &["T"])?;
-    let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+    let everywhere = POSSIBLE;
     let (nodes, values, range) = match &curve {
         Curve::Constant(value) => (vec![0.0, 1.0], vec![*value; 2], everywhere),
         Curve::Table(rows) => (

@@ -60,6 +60,7 @@ fn parameters(metal: Metal, n: [usize; 3], open: Vec<Face>) -> Parameters {
             max_m: n.map(|k| k as f64 * metal.spacing),
             mirror: all.into_iter().filter(|f| !open.contains(f)).collect(),
             open,
+            surroundings_k: 0.0,
         }),
     }
 }
@@ -220,6 +221,34 @@ fn an_open_face_lets_a_steady_gradient_through() {
         .map(|(x, t)| (t - slope(*x)).abs())
         .fold(0.0, f64::max);
     assert!(worst < 1e-10, "{worst}");
+}
+
+#[test]
+fn an_open_face_never_falls_below_the_surroundings() {
+    let metal = metal(7850.0, 0.5e-3);
+    let caloric = Arc::new(steel());
+    let size = [10, 4, 4];
+    let hot = |x: [f64; 3]| if x[0] < 2e-3 { 1700.0 } else { 300.0 };
+    let mut state = lattice(metal, size, &caloric, hot);
+    let before = stored(&state);
+    let mut given = parameters(metal, size, vec![Face::XPlus]);
+    given.faces.as_mut().unwrap().surroundings_k = 300.0;
+    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    for _ in 0..4000 {
+        march(&mut state, &mut stage, 2e-3, 1);
+        let coldest = state.temperature.iter().fold(f64::MAX, |m, t| m.min(*t));
+        assert!(coldest > 300.0 - 1e-9, "{coldest}");
+    }
+    // Heat leaves while there is a gradient, and the ledger knows how much.
+    let warmest = state.temperature.iter().fold(0.0_f64, |m, t| m.max(*t));
+    assert!(warmest < 320.0, "{warmest}");
+    let figures = stage.figures();
+    let out = figures
+        .iter()
+        .find(|f| f.name == "energy_out_open_faces_j")
+        .unwrap()
+        .value;
+    assert!(((before - stored(&state)) / out - 1.0).abs() < 1e-9);
 }
 
 /// Relative error of the front of a one-phase Stefan problem with n spacings (Neumann's solution,
