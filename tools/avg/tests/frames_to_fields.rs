@@ -221,3 +221,37 @@ fn the_schema_in_the_repository_is_what_the_program_prints() {
     let stored = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schemas/avg.scene.v1.json");
     assert_eq!(std::fs::read_to_string(stored).unwrap(), printed);
 }
+
+#[test]
+fn the_scenes_of_the_studies_are_valid_as_they_are_and_patched() {
+    use avg::stage::Avg;
+    use run::Tool;
+    let expected = run::scene::Expected {
+        kind: Avg::SCENE_KIND,
+        version: Avg::SCENE_VERSION,
+    };
+    let schema = run::scene::schema_of::<Scene>(expected);
+    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines");
+    let whole = studies.join("gmaw-300a/avg.json");
+    let quick = studies.join("gmaw-quick/avg.patch.json");
+    for (patches, from_s) in [(vec![], 8.0), (vec![quick], 0.6)] {
+        let scene: Scene = run::scene::load(&whole, &patches, &schema, expected)
+            .unwrap()
+            .scene;
+        assert!(scene.faults().is_empty());
+        assert!((scene.time.unwrap().from_s - from_s).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn what_the_schema_cannot_say_is_refused_before_any_file_is_opened() {
+    use avg::stage::Avg;
+    use run::{Inputs, Tool};
+    let mut scene = scene();
+    scene.follow = None;
+    let said = Avg::plan(&scene, &Inputs::none()).unwrap_err().to_string();
+    assert!(
+        said.contains("/phases") && said.contains("'follow'"),
+        "{said}"
+    );
+}

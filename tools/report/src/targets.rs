@@ -307,4 +307,21 @@ mod tests {
         assert_eq!(row.tolerance(), "\u{b1} 0.5 mm");
         assert_eq!(row.words().0, "misses the tolerance: too small");
     }
+
+    #[test]
+    fn the_targets_of_every_study_can_be_read_and_measured() {
+        let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines");
+        let files: Vec<_> = std::fs::read_dir(studies)
+            .unwrap()
+            .map(|entry| entry.unwrap().path().join("targets.json"))
+            .filter(|path| path.is_file())
+            .collect();
+        assert!(!files.is_empty());
+        for path in files {
+            let targets = Targets::read(&path).unwrap();
+            for row in compare(&targets, Some(&stretch(2e-3, true))) {
+                assert_ne!(row.verdict, Verdict::Unknown, "{}", row.target.measure);
+            }
+        }
+    }
 }
