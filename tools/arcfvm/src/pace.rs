@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use crate::solver::Arc;
 
 /// Iterations in which the greatest residual must fall.
-const PATIENCE: usize = 120;
+const PATIENCE: usize = 150;
 /// What it must fall to, as part of the smallest before.
 const FALL: f64 = 0.5;
 /// Smallest under-relaxation that slowing leads to.
-const LEAST: f64 = 0.3;
+const LEAST: f64 = 0.5;
 
 /// Watches the greatest residual. What is not taken from the new solution doubles each time it has
 /// not fallen for a while.

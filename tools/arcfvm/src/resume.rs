@@ -25,6 +25,9 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
     }
     if let Some(heating) = &arc.heating {
         c.put_f64("temperature", &heating.energy.temperature);
+        c.put_f64("calm", &heating.energy.calm);
+        c.put_f64("last_change", &heating.energy.last);
+        c.put_u8("alternations", &heating.energy.alternations);
         c.put_f64("absorbed", heating.sources.absorbed());
     }
     Ok(())
@@ -51,6 +54,9 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
     }
     if let Some(heating) = &mut arc.heating {
         heating.energy.temperature = c.f64("temperature")?;
+        heating.energy.calm = c.f64("calm")?;
+        heating.energy.last = c.f64("last_change")?;
+        heating.energy.alternations = c.u8("alternations")?;
         heating.sources.restore(c.f64("absorbed")?);
     }
     Ok(())

@@ -272,7 +272,7 @@ impl Arc {
             mass,
             ..
         } = found;
-        let forces = inertia + flow.forces(case, setup, lorentz);
+        let forces = inertia + flow.forces(case, setup, lorentz, &properties.density);
         let throughput = flow.throughput(case, &properties.density);
         Ok([part(radial + axial, forces), part(mass, throughput)])
     }

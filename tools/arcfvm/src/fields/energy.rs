@@ -15,6 +15,15 @@ use crate::heat::{Contact, FaceIndex, Surfaces};
 use crate::properties::Properties;
 use crate::transport::{dirichlet, hybrid};
 
+/// Factor on the relaxation of a cell whose changes alternate.
+const CALMER: f64 = 0.7;
+/// Alternating changes in a row that are no chance.
+const IN_CIRCLES: u8 = 3;
+/// Factor on that of all others.
+const BOLDER: f64 = 1.02;
+/// Least factor.
+const CALMEST: f64 = 0.1;
+
 /// Temperatures and everything that the balance is made of.
 #[derive(Debug, Clone)]
 pub struct Energy {
@@ -32,6 +41,12 @@ pub struct Energy {
     /// surfaces, plate, given sources.
     pub source: Vec<[f64; 2]>,
     on_electrode: Vec<bool>,
+    /// Calmness of each cell, times the under-relaxation: falls where changes alternate.
+    pub(crate) calm: Vec<f64>,
+    /// Last change of each temperature \[K\].
+    pub(crate) last: Vec<f64>,
+    /// Alternating changes of each temperature in a row.
+    pub(crate) alternations: Vec<u8>,
     equation: FivePoint,
     scratch: Vec<f64>,
     solver: Solver,
@@ -88,6 +103,9 @@ impl Energy {
         }
         Self {
             on_electrode,
+            calm: vec![1.0; grid.len()],
+            last: vec![0.0; grid.len()],
+            alternations: vec![0; grid.len()],
             temperature: case.start.clone(),
             radial: vec![0.0; grid.radial_faces()],
             axial: vec![0.0; grid.axial_faces()],
@@ -276,16 +294,29 @@ impl Energy {
     /// the film's conductance being taken from the iteration before.
     fn relaxation(&self, case: &Case, k: usize, gas: f64) -> f64 {
         if case.material[k] == GAS {
-            return if self.on_electrode[k] { 0.5 * gas } else { gas };
+            return self.calm[k] * if self.on_electrode[k] { 0.5 * gas } else { gas };
         }
         let fed = case
             .wire
             .filter(|w| w.material == case.material[k] && w.feed.is_some());
         let t = self.temperature[k];
-        let melting = fed
-            .and(case.of(k).melting)
-            .filter(|m| (t - m.point).abs() < 2.0 * m.half_range);
-        if melting.is_some() { 0.5 } else { 1.0 }
+        let melting = fed.and(case.of(k).melting);
+        let melts = melting.is_some_and(|m| (t - m.point).abs() < 2.0 * m.half_range);
+        self.calm[k] * if melts { 0.5 } else { 1.0 }
+    }
+
+    /// Notes the change of cell `k` and calms it where changes alternate without falling.
+    fn note(&mut self, k: usize, change: f64) {
+        let alternates = change * self.last[k] < 0.0 && change.abs() > 0.5 * self.last[k].abs();
+        let row = if alternates {
+            self.alternations[k].saturating_add(1)
+        } else {
+            0
+        };
+        self.alternations[k] = row;
+        let factor = if row >= IN_CIRCLES { CALMER } else { BOLDER };
+        self.calm[k] = (self.calm[k] * factor).clamp(CALMEST, 1.0);
+        self.last[k] = change;
     }
 
     /// One under-relaxed solve.
@@ -312,13 +343,16 @@ impl Energy {
         self.scratch.copy_from_slice(&self.temperature);
         let outcome = self.solver.solve(&self.equation, &mut self.temperature)?;
         let (mut change, mut limited) = (0.0_f64, 0);
-        for (t, old) in self.temperature.iter_mut().zip(&self.scratch) {
-            let wanted = *t - old;
+        for k in 0..self.temperature.len() {
+            let old = self.scratch[k];
+            let wanted = self.temperature[k] - old;
             if wanted.abs() > step.limit {
                 limited += 1;
-                *t = old + step.limit.copysign(wanted);
+                self.temperature[k] = old + step.limit.copysign(wanted);
             }
-            change = change.max((*t - old).abs());
+            let taken = self.temperature[k] - old;
+            change = change.max(taken.abs());
+            self.note(k, taken);
         }
         Ok(EnergyResidual {
             heat: unbalanced,

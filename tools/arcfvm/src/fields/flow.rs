@@ -160,13 +160,25 @@ impl Flow {
 
     /// Sum of the volume forces \[N\], for scale.
     #[must_use]
-    pub fn forces(&self, case: &Case, setup: &FlowCase, lorentz: Option<[&[f64]; 2]>) -> f64 {
+    pub fn forces(
+        &self,
+        case: &Case,
+        setup: &FlowCase,
+        lorentz: Option<[&[f64]; 2]>,
+        density: &[f64],
+    ) -> f64 {
         let grid = &case.grid;
         let given = setup
             .force
             .as_ref()
             .map(|f| [f[0].as_slice(), f[1].as_slice()]);
         let mut sum = 0.0;
+        if let Some(g) = setup.gravity {
+            for k in (0..grid.len()).filter(|k| case.material[*k] == GAS) {
+                let volume = grid.volume(k % grid.nr, k / grid.nr);
+                sum += g.acceleration * (density[k] - g.reference_density).abs() * volume;
+            }
+        }
         for [radial, axial] in [lorentz, given].into_iter().flatten() {
             for (k, force) in radial.iter().enumerate() {
                 if self.radial_kind[k] == Face::Solved {
