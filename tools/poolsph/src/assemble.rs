@@ -7,6 +7,7 @@ use run::property::Curve;
 use run::{Failure, Fault, Inputs};
 
 use crate::domain::bodies::{self, Body, Filled};
+use crate::domain::bounds::Bounds;
 use crate::domain::droplet::Droplets;
 use crate::forces::arc_pressure::ArcPressure;
 use crate::forces::buoyancy::Buoyancy;
@@ -188,6 +189,10 @@ impl<'a> Source<'a> {
             let stage = Droplets::new(droplets, scene.metal(), self.caloric.as_ref())
                 .map_err(|fault| fault.within("/droplets"))?;
             Ok(Box::new(stage))
+        })?;
+        parts.ahead("bounds", scene.bounds, |bounds| {
+            let stage = Bounds::new(bounds, scene.metal());
+            Ok(Box::new(stage.map_err(|fault| fault.within("/bounds"))?))
         })?;
         self.heat(&mut parts, held)?;
         self.forces(&mut parts)?;

@@ -1,5 +1,6 @@
 //! What fills the domain: bodies at the start, droplets during the run.
 
 pub mod bodies;
+pub mod bounds;
 pub mod droplet;
 pub mod shape;

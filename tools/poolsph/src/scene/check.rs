@@ -58,6 +58,7 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
             scene.arc_pressure.is_some(),
             vec![flow, source],
         ),
+        ("bounds", scene.bounds.is_some(), vec![flow]),
         ("droplets", scene.droplets.is_some(), vec![flow, source]),
     ];
     let missing = |(key, there, needs): (&'static str, bool, Vec<(&'static str, bool)>)| {

@@ -11,7 +11,7 @@ pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
 pub use output::{FloatWidth, Output, PoolOutput, due};
 
-use crate::domain::droplet;
+use crate::domain::{bounds, droplet};
 use crate::forces::{arc_pressure, buoyancy, gas_shear, lorentz, marangoni, tension};
 use crate::state::Metal;
 use crate::{heat, motion, source};
@@ -68,6 +68,9 @@ pub struct Scene {
     /// Pressure of the input `arc` on the surface; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_pressure: Option<arc_pressure::Parameters>,
+    /// Box in which metal is followed; absent: everywhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<bounds::Parameters>,
     /// Droplets from the wire; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub droplets: Option<droplet::Parameters>,

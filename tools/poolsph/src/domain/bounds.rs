@@ -1,0 +1,140 @@
+//! The box in which metal is followed: spatter that leaves it is caught and kept where it left.
+//!
+//! A particle thrown off would fall for ever, and the search for neighbours would follow it. What is
+//! caught meets nobody any more, but keeps its mass and heat in the balances.
+
+use run::Fault;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::stage::{Figure, Stage, StageError};
+use crate::state::{Metal, Phase, State};
+
+/// The box in which metal is followed (key `bounds`).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// Lower corner \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub min_m: [f64; 3],
+    /// Upper corner \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub max_m: [f64; 3],
+}
+
+/// The stage that catches spatter.
+#[derive(Debug, Clone)]
+pub struct Bounds {
+    parameters: Parameters,
+    mass: f64,
+    caught: u64,
+}
+
+impl Bounds {
+    /// A box for `metal`.
+    ///
+    /// # Errors
+    /// A fault at the corner that is on the wrong side of the other.
+    pub fn new(parameters: Parameters, metal: Metal) -> Result<Self, Fault> {
+        match (0..3).find(|k| parameters.max_m[*k] <= parameters.min_m[*k]) {
+            Some(k) => Err(Fault::at(
+                &format!("/max_m/{k}"),
+                format!(
+                    "{} m is not above {} m of min_m",
+                    parameters.max_m[k], parameters.min_m[k]
+                ),
+            )),
+            None => Ok(Self {
+                parameters,
+                mass: metal.mass(),
+                caught: 0,
+            }),
+        }
+    }
+}
+
+impl Stage for Bounds {
+    fn name(&self) -> &'static str {
+        "bounds"
+    }
+
+    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+        let Parameters { min_m, max_m } = self.parameters;
+        for a in 0..state.len() {
+            let x = state.position[a];
+            let outside = (0..3).any(|k| x[k] < min_m[k] || x[k] > max_m[k]);
+            if outside && state.phase[a] == Phase::Liquid {
+                state.phase[a] = Phase::Flying;
+                state.velocity[a] = [0.0; 3];
+                self.caught += 1;
+            }
+        }
+        Ok(())
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![Figure {
+            name: "spatter_kg",
+            unit: "kg",
+            value: self.mass * self.caught as f64,
+        }]
+    }
+
+    fn save(&self) -> Vec<f64> {
+        vec![self.caught as f64]
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.caught = saved.first().map_or(0, |n| *n as u64);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::Particle;
+
+    #[test]
+    fn only_liquid_that_leaves_is_caught() {
+        let metal = Metal {
+            density: 1000.0,
+            spacing: 1e-3,
+            smoothing_length: 1e-3,
+        };
+        let mut state = State::new(metal, Vec::new());
+        for (x, phase) in [
+            (0.5, Phase::Liquid),
+            (1.5, Phase::Liquid),
+            (1.5, Phase::Solid),
+            (-0.5, Phase::Liquid),
+        ] {
+            state.push(Particle {
+                position: [0.5, x, 0.5],
+                velocity: [1.0; 3],
+                phase,
+                droplet: false,
+                wall: false,
+                temperature: 300.0,
+                enthalpy: 0.0,
+            });
+        }
+        let unit = Parameters {
+            min_m: [0.0; 3],
+            max_m: [1.0; 3],
+        };
+        let mut stage = Bounds::new(unit, metal).unwrap();
+        for _ in 0..2 {
+            stage.advance(&mut state, 1e-4).unwrap();
+        }
+        let phases = [Phase::Liquid, Phase::Flying, Phase::Solid, Phase::Flying];
+        assert_eq!(state.phase, phases);
+        assert_eq!((state.velocity[1], state.velocity[0]), ([0.0; 3], [1.0; 3]));
+        assert!((stage.figures()[0].value - 2e-6).abs() < 1e-18);
+        let wrong = Parameters {
+            max_m: [1.0, 0.0, 1.0],
+            ..unit
+        };
+        let fault = Bounds::new(wrong, metal).unwrap_err();
+        assert_eq!(fault.path(), "/max_m/1");
+    }
+}
