@@ -13,7 +13,7 @@ use super::trouble::{Trouble, Verdict};
 /// Arguments of `diff`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
-  artefact diff build/gmaw-quick/pool.mcap build/other/pool.mcap
+  target/release/artefact diff build/gmaw-quick/pool.mcap build/other/pool.mcap
 For each column that differs it prints, over all messages of the channel,
   Linf      greatest difference, and where it is (time, row)
   L2        root of the mean square of the difference

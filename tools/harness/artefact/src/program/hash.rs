@@ -12,7 +12,7 @@ use super::{Source, Streams};
 /// Arguments of `verify-hash`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
-  artefact verify-hash build/gmaw-quick/pool.mcap --scene pipelines/gmaw-300a/pool.json \\
+  target/release/artefact verify-hash build/gmaw-quick/pool.mcap --scene pipelines/gmaw-300a/pool.json \\
     --patch pipelines/gmaw-quick/pool.patch.json --input arc=build/gmaw-quick/arc.mcap
 The hash of a scene is the SHA-256 of its canonical JSON (patches applied, keys sorted, no white
 space): spaces and the order of keys change nothing. The hash of an input is that of its bytes.

@@ -8,7 +8,7 @@ use super::{Source, Streams};
 /// Arguments of `ls`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
-  artefact ls build/gmaw-quick/pool.mcap --channel /particles
+  target/release/artefact ls build/gmaw-quick/pool.mcap --channel /particles
 Columns: simulated time in s, channel, index of the message in it, size.")]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -31,11 +31,11 @@ use trouble::{Trouble, Verdict};
     version,
     after_help = "\
 Examples, from the repository root:
-  artefact info build/gmaw-quick/pool.mcap
-  artefact validate build/gmaw-quick/*.mcap
-  artefact diff build/gmaw-quick/pool.mcap /tmp/pool.mcap
-  artefact export build/gmaw-quick/pool.mcap --to vtu --out build/paraview --every 10
-  artefact recover build/gmaw-300a/pool.mcap.part
+  target/release/artefact info build/gmaw-quick/pool.mcap
+  target/release/artefact validate build/gmaw-quick/*.mcap
+  target/release/artefact diff build/gmaw-quick/pool.mcap build/other/pool.mcap
+  target/release/artefact export build/gmaw-quick/pool.mcap --to vtu --out build/paraview --every 10
+  target/release/artefact recover build/gmaw-300a/pool.mcap.part
 
 Exit code: 0 done; 1 the file is damaged, differs or cannot be read; 2 wrong usage."
 )]

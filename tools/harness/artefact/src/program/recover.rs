@@ -8,7 +8,7 @@ use super::trouble::{Trouble, Verdict};
 /// Arguments of `recover`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
-  artefact recover build/gmaw-300a/pool.mcap.part
+  target/release/artefact recover build/gmaw-300a/pool.mcap.part
 writes build/gmaw-300a/pool.recovered.mcap with all messages up to the last whole chunk and a metadata
 record 'fusionline.recovered' that says so. The partial file stays: where a checkpoint stands beside
 it, the tool's --resume continues the run and loses nothing.")]

@@ -14,7 +14,7 @@ use super::{Streams, json};
 /// Arguments of `validate`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
-  artefact validate build/gmaw-quick/*.mcap build/gmaw-quick/*.run.json
+  target/release/artefact validate build/gmaw-quick/*.mcap build/gmaw-quick/*.run.json
 Of an MCAP file it reads every byte: checksums of data, chunks and index; order of times; each JSON
 message against the JSON Schema in the file; units; and NaN or infinity in any column, named by
 channel, time, column and row. Of a JSON record it checks the schema of its kind.
