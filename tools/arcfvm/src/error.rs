@@ -22,7 +22,7 @@ pub enum Error {
     /// A temperature beyond the gas table, where the scene does not ask to hold its end values.
     #[error(
         "{place}: temperature {found:.0} K above table end {end:.0} K ({material}); \
-         set gas.beyond_table to \"hold\" to keep the end values"
+         set gas.table.beyond_table to \"extend\" or \"hold\" to go on"
     )]
     AboveTable {
         /// Cell with its position.

@@ -65,7 +65,9 @@ impl Tool for ArcFvm {
         let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
         march::march(&mut arc, &scene.iterate, session)?;
         let balance = arc.settle();
-        arc.within_table()?;
+        if let Some(told) = arc.beyond_table()? {
+            session.note(told);
+        }
         march::close(&arc, balance.as_ref(), session);
         frames::write(&arc, balance.as_ref(), &scene.sample, session)
     }

@@ -152,6 +152,8 @@ pub struct Material {
     pub melting: Option<Melting>,
     /// End of the tables \[K\], if they end.
     pub end_k: Option<f64>,
+    /// Whether a converged temperature beyond that end is an error.
+    pub end_is_error: bool,
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Each field against an exact solution, from the scene's text to the converged fields.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
 use std::f64::consts::PI;
 
 use arcfvm::assemble::assemble;

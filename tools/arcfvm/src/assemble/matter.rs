@@ -81,7 +81,8 @@ impl GasFile {
             electric_conductivity: law("electric_conductivity_s_m")?,
             net_emission: law("net_emission_w_m3")?,
             melting: None,
-            end_k: (beyond == BeyondTable::Error).then(|| specific_heat.last()),
+            end_k: Some(self.table("temperature_k")?.last()),
+            end_is_error: beyond == BeyondTable::Error,
             enthalpy: Some(Enthalpy::new(&specific_heat, None).map_err(bad)?),
         })
     }
@@ -147,6 +148,7 @@ fn gas_material(scene: &Scene, file: Option<&GasFile>, faults: &mut Faults) -> M
                 ),
                 melting: None,
                 end_k: None,
+                end_is_error: false,
             }
         }
     }
@@ -198,6 +200,7 @@ fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) ->
             faults,
         ),
         end_k: None,
+        end_is_error: false,
     }
 }
 
@@ -344,10 +347,8 @@ mod tests {
         assert!((at(&extended.viscosity, 50_000.0) - 1e-4).abs() < 1e-15);
         let held = file().material(BeyondTable::Hold).unwrap();
         assert!((at(&held.net_emission, 25_000.0) - 3e10).abs() < 1.0);
-        assert_eq!(
-            file().material(BeyondTable::Error).unwrap().end_k,
-            Some(20_000.0)
-        );
-        assert_eq!(held.end_k, None);
+        let strict = file().material(BeyondTable::Error).unwrap();
+        assert!(strict.end_is_error && strict.end_k == Some(20_000.0));
+        assert!(!held.end_is_error && !extended.end_is_error);
     }
 }
