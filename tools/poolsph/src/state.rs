@@ -89,7 +89,7 @@ pub struct State {
     /// Specific enthalpy \[J/kg\], `[n]` or empty.
     pub enthalpy: Vec<f64>,
     /// p \[Pa\], `[n]` or empty: the pressure that the metal carries, from all pair forces,
-    /// as a mean over some milliseconds.
+    /// as the kernel mean over the liquid around and the mean over some milliseconds.
     pub pressure: Vec<f64>,
     /// What the surface is at each particle, `[n]` or empty.
     pub surface: Vec<Patch>,

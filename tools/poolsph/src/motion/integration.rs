@@ -1,8 +1,11 @@
 //! A step of the motion (Komen 2019, fig. 3.16): prediction by inertia, viscosity and forces,
 //! correction by the pressure, new positions.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use neighbours::ROWS;
 
 use super::homogenising::Homogenising;
 use super::projection::{Projection, Solved, Step, Tolerance};
@@ -79,6 +82,7 @@ pub struct Motion {
     predicted: Vec<[f64; 3]>,
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
+    spread: Vec<f64>,
     solved: Solved,
     substeps: u32,
     speed: f64,
@@ -95,6 +99,7 @@ impl Motion {
             homogenising: Homogenising::new(metal),
             predicted: Vec::new(),
             multiplier: Vec::new(),
+            spread: Vec::new(),
             solved: Solved::default(),
             substeps: 0,
             speed: 0.0,
@@ -178,12 +183,42 @@ impl Motion {
         Ok(courant.max(viscous) as u32)
     }
 
+    /// Pressure of each particle as the kernel mean over the liquid around it (eq. 4.8): what
+    /// single particles carry differs like the contacts of grains.
+    fn spread(&mut self, near: &Near) {
+        let own = near.kernel.value(0.0);
+        let (virial, role) = (&near.virial, &near.role);
+        self.spread.resize(near.len(), 0.0);
+        self.spread
+            .par_chunks_mut(ROWS)
+            .zip(near.lists.chunks())
+            .zip(&near.pairs)
+            .for_each(|((out, chunk), pairs)| {
+                for (k, out) in out.iter_mut().enumerate() {
+                    let a = chunk.first() + k;
+                    *out = virial[a];
+                    if role[a] != Role::Liquid {
+                        continue;
+                    }
+                    let (mut sum, mut weight) = (own * virial[a], own);
+                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
+                        if role[b as usize] == Role::Liquid {
+                            sum += w * virial[b as usize];
+                            weight += w;
+                        }
+                    }
+                    *out = sum / weight;
+                }
+            });
+    }
+
     /// Takes the results of the copy back to the particles.
     fn scatter(&mut self, state: &mut State, dt: f64) {
+        self.spread(&state.near);
         let weight = (dt / PRESSURE_TIME).min(1.0);
-        for (virial, &id) in state.near.virial.iter_mut().zip(&state.near.id) {
+        for (pressure, &id) in self.spread.iter_mut().zip(&state.near.id) {
             let before = state.pressure[id as usize];
-            *virial = before + weight * (*virial - before);
+            *pressure = before + weight * (*pressure - before);
         }
         state.pressure.fill(0.0);
         self.multiplier.clear();
@@ -192,7 +227,7 @@ impl Motion {
         for (a, (&id, role)) in near.id.iter().zip(&near.role).enumerate() {
             let id = id as usize;
             self.multiplier[id] = f64::from(self.projection.pressure[a]);
-            state.pressure[id] = near.virial[a];
+            state.pressure[id] = self.spread[a];
             if *role == Role::Liquid && state.phase[id] == crate::state::Phase::Liquid {
                 state.position[id] = near.position[a];
                 state.velocity[id] = near.velocity[a];
@@ -288,7 +323,7 @@ impl Stage for Motion {
         self.projection.bytes()
             + self.homogenising.bytes()
             + 24 * self.predicted.capacity()
-            + 8 * self.multiplier.capacity()
+            + 8 * (self.multiplier.capacity() + self.spread.capacity())
     }
 
     fn save(&self) -> Vec<f64> {
