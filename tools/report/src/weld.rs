@@ -4,12 +4,15 @@ use artefact::{Frame, Reader};
 use serde::Deserialize;
 
 use crate::measure::bead::{self, Bead};
-use crate::measure::section::{Metal, Plane, Section};
+use crate::measure::section::{Metal, Plane, SUPPORT, Section};
+use crate::measure::spatter;
 
 /// Channel of all particles.
 pub(crate) const PARTICLES: &str = "/particles";
 /// What lies closer to the start of the weld than this is run-in, not bead \[m\].
 const RUN_IN: f64 = 8e-3;
+/// Greatest distance between neighbours in a bead, in spacings.
+const LINK: f64 = 1.5;
 /// Metal shown before and behind what has been fused \[m\].
 const ROOM: f64 = 6e-3;
 /// Least length shown along the weld \[m\].
@@ -53,6 +56,9 @@ pub(crate) struct Weld {
     pub(crate) liquid: Vec<bool>,
     /// Has ever been liquid.
     pub(crate) fused: Vec<bool>,
+    /// Belongs to what is measured: the plate and the fused metal joined to the bead. Spatter and
+    /// drops in flight do not.
+    joined: Vec<bool>,
     /// Plate.
     pub(crate) plate: Plate,
     /// Source at this moment, if there is one.
@@ -99,6 +105,7 @@ impl Weld {
             )?,
             plate,
             source: source_at(reader, frame.time_s)?,
+            joined: Vec::new(),
             lost: 0,
         };
         if frame.has("wall") {
@@ -106,6 +113,13 @@ impl Weld {
             weld.retain(&metal);
         }
         weld.leave_out_lost();
+        let link = LINK * weld.plate.spacing_m;
+        let bead = spatter::largest(&weld.position, &weld.fused, link);
+        weld.joined = bead
+            .iter()
+            .zip(&weld.fused)
+            .map(|(b, f)| *b || !f)
+            .collect();
         Ok(weld)
     }
 
@@ -116,7 +130,7 @@ impl Weld {
         };
         let d = self.plate.spacing_m;
         let over = |p: &[f64; 3]| {
-            let above = (0..2).all(|k| p[k] > low[k] - d && p[k] < high[k] + d);
+            let above = (0..2).all(|k| p[k] >= low[k] && p[k] <= high[k]);
             above && p[2] > low[2] - d
         };
         let kept: Vec<bool> = self.position.iter().map(over).collect();
@@ -159,7 +173,18 @@ impl Weld {
 
     /// The section across the weld at `place` \[m\], with its measures.
     pub(crate) fn section(&self, place: f64) -> (Section, Bead) {
-        let section = Section::cut(&self.metal(), Plane::Across, place);
+        let near = |i: &usize| {
+            self.joined[*i] && (self.position[*i][1] - place).abs() < SUPPORT * self.plate.spacing_m
+        };
+        let chosen: Vec<usize> = (0..self.position.len()).filter(near).collect();
+        let position: Vec<[f64; 3]> = chosen.iter().map(|i| self.position[*i]).collect();
+        let fused: Vec<bool> = chosen.iter().map(|i| self.fused[*i]).collect();
+        let metal = Metal {
+            position: &position,
+            fused: &fused,
+            spacing: self.plate.spacing_m,
+        };
+        let section = Section::cut(&metal, Plane::Across, place);
         let bead = bead::measure(&section, self.centre(), self.plate.spacing_m);
         (section, bead)
     }
@@ -177,7 +202,7 @@ impl Weld {
     /// where that is most of the metal or where nothing has been fused.
     pub(crate) fn window(&self) -> Option<[f64; 2]> {
         let all = self.extent(|_| true)?;
-        let Some([start, end]) = self.extent(|i| self.fused[i]) else {
+        let Some([start, end]) = self.extent(|i| self.fused[i] && self.joined[i]) else {
             return Some(all);
         };
         let more = (0.5 * (LEAST_SHOWN - (end - start))).max(ROOM);
@@ -189,10 +214,10 @@ impl Weld {
     /// Measures of the bead along its frozen stretch; of the whole fused stretch, as far as it has
     /// come, when nothing has frozen.
     pub(crate) fn bead(&self) -> Option<Stretch> {
-        let [start, end] = self.extent(|i| self.fused[i])?;
+        let [start, end] = self.extent(|i| self.fused[i] && self.joined[i])?;
         let step = 2.0 * self.plate.spacing_m;
         let liquid: Vec<f64> = (0..self.liquid.len())
-            .filter(|i| self.liquid[*i])
+            .filter(|i| self.liquid[*i] && self.joined[*i])
             .map(|i| self.position[i][1])
             .collect();
         let clear = |y: f64| liquid.iter().all(|l| (l - y).abs() > CLEAR);

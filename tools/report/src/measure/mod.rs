@@ -2,3 +2,4 @@
 
 pub(crate) mod bead;
 pub(crate) mod section;
+pub(crate) mod spatter;

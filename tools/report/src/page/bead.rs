@@ -106,7 +106,7 @@ fn views(weld: &Weld, paint: &Paint) -> Result<String, Failure> {
         ),
         (
             View::Side,
-            "The weld from the side: how high the bead stands above the plate, and drops on their way.",
+            "The weld from the side: how high the bead stands above the plate. Drops on their way and spatter are shown but not measured.",
         ),
     ];
     for (view, caption) in captions {

@@ -12,6 +12,8 @@ use crate::weld::Weld;
 const EMBER: Rgb = hex(0x5c_1a12);
 /// Liquid metal of unknown temperature.
 const LIQUID: Rgb = hex(0xed_6925);
+/// What flies higher above the plate is not shown \[m\].
+const CEILING: f64 = 12e-3;
 /// Pixels left and right of the window.
 const SIDES: [f64; 2] = [110.0, 190.0];
 
@@ -96,7 +98,10 @@ impl View {
 pub(crate) fn picture(weld: &Weld, paint: &Paint, view: View) -> Option<Canvas> {
     let radius = 0.56e3 * weld.plate.spacing_m;
     let [from, to] = weld.window()?;
-    let shown = |i: &usize| (from..=to).contains(&weld.position[*i][1]);
+    let shown = |i: &usize| {
+        let p = weld.position[*i];
+        (from..=to).contains(&p[1]) && p[2] < CEILING
+    };
     let discs: Vec<Disc> = (0..weld.position.len())
         .filter(shown)
         .map(|i| Disc {

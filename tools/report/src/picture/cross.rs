@@ -13,6 +13,8 @@ use crate::weld::Weld;
 
 const FUSION: Rgb = hex(0xd5_5e00);
 const GAUGE: Rgb = hex(0x00_3f7d);
+/// What is higher above the plate is not shown \[mm\].
+const CEILING: f64 = 12.0;
 /// What is smaller gets no gauge \[m\].
 const SHOWN: f64 = 0.2e-3;
 
@@ -95,6 +97,7 @@ pub(crate) fn across(weld: &Weld, section: &Section, bead: &Bead) -> Option<Canv
 pub(crate) fn along(weld: &Weld, paint: &Paint) -> Option<Canvas> {
     let section = Section::cut(&weld.metal(), Plane::Along, weld.centre());
     let (all, up) = (extent(&section, true)?, extent(&section, false)?);
+    let up = [up[0], up[1].min(CEILING)];
     let [from, to] = weld.window()?.map(|v| 1e3 * v);
     let across = [all[0].max(from - 0.4), all[1].min(to + 0.4)];
     let mut v = view(&section, across, up, [110.0, 190.0]);
