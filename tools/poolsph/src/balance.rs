@@ -15,7 +15,17 @@ pub struct Balance {
     momentum: [f64; 3],
     kinetic: f64,
     height: f64,
+    /// Masses that stages tell \[kg\].
+    masses: Vec<(&'static str, f64)>,
     heat: Option<Heat>,
+}
+
+/// Figures of one unit, by name.
+fn of_unit(figures: &[(&'static str, Figure)], unit: &str) -> Vec<(&'static str, f64)> {
+    let found = figures.iter().filter(|(_, figure)| figure.unit == unit);
+    found
+        .map(|(_, figure)| (figure.name, figure.value))
+        .collect()
 }
 
 /// The energies of a scene with heat.
@@ -56,11 +66,7 @@ impl Balance {
         }
         let heat = (!state.enthalpy.is_empty()).then(|| Heat {
             stored: mass * (0..state.len()).map(|a| state.enthalpy[a]).sum::<f64>(),
-            parts: figures
-                .iter()
-                .filter(|(_, figure)| figure.unit == "J")
-                .map(|(_, figure)| (figure.name, figure.value))
-                .collect(),
+            parts: of_unit(figures, "J"),
         });
         Self {
             time: state.time,
@@ -70,6 +76,7 @@ impl Balance {
             momentum,
             kinetic,
             height: if count > 0.0 { height / count } else { 0.0 },
+            masses: of_unit(figures, "kg"),
             heat,
         }
     }
@@ -122,6 +129,9 @@ impl Balance {
             .with("momentum_z", "kg m/s", self.momentum[2])
             .with("kinetic_energy_j", "J", self.kinetic)
             .with("centre_of_mass_height_m", "m", self.height);
+        for (name, value) in &self.masses {
+            record = record.with(name, "kg", *value);
+        }
         if let (Some(heat), Some((_, _, closure))) = (&self.heat, self.closure(start)) {
             record = record.with("energy_stored_j", "J", heat.stored - start.stored);
             for (name, value) in &heat.parts {
@@ -140,6 +150,11 @@ impl Balance {
             ("mass_droplets_kg", "kg", self.from_wire),
             ("mass_error", "1", self.mass_error(start)),
         ];
+        rows.extend(
+            self.masses
+                .iter()
+                .map(|(name, value)| (*name, "kg", *value)),
+        );
         if let (Some(heat), Some((input, output, closure))) = (&self.heat, self.closure(start)) {
             rows.extend(heat.parts.iter().map(|(name, value)| (*name, "J", *value)));
             rows.push(("energy_in_j", "J", input));

@@ -151,7 +151,10 @@ impl<'a> Simulation<'a> {
             let figures = march.figures();
             let totals = Balance::of(state, &figures);
             session.record("/balance", state.time, &totals.record(self.start))?;
-            for (stage, figure) in figures.iter().filter(|(_, f)| f.unit != "J") {
+            for (stage, figure) in figures
+                .iter()
+                .filter(|(_, f)| !matches!(f.unit, "J" | "kg"))
+            {
                 let name = format!("{stage}_{}", figure.name);
                 session.history(&name, figure.unit, state.time, figure.value);
             }
@@ -198,9 +201,9 @@ fn status(
         ("time", state.time, "s"),
         ("liquid", state.liquid() as f64, ""),
     ];
-    let shown = figures
-        .iter()
-        .filter(|(_, figure)| figure.unit != "J" && figure.name != "liquid_particles");
+    let shown = figures.iter().filter(|(_, figure)| {
+        !matches!(figure.unit, "J" | "kg") && figure.name != "liquid_particles"
+    });
     row.extend(shown.map(|(_, figure)| (figure.name, figure.value, figure.unit)));
     row
 }
