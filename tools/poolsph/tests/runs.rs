@@ -1,5 +1,7 @@
 //! The program as a user meets it: same bytes, columns of the active physics, located faults.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};

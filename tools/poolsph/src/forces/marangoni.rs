@@ -150,7 +150,7 @@ mod tests {
                 assert!(force[1].abs() * d < 1e-9 && force[2].abs() * d < 1e-9);
                 pulled += 1;
             } else {
-                assert_eq!(*force, [0.0; 3]);
+                assert!(force.iter().all(|f| f.abs() < 1e-15));
             }
         }
         assert!(pulled > 20);
