@@ -53,8 +53,13 @@ pub struct Tension {
     exchange: f64,
     /// Longest step \[s\].
     limit: f64,
-    pull: Vec<[f64; 3]>,
-    smooth: Vec<[f64; 3]>,
+    /// Pull \[N\], zero for solid particles; the fourth place pads.
+    pull: Vec<[f64; 4]>,
+    smooth: Vec<[f64; 4]>,
+    /// Sum of the pulls that went into the exchanges.
+    total: Vec<[f64; 4]>,
+    /// Part of its pull that a particle keeps in an exchange.
+    kept: Vec<f64>,
 }
 
 /// c of the continuum without smoothing: gamma = pi n^2/8 int F r^4 dr for a pair force F and
@@ -78,71 +83,113 @@ impl Tension {
             limit: (metal.mass() / (2.0 * std::f64::consts::PI * gamma)).sqrt(),
             pull: Vec::new(),
             smooth: Vec::new(),
+            total: Vec::new(),
+            kept: Vec::new(),
         }
     }
 
-    /// Pull on each liquid particle \[N\] and its share of the mechanical pressure.
+    /// Pull on each liquid particle \[N\] and its share of the mechanical pressure; what a
+    /// particle keeps in an exchange.
     fn pull(&mut self, near: &mut Near, metal: Metal) {
-        let (h, strength) = (metal.smoothing_length, self.strength);
+        let (h, strength, exchange) = (metal.smoothing_length, self.strength, self.exchange);
         let share = 1.0 / (6.0 * metal.volume());
         let (position, role) = (&near.position, &near.role);
-        self.pull.resize(near.id.len(), [0.0; 3]);
+        self.pull.resize(near.id.len(), [0.0; 4]);
+        self.kept.resize(near.id.len(), 0.0);
         self.pull
             .par_chunks_mut(ROWS)
+            .zip(self.kept.par_chunks_mut(ROWS))
             .zip(near.virial.par_chunks_mut(ROWS))
             .zip(near.lists.chunks())
-            .for_each(|((pull, virial), chunk)| {
-                for (k, (pull, virial)) in pull.iter_mut().zip(virial).enumerate() {
-                    *pull = [0.0; 3];
+            .zip(&near.pairs)
+            .for_each(|((((pull, kept), virial), chunk), pairs)| {
+                for (k, ((pull, kept), virial)) in pull.iter_mut().zip(kept).zip(virial).enumerate()
+                {
+                    (*pull, *kept) = ([0.0; 4], 1.0);
                     let a = chunk.first() + k;
                     if role[a] != Role::Liquid {
                         continue;
                     }
-                    let mut stretched = 0.0;
-                    for &b in chunk.row(k) {
+                    let (mut sum, mut stretched, mut given) = ([0.0; 3], 0.0, 0.0);
+                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
                         let dx = minus(position[b as usize], position[a]);
                         let square = squared(dx);
                         let q = square.sqrt() / h;
                         // f(q)/q, times c gamma: the force over the distance.
                         let stiffness = strength * ((2.0 - q).max(0.0) / q).min(1.0);
-                        *pull = plus(*pull, stiffness, dx);
+                        sum = plus(sum, stiffness, dx);
                         stretched += stiffness * square;
+                        given += f64::from(u8::from(role[b as usize] == Role::Liquid)) * w;
                     }
+                    *pull = [sum[0], sum[1], sum[2], 0.0];
+                    *kept = 1.0 - exchange * given;
                     *virial -= share * stretched;
                 }
             });
     }
 
-    /// One exchange of the pull between liquid neighbours (eq. 4.8).
-    fn smooth(&mut self, near: &mut Near, metal: Metal) {
-        let share = 1.0 / (6.0 * metal.volume());
-        let (pull, position, role) = (&self.pull, &near.position, &near.role);
+    /// One exchange of the pull between liquid neighbours (eq. 4.8). The pull of solid ones is
+    /// zero, so that the sum may run over all.
+    fn smooth(&mut self, near: &Near) {
+        let (pull, kept, role) = (&self.pull, &self.kept, &near.role);
         let exchange = self.exchange;
-        self.smooth.resize(pull.len(), [0.0; 3]);
+        self.smooth.resize(pull.len(), [0.0; 4]);
         self.smooth
             .par_chunks_mut(ROWS)
-            .zip(near.virial.par_chunks_mut(ROWS))
             .zip(near.lists.chunks())
             .zip(&near.pairs)
-            .for_each(|(((out, virial), chunk), pairs)| {
-                for (k, (out, virial)) in out.iter_mut().zip(virial).enumerate() {
+            .for_each(|((out, chunk), pairs)| {
+                for (k, out) in out.iter_mut().enumerate() {
                     let a = chunk.first() + k;
-                    *out = pull[a];
+                    *out = [0.0; 4];
                     if role[a] != Role::Liquid {
                         continue;
                     }
+                    let mut sum = [0.0; 4];
                     for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                        let b = b as usize;
-                        if role[b] == Role::Liquid {
-                            let force = minus(pull[b], pull[a]).map(|x| exchange * w * x);
-                            *out = plus(*out, 1.0, force);
-                            *virial += share * dot(force, minus(position[a], position[b]));
+                        let other = pull[b as usize];
+                        for i in 0..4 {
+                            sum[i] += w * other[i];
                         }
                     }
+                    let own = pull[a];
+                    *out = std::array::from_fn(|i| kept[a] * own[i] + exchange * sum[i]);
                 }
             });
         std::mem::swap(&mut self.pull, &mut self.smooth);
     }
+
+    /// Share of the exchanged forces in the mechanical pressure. They are linear in the pull, so
+    /// that those of all exchanges are those of the sum of the pulls.
+    fn strain(&self, near: &mut Near, metal: Metal) {
+        let share = self.exchange / (6.0 * metal.volume());
+        let (total, position, role) = (&self.total, &near.position, &near.role);
+        near.virial
+            .par_chunks_mut(ROWS)
+            .zip(near.lists.chunks())
+            .zip(&near.pairs)
+            .for_each(|((virial, chunk), pairs)| {
+                for (k, virial) in virial.iter_mut().enumerate() {
+                    let a = chunk.first() + k;
+                    if role[a] != Role::Liquid {
+                        continue;
+                    }
+                    let mut sum = 0.0;
+                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
+                        let b = b as usize;
+                        if role[b] == Role::Liquid {
+                            let force = minus(three(total[b]), three(total[a]));
+                            sum += w * dot(force, minus(position[a], position[b]));
+                        }
+                    }
+                    *virial += share * sum;
+                }
+            });
+    }
+}
+
+fn three([x, y, z, _]: [f64; 4]) -> [f64; 3] {
+    [x, y, z]
 }
 
 impl Stage for Tension {
@@ -161,18 +208,25 @@ impl Stage for Tension {
         let metal = state.metal;
         let near = &mut state.near;
         self.pull(near, metal);
+        self.total.clear();
+        self.total.resize(near.len(), [0.0; 4]);
         for _ in 0..SMOOTHINGS {
-            self.smooth(near, metal);
+            for (total, pull) in self.total.iter_mut().zip(&self.pull) {
+                *total = std::array::from_fn(|i| total[i] + pull[i]);
+            }
+            self.smooth(near);
         }
+        self.strain(near, metal);
         let volume = metal.volume();
         for (force, pull) in near.force.iter_mut().zip(&self.pull) {
-            *force = plus(*force, 1.0 / volume, *pull);
+            *force = plus(*force, 1.0 / volume, three(*pull));
         }
         Ok(())
     }
 
     fn bytes(&self) -> usize {
-        24 * (self.pull.capacity() + self.smooth.capacity())
+        32 * (self.pull.capacity() + self.smooth.capacity() + self.total.capacity())
+            + 8 * self.kept.capacity()
     }
 }
 
