@@ -6,23 +6,32 @@
 //!
 //! r is the horizontal distance from the axis of the arc. The flux q is that of an arc above a flat
 //! surface, part by part as the arc's table has it: convection, absorbed radiation, electrons, ions,
-//! vapour. What the metal radiates itself depends on its own temperature and is left to
-//! [`super::Losses`].
+//! vapour. With `cathode` and `gas`, electrons, ions and convection follow from the temperature of
+//! the metal as it is here, in place of that in the table. What the metal radiates itself is left
+//! to [`super::Losses`].
+//!
+//! Such a flux falls with the temperature of the metal, by no more than s. An explicit step
+//! approaches the balance without passing it as long as dt s dA < m c; a longer one is divided,
+//! particle by particle.
 //!
 //! With `projected`, dA is the area seen from above: the metal takes what the table prescribes
 //! whatever shape it has. With `area`, it is the whole area. A surface that faces down takes
 //! nothing. The cross-section pi d^2/4 of eq. 4.10 would pass on 78.5 % of every flux.
 
-use props::Table;
+use std::sync::Arc as Shared;
+
 use run::Fault;
-use run::property::{Arguments, Curve, Property};
+use run::property::Property;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::bounds::outside;
 use super::caloric::Caloric;
+use super::cathode::{Cathode, Emitter};
+use super::film::{Film, GasFilm};
+use super::flux::{Flux, Law, column};
 use super::ledger::Sum;
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, Phase, State};
 
 /// Most fluxes at once.
@@ -36,9 +45,17 @@ pub struct ArcParameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "W/m2"))]
     pub flux_w_m2: Option<Property>,
-    /// Parts of the arc input that are taken; absent: all.
+    /// Parts of the arc input that are taken as they are; absent: all that `cathode` and `gas` leave.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parts: Option<Vec<Part>>,
+    /// Electrons and ions by the temperature of the metal, from the current density of the arc
+    /// input; absent: as the arc input has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cathode: Option<Cathode>,
+    /// Convection by the temperature of the metal, from the gas temperature of the arc input;
+    /// absent: as the arc input has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gas: Option<GasFilm>,
     /// The area that the flux falls on.
     #[serde(default)]
     pub on: Onto,
@@ -92,59 +109,83 @@ impl Part {
     }
 }
 
-/// q(r), and the heat it has put in.
-struct Flux {
-    name: &'static str,
-    law: Law,
-    put: Sum,
-}
-
-enum Law {
-    /// Zero beyond the last row.
-    Table(Table),
-    Curve(Curve),
-}
-
-impl Flux {
-    fn new(name: &'static str, law: Law) -> Self {
-        Self {
-            name,
-            law,
-            put: Sum::default(),
+impl ArcParameters {
+    /// The key that takes the place of a part of the table, if it is there.
+    fn instead(&self, part: Part) -> Option<&'static str> {
+        match part {
+            Part::Electron | Part::Ion => self.cathode.map(|_| "cathode"),
+            Part::Convection => self.gas.as_ref().map(|_| "gas"),
+            Part::Radiation | Part::Vapour => None,
         }
     }
 
-    fn at(&self, r: f64, time: f64) -> Result<f64, StageError> {
-        match &self.law {
-            Law::Table(table) if r > table.last() => Ok(0.0),
-            Law::Table(table) => Ok(table.held(r)),
-            Law::Curve(curve) => curve
-                .value(&Arguments {
-                    r,
-                    time,
-                    ..Arguments::default()
-                })
-                .map_err(|fault| StageError::Data(format!("heat flux of the arc: {fault}"))),
+    /// A fault where a heat is given twice, or belongs to an input that is not used.
+    fn checked(&self) -> Result<(), Fault> {
+        let given = [
+            ("parts", self.parts.is_some()),
+            ("cathode", self.cathode.is_some()),
+            ("gas", self.gas.is_some()),
+        ];
+        if let (Some(_), Some((key, _))) = (&self.flux_w_m2, given.iter().find(|key| key.1)) {
+            let what = format!("{key}: belongs to the arc input, but flux_w_m2 is given");
+            return Err(Fault::at(&format!("/{key}"), what));
         }
+        for (i, part) in self.parts.iter().flatten().enumerate() {
+            if let Some(key) = self.instead(*part) {
+                let what = format!("this part follows from the key '{key}': give one of the two");
+                return Err(Fault::at(&format!("/parts/{i}"), what));
+            }
+        }
+        Ok(())
     }
 
-    /// Distance beyond which there is nothing \[m\].
-    fn reach(&self) -> f64 {
-        match &self.law {
-            Law::Table(table) => table.last(),
-            Law::Curve(_) => f64::INFINITY,
+    /// The parts of the arc input, each from the table or from what takes its place.
+    fn fluxes(
+        &self,
+        surface: &artefact::Table,
+        metal: Metal,
+        caloric: &Shared<Caloric>,
+    ) -> Result<Vec<Flux>, Fault> {
+        let emitter = self.cathode.map(|cathode| Emitter::new(cathode, surface));
+        let emitter = emitter.transpose()?.map(Shared::new);
+        let mut fluxes = Vec::new();
+        for part in Part::ALL {
+            let (name, energy) = part.names();
+            let law = match (part, &emitter, &self.gas) {
+                (Part::Electron, Some(emitter), _) => Law::Electrons(Shared::clone(emitter)),
+                (Part::Ion, Some(emitter), _) => Law::Ions(Shared::clone(emitter)),
+                (Part::Convection, _, Some(gas)) => {
+                    let caloric = Shared::clone(caloric);
+                    Law::Film(Film::new(gas, surface, metal.spacing, caloric)?)
+                }
+                _ if self.takes(part, surface.has(name)) => {
+                    let table = column(surface, name, |q| q);
+                    Law::Table(table.map_err(|what| Fault::at("/parts", what))?)
+                }
+                _ => continue,
+            };
+            fluxes.push(Flux::new(energy, law));
         }
+        Ok(fluxes)
+    }
+
+    /// Whether a part is taken from the table, which may have it.
+    fn takes(&self, part: Part, there: bool) -> bool {
+        let parts = self.parts.as_ref();
+        parts.map_or(there, |parts| parts.contains(&part))
     }
 }
 
 /// Heat of the arc as a stage.
 pub struct Arc {
-    caloric: std::sync::Arc<Caloric>,
+    caloric: Shared<Caloric>,
     metal: Metal,
     fluxes: Vec<Flux>,
     /// Distance beyond which there is no heat \[m\].
     reach: f64,
     onto: Onto,
+    /// Area that takes a step whole, times that step \[m2 s\].
+    whole: f64,
     power: f64,
 }
 
@@ -156,15 +197,12 @@ impl Arc {
     /// input lacks.
     pub fn new(
         parameters: &ArcParameters,
-        caloric: std::sync::Arc<Caloric>,
+        caloric: Shared<Caloric>,
         metal: Metal,
         surface: Option<&artefact::Table>,
     ) -> Result<Self, Fault> {
+        parameters.checked()?;
         let fluxes = match (&parameters.flux_w_m2, surface) {
-            (Some(_), _) if parameters.parts.is_some() => {
-                let what = "parts belong to the arc input, but flux_w_m2 is given";
-                return Err(Fault::at("/parts", what));
-            }
             (Some(property), _) => {
                 let curve = property.compile("/flux_w_m2", &["r", "t"])?;
                 vec![Flux::new("energy_in_arc_j", Law::Curve(curve))]
@@ -173,17 +211,14 @@ impl Arc {
                 let what = "needs flux_w_m2, or an arc source: --input arc=FILE";
                 return Err(Fault::at("", what));
             }
-            (None, Some(table)) => {
-                let parts = parameters.parts.as_deref().unwrap_or(&Part::ALL);
-                let read = parts
-                    .iter()
-                    .filter_map(|part| read(*part, table, parameters));
-                read.collect::<Result<_, _>>()?
-            }
+            (None, Some(table)) => parameters.fluxes(table, metal, &caloric)?,
         };
         let reach = fluxes.iter().map(Flux::reach).fold(0.0, f64::max);
+        let hottest = caloric.range().1;
+        let steepest: f64 = fluxes.iter().map(|flux| flux.steepest(hottest)).sum();
         Ok(Self {
             reach,
+            whole: metal.mass() * caloric.least_heat() / steepest,
             caloric,
             metal,
             fluxes,
@@ -192,8 +227,9 @@ impl Arc {
         })
     }
 
-    /// Heat of each flux into particle `a` in a second \[W\]; `None` where the arc does not reach.
-    fn heating(&self, state: &State, a: usize) -> Option<Result<[f64; PARTS], StageError>> {
+    /// Distance of particle `a` from the axis \[m\] and area that the arc falls on \[m2\]; `None`
+    /// where it does not reach.
+    fn lit(&self, state: &State, a: usize) -> Option<(f64, f64)> {
         let axis = state.source.map_or([0.0; 3], |source| source.position);
         let [x, y, _] = state.position[a];
         let (dx, dy) = (x - axis[0], y - axis[1]);
@@ -207,40 +243,34 @@ impl Arc {
             Onto::Area if patch.normal[2] > 0.0 => patch.area,
             Onto::Area => 0.0,
         };
-        if area <= 0.0 {
-            return None;
-        }
+        (area > 0.0).then(|| (square.sqrt(), area))
+    }
+
+    /// Heats particle `a` for `dt` \[s\] at its present temperature; gives the heat in a second \[W\].
+    fn heat(
+        &mut self,
+        state: &mut State,
+        a: usize,
+        lit: (f64, f64),
+        dt: f64,
+    ) -> Result<f64, StageError> {
+        let (r, area) = lit;
         let mut heat = [0.0; PARTS];
         for (heat, flux) in heat.iter_mut().zip(&self.fluxes) {
-            match flux.at(square.sqrt(), state.time) {
-                Ok(q) => *heat = q * area,
-                Err(fault) => return Some(Err(fault)),
-            }
+            *heat = flux.at(r, state.temperature[a], state.time)? * area;
         }
-        Some(Ok(heat))
+        let mut gain = 0.0;
+        for (flux, power) in self.fluxes.iter_mut().zip(heat) {
+            flux.put.add(power * dt);
+            gain += power;
+        }
+        state.enthalpy[a] += gain * dt / self.metal.mass();
+        state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
+        if !self.caloric.covers(state.temperature[a]) {
+            return Err(outside(state, a, state.temperature[a], &self.caloric));
+        }
+        Ok(gain)
     }
-}
-
-/// A part of the table; vapour that the table does not have is no part of it.
-fn read(
-    part: Part,
-    table: &artefact::Table,
-    parameters: &ArcParameters,
-) -> Option<Result<Flux, Fault>> {
-    let (column, name) = part.names();
-    if parameters.parts.is_none() && !table.has(column) {
-        return None;
-    }
-    let columns = table
-        .values("radius_m")
-        .and_then(|r| Ok((r, table.values(column)?)));
-    let made = columns
-        .map_err(|fault| fault.to_string())
-        .and_then(|(r, q)| Table::new(r.to_vec(), q.to_vec()).map_err(|fault| fault.to_string()));
-    Some(match made {
-        Ok(table) => Ok(Flux::new(name, Law::Table(table))),
-        Err(fault) => Err(Fault::at("/parts", format!("arc input: {fault}"))),
-    })
 }
 
 impl Stage for Arc {
@@ -252,24 +282,25 @@ impl Stage for Arc {
         &[Column::Temperature, Column::Enthalpy, Column::Surface]
     }
 
+    fn dt_limit(&self, _state: &State) -> Option<Limit> {
+        let seconds = self.whole / (self.metal.spacing * self.metal.spacing);
+        let name = "arc_feedback";
+        seconds.is_finite().then_some(Limit { seconds, name })
+    }
+
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         self.power = 0.0;
         for k in 0..state.exposed.len() {
             let a = state.exposed[k] as usize;
-            let Some(heat) = self.heating(state, a) else {
+            let Some(lit) = self.lit(state, a) else {
                 continue;
             };
+            let parts = (dt * lit.1 / self.whole).ceil().max(1.0);
             let mut gain = 0.0;
-            for (flux, power) in self.fluxes.iter_mut().zip(heat?) {
-                flux.put.add(power * dt);
-                gain += power;
+            for _ in 0..parts as u64 {
+                gain += self.heat(state, a, lit, dt / parts)?;
             }
-            self.power += gain;
-            state.enthalpy[a] += gain * dt / self.metal.mass();
-            state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
-            if !self.caloric.covers(state.temperature[a]) {
-                return Err(outside(state, a, state.temperature[a], &self.caloric));
-            }
+            self.power += gain / parts;
         }
         Ok(())
     }

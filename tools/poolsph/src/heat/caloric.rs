@@ -27,6 +27,7 @@ pub struct Caloric {
     heat: Integral,
     melting: Option<Melted>,
     fastest: f64,
+    least_heat: f64,
     range: (f64, f64),
 }
 
@@ -66,11 +67,14 @@ impl Caloric {
             .chain(specific_heat.nodes())
             .map(|&t| conductivity.held(t) / specific_heat.held(t))
             .fold(0.0, f64::max);
+        let values = specific_heat.values().iter().copied();
+        let least_heat = values.fold(f64::INFINITY, f64::min);
         Ok(Self {
             conductivity,
             heat,
             melting,
             fastest,
+            least_heat,
             range,
         })
     }
@@ -126,6 +130,12 @@ impl Caloric {
     #[must_use]
     pub fn fastest(&self) -> f64 {
         self.fastest
+    }
+
+    /// Least specific heat anywhere \[J/(kg K)\].
+    #[must_use]
+    pub fn least_heat(&self) -> f64 {
+        self.least_heat
     }
 
     /// Temperatures \[K\] between which the properties hold.
@@ -184,6 +194,7 @@ pub(crate) mod tests {
         let plain = plain(30.0, 600.0, None);
         assert!((plain.fastest() - 0.05).abs() < 1e-15);
         assert!((steel().fastest() - 73.0 / 440.0).abs() < 1e-12);
+        assert!((steel().least_heat() - 440.0).abs() < 1e-12);
     }
 
     proptest! {

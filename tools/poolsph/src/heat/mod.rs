@@ -3,7 +3,10 @@
 mod arc;
 mod bounds;
 pub mod caloric;
+mod cathode;
 mod conduction;
+mod film;
+mod flux;
 mod held;
 pub mod ledger;
 mod losses;
@@ -13,11 +16,15 @@ mod phase;
 
 pub use arc::{Arc, ArcParameters, Onto, Part};
 pub use caloric::Caloric;
+pub use cathode::Cathode;
 pub use conduction::Conduction;
+pub use film::GasFilm;
 pub use losses::{Evaporation, LossParameters, Losses, Where};
 pub use parameters::{Face, Faces, MeltingParameters, Parameters};
 pub use phase::{FlowStart, Phase};
 
+#[cfg(test)]
+mod arc_tests;
 #[cfg(test)]
 mod surface_tests;
 #[cfg(test)]

@@ -12,14 +12,14 @@ use crate::stage::Stage;
 use crate::state::{self, Column, Metal, Particle, State};
 use crate::surface::Surface;
 
-const METAL: Metal = Metal {
+pub(super) const METAL: Metal = Metal {
     density: 1.0,
     spacing: 1.0,
     smoothing_length: 1.0,
 };
 
 /// The part of a lattice that is inside, at 500 K, c = 1 J/(kg K).
-fn body(half: [i32; 3], inside: impl Fn([f64; 3]) -> bool) -> State {
+pub(super) fn body(half: [i32; 3], inside: impl Fn([f64; 3]) -> bool) -> State {
     let columns = vec![Column::Surface, Column::Temperature, Column::Enthalpy];
     let mut state = State::new(METAL, columns);
     for i in -half[0]..half[0] {
@@ -50,6 +50,8 @@ fn gaussian(onto: Onto) -> Arc {
     let parameters = ArcParameters {
         flux_w_m2: Some(Property::Formula(Formula { expr })),
         parts: None,
+        cathode: None,
+        gas: None,
         on: onto,
     };
     let caloric = Shared::new(plain(1.0, 1.0, None));
@@ -119,6 +121,8 @@ fn parts_of_a_table_are_told_apart() {
     let mut parameters = ArcParameters {
         flux_w_m2: None,
         parts: Some(vec![Part::Convection, Part::Electron]),
+        cathode: None,
+        gas: None,
         on: Onto::Projected,
     };
     let caloric = Shared::new(plain(1.0, 1.0, None));

@@ -1,0 +1,198 @@
+//! Heat of the arc that follows the temperature of the metal: its limits, its balance, its faults.
+
+use std::f64::consts::PI;
+use std::sync::Arc as Shared;
+
+use serde_json::{Value, json};
+
+use super::caloric::tests::plain;
+use super::surface_tests::{METAL, body};
+use super::*;
+use crate::stage::Stage;
+use crate::state::State;
+
+/// Volume of a cone of height 1 over the radius of the table \[m2\].
+const CONE: f64 = PI * 15.0 * 15.0 / 3.0;
+const PHI: f64 = 3.85;
+const VOLTAGE: f64 = 15.68;
+/// Current density \[A/m2\] and excess temperature of the gas \[K\] on the axis.
+const CURRENT: f64 = 9e6;
+const GAS: f64 = 15e3;
+
+/// An arc that falls linearly to nothing at 15 m.
+fn table() -> artefact::Table {
+    let cone = |peak: f64| [peak, peak * 2.0 / 3.0, peak / 3.0, 0.0];
+    artefact::Table::new(4)
+        .column("radius_m", "m", [0.0, 5.0, 10.0, 15.0])
+        .column("heat_flux_convection_w_m2", "W/m2", cone(2e6))
+        .column("heat_flux_radiation_w_m2", "W/m2", cone(1e6))
+        .column("heat_flux_electron_w_m2", "W/m2", cone(-3e6))
+        .column("heat_flux_ion_w_m2", "W/m2", cone(4e6))
+        .column("current_density_a_m2", "A/m2", cone(CURRENT))
+        .column("ionisation_voltage_v", "V", [VOLTAGE; 4])
+        .column("gas_temperature_k", "K", cone(GAS).map(|t| t + 500.0))
+        .attribute("gas_temperature_height_m", "m", 9e-5)
+}
+
+fn made(scene: Value) -> Result<Arc, run::Fault> {
+    let parameters: ArcParameters = serde_json::from_value(scene).unwrap();
+    let caloric = Shared::new(plain(1e9, 1.0, None));
+    Arc::new(&parameters, caloric, METAL, Some(&table()))
+}
+
+fn cathode() -> Value {
+    json!({"work_function_v": PHI, "richardson_a_m2_k2": 1.2e6})
+}
+
+/// A plate at `t` \[K\].
+fn plate(t: f64) -> State {
+    let mut state = body([20, 20, 4], |x| x[2] < 0.0);
+    state.temperature.fill(t);
+    state.enthalpy.fill(t);
+    state
+}
+
+/// Heat of each part within a step of `dt` \[J\]; their sum is the change of the energy.
+fn put(arc: &mut Arc, state: &mut State, dt: f64) -> Vec<(&'static str, f64)> {
+    let before = state.enthalpy.clone();
+    arc.advance(state, dt).unwrap();
+    let change: f64 = (state.enthalpy.iter().zip(&before))
+        .map(|(after, before)| after - before)
+        .sum();
+    let parts: Vec<_> = (arc.figures().iter())
+        .filter(|figure| figure.unit == "J")
+        .map(|figure| (figure.name, figure.value))
+        .collect();
+    let sum: f64 = parts.iter().map(|part| part.1).sum();
+    let scale: f64 = parts.iter().map(|part| part.1.abs()).sum();
+    assert!((sum - change).abs() < 1e-9 * scale, "{sum} {change}");
+    parts
+}
+
+fn of(parts: &[(&'static str, f64)], name: &str) -> f64 {
+    parts.iter().find(|part| part.0 == name).unwrap().1
+}
+
+#[test]
+fn a_cold_plane_takes_what_the_ions_bring_and_a_hot_one_loses_by_electrons() {
+    let scene = json!({"parts": [], "cathode": cathode()});
+    let dt = 1e-8;
+    for (t, ion, electron) in [
+        (500.0, CURRENT * VOLTAGE, 0.0),
+        (6000.0, 0.0, -CURRENT * PHI),
+    ] {
+        let parts = put(&mut made(scene.clone()).unwrap(), &mut plate(t), dt);
+        assert_eq!(parts.len(), 2);
+        for (name, exact) in [
+            ("energy_in_arc_ion_j", ion),
+            ("energy_in_arc_electron_j", electron),
+        ] {
+            let found = of(&parts, name) / (dt * CONE);
+            assert!(
+                (found - exact).abs() <= 0.01 * exact.abs().max(1e-9),
+                "{name} {found} {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_plane_takes_what_the_gas_gives_it() {
+    let scene = json!({"parts": [], "gas": {"thermal_conductivity_w_m_k": 0.6}});
+    let parts = put(&mut made(scene).unwrap(), &mut plate(500.0), 1e-9);
+    let found = of(&parts, "energy_in_arc_convection_j") / 1e-9;
+    // Nearly all of the resistance is that of the gas.
+    let exact = 0.6 * GAS / 9e-5 * CONE;
+    assert!((found / exact - 1.0).abs() < 0.01, "{found} {exact}");
+}
+
+#[test]
+fn other_parts_stay_as_the_table_has_them() {
+    let names = |scene| {
+        let parts = put(&mut made(scene).unwrap(), &mut plate(500.0), 1e-9);
+        let radiation = of(&parts, "energy_in_arc_radiation_j");
+        assert!((radiation / (1e6 * 1e-9 * CONE) - 1.0).abs() < 0.01);
+        parts
+    };
+    let table = names(json!({}));
+    assert!((of(&table, "energy_in_arc_ion_j") / (4e6 * 1e-9 * CONE) - 1.0).abs() < 0.01);
+    let both = names(json!({"cathode": cathode(), "gas": {"thermal_conductivity_w_m_k": 0.6}}));
+    assert_eq!(table.len(), 4);
+    assert!(
+        both.iter()
+            .map(|part| part.0)
+            .eq(table.iter().map(|part| part.0))
+    );
+    let one = names(json!({"parts": ["radiation"], "cathode": cathode()}));
+    assert!(
+        one.iter()
+            .all(|part| part.0 != "energy_in_arc_convection_j")
+            && one.len() == 3
+    );
+}
+
+#[test]
+fn a_long_step_ends_at_the_balance_of_electrons_and_ions() {
+    let mut arc = made(json!({"parts": [], "cathode": cathode()})).unwrap();
+    let limit = arc.dt_limit(&plate(500.0)).unwrap();
+    assert_eq!(limit.name, "arc_feedback");
+    let mut state = plate(500.0);
+    put(&mut arc, &mut state, 300.0 * limit.seconds);
+    // j_e phi = (j - j_e) V_i.
+    let share = VOLTAGE / (PHI + VOLTAGE);
+    let balance = |j: f64| {
+        let (mut low, mut high) = (500.0, 6000.0);
+        for _ in 0..80 {
+            let t = 0.5 * (low + high);
+            let electrons = 1.2e6 * t * t * (-PHI * 11_604.518_121_55 / t).exp();
+            (low, high) = if electrons > share * j {
+                (low, t)
+            } else {
+                (t, high)
+            };
+        }
+        low
+    };
+    let mut near = 0;
+    for a in 0..state.len() {
+        let r = state.position[a][0].hypot(state.position[a][1]);
+        if state.surface[a].seen > 0.0 && r < 14.0 {
+            let (found, exact) = (state.temperature[a], balance(CURRENT * (1.0 - r / 15.0)));
+            assert!(found <= exact + 1e-6, "passed: {found} {exact}");
+            if r < 7.0 {
+                assert!(exact - found < 1e-3, "{found} {exact} at {r}");
+                near += 1;
+            }
+        }
+    }
+    assert!(near > 100, "{near}");
+}
+
+#[test]
+fn fluxes_that_know_no_temperature_bound_no_step() {
+    for scene in [json!({}), json!({"flux_w_m2": 1e6})] {
+        assert!(made(scene).unwrap().dt_limit(&plate(500.0)).is_none());
+    }
+}
+
+#[test]
+fn heat_given_twice_is_a_fault_at_its_key() {
+    let gas = json!({"thermal_conductivity_w_m_k": 0.6});
+    for (scene, at) in [
+        (
+            json!({"parts": ["radiation", "ion"], "cathode": cathode()}),
+            "/parts/1",
+        ),
+        (
+            json!({"parts": ["electron"], "cathode": cathode()}),
+            "/parts/0",
+        ),
+        (json!({"parts": ["convection"], "gas": gas}), "/parts/0"),
+        (json!({"flux_w_m2": 1e6, "cathode": cathode()}), "/cathode"),
+        (json!({"flux_w_m2": 1e6, "gas": gas}), "/gas"),
+        (json!({"flux_w_m2": 1e6, "parts": ["ion"]}), "/parts"),
+    ] {
+        let fault = made(scene).err().unwrap().to_string();
+        assert!(fault.contains(at), "{at}: {fault}");
+    }
+}

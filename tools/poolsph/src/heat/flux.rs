@@ -1,0 +1,91 @@
+//! A heat flux over the distance from the axis of the arc, and what it has put in.
+
+use std::sync::Arc;
+
+use props::Table;
+use run::property::{Arguments, Curve};
+
+use super::cathode::Emitter;
+use super::film::Film;
+use super::ledger::Sum;
+use crate::stage::StageError;
+
+/// A flux by name.
+pub(super) struct Flux {
+    pub(super) name: &'static str,
+    law: Law,
+    pub(super) put: Sum,
+}
+
+/// What a flux follows.
+pub(super) enum Law {
+    /// Zero beyond the last row.
+    Table(Table),
+    Curve(Curve),
+    Electrons(Arc<Emitter>),
+    Ions(Arc<Emitter>),
+    Film(Film),
+}
+
+impl Flux {
+    pub(super) fn new(name: &'static str, law: Law) -> Self {
+        Self {
+            name,
+            law,
+            put: Sum::default(),
+        }
+    }
+
+    /// The flux at the distance `r` \[m\] into metal of `t` \[K\] \[W/m2\].
+    pub(super) fn at(&self, r: f64, t: f64, time: f64) -> Result<f64, StageError> {
+        if r > self.reach() {
+            return Ok(0.0);
+        }
+        match &self.law {
+            Law::Table(table) => Ok(table.held(r)),
+            Law::Electrons(emitter) => Ok(emitter.electrons(r, t)),
+            Law::Ions(emitter) => Ok(emitter.ions(r, t)),
+            Law::Film(film) => film.heat(r, t),
+            Law::Curve(curve) => curve
+                .value(&Arguments {
+                    r,
+                    time,
+                    ..Arguments::default()
+                })
+                .map_err(|fault| StageError::Data(format!("heat flux of the arc: {fault}"))),
+        }
+    }
+
+    /// Distance beyond which there is nothing \[m\].
+    pub(super) fn reach(&self) -> f64 {
+        match &self.law {
+            Law::Table(table) => table.last(),
+            Law::Curve(_) => f64::INFINITY,
+            Law::Electrons(emitter) | Law::Ions(emitter) => emitter.reach(),
+            Law::Film(film) => film.reach(),
+        }
+    }
+
+    /// Greatest fall with the temperature of the metal, below `hottest` \[K\] \[W/(m2 K)\]; the ions
+    /// bring that of the electrons along.
+    pub(super) fn steepest(&self, hottest: f64) -> f64 {
+        match &self.law {
+            Law::Table(_) | Law::Curve(_) | Law::Electrons(_) => 0.0,
+            Law::Ions(emitter) => emitter.steepest(hottest),
+            Law::Film(film) => film.steepest(),
+        }
+    }
+}
+
+/// A column of the arc input over the distance from its axis, each value through `map`.
+pub(super) fn column(
+    surface: &artefact::Table,
+    name: &str,
+    map: impl Fn(f64) -> f64,
+) -> Result<Table, String> {
+    let radius = surface.values("radius_m");
+    let columns = radius.and_then(|r| Ok((r, surface.values(name)?)));
+    let (r, values) = columns.map_err(|fault| format!("arc input: {fault}"))?;
+    let values = values.iter().copied().map(map).collect();
+    Table::new(r.to_vec(), values).map_err(|fault| format!("arc input: {name}: {fault}"))
+}
