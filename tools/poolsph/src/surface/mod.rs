@@ -3,8 +3,9 @@
 //! 1. Colour and its gradient (Komen 2019, eqs. 4.4 to 4.6): C = V sum W, grad C = V sum grad W,
 //!    which points into the metal; the outward normal is -grad C / |grad C|, smoothed once by the
 //!    kernel.
-//! 2. Depth: the colour of a half-space tells how far the surface is (`depth`). Depths are
-//!    averaged over neighbours too; the surface near a particle is the plane across its normal.
+//! 2. Depth: the colour of a half-space and its gradient tell how far the surface is (`depth`).
+//!    Depths are averaged over neighbours too; the surface near a particle is the plane across its
+//!    normal.
 //! 3. Area: of this plane each particle owns what is nearer to itself than to any other. Since
 //!    every place on the surface belongs to one particle, areas add up to the true area however
 //!    the particles lie, and a particle in the inside owns nothing. Eq. 4.1 counts pi d^2/4 for
@@ -171,7 +172,7 @@ impl Surface {
             gradient = plus(gradient, sample.slope, dx);
         }
         Patch {
-            depth: self.depth.at(volume * colour),
+            depth: self.depth.at(colour, squared(gradient).sqrt()),
             gradient: gradient.map(|x| volume * x),
             ..Patch::default()
         }
