@@ -73,8 +73,8 @@ stability: programs ## stiff and extreme cases: stable, refused, sub-stepped or 
 validate: build/$(STUDY)/report.html ## a study against published experiments and simulations (STUDY=name)
 	$(BIN)/report validate --pool build/$(STUDY)/pool.mcap --targets pipelines/$(STUDY)/targets.json
 
-bench: programs ## time per step, per particle, per pair, per cell
-	$(BIN)/bench --threads $(THREADS) --out build/bench
+bench: programs ## time per step, per particle, per pair, per cell (CASE=name)
+	$(BIN)/bench $(if $(CASE),--case $(CASE)) --threads $(THREADS) --out build/bench
 
 report: programs ## gather all evidence into build/report/index.html
 	$(BIN)/report index --out build/report/index.html --verify build/verify --stability build/stability \

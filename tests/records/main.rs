@@ -1,13 +1,15 @@
-//! The evidence that `make verify` and `make stability` write fits the schemas that we publish.
+//! The evidence that `make verify`, `make stability` and `make bench` write fits the schemas that we publish.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use verification::bench::{Bench, Record, Stand, benches, in_order};
 use verification::case::{Case, Errors, Measurement, Target};
 use verification::extreme::{self, Extreme};
 use verification::lab::{Lab, LabError};
+use verification::speed;
 use verification::study::study;
 
 fn programs() -> PathBuf {
@@ -120,4 +122,79 @@ fn the_record_of_an_extreme_case_fits_its_schema() {
     std::fs::write(&path, serde_json::to_string(&record).unwrap()).unwrap();
     let (good, said) = validate(&path);
     assert!(good && said.contains("good: stability"), "{said}");
+}
+
+/// What `artefact validate` says of a record written to `path`.
+fn written(path: &Path, record: &impl serde::Serialize) -> (bool, String) {
+    std::fs::write(path, serde_json::to_string(record).unwrap()).unwrap();
+    validate(path)
+}
+
+#[test]
+fn the_record_of_a_bench_fits_its_schema() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
+    let patch = folder.path().join("short.json");
+    std::fs::write(&patch, r#"{"time": {"end_s": 1e-3}}"#).unwrap();
+    let bench: Bench = serde_json::from_value(serde_json::json!({
+        "tool": "poolsph", "scene": scene, "patches": [patch],
+        "aims": [{"name": "step", "unit": "ms", "threads": 2, "max": 1e9},
+                 {"name": "step", "unit": "ms", "threads": 64, "max": 1e9}]
+    }))
+    .unwrap();
+    let stand = Stand {
+        programs: programs(),
+        out: folder.path().to_owned(),
+        threads: vec![1, 2],
+        runs: 2,
+    };
+    let record = serde_json::to_value(stand.time(&bench).unwrap()).unwrap();
+    let path = folder.path().join("drop.json");
+    let (good, said) = written(&path, &record);
+    assert!(good && said.contains("good: bench"), "{said}\n{record}");
+    let rows = record["rows"].as_array().unwrap();
+    let repeats = |threads| {
+        let row = rows
+            .iter()
+            .find(|r| r["name"] == "step" && r["threads"] == threads);
+        row.unwrap()["repeats"].as_u64()
+    };
+    assert_eq!((repeats(1), repeats(2)), (Some(1), Some(2)));
+    let names: Vec<&str> = record["counts"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["name"].as_str().unwrap())
+        .collect();
+    let wanted = [
+        "steps",
+        "particles",
+        "liquid at the start",
+        "liquid at the end",
+    ];
+    assert_eq!(names, wanted);
+    assert_eq!(record["aims"][0]["holds"], true);
+    assert_eq!(record["aims"][1]["holds"], serde_json::Value::Null);
+
+    let mut spoilt = record.clone();
+    spoilt["rows"][0]["unit"] = "furlong".into();
+    let (good, said) = written(&path, &spoilt);
+    assert!(!good && said.contains("/rows/0/unit"), "{said}");
+    let cores = Record::of_rows("cores", speed::cores(&[1], 1).unwrap());
+    let (good, said) = written(&path, &cores);
+    assert!(good, "{said}");
+}
+
+#[test]
+fn the_benches_of_the_pipeline_can_be_read_and_ordered() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let all = benches(&root.join("pipelines/bench")).unwrap();
+    let order = in_order(&all, &["weld-developed".to_owned()]).unwrap();
+    let names: Vec<&str> = order.iter().map(|bench| bench.name.as_str()).collect();
+    assert_eq!(names, ["arc-gmaw-300a", "weld-developed"]);
+    for bench in &all {
+        for path in bench.patches.iter().chain([&bench.scene]) {
+            assert!(root.join(path).is_file(), "{}", path.display());
+        }
+    }
 }

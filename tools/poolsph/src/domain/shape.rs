@@ -59,6 +59,18 @@ pub struct Sphere {
     pub radius_m: f64,
 }
 
+/// A ball drawn out along the axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ellipsoid {
+    /// Centre \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub centre_m: [f64; 3],
+    /// Half of its extent along x, y, z \[m\], each above zero.
+    #[schemars(extend("x-unit" = "m"))]
+    pub half_m: [f64; 3],
+}
+
 /// A face of a box by its outward direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Face {
@@ -124,6 +136,8 @@ pub enum Shape {
     Cylinder(Cylinder),
     /// A ball.
     Sphere(Sphere),
+    /// A ball drawn out along the axes.
+    Ellipsoid(Ellipsoid),
     /// Walls around a box.
     Container(Container),
 }
@@ -136,6 +150,7 @@ impl Shape {
             Self::Box(b) => (b.min_m, b.max_m),
             Self::Cylinder(c) => around(c.centre_m, cylinder_half(c)),
             Self::Sphere(s) => around(s.centre_m, [s.radius_m; 3]),
+            Self::Ellipsoid(e) => around(e.centre_m, e.half_m),
             Self::Container(c) => {
                 let (mut low, mut high) = (c.min_m, c.max_m);
                 for axis in 0..3 {
@@ -177,6 +192,10 @@ impl Shape {
             Self::Sphere(s) => {
                 let square: f64 = (0..3).map(|k| (p[k] - s.centre_m[k]).powi(2)).sum();
                 square <= s.radius_m * s.radius_m
+            }
+            Self::Ellipsoid(e) => {
+                let part = |k: usize| ((p[k] - e.centre_m[k]) / e.half_m[k]).powi(2);
+                part(0) + part(1) + part(2) <= 1.0
             }
         }
     }
@@ -286,6 +305,17 @@ mod tests {
         let volume = sphere.points(D, None).len() as f64 * D.powi(3);
         let exact = 4.0 / 3.0 * PI * radius.powi(3);
         assert!((volume / exact - 1.0).abs() < 0.02, "{}", volume / exact);
+        let half = [8.0 * D, 12.0 * D, 10.0 * D];
+        let drawn = Shape::Ellipsoid(Ellipsoid {
+            centre_m: [1e-3, 2e-3, 3e-3],
+            half_m: half,
+        });
+        let points = drawn.points(D, None);
+        let exact = 4.0 / 3.0 * PI * half.iter().product::<f64>();
+        let ratio = points.len() as f64 * D.powi(3) / exact;
+        assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+        let reach = points.iter().fold(0.0, |m: f64, p| m.max(p[1] - 2e-3));
+        assert!((reach - 12.0 * D).abs() <= D, "{reach}");
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             let bar = Shape::Cylinder(Cylinder {
                 centre_m: [0.0; 3],

@@ -22,6 +22,7 @@ pub(super) fn section(bench: &Bench) -> String {
         match value {
             Value::Array(rows) if rows.iter().any(Value::is_object) => tables += &table(rows),
             Value::String(name) if key == "name" => title = format!("<h3>{}</h3>\n", escape(name)),
+            Value::String(_) if matches!(key.as_str(), "kind" | "version") => {}
             Value::Null => {}
             other => facts.push(format!("{}: {}", key.replace('_', " "), shown(other))),
         }

@@ -11,7 +11,7 @@ use super::trouble::{Trouble, file_error};
 use super::validate::schema_faults;
 
 /// Schemas of our JSON files by kind.
-const SCHEMAS: [(&str, &str); 4] = [
+const SCHEMAS: [(&str, &str); 5] = [
     (
         "run-record",
         include_str!("../../../../../schemas/run-record.v1.json"),
@@ -27,6 +27,10 @@ const SCHEMAS: [(&str, &str); 4] = [
     (
         "stability",
         include_str!("../../../../../schemas/stability.v1.json"),
+    ),
+    (
+        "bench",
+        include_str!("../../../../../schemas/bench.v1.json"),
     ),
 ];
 
