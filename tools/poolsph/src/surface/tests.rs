@@ -59,18 +59,25 @@ fn cloud(
     state
 }
 
-/// Measured over true area of a plane, seen through a smooth window.
-fn plane(lattice: ([f64; 3], f64, f64), normal: [f64; 3], level: f64) -> f64 {
-    let edge = 11.0;
+/// Edge of the window through which planes are seen.
+const EDGE: f64 = 11.0;
+
+/// A slab with a wide plane on top.
+fn slab(lattice: ([f64; 3], f64, f64), normal: [f64; 3], level: f64) -> State {
     let (u, v) = tangents(normal);
-    let state = cloud(22, lattice, |x| {
+    cloud(22, lattice, |x| {
         dot(x, normal) < level
             && dot(x, normal) > level - 6.0
-            && dot(x, u).abs() < edge + 4.0
-            && dot(x, v).abs() < edge + 4.0
-    });
+            && dot(x, u).abs() < EDGE + 4.0
+            && dot(x, v).abs() < EDGE + 4.0
+    })
+}
+
+/// Measured over true area of a plane, seen through a smooth window.
+fn plane(state: &State, normal: [f64; 3], level: f64) -> f64 {
+    let (u, v) = tangents(normal);
     let window = |s: f64| {
-        let x = (s / edge).clamp(-1.0, 1.0);
+        let x = (s / EDGE).clamp(-1.0, 1.0);
         0.5 * (1.0 + (std::f64::consts::PI * x).cos())
     };
     let mut sum = 0.0;
@@ -79,7 +86,7 @@ fn plane(lattice: ([f64; 3], f64, f64), normal: [f64; 3], level: f64) -> f64 {
             sum += patch.area * window(dot(*x, u)) * window(dot(*x, v));
         }
     }
-    sum / (edge * edge)
+    sum / (EDGE * EDGE)
 }
 
 #[test]
@@ -88,12 +95,32 @@ fn planes_have_their_area() {
     let tilted = [0.5, 0.0, 0.75_f64.sqrt()];
     for (normal, name) in [(flat, "flat"), (tilted, "tilted by 30 degrees")] {
         for (turn, jitter) in [(0.0, 0.0), (0.0, 0.3), (0.7, 0.0), (1.9, 0.2)] {
-            let found = plane(([1.0, 2.0, 3.0], turn, jitter), normal, 0.0);
+            let state = slab(([1.0, 2.0, 3.0], turn, jitter), normal, 0.0);
+            let found = plane(&state, normal, 0.0);
             assert!(
                 (found - 1.0).abs() < 0.01,
                 "{name}, turned {turn}, jitter {jitter}: {found}"
             );
         }
+    }
+}
+
+/// What a flow kept at one density makes of its surface: layers drawn together until the number
+/// density of the outermost is that of the inside.
+#[test]
+fn planes_keep_their_area_when_their_layers_draw_together() {
+    let flat = [0.0, 0.0, 1.0];
+    for (turn, jitter) in [(0.0, 0.0), (0.0, 0.3), (0.7, 0.0), (1.9, 0.2)] {
+        let mut state = slab(([1.0, 2.0, 3.0], turn, jitter), flat, 0.0);
+        for x in &mut state.position {
+            x[2] -= 0.9 * (x[2] / 1.2).exp();
+        }
+        Surface::new(METAL).advance(&mut state, 0.0).unwrap();
+        let found = plane(&state, flat, 0.0);
+        assert!(
+            (found - 1.0).abs() < 0.01,
+            "turned {turn}, jitter {jitter}: {found}"
+        );
     }
 }
 
