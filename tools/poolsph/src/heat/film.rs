@@ -1,33 +1,38 @@
 //! Heat from the gas above the metal (Komen 2019, second term of eq. 4.10).
 //!
-//! Gas and metal meet half a diameter from the particle and at the height dz' below the point of
-//! which the gas temperature is known; with one flux across both layers
+//! Gas and metal meet, at the temperature T_s, half a diameter from the particle and at the height
+//! dz' below the point of which the gas temperature is known. One flux crosses both layers:
 //!
 //! ```text
-//! q = k_gas k_a (T_gas - T_a) / (k_gas d/2 + k_a dz')
+//! q = (Phi(T_gas) - Phi(T_s)) / dz' = k_a (T_s - T_a) / (d/2),    Phi(T) = integral of k_gas up to T
 //! ```
 //!
-//! k_gas is that of T_gas, as the viscosity of the gas is in its shear. Where it rises steeply, as in
-//! an ionised gas, that is far above the mean over the layer, and so is the heat; a table of that
-//! mean over T_gas may be given in its place.
+//! Eq. 4.10 has k_gas (T_gas - T_s) with k_gas at one temperature in place of the integral. The
+//! conductivity of an ionised gas rises so steeply that what it is at T_gas is several times its mean
+//! over the layer, and so would be the heat.
 
 use std::sync::Arc;
 
-use props::Table;
+use props::{Integral, Table};
 use run::Fault;
-use run::property::{Curve, Property};
+use run::property::Property;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::caloric::Caloric;
 use super::flux::column;
-use crate::stage::StageError;
+use super::parameters::table;
+
+/// Most turns of the search for the temperature of the surface.
+const TURNS: usize = 60;
+/// Change of the temperature of the surface, relative, that ends the search.
+const CLOSE: f64 = 1e-12;
 
 /// The gas of the arc input that heats the metal (key `arc.gas`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GasFilm {
-    /// k_gas(T) of the gas, taken at the gas temperature of the arc input.
+    /// k_gas(T) of the gas, from the metal's temperature to that of the gas of the arc input.
     #[schemars(extend("x-unit" = "W/(m K)"))]
     pub thermal_conductivity_w_m_k: Property,
 }
@@ -37,7 +42,8 @@ pub struct GasFilm {
 pub(super) struct Film {
     /// T_gas over the distance from the axis \[K\].
     temperature: Table,
-    conductivity: Curve,
+    /// Phi, and k_gas as its slope.
+    conducted: Integral,
     /// dz' \[m\].
     height: f64,
     /// d/2 \[m\].
@@ -68,22 +74,21 @@ impl Film {
         }
         let key = "/gas/thermal_conductivity_w_m_k";
         let law = &gas.thermal_conductivity_w_m_k;
-        let conductivity = law.compile_positive(key, &["T"], "W/(m K)")?;
-        let mut most = 0.0_f64;
-        for t in temperature.values() {
-            let found = conductivity.at_temperature(*t);
-            let value = found.map_err(|fault| Fault::at(key, fault.to_string()))?;
-            if value <= 0.0 {
-                return Err(Fault::at(
-                    key,
-                    format!("{value} W/(m K) at {t} K, not above 0"),
-                ));
-            }
-            most = most.max(value);
+        law.compile_positive(key, &["T"], "W/(m K)")?;
+        let hottest = temperature.values().iter().copied().fold(0.0, f64::max);
+        let (conductivity, range) = table(law, key, (0.0, hottest.max(1.0)))?;
+        if range.1 < hottest {
+            let what = format!(
+                "ends at {} K; the gas of the arc input has {hottest} K",
+                range.1
+            );
+            return Err(Fault::at(key, what));
         }
+        let most = conductivity.values().iter().copied().fold(0.0, f64::max);
+        let conducted = Integral::new(&conductivity);
         Ok(Self {
             temperature,
-            conductivity,
+            conducted: conducted.map_err(|fault| Fault::at(key, fault.to_string()))?,
             height,
             half: 0.5 * spacing,
             caloric,
@@ -97,13 +102,35 @@ impl Film {
     }
 
     /// Heat at the distance `r` \[m\] into metal of `t` \[K\] \[W/m2\].
-    pub(super) fn heat(&self, r: f64, t: f64) -> Result<f64, StageError> {
+    pub(super) fn heat(&self, r: f64, t: f64) -> f64 {
         let gas = self.temperature.held(r);
-        let k_gas = self.conductivity.at_temperature(gas).map_err(|fault| {
-            StageError::Data(format!("thermal conductivity of the gas: {fault}"))
-        })?;
-        let k = self.caloric.conductivity(t);
-        Ok(k_gas * k * (gas - t) / (k_gas * self.half + k * self.height))
+        let through_metal = self.caloric.conductivity(t) / self.half;
+        let at_gas = self.conducted.value(gas);
+        // Newton's method for T_s, held between what is known to be too cold and too hot.
+        let (mut cold, mut hot) = (t.min(gas), t.max(gas));
+        let mut surface = t;
+        for _ in 0..TURNS {
+            let through_gas = (at_gas - self.conducted.value(surface)) / self.height;
+            let excess = through_gas - through_metal * (surface - t);
+            if excess > 0.0 {
+                cold = surface;
+            } else {
+                hot = surface;
+            }
+            let slope = self.conducted.slope(surface) / self.height + through_metal;
+            let next = surface + excess / slope;
+            let next = if (cold..=hot).contains(&next) {
+                next
+            } else {
+                0.5 * (cold + hot)
+            };
+            let change = (next - surface).abs();
+            surface = next;
+            if change <= CLOSE * surface {
+                break;
+            }
+        }
+        through_metal * (surface - t)
     }
 
     /// Greatest fall of the heat with the temperature of the metal \[W/(m2 K)\]: that of the gas alone.
@@ -134,38 +161,52 @@ mod tests {
     fn one_flux_crosses_both_layers() {
         let q = film(30.0, Property::Constant(0.6))
             .unwrap()
-            .heat(0.0025, 1900.0)
-            .unwrap();
+            .heat(0.0025, 1900.0);
         let surface = 11e3 - q * 9e-5 / 0.6;
         assert!(
-            (surface - q * 2.5e-4 / 30.0 - 1900.0).abs() < 1e-9,
+            (surface - q * 2.5e-4 / 30.0 - 1900.0).abs() < 1e-6,
             "{surface}"
         );
     }
 
     #[test]
+    fn a_conductivity_that_rises_counts_by_its_mean() {
+        // k = a T: Phi = a T^2/2, and T_s solves a quadratic equation.
+        let (a, gas, t) = (1e-4, 11e3, 1900.0);
+        let rising = Property::Table(TemperatureTable {
+            t_k: vec![1.0, 20e3],
+            value: vec![a, 20e3 * a],
+            extrapolate: run::property::Extrapolate::Error,
+        });
+        let q = film(30.0, rising).unwrap().heat(0.0025, t);
+        let (p, g) = (0.5 * a / 9e-5, 30.0 / 2.5e-4);
+        let surface = (-g + (g * g + 4.0 * p * (p * gas * gas + g * t)).sqrt()) / (2.0 * p);
+        assert!((q / (g * (surface - t)) - 1.0).abs() < 1e-9, "{q}");
+        assert!(q < 0.6 * a * gas * (gas - t) / 9e-5);
+    }
+
+    #[test]
     fn metal_that_conducts_well_leaves_the_resistance_to_the_gas() {
         let film = film(1e9, Property::Constant(0.6)).unwrap();
-        let q = film.heat(0.005, 2000.0).unwrap();
-        assert!((q / (0.6 * 6e3 / 9e-5) - 1.0).abs() < 1e-8);
-        let slope = film.heat(0.005, 2000.0).unwrap() - film.heat(0.005, 2001.0).unwrap();
-        assert!((slope / film.steepest() - 1.0).abs() < 1e-8);
+        let q = film.heat(0.005, 2000.0);
+        assert!((q / (0.6 * 6e3 / 9e-5) - 1.0).abs() < 1e-7);
+        let slope = film.heat(0.005, 2000.0) - film.heat(0.005, 2010.0);
+        assert!((slope / (10.0 * film.steepest()) - 1.0).abs() < 1e-3);
     }
 
     #[test]
     fn gas_that_conducts_well_leaves_the_resistance_to_the_metal() {
         let q = film(30.0, Property::Constant(1e9))
             .unwrap()
-            .heat(0.005, 2000.0)
-            .unwrap();
+            .heat(0.005, 2000.0);
         assert!((q / (30.0 * 6e3 / 2.5e-4) - 1.0).abs() < 1e-6);
     }
 
     #[test]
     fn gas_cools_metal_that_is_hotter() {
         let film = film(30.0, Property::Constant(0.05)).unwrap();
-        assert!(film.heat(0.01, 1500.0).unwrap() < 0.0);
-        assert!(film.heat(0.01, 1000.0).unwrap().abs() <= 0.0);
+        assert!(film.heat(0.01, 1500.0) < 0.0);
+        assert!(film.heat(0.01, 1000.0).abs() <= 0.0);
     }
 
     #[test]

@@ -45,7 +45,7 @@ impl Flux {
             Law::Table(table) => Ok(table.held(r)),
             Law::Electrons(emitter) => Ok(emitter.electrons(r, t)),
             Law::Ions(emitter) => Ok(emitter.ions(r, t)),
-            Law::Film(film) => film.heat(r, t),
+            Law::Film(film) => Ok(film.heat(r, t)),
             Law::Curve(curve) => curve
                 .value(&Arguments {
                     r,

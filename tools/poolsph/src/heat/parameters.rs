@@ -91,20 +91,25 @@ pub struct Faces {
     pub surroundings_k: f64,
 }
 
-/// A face of a box.
+/// A face of a box, by the direction that it looks to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[allow(missing_docs, reason = "the names say all")]
 pub enum Face {
+    /// Towards lesser x.
     #[serde(rename = "x-")]
     XMinus,
+    /// Towards greater x.
     #[serde(rename = "x+")]
     XPlus,
+    /// Towards lesser y.
     #[serde(rename = "y-")]
     YMinus,
+    /// Towards greater y.
     #[serde(rename = "y+")]
     YPlus,
+    /// Down.
     #[serde(rename = "z-")]
     ZMinus,
+    /// Up.
     #[serde(rename = "z+")]
     ZPlus,
 }
@@ -135,11 +140,11 @@ impl Parameters {
     /// # Errors
     /// A fault at the key that is wrong.
     pub fn caloric(&self) -> Result<Arc<Caloric>, Fault> {
-        let (conductivity, first) = table(
-            &self.thermal_conductivity_w_m_k,
-            "/thermal_conductivity_w_m_k",
-        )?;
-        let (specific_heat, second) = table(&self.specific_heat_j_kg_k, "/specific_heat_j_kg_k")?;
+        let span = FORMULA_RANGE;
+        let key = "/thermal_conductivity_w_m_k";
+        let (conductivity, first) = table(&self.thermal_conductivity_w_m_k, key, span)?;
+        let key = "/specific_heat_j_kg_k";
+        let (specific_heat, second) = table(&self.specific_heat_j_kg_k, key, span)?;
         let range = (first.0.max(second.0), first.1.min(second.1));
         if range.0 >= range.1 {
             let what = "has no temperature in common with the thermal conductivity";
@@ -165,8 +170,12 @@ impl Parameters {
     }
 }
 
-/// A property of the temperature as a table, and where it holds \[K\].
-fn table(property: &Property, at: &str) -> Result<(Table, (f64, f64)), Fault> {
+/// A property of the temperature as a table, and where it holds \[K\]; a formula is taken over `span`.
+pub(super) fn table(
+    property: &Property,
+    at: &str,
+    span: (f64, f64),
+) -> Result<(Table, (f64, f64)), Fault> {
     let curve = property.compile(at, &["T"])?;
     let everywhere = POSSIBLE;
     let (nodes, values, range) = match &curve {
@@ -177,16 +186,16 @@ fn table(property: &Property, at: &str) -> Result<(Table, (f64, f64)), Fault> {
             curve.range_k().unwrap_or(everywhere),
         ),
         Curve::Formula(_) => {
-            let step = (FORMULA_RANGE.1 - FORMULA_RANGE.0) / (FORMULA_ROWS - 1) as f64;
+            let step = (span.1 - span.0) / (FORMULA_ROWS - 1) as f64;
             let nodes: Vec<f64> = (0..FORMULA_ROWS)
-                .map(|row| FORMULA_RANGE.0 + row as f64 * step)
+                .map(|row| span.0 + row as f64 * step)
                 .collect();
             let values: Result<Vec<f64>, _> = nodes
                 .iter()
                 .map(|t| curve.value(&Arguments::at_temperature(*t)))
                 .collect();
             let values = values.map_err(|fault| Fault::at(at, fault.to_string()))?;
-            (nodes, values, FORMULA_RANGE)
+            (nodes, values, span)
         }
     };
     Table::new(nodes, values)
