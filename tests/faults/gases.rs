@@ -72,3 +72,38 @@ fn columns_of_unequal_length_and_temperatures_that_do_not_rise_are_refused() {
     assert_ne!(flat.code, 0);
     flat.must(flat.code, &["row 3", "does not exceed"]);
 }
+
+#[test]
+fn values_that_no_gas_can_have_are_refused_with_column_row_and_range() {
+    let spoilt = |column: usize, row: usize, value: f64| {
+        told(|t| t["columns"][column]["values"][row] = value.into())
+    };
+    let text = std::fs::read_to_string(root().join("pipelines/gases/argon-1atm.json")).unwrap();
+    let table: Value = serde_json::from_str(&text).unwrap();
+    let name = |column: usize| {
+        table["columns"][column]["name"]
+            .as_str()
+            .unwrap()
+            .to_owned()
+    };
+    let find = |wanted: &str| (0..8).find(|c| name(*c) == wanted).unwrap();
+    spoilt(find("density_kg_m3"), 3, -0.5).must(
+        1,
+        &[
+            "gas.json: column density_kg_m3, row 3",
+            " K): -0.5 kg/m3 is out of range: above 0",
+        ],
+    );
+    for zero in [
+        "density_kg_m3",
+        "specific_heat_j_kg_k",
+        "viscosity_pa_s",
+        "thermal_conductivity_w_m_k",
+    ] {
+        spoilt(find(zero), 5, 0.0).must(1, &[zero, "row 5", "above 0"]);
+    }
+    spoilt(find("electric_conductivity_s_m"), 2, -1e-3).must(1, &["row 2", "-0.001", "at least 0"]);
+    spoilt(find("temperature_k"), 0, -300.0).must(1, &["temperature_k, row 0", "-300"]);
+    // A gas may take up more radiation than it gives off.
+    spoilt(find("net_emission_w_m3"), 2, -1.0).must(0, &["arcfvm"]);
+}

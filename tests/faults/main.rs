@@ -11,4 +11,5 @@ mod artefacts;
 mod disk;
 mod gases;
 mod scenes;
+mod sizes;
 mod workplace;

@@ -80,6 +80,23 @@ fn cells(wanted: f64) -> usize {
     ((wanted - 1e-6).ceil() as usize).max(1)
 }
 
+/// How many cells [`faces`] would make, before any is made; may be infinite.
+#[must_use]
+pub fn wanted(breaks: &[f64], spacing: &Spacing) -> f64 {
+    let between = breaks.windows(2).map(|pair| {
+        let (a, b) = (pair[0], pair[1]);
+        let integral = if spacing.constant(a, b) {
+            (b - a) / spacing.value(a)
+        } else {
+            let step = (b - a) / STEPS as f64;
+            let place = |k: usize| a + (k as f64 + 0.5) * step;
+            (0..STEPS).map(|k| step / spacing.value(place(k))).sum()
+        };
+        integral.max(1.0)
+    });
+    between.sum()
+}
+
 fn graded(a: f64, b: f64, spacing: &Spacing, faces: &mut Vec<f64>) {
     let step = (b - a) / STEPS as f64;
     let mut sum = vec![0.0];
@@ -241,6 +258,21 @@ mod tests {
                 assert!(w[1] > w[0] && w[1] - w[0] <= 1.001 * bound, "{w:?}");
             }
         }
+    }
+
+    #[test]
+    fn cells_are_counted_before_they_are_made() {
+        let graded = Spacing {
+            at: vec![0.0, 6e-3, 20e-3],
+            spacing: vec![1e-4, 1e-4, 5e-4],
+        };
+        let breaks = [0.0, 0.6e-3, 8e-3, 20e-3];
+        let (made, told) = (
+            faces(&breaks, &graded).len() as f64 - 1.0,
+            wanted(&breaks, &graded),
+        );
+        assert!(told <= made && made < told + 3.0, "{told} {made}");
+        assert!(wanted(&[0.0, 1e300], &Spacing::uniform(1e-300)).is_infinite());
     }
 
     #[test]

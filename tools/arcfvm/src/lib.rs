@@ -77,7 +77,11 @@ impl Tool for ArcFvm {
 fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
     let gas = match (&scene.gas, inputs.get("gas")) {
         (Gas::Table(_), Some(path)) => {
-            Some(artefact::json_artefact::<GasFile>(path, "gas-table", 1)?)
+            let file = artefact::json_artefact::<GasFile>(path, "gas-table", 1)?;
+            if let Some(what) = file.impossible() {
+                return Err(Failure::Other(format!("{}: {what}", path.display())));
+            }
+            Some(file)
         }
         _ => None,
     };

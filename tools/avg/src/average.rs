@@ -13,6 +13,9 @@ use crate::mean::{self, Cells, Smoothing};
 use crate::phase::{self, Source};
 use crate::scene::Scene;
 
+/// Most grid points of all sections and phases: some 3 GB.
+const POINTS_MOST: f64 = 2e7;
+
 /// Why there are no averages.
 #[derive(Debug, Error)]
 pub enum AverageError {
@@ -41,6 +44,20 @@ pub enum AverageError {
         first_s: f64,
         /// Their last moment \[s\].
         last_s: f64,
+    },
+    /// More grid points than a machine holds.
+    #[error(
+        "asks for {points:.1e} grid points with {spacing_m} m between them, in {phases} phases; at most {POINTS_MOST:.0e} in all"
+    )]
+    TooMany {
+        /// Index of the section.
+        section: usize,
+        /// Grid points of the section.
+        points: f64,
+        /// Their spacing \[m\].
+        spacing_m: f64,
+        /// Phases.
+        phases: usize,
     },
     /// A frame at a moment for which the source has no place.
     #[error(
@@ -106,6 +123,8 @@ impl Plan {
             .spacing_m
             .or(diameter)
             .ok_or(AverageError::NoSpacing)?;
+        let phases = scene.phases.map_or(1, |p| p.count as usize);
+        fits(scene, spacing, phases)?;
         let smoothing = Smoothing {
             length: scene.smoothing_length_m.unwrap_or(spacing),
             spacing,
@@ -119,7 +138,7 @@ impl Plan {
         Ok(Self {
             smoothing,
             sections: scene.sections(spacing),
-            phases: scene.phases.map_or(1, |p| p.count as usize),
+            phases,
             period: scene.phases.and_then(|_| phase::period(&counted)),
             track,
             particles: first.len(),
@@ -141,6 +160,24 @@ impl Plan {
     pub fn frame_bytes(&self) -> u64 {
         (self.particles * 2 * (7 * 8 + 4 * 8)) as u64
     }
+}
+
+/// Refuses sections that a machine does not hold, before they are made.
+fn fits(scene: &Scene, spacing: f64, phases: usize) -> Result<(), AverageError> {
+    let mut total = 0.0;
+    for (section, cutting) in scene.sections.iter().enumerate() {
+        let points = crate::grid::wanted([cutting.first_m, cutting.second_m], spacing);
+        total += points * (phases + 1) as f64;
+        if total > POINTS_MOST {
+            return Err(AverageError::TooMany {
+                section,
+                points,
+                spacing_m: spacing,
+                phases,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// A frame in the frame of reference of the averages.

@@ -84,6 +84,13 @@ impl Section {
     }
 }
 
+/// How many grid points a section over `ranges` \[m\] would have, before any is made.
+#[must_use]
+pub fn wanted(ranges: [[f64; 2]; 2], spacing: f64) -> f64 {
+    let along = ranges.map(|range| (range[1] - range[0]) / spacing + 1.0);
+    along[0] * along[1]
+}
+
 fn points(range: [f64; 2], spacing: f64) -> Vec<f64> {
     // A millionth of a spacing keeps an end that is meant to be on the grid.
     let first = (range[0] / spacing - 1e-6).ceil() as i64;
@@ -104,6 +111,7 @@ mod tests {
         };
         let section = Section::new("x", cut, [[-1.0, 1.0], [0.0, 1.5]], 0.5);
         assert_eq!((section.first.len(), section.second.len()), (5, 4));
+        assert!((wanted([[-1.0, 1.0], [0.0, 1.5]], 0.5) - 20.0).abs() < 1e-12);
         assert_eq!(section.point(0).to_vec(), [0.1, -1.0, 0.0]);
         assert_eq!(section.point(6).to_vec(), [0.1, -0.5, 1.0]);
     }

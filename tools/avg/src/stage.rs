@@ -81,6 +81,9 @@ fn failure(error: AverageError) -> Failure {
         AverageError::Artefact(e) => e.into(),
         AverageError::NoSpacing => Fault::at("", text).into(),
         AverageError::NoFrames { .. } => Fault::at("/time", text).into(),
+        AverageError::TooMany { section, .. } => {
+            Fault::at(&format!("/sections/{section}"), text).into()
+        }
         AverageError::NoSource { .. } => Failure::Other(text),
     }
 }

@@ -2,11 +2,14 @@
 
 use crate::assemble::Faults;
 use crate::case::GAS;
-use crate::grid::{Grid, Spacing, faces};
+use crate::grid::{Grid, Spacing, faces, wanted};
 use crate::scene::{Body, Scene, Shape, Sides, SpacingScene};
 
 /// Most cells of a scene.
 const MOST_CELLS: usize = 4_000_000;
+
+/// Shortest and longest edge of a domain \[m\]: areas and volumes stay numbers.
+const EDGE: [f64; 2] = [1e-9, 1e4];
 
 /// Grid and materials.
 pub(crate) struct Layout {
@@ -33,6 +36,17 @@ impl Layout {
             faults.add("/domain/z_m", format!("{z:?} m does not rise"));
             return None;
         }
+        for (at, span) in [("/domain/r_m", r), ("/domain/z_m", z)] {
+            let reach = span[0].abs().max(span[1].abs());
+            if span[1] - span[0] < EDGE[0] || reach > EDGE[1] {
+                let [least, most] = EDGE;
+                let what = format!(
+                    "{span:?} m is out of range: at least {least:e} m long, at most to {most:e} m"
+                );
+                faults.add(at, what);
+                return None;
+            }
+        }
         let (mut r_breaks, mut z_breaks) = (r.to_vec(), z.to_vec());
         for (name, body) in &scene.bodies {
             let Shape::Ring(ring) = &body.shape;
@@ -45,11 +59,24 @@ impl Layout {
         spans(scene, [r, z], [&mut r_breaks, &mut z_breaks], faults);
         let r_spacing = spacing(&scene.grid.r, "/grid/r", faults)?;
         let z_spacing = spacing(&scene.grid.z, "/grid/z", faults)?;
-        let rf = faces(&tidy(r_breaks, r), &r_spacing);
-        let zf = faces(&tidy(z_breaks, z), &z_spacing);
+        let (r_breaks, z_breaks) = (tidy(r_breaks, r), tidy(z_breaks, z));
+        let number = [
+            wanted(&r_breaks, &r_spacing).ceil(),
+            wanted(&z_breaks, &z_spacing).ceil(),
+        ];
+        // Whole cells between two faces are less than one more than wanted.
+        let slack = 1.0 + (r_breaks.len() + z_breaks.len()) as f64;
+        if number.iter().any(|n| *n + slack > MOST_CELLS as f64)
+            || number[0] * number[1] > MOST_CELLS as f64
+        {
+            faults.add("/grid", too_many(number));
+            return None;
+        }
+        let rf = faces(&r_breaks, &r_spacing);
+        let zf = faces(&z_breaks, &z_spacing);
         let (nr, nz) = (rf.len() - 1, zf.len() - 1);
-        if nr < 2 || nz < 2 || nr.saturating_mul(nz) > MOST_CELLS {
-            let what = format!("gives {nr} x {nz} cells; wanted are 2 x 2 to {MOST_CELLS} in all");
+        if nr < 2 || nz < 2 {
+            let what = format!("gives {nr} x {nz} cells; wanted are 2 x 2 at least");
             faults.add("/grid", what);
             return None;
         }
@@ -128,6 +155,17 @@ impl Layout {
             reached += width;
         }
     }
+}
+
+/// Why so many cells are refused, and how much coarser they would have to be.
+fn too_many([nr, nz]: [f64; 2]) -> String {
+    let factor = (nr * nz / MOST_CELLS as f64).sqrt();
+    let advice = if factor.is_finite() && nr.max(nz) < MOST_CELLS as f64 {
+        format!(": spacings {factor:.1} times as large would do")
+    } else {
+        String::new()
+    };
+    format!("asks for {nr:.4e} x {nz:.4e} cells; at most {MOST_CELLS} in all{advice}")
 }
 
 fn inside(at: &str, span: [f64; 2], domain: [f64; 2], faults: &mut Faults) {

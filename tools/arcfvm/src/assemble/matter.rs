@@ -27,8 +27,20 @@ pub struct GasFile {
 #[derive(Debug, Clone, Deserialize)]
 struct Column {
     name: String,
+    #[serde(default)]
+    unit: String,
     values: Vec<f64>,
 }
+
+/// Columns of a gas table that are above 0, and those that are at least 0.
+const ABOVE_ZERO: [&str; 5] = [
+    "temperature_k",
+    "density_kg_m3",
+    "specific_heat_j_kg_k",
+    "viscosity_pa_s",
+    "thermal_conductivity_w_m_k",
+];
+const NOT_NEGATIVE: [&str; 1] = ["electric_conductivity_s_m"];
 
 impl GasFile {
     fn column(&self, name: &str) -> Result<&[f64], Error> {
@@ -63,6 +75,31 @@ impl GasFile {
             });
         }
         Table::new(t, y).map_err(|e| Error::GasTable(format!("{name}: {e}")))
+    }
+
+    /// The first value that no gas can have, with column, row, temperature, unit and range.
+    #[must_use]
+    pub fn impossible(&self) -> Option<String> {
+        let temperatures = self.column("temperature_k").unwrap_or_default();
+        self.columns.iter().find_map(|column| {
+            let strict = ABOVE_ZERO.contains(&column.name.as_str());
+            if !strict && !NOT_NEGATIVE.contains(&column.name.as_str()) {
+                return None;
+            }
+            let good = |v: &f64| *v > 0.0 || (*v >= 0.0 && !strict);
+            let row = column.values.iter().position(|v| !good(v))?;
+            let at = match temperatures.get(row) {
+                Some(t) if column.name != "temperature_k" => format!(" ({t} K)"),
+                _ => String::new(),
+            };
+            Some(format!(
+                "column {}, row {row}{at}: {} {} is out of range: {} 0",
+                column.name,
+                column.values[row],
+                column.unit,
+                if strict { "above" } else { "at least" }
+            ))
+        })
     }
 
     /// The gas as a material.
@@ -331,11 +368,31 @@ mod tests {
         ];
         let column = |(name, values): (&str, [f64; 3])| Column {
             name: name.to_owned(),
+            unit: "u".to_owned(),
             values: values.to_vec(),
         };
         GasFile {
             columns: names.into_iter().map(column).collect(),
         }
+    }
+
+    #[test]
+    fn what_no_gas_can_have_is_told_with_its_row() {
+        assert_eq!(file().impossible(), None);
+        let spoilt = |column: usize, value: f64| {
+            let mut file = file();
+            file.columns[column].values[1] = value;
+            file.impossible()
+        };
+        let told = spoilt(1, -0.04).unwrap();
+        assert!(
+            told.contains("density_kg_m3, row 1 (10000 K): -0.04 u"),
+            "{told}"
+        );
+        assert!(spoilt(4, 0.0).is_some() && spoilt(0, -1.0).is_some());
+        // A cold gas does not conduct, and a gas may absorb more than it emits.
+        assert!(spoilt(5, 0.0).is_none() && spoilt(5, -1.0).is_some());
+        assert!(spoilt(6, -1.0).is_none());
     }
 
     #[test]

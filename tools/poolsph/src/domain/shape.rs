@@ -163,6 +163,14 @@ impl Shape {
         }
     }
 
+    /// Lattice points of spacing `d` \[m\] along each edge of the box around the shape, before any is
+    /// made: as many as [`Shape::points`] looks at.
+    #[must_use]
+    pub fn sites(&self, d: f64) -> [f64; 3] {
+        let (low, high) = self.bounds();
+        [0, 1, 2].map(|k| ((high[k] - low[k]) / d).round().max(1.0))
+    }
+
     /// Lattice points of spacing `d` \[m\] within the shape, x fastest; `anchor` defaults to the
     /// lower corner of the box around it.
     #[must_use]

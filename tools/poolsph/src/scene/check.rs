@@ -36,6 +36,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         faults.push(Fault::at("/smoothing_length_m", what));
     }
     faults.extend(dependences(scene));
+    faults.extend(super::size::faults(scene));
     faults
 }
 

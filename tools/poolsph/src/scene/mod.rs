@@ -3,6 +3,7 @@
 mod body;
 mod check;
 mod output;
+mod size;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
