@@ -100,6 +100,9 @@ fn an_interrupted_run_is_taken_up_unless_its_scene_changed() {
     assert_eq!(
         log.lines().last(),
         Some(""),
-        "a checkpoint of another scene is left alone"
+        "a checkpoint of another scene is not taken up"
     );
+    let kept = std::fs::read_to_string(folder.join("out.checkpoint.old"));
+    assert_eq!(kept.unwrap(), "state", "and it is not lost");
+    assert!(!folder.join("out.checkpoint").exists());
 }

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use artefact::{Header, Reader, Table, Version, Writer, beside};
+use artefact::{Reader, beside};
 use tempfile::TempDir;
 
 const OUT: &str = "pool.mcap";
@@ -55,7 +55,7 @@ impl Scene {
         if matches!(self, Self::Weld) {
             let arc = folder.join("arc.mcap");
             if !arc.exists() {
-                write_arc(&arc);
+                verification::bell::WELD.write(&arc).unwrap();
             }
             command.arg("--input").arg(format!("arc={}", arc.display()));
         }
@@ -77,54 +77,6 @@ impl Scene {
             bytes
         })
     }
-}
-
-/// An arc of about 2 kW whose parts fall off as a Gaussian of 2 mm.
-fn write_arc(path: &Path) {
-    let header = Header {
-        kind: "arc-source".to_owned(),
-        version: Version::new(1, 0),
-        tool: "arcfvm".to_owned(),
-        tool_version: "0.1.0".to_owned(),
-        scene: serde_json::json!({"kind": "arcfvm.scene", "version": 1}),
-        inputs: Default::default(),
-    };
-    let radius: Vec<f64> = (0..40).map(|i| 2.5e-4 * f64::from(i)).collect();
-    let depth: Vec<f64> = (0..10).map(|i| 5e-4 * f64::from(i)).collect();
-    let bell = |r: &f64| (-(r / 2e-3).powi(2)).exp();
-    let column = |peak: f64| -> Vec<f64> { radius.iter().map(|r| peak * bell(r)).collect() };
-    let surface = Table::new(radius.len())
-        .attribute("gas_velocity_height_m", "m", 3e-5)
-        .attribute("gas_temperature_height_m", "m", 9e-5)
-        .column("radius_m", "m", radius.iter().copied())
-        .column("heat_flux_convection_w_m2", "W/m2", column(6e7))
-        .column("heat_flux_radiation_w_m2", "W/m2", column(3e6))
-        .column("heat_flux_electron_w_m2", "W/m2", column(-5e6))
-        .column("heat_flux_ion_w_m2", "W/m2", column(1e8))
-        .column(
-            "gas_temperature_k",
-            "K",
-            column(1.4e4).iter().map(|t| 300.0 + t),
-        )
-        .column(
-            "gas_radial_velocity_m_s",
-            "m/s",
-            radius.iter().map(|r| 4e4 * r * bell(r)),
-        )
-        .column("arc_pressure_pa", "Pa", column(2000.0));
-    let nodes = radius
-        .iter()
-        .flat_map(|r| depth.iter().map(move |z| (*r, *z)));
-    let force = nodes.map(|(r, z)| -3e7 * r * bell(&r) * (-z / 2e-3).exp());
-    let force: Vec<f64> = force.collect();
-    let axes: [(&str, &str, &[f64]); 2] = [("radius_m", "m", &radius), ("depth_m", "m", &depth)];
-    let lorentz = Table::grid(&axes)
-        .column("lorentz_radial_n_m3", "N/m3", force.iter().copied())
-        .column("lorentz_axial_n_m3", "N/m3", force.iter().map(|f| 0.5 * f));
-    let mut writer = Writer::create(path, &header).unwrap();
-    writer.table("/surface", 0.0, &surface).unwrap();
-    writer.table("/lorentz", 0.0, &lorentz).unwrap();
-    writer.finish().unwrap();
 }
 
 /// The scene must be worth the test: metal moves, and melts or sets.

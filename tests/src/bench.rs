@@ -12,7 +12,7 @@ use artefact::Reader;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::lab::{LabError, read_json};
+use crate::lab::{LabError, discard_unfinished, read_json};
 use crate::speed::Row;
 
 /// Stages of a run that are no part of its steps.
@@ -271,6 +271,7 @@ impl Stand {
     /// Runs the scene once; its run record.
     fn run(&self, bench: &Bench, threads: usize) -> Result<Value, LabError> {
         let out = self.artefact(&bench.name);
+        discard_unfinished(&out);
         let program = self.programs.join(&bench.tool);
         let mut command = Command::new(&program);
         command.arg("run").arg(&bench.scene);

@@ -11,7 +11,8 @@ use std::process::Command;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::lab::{LabError, read_json};
+use crate::bell::Bell;
+use crate::lab::{LabError, discard_unfinished, read_json};
 
 /// `pipelines/stability/<case>.json`.
 #[derive(Debug, Clone, Deserialize)]
@@ -24,9 +25,22 @@ pub struct Extreme {
     pub scene: PathBuf,
     /// Named inputs.
     #[serde(default)]
-    pub inputs: BTreeMap<String, PathBuf>,
+    pub inputs: BTreeMap<String, Source>,
     /// The runs.
     pub runs: Vec<Variant>,
+}
+
+/// Where an input comes from.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Source {
+    /// A file.
+    File(PathBuf),
+    /// An arc that is made on the spot.
+    Made {
+        /// Its width and peaks.
+        bell: Bell,
+    },
 }
 
 /// One run of a case.
@@ -119,11 +133,14 @@ pub fn run(
         path: folder.clone(),
         source,
     })?;
-    let runs = case
-        .runs
-        .iter()
-        .map(|variant| row(case, variant, programs, &folder, threads))
-        .collect::<Result<Vec<_>, _>>()?;
+    let stand = Stand {
+        inputs: inputs(case, &folder)?,
+        programs,
+        folder: &folder,
+        threads,
+    };
+    let runs = case.runs.iter().map(|variant| stand.row(case, variant));
+    let runs = runs.collect::<Result<Vec<_>, _>>()?;
     Ok(Record {
         case: case.case.clone(),
         tool: case.tool.clone(),
@@ -132,66 +149,94 @@ pub fn run(
     })
 }
 
-fn row(
-    case: &Extreme,
-    variant: &Variant,
-    programs: &Path,
-    folder: &Path,
-    threads: usize,
-) -> Result<Row, LabError> {
-    let patch = folder.join(format!("{}.patch.json", variant.name));
-    let artefact = folder.join(format!("{}.mcap", variant.name));
-    std::fs::write(&patch, variant.patch.to_string()).map_err(|source| LabError::Io {
-        path: patch.clone(),
-        source,
-    })?;
-    let record_path = artefact.with_extension("run.json");
-    for old in [&artefact, &record_path] {
-        // A leftover of an earlier run must not be taken for the result of this one.
-        let _ = std::fs::remove_file(old);
-    }
-    let mut command = Command::new(programs.join(&case.tool));
-    command
-        .arg("run")
-        .arg(&case.scene)
-        .arg("--patch")
-        .arg(&patch)
-        .arg("--out")
-        .arg(&artefact);
-    for (name, path) in &case.inputs {
-        command
-            .arg("--input")
-            .arg(format!("{name}={}", path.display()));
-    }
-    command.args(["--threads", &threads.to_string(), "--progress", "none"]);
-    let output = start(&mut command, &case.tool)?;
-    let record = read_json(&record_path).unwrap_or(Value::Null);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    let outcome = match output.status.code() {
-        Some(0 | 3) if !numbers_only(programs, &artefact)? => Outcome::Failed,
-        Some(0 | 3) if record["substepped"].as_bool() == Some(true) => Outcome::Substepped,
-        Some(0 | 3) => Outcome::Stable,
-        Some(2) => Outcome::Refused,
-        Some(1) if record["outcome"].as_str() == Some("diverged") => Outcome::DivergedDetected,
-        _ => Outcome::Failed,
+/// The inputs as words of a command line; what is to be made is made.
+fn inputs(case: &Extreme, folder: &Path) -> Result<Vec<String>, LabError> {
+    let word = |(name, source): (&String, &Source)| {
+        let path = match source {
+            Source::File(path) => path.clone(),
+            Source::Made { bell } => {
+                let path = folder.join(format!("{name}.input.mcap"));
+                bell.write(&path)?;
+                path
+            }
+        };
+        Ok(format!("{name}={}", path.display()))
     };
-    Ok(Row {
-        name: variant.name.clone(),
-        parameters: variant.patch.clone(),
-        outcome,
-        expected: variant.expect.clone(),
-        limits: record["limits"].clone(),
-        conservation: record["closing"].clone(),
-        message: message
-            .lines()
-            .rev()
-            .take(6)
-            .collect::<Vec<_>>()
-            .into_iter()
-            .rev()
-            .collect::<Vec<_>>()
-            .join("\n"),
-        holds: variant.expect.contains(&outcome),
+    case.inputs.iter().map(word).collect()
+}
+
+/// Where a case is run.
+struct Stand<'a> {
+    inputs: Vec<String>,
+    programs: &'a Path,
+    folder: &'a Path,
+    threads: usize,
+}
+
+impl Stand<'_> {
+    fn row(&self, case: &Extreme, variant: &Variant) -> Result<Row, LabError> {
+        let patch = self.folder.join(format!("{}.patch.json", variant.name));
+        let artefact = self.folder.join(format!("{}.mcap", variant.name));
+        std::fs::write(&patch, variant.patch.to_string()).map_err(|source| LabError::Io {
+            path: patch.clone(),
+            source,
+        })?;
+        let record_path = artefact.with_extension("run.json");
+        for old in [&artefact, &record_path] {
+            // A leftover of an earlier run must not be taken for the result of this one.
+            let _ = std::fs::remove_file(old);
+        }
+        discard_unfinished(&artefact);
+        let mut command = Command::new(self.programs.join(&case.tool));
+        command.arg("run").arg(&case.scene);
+        command.arg("--patch").arg(&patch);
+        command.arg("--out").arg(&artefact);
+        for input in &self.inputs {
+            command.arg("--input").arg(input);
+        }
+        command.args(["--threads", &self.threads.to_string(), "--progress", "none"]);
+        let output = start(&mut command, &case.tool)?;
+        let record = read_json(&record_path).unwrap_or(Value::Null);
+        let message = String::from_utf8_lossy(&output.stderr);
+        let outcome = match output.status.code() {
+            Some(0 | 3) if !numbers_only(self.programs, &artefact)? => Outcome::Failed,
+            Some(0 | 3) if record["substepped"].as_bool() == Some(true) => Outcome::Substepped,
+            Some(0 | 3) => Outcome::Stable,
+            Some(2) => Outcome::Refused,
+            Some(1) if record["outcome"].as_str() == Some("diverged") => Outcome::DivergedDetected,
+            _ => Outcome::Failed,
+        };
+        let lost = match outcome {
+            Outcome::Stable | Outcome::Substepped => lost(&record["closing"]),
+            _ => None,
+        };
+        let mut said: Vec<&str> = message.lines().rev().take(6).collect();
+        said.reverse();
+        said.extend(lost.as_deref());
+        Ok(Row {
+            name: variant.name.clone(),
+            parameters: variant.patch.clone(),
+            outcome,
+            expected: variant.expect.clone(),
+            limits: record["limits"].clone(),
+            conservation: record["closing"].clone(),
+            message: said.join("\n"),
+            holds: variant.expect.contains(&outcome) && lost.is_none(),
+        })
+    }
+}
+
+/// What a run that finished may lose, as parts of the whole.
+const CONSERVED: [(&str, f64); 2] = [("mass_error", 1e-12), ("energy_balance", 5e-3)];
+
+/// A conserved total that was not conserved.
+fn lost(closing: &Value) -> Option<String> {
+    let totals = closing.as_array()?;
+    CONSERVED.iter().find_map(|(name, most)| {
+        let total = totals.iter().find(|total| total["name"] == *name)?;
+        // null is a number that is not finite.
+        let error = total["value"].as_f64().unwrap_or(f64::INFINITY);
+        (error.abs() > *most).then(|| format!("{name} is {error:e}, at most {most:e}"))
     })
 }
 
@@ -225,5 +270,24 @@ impl Record {
             }
         }
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn what_is_lost_is_told() {
+        let closing = |mass: Value, energy: f64| {
+            json!([{"name": "mass_error", "value": mass, "unit": "1"},
+                   {"name": "energy_balance", "value": energy, "unit": "1"}])
+        };
+        assert_eq!(lost(&closing(json!(1e-15), 1e-4)), None);
+        assert_eq!(lost(&json!([])), None);
+        assert!(lost(&closing(json!(1e-11), 1e-4)).unwrap().contains("mass_error"));
+        assert!(lost(&closing(json!(0.0), -0.01)).unwrap().contains("energy_balance"));
+        assert!(lost(&closing(Value::Null, 0.0)).is_some());
     }
 }

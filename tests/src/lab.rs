@@ -122,6 +122,7 @@ impl Lab {
             .join(case)
             .join("scene.json");
         let artefact = folder.join(format!("{label}.mcap"));
+        discard_unfinished(&artefact);
         let mut command = Command::new(self.programs.join(tool));
         command
             .current_dir(&self.root)
@@ -140,6 +141,17 @@ impl Lab {
         command.arg("--out").arg(&artefact);
         command.args(["--threads", &self.threads.to_string(), "--progress", "none"]);
         finish(&mut command, artefact)
+    }
+}
+
+/// Removes what a run that was killed left: a measurement begins at the start.
+pub(crate) fn discard_unfinished(artefact: &Path) {
+    for ending in ["checkpoint", "part"] {
+        let mut name = artefact.as_os_str().to_owned();
+        name.push(".");
+        name.push(ending);
+        // What is not there need not be removed; what cannot be is told by the tool.
+        let _ = std::fs::remove_file(name);
     }
 }
 

@@ -9,6 +9,7 @@
 //!   resolutions into a record of error against run time.
 //! - [`cases`] holds one file per exact solution.
 
+pub mod bell;
 pub mod bench;
 pub mod case;
 pub mod cases;

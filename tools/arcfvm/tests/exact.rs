@@ -20,6 +20,7 @@ fn solve(body: &str) -> Arc {
     let expected = Expected {
         kind: "arcfvm.scene",
         version: 1,
+        migrations: &[],
     };
     let scene: Scene = parse::<Scene>(&text, expected).unwrap().scene;
     let mut arc = Arc::new(
@@ -148,6 +149,7 @@ fn a_scene_that_contradicts_itself_names_every_place() {
     let expected = Expected {
         kind: "arcfvm.scene",
         version: 1,
+        migrations: &[],
     };
     let scene = parse::<Scene>(text, expected).unwrap().scene;
     let told = assemble(&scene, None).unwrap_err().to_string();

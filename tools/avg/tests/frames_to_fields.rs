@@ -216,6 +216,7 @@ fn the_schema_in_the_repository_is_what_the_program_prints() {
     let expected = run::scene::Expected {
         kind: Avg::SCENE_KIND,
         version: Avg::SCENE_VERSION,
+        migrations: &[],
     };
     let printed = run::scene::schema_text(&run::scene::schema_of::<Scene>(expected));
     let stored = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schemas/avg.scene.v1.json");
@@ -229,6 +230,7 @@ fn the_scenes_of_the_studies_are_valid_as_they_are_and_patched() {
     let expected = run::scene::Expected {
         kind: Avg::SCENE_KIND,
         version: Avg::SCENE_VERSION,
+        migrations: &[],
     };
     let schema = run::scene::schema_of::<Scene>(expected);
     let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines");

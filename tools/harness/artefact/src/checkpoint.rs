@@ -192,11 +192,21 @@ impl Checkpoint {
     /// # Errors
     /// When the file is foreign, truncated, damaged, or of another scene, input, tool or version.
     pub fn read(path: impl AsRef<Path>, header: &Header) -> Result<Self> {
+        let checkpoint = Self::open(path)?;
+        header
+            .identity()
+            .must_equal(&checkpoint.identity, &checkpoint.path)?;
+        Ok(checkpoint)
+    }
+
+    /// Reads a checkpoint of any run.
+    ///
+    /// # Errors
+    /// When the file is foreign, truncated or damaged.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(io_error(path, "read"))?;
-        let checkpoint = Self::decode(path, &bytes)?;
-        header.identity().must_equal(&checkpoint.identity, path)?;
-        Ok(checkpoint)
+        Self::decode(path, &bytes)
     }
 
     fn decode(path: &Path, bytes: &[u8]) -> Result<Self> {

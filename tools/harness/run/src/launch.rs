@@ -12,6 +12,7 @@ use crate::console::{Level, data, line};
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::interrupt::Interrupt;
+use crate::leftover::make_way;
 use crate::machine;
 use crate::plan::{Plan, duration};
 use crate::progress::Style;
@@ -67,10 +68,20 @@ struct Ready<S> {
 
 fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
     let schema = schema_of::<T::Scene>(expected::<T>());
-    let Loaded { scene, merged } =
-        load::<T::Scene>(&study.scene, &study.patches, &schema, expected::<T>())?;
+    let Loaded {
+        scene,
+        merged,
+        migrated,
+    } = load::<T::Scene>(&study.scene, &study.patches, &schema, expected::<T>())?;
     let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
     let plan = guarded(|| T::plan(&scene, &inputs)).map_err(|failure| placed(failure, &merged))?;
+    let plan = match migrated {
+        Some(from) => plan.note(format!(
+            "scene of version {from}, read as version {}",
+            T::SCENE_VERSION
+        )),
+        None => plan,
+    };
     let header = Header {
         kind: T::ARTEFACT_KIND.to_owned(),
         version: T::ARTEFACT_VERSION,
@@ -109,11 +120,14 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     let (start, began) = (machine::now(), Instant::now());
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study)?;
-    let mut session = open::<T>(run, &ready.header, began)?;
+    let (mut session, told) = open::<T>(run, &ready.header, began)?;
     if run.level() > Level::Quiet {
         head::<T>(run, &ready);
     }
     session.planned(&ready.plan);
+    if let Some(told) = told {
+        session.note(told);
+    }
     let ended = guarded(|| T::run(&ready.scene, &ready.inputs, &mut session));
     let ended = ended.map_err(|failure| placed(failure, &ready.merged));
     let (ledger, ended) = session.end(ended);
@@ -145,7 +159,12 @@ fn guarded<R>(work: impl FnOnce() -> Result<R, Failure>) -> Result<R, Failure> {
     })
 }
 
-fn open<T: Tool>(run: &Run, header: &Header, began: Instant) -> Result<Session, Failure> {
+/// The session, and what is to be told of an earlier run to the same place.
+fn open<T: Tool>(
+    run: &Run,
+    header: &Header,
+    began: Instant,
+) -> Result<(Session, Option<String>), Failure> {
     if run.out.is_dir() {
         return Err(Failure::Usage(format!(
             "--out {}: is a folder",
@@ -161,7 +180,12 @@ fn open<T: Tool>(run: &Run, header: &Header, began: Instant) -> Result<Session, 
         return Err(Failure::Usage(what));
     }
     create_folder(&run.out)?;
-    Session::open(Opening {
+    let told = if run.resume {
+        None
+    } else {
+        make_way(&run.out, header)?
+    };
+    let session = Session::open(Opening {
         began,
         out: &run.out,
         header: header.clone(),
@@ -172,7 +196,8 @@ fn open<T: Tool>(run: &Run, header: &Header, began: Instant) -> Result<Session, 
         style: if run.quiet { Style::None } else { run.progress },
         level: run.level(),
         interrupt: Interrupt::listen()?,
-    })
+    })?;
+    Ok((session, told))
 }
 
 /// Makes the folder of the artefact.

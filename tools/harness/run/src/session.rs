@@ -15,7 +15,7 @@ use crate::plan::Plan;
 use crate::progress::{Progress, Style};
 
 /// Entry of a checkpoint that belongs to the session.
-const LEDGER: &str = "run.ledger";
+pub(crate) const LEDGER: &str = "run.ledger";
 const POSITION: &str = "run.position";
 /// A checkpoint may cost at most this part of the time between two of them.
 const CHECKPOINT_SHARE: u32 = 20;
@@ -115,6 +115,7 @@ impl Session {
         plan.left_out
             .iter()
             .for_each(|l| self.ledger.left_out(&l.name, &l.why));
+        self.ledger.notes.extend(plan.notes.iter().cloned());
     }
 
     /// Writes a frame of particles or points at simulated time `time_s`.

@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::plan::Plan;
-use crate::scene::Expected;
+use crate::scene::{Expected, Migration};
 use crate::session::Session;
 
 /// An input file that a stage reads, given as `--input NAME=FILE`.
@@ -36,6 +36,8 @@ pub trait Tool {
     const SCENE_KIND: &'static str;
     /// Version of its scene.
     const SCENE_VERSION: u32 = 1;
+    /// Ways from older versions of its scene; a version without one is refused by name.
+    const MIGRATIONS: &'static [Migration] = &[];
     /// Kind of its artefact: `particle-frames`.
     const ARTEFACT_KIND: &'static str;
     /// Version of its artefact.
@@ -66,5 +68,6 @@ pub(crate) fn expected<T: Tool>() -> Expected {
     Expected {
         kind: T::SCENE_KIND,
         version: T::SCENE_VERSION,
+        migrations: T::MIGRATIONS,
     }
 }

@@ -4,9 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
-use run::Failure;
 use run::property::Property;
 use run::scene::{Expected, load, parse, schema_of};
+use run::{Failure, Fault, Migration};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
@@ -14,6 +14,7 @@ use serde_json::json;
 const POOL: Expected = Expected {
     kind: "test.scene",
     version: 2,
+    migrations: &[],
 };
 
 #[derive(Debug, Deserialize, JsonSchema, PartialEq)]
@@ -438,4 +439,138 @@ fn the_schema_is_closed_and_knows_the_envelope() {
         schema["properties"]["spacing_m"]["description"],
         "Distance of the particles."
     );
+}
+
+#[derive(Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Toy {
+    drop: Drop,
+}
+
+#[derive(Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Drop {
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    radius_m: f64,
+}
+
+/// Version 2 measures in metres; version 3 puts the radius into an object.
+const TOY: Expected = Expected {
+    kind: "toy.scene",
+    version: 3,
+    migrations: &[
+        Migration {
+            from: 1,
+            change: |scene| match scene.shift_remove("diameter_mm").map(|d| d.as_f64()) {
+                Some(Some(d)) => {
+                    scene.insert("radius_m".to_owned(), json!(0.5e-3 * d));
+                    Ok(())
+                }
+                Some(None) => Err(Fault::at("/diameter_mm", "is no number")),
+                None => Err(Fault::at("", "has no key 'diameter_mm'")),
+            },
+        },
+        Migration {
+            from: 2,
+            change: |scene| {
+                let radius = scene.shift_remove("radius_m").unwrap_or_default();
+                scene.insert("drop".to_owned(), json!({"radius_m": radius}));
+                Ok(())
+            },
+        },
+    ],
+};
+
+fn toy(text: &str) -> Result<(Toy, Option<u32>), String> {
+    match parse::<Toy>(text, TOY) {
+        Ok(loaded) => {
+            assert_eq!(loaded.merged.value()["version"], 3);
+            Ok((loaded.scene, loaded.migrated))
+        }
+        Err(failure) => Err(failure.to_string()),
+    }
+}
+
+#[test]
+fn an_older_scene_is_read_by_a_chain_of_migrations() {
+    let drop = Toy {
+        drop: Drop { radius_m: 0.00075 },
+    };
+    for (text, from) in [
+        (
+            r#"{"kind": "toy.scene", "version": 1, "diameter_mm": 1.5}"#,
+            Some(1),
+        ),
+        (
+            r#"{"kind": "toy.scene", "version": 2, "radius_m": 0.00075}"#,
+            Some(2),
+        ),
+        (
+            r#"{"kind": "toy.scene", "version": 3, "drop": {"radius_m": 0.00075}}"#,
+            None,
+        ),
+    ] {
+        let (scene, migrated) = toy(text).expect(text);
+        assert!((scene.drop.radius_m - drop.drop.radius_m).abs() < 1e-15);
+        assert_eq!(migrated, from);
+    }
+}
+
+#[test]
+fn what_no_migration_reads_is_refused_by_name() {
+    for (text, words) in [
+        (
+            "{\"kind\": \"toy.scene\",\n \"version\": 4}",
+            [
+                "scene.json:2:13: /version",
+                "version 4, this tool reads version 3 and nothing newer",
+            ],
+        ),
+        (
+            r#"{"kind": "toy.scene", "version": 0}"#,
+            [
+                "/version",
+                "of version 0, this tool reads version 3 and knows no way",
+            ],
+        ),
+        (
+            r#"{"kind": "toy.scene", "version": "one"}"#,
+            ["/version", "\"one\""],
+        ),
+        (
+            r#"{"kind": "toy.scene"}"#,
+            ["scene.json:1:1", "has no \"version\""],
+        ),
+        (
+            "{\"kind\": \"toy.scene\", \"version\": 1,\n\"diameter_mm\": \"wide\"}",
+            ["scene.json:2:16: /diameter_mm", "is no number"],
+        ),
+        // Faults of what a migration made stand where the scene begins.
+        (
+            r#"{"kind": "toy.scene", "version": 1, "diameter_mm": -1}"#,
+            ["scene.json:1:1: /drop/radius_m", "out of range: above 0 m"],
+        ),
+    ] {
+        let said = toy(text).expect_err(text);
+        for word in words {
+            assert!(said.contains(word), "{word} is not in\n{said}");
+        }
+    }
+}
+
+#[test]
+fn a_patch_is_of_the_version_of_its_scene() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("a file");
+        path
+    };
+    let scene = file(
+        "a.json",
+        r#"{"kind": "toy.scene", "version": 1, "diameter_mm": 1.5}"#,
+    );
+    let patch = file("b.json", r#"{"diameter_mm": 3}"#);
+    let loaded = load::<Toy>(&scene, &[patch], &schema_of::<Toy>(TOY), TOY).expect("a scene");
+    assert!((loaded.scene.drop.radius_m - 0.0015).abs() < 1e-15);
 }

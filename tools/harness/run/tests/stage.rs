@@ -506,6 +506,8 @@ fn resumed(folder: &Path) -> Vec<u8> {
 fn an_interrupted_run_ends_with_130_and_goes_on_to_the_same_bytes() {
     let folder = temp();
     for name in ["-INT", "-TERM"] {
+        // The second run begins afresh.
+        std::fs::remove_file(folder.path().join("cut.mcap.checkpoint")).ok();
         let child = started(folder.path(), "cut.mcap");
         wait_for(&folder.path().join("cut.mcap.part"));
         std::thread::sleep(Duration::from_millis(100));
@@ -590,4 +592,83 @@ fn a_checkpoint_of_another_scene_is_refused() {
     let (code, _, stderr) = finished(folder.path(), &words);
     assert_eq!(code, Some(1));
     assert!(stderr.contains("damaged: CRC"), "{stderr}");
+}
+
+fn bytes(folder: &Path, name: &str) -> Vec<u8> {
+    std::fs::read(folder.join(name)).expect("bytes")
+}
+
+#[test]
+fn a_checkpoint_is_not_discarded_by_a_run_from_the_start() {
+    let folder = temp();
+    let folder = folder.path();
+    let child = started(folder, "cut.mcap");
+    wait_for(&folder.join("cut.mcap.part"));
+    std::thread::sleep(Duration::from_millis(100));
+    signal(&child, "-INT");
+    assert!(!child.wait_with_output().expect("an end").status.success());
+    let (checkpoint, part) = (
+        bytes(folder, "cut.mcap.checkpoint"),
+        bytes(folder, "cut.mcap.part"),
+    );
+    let steps = record(folder, "cut.run.json")["steps"].to_string();
+
+    let again = ["run", SCENE, "--out", "cut.mcap", "--patch", "long.json"];
+    let (code, _, stderr) = finished(folder, &again);
+    assert_eq!(code, Some(2), "{stderr}");
+    for word in [
+        "cut.mcap.checkpoint: holds this very run at step",
+        steps.as_str(),
+        "--resume",
+        "rm cut.mcap.checkpoint",
+    ] {
+        assert!(stderr.contains(word), "{word} is not in\n{stderr}");
+    }
+    assert!(bytes(folder, "cut.mcap.checkpoint") == checkpoint);
+    assert!(bytes(folder, "cut.mcap.part") == part);
+
+    // Another scene cannot take it up: it runs, and what was there is kept.
+    let short = patch(folder, "short.json", r#"{"time": {"steps": 200}}"#);
+    let other = ["run", SCENE, "--out", "cut.mcap", "--patch", &short];
+    let (code, _, stderr) = finished(folder, &other);
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(
+        stderr.contains("kept as cut.mcap.checkpoint.old"),
+        "{stderr}"
+    );
+    assert!(bytes(folder, "cut.mcap.checkpoint.old") == checkpoint);
+    assert!(bytes(folder, "cut.mcap.part.old") == part);
+    assert!(!folder.join("cut.mcap.checkpoint").exists());
+    let notes = record(folder, "cut.run.json")["notes"].to_string();
+    assert!(notes.contains("made with scene"), "{notes}");
+
+    // Put back, it goes on.
+    std::fs::rename(
+        folder.join("cut.mcap.checkpoint.old"),
+        folder.join("cut.mcap.checkpoint"),
+    )
+    .expect("a name");
+    std::fs::rename(
+        folder.join("cut.mcap.part.old"),
+        folder.join("cut.mcap.part"),
+    )
+    .expect("a name");
+    assert!(resumed(folder) == undisturbed(folder));
+}
+
+#[test]
+fn a_damaged_checkpoint_does_not_stand_in_the_way() {
+    let folder = temp();
+    let folder = folder.path();
+    std::fs::write(folder.join("rod.mcap.checkpoint"), "no checkpoint").expect("a file");
+    let (code, _, stderr) = finished(folder, &["run", SCENE, "--out", "rod.mcap"]);
+    assert_eq!(code, Some(0), "{stderr}");
+    assert!(
+        stderr.contains("kept as rod.mcap.checkpoint.old"),
+        "{stderr}"
+    );
+    assert_eq!(
+        names(folder),
+        ["rod.mcap", "rod.mcap.checkpoint.old", "rod.run.json"]
+    );
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
-use super::fault::Spot;
+use super::fault::{Fault, Spot};
 use super::origin::{Document, Place, escaped};
 
 /// A scene with its patches applied; every value knows its file.
@@ -33,6 +33,24 @@ impl Merged {
     #[must_use]
     pub fn value(&self) -> &Value {
         &self.value
+    }
+
+    /// Changes the scene itself; what it adds has the origin of what is around it.
+    pub(crate) fn change(
+        &mut self,
+        change: impl FnOnce(&mut Map<String, Value>) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        match &mut self.value {
+            Value::Object(map) => change(map),
+            _ => Ok(()),
+        }
+    }
+
+    /// Sets a key of the scene.
+    pub(crate) fn set(&mut self, key: &str, value: Value) {
+        if let Value::Object(map) = &mut self.value {
+            map.insert(key.to_owned(), value);
+        }
     }
 
     /// Applies a patch.
