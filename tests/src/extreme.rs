@@ -286,8 +286,16 @@ mod tests {
         };
         assert_eq!(lost(&closing(json!(1e-15), 1e-4)), None);
         assert_eq!(lost(&json!([])), None);
-        assert!(lost(&closing(json!(1e-11), 1e-4)).unwrap().contains("mass_error"));
-        assert!(lost(&closing(json!(0.0), -0.01)).unwrap().contains("energy_balance"));
+        assert!(
+            lost(&closing(json!(1e-11), 1e-4))
+                .unwrap()
+                .contains("mass_error")
+        );
+        assert!(
+            lost(&closing(json!(0.0), -0.01))
+                .unwrap()
+                .contains("energy_balance")
+        );
         assert!(lost(&closing(Value::Null, 0.0)).is_some());
     }
 }
