@@ -24,6 +24,8 @@ pub struct Properties {
     pub enthalpy: Vec<f64>,
     /// Net emission \[W/m3\].
     pub emission: Vec<f64>,
+    /// Electric conductivity before that of the sheath is set; empty without one.
+    before: Vec<f64>,
 }
 
 impl Properties {
@@ -41,6 +43,7 @@ impl Properties {
             thermal: column(heat),
             enthalpy: column(heat),
             emission: column(heat && emits),
+            before: Vec::new(),
         }
     }
 
@@ -101,9 +104,10 @@ impl Properties {
         let Some(sheath) = case.potential.as_ref().and_then(|p| p.sheath.as_ref()) else {
             return;
         };
-        let before = self.electric.clone();
+        let (electric, before) = (&mut self.electric, &mut self.before);
+        before.clone_from(electric);
         for (k, from) in sheath.iter().enumerate() {
-            self.electric[k] = before[*from].max(before[k]);
+            electric[k] = before[*from].max(before[k]);
         }
     }
 }

@@ -335,11 +335,13 @@ impl Energy {
         self.equation = equation;
         self.equation.residual(&self.temperature, &mut self.scratch);
         let unbalanced = self.scratch.iter().map(|r| r.abs()).sum();
-        let relaxation: Vec<f64> = (0..self.scratch.len())
-            .map(|k| self.relaxation(case, k, step.relaxation))
-            .collect();
+        let mut relaxation = std::mem::take(&mut self.scratch);
+        for (k, factor) in relaxation.iter_mut().enumerate() {
+            *factor = self.relaxation(case, k, step.relaxation);
+        }
         self.equation
             .under_relax_each(&self.temperature, |k| relaxation[k]);
+        self.scratch = relaxation;
         self.scratch.copy_from_slice(&self.temperature);
         let outcome = self.solver.solve(&self.equation, &mut self.temperature)?;
         let (mut change, mut limited) = (0.0_f64, 0);

@@ -35,6 +35,8 @@ pub struct Solver {
     factors: Incomplete,
     grid: Multigrid,
     work: Workspace,
+    /// What the sweeps need, or the values before a Krylov method.
+    kept: Vec<f64>,
 }
 
 impl Solver {
@@ -47,6 +49,7 @@ impl Solver {
             factors: Incomplete::default(),
             grid: Multigrid::default(),
             work: Workspace::default(),
+            kept: Vec::new(),
         }
     }
 
@@ -56,28 +59,16 @@ impl Solver {
     /// When the equation is not usable or the values leave the numbers.
     pub fn solve(&mut self, equation: &FivePoint, x: &mut [f64]) -> Result<Outcome, Error> {
         match self.method {
-            Method::Sor(sor) => sor.solve(equation, x),
+            Method::Sor(sor) => sor.solve_within(equation, x, &mut self.kept),
             Method::Incomplete(rule) => {
                 self.factors.rebuild(equation)?;
-                krylov(
-                    self.symmetric,
-                    equation,
-                    x,
-                    &mut self.factors,
-                    rule,
-                    &mut self.work,
-                )
+                let memory = (&mut self.work, &mut self.kept);
+                krylov(self.symmetric, equation, x, &mut self.factors, rule, memory)
             }
             Method::Multigrid(rule) => {
                 self.grid.rebuild(equation)?;
-                krylov(
-                    self.symmetric,
-                    equation,
-                    x,
-                    &mut self.grid,
-                    rule,
-                    &mut self.work,
-                )
+                let memory = (&mut self.work, &mut self.kept);
+                krylov(self.symmetric, equation, x, &mut self.grid, rule, memory)
             }
         }
     }
@@ -89,19 +80,20 @@ fn krylov(
     x: &mut [f64],
     inverse: &mut impl Precondition,
     rule: Krylov,
-    work: &mut Workspace,
+    (work, before): (&mut Workspace, &mut Vec<f64>),
 ) -> Result<Outcome, Error> {
     if symmetric {
         return conjugate_gradient(equation, x, inverse, rule, work);
     }
-    let before = x.to_vec();
+    before.clear();
+    before.extend_from_slice(x);
     let outcome = bicgstab(equation, x, inverse, rule, work);
     match outcome {
         Ok(found) if found.last <= found.first => Ok(found),
         // BiCGSTAB can break down; sweeps over a dominant diagonal cannot.
         _ => {
-            x.copy_from_slice(&before);
-            FALLBACK.solve(equation, x)
+            x.copy_from_slice(before);
+            FALLBACK.solve_within(equation, x, before)
         }
     }
 }

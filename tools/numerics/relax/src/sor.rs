@@ -28,17 +28,30 @@ impl Sor {
     /// # Errors
     /// When the equation is not usable or the values leave the numbers.
     pub fn solve(&self, equation: &FivePoint, x: &mut [f64]) -> Result<Outcome, Error> {
+        self.solve_within(equation, x, &mut Vec::new())
+    }
+
+    /// As [`Sor::solve`], in memory that the caller keeps from one call to the next.
+    ///
+    /// # Errors
+    /// As [`Sor::solve`].
+    pub fn solve_within(
+        &self,
+        equation: &FivePoint,
+        x: &mut [f64],
+        scratch: &mut Vec<f64>,
+    ) -> Result<Outcome, Error> {
         equation.check()?;
-        let mut scratch = vec![0.0; x.len()];
-        let first = l1(equation, x, &mut scratch);
+        scratch.resize(x.len(), 0.0);
+        let first = l1(equation, x, scratch);
         let mut last = first;
         let mut iterations = 0;
         while iterations < self.sweeps && last > self.reduction * first {
-            sweep(equation, x, self.relaxation, Colour::Red, &mut scratch);
-            sweep(equation, x, self.relaxation, Colour::Black, &mut scratch);
+            sweep(equation, x, self.relaxation, Colour::Red, scratch);
+            sweep(equation, x, self.relaxation, Colour::Black, scratch);
             iterations += 1;
             if iterations % 4 == 0 || iterations == self.sweeps {
-                last = l1(equation, x, &mut scratch);
+                last = l1(equation, x, scratch);
             }
         }
         match x.iter().position(|v| !v.is_finite()) {

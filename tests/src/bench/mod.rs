@@ -4,6 +4,8 @@
 //! Thread numbers take turns, so that a machine which slows down slows all of them; a figure is the
 //! median over the runs.
 
+mod record;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,11 +14,10 @@ use artefact::Reader;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::lab::{LabError, discard_unfinished, read_json};
-use crate::speed::Row;
+pub use record::{Count, Record, Verdict};
+use record::{Samples, verdict};
 
-/// Stages of a run that are no part of its steps.
-const OUTSIDE: [&str; 4] = ["plan", "write", "checkpoint", "other"];
+use crate::lab::{LabError, discard_unfinished, read_json};
 
 /// `pipelines/bench/<name>/bench.json`; paths count from the repository root.
 #[derive(Debug, Clone, Deserialize)]
@@ -65,84 +66,6 @@ pub struct Aim {
     pub threads: usize,
     /// The most.
     pub max: f64,
-}
-
-/// An aim with what was found; `None` where it was not measured on so many threads.
-#[derive(Debug, Serialize)]
-pub struct Verdict {
-    #[serde(flatten)]
-    aim: Aim,
-    found: Option<f64>,
-    holds: Option<bool>,
-}
-
-/// How many of what.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Count {
-    name: String,
-    number: u64,
-}
-
-/// The record that `make bench` writes.
-#[derive(Debug, Serialize)]
-pub struct Record {
-    kind: &'static str,
-    version: &'static str,
-    name: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tool: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    outcome: Option<String>,
-    load_average: Option<f64>,
-    counts: Vec<Count>,
-    aims: Vec<Verdict>,
-    rows: Vec<Row>,
-}
-
-impl Record {
-    /// A record of rows alone.
-    #[must_use]
-    pub fn of_rows(name: &str, rows: Vec<Row>) -> Self {
-        Self {
-            kind: "bench",
-            version: "1.0",
-            name: name.to_owned(),
-            tool: None,
-            outcome: None,
-            load_average: load(),
-            counts: Vec::new(),
-            aims: Vec::new(),
-            rows,
-        }
-    }
-
-    /// The record as a table for people.
-    #[must_use]
-    pub fn table(&self) -> String {
-        let mut text = format!("{}\n", self.name);
-        for count in &self.counts {
-            text += &format!("  {:24} {}\n", count.name, count.number);
-        }
-        for row in &self.rows {
-            text += &format!(
-                "  {:24} {:2} threads  median {:10.3} {}  least {:10.3}\n",
-                row.name, row.threads, row.value, row.unit, row.least
-            );
-        }
-        for Verdict { aim, found, holds } in &self.aims {
-            let word = match holds {
-                Some(true) => "holds ",
-                Some(false) => "MISSED",
-                None => "open  ",
-            };
-            let found = found.map_or_else(|| "not measured".to_owned(), |x| format!("{x:.3}"));
-            text += &format!(
-                "  {word} {} on {} threads: at most {} {}, found {found}\n",
-                aim.name, aim.threads, aim.max, aim.unit
-            );
-        }
-        text
-    }
 }
 
 /// Reads all of a folder in the order of their names.
@@ -253,13 +176,13 @@ impl Stand {
             }
         }
         let rows = samples.rows();
-        Ok(Record {
-            tool: Some(bench.tool.clone()),
-            outcome: last["outcome"].as_str().map(str::to_owned),
-            counts: counts(&self.artefact(&bench.name), &last)?,
-            aims: bench.aims.iter().map(|aim| verdict(aim, &rows)).collect(),
-            ..Record::of_rows(&bench.name, rows)
-        })
+        let mut record = Record::of_rows(&bench.name, rows);
+        record.tool = Some(bench.tool.clone());
+        record.outcome = last["outcome"].as_str().map(str::to_owned);
+        record.counts = counts(&self.artefact(&bench.name), &last)?;
+        let verdicts = bench.aims.iter().map(|aim| verdict(aim, &record.rows));
+        record.aims = verdicts.collect();
+        Ok(record)
     }
 
     /// The artefact of a bench.
@@ -301,63 +224,6 @@ impl Stand {
     }
 }
 
-/// Times by name, unit and threads, in the order in which they came.
-#[derive(Debug, Default)]
-struct Samples(Vec<(String, &'static str, usize, Vec<f64>)>);
-
-impl Samples {
-    fn add(&mut self, threads: usize, record: &Value) {
-        let steps = record["steps"].as_f64().unwrap_or(0.0).max(1.0);
-        let spent: Vec<(&str, f64)> = record["stages"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .filter_map(|stage| Some((stage["name"].as_str()?, stage["wall_s"].as_f64()?)))
-            .collect();
-        let inside = spent.iter().filter(|(name, _)| !OUTSIDE.contains(name));
-        let all: f64 = inside.map(|(_, wall)| wall).sum();
-        self.put(
-            "run",
-            "s",
-            threads,
-            record["wall_s"].as_f64().unwrap_or(0.0),
-        );
-        self.put("step", "ms", threads, 1e3 * all / steps);
-        for (name, wall) in spent {
-            self.put(name, "ms", threads, 1e3 * wall / steps);
-        }
-    }
-
-    fn put(&mut self, name: &str, unit: &'static str, threads: usize, value: f64) {
-        let known = self
-            .0
-            .iter_mut()
-            .find(|(n, _, t, _)| n == name && *t == threads);
-        match known {
-            Some((.., values)) => values.push(value),
-            None => self.0.push((name.to_owned(), unit, threads, vec![value])),
-        }
-    }
-
-    fn rows(self) -> Vec<Row> {
-        let rows = self.0.into_iter();
-        rows.map(|(name, unit, threads, values)| Row::of(&name, unit, threads, values))
-            .collect()
-    }
-}
-
-fn verdict(aim: &Aim, rows: &[Row]) -> Verdict {
-    let row = rows
-        .iter()
-        .find(|row| row.name == aim.name && row.unit == aim.unit && row.threads == aim.threads);
-    let found = row.map(|row| row.value);
-    Verdict {
-        aim: aim.clone(),
-        found,
-        holds: found.map(|found| found <= aim.max),
-    }
-}
-
 /// How large the problem was, from what was written.
 fn counts(artefact: &Path, record: &Value) -> Result<Vec<Count>, LabError> {
     let reader = Reader::open(artefact)?;
@@ -384,12 +250,6 @@ fn counts(artefact: &Path, record: &Value) -> Result<Vec<Count>, LabError> {
         count("cells", reader.table("/plasma")?.len() as u64);
     }
     Ok(counts)
-}
-
-/// Load of the machine over the last minute, where the system tells.
-fn load() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/loadavg").ok()?;
-    text.split_whitespace().next()?.parse().ok()
 }
 
 fn io(path: &Path) -> impl Fn(std::io::Error) -> LabError + use<> {
@@ -430,26 +290,5 @@ mod tests {
         assert!(in_order(&all, &["d".to_owned()]).is_err());
         let circle = [bench("a", &["b"]), bench("b", &["a"])];
         assert!(in_order(&circle, &[]).is_err());
-    }
-
-    #[test]
-    fn a_step_is_what_the_stages_within_take() {
-        let record = json!({"steps": 10, "wall_s": 9.0, "stages": [
-            {"name": "plan", "wall_s": 5.0}, {"name": "heat", "wall_s": 1.0},
-            {"name": "motion", "wall_s": 2.0}, {"name": "other", "wall_s": 1.0}]});
-        let mut samples = Samples::default();
-        samples.add(2, &record);
-        let rows = samples.rows();
-        let aim = |max: f64, threads: usize| Aim {
-            name: "step".to_owned(),
-            unit: "ms".to_owned(),
-            threads,
-            max,
-        };
-        let held = verdict(&aim(300.5, 2), &rows);
-        assert!((held.found.unwrap() - 300.0).abs() < 1e-9);
-        assert_eq!(held.holds, Some(true));
-        assert_eq!(verdict(&aim(299.5, 2), &rows).holds, Some(false));
-        assert_eq!(verdict(&aim(299.5, 1), &rows).holds, None);
     }
 }
