@@ -198,3 +198,36 @@ fn the_benches_of_the_pipeline_can_be_read_and_ordered() {
         }
     }
 }
+
+#[test]
+fn the_published_schemas_of_scenes_are_what_the_programs_print() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    for tool in ["arcfvm", "poolsph", "avg"] {
+        let printed = Command::new(programs().join(tool))
+            .arg("schema")
+            .output()
+            .unwrap();
+        let published = std::fs::read(root.join(format!("schemas/{tool}.scene.v1.json"))).unwrap();
+        assert!(
+            printed.stdout == published,
+            "schemas/{tool}.scene.v1.json is not what '{tool} schema' prints: make schemas"
+        );
+    }
+}
+
+#[test]
+fn check_tells_how_long_a_run_will_last() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
+    let output = Command::new(programs().join("poolsph"))
+        .arg("check")
+        .arg(scene)
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    let time = said.lines().find(|line| line.starts_with("  time "));
+    let time = time.unwrap_or_else(|| panic!("{said}"));
+    assert!(
+        time.contains("about") && time.contains("ms a step"),
+        "{time}"
+    );
+}

@@ -77,6 +77,8 @@ pub struct Row {
     parameters: Value,
     outcome: Outcome,
     expected: Vec<Outcome>,
+    /// The step that the scene asks for \[s\]; none where nothing marches in time.
+    step_s: Option<f64>,
     limits: Value,
     conservation: Value,
     message: String,
@@ -218,6 +220,7 @@ impl Stand<'_> {
             parameters: variant.patch.clone(),
             outcome,
             expected: variant.expect.clone(),
+            step_s: record["scene"]["time"]["step_s"].as_f64(),
             limits: record["limits"].clone(),
             conservation: record["closing"].clone(),
             message: said.join("\n"),

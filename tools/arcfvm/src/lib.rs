@@ -23,13 +23,19 @@ pub mod solver;
 pub mod surface;
 pub mod transport;
 
-use run::{Failure, Input, Inputs, Plan, Session, Tool};
+use std::time::{Duration, Instant};
+
+use run::{Estimate, Failure, Input, Inputs, Plan, Session, Tool};
 
 use assemble::{GasFile, assemble};
 use case::Case;
 use scene::{Gas, Scene};
 use settings::Settings;
 use solver::{Arc, Stopwatch};
+
+/// Iterations that tell how long one lasts, and the longest time for them.
+const TRIAL: u32 = 20;
+const LONGEST_TRIAL: Duration = Duration::from_millis(500);
 
 /// The stage `arcfvm`.
 #[derive(Debug, Clone, Copy)]
@@ -59,6 +65,26 @@ impl Tool for ArcFvm {
 
     fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
         Ok(plan::plan(scene, &case(scene, inputs)?))
+    }
+
+    fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
+        let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
+        arc.iterate(&mut ())?;
+        let began = Instant::now();
+        let mut done = 0_u32;
+        while done == 0 || (done < TRIAL && began.elapsed() < LONGEST_TRIAL) {
+            arc.iterate(&mut ())?;
+            done += 1;
+        }
+        let each = began.elapsed().as_secs_f64() / f64::from(done);
+        let most = scene.iterate.most;
+        Ok(Some(Estimate {
+            seconds: each * most as f64,
+            basis: format!(
+                "{:.2} ms an iteration, if all {most} are needed",
+                1e3 * each
+            ),
+        }))
     }
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {

@@ -10,6 +10,22 @@ const COLUMNS_CURRENT: usize = 30;
 const COLUMNS_FLOW: usize = 60;
 const COLUMNS_HEAT: usize = 32;
 
+/// Columns of the artefact's `/plasma` where heat, flow and current are solved.
+const HEAT: [(&str, &str); 1] = [("temperature_k", "K")];
+const FLOW: [(&str, &str); 3] = [
+    ("radial_velocity_m_s", "m/s"),
+    ("axial_velocity_m_s", "m/s"),
+    ("pressure_pa", "Pa"),
+];
+const CURRENT: [(&str, &str); 6] = [
+    ("potential_v", "V"),
+    ("current_radial_a_m2", "A/m2"),
+    ("current_axial_a_m2", "A/m2"),
+    ("magnetic_field_t", "T"),
+    ("lorentz_radial_n_m3", "N/m3"),
+    ("lorentz_axial_n_m3", "N/m3"),
+];
+
 /// The plan of an assembled scene.
 #[must_use]
 pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
@@ -32,6 +48,15 @@ pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
         } else {
             plan.left_out(name, &format!("no key '{name}'"))
         };
+    }
+    for (active, columns) in [
+        (scene.heat.is_some(), &HEAT[..]),
+        (scene.flow.is_some(), &FLOW[..]),
+        (scene.current.is_some(), &CURRENT[..]),
+    ] {
+        for (name, unit) in columns.iter().filter(|_| active) {
+            plan = plan.column(name, unit);
+        }
     }
     plan
 }

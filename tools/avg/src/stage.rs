@@ -1,7 +1,9 @@
 //! The program: plan, run, record.
 
+use std::time::Instant;
+
 use artefact::Reader;
-use run::{Failure, Fault, Input, Inputs, Plan as Shown, Session, Tool};
+use run::{Estimate, Failure, Fault, Input, Inputs, Plan as Shown, Session, Tool};
 
 use crate::average::{AverageError, Averages, Averaging, Plan};
 use crate::fields;
@@ -41,6 +43,22 @@ impl Tool for Avg {
         }
         let (_, plan) = open(scene, inputs)?;
         Ok(shown(&plan, scene))
+    }
+
+    fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
+        let (reader, plan) = open(scene, inputs)?;
+        let mut averaging = Averaging::new(scene, &plan);
+        let Some(first) = plan.frames.first() else {
+            return Ok(None);
+        };
+        let began = Instant::now();
+        let cloud = averaging.read(&reader, *first).map_err(failure)?;
+        averaging.take(&cloud);
+        let each = began.elapsed().as_secs_f64();
+        Ok(Some(Estimate {
+            seconds: each * plan.frames.len() as f64,
+            basis: format!("{:.2} ms a frame, as the first", 1e3 * each),
+        }))
     }
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {

@@ -18,5 +18,6 @@ pub mod stage;
 pub mod state;
 pub mod surface;
 pub mod tool;
+mod trial;
 
 pub use tool::PoolSph;

@@ -1,9 +1,9 @@
 //! What the command line needs to know of this tool.
 
-use run::{Failure, Input, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Input, Inputs, Plan, Session, Tool};
 
 use crate::scene::{KIND, Scene};
-use crate::simulate;
+use crate::{simulate, trial};
 
 /// The program `poolsph`.
 #[derive(Debug)]
@@ -27,6 +27,10 @@ impl Tool for PoolSph {
 
     fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
         simulate::plan(scene, inputs)
+    }
+
+    fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
+        trial::estimate(scene, inputs).map(Some)
     }
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {

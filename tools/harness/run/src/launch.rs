@@ -109,7 +109,10 @@ fn placed(failure: Failure, merged: &Merged) -> Failure {
 
 fn check<T: Tool>(study: &Study) -> Result<ExitCode, Failure> {
     let ready = prepare::<T>(study)?;
-    print(&format!("{}\n{}", title::<T>(&study.scene), ready.plan))
+    // The scene is good whether or not its time can be told.
+    let estimate = guarded(|| T::estimate(&ready.scene, &ready.inputs));
+    let plan = ready.plan.estimate(estimate.ok().flatten());
+    print(&format!("{}\n{plan}", title::<T>(&study.scene)))
 }
 
 fn title<T: Tool>(scene: &Path) -> String {

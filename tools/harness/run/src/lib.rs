@@ -73,7 +73,7 @@ mod tool;
 pub use failure::Failure;
 pub use inputs::Inputs;
 pub use launch::{main, report_failure};
-pub use plan::Plan;
+pub use plan::{Estimate, Plan, duration};
 pub use scene::{Fault, Migration};
 pub use session::Session;
 pub use tool::{Input, Tool};

@@ -2,6 +2,41 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use serde::Serialize;
+
+/// The machine that a run was on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct Machine {
+    /// Model of the processor; `None` where the system does not say.
+    processor: Option<String>,
+    /// Threads that it runs at once.
+    cores: usize,
+    /// `linux x86_64`.
+    system: String,
+}
+
+impl Machine {
+    pub(crate) fn here() -> Self {
+        let cores = std::thread::available_parallelism();
+        Self {
+            processor: std::fs::read_to_string("/proc/cpuinfo")
+                .ok()
+                .and_then(|text| processor(&text)),
+            cores: cores.map_or(1, std::num::NonZero::get),
+            system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+        }
+    }
+}
+
+/// The first model that `/proc/cpuinfo` names.
+fn processor(text: &str) -> Option<String> {
+    let named = |line: &str| {
+        let (key, name) = line.split_once(':')?;
+        (key.trim() == "model name").then(|| name.trim().to_owned())
+    };
+    text.lines().find_map(named)
+}
+
 /// Greatest resident memory of this process so far \[byte\]; `None` where the system does not say.
 pub(crate) fn peak_memory_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -46,6 +81,14 @@ fn utc(seconds: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_processor_is_named_once() {
+        let text = "processor\t: 0\nmodel name\t: A  1 GHz\nprocessor\t: 1\nmodel name\t: B\n";
+        assert_eq!(processor(text).as_deref(), Some("A  1 GHz"));
+        assert_eq!(processor("flags: a b\n"), None);
+        assert!(Machine::here().cores >= 1);
+    }
 
     #[test]
     fn dates_follow_the_calendar() {

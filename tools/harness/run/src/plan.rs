@@ -15,7 +15,16 @@ pub struct Plan {
     pub(crate) limits: Vec<Limit>,
     pub(crate) left_out: Vec<LeftOut>,
     pub(crate) notes: Vec<String>,
-    pub(crate) estimate_s: Option<f64>,
+    pub(crate) estimate: Option<Estimate>,
+}
+
+/// How long a run will take, told by `TOOL check`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Wall time of the run \[s\].
+    pub seconds: f64,
+    /// What it rests on: "1.2 ms a step, as at the start".
+    pub basis: String,
 }
 
 impl Plan {
@@ -84,10 +93,9 @@ impl Plan {
         self
     }
 
-    /// Sets the estimated run time \[s\].
-    #[must_use]
-    pub fn estimate_s(mut self, seconds: f64) -> Self {
-        self.estimate_s = Some(seconds);
+    /// Sets the estimated run time.
+    pub(crate) fn estimate(mut self, estimate: Option<Estimate>) -> Self {
+        self.estimate = estimate;
         self
     }
 }
@@ -127,8 +135,10 @@ impl fmt::Display for Plan {
         for note in &self.notes {
             row("note", note.clone())?;
         }
-        match self.estimate_s {
-            Some(seconds) => row("time", format!("about {}", duration(seconds))),
+        match &self.estimate {
+            Some(Estimate { seconds, basis }) => {
+                row("time", format!("about {} ({basis})", duration(*seconds)))
+            }
             None => Ok(()),
         }
     }
@@ -146,7 +156,8 @@ pub(crate) fn bytes(bytes: u64) -> String {
 }
 
 /// A time span for people.
-pub(crate) fn duration(seconds: f64) -> String {
+#[must_use]
+pub fn duration(seconds: f64) -> String {
     if !seconds.is_finite() {
         "-".to_owned()
     } else if seconds < 1.0 {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::ledger::{Bytes, History, Ledger, LeftOut, Limit};
-use crate::machine;
+use crate::machine::{self, Machine};
 
 /// Wall time of a stage.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,6 +39,7 @@ pub(crate) struct RunRecord {
     pub(crate) stages: Vec<Spent>,
     memory: Vec<Bytes>,
     peak_memory_bytes: Option<u64>,
+    machine: Machine,
     threads: usize,
     load_average: Option<[f64; 3]>,
     steps: u64,
@@ -73,7 +74,7 @@ impl RunRecord {
         let wall_s = ledger.earlier_s;
         Self {
             kind: "run-record",
-            version: "1.0",
+            version: "1.1",
             tool: header.tool.clone(),
             tool_version: header.tool_version.clone(),
             artefact: out.to_owned(),
@@ -87,6 +88,7 @@ impl RunRecord {
             stages: shares(&ledger.stages, wall_s),
             memory: ledger.memory,
             peak_memory_bytes: machine::peak_memory_bytes(),
+            machine: Machine::here(),
             threads: rayon::current_num_threads(),
             load_average: machine::load_average(),
             steps: ledger.steps,

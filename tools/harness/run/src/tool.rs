@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
 use crate::inputs::Inputs;
-use crate::plan::Plan;
+use crate::plan::{Estimate, Plan};
 use crate::scene::{Expected, Migration};
 use crate::session::Session;
 
@@ -55,6 +55,15 @@ pub trait Tool {
     /// # Errors
     /// [`Failure::Scene`] with all faults found, or what is wrong with an input.
     fn plan(scene: &Self::Scene, inputs: &Inputs) -> Result<Plan, Failure>;
+
+    /// Says how long the run will take, for `check`: a few steps may be taken to find out. `None`
+    /// where nothing can be said.
+    ///
+    /// # Errors
+    /// As [`Tool::run`]; `check` then says nothing of the time.
+    fn estimate(_scene: &Self::Scene, _inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
+        Ok(None)
+    }
 
     /// Runs. The plan has been made and found good before.
     ///

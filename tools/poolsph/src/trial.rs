@@ -1,0 +1,58 @@
+//! A few steps taken to tell how long a run will last.
+
+use std::time::{Duration, Instant};
+
+use run::{Estimate, Failure, Inputs, duration};
+
+use crate::assemble::{Assembled, assemble};
+use crate::scene::Scene;
+
+/// Steps ahead of those that are timed: they fill the lists.
+const WARM: u64 = 2;
+/// The timed steps end with this number or after this time.
+const MOST: u64 = 50;
+const LONGEST: Duration = Duration::from_millis(500);
+
+/// Time of the whole run, if every step lasts as long as the first ones.
+///
+/// # Errors
+/// What assembling or a step reports.
+pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failure> {
+    let Assembled {
+        mut march,
+        mut state,
+        ..
+    } = assemble(scene, inputs)?;
+    let mut step = || {
+        let done = march.step(&mut state, |_, work| work());
+        done.map_err(|e| Failure::Other(e.to_string()))
+    };
+    let total = scene.steps();
+    for _ in 0..WARM.min(total) {
+        step()?;
+    }
+    let began = Instant::now();
+    let mut taken = 0;
+    while taken < MOST && (taken == 0 || began.elapsed() < LONGEST) {
+        step()?;
+        taken += 1;
+    }
+    let each = began.elapsed().as_secs_f64() / taken as f64;
+    Ok(Estimate {
+        seconds: each * total as f64,
+        basis: format!(
+            "{} a step, with the {} liquid particles of the start",
+            short(each),
+            state.liquid()
+        ),
+    })
+}
+
+/// Milliseconds with digits where they are few.
+fn short(seconds: f64) -> String {
+    if seconds < 0.1 {
+        format!("{:.2} ms", 1e3 * seconds)
+    } else {
+        duration(seconds)
+    }
+}
