@@ -118,7 +118,7 @@ pub struct Container {
     /// Upper corner of the hollow \[m\].
     #[schemars(extend("x-unit" = "m"))]
     pub max_m: [f64; 3],
-    /// Thickness of the walls \[m\]; at least the support of the kernel makes them tight.
+    /// Thickness of the walls \[m\]; never fewer than two layers, as thinner walls leak.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub thickness_m: f64,
     /// Sides without a wall.
@@ -259,8 +259,11 @@ fn walls(c: &Container, axis: usize) -> [bool; 2] {
 
 /// Layers of the walls stand from the faces of the hollow outwards, so that the hollow has the size
 /// asked for even where that is no multiple of d.
+/// Fewest layers of a wall that carry what lies on it: the kernel reaches over two spacings.
+const TIGHT: usize = 2;
+
 fn container_points(c: &Container, d: f64) -> Vec<[f64; 3]> {
-    let layers = (c.thickness_m / d - 1e-9).ceil() as usize;
+    let layers = ((c.thickness_m / d - 1e-9).ceil() as usize).max(TIGHT);
     let inner = [0, 1, 2].map(|k| lattice(c.min_m[k], c.min_m[k], c.max_m[k], d));
     let outer = [0, 1, 2].map(|k| {
         let [lower, upper] = walls(c, k).map(|wall| if wall { layers } else { 0 });

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use neighbours::ROWS;
 
 use super::homogenising::Homogenising;
+use super::noise::Noise;
 use super::projection::{Projection, Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::near::{Near, Role, plus, squared};
@@ -77,6 +78,7 @@ fn default_sweeps_max() -> u32 {
 pub struct Motion {
     parameters: Parameters,
     viscosity: Viscosity,
+    noise: Noise,
     projection: Projection,
     homogenising: Homogenising,
     predicted: Vec<[f64; 3]>,
@@ -92,9 +94,11 @@ impl Motion {
     /// The motion of `metal`.
     #[must_use]
     pub fn new(parameters: Parameters, metal: Metal) -> Self {
+        let gravity = parameters.gravity_m_s2.unwrap_or_default();
         Self {
             parameters,
             viscosity: Viscosity::new(parameters.viscosity_pa_s, metal),
+            noise: Noise::new(squared(gravity).sqrt(), metal),
             projection: Projection::new(metal),
             homogenising: Homogenising::new(metal),
             predicted: Vec::new(),
@@ -123,6 +127,7 @@ impl Motion {
         if self.parameters.viscosity_pa_s > 0.0 {
             self.viscosity.apply(near, dt, &mut self.predicted);
         }
+        self.noise.damp(near, dt, &mut self.predicted);
     }
 
     fn substep(&mut self, near: &mut Near, step: Step) {
@@ -322,6 +327,7 @@ impl Stage for Motion {
     fn bytes(&self) -> usize {
         self.projection.bytes()
             + self.homogenising.bytes()
+            + self.noise.bytes()
             + 24 * self.predicted.capacity()
             + 8 * (self.multiplier.capacity() + self.spread.capacity())
     }
