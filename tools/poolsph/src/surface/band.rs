@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::Patch;
 use super::area::Polygon;
+use super::columns::Columns;
 use super::{Cloud, tangents};
 use crate::near::{dot, minus, plus, squared};
 
@@ -47,6 +48,7 @@ pub(super) struct Band {
     links: Vec<Vec<Link>>,
     patches: Vec<Patch>,
     next: Vec<Patch>,
+    columns: Columns,
 }
 
 const NONE: u32 = u32::MAX;
@@ -78,6 +80,9 @@ impl Band {
             seen: band.seen(cloud, spacing, k),
             ..band.patches[k]
         });
+        let places = self.members.iter().map(|k| cloud.places[*k as usize]);
+        let patches = &mut self.patches[..self.width];
+        self.columns.settle(places, spacing, patches);
         let members = self.members.iter().zip(&self.patches);
         for (&k, patch) in members.take(self.width) {
             coloured[k as usize] = *patch;
@@ -197,11 +202,11 @@ impl Band {
         polygon.area()
     }
 
-    /// Area of member `k` as seen from above.
+    /// Area of member `k` as seen from above, as far as its neighbours tell.
     ///
     /// Where the surface is not steep, a power diagram of the places in the horizontal plane,
-    /// weighted by the height of the surface above each: it leaves neither gap nor overlap, so
-    /// that what falls from above is taken whole. At edges, the area times the normal.
+    /// weighted by the height of the surface above each: it leaves neither gap nor overlap. At
+    /// edges, the area times the normal.
     fn seen(&self, cloud: &Cloud<'_>, spacing: f64, k: usize) -> f64 {
         let own = &self.patches[k];
         let up = own.normal[2];

@@ -10,11 +10,13 @@
 //!    every place on the surface belongs to one particle, areas add up to the true area however
 //!    the particles lie, and a particle in the inside owns nothing. Eq. 4.1 counts pi d^2/4 for
 //!    each particle that eq. 4.3 flags, 78.5 % of a flat face.
+//! 4. Area as seen from above: the plan is shared among the particles in view (`columns`).
 //!
 //! Particles far from the flow are measured once; those within reach of it in every step.
 
 mod area;
 mod band;
+mod columns;
 mod depth;
 
 use kernels::CubicSpline;
