@@ -9,6 +9,7 @@
 
 mod artefacts;
 mod disk;
+mod extremes;
 mod gases;
 mod scenes;
 mod sizes;

@@ -167,3 +167,16 @@ fn averages_on_a_grid_that_no_machine_holds() {
         &["/sections/0"],
     );
 }
+
+#[test]
+fn a_wire_beyond_the_domain() {
+    let wire = json!({"bodies": {"wire": {"shape": {"ring": {"z_m": [1e300, 0.02]}}}}});
+    let gas = root().join("pipelines/gases/argon-1atm.json");
+    let input = format!("gas={}", gas.display());
+    let scene = "pipelines/gmaw-300a/arc.json";
+    let words = [
+        "/bodies/wire/shape/ring/z_m",
+        "does not rise within the domain",
+    ];
+    refused("arcfvm", scene, &wire, &["--input", &input], &words);
+}

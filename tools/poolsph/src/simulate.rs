@@ -7,9 +7,11 @@ use crate::balance::{Balance, Start};
 use crate::frames::{self, SourceNote};
 use crate::resume;
 use crate::scene::{Scene, due};
-use crate::stage::{Figure, StageError};
+use crate::stage::{Figure, Limit, StageError};
 use crate::state::State;
 
+/// A step that would be divided into more parts than this is refused: it would never end.
+const PARTS_MOST: f64 = 1e4;
 /// A particle that crosses so many diameters in a step belongs to no flow.
 const LEAP: f64 = 12.8;
 /// All numbers of the state are looked at once in so many steps, and before anything is kept.
@@ -40,6 +42,9 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     for stage in assembled.march.stages() {
         plan = plan.stage(stage.name());
         if let Some(limit) = stage.dt_limit(state) {
+            if let Some(what) = endless(scene.time.step_s, limit) {
+                return Err(Fault::at("/time/step_s", what).into());
+            }
             plan = plan.limit(&format!("step_{}", limit.name), limit.seconds, "s");
         }
     }
@@ -101,6 +106,15 @@ impl<'a> Simulation<'a> {
                 session.substepped();
             }
             session.limit(&format!("step_{}", limit.name), limit.seconds, "s");
+            if let Some(what) = endless(stepped.dt, limit) {
+                return Err(Failure::Diverged {
+                    step: state.step,
+                    time_s: state.time,
+                    place: format!("the limit of '{}'", limit.name),
+                    quantity: "step [s]".to_owned(),
+                    what,
+                });
+            }
         }
         bounded(state, stepped.dt)?;
         if state.step.is_multiple_of(WATCH_STEPS) {
@@ -206,6 +220,19 @@ fn status(
     });
     row.extend(shown.map(|(_, figure)| (figure.name, figure.value, figure.unit)));
     row
+}
+
+/// Why a step so far beyond its limit cannot be taken.
+fn endless(dt: f64, limit: Limit) -> Option<String> {
+    let parts = dt / limit.seconds;
+    // A limit that is no number is none that can be kept.
+    (parts.is_nan() || parts > PARTS_MOST).then(|| {
+        let Limit { seconds, name } = limit;
+        format!(
+            "{dt} s is {parts:.1e} times the limit of '{name}', {seconds:.3e} s; \
+             a step is divided into at most {PARTS_MOST:.0e} parts"
+        )
+    })
 }
 
 /// Stops the run where a particle has become too fast for any step.

@@ -34,9 +34,10 @@ impl Faults {
         result.map_err(|fault| self.0.push(fault)).ok()
     }
 
-    fn done(self) -> Result<(), Failure> {
+    /// An empty collection, or all faults so far.
+    fn none(self) -> Result<Self, Failure> {
         if self.0.is_empty() {
-            Ok(())
+            Ok(self)
         } else {
             Err(Failure::Scene(self.0))
         }
@@ -51,8 +52,9 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     let mut faults = Faults::default();
     let layout = Layout::new(scene, &mut faults);
     let materials = matter::materials(scene, gas, &mut faults);
+    // What follows relies on bodies within the grid.
+    let mut faults = faults.none()?;
     let Some(layout) = layout else {
-        faults.done()?;
         return Err(Failure::Other("the scene has no grid".to_owned()));
     };
     let (grid, bodies) = (&layout.grid, Layout::bodies(scene));
@@ -84,7 +86,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         surfaces: surfaces(&layout, &bodies, heat.absorbed_radiation),
         plate: plate(&bodies, &mut faults),
     });
-    faults.done()?;
+    faults.none()?;
     let surface_row = bodies
         .iter()
         .position(|(_, b)| b.cathode.is_some())
