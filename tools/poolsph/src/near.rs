@@ -5,7 +5,7 @@
 //! moment of gathering: what melts during a step starts to move in the next.
 
 use kernels::CubicSpline;
-use neighbours::{Grid, Lists, ROWS};
+use neighbours::{Chunk, Grid, Lists, ROWS};
 use rayon::prelude::*;
 
 use crate::state::{Metal, Phase, State};
@@ -13,6 +13,9 @@ use crate::state::{Metal, Phase, State};
 /// Solid particles are gathered this far beyond the support, in supports: the way that a liquid
 /// particle may go within a step.
 const MARGIN: f64 = 0.25;
+
+/// Particles per unit of parallel work, where each takes little.
+const GRAIN: usize = 1024;
 
 /// Part of a particle in the compact copy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +28,8 @@ pub enum Role {
     Backing,
 }
 
-/// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists.
+/// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists; buffers may
+/// be longer.
 #[derive(Debug, Clone, Default)]
 pub struct PairChunk {
     /// W \[1/m3\].
@@ -52,7 +56,7 @@ pub struct Near {
     /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
     /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
     pub virial: Vec<f64>,
-    /// Sum of W, the own one included \[1/m3\], `[m]`; zero for [`Role::Backing`].
+    /// Sum of W, the own one included \[1/m3\], `[m]`; zero where the row is empty.
     pub number: Vec<f64>,
     /// Sum of grad W \[1/m4\], `[m]`: points inwards at a free surface.
     pub gradient: Vec<[f64; 3]>,
@@ -66,7 +70,10 @@ pub struct Near {
     grid: Grid,
     liquid_grid: Grid,
     candidates: Vec<u32>,
+    wanted: Vec<bool>,
     places: Vec<[f64; 3]>,
+    /// x, and 1 for liquid, 0 for solid.
+    marks: Vec<[f64; 4]>,
 }
 
 impl Near {
@@ -91,7 +98,9 @@ impl Near {
             grid: Grid::new(0.5 * support),
             liquid_grid: Grid::new(support),
             candidates: Vec::new(),
+            wanted: Vec::new(),
             places: Vec::new(),
+            marks: Vec::new(),
         }
     }
 
@@ -147,7 +156,7 @@ impl Near {
             .par_iter_mut()
             .zip(id)
             .zip(position)
-            .with_min_len(1024)
+            .with_min_len(GRAIN)
             .for_each(|((role, &id), &place)| {
                 *role = match state.phase[id as usize] {
                     Phase::Liquid => Role::Liquid,
@@ -186,68 +195,46 @@ impl Near {
 
     /// Neighbours and kernel values for the positions in the grid.
     fn search(&mut self) {
-        let role = &self.role;
-        let support = self.kernel.support();
-        self.lists.build(
+        self.mark();
+        let cloud = (&self.position[..], self.kernel.support());
+        let (kernel, role, marks) = (self.kernel, &self.role, &self.marks);
+        let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
+        self.lists.build_with(
             &self.grid,
-            &self.position,
-            support,
+            cloud,
             |a| role[a] != Role::Backing,
-            |_, _| true,
+            rows(&mut self.pairs, sums, self.position.len()),
+            |chunk, squares, mut row| {
+                // Two buffers that hold squares and values by turns.
+                std::mem::swap(squares, &mut row.pairs.value);
+                row.weigh(chunk, kernel);
+                row.sum(chunk, marks, kernel.value(0.0));
+            },
         );
-        self.weigh();
     }
 
     /// Kernel values of all pairs, and their sums over the rows.
     pub(crate) fn weigh(&mut self) {
-        let (kernel, position, role) = (self.kernel, &self.position, &self.role);
-        let own = kernel.value(0.0);
-        self.pairs
-            .resize_with(self.lists.chunks().len(), PairChunk::default);
-        self.number.resize(position.len(), 0.0);
-        self.gradient.resize(position.len(), [0.0; 3]);
-        self.squares.resize(position.len(), 0.0);
-        self.pairs
-            .par_iter_mut()
+        self.mark();
+        let (kernel, marks) = (self.kernel, &self.marks);
+        let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
+        rows(&mut self.pairs, sums, self.position.len())
             .zip(self.lists.chunks())
-            .zip(self.number.par_chunks_mut(ROWS))
-            .zip(self.gradient.par_chunks_mut(ROWS))
-            .zip(self.squares.par_chunks_mut(ROWS))
-            .for_each(|((((pairs, chunk), number), gradient), squares)| {
-                let n = chunk.index().len();
-                pairs.value.resize(n, 0.0);
-                pairs.slope.resize(n, 0.0);
-                for k in 0..chunk.rows() {
-                    let a = chunk.first() + k;
-                    let range = chunk.range(k);
-                    let (value, slope) = (
-                        &mut pairs.value[range.clone()],
-                        &mut pairs.slope[range.clone()],
-                    );
-                    let row = chunk.row(k);
-                    for (&b, value) in row.iter().zip(value.iter_mut()) {
-                        *value = squared(minus(position[a], position[b as usize]));
-                    }
-                    for (value, slope) in value.iter_mut().zip(slope.iter_mut()) {
-                        let sample = kernel.sample(value.sqrt());
-                        (*value, *slope) = (sample.value, sample.slope as f32);
-                    }
-                    let mut sums = (own, [0.0; 3], 0.0);
-                    for ((&b, &value), &slope) in row.iter().zip(&*value).zip(&*slope) {
-                        let dx = minus(position[a], position[b as usize]);
-                        let slope = f64::from(slope);
-                        sums.0 += value;
-                        sums.1 = plus(sums.1, slope, dx);
-                        if role[b as usize] == Role::Liquid {
-                            sums.2 += slope * slope * squared(dx);
-                        }
-                    }
-                    if role[a] == Role::Backing {
-                        sums.0 = 0.0;
-                    }
-                    (number[k], gradient[k], squares[k]) = sums;
-                }
+            .for_each(|(mut row, chunk)| {
+                row.measure(chunk, marks);
+                row.weigh(chunk, kernel);
+                row.sum(chunk, marks, kernel.value(0.0));
             });
+    }
+
+    /// Positions beside what tells liquid from solid.
+    fn mark(&mut self) {
+        let marks = self.position.iter().zip(&self.role);
+        self.marks.clear();
+        self.marks.extend(marks.map(|([x, y, z], role)| {
+            let liquid = f64::from(u8::from(*role == Role::Liquid));
+            [*x, *y, *z, liquid]
+        }));
     }
 
     /// Liquid particles, and solid ones within two reaches of a liquid one.
@@ -260,12 +247,102 @@ impl Near {
         }
         self.liquid_grid.bin(&self.places);
         let reach = self.kernel.support() * (2.0 + MARGIN);
-        for (id, phase) in state.phase.iter().enumerate() {
-            let place = state.position[id];
-            if *phase == Phase::Solid && self.liquid_grid.any_within(place, reach) {
-                self.candidates.push(id as u32);
-                self.places.push(place);
+        let grid = &self.liquid_grid;
+        self.wanted.resize(state.len(), false);
+        self.wanted
+            .par_iter_mut()
+            .zip(&state.phase)
+            .zip(&state.position)
+            .with_min_len(GRAIN)
+            .for_each(|((wanted, phase), &place)| {
+                *wanted = *phase == Phase::Solid && grid.any_within(place, reach);
+            });
+        let solid = self
+            .wanted
+            .iter()
+            .enumerate()
+            .filter(|(_, wanted)| **wanted);
+        for (id, _) in solid {
+            self.candidates.push(id as u32);
+            self.places.push(state.position[id]);
+        }
+    }
+}
+
+/// What belongs to a chunk of rows.
+struct Rows<'a> {
+    pairs: &'a mut PairChunk,
+    number: &'a mut [f64],
+    gradient: &'a mut [[f64; 3]],
+    squares: &'a mut [f64],
+}
+
+/// All rows by chunks.
+fn rows<'a>(
+    pairs: &'a mut Vec<PairChunk>,
+    (number, gradient, squares): (&'a mut Vec<f64>, &'a mut Vec<[f64; 3]>, &'a mut Vec<f64>),
+    n: usize,
+) -> impl IndexedParallelIterator<Item = Rows<'a>> {
+    pairs.resize_with(n.div_ceil(ROWS), PairChunk::default);
+    number.resize(n, 0.0);
+    gradient.resize(n, [0.0; 3]);
+    squares.resize(n, 0.0);
+    pairs
+        .par_iter_mut()
+        .zip(number.par_chunks_mut(ROWS))
+        .zip(gradient.par_chunks_mut(ROWS))
+        .zip(squares.par_chunks_mut(ROWS))
+        .map(|(((pairs, number), gradient), squares)| Rows {
+            pairs,
+            number,
+            gradient,
+            squares,
+        })
+}
+
+impl Rows<'_> {
+    /// Puts squared distances in the place of the kernel values.
+    fn measure(&mut self, chunk: &Chunk, marks: &[[f64; 4]]) {
+        for k in 0..chunk.rows() {
+            let [x, y, z, _] = marks[chunk.first() + k];
+            let values = &mut self.pairs.value[chunk.range(k)];
+            for (&b, value) in chunk.row(k).iter().zip(values) {
+                let [u, v, w, _] = marks[b as usize];
+                *value = squared(minus([x, y, z], [u, v, w]));
             }
+        }
+    }
+
+    /// Turns squared distances into kernel values.
+    fn weigh(&mut self, chunk: &Chunk, kernel: CubicSpline<3>) {
+        let PairChunk { value, slope } = &mut *self.pairs;
+        let n = chunk.index().len();
+        slope.resize(n, 0.0);
+        for (value, slope) in value[..n].iter_mut().zip(slope) {
+            let sample = kernel.sample(value.sqrt());
+            (*value, *slope) = (sample.value, sample.slope as f32);
+        }
+    }
+
+    /// Sums over the rows; `own` is W at no distance.
+    fn sum(&mut self, chunk: &Chunk, marks: &[[f64; 4]], own: f64) {
+        let PairChunk { value, slope } = &*self.pairs;
+        for k in 0..chunk.rows() {
+            let at = marks[chunk.first() + k];
+            let (mut number, mut gradient, mut squares) = (own, [0.0; 4], 0.0);
+            let pairs = value[chunk.range(k)].iter().zip(&slope[chunk.range(k)]);
+            for (&b, (&value, &slope)) in chunk.row(k).iter().zip(pairs) {
+                let to = marks[b as usize];
+                let slope = f64::from(slope);
+                let pull: [f64; 4] = std::array::from_fn(|i| slope * (at[i] - to[i]));
+                gradient = std::array::from_fn(|i| gradient[i] + pull[i]);
+                squares += to[3] * squared([pull[0], pull[1], pull[2]]);
+                number += value;
+            }
+            let [x, y, z, _] = gradient;
+            // A row that is not kept is empty, and so is its sum.
+            self.number[k] = if chunk.row(k).is_empty() { 0.0 } else { number };
+            (self.gradient[k], self.squares[k]) = ([x, y, z], squares);
         }
     }
 }

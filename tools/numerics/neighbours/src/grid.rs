@@ -6,6 +6,46 @@ const CELLS_PER_POINT: usize = 16;
 /// Cells that are always allowed.
 const CELLS_FREE: usize = 4096;
 
+/// Cells along an axis whose distance is kept; a search that spans more takes the others whole.
+const CELLS: usize = 8;
+/// Cells on each side of a point that may be left out of a run.
+const SIDE: usize = 2;
+/// Candidates that are written at once.
+const BLOCK: usize = 8;
+/// Part of an edge by which cells may be nearer than they should, by rounding.
+const SLACK: f64 = 1e-6;
+
+/// Cells along one axis within reach of a point.
+struct Gaps {
+    low: usize,
+    high: usize,
+    /// Squared distance of the first cells from the point \[m2\].
+    squares: [f64; CELLS],
+    /// That of the outermost cells on the left, and on the right; 0 for the point's own cell and
+    /// beyond.
+    left: [f64; SIDE],
+    right: [f64; SIDE],
+}
+
+impl Gaps {
+    #[inline]
+    fn square(&self, cell: usize) -> f64 {
+        self.squares.get(cell - self.low).copied().unwrap_or(0.0)
+    }
+
+    /// First and last cell whose square is less than `rest`; the point's own one if none is.
+    #[inline]
+    fn within(&self, rest: f64) -> (usize, usize) {
+        let rest = rest.max(f64::MIN_POSITIVE);
+        let (mut low, mut high) = (self.low, self.high);
+        for (left, right) in self.left.iter().zip(&self.right) {
+            low += usize::from(*left >= rest);
+            high -= usize::from(*right >= rest);
+        }
+        (low, high)
+    }
+}
+
 /// A cell list: points sorted into cubic cells, x fastest.
 #[derive(Debug, Clone)]
 pub struct Grid {
@@ -100,18 +140,10 @@ impl Grid {
         radius: f64,
         mut visit: impl FnMut(std::ops::Range<usize>),
     ) {
-        let low = self.cell(point.map(|x| x - radius));
-        let high = self.cell(point.map(|x| x + radius));
-        for k in low[2]..=high[2] {
-            for j in low[1]..=high[1] {
-                let row = self.counts[0] * (j + self.counts[1] * k);
-                let (first, last) = (row + low[0], row + high[0] + 1);
-                let run = self.start[first] as usize..self.start[last] as usize;
-                if !run.is_empty() {
-                    visit(run);
-                }
-            }
-        }
+        self.any_run(point, radius, |run| {
+            visit(run);
+            false
+        });
     }
 
     /// True if some point is closer than `radius`; points far from the whole cloud are told apart
@@ -123,14 +155,118 @@ impl Grid {
         if outside(0) || outside(1) || outside(2) {
             return false;
         }
-        let (mut found, limit) = (false, radius * radius);
-        self.runs(point, radius, |run| {
-            found = found
-                || self.sorted[run]
-                    .iter()
-                    .any(|&other| distance_squared(point, other) < limit);
-        });
-        found
+        let limit = radius * radius;
+        self.any_run(point, radius, |run| {
+            self.sorted[run]
+                .iter()
+                .any(|&other| distance_squared(point, other) < limit)
+        })
+    }
+
+    /// Calls `stop` with the runs of [`Grid::runs`] until it says true; tells whether it did.
+    ///
+    /// Cells that the sphere does not touch are left out: rows of cells by their distance across
+    /// x, and of the other rows the cells to the left and to the right that lie beyond the rest.
+    #[inline]
+    fn any_run(
+        &self,
+        point: [f64; 3],
+        radius: f64,
+        mut stop: impl FnMut(std::ops::Range<usize>) -> bool,
+    ) -> bool {
+        let limit = radius * radius;
+        let [x, y, z] = [0, 1, 2].map(|axis| self.gaps(point, radius, axis));
+        for k in z.low..=z.high {
+            let across = limit - z.square(k);
+            for j in y.low..=y.high {
+                let rest = across - y.square(j);
+                if rest <= 0.0 {
+                    continue;
+                }
+                let (low, high) = x.within(rest);
+                let row = self.counts[0] * (j + self.counts[1] * k);
+                let run = self.start[row + low] as usize..self.start[row + high + 1] as usize;
+                if !run.is_empty() && stop(run) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Writes the places in [`Grid::sorted`] of all points that may lie within `radius` of `point`
+    /// to the front of `places`, in the order of [`Grid::runs`]; returns their number.
+    ///
+    /// Runs are short and of all lengths, so that a loop over one ends by surprise. Here a block of
+    /// numbers is written for each row of cells, needed or not, and the end moves on by as many as
+    /// count.
+    #[inline]
+    pub(crate) fn candidates(&self, point: [f64; 3], radius: f64, places: &mut Vec<u32>) -> usize {
+        let limit = radius * radius;
+        let [x, y, z] = [0, 1, 2].map(|axis| self.gaps(point, radius, axis));
+        let mut used = 0;
+        for k in z.low..=z.high {
+            let across = limit - z.square(k);
+            for j in y.low..=y.high {
+                let rest = across - y.square(j);
+                let (low, high) = x.within(rest);
+                let row = self.counts[0] * (j + self.counts[1] * k);
+                let (start, end) = (self.start[row + low], self.start[row + high + 1]);
+                let count = if rest > 0.0 { end - start } else { 0 } as usize;
+                if places.len() < used + count + BLOCK {
+                    places.resize(2 * (used + count + BLOCK), 0);
+                }
+                let mut block = 0;
+                loop {
+                    let slots = &mut places[used + block..used + block + BLOCK];
+                    for (slot, i) in slots.iter_mut().zip(0..) {
+                        *slot = start + block as u32 + i;
+                    }
+                    block += BLOCK;
+                    if block >= count {
+                        break;
+                    }
+                }
+                used += count;
+            }
+        }
+        used
+    }
+
+    /// Cells along `axis` that a sphere may touch, and how far from its centre they begin.
+    #[inline]
+    fn gaps(&self, point: [f64; 3], radius: f64, axis: usize) -> Gaps {
+        let x = point[axis] - self.origin[axis];
+        let inverse = 1.0 / self.edge;
+        let last = (self.counts[axis] - 1) as u32;
+        // A float cast saturates, so that what lies left of the origin lands in cell 0.
+        let cell = |x: f64| ((x * inverse) as u32).min(last);
+        let (low, own, high) = (cell(x - radius), cell(x), cell(x + radius));
+        let first = self.edge * f64::from(low) - x;
+        let mut squares = [0.0; CELLS];
+        for (i, square) in squares.iter_mut().enumerate() {
+            let start = first + self.edge * i as f64;
+            let gap = (start.max(-start - self.edge) - SLACK * self.edge).max(0.0);
+            *square = gap * gap;
+        }
+        let (low, own, high) = (low as usize, own as usize, high as usize);
+        // The squares fall toward the point and rise behind it; a cell counts for one side only.
+        let (mut left, mut right) = ([0.0; SIDE], [0.0; SIDE]);
+        for i in 0..SIDE {
+            if low + i < own {
+                left[i] = squares[i];
+            }
+            if high > own + i && high - i - low < CELLS {
+                right[i] = squares[high - i - low];
+            }
+        }
+        Gaps {
+            low,
+            high,
+            squares,
+            left,
+            right,
+        }
     }
 
     fn enclose(&mut self, points: &[[f64; 3]]) {

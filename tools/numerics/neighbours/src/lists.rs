@@ -13,6 +13,8 @@ pub struct Chunk {
     first: usize,
     offsets: Vec<u32>,
     index: Vec<u32>,
+    square: Vec<f64>,
+    candidates: Vec<u32>,
 }
 
 impl Chunk {
@@ -47,6 +49,29 @@ impl Chunk {
         self.offsets[k] as usize..self.offsets[k + 1] as usize
     }
 
+    /// Fills the rows.
+    fn fill(
+        &mut self,
+        grid: &Grid,
+        points: &[[f64; 3]],
+        radius: f64,
+        (wanted, accepts): (
+            &(impl Fn(usize) -> bool + Sync),
+            &(impl Fn(usize, usize) -> bool + Sync),
+        ),
+    ) {
+        let end = points.len().min(self.first + ROWS);
+        self.offsets.clear();
+        self.offsets.push(0);
+        let mut used = 0;
+        for (a, &point) in points.iter().enumerate().take(end).skip(self.first) {
+            if wanted(a) {
+                used = self.search(grid, (point, radius), (a, used), accepts);
+            }
+            self.offsets.push(used as u32);
+        }
+    }
+
     /// Appends the row of point `a` at `used`; returns the new end.
     ///
     /// The list is written without a branch per candidate: every index is stored and the end
@@ -60,19 +85,24 @@ impl Chunk {
         accepts: &impl Fn(usize, usize) -> bool,
     ) -> usize {
         let limit = radius * radius;
-        grid.runs(point, radius, |run| {
-            if self.index.len() < used + run.len() {
-                self.index.resize(2 * (used + run.len()), 0);
-            }
-            let slots = &mut self.index[used..used + run.len()];
-            let mut hits = 0;
-            for (position, &b) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
-                slots[hits] = b;
-                let near = distance_squared(point, *position) < limit;
-                hits += usize::from(near & (b as usize != a) & accepts(a, b as usize));
-            }
-            used += hits;
-        });
+        let count = grid.candidates(point, radius, &mut self.candidates);
+        let end = used + count;
+        if self.index.len() < end {
+            self.index.resize(2 * end, 0);
+        }
+        if self.square.len() < end {
+            self.square.resize(2 * end, 0.0);
+        }
+        let (index, squares) = (&mut self.index[used..end], &mut self.square[used..end]);
+        let (sorted, order) = (grid.sorted(), grid.order());
+        let mut hits = 0;
+        for &place in &self.candidates[..count] {
+            let square = distance_squared(point, sorted[place as usize]);
+            let b = order[place as usize];
+            (index[hits], squares[hits]) = (b, square);
+            hits += usize::from((square < limit) & (b as usize != a) & accepts(a, b as usize));
+        }
+        used += hits;
         used
     }
 
@@ -111,25 +141,41 @@ impl Lists {
         wanted: impl Fn(usize) -> bool + Sync,
         accepts: impl Fn(usize, usize) -> bool + Sync,
     ) {
-        self.rows = grid.order().len();
-        self.chunks
-            .resize_with(self.rows.div_ceil(ROWS), Chunk::default);
+        self.resize(points.len());
+        self.chunks.par_iter_mut().for_each(|chunk| {
+            chunk.fill(grid, points, radius, (&wanted, &accepts));
+        });
+    }
+
+    /// As [`Lists::build`] with all pairs, and hands each chunk over as soon as it is filled, while
+    /// it is at hand, with the squared distances of its pairs and an item of `extra`. The vector of
+    /// squares may be swapped for another one; it holds numbers beyond those of the pairs.
+    pub fn build_with<T: Send>(
+        &mut self,
+        grid: &Grid,
+        (points, radius): (&[[f64; 3]], f64),
+        wanted: impl Fn(usize) -> bool + Sync,
+        extra: impl IndexedParallelIterator<Item = T>,
+        visit: impl Fn(&Chunk, &mut Vec<f64>, T) + Sync,
+    ) {
+        self.resize(points.len());
         self.chunks
             .par_iter_mut()
-            .enumerate()
-            .for_each(|(c, chunk)| {
-                chunk.first = c * ROWS;
-                let rows = ROWS.min(self.rows - chunk.first);
-                chunk.offsets.clear();
-                chunk.offsets.push(0);
-                let mut used = 0;
-                for (a, &point) in points.iter().enumerate().skip(chunk.first).take(rows) {
-                    if wanted(a) {
-                        used = chunk.search(grid, (point, radius), (a, used), &accepts);
-                    }
-                    chunk.offsets.push(used as u32);
-                }
+            .zip(extra)
+            .for_each(|(chunk, extra)| {
+                chunk.fill(grid, points, radius, (&wanted, &|_, _| true));
+                let mut squares = std::mem::take(&mut chunk.square);
+                visit(chunk, &mut squares, extra);
+                chunk.square = squares;
             });
+    }
+
+    fn resize(&mut self, rows: usize) {
+        self.rows = rows;
+        self.chunks.resize_with(rows.div_ceil(ROWS), Chunk::default);
+        for (c, chunk) in self.chunks.iter_mut().enumerate() {
+            chunk.first = c * ROWS;
+        }
     }
 
     /// Neighbours of point `a`.
@@ -168,7 +214,11 @@ impl Lists {
     pub fn bytes(&self) -> usize {
         self.chunks
             .iter()
-            .map(|chunk| 4 * (chunk.index.capacity() + chunk.offsets.capacity()))
+            .map(|chunk| {
+                let indices =
+                    chunk.index.capacity() + chunk.offsets.capacity() + chunk.candidates.capacity();
+                4 * indices + 8 * chunk.square.capacity()
+            })
             .sum()
     }
 }

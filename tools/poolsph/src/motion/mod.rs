@@ -3,8 +3,8 @@
 pub mod homogenising;
 pub mod integration;
 pub mod lattice;
-pub mod noise;
 pub mod projection;
+mod sweep;
 pub mod viscosity;
 
 pub use integration::{Method, Motion, Parameters};
