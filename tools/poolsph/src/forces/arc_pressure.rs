@@ -1,5 +1,9 @@
 //! The pressure of the arc on the surface: F = -p dA/dV n, with the outward normal n.
 //!
+//! Of the vertical part, dA n_z is the area that the particle has as seen from above: the force on the
+//! pool is that of the arc's table however torn the surface is, and nothing presses on what lies
+//! hidden below an overhang.
+//!
 //! Komen (2019, section 4.4.1) takes the pressure from the gas speed by Bernoulli's law and finds it
 //! too small; here it is the arc's own, at the same distance from the axis.
 
@@ -52,13 +56,15 @@ impl Stage for ArcPressure {
         let (near, surface) = (&mut state.near, &state.surface);
         for k in 0..near.len() {
             let patch = &surface[near.id[k] as usize];
-            if near.role[k] != Role::Liquid || patch.area <= 0.0 {
+            if near.role[k] != Role::Liquid || patch.area.max(patch.seen) <= 0.0 {
                 continue;
             }
             let (r, _) = axis.around(near.position[k]);
-            let push = self.pressure.at(r) * patch.area;
-            near.force[k] = plus(near.force[k], -push / self.volume, patch.normal);
-            self.pressed += push * patch.normal[2];
+            let pressure = self.pressure.at(r);
+            let [x, y, _] = patch.normal;
+            let area = [patch.area * x, patch.area * y, patch.seen];
+            near.force[k] = plus(near.force[k], -pressure / self.volume, area);
+            self.pressed += pressure * patch.seen;
         }
         Ok(())
     }
@@ -76,19 +82,38 @@ impl Stage for ArcPressure {
 mod tests {
     use super::*;
     use crate::forces::tests::{on_top, pool};
+    use crate::surface::Patch;
 
-    #[test]
-    fn the_force_is_the_pressure_times_the_area() {
+    fn pressed(shape: impl Fn(&mut Patch)) -> ([f64; 3], f64) {
         let mut state = pool(|_| 1800.0);
         let d = state.metal.spacing;
         on_top(&mut state, d * d);
+        state.surface.iter_mut().for_each(shape);
         let pressure = Radial::new(vec![0.0, 1.0], vec![500.0, 500.0]);
         let mut stage = ArcPressure::new(pressure, state.metal);
         stage.advance(&mut state, 1e-4).unwrap();
         let volume = state.metal.volume();
-        let total: f64 = state.near.force.iter().map(|f| f[2] * volume).sum();
+        let total = |i: usize| -> f64 { state.near.force.iter().map(|f| f[i] * volume).sum() };
+        let force = [total(0), total(1), total(2)];
+        assert!((stage.figures()[0].value + force[2]).abs() < 1e-12);
         let area: f64 = state.surface.iter().map(|p| p.area).sum();
-        assert!((total + 500.0 * area).abs() < 1e-12);
-        assert!((stage.figures()[0].value - 500.0 * area).abs() < 1e-12);
+        (force, area)
+    }
+
+    #[test]
+    fn the_force_is_the_pressure_times_the_area() {
+        let (force, area) = pressed(|patch| patch.seen = patch.area);
+        assert!((force[2] + 500.0 * area).abs() < 1e-12);
+        assert!(force[0].abs() + force[1].abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_wall_is_pressed_sideways_and_what_is_hidden_not_down() {
+        let (force, area) = pressed(|patch| {
+            patch.normal = [0.8, 0.0, 0.6];
+            patch.seen = 0.0;
+        });
+        assert!((force[0] + 0.8 * 500.0 * area).abs() < 1e-12);
+        assert!(force[2].abs() < 1e-12);
     }
 }
