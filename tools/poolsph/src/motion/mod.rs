@@ -3,6 +3,7 @@
 pub mod homogenising;
 pub mod integration;
 pub mod lattice;
+pub mod noise;
 pub mod projection;
 mod sweep;
 pub mod viscosity;
