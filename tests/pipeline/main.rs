@@ -93,6 +93,14 @@ fn an_interrupted_run_is_taken_up_unless_its_scene_changed() {
     std::fs::write(folder.join("out.checkpoint"), "state").unwrap();
     assert_eq!(make(folder, "", 130), Some(130));
     let log = std::fs::read_to_string(folder.join("log")).unwrap();
+    assert_eq!(
+        log.lines().last(),
+        Some(""),
+        "without its partial file a checkpoint is of no use"
+    );
+    std::fs::write(folder.join("out.part"), "frames").unwrap();
+    assert_eq!(make(folder, "", 130), Some(130));
+    let log = std::fs::read_to_string(folder.join("log")).unwrap();
     assert_eq!(log.lines().last(), Some("--resume"));
     scene(folder, "250 A");
     make(folder, "", 0);
@@ -104,5 +112,7 @@ fn an_interrupted_run_is_taken_up_unless_its_scene_changed() {
     );
     let kept = std::fs::read_to_string(folder.join("out.checkpoint.old"));
     assert_eq!(kept.unwrap(), "state", "and it is not lost");
+    let kept = std::fs::read_to_string(folder.join("out.part.old"));
+    assert_eq!(kept.unwrap(), "frames");
     assert!(!folder.join("out.checkpoint").exists());
 }
