@@ -42,7 +42,8 @@ impl Polygon {
                 keep([a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])]);
             }
         }
-        (self.corners, self.n) = (kept, n);
+        self.corners[..n].copy_from_slice(&kept[..n]);
+        self.n = n;
     }
 
     /// True if nothing is left.

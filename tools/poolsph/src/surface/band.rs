@@ -31,10 +31,19 @@ const GRAIN: usize = 128;
 struct Link {
     /// Its number among the members.
     to: u32,
-    /// W of the pair times its |grad C|.
-    trust: f64,
+    /// W of the pair; for levels, times |grad C| of the neighbour, and only in the band.
     weight: f64,
-    dx: [f64; 3],
+}
+
+/// What the mean of the levels around a member keeps from turn to turn.
+#[derive(Debug, Clone, Copy)]
+struct Mean {
+    /// Weight of the member itself.
+    own: f64,
+    /// Sum of weight times rise of the surface from the member to each neighbour.
+    risen: f64,
+    /// Sum of all weights.
+    total: f64,
 }
 
 /// The band, with buffers that are kept from step to step.
@@ -48,6 +57,12 @@ pub(super) struct Band {
     links: Vec<Vec<Link>>,
     patches: Vec<Patch>,
     next: Vec<Patch>,
+    /// grad C of the members \[1/m\].
+    gradients: Vec<[f64; 3]>,
+    turned: Vec<[f64; 3]>,
+    means: Vec<Mean>,
+    depths: Vec<f64>,
+    levelled: Vec<f64>,
     columns: Columns,
 }
 
@@ -66,11 +81,11 @@ impl Band {
         self.link(cloud, kernel);
         let volume = spacing * spacing * spacing;
         for _ in 0..TURNS {
-            self.pass(|own, links, all| turned(own, links, all, (kernel.value(0.0), volume)));
+            self.turn(kernel.value(0.0), volume);
         }
-        self.trust();
+        self.trust(cloud, kernel.value(0.0));
         for _ in 0..LEVELS {
-            self.pass(|own, links, all| levelled(own, links, all, kernel.value(0.0)));
+            self.level();
         }
         self.each(|band, k| Patch {
             area: band.owned(cloud, spacing, k),
@@ -123,6 +138,9 @@ impl Band {
         self.patches.clear();
         self.patches
             .extend(self.members.iter().map(|k| coloured[*k as usize]));
+        self.gradients.clear();
+        self.gradients
+            .extend(self.patches.iter().map(|patch| patch.gradient));
         if self.links.len() < self.width {
             self.links.resize(self.width, Vec::new());
         }
@@ -137,37 +155,93 @@ impl Band {
                 let dx = minus(cloud.places[b as usize], cloud.places[k as usize]);
                 Link {
                     to: slots[b as usize],
-                    trust: 0.0,
                     weight: kernel.value(squared(dx).sqrt()),
-                    dx,
                 }
             }));
         });
     }
 
-    /// Trust is in what has much of a gradient, and only in the band.
-    fn trust(&mut self) {
-        let (patches, width) = (&self.patches, self.width);
-        let rows = self.links[..width].par_iter_mut().with_min_len(GRAIN);
-        rows.for_each(|links| {
-            for link in links {
-                if (link.to as usize) < width {
-                    let gradient = patches[link.to as usize].gradient;
-                    link.trust = link.weight * squared(gradient).sqrt();
-                }
-            }
-        });
-    }
-
-    fn pass(&mut self, average: impl Fn(Patch, &[Link], &[Patch]) -> Patch + Sync) {
-        let (patches, links) = (&self.patches, &self.links);
-        patches[..self.width]
+    /// Averages grad C. The sum is not divided by that of the weights, so that particles with many
+    /// neighbours on the surface count most.
+    fn turn(&mut self, own: f64, volume: f64) {
+        let (gradients, links) = (&self.gradients, &self.links);
+        gradients[..self.width]
             .par_iter()
             .zip(links)
             .with_min_len(GRAIN)
-            .map(|(own, links)| average(*own, links, patches))
-            .collect_into_vec(&mut self.next);
-        self.patches[..self.width].copy_from_slice(&self.next);
+            .map(|(gradient, links)| {
+                let start = gradient.map(|x| own * x);
+                let sum = links.iter().fold(start, |sum, link| {
+                    plus(sum, link.weight, gradients[link.to as usize])
+                });
+                sum.map(|x| volume * x)
+            })
+            .collect_into_vec(&mut self.turned);
+        self.gradients[..self.width].copy_from_slice(&self.turned);
+    }
+
+    /// Normals from grad C, and what the means of the levels keep. Trust is in what has much of a
+    /// gradient. The mean of both normals makes the step from one particle to the next exact on a
+    /// plane and on a sphere, so that averaging does not flatten curves.
+    fn trust(&mut self, cloud: &Cloud<'_>, own: f64) {
+        for (patch, gradient) in self.patches.iter_mut().zip(&self.gradients[..self.width]) {
+            let length = squared(*gradient).sqrt();
+            patch.gradient = *gradient;
+            if length > 0.0 {
+                patch.normal = gradient.map(|x| -x / length);
+            }
+        }
+        let (members, patches, width) = (&self.members, &self.patches, self.width);
+        self.links[..width]
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .map(|(k, links)| {
+                let (at, to) = (&patches[k], cloud.places[members[k] as usize]);
+                let own = own * squared(at.gradient).sqrt();
+                let (mut risen, mut total) = (0.0, own);
+                for link in links {
+                    if link.to as usize >= width {
+                        link.weight = 0.0;
+                        continue;
+                    }
+                    let other = &patches[link.to as usize];
+                    let dx = minus(cloud.places[members[link.to as usize] as usize], to);
+                    link.weight *= squared(other.gradient).sqrt();
+                    risen += link.weight * 0.5 * (dot(at.normal, dx) + dot(other.normal, dx));
+                    total += link.weight;
+                }
+                Mean { own, risen, total }
+            })
+            .collect_into_vec(&mut self.means);
+        self.depths.clear();
+        self.depths
+            .extend(self.patches.iter().map(|patch| patch.depth));
+    }
+
+    /// Averages the level of the surface.
+    fn level(&mut self) {
+        let (depths, links) = (&self.depths, &self.links);
+        depths[..self.width]
+            .par_iter()
+            .zip(links)
+            .zip(&self.means)
+            .with_min_len(GRAIN)
+            .map(|((depth, links), mean)| {
+                if mean.total <= 0.0 {
+                    return *depth;
+                }
+                let start = mean.own * depth + mean.risen;
+                let sum = links.iter().fold(start, |sum, link| {
+                    sum + link.weight * depths[link.to as usize]
+                });
+                sum / mean.total
+            })
+            .collect_into_vec(&mut self.levelled);
+        self.depths[..self.width].copy_from_slice(&self.levelled);
+        for (patch, depth) in self.patches.iter_mut().zip(&self.levelled) {
+            patch.depth = *depth;
+        }
     }
 
     /// Area that the band's particle `k` owns: what the planes toward its neighbours leave of its
@@ -232,43 +306,5 @@ impl Band {
             }
         }
         part * polygon.area() + (1.0 - part) * slant
-    }
-}
-
-/// Averages grad C and takes the normal from it. The sum is not divided by that of the weights, so
-/// that particles with many neighbours on the surface count most.
-fn turned(own: Patch, links: &[Link], all: &[Patch], (at_zero, volume): (f64, f64)) -> Patch {
-    let mut sum = own.gradient.map(|x| x * at_zero);
-    for link in links {
-        sum = plus(sum, link.weight, all[link.to as usize].gradient);
-    }
-    let length = squared(sum).sqrt();
-    if length <= 0.0 {
-        return own;
-    }
-    Patch {
-        normal: sum.map(|x| -x / length),
-        gradient: sum.map(|x| x * volume),
-        ..own
-    }
-}
-
-/// Averages the level of the surface. The mean of both normals makes the step from one particle
-/// to the next exact on a plane and on a sphere, so that averaging does not flatten curves.
-fn levelled(own: Patch, links: &[Link], all: &[Patch], at_zero: f64) -> Patch {
-    let mut trust = at_zero * squared(own.gradient).sqrt();
-    let mut level = trust * own.depth;
-    for link in links {
-        let other = &all[link.to as usize];
-        trust += link.trust;
-        level += link.trust
-            * (other.depth + 0.5 * (dot(own.normal, link.dx) + dot(other.normal, link.dx)));
-    }
-    if trust <= 0.0 {
-        return own;
-    }
-    Patch {
-        depth: level / trust,
-        ..own
     }
 }

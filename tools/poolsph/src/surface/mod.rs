@@ -142,6 +142,7 @@ impl Surface {
             places: &near.position,
             lists: &near.lists,
         };
+        let own = self.kernel.value(0.0);
         let mut coloured = std::mem::take(&mut self.coloured);
         (0..near.len())
             .into_par_iter()
@@ -149,7 +150,7 @@ impl Surface {
             .map(|k| match near.role[k] {
                 // Nothing around it has moved.
                 Role::Backing => state.surface[near.id[k] as usize],
-                _ => self.colour(&cloud, k),
+                _ => self.patch(near.number[k].max(own), near.gradient[k]),
             })
             .collect_into_vec(&mut coloured);
         self.band
@@ -163,19 +164,25 @@ impl Surface {
         self.coloured = coloured;
     }
 
-    /// Depth and gradient of the colour.
+    /// Colour of a particle of the cloud, and what it tells.
     fn colour(&self, cloud: &Cloud<'_>, k: usize) -> Patch {
-        let volume = self.metal.volume();
-        let (mut colour, mut gradient) = (self.kernel.value(0.0), [0.0; 3]);
+        let (mut number, mut gradient) = (self.kernel.value(0.0), [0.0; 3]);
         for &b in cloud.row(k) {
             let dx = minus(cloud.places[k], cloud.places[b as usize]);
             let sample = self.kernel.sample(squared(dx).sqrt());
-            colour += sample.value;
+            number += sample.value;
             gradient = plus(gradient, sample.slope, dx);
         }
+        self.patch(number, gradient)
+    }
+
+    /// Depth and gradient of the colour from the sums of W \[1/m3\] and grad W \[1/m4\].
+    fn patch(&self, number: f64, gradient: [f64; 3]) -> Patch {
+        let volume = self.metal.volume();
+        let gradient = gradient.map(|x| volume * x);
         Patch {
-            depth: self.depth.at(colour, squared(gradient).sqrt()),
-            gradient: gradient.map(|x| volume * x),
+            depth: self.depth.at(volume * number, squared(gradient).sqrt()),
+            gradient,
             ..Patch::default()
         }
     }

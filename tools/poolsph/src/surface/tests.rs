@@ -190,3 +190,24 @@ fn the_flowing_part_is_measured_as_the_whole_is() {
         assert!(off < 1e-3, "{off}");
     }
 }
+
+#[test]
+fn the_unit_of_length_does_not_matter() {
+    let state = cloud(6, ([1.0, 2.0, 3.0], 0.7, 0.3), |x| squared(x).sqrt() < 5.0);
+    let unit = 5e-4;
+    let metal = Metal {
+        spacing: unit,
+        smoothing_length: unit,
+        ..METAL
+    };
+    let mut small = state.clone();
+    small.metal = metal;
+    for x in small.position.iter_mut().flatten() {
+        *x *= unit;
+    }
+    Surface::new(metal).advance(&mut small, 0.0).unwrap();
+    for (large, small) in state.surface.iter().zip(&small.surface) {
+        assert!((small.depth / unit - large.depth).abs() < 1e-6);
+        assert!((small.area / (unit * unit) - large.area).abs() < 1e-6);
+    }
+}
