@@ -17,6 +17,8 @@ const WAVES: u32 = 9;
 pub struct Lattice {
     /// Sum of W, the own one included \[1/m3\].
     pub number: f64,
+    /// Sum of W over the points on one side of a layer \[1/m3\].
+    pub beside: f64,
     /// -V sum of (dW/dr)/r x^2: 1 in the continuum.
     pub moment: f64,
     /// Sum of |grad W|^2 \[1/m8\].
@@ -33,13 +35,16 @@ impl Lattice {
         let kernel = CubicSpline::<3>::new(metal.smoothing_length);
         let d = metal.spacing;
         let reach = (kernel.support() / d).ceil() as i32;
-        let (mut number, mut moment, mut gradient_squared) = (0.0, 0.0, 0.0);
+        let (mut number, mut beside, mut moment, mut gradient_squared) = (0.0, 0.0, 0.0, 0.0);
         let mut points = Vec::new();
         for i in -reach..=reach {
             for j in -reach..=reach {
                 for k in -reach..=reach {
                     let r = d * f64::from(i * i + j * j + k * k).sqrt();
                     number += kernel.value(r);
+                    if i > 0 {
+                        beside += kernel.value(r);
+                    }
                     let slope = kernel.slope(r);
                     moment -= metal.volume() * slope * (d * f64::from(i)).powi(2);
                     gradient_squared += (slope * r).powi(2);
@@ -49,6 +54,7 @@ impl Lattice {
         }
         Self {
             number,
+            beside,
             moment,
             gradient_squared,
             stiffest: stiffest(&points) / gradient_squared,

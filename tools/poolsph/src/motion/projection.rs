@@ -39,6 +39,14 @@ const STEP: f64 = 0.87;
 /// answer with a pressure without bound, which would strike when the two come closer.
 const DIAGONAL_LEAST: f64 = 0.1;
 
+/// Most excess of density that a whole step takes away. Flow stays far below it; what begins to flow
+/// too densely, such as droplets that have frozen into one another, must come apart and not burst.
+const RELEASE: f64 = 0.01;
+
+/// Density that a solid particle leaves to a layer of liquid over what solid ones beside it have too
+/// much by themselves.
+const YIELD: f64 = 10.0;
+
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
 pub struct Tolerance {
@@ -151,7 +159,7 @@ impl Projection {
         }
         let dt = step.dt;
         self.prepare(near, dt);
-        self.start(near, predicted, dt);
+        self.start(near, predicted, step);
         let mut momentum = 1.0_f64;
         let liquid = near.liquid_count().max(1) as f64;
         while solved.sweeps < tolerance.sweeps_max {
@@ -192,12 +200,16 @@ impl Projection {
         self.diagonal.clear();
         let scale = dt * dt * volume * force;
         let least = DIAGONAL_LEAST * self.lattice.gradient_squared;
-        let diagonal = (0..n).map(|a| match near.role[a] {
-            Role::Liquid => {
-                (scale * (near.squares[a] + squared(near.gradient[a])).max(least)) as f32
+        let diagonal = (0..n).map(|a| {
+            // The stiffest mode over the diagonal grows with the number of neighbours.
+            let scale = scale * (volume * near.number[a]).max(1.0);
+            match near.role[a] {
+                Role::Liquid => {
+                    (scale * (near.squares[a] + squared(near.gradient[a])).max(least)) as f32
+                }
+                Role::Wet if near.squares[a] > 0.0 => (scale * near.squares[a].max(least)) as f32,
+                _ => 0.0,
             }
-            Role::Wet if near.squares[a] > 0.0 => (scale * near.squares[a].max(least)) as f32,
-            _ => 0.0,
         });
         self.diagonal.extend(diagonal);
         for (p, diagonal) in self.pressure.iter_mut().zip(&self.diagonal) {
@@ -214,10 +226,12 @@ impl Projection {
         self.tried.extend(tried.map(|(x, p)| carried(*x, *p)));
     }
 
-    /// Fixed part of the residual, C + dt J u*.
-    fn start(&mut self, near: &Near, predicted: &[[f64; 3]], dt: f64) {
-        let volume = self.scales.volume;
-        let scale = dt * volume;
+    /// Fixed part of the residual, C + dt J u*. Where solid metal is packed too densely by itself, no
+    /// liquid could mend it, and C leaves room for a layer of liquid all the same.
+    fn start(&mut self, near: &Near, predicted: &[[f64; 3]], step: Step) {
+        let (volume, beside) = (self.scales.volume, self.lattice.beside);
+        let (scale, release) = (step.dt * volume, RELEASE * step.share);
+        let own = near.kernel.value(0.0);
         self.residual
             .par_chunks_mut(ROWS)
             .zip(self.sums.par_chunks_mut(ROWS))
@@ -227,13 +241,22 @@ impl Projection {
                 for (k, (residual, sums)) in residual.iter_mut().zip(sums).enumerate() {
                     let a = chunk.first() + k;
                     let (x, u) = (near.position[a], predicted[a]);
-                    let (mut rate, mut total) = (0.0, 0.0);
-                    for (&b, &slope) in chunk.row(k).iter().zip(&pairs.slope[chunk.range(k)]) {
-                        let (y, v) = (near.position[b as usize], predicted[b as usize]);
+                    let (mut rate, mut total, mut solid) = (0.0, 0.0, own);
+                    let range = chunk.range(k);
+                    let values = pairs.slope[range.clone()].iter().zip(&pairs.value[range]);
+                    for (&b, (&slope, &value)) in chunk.row(k).iter().zip(values) {
+                        let b = b as usize;
+                        let (y, v) = (near.position[b], predicted[b]);
+                        solid += f64::from(u8::from(near.role[b] != Role::Liquid)) * value;
                         rate += f64::from(slope) * dot(minus(x, y), minus(u, v));
                         total += f64::from(slope);
                     }
-                    let excess = volume * near.number[a] - 1.0;
+                    let over = match near.role[a] {
+                        Role::Liquid => 0.0,
+                        _ => (volume * solid - 1.0).max(0.0),
+                    };
+                    let full = 1.0 + over + (YIELD * over).min(volume * beside);
+                    let excess = (volume * near.number[a] - full).min(release);
                     *residual = (excess + scale * rate) as f32;
                     let [gx, gy, gz] = near.gradient[a].map(|x| x as f32);
                     *sums = [gx, gy, gz, total as f32];

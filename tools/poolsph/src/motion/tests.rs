@@ -233,3 +233,32 @@ fn the_fastest_particle_divides_the_step() {
     let limit = march.limit(&state).unwrap();
     assert!(limit.name == "courant" && (limit.seconds - 0.4 * 0.5e-3 / 3.0).abs() < 1e-9);
 }
+
+#[test]
+fn what_has_frozen_too_densely_does_not_burst() {
+    // Liquid beside a wall that is twice as dense as it should be, and liquid that is so itself.
+    let mut state = tank();
+    let places = state.position.clone();
+    for (a, place) in places.into_iter().enumerate() {
+        let phase = state.phase[a];
+        if phase == Phase::Solid || (phase == Phase::Liquid && a % 9 == 0) {
+            state.push(Particle {
+                position: place.map(|x| x + 0.3 * METAL.spacing),
+                velocity: [0.0; 3],
+                phase,
+                droplet: false,
+                wall: phase == Phase::Solid,
+                temperature: 0.0,
+                enthalpy: 0.0,
+            });
+        }
+    }
+    let mut march = march(Method::Projection, true, false);
+    for _ in 0..50 {
+        steps(&mut march, &mut state, 1).unwrap();
+        let speeds = state.velocity.iter().map(|u| u.iter().map(|u| u * u).sum());
+        let fastest = speeds.fold(0.0, f64::max).sqrt();
+        // No particle crosses more of its diameter than one step may.
+        assert!(fastest < 0.4 * METAL.spacing / 1e-4, "{fastest} m/s");
+    }
+}
