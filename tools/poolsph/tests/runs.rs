@@ -221,6 +221,15 @@ fn faults_of_a_scene_are_told_together_and_located() {
     for path in ["/bodies/0/state", "/time/end_s", "/smoothing_length_m"] {
         assert!(said.contains(path), "{said}");
     }
+
+    // The scene has tension, which is calibrated for one ratio only.
+    let mut wide = scene();
+    wide["smoothing_length_m"] = json!(1.2 * wide["spacing_m"].as_f64().unwrap());
+    let path = write(folder.path(), "wide.json", &wide);
+    let output = run(&path, &folder.path().join("out.mcap"), &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("calibrated for 1 only"), "{said}");
 }
 
 #[test]

@@ -15,8 +15,15 @@
 //! the liquid. The smoothing is an exchange between pairs, `a + A_ex nu sum_b W (a_b - a_a)`,
 //! which is the kernel mean inside and keeps momentum at the surface too.
 //!
-//! Slower than [`super::projection`], and the way gone depends on the number of sweeps; it is here
-//! because the published results are made with it.
+//! The number of sweeps K sets the stiffness: at rest the moves of a step undo the fall g dt^2, and
+//! the liquid is one with the speed of sound d sqrt(s K)/dt and p = c^2 e, so that a tolerance on e
+//! below g H/(2 c^2) is never met. The centroid is not the particle, so that moves do not follow the
+//! gradient of an energy in e: without [`super::noise`] a tank of 216 particles at rest keeps 1.3 to
+//! 1.7 % of sqrt(g H) from 0.15 s on (2 % with e at the particles); with it 0.15 % is left after 1 s.
+//! In a finer tank of 512 particles 0.3 to 0.6 % is left at 0.5 to 0.8 s: the surface layer goes on
+//! to pack for longer than in the projection. K = 10 in all three.
+//!
+//! Slower than [`super::projection`]; it is here because the published results are made with it.
 
 use rayon::prelude::*;
 

@@ -34,6 +34,12 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
             metal.smoothing_length
         );
         faults.push(Fault::at("/smoothing_length_m", what));
+    } else if scene.tension.is_some() && (ratio - 1.0).abs() > 1e-6 {
+        let what = format!(
+            "{} m is {ratio:.2} particle diameters; the surface tension is calibrated for 1 only",
+            metal.smoothing_length
+        );
+        faults.push(Fault::at("/smoothing_length_m", what));
     }
     faults.extend(dependences(scene));
     faults.extend(super::size::faults(scene));
