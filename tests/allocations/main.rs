@@ -39,9 +39,6 @@ const MOST: f64 = 64.0;
 const MOST_BYTES: f64 = 16_384.0;
 const MOST_BYTES_EACH: f64 = 2.0;
 
-/// Stages that still gather what their particles exchange into lists of each step.
-const GATHERING: [&str; 1] = ["conduction"];
-
 /// Allocations and bytes per step after warm-up, on two threads.
 fn spent(mut step: impl FnMut() + Send) -> (f64, f64) {
     let pool = ThreadPoolBuilder::new().num_threads(2).build().unwrap();
@@ -92,15 +89,12 @@ fn pool_step(name: &str, scene: &Value, inputs: &Inputs) {
         march.step(&mut state, timed).unwrap();
         taken += 1;
     });
-    let (mut calls, mut bytes) = spent;
+    let (calls, bytes) = spent;
     for (stage, [all_calls, all_bytes]) in stages {
         let found = [all_calls, all_bytes].map(|n| n as f64 / STEPS as f64);
         if found[0] > 0.0 {
             let [calls, bytes] = found;
             eprintln!("    {stage}: {calls:.1} allocations, {bytes:.0} bytes per step");
-        }
-        if GATHERING.contains(&stage) {
-            (calls, bytes) = (calls - found[0], bytes - found[1]);
         }
     }
     must_be_quiet(name, size, (calls, bytes));

@@ -58,6 +58,20 @@ struct Exchanged {
     wakes: bool,
 }
 
+impl Exchanged {
+    /// The particle `id` as it is.
+    fn unchanged(state: &State, id: u32) -> Self {
+        Self {
+            a: id,
+            enthalpy: state.enthalpy[id as usize],
+            temperature: state.temperature[id as usize],
+            out: 0.0,
+            busy: false,
+            wakes: false,
+        }
+    }
+}
+
 /// Heat conduction as a stage.
 pub struct Conduction {
     caloric: Arc<Caloric>,
@@ -239,35 +253,32 @@ impl Conduction {
     }
 
     /// Exchanges heat of pairs with a moving particle over `dt`.
-    fn exchange_in_flow(&self, state: &mut State, dt: f64) -> Result<(), StageError> {
+    fn exchange_in_flow(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let near = &state.near;
-        let mut exchanged = Vec::with_capacity(near.len());
-        let chunks: Vec<Vec<Exchanged>> = near
-            .lists
-            .chunks()
-            .par_iter()
-            .zip(&near.pairs)
-            .map(|(chunk, pairs)| {
-                let rows =
-                    (0..chunk.rows()).filter(|k| near.role[chunk.first() + k] != Role::Backing);
-                rows.map(|k| {
-                    let weights = &pairs.value[chunk.range(k)];
-                    self.in_flow(state, chunk.first() + k, (chunk.row(k), weights), dt)
-                })
-                .collect()
+        let mut exchanged = std::mem::take(&mut self.exchanged);
+        (0..near.len())
+            .into_par_iter()
+            .with_min_len(ROWS)
+            .map(|k| match near.role[k] {
+                Role::Backing => Exchanged::unchanged(state, near.id[k]),
+                _ => self.in_flow(state, k, dt),
             })
-            .collect();
-        exchanged.extend(chunks.into_iter().flatten());
-        self.store(state, &exchanged)
+            .collect_into_vec(&mut exchanged);
+        let stored = self.store(state, &exchanged);
+        self.exchanged = exchanged;
+        stored
     }
 
-    fn in_flow(&self, state: &State, k: usize, row: (&[u32], &[f64]), dt: f64) -> Exchanged {
+    fn in_flow(&self, state: &State, k: usize, dt: f64) -> Exchanged {
         let near = &state.near;
+        let (chunk, pairs) = (&near.lists.chunks()[k / ROWS], &near.pairs[k / ROWS]);
+        let row = chunk.row(k % ROWS).iter();
+        let weights = &pairs.value[chunk.range(k % ROWS)];
         let a = near.id[k] as usize;
         let [temperature, resistivity] = self.thermal[a];
         let moves = near.role[k] == Role::Liquid;
         let mut gain = 0.0;
-        for (&j, weight) in row.0.iter().zip(row.1) {
+        for (&j, weight) in row.zip(weights) {
             if moves || near.role[j as usize] == Role::Liquid {
                 let b = near.id[j as usize] as usize;
                 let [other, resists] = self.thermal[b];

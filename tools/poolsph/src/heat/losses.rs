@@ -7,6 +7,10 @@
 //! ```
 //!
 //! Vapour carries off heat; its mass, some thousandths of the pool, is not taken away.
+//!
+//! The hotter the metal, the more it gives off, by at most s for each kelvin: an explicit step falls
+//! towards the balance without passing it as long as dt s dA < m c. A longer one is divided, particle
+//! by particle.
 
 use std::sync::Arc;
 
@@ -28,6 +32,8 @@ const ATMOSPHERE: f64 = 101_325.0;
 /// Below this part of the boiling point the vapour pressure is under 1e-12 of that at it, for any
 /// metal (Trouton's rule), and vapour is left out.
 const COLD: f64 = 0.25;
+/// Most parts of a step; what would need more has left all temperatures of metal.
+const PARTS_MOST: f64 = 1e4;
 
 /// Heat given off at the surface (key `losses`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -76,6 +82,13 @@ impl Evaporation {
         let per_speed = self.molar_mass_kg_mol / (std::f64::consts::TAU * MOLAR_GAS * t);
         self.latent_heat_j_kg * pressure * per_speed.sqrt()
     }
+
+    /// Rise of that heat with temperature \[W/(m2 K)\].
+    #[must_use]
+    pub fn slope(&self, t: f64) -> f64 {
+        let molar = self.latent_heat_j_kg * self.molar_mass_kg_mol / MOLAR_GAS;
+        (self.heat(t) * (molar / t - 0.5) / t).max(0.0)
+    }
 }
 
 /// Where heat is given off.
@@ -111,22 +124,58 @@ impl Losses {
         }
     }
 
-    /// Radiation, transfer and vapour from particle `a` \[W\].
-    fn cooling(&self, state: &State, a: usize) -> Option<[f64; 3]> {
-        let (patch, p) = (&state.surface[a], &self.parameters);
+    /// Area on which particle `a` gives off heat \[m2\]; `None` where it gives off none.
+    fn bare(&self, state: &State, a: usize) -> Option<f64> {
+        let patch = &state.surface[a];
         let off = state.wall[a] || state.phase[a] == Phase::Flying;
         let up = patch.normal[2] > std::f64::consts::FRAC_1_SQRT_2;
-        if off || patch.area <= 0.0 || (p.on == Where::Top && !up) {
-            return None;
-        }
-        let (t, around) = (state.temperature[a], p.surroundings_k);
+        let hidden = self.parameters.on == Where::Top && !up;
+        (!off && patch.area > 0.0 && !hidden).then_some(patch.area)
+    }
+
+    /// Vapour at temperature `t` \[K\], if there is any.
+    fn vapour(&self, t: f64) -> Option<Evaporation> {
+        let hot = |vapour: &Evaporation| t > COLD * vapour.boiling_point_k;
+        self.parameters.evaporation.filter(hot)
+    }
+
+    /// Radiation, transfer and vapour at temperature `t` \[K\] \[W/m2\].
+    fn cooling(&self, t: f64) -> [f64; 3] {
+        let p = &self.parameters;
+        let around = p.surroundings_k;
         let radiation = p
             .emissivity
             .map(|eps| eps * STEFAN_BOLTZMANN * (t.powi(4) - around.powi(4)));
         let transfer = p.transfer_w_m2_k.map(|psi| psi * (t - around));
-        let hot = |vapour: &Evaporation| t > COLD * vapour.boiling_point_k;
-        let vapour = p.evaporation.filter(hot).map(|vapour| vapour.heat(t));
-        Some([radiation, transfer, vapour].map(|q| q.unwrap_or(0.0) * patch.area))
+        let vapour = self.vapour(t).map(|vapour| vapour.heat(t));
+        [radiation, transfer, vapour].map(|q| q.unwrap_or(0.0))
+    }
+
+    /// Greatest rise of the heat given off with temperature on the way from `t` \[K\] to the balance
+    /// \[W/(m2 K)\]: all three rise the more the hotter the metal is.
+    fn slope(&self, t: f64) -> f64 {
+        let p = &self.parameters;
+        let hottest = t.max(p.surroundings_k);
+        let radiation = 4.0 * STEFAN_BOLTZMANN * hottest.powi(3) * p.emissivity.unwrap_or(0.0);
+        let vapour = self.vapour(hottest).map(|vapour| vapour.slope(hottest));
+        radiation + p.transfer_w_m2_k.unwrap_or(0.0) + vapour.unwrap_or(0.0)
+    }
+
+    /// Cools particle `a` for `dt` \[s\] by what it gives off at its present temperature.
+    fn cool(&mut self, state: &mut State, a: usize, area: f64, dt: f64) -> Result<(), StageError> {
+        let [radiation, transfer, vapour] = self.cooling(state.temperature[a]).map(|q| q * area);
+        if (radiation + transfer + vapour).to_bits() == 0 {
+            return Ok(());
+        }
+        self.radiated.add(radiation * dt);
+        self.transferred.add(transfer * dt);
+        self.evaporated.add(vapour * dt);
+        state.enthalpy[a] -= (radiation + transfer + vapour) * dt / state.metal.mass();
+        state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
+        if !self.caloric.covers(state.temperature[a]) {
+            return Err(outside(state, a, state.temperature[a], &self.caloric));
+        }
+        Ok(())
     }
 }
 
@@ -140,22 +189,16 @@ impl Stage for Losses {
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        let mass = state.metal.mass();
+        let capacity = state.metal.mass() * self.caloric.least_heat();
         for k in 0..state.exposed.len() {
             let a = state.exposed[k] as usize;
-            let Some([radiation, transfer, vapour]) = self.cooling(state, a) else {
+            let Some(area) = self.bare(state, a) else {
                 continue;
             };
-            if (radiation + transfer + vapour).to_bits() == 0 {
-                continue;
-            }
-            self.radiated.add(radiation * dt);
-            self.transferred.add(transfer * dt);
-            self.evaporated.add(vapour * dt);
-            state.enthalpy[a] -= (radiation + transfer + vapour) * dt / mass;
-            state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
-            if !self.caloric.covers(state.temperature[a]) {
-                return Err(outside(state, a, state.temperature[a], &self.caloric));
+            let share = dt * area * self.slope(state.temperature[a]) / capacity;
+            let parts = share.ceil().clamp(1.0, PARTS_MOST);
+            for _ in 0..parts as u64 {
+                self.cool(state, a, area, dt / parts)?;
             }
         }
         Ok(())

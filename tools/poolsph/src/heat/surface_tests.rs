@@ -204,3 +204,46 @@ fn radiation_and_vapour_have_their_size() {
     let exact = 0.5 * 5.670_374_419e-8 * (500.0_f64.powi(4) - 300.0_f64.powi(4)) * area * 1e-3;
     assert!((losses.figures()[0].value / exact - 1.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_step_too_long_for_the_losses_comes_to_the_balance_and_not_below() {
+    let around = 500.0;
+    let parameters = LossParameters {
+        surroundings_k: around,
+        emissivity: Some(1.0),
+        transfer_w_m2_k: Some(10.0),
+        evaporation: Some(Evaporation {
+            boiling_point_k: 3134.0,
+            latent_heat_j_kg: 6.09e6,
+            molar_mass_kg_mol: 0.055_845,
+        }),
+        on: Where::All,
+    };
+    let cooled = |steps: u32| {
+        let mut state = body([3, 3, 3], |_| true);
+        state.temperature.fill(3400.0);
+        state.enthalpy.fill(3400.0);
+        let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)));
+        for _ in 0..steps {
+            losses.advance(&mut state, 1e-3 / f64::from(steps)).unwrap();
+        }
+        let exposed = &state.exposed;
+        let mean = exposed
+            .iter()
+            .map(|a| state.temperature[*a as usize])
+            .sum::<f64>();
+        let least = state
+            .temperature
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
+        assert!(least >= around);
+        mean / exposed.len() as f64
+    };
+    // Metal of 1 J/(m3 K): the whole step is thousands of times what it may be.
+    let (coarse, fine) = (cooled(1), cooled(4000));
+    assert!(
+        fine < 3000.0 && (coarse / fine - 1.0).abs() < 0.05,
+        "{coarse} {fine}"
+    );
+}
