@@ -5,6 +5,7 @@ mod arc_mms;
 mod arc_pinch;
 mod arc_poiseuille;
 mod arc_potential;
+mod pool_drop_oscillation;
 mod pool_drop_pressure;
 mod pool_hydrostatic;
 mod pool_rosenthal;
@@ -22,6 +23,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_pinch::ArcPinch),
         Box::new(arc_poiseuille::ArcPoiseuille),
         Box::new(arc_potential::ArcPotential),
+        Box::new(pool_drop_oscillation::PoolDropOscillation),
         Box::new(pool_drop_pressure::PoolDropPressure),
         Box::new(pool_hydrostatic::PoolHydrostatic),
         Box::new(pool_rosenthal::PoolRosenthal),
