@@ -215,11 +215,16 @@ fn create_folder(out: &Path) -> Result<(), Failure> {
     })
 }
 
+/// This thread works with the others: a step is hundreds of short parallel loops, and to hand each over
+/// to sleeping threads and be woken at its end costs more than many of them.
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let builder = rayon::ThreadPoolBuilder::new().use_current_thread();
     let Some(threads) = threads else {
+        // Only where the process already has its threads does this fail, and then they serve.
+        builder.build_global().ok();
         return Ok(());
     };
-    rayon::ThreadPoolBuilder::new()
+    builder
         .num_threads(usize::from(threads))
         .build_global()
         .map_err(|e| Failure::Other(format!("--threads {threads}: {e}")))
