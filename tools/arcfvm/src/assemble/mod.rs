@@ -51,12 +51,12 @@ impl Faults {
 pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     let mut faults = Faults::default();
     let layout = Layout::new(scene, &mut faults);
-    let materials = matter::materials(scene, gas, &mut faults);
     // What follows relies on bodies within the grid.
     let mut faults = faults.none()?;
     let Some(layout) = layout else {
         return Err(Failure::Other("the scene has no grid".to_owned()));
     };
+    let materials = matter::materials(scene, gas, &mut faults);
     let (grid, bodies) = (&layout.grid, Layout::bodies(scene));
     let wire = wire(&layout, &bodies, &mut faults);
     let start = start(scene, &layout, wire.as_ref(), &mut faults);
