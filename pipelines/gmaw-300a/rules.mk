@@ -1,7 +1,7 @@
 # gmaw-300a: gas metal arc welding of mild steel, 300 A in argon, a 10 s weld of 52,000 particles.
 
 .PHONY: gmaw-300a
-gmaw-300a: build/gmaw-300a/report.html ## the full weld: arc, pool, averages, report (about an hour)
+gmaw-300a: build/gmaw-300a/report.html ## the full weld: arc, pool, averages, report (three quarters of an hour)
 
 build/gmaw-300a/arc.mcap: pipelines/gmaw-300a/arc.json pipelines/gases/argon-1atm.json $(BIN)/arcfvm
 	$(RERUN) $@ $^ -- $(BIN)/arcfvm run pipelines/gmaw-300a/arc.json \
