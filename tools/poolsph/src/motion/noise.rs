@@ -11,8 +11,9 @@
 //! ```
 //!
 //! the shortest waves decay as fast as a particle falls by its own diameter, and those of many
-//! spacings hardly: a wave k has L = 0.14 (k d)^2 for h = d, so that the rate goes with (k d)^4. L is symmetric: momentum is kept, and energy can only fall. Without gravity nothing
-//! is packed and nothing damped.
+//! spacings hardly: a wave k has L = 0.14 (k d)^2 for h = d, so that the rate goes with (k d)^4. L is
+//! symmetric: momentum is kept, and energy can only fall. Without gravity nothing is packed and nothing
+//! damped.
 
 use rayon::prelude::*;
 
