@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cloud;
-use crate::table::{Record, Table};
+use crate::table::{Record, Table, WORLD};
+use crate::{cloud, grid};
 
 /// Schema name of a [`Table`].
 pub const TABLE: &str = "fusionline.table.v1";
@@ -13,6 +13,19 @@ pub const TABLE: &str = "fusionline.table.v1";
 pub const RECORD: &str = "fusionline.record.v1";
 /// Schema name of a [`crate::Frame`].
 pub const POINT_CLOUD: &str = cloud::SCHEMA;
+/// Schema name of a [`Table`] that is a grid of equal cells in space.
+pub const GRID: &str = grid::SCHEMA;
+
+/// Metadata of a channel: axes of its grids, with unit and values.
+pub(crate) const AXES: &str = "axes";
+/// Metadata of a channel: the channel of the scalars that belong to its grids.
+pub(crate) const ATTRIBUTES: &str = "attributes";
+/// Metadata of a channel: frame of reference of its tables, where it is not the world.
+pub(crate) const FRAME_ID: &str = "frame_id";
+/// Metadata of a channel: unit of each column.
+pub(crate) const UNITS: &str = "units";
+/// Metadata of a channel: name and type of each packed column.
+pub(crate) const COLUMNS: &str = "columns";
 
 const TABLE_SCHEMA: &str = include_str!("../../../../schemas/table.v1.json");
 const RECORD_SCHEMA: &str = include_str!("../../../../schemas/record.v1.json");
@@ -24,12 +37,15 @@ pub(crate) struct Topic {
     pub(crate) channel: String,
     /// Name of the schema.
     pub(crate) schema: String,
-    /// JSON Schema; empty for a point cloud, whose descriptor is known.
+    /// JSON Schema; empty for Foxglove's messages, whose descriptors are known.
     pub(crate) json_schema: String,
     /// Unit of each column.
     pub(crate) units: BTreeMap<String, String>,
-    /// Types of the columns of a frame, in order.
+    /// Types of the columns of a frame or packed grid, in order.
     pub(crate) layout: Vec<String>,
+    /// What else the metadata of the channel says.
+    #[serde(default)]
+    pub(crate) more: BTreeMap<String, String>,
 }
 
 impl Topic {
@@ -46,11 +62,33 @@ impl Topic {
                 .iter()
                 .map(|(name, _, kind)| format!("{name} {kind}"))
                 .collect(),
+            more: BTreeMap::new(),
         }
     }
 
     pub(crate) fn table(channel: &str, table: &Table) -> Self {
-        Self::json(channel, TABLE, TABLE_SCHEMA, table.units())
+        Self {
+            more: frame_of(table),
+            ..Self::json(channel, TABLE, TABLE_SCHEMA, table.units())
+        }
+    }
+
+    /// A channel of grids of equal cells, with the axes that they share.
+    pub(crate) fn grid(channel: &str, table: &Table) -> Self {
+        let columns = table.columns.iter();
+        let mut more = frame_of(table);
+        more.insert(
+            AXES.to_owned(),
+            serde_json::to_string(&table.axes).unwrap_or_default(),
+        );
+        if !table.attributes.is_empty() {
+            more.insert(ATTRIBUTES.to_owned(), format!("{channel}/{ATTRIBUTES}"));
+        }
+        Self {
+            layout: columns.map(|c| format!("{} f64", c.name)).collect(),
+            more,
+            ..Self::json(channel, GRID, "", table.units())
+        }
     }
 
     pub(crate) fn record(channel: &str, record: &Record) -> Self {
@@ -69,15 +107,17 @@ impl Topic {
             json_schema: json_schema.to_owned(),
             units,
             layout: Vec::new(),
+            more: BTreeMap::new(),
         }
     }
 
-    pub(crate) fn is_frames(&self) -> bool {
-        self.schema == POINT_CLOUD
+    /// Whether the messages are packed: Foxglove's own, not JSON.
+    fn is_packed(&self) -> bool {
+        self.schema == POINT_CLOUD || self.schema == GRID
     }
 
     pub(crate) fn schema_encoding(&self) -> &'static str {
-        if self.is_frames() {
+        if self.is_packed() {
             "protobuf"
         } else {
             "jsonschema"
@@ -85,32 +125,40 @@ impl Topic {
     }
 
     pub(crate) fn message_encoding(&self) -> &'static str {
-        if self.is_frames() { "protobuf" } else { "json" }
+        if self.is_packed() { "protobuf" } else { "json" }
     }
 
     pub(crate) fn schema_data(&self) -> Vec<u8> {
-        if self.is_frames() {
-            cloud::descriptor()
-        } else {
-            self.json_schema.clone().into_bytes()
+        match self.schema.as_str() {
+            POINT_CLOUD => cloud::descriptor(),
+            GRID => grid::descriptor(),
+            _ => self.json_schema.clone().into_bytes(),
         }
     }
 
     /// The metadata of the channel record.
     pub(crate) fn metadata(&self) -> BTreeMap<String, String> {
         let text = |value: serde_json::Result<String>| value.unwrap_or_default();
-        let mut map = BTreeMap::new();
+        let mut map = self.more.clone();
         if !self.units.is_empty() {
-            map.insert("units".to_owned(), text(serde_json::to_string(&self.units)));
+            map.insert(UNITS.to_owned(), text(serde_json::to_string(&self.units)));
         }
         if !self.layout.is_empty() {
             map.insert(
-                "columns".to_owned(),
+                COLUMNS.to_owned(),
                 text(serde_json::to_string(&self.layout)),
             );
         }
         map
     }
+}
+
+fn frame_of(table: &Table) -> BTreeMap<String, String> {
+    let named = [(FRAME_ID, table.frame_id())].into_iter();
+    named
+        .filter(|(_, frame)| *frame != WORLD)
+        .map(|(key, frame)| (key.to_owned(), frame.to_owned()))
+        .collect()
 }
 
 /// Simulated time as log time.

@@ -10,18 +10,18 @@ use crate::contents::{Channel, Indexed, Place, contents};
 use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::Header;
-use crate::message::{POINT_CLOUD, RECORD, TABLE, time_s};
+use crate::message::{POINT_CLOUD, RECORD, time_s};
 use crate::recover::{header_of, index_of_part};
 use crate::scrub::scrub;
 use crate::store::{ChunkPlace, Index, Store, Stored};
-use crate::table::{Record, Table};
+use crate::table::Record;
 
 type Chunk = Arc<Vec<Stored>>;
 
 /// An open artefact. It can be shared between threads.
 #[derive(Debug)]
 pub struct Reader {
-    store: Store,
+    pub(crate) store: Store,
     header: Header,
     channels: BTreeMap<String, Indexed>,
     chunks: Vec<ChunkPlace>,
@@ -130,7 +130,7 @@ impl Reader {
         self.metadata.get(name)
     }
 
-    /// JSON Schema of the messages of a channel; empty for frames.
+    /// JSON Schema of the messages of a channel; empty for frames and packed grids.
     ///
     /// # Errors
     /// When the channel is absent.
@@ -218,27 +218,6 @@ impl Reader {
         Ok((0..self.count(channel)).map(move |i| self.frame(channel, i)))
     }
 
-    /// The first table of a channel.
-    ///
-    /// # Errors
-    /// As [`Reader::table_at`].
-    pub fn table(&self, channel: &str) -> Result<Table> {
-        self.table_at(channel, 0)
-    }
-
-    /// The table with an index.
-    ///
-    /// # Errors
-    /// When channel or index are absent, the channel holds no tables, or its chunk is damaged.
-    pub fn table_at(&self, channel: &str, index: usize) -> Result<Table> {
-        self.place(channel, index, TABLE)?;
-        let table: Table = self.json_at(channel, index)?;
-        match table.fault() {
-            Some(what) => Err(self.message_error(channel, index, what)),
-            None => Ok(table.with_origin(&self.origin(channel))),
-        }
-    }
-
     /// The first record of a channel.
     ///
     /// # Errors
@@ -295,11 +274,11 @@ impl Reader {
             .collect()
     }
 
-    fn origin(&self, channel: &str) -> String {
+    pub(crate) fn origin(&self, channel: &str) -> String {
         format!("{}: channel '{channel}'", self.store.path.display())
     }
 
-    fn message_error(&self, channel: &str, index: usize, what: String) -> Error {
+    pub(crate) fn message_error(&self, channel: &str, index: usize, what: String) -> Error {
         Error::Message {
             path: self.store.path.clone(),
             channel: channel.to_owned(),
@@ -308,7 +287,7 @@ impl Reader {
         }
     }
 
-    fn channel(&self, channel: &str) -> Result<&Indexed> {
+    pub(crate) fn channel(&self, channel: &str) -> Result<&Indexed> {
         self.channels.get(channel).ok_or_else(|| Error::NoChannel {
             path: self.store.path.clone(),
             channel: channel.to_owned(),
@@ -329,7 +308,12 @@ impl Reader {
         })
     }
 
-    fn place(&self, channel: &str, index: usize, schema: &str) -> Result<(&Indexed, Place)> {
+    pub(crate) fn place(
+        &self,
+        channel: &str,
+        index: usize,
+        schema: &str,
+    ) -> Result<(&Indexed, Place)> {
         let indexed = self.must_hold(channel, schema)?;
         let place = indexed
             .places
@@ -345,7 +329,13 @@ impl Reader {
     }
 
     /// The chunk of a message and the message's place in it.
-    fn data(&self, channel: &str, index: usize, id: u16, place: Place) -> Result<(Chunk, usize)> {
+    pub(crate) fn data(
+        &self,
+        channel: &str,
+        index: usize,
+        id: u16,
+        place: Place,
+    ) -> Result<(Chunk, usize)> {
         let chunk = self.chunk(place.chunk)?;
         let mut own = chunk.iter().enumerate().filter(|(_, m)| m.channel == id);
         let found = own

@@ -10,7 +10,7 @@ use mcap::records::{Record, op};
 use crate::atomic::beside;
 use crate::error::{Error, Result};
 use crate::header::{Header, METADATA};
-use crate::message::Topic;
+use crate::message::{COLUMNS, Topic, UNITS};
 use crate::store::{ChannelInfo, ChunkPlace, Index, PREFIX, Store, Stored};
 use crate::writer::{Position, Writer};
 
@@ -118,8 +118,8 @@ fn topic_of(store: &Store, info: &ChannelInfo) -> Result<Topic> {
             .to_owned()
     };
     let wrong = |e: serde_json::Error| store.damaged(format!("channel '{}'", info.name), e);
-    let units: Option<_> = serde_json::from_str(&parse("units")).map_err(wrong)?;
-    let layout: Option<_> = serde_json::from_str(&parse("columns")).map_err(wrong)?;
+    let units: Option<_> = serde_json::from_str(&parse(UNITS)).map_err(wrong)?;
+    let layout: Option<_> = serde_json::from_str(&parse(COLUMNS)).map_err(wrong)?;
     let json_schema = if info.schema_encoding == "protobuf" {
         String::new()
     } else {
@@ -132,6 +132,12 @@ fn topic_of(store: &Store, info: &ChannelInfo) -> Result<Topic> {
         json_schema,
         units: units.unwrap_or_default(),
         layout: layout.unwrap_or_default(),
+        more: info
+            .metadata
+            .iter()
+            .filter(|(key, _)| *key != UNITS && *key != COLUMNS)
+            .map(|(key, value)| (key.clone(), value.clone()))
+            .collect(),
     })
 }
 

@@ -1,4 +1,4 @@
-//! Small tables, dense grids and records of named scalars: JSON messages with units.
+//! Small tables, dense grids and records of named scalars, with units.
 
 use std::collections::BTreeMap;
 
@@ -41,8 +41,13 @@ pub struct Table {
     /// The columns.
     pub columns: Vec<Series>,
     #[serde(skip)]
+    frame_id: String,
+    #[serde(skip)]
     origin: String,
 }
+
+/// Frame of reference of what names none.
+pub(crate) const WORLD: &str = "world";
 
 impl Table {
     /// A table of `rows` rows without columns.
@@ -86,6 +91,24 @@ impl Table {
             },
         );
         self
+    }
+
+    /// Says in which frame of reference a grid stands; `world` where nothing is said.
+    #[must_use]
+    pub fn in_frame(mut self, frame_id: &str) -> Self {
+        let named = if frame_id == WORLD { "" } else { frame_id };
+        named.clone_into(&mut self.frame_id);
+        self
+    }
+
+    /// Frame of reference in which a grid stands.
+    #[must_use]
+    pub fn frame_id(&self) -> &str {
+        if self.frame_id.is_empty() {
+            WORLD
+        } else {
+            &self.frame_id
+        }
     }
 
     /// Number of entries of each column.

@@ -2,7 +2,7 @@
 //!
 //! The bytes are a function of the header and the messages alone. Messages wait in memory until
 //! their chunk is full; a chunk ends after a frame or after one MiB of JSON, whichever comes
-//! first, never because of a checkpoint or of the clock.
+//! first, never because of a checkpoint or of the clock. A packed grid ends its chunk as a frame does.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,9 +14,9 @@ use crate::atomic::beside;
 use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::{Header, METADATA};
-use crate::message::{Topic, log_time};
+use crate::message::{Topic, UNITS, log_time};
 use crate::part::Part;
-use crate::table::{Record, Table};
+use crate::table::Record;
 
 /// JSON is gathered into chunks of this size \[byte\].
 const CHUNK_BYTES: usize = 1 << 20;
@@ -61,6 +61,7 @@ struct Open {
 pub struct Writer {
     path: PathBuf,
     part: Part,
+    header: BTreeMap<String, String>,
     channels: BTreeMap<String, Open>,
     waiting: Vec<Waiting>,
     waiting_bytes: usize,
@@ -81,6 +82,7 @@ impl Writer {
         Ok(Self {
             path: path.to_owned(),
             part: Part::create(part, header)?,
+            header: header.to_metadata(),
             channels: BTreeMap::new(),
             waiting: Vec::new(),
             waiting_bytes: 0,
@@ -107,16 +109,6 @@ impl Writer {
         self.end_waiting()?;
         self.put(channel, time, &frame.encode(time))?;
         self.end_chunk()
-    }
-
-    /// Writes a table or grid.
-    ///
-    /// # Errors
-    /// When columns differ in length or name from the shape or the channel's first table, a value
-    /// is not finite, or the disk refuses.
-    pub fn table(&mut self, channel: &str, time_s: f64, table: &Table) -> Result<()> {
-        self.check(channel, table.fault(), table.not_finite())?;
-        self.text(Topic::table(channel, table), time_s, table)
     }
 
     /// Writes a record of named scalars.
@@ -173,22 +165,30 @@ impl Writer {
     /// When the disk refuses; the file then keeps the name `NAME.part`.
     pub fn finish(mut self) -> Result<()> {
         self.end_waiting()?;
-        let units: BTreeMap<String, String> = self
-            .channels
-            .iter()
-            .filter(|(_, open)| !open.topic.units.is_empty())
-            .map(|(name, open)| {
-                (
-                    name.clone(),
-                    serde_json::to_string(&open.topic.units).unwrap_or_default(),
-                )
-            })
-            .collect();
-        self.part.metadata(&format!("{METADATA}.units"), units)?;
+        let header = std::mem::take(&mut self.header);
+        self.part.metadata(METADATA, self.complete(header))?;
         self.part.finish(&self.path)
     }
 
-    fn text<T: Serialize>(&mut self, topic: Topic, time_s: f64, value: &T) -> Result<()> {
+    /// The metadata record `fusionline` with the unit of each column of each channel, which is
+    /// known at the end alone.
+    fn complete(&self, mut header: BTreeMap<String, String>) -> BTreeMap<String, String> {
+        let channels = self.channels.iter().map(|(name, open)| (name, &open.topic));
+        let units: BTreeMap<&String, &BTreeMap<String, String>> = channels
+            .filter(|(_, topic)| !topic.units.is_empty())
+            .map(|(name, topic)| (name, &topic.units))
+            .collect();
+        let text = serde_json::to_string(&units).unwrap_or_default();
+        header.insert(UNITS.to_owned(), text);
+        header
+    }
+
+    pub(crate) fn text<T: Serialize>(
+        &mut self,
+        topic: Topic,
+        time_s: f64,
+        value: &T,
+    ) -> Result<()> {
         let log_time = self.time(&topic.channel, time_s)?;
         self.admit(&topic, log_time)?;
         let text =
@@ -211,7 +211,7 @@ impl Writer {
     }
 
     /// Writes what waits as one chunk.
-    fn end_waiting(&mut self) -> Result<()> {
+    pub(crate) fn end_waiting(&mut self) -> Result<()> {
         if self.waiting.is_empty() {
             return Ok(());
         }
@@ -265,6 +265,10 @@ impl Writer {
                 self.channels.insert(topic.channel.clone(), open);
                 Ok(())
             }
+            Some(open) if open.topic.more != topic.more => {
+                let what = "axes or frame of reference changed: a channel keeps them";
+                Err(self.unfit(&topic.channel, what.to_owned()))
+            }
             Some(open) if open.topic != *topic => {
                 let what = format!(
                     "columns changed: began with {} {:?} {:?}, now {} {:?} {:?}",
@@ -308,7 +312,7 @@ impl Writer {
         self.part.metadata(name, note)
     }
 
-    fn check(
+    pub(crate) fn check(
         &self,
         channel: &str,
         fault: Option<String>,
@@ -329,7 +333,7 @@ impl Writer {
         }
     }
 
-    fn time(&self, channel: &str, time_s: f64) -> Result<u64> {
+    pub(crate) fn time(&self, channel: &str, time_s: f64) -> Result<u64> {
         if time_s.is_finite() && time_s >= 0.0 {
             Ok(log_time(time_s))
         } else {
@@ -340,7 +344,7 @@ impl Writer {
         }
     }
 
-    fn unfit(&self, channel: &str, what: String) -> Error {
+    pub(crate) fn unfit(&self, channel: &str, what: String) -> Error {
         Error::Unfit {
             path: self.path.clone(),
             channel: channel.to_owned(),

@@ -28,6 +28,7 @@ enum Message {
     Frame(Vec<[f64; 3]>),
     Record(f64),
     Table(Vec<f64>),
+    Grid([f64; 6]),
 }
 
 impl Message {
@@ -41,6 +42,14 @@ impl Message {
             Self::Table(x) => {
                 let table = Table::new(x.len()).column("heat_w", "W", x.iter().copied());
                 writer.table("/surface", time_s, &table).unwrap();
+            }
+            Self::Grid(x) => {
+                let table = Table::grid(&[
+                    ("y_m", "m", &[-0.5e-3, 0.0, 0.5e-3]),
+                    ("z_m", "m", &[0.0, 0.5e-3]),
+                ]);
+                let table = table.column("velocity_m_s", "m/s", *x);
+                writer.table("/section", time_s, &table).unwrap();
             }
         }
     }
@@ -65,6 +74,7 @@ fn message() -> impl Strategy<Value = Message> {
         prop::collection::vec(vector, 0..30).prop_map(Message::Frame),
         number().prop_map(Message::Record),
         prop::collection::vec(number(), 0..30).prop_map(Message::Table),
+        prop::array::uniform6(number()).prop_map(Message::Grid),
     ]
 }
 
@@ -84,6 +94,10 @@ fn write(path: &Path, messages: &[Message]) {
     writer.finish().unwrap();
 }
 
+fn grid(table: &Table) -> artefact::Result<[f64; 6]> {
+    Ok(table.values("velocity_m_s")?.try_into().unwrap())
+}
+
 /// All messages of a file in order of time.
 fn read(reader: &Reader) -> artefact::Result<Vec<Message>> {
     let mut found = Vec::new();
@@ -93,6 +107,7 @@ fn read(reader: &Reader) -> artefact::Result<Vec<Message>> {
             let message = match name {
                 "/particles" => Message::Frame(reader.frame(name, index)?.position_vectors()?),
                 "/balance" => Message::Record(reader.record_at(name, index)?.get("mass_kg")?),
+                "/section" => Message::Grid(grid(&reader.table_at(name, index)?)?),
                 _ => Message::Table(reader.table_at(name, index)?.values("heat_w")?.to_vec()),
             };
             found.push((time, message));
@@ -283,6 +298,7 @@ fn small(file: &Path) -> (Vec<u8>, Vec<Message>) {
         Message::Record(2.5),
         Message::Frame(vec![[0.5, 1.0, -2.0]; 3]),
         Message::Frame(vec![[0.25, 1.0, -2.0]; 2]),
+        Message::Grid([0.5, 1.0, -2.0, 0.0, 3.5, 4.5]),
     ];
     write(file, &messages);
     (std::fs::read(file).unwrap(), messages)

@@ -1,7 +1,8 @@
 //! A message of any schema as columns: what all commands look at.
 
 use artefact::{
-    Channel, Column, POINT_CLOUD, RECORD, Reader, Record, Result, Series, TABLE, Table, Values,
+    Channel, Column, GRID, POINT_CLOUD, RECORD, Reader, Record, Result, Series, TABLE, Table,
+    Values,
 };
 use serde_json::Value;
 
@@ -55,7 +56,7 @@ impl Sheet {
         let name = channel.name.as_str();
         let mut sheet = match channel.schema.as_str() {
             POINT_CLOUD => Self::frame(reader.frame(name, index)?),
-            TABLE => Self::table(reader.table_at(name, index)?),
+            TABLE | GRID => Self::table(reader.table_at(name, index)?),
             RECORD => Self::record(reader.record_at(name, index)?),
             _ => Self::json(&reader.json_at(name, index)?),
         };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use artefact::{Column, Values};
+use artefact::{Column, Values, even_step};
 
 use super::fields::{Field, fields};
 use crate::program::sheet::Sheet;
@@ -144,16 +144,12 @@ fn directions(axes: &[Column]) -> Vec<usize> {
     found.into_iter().map(|d| d.unwrap_or(0)).collect()
 }
 
-/// Spacing of an axis if it is even to a part in 10^9; 1 for a single entry.
+/// Spacing of an axis if it is even; 1 for a single entry.
 fn even(axis: &[f64]) -> Option<f64> {
-    let (first, last) = (axis.first()?, axis.last()?);
     if axis.len() == 1 {
         return Some(1.0);
     }
-    let step = (last - first) / (axis.len() - 1) as f64;
-    let off = |(i, x): (usize, &f64)| (x - (first + step * i as f64)).abs();
-    let even = axis.iter().enumerate().map(off).all(|d| d <= 1e-9 * step);
-    (step > 0.0 && even).then_some(step)
+    even_step(axis)
 }
 
 /// Our node (last axis fastest) of each of VTK's nodes (x fastest).
