@@ -5,7 +5,7 @@
 //! moment of gathering: what melts during a step starts to move in the next.
 
 use kernels::CubicSpline;
-use neighbours::{Chunk, Grid, Lists, ROWS};
+use neighbours::{Chunk, Grid, Halo, Lists, ROWS};
 use rayon::prelude::*;
 
 use crate::state::{Metal, Phase, State};
@@ -69,6 +69,7 @@ pub struct Near {
     liquid_count: usize,
     grid: Grid,
     liquid_grid: Grid,
+    halo: Halo,
     candidates: Vec<u32>,
     wanted: Vec<bool>,
     places: Vec<[f64; 3]>,
@@ -97,6 +98,7 @@ impl Near {
             liquid_count: 0,
             grid: Grid::new(0.5 * support),
             liquid_grid: Grid::new(support),
+            halo: Halo::new(support * (2.0 + MARGIN)),
             candidates: Vec::new(),
             wanted: Vec::new(),
             places: Vec::new(),
@@ -247,7 +249,8 @@ impl Near {
         }
         self.liquid_grid.bin(&self.places);
         let reach = self.kernel.support() * (2.0 + MARGIN);
-        let grid = &self.liquid_grid;
+        self.halo.mark(&self.places);
+        let (grid, halo) = (&self.liquid_grid, &self.halo);
         self.wanted.resize(state.len(), false);
         self.wanted
             .par_iter_mut()
@@ -255,7 +258,9 @@ impl Near {
             .zip(&state.position)
             .with_min_len(GRAIN)
             .for_each(|((wanted, phase), &place)| {
-                *wanted = *phase == Phase::Solid && grid.any_within(place, reach);
+                *wanted = *phase == Phase::Solid
+                    && halo.may_touch(place)
+                    && grid.any_within(place, reach);
             });
         let solid = self
             .wanted

@@ -281,18 +281,7 @@ impl Grid {
             (low, high) = ([0.0; 3], [0.0; 3]);
         }
         (self.origin, self.end) = (low, high);
-        self.edge = self.finest;
-        loop {
-            let spans = std::array::from_fn::<f64, 3, _>(|k| {
-                ((high[k] - low[k]) / self.edge).floor() + 1.0
-            });
-            let room = (CELLS_PER_POINT * points.len() + CELLS_FREE) as f64;
-            if spans.iter().product::<f64>() <= room || !spans.iter().all(|s| s.is_finite()) {
-                self.counts = spans.map(|s| if s.is_finite() { s as usize } else { 1 });
-                return;
-            }
-            self.edge *= 2.0;
-        }
+        (self.edge, self.counts) = cells_that_fit(low, high, self.finest, points.len());
     }
 
     /// Cell coordinates, clamped into the grid.
@@ -307,6 +296,26 @@ impl Grid {
 
     fn index(&self, cell: [usize; 3]) -> usize {
         cell[0] + self.counts[0] * (cell[1] + self.counts[1] * cell[2])
+    }
+}
+
+/// Edge of cells from `low` to `high` \[m\] and their numbers along the axes: the `finest`, doubled
+/// until no more cells are asked for than the number of points allows.
+pub(crate) fn cells_that_fit(
+    low: [f64; 3],
+    high: [f64; 3],
+    finest: f64,
+    points: usize,
+) -> (f64, [usize; 3]) {
+    let room = (CELLS_PER_POINT * points + CELLS_FREE) as f64;
+    let mut edge = finest;
+    loop {
+        let spans = std::array::from_fn::<f64, 3, _>(|k| ((high[k] - low[k]) / edge).floor() + 1.0);
+        if spans.iter().product::<f64>() <= room || !spans.iter().all(|s| s.is_finite()) {
+            let counts = spans.map(|s| if s.is_finite() { s as usize } else { 1 });
+            return (edge, counts);
+        }
+        edge *= 2.0;
     }
 }
 

@@ -21,8 +21,10 @@
 //! ```
 
 mod grid;
+mod halo;
 mod lists;
 pub mod naive;
 
 pub use grid::Grid;
+pub use halo::Halo;
 pub use lists::{Chunk, Lists, ROWS};

@@ -10,7 +10,7 @@ const BUCKETS: usize = 4;
 pub struct Table {
     x: Vec<f64>,
     y: Vec<f64>,
-    /// For each bucket of equal width, the last interval that begins at or before it.
+    /// For each bucket of equal width, and for the end, the last interval that begins at or before it.
     start: Vec<usize>,
     per_x: f64,
 }
@@ -56,7 +56,7 @@ impl Table {
         let buckets = BUCKETS * x.len();
         let (first, last) = (x[0], x[x.len() - 1]);
         let per_x = buckets as f64 / (last - first);
-        let start = (0..buckets)
+        let start = (0..=buckets)
             .map(|b| {
                 let begin = first + b as f64 / per_x;
                 x.partition_point(|node| *node <= begin)
@@ -96,8 +96,10 @@ impl Table {
     #[inline]
     pub fn interval(&self, x: f64) -> usize {
         // A negative or NaN offset becomes bucket 0.
-        let bucket = ((x - self.x[0]) * self.per_x) as usize;
-        let mut k = self.start[bucket.min(self.start.len() - 1)];
+        let bucket = (((x - self.x[0]) * self.per_x) as usize).min(self.start.len() - 2);
+        let (first, last) = (self.start[bucket], self.start[bucket + 1]);
+        // Nodes that crowd in one bucket are halved; rounding may be off by one.
+        let mut k = first + self.x[first + 1..=last].partition_point(|node| *node <= x);
         let last = self.x.len() - 2;
         while k < last && self.x[k + 1] <= x {
             k += 1;

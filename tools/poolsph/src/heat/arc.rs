@@ -20,6 +20,7 @@
 
 use std::sync::Arc as Shared;
 
+use rayon::prelude::*;
 use run::Fault;
 use run::property::Property;
 use schemars::JsonSchema;
@@ -36,6 +37,8 @@ use crate::state::{Column, Metal, Phase, State};
 
 /// Most fluxes at once.
 const PARTS: usize = Part::ALL.len();
+/// Particles per unit of parallel work.
+const GRAIN: usize = 256;
 
 /// Heat of the arc (key `arc`): of the arc input, or of a formula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -187,6 +190,19 @@ pub struct Arc {
     /// Area that takes a step whole, times that step \[m2 s\].
     whole: f64,
     power: f64,
+    heated: Vec<Result<Option<Heated>, StageError>>,
+}
+
+/// What a step leaves of a particle.
+#[derive(Debug, Clone, Copy)]
+struct Heated {
+    a: u32,
+    /// \[J/kg\]
+    enthalpy: f64,
+    /// \[K\]
+    temperature: f64,
+    /// Heat by flux \[J\].
+    put: [f64; PARTS],
 }
 
 impl Arc {
@@ -224,6 +240,7 @@ impl Arc {
             fluxes,
             onto: parameters.on,
             power: 0.0,
+            heated: Vec::new(),
         })
     }
 
@@ -246,30 +263,33 @@ impl Arc {
         (area > 0.0).then(|| (square.sqrt(), area))
     }
 
-    /// Heats particle `a` for `dt` \[s\] at its present temperature; gives the heat in a second \[W\].
-    fn heat(
-        &mut self,
-        state: &mut State,
-        a: usize,
-        lit: (f64, f64),
-        dt: f64,
-    ) -> Result<f64, StageError> {
-        let (r, area) = lit;
-        let mut heat = [0.0; PARTS];
-        for (heat, flux) in heat.iter_mut().zip(&self.fluxes) {
-            *heat = flux.at(r, state.temperature[a], state.time)? * area;
+    /// Heats particle `a` for `dt` \[s\], in as many parts as it takes; `None` where the arc does not
+    /// reach.
+    fn heat(&self, state: &State, a: usize, dt: f64) -> Result<Option<Heated>, StageError> {
+        let Some((r, area)) = self.lit(state, a) else {
+            return Ok(None);
+        };
+        let mut heated = Heated {
+            a: a as u32,
+            enthalpy: state.enthalpy[a],
+            temperature: state.temperature[a],
+            put: [0.0; PARTS],
+        };
+        let parts = (dt * area / self.whole).ceil().max(1.0);
+        for _ in 0..parts as u64 {
+            let mut gain = 0.0;
+            for (put, flux) in heated.put.iter_mut().zip(&self.fluxes) {
+                let heat = flux.at(r, heated.temperature, state.time)? * area * dt / parts;
+                *put += heat;
+                gain += heat;
+            }
+            heated.enthalpy += gain / self.metal.mass();
+            heated.temperature = self.caloric.temperature(heated.enthalpy);
+            if !self.caloric.covers(heated.temperature) {
+                return Err(outside(state, a, heated.temperature, &self.caloric));
+            }
         }
-        let mut gain = 0.0;
-        for (flux, power) in self.fluxes.iter_mut().zip(heat) {
-            flux.put.add(power * dt);
-            gain += power;
-        }
-        state.enthalpy[a] += gain * dt / self.metal.mass();
-        state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
-        if !self.caloric.covers(state.temperature[a]) {
-            return Err(outside(state, a, state.temperature[a], &self.caloric));
-        }
-        Ok(gain)
+        Ok(Some(heated))
     }
 }
 
@@ -289,19 +309,23 @@ impl Stage for Arc {
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        self.power = 0.0;
-        for k in 0..state.exposed.len() {
-            let a = state.exposed[k] as usize;
-            let Some(lit) = self.lit(state, a) else {
-                continue;
-            };
-            let parts = (dt * lit.1 / self.whole).ceil().max(1.0);
-            let mut gain = 0.0;
-            for _ in 0..parts as u64 {
-                gain += self.heat(state, a, lit, dt / parts)?;
+        let mut heated = std::mem::take(&mut self.heated);
+        (state.exposed.par_iter().with_min_len(GRAIN))
+            .map(|a| self.heat(state, *a as usize, dt))
+            .collect_into_vec(&mut heated);
+        let mut gain = 0.0;
+        for one in heated.drain(..) {
+            let Some(one) = one? else { continue };
+            let a = one.a as usize;
+            state.enthalpy[a] = one.enthalpy;
+            state.temperature[a] = one.temperature;
+            for (flux, heat) in self.fluxes.iter_mut().zip(one.put) {
+                flux.put.add(heat);
+                gain += heat;
             }
-            self.power += gain / parts;
         }
+        self.power = gain / dt;
+        self.heated = heated;
         Ok(())
     }
 

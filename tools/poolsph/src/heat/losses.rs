@@ -1,9 +1,8 @@
 //! Heat that the metal gives off at its surface: radiation (Komen 2019, third term of eq. 4.10),
-//! a heat transfer to still gas, and vapour (eq. 5.24 for a gas free of it).
+//! a heat transfer to still gas, and vapour ([`super::vapour`]).
 //!
 //! ```text
-//! m dh_a/dt = -dA_a ( eps sigma (T^4 - T_0^4) + Psi (T - T_0) + H_v p_v(T) sqrt(M / (2 pi R T)) )
-//! p_v(T) = 1 atm exp( H_v M / R (1/T_b - 1/T) )
+//! m dh_a/dt = -dA_a ( eps sigma (T^4 - T_0^4) + Psi (T - T_0) + H_v M n(T) )
 //! ```
 //!
 //! Vapour carries off heat; its mass, some thousandths of the pool, is not taken away.
@@ -14,26 +13,23 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::bounds::outside;
 use super::caloric::Caloric;
 use super::ledger::Sum;
+use super::vapour::Evaporation;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Column, Phase, State};
 
 /// Stefan-Boltzmann constant \[W/(m2 K4)\].
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
-/// Molar gas constant \[J/(mol K)\].
-const MOLAR_GAS: f64 = 8.314_462_618;
-/// Pressure at the boiling point \[Pa\].
-const ATMOSPHERE: f64 = 101_325.0;
-/// Below this part of the boiling point the vapour pressure is under 1e-12 of that at it, for any
-/// metal (Trouton's rule), and vapour is left out.
-const COLD: f64 = 0.25;
 /// Most parts of a step; what would need more has left all temperatures of metal.
 const PARTS_MOST: f64 = 1e4;
+/// Particles per unit of parallel work.
+const GRAIN: usize = 512;
 
 /// Heat given off at the surface (key `losses`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,39 +54,6 @@ pub struct LossParameters {
     pub on: Where,
 }
 
-/// Vapour of the metal.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Evaporation {
-    /// T_b at 1 atm.
-    #[schemars(extend("x-unit" = "K"), range(min = 100.0, max = 1e4))]
-    pub boiling_point_k: f64,
-    /// H_v.
-    #[schemars(extend("x-unit" = "J/kg"), range(min = 1.0, max = 1e8))]
-    pub latent_heat_j_kg: f64,
-    /// M.
-    #[schemars(extend("x-unit" = "kg/mol"), range(min = 1e-3, max = 1.0))]
-    pub molar_mass_kg_mol: f64,
-}
-
-impl Evaporation {
-    /// Heat that vapour carries off at temperature `t` \[K\] \[W/m2\].
-    #[must_use]
-    pub fn heat(&self, t: f64) -> f64 {
-        let molar = self.latent_heat_j_kg * self.molar_mass_kg_mol / MOLAR_GAS;
-        let pressure = ATMOSPHERE * (molar * (1.0 / self.boiling_point_k - 1.0 / t)).exp();
-        let per_speed = self.molar_mass_kg_mol / (std::f64::consts::TAU * MOLAR_GAS * t);
-        self.latent_heat_j_kg * pressure * per_speed.sqrt()
-    }
-
-    /// Rise of that heat with temperature \[W/(m2 K)\].
-    #[must_use]
-    pub fn slope(&self, t: f64) -> f64 {
-        let molar = self.latent_heat_j_kg * self.molar_mass_kg_mol / MOLAR_GAS;
-        (self.heat(t) * (molar / t - 0.5) / t).max(0.0)
-    }
-}
-
 /// Where heat is given off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -106,9 +69,21 @@ pub enum Where {
 pub struct Losses {
     parameters: LossParameters,
     caloric: Arc<Caloric>,
-    radiated: Sum,
-    transferred: Sum,
-    evaporated: Sum,
+    /// Radiated, transferred and evaporated \[J\].
+    given: [Sum; 3],
+    cooled: Vec<Option<Cooled>>,
+}
+
+/// What a step leaves of a particle.
+#[derive(Debug, Clone, Copy)]
+struct Cooled {
+    a: u32,
+    /// \[J/kg\]
+    enthalpy: f64,
+    /// \[K\]
+    temperature: f64,
+    /// Radiated, transferred and evaporated \[J\].
+    given: [f64; 3],
 }
 
 impl Losses {
@@ -118,9 +93,8 @@ impl Losses {
         Self {
             parameters,
             caloric,
-            radiated: Sum::default(),
-            transferred: Sum::default(),
-            evaporated: Sum::default(),
+            given: [Sum::default(); 3],
+            cooled: Vec::new(),
         }
     }
 
@@ -135,8 +109,9 @@ impl Losses {
 
     /// Vapour at temperature `t` \[K\], if there is any.
     fn vapour(&self, t: f64) -> Option<Evaporation> {
-        let hot = |vapour: &Evaporation| t > COLD * vapour.boiling_point_k;
-        self.parameters.evaporation.filter(hot)
+        self.parameters
+            .evaporation
+            .filter(|vapour| !vapour.is_cold(t))
     }
 
     /// Radiation, transfer and vapour at temperature `t` \[K\] \[W/m2\].
@@ -161,21 +136,36 @@ impl Losses {
         radiation + p.transfer_w_m2_k.unwrap_or(0.0) + vapour.unwrap_or(0.0)
     }
 
-    /// Cools particle `a` for `dt` \[s\] by what it gives off at its present temperature.
-    fn cool(&mut self, state: &mut State, a: usize, area: f64, dt: f64) -> Result<(), StageError> {
-        let [radiation, transfer, vapour] = self.cooling(state.temperature[a]).map(|q| q * area);
-        if (radiation + transfer + vapour).to_bits() == 0 {
-            return Ok(());
+    /// Cools particle `a` for `dt` \[s\], in as many parts as it takes; `None` where nothing is given
+    /// off.
+    fn cool(&self, state: &State, a: usize, dt: f64) -> Option<Cooled> {
+        let area = self.bare(state, a)?;
+        let mut cooled = Cooled {
+            a: a as u32,
+            enthalpy: state.enthalpy[a],
+            temperature: state.temperature[a],
+            given: [0.0; 3],
+        };
+        let mass = state.metal.mass();
+        let capacity = mass * self.caloric.least_heat();
+        let share = dt * area * self.slope(cooled.temperature) / capacity;
+        let parts = share.ceil().clamp(1.0, PARTS_MOST);
+        for _ in 0..parts as u64 {
+            let heat = self
+                .cooling(cooled.temperature)
+                .map(|q| q * area * dt / parts);
+            let sum = heat[0] + heat[1] + heat[2];
+            if sum.to_bits() == 0 {
+                break;
+            }
+            cooled.given = std::array::from_fn(|i| cooled.given[i] + heat[i]);
+            cooled.enthalpy -= sum / mass;
+            cooled.temperature = self.caloric.temperature(cooled.enthalpy);
+            if !self.caloric.covers(cooled.temperature) {
+                break;
+            }
         }
-        self.radiated.add(radiation * dt);
-        self.transferred.add(transfer * dt);
-        self.evaporated.add(vapour * dt);
-        state.enthalpy[a] -= (radiation + transfer + vapour) * dt / state.metal.mass();
-        state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
-        if !self.caloric.covers(state.temperature[a]) {
-            return Err(outside(state, a, state.temperature[a], &self.caloric));
-        }
-        Ok(())
+        Some(cooled)
     }
 }
 
@@ -189,43 +179,36 @@ impl Stage for Losses {
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        let capacity = state.metal.mass() * self.caloric.least_heat();
-        for k in 0..state.exposed.len() {
-            let a = state.exposed[k] as usize;
-            let Some(area) = self.bare(state, a) else {
-                continue;
-            };
-            let share = dt * area * self.slope(state.temperature[a]) / capacity;
-            let parts = share.ceil().clamp(1.0, PARTS_MOST);
-            for _ in 0..parts as u64 {
-                self.cool(state, a, area, dt / parts)?;
+        let mut cooled = std::mem::take(&mut self.cooled);
+        (state.exposed.par_iter().with_min_len(GRAIN))
+            .map(|a| self.cool(state, *a as usize, dt))
+            .collect_into_vec(&mut cooled);
+        for one in cooled.iter().flatten() {
+            let a = one.a as usize;
+            if !self.caloric.covers(one.temperature) {
+                return Err(outside(state, a, one.temperature, &self.caloric));
+            }
+            state.enthalpy[a] = one.enthalpy;
+            state.temperature[a] = one.temperature;
+            for (sum, heat) in self.given.iter_mut().zip(one.given) {
+                sum.add(heat);
             }
         }
+        self.cooled = cooled;
         Ok(())
     }
 
     fn figures(&self) -> Vec<Figure> {
         let p = &self.parameters;
         let parts = [
-            (
-                p.emissivity.is_some(),
-                "energy_out_radiation_j",
-                self.radiated,
-            ),
-            (
-                p.transfer_w_m2_k.is_some(),
-                "energy_out_transfer_j",
-                self.transferred,
-            ),
-            (
-                p.evaporation.is_some(),
-                "energy_out_vapour_j",
-                self.evaporated,
-            ),
+            (p.emissivity.is_some(), "energy_out_radiation_j"),
+            (p.transfer_w_m2_k.is_some(), "energy_out_transfer_j"),
+            (p.evaporation.is_some(), "energy_out_vapour_j"),
         ];
-        let given = parts.into_iter().filter(|part| part.0);
+        let given = parts.into_iter().zip(&self.given);
         given
-            .map(|(_, name, sum)| Figure {
+            .filter(|((there, _), _)| *there)
+            .map(|((_, name), sum)| Figure {
                 name,
                 unit: "J",
                 value: sum.value(),
@@ -234,17 +217,12 @@ impl Stage for Losses {
     }
 
     fn save(&self) -> Vec<f64> {
-        [self.radiated, self.transferred, self.evaporated]
-            .iter()
-            .flat_map(Sum::save)
-            .collect()
+        self.given.iter().flat_map(Sum::save).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) {
-        let mut sums = saved.chunks(2).map(Sum::restored);
-        let mut next = || sums.next().unwrap_or_default();
-        self.radiated = next();
-        self.transferred = next();
-        self.evaporated = next();
+        for (sum, parts) in self.given.iter_mut().zip(saved.chunks(2)) {
+            *sum = Sum::restored(parts);
+        }
     }
 }

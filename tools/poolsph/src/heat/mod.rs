@@ -13,15 +13,17 @@ mod losses;
 mod open;
 mod parameters;
 mod phase;
+mod vapour;
 
 pub use arc::{Arc, ArcParameters, Onto, Part};
 pub use caloric::Caloric;
 pub use cathode::Cathode;
 pub use conduction::Conduction;
 pub use film::GasFilm;
-pub use losses::{Evaporation, LossParameters, Losses, Where};
+pub use losses::{LossParameters, Losses, Where};
 pub use parameters::{Face, Faces, MeltingParameters, Parameters};
 pub use phase::{FlowStart, Phase};
+pub use vapour::{Evaporation, GasLayer};
 
 #[cfg(test)]
 mod arc_tests;

@@ -179,6 +179,7 @@ fn radiation_and_vapour_have_their_size() {
         boiling_point_k: 3134.0,
         latent_heat_j_kg: 6.09e6,
         molar_mass_kg_mol: 0.05585,
+        gas: None,
     };
     // At the boiling point: L p sqrt(M / (2 pi R T)), 1 atm.
     let exact = 6.09e6 * 101_325.0 * (0.05585 / (2.0 * PI * 8.314_462_618 * 3134.0)).sqrt();
@@ -216,6 +217,7 @@ fn a_step_too_long_for_the_losses_comes_to_the_balance_and_not_below() {
             boiling_point_k: 3134.0,
             latent_heat_j_kg: 6.09e6,
             molar_mass_kg_mol: 0.055_845,
+            gas: None,
         }),
         on: Where::All,
     };

@@ -95,9 +95,10 @@ impl Band {
             seen: band.seen(cloud, spacing, k),
             ..band.patches[k]
         });
-        let places = self.members.iter().map(|k| cloud.places[*k as usize]);
+        let members = &self.members;
+        let place = |k: usize| cloud.places[members[k] as usize];
         let patches = &mut self.patches[..self.width];
-        self.columns.settle(places, spacing, patches);
+        self.columns.settle(place, spacing, patches);
         let members = self.members.iter().zip(&self.patches);
         for (&k, patch) in members.take(self.width) {
             coloured[k as usize] = *patch;

@@ -13,7 +13,13 @@
 //! to it. C is 1 where there is metal below; at an edge it falls to 0 within a column, where the
 //! planes of the surface end.
 
+//!
+//! Columns stand in square tiles, which do not know of each other and are worked on side by side.
+
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
+
+use rayon::prelude::*;
 
 use super::Patch;
 
@@ -51,82 +57,138 @@ const EMPTY: Column = Column {
 #[derive(Debug, Clone, Copy)]
 struct Share {
     column: u32,
-    /// Height of the particle \[m\].
-    height: f64,
     /// w; without v until the heights of all are known.
     weight: f64,
+}
+
+/// Columns side by side, and the particles that stand in them.
+#[derive(Debug, Clone, Default)]
+struct Tile {
+    /// Place in the plan, in tiles.
+    key: [i64; 2],
+    members: Vec<u32>,
+    columns: Vec<Column>,
+    shares: Vec<Share>,
+    /// End of the shares of each member.
+    ends: Vec<u32>,
+    /// Part of `seen` that each member has here \[m2\].
+    seen: Vec<f64>,
 }
 
 /// Columns wherever there are particles, with buffers that are kept from step to step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Columns {
-    /// First column of each tile.
-    tiles: HashMap<[i64; 2], u32>,
-    columns: Vec<Column>,
-    shares: Vec<Share>,
-    /// End of the shares of each particle.
-    ends: Vec<u32>,
+    /// The tiles in use, by place.
+    places: HashMap<[i64; 2], u32>,
+    tiles: Vec<Tile>,
 }
 
 impl Columns {
-    /// Shares the plan among patches that know what they see of the sky among their neighbours.
+    /// Shares the plan among patches that know what they see of the sky among their neighbours;
+    /// `place` tells where each is \[m\].
     pub(super) fn settle(
         &mut self,
-        places: impl Iterator<Item = [f64; 3]>,
+        place: impl Fn(usize) -> [f64; 3] + Sync,
         spacing: f64,
         patches: &mut [Patch],
     ) {
-        self.tiles.clear();
+        self.places.clear();
+        for k in 0..patches.len() {
+            self.enter(k, place(k), spacing);
+        }
+        let tiles = &mut self.tiles[..self.places.len()];
+        let known = &*patches;
+        tiles
+            .par_iter_mut()
+            .for_each(|tile| tile.share(&place, spacing, known));
+        for patch in patches.iter_mut() {
+            patch.seen = 0.0;
+        }
+        for tile in tiles {
+            for (&k, seen) in tile.members.iter().zip(&tile.seen) {
+                patches[k as usize].seen += seen;
+            }
+        }
+    }
+
+    /// Makes particle `k` a member of all tiles within R.
+    fn enter(&mut self, k: usize, [x, y, _]: [f64; 3], spacing: f64) {
+        let tiles = |at| {
+            let (first, last) = columns(at, spacing).into_inner();
+            first.div_euclid(EDGE)..=last.div_euclid(EDGE)
+        };
+        for j in tiles(y) {
+            for i in tiles(x) {
+                let next = self.places.len();
+                let at = *self.places.entry([i, j]).or_insert(next as u32) as usize;
+                if at == self.tiles.len() {
+                    self.tiles.push(Tile::default());
+                }
+                let tile = &mut self.tiles[at];
+                if at == next {
+                    tile.key = [i, j];
+                    tile.members.clear();
+                }
+                tile.members.push(k as u32);
+            }
+        }
+    }
+}
+
+impl Tile {
+    /// What of the columns here each member sees.
+    fn share(&mut self, place: &impl Fn(usize) -> [f64; 3], spacing: f64, patches: &[Patch]) {
         self.columns.clear();
+        self.columns.resize(SIZE, EMPTY);
         self.shares.clear();
         self.ends.clear();
-        for (place, patch) in places.zip(&*patches) {
-            self.stand(place, patch, spacing);
+        for m in 0..self.members.len() {
+            let k = self.members[m] as usize;
+            self.stand(place(k), &patches[k], spacing);
             self.ends.push(self.shares.len() as u32);
         }
-        for share in &mut self.shares {
-            let column = &mut self.columns[share.column as usize];
-            let below = (column.top - share.height) / spacing;
-            share.weight *= ((HIDDEN - below) / (HIDDEN - IN_VIEW)).clamp(0.0, 1.0);
-            column.weight += share.weight;
+        let mut from = 0;
+        for (&k, &end) in self.members.iter().zip(&self.ends) {
+            let [_, _, height] = place(k as usize);
+            for share in &mut self.shares[from..end as usize] {
+                let column = &mut self.columns[share.column as usize];
+                let below = (column.top - height) / spacing;
+                share.weight *= ((HIDDEN - below) / (HIDDEN - IN_VIEW)).clamp(0.0, 1.0);
+                column.weight += share.weight;
+            }
+            from = end as usize;
         }
         let size = (spacing / FINE).powi(2);
         let mut from = 0;
-        for (patch, end) in patches.iter_mut().zip(&self.ends) {
-            let shares = self.shares[from..*end as usize].iter();
-            from = *end as usize;
+        self.seen.clear();
+        for &end in &self.ends {
+            let shares = self.shares[from..end as usize].iter();
+            from = end as usize;
             let parts = shares.filter(|share| share.weight > 0.0).map(|share| {
                 let column = &self.columns[share.column as usize];
                 size * column.cover * share.weight / column.weight
             });
-            patch.seen = parts.sum();
+            self.seen.push(parts.sum());
         }
     }
 
-    /// Enters a particle in all columns within R.
+    /// Enters a particle in all columns here within R.
     fn stand(&mut self, [x, y, z]: [f64; 3], patch: &Patch, spacing: f64) {
         let (edge, reach) = (spacing / FINE, REACH * spacing);
-        let range = |at: f64| {
-            let first = ((at - reach) / edge - 0.5).ceil() as i64;
-            first..=((at + reach) / edge - 0.5).floor() as i64
+        let [west, south] = self.key.map(|key| key * EDGE);
+        let here = |at, start: i64| {
+            let (first, last) = columns(at, spacing).into_inner();
+            first.max(start)..=last.min(start + EDGE - 1)
         };
-        let mut tile = None;
-        for j in range(y) {
+        for j in here(y, south) {
             let dy = (j as f64 + 0.5) * edge - y;
-            for i in range(x) {
+            for i in here(x, west) {
                 let dx = (i as f64 + 0.5) * edge - x;
                 let rest = reach * reach - dx * dx - dy * dy;
                 if rest <= 0.0 {
                     continue;
                 }
-                let key = [i.div_euclid(EDGE), j.div_euclid(EDGE)];
-                let first = match tile {
-                    Some((known, first)) if known == key => first,
-                    _ => self.tile(key),
-                };
-                tile = Some((key, first));
-                let within = i.rem_euclid(EDGE) + EDGE * j.rem_euclid(EDGE);
-                let at = first + within as u32;
+                let at = (i - west + EDGE * (j - south)) as u32;
                 let column = &mut self.columns[at as usize];
                 let beyond = (patch.normal[0] * dx + patch.normal[1] * dy - patch.depth) / edge;
                 column.cover = column.cover.max((0.5 - beyond).clamp(0.0, 1.0));
@@ -135,23 +197,19 @@ impl Columns {
                     let near = rest / (reach * reach);
                     self.shares.push(Share {
                         column: at,
-                        height: z,
                         weight: patch.seen * near * near,
                     });
                 }
             }
         }
     }
+}
 
-    /// First column of a tile, which is empty when first asked for.
-    fn tile(&mut self, key: [i64; 2]) -> u32 {
-        let next = self.columns.len();
-        let first = *self.tiles.entry(key).or_insert(next as u32);
-        if first as usize == next {
-            self.columns.resize(next + SIZE, EMPTY);
-        }
-        first
-    }
+/// Columns within R of `at` along one axis.
+fn columns(at: f64, spacing: f64) -> RangeInclusive<i64> {
+    let (edge, reach) = (spacing / FINE, REACH * spacing);
+    let first = ((at - reach) / edge - 0.5).ceil() as i64;
+    first..=((at + reach) / edge - 0.5).floor() as i64
 }
 
 #[cfg(test)]
@@ -178,8 +236,7 @@ mod tests {
 
     fn settled(bodies: &[([f64; 3], Patch)]) -> Vec<f64> {
         let mut patches: Vec<Patch> = bodies.iter().map(|body| body.1).collect();
-        let places = bodies.iter().map(|body| body.0);
-        Columns::default().settle(places, 1.0, &mut patches);
+        Columns::default().settle(|k| bodies[k].0, 1.0, &mut patches);
         patches.iter().map(|patch| patch.seen).collect()
     }
 
