@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use artefact::Reader;
+use artefact::{Precision, Reader, Values};
 use thiserror::Error;
 
 use crate::cloud::Cloud;
@@ -90,6 +90,8 @@ pub struct Plan {
     pub particles: usize,
     /// Whether the frames carry a temperature.
     pub temperature: bool,
+    /// How wide the positions of the frames are, and the means with them.
+    pub precision: Precision,
 }
 
 impl Plan {
@@ -143,6 +145,10 @@ impl Plan {
             track,
             particles: first.len(),
             temperature: first.has("temperature"),
+            precision: match &first.get("x")?.values {
+                Values::F64(_) => Precision::F64,
+                _ => Precision::F32,
+            },
             frames,
         })
     }

@@ -3,7 +3,8 @@
 //! Each section becomes a channel of its name with one table per phase, at the log time of the
 //! phase in the droplet period (without phases there is none of these), and a channel
 //! `NAME/time_mean` with the mean over all frames. Where a column has no frame behind it, its value is 0 and
-//! the count that belongs to it (`frames_metal`, `frames_liquid`) is 0.
+//! the count that belongs to it (`frames_metal`, `frames_liquid`) is 0. Grids that move with the source
+//! stand in the frame of reference `source`, others in `world`.
 
 use artefact::Table;
 
@@ -25,7 +26,7 @@ pub fn tables(plan: &Plan, averages: &Averages) -> Vec<Placed> {
             all.extend(phases(plan, section, (ensemble, averages)));
         }
         let frames: u32 = ensemble.frames.iter().sum();
-        let mut mean = table(section, &ensemble.time, plan.temperature)
+        let mut mean = placed(plan, section, &ensemble.time)
             .attribute("frames", "1", f64::from(frames))
             .attribute("drops", "1", averages.drops.1 as f64);
         if let Some(period) = plan.period {
@@ -43,7 +44,7 @@ fn phases(plan: &Plan, section: &Section, means: (&Ensemble, &Averages)) -> Vec<
     points
         .map(|(k, points)| {
             let moment = at(k) * plan.period.unwrap_or(1.0);
-            let table = table(section, points, plan.temperature)
+            let table = placed(plan, section, points)
                 .attribute("phase", "1", at(k))
                 .attribute("phase_time_s", "s", moment)
                 .attribute("frames", "1", f64::from(ensemble.frames[k]))
@@ -53,7 +54,17 @@ fn phases(plan: &Plan, section: &Section, means: (&Ensemble, &Averages)) -> Vec<
         .collect()
 }
 
-/// One grid with its columns. Without temperature in the frames there is none here.
+/// A grid in its frame of reference, as precise as the frames.
+fn placed(plan: &Plan, section: &Section, points: &[Point]) -> Table {
+    let table = table(section, points, plan.temperature).in_precision(plan.precision);
+    if plan.track.is_empty() {
+        table
+    } else {
+        table.in_frame("source")
+    }
+}
+
+/// One grid with its columns, and where its plane stands. Without temperature in the frames there is none here.
 #[must_use]
 pub fn table(section: &Section, points: &[Point], temperature: bool) -> Table {
     let [a, b] = section.axes.map(|axis| AXES[axis]);
@@ -70,8 +81,11 @@ pub fn table(section: &Section, points: &[Point], temperature: bool) -> Table {
             .column("temperature_k", "K", mean)
             .column("temperature_error_k", "K", error);
     }
-    if matches!(section.cut, Cut::Surface { .. }) {
-        table = table.column("height_m", "m", points.iter().map(|p| p.height.mean));
+    match section.cut {
+        Cut::Surface { .. } => {
+            table = table.column("height_m", "m", points.iter().map(|p| p.height.mean));
+        }
+        Cut::Plane { axis, at, .. } => table = table.attribute(AXES[axis], "m", at),
     }
     table
         .column("liquid_share", "1", points.iter().map(|p| p.share.mean))
@@ -100,7 +114,7 @@ mod tests {
     fn section() -> Section {
         let cut = Cut::Plane {
             axis: 0,
-            at: 0.0,
+            at: 0.25,
             half_thickness: 1.0,
         };
         Section::new("x0", cut, [[0.0, 1.0], [0.0, 2.0]], 1.0)
@@ -116,6 +130,7 @@ mod tests {
         assert!(hot.has("temperature_k"));
         assert_eq!(hot.shape, [2, 3]);
         assert_eq!(hot.axis("y_m").unwrap(), [0.0, 1.0]);
+        assert!((hot.scalar("x_m").unwrap() - 0.25).abs() < 1e-15);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use artefact::Reader;
+use artefact::{Reader, Version};
 use run::{Estimate, Failure, Fault, Input, Inputs, Plan as Shown, Session, Tool};
 
 use crate::average::{AverageError, Averages, Averaging, Plan};
@@ -27,6 +27,7 @@ impl Tool for Avg {
          --input frames=build/gmaw-300a/pool.mcap --out build/gmaw-300a/mean.mcap";
     const SCENE_KIND: &'static str = "avg.scene";
     const ARTEFACT_KIND: &'static str = "mean-fields";
+    const ARTEFACT_VERSION: Version = Version::new(1, 1);
     const INPUTS: &'static [Input] = &[Input {
         name: "frames",
         what: "particle frames to average (particle-frames 1.x)",

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use artefact::{Frame, Header, Precision, Reader, Table, Version, Writer};
+use artefact::{Frame, GRID, Header, Precision, RECORD, Reader, Table, Version, Writer};
 use avg::average::{AverageError, Averaging, Plan};
 use avg::fields;
 use avg::scene::Scene;
@@ -145,6 +145,14 @@ fn a_linear_field_comes_back_in_the_moving_frame() {
     assert!((table.scalar("frames").unwrap() - 12.0).abs() < 1e-12);
     assert!((table.scalar("drops").unwrap() - 3.0).abs() < 1e-12);
     assert!((table.scalar("period_s").unwrap() - PERIOD).abs() < 1e-12);
+    // Packed, in the frame of reference of the source, at the place of the cut.
+    for channel in mean.channels() {
+        let scalars = channel.name.ends_with("/attributes");
+        let expected = if scalars { RECORD } else { GRID };
+        assert_eq!(channel.schema, expected, "{}", channel.name);
+    }
+    assert_eq!(table.frame_id(), "source");
+    assert!(table.scalar("x_m").unwrap().abs() < 1e-15);
 }
 
 #[test]
@@ -207,6 +215,31 @@ fn at_rest_nothing_is_asked_of_a_source() {
         assert!((uy[i] - 0.5 - SPEED).abs() < 1e-12)
     });
     assert!(table.scalar("period_s").is_err());
+    assert_eq!(table.frame_id(), "world");
+}
+
+#[test]
+fn the_means_are_as_wide_as_the_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = scene();
+    (scene.follow, scene.phases, scene.spacing_m) = (None, None, Some(D));
+    for precision in [Precision::F32, Precision::F64] {
+        let (from, to) = (folder.path().join("a.mcap"), folder.path().join("b.mcap"));
+        let mut writer = Writer::create(&from, &header("particle-frames")).unwrap();
+        let block = frame(0.0, 0.0, &|_, _| ([0.0, 1.0 / 3.0, 0.0], 300.0));
+        let frame = Frame::new(precision)
+            .positions(block.position_vectors().unwrap())
+            .vector("velocity", "m/s", vec![[0.0, 1.0 / 3.0, 0.0]; block.len()])
+            .flag("molten", vec![1; block.len()]);
+        writer.frame("/pool", 0.0, &frame).unwrap();
+        writer.finish().unwrap();
+        let mean = average(&from, &to, &scene).unwrap();
+        let table = mean.table("/section_x0/time_mean").unwrap();
+        assert_eq!(table.precision(), precision);
+        let most = table.values("velocity_y_m_s").unwrap();
+        let most = most.iter().copied().fold(0.0, f64::max);
+        assert!((most - 1.0 / 3.0).abs() < 1e-7, "{most}");
+    }
 }
 
 #[test]

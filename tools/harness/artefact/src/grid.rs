@@ -8,12 +8,10 @@ use crate::cloud::{PackedElementField, Pose, timestamp};
 use crate::descriptor::{encoded, field, file, message};
 use crate::lattice::Lattice;
 use crate::table::{Series, Table};
-use crate::values::Values;
+use crate::values::{Precision, Values};
 
 /// Name of the schema.
 pub(crate) const SCHEMA: &str = "foxglove.Grid";
-/// A value \[byte\].
-const WIDTH: usize = 8;
 /// The message may differ from the axes by this part of a cell.
 const NEAR: f64 = 1e-6;
 
@@ -78,19 +76,19 @@ pub(crate) fn descriptor() -> Vec<u8> {
 /// A table on `lattice` as a serialised `foxglove.Grid`; a value is a cell around its node.
 pub(crate) fn encode(table: &Table, lattice: &Lattice, time_ns: u64) -> Vec<u8> {
     let narrow = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let stride = WIDTH * table.columns.len();
+    let columns: Vec<Values> = table.columns.iter().map(|c| packed(c, table)).collect();
+    let stride: usize = columns.iter().map(Values::width).sum();
     let mut data = vec![0; stride * table.len()];
-    let mut fields = Vec::with_capacity(table.columns.len());
-    for (i, column) in table.columns.iter().enumerate() {
-        let cells = data.chunks_exact_mut(stride);
-        for (cell, x) in cells.zip(&column.values) {
-            cell[WIDTH * i..WIDTH * (i + 1)].copy_from_slice(&x.to_le_bytes());
-        }
+    let mut fields = Vec::with_capacity(columns.len());
+    let mut offset = 0;
+    for (column, values) in table.columns.iter().zip(&columns) {
+        values.pack(&mut data, offset, stride);
         fields.push(PackedElementField {
             name: column.name.clone(),
-            offset: narrow(WIDTH * i),
-            r#type: crate::cloud::numeric::FLOAT64,
+            offset: narrow(offset),
+            r#type: values.numeric(),
         });
+        offset += values.width();
     }
     let grid = Grid {
         timestamp: Some(timestamp(time_ns)),
@@ -107,6 +105,17 @@ pub(crate) fn encode(table: &Table, lattice: &Lattice, time_ns: u64) -> Vec<u8> 
         data,
     };
     grid.encode_to_vec()
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "the column is f32 on purpose"
+)]
+fn packed(column: &Series, table: &Table) -> Values {
+    match table.precision() {
+        Precision::F32 => Values::F32(column.values.iter().map(|&x| x as f32).collect()),
+        Precision::F64 => Values::F64(column.values.clone()),
+    }
 }
 
 /// Adds the columns of a serialised `foxglove.Grid` to a table that has its axes and attributes.
@@ -140,7 +149,13 @@ pub(crate) fn decode(
     if found != layout {
         return Err(format!("columns {found:?}, the channel says {layout:?}"));
     }
-    Ok(table)
+    let narrow = !layout.is_empty() && layout.iter().all(|column| column.ends_with(" f32"));
+    let precision = if narrow {
+        Precision::F32
+    } else {
+        Precision::F64
+    };
+    Ok(table.in_precision(precision))
 }
 
 /// Refuses bytes that are not rows of cells without gaps, as many as the axes have nodes.
@@ -251,6 +266,25 @@ mod tests {
         let corner = grid.pose.unwrap().position.unwrap();
         for (found, exact) in [(corner.x, 0.25), (corner.y, -0.05), (corner.z, -1.25)] {
             assert!((found - exact).abs() < 1e-15, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn narrow_columns_come_back_as_they_were_rounded() {
+        let table = full().in_precision(Precision::F32);
+        assert_eq!(table.not_finite().unwrap().1, 3, "1e300 is no f32");
+        let table = bare().in_precision(Precision::F32).column(
+            "share",
+            "1",
+            (0..6).map(|i| f64::from(i) / 7.0),
+        );
+        let lattice = Lattice::of(&table).unwrap();
+        let once = encode(&table, &lattice, 0);
+        let back = decode(&once, bare(), &layout("f32")[1..], unit).unwrap();
+        assert_eq!(back.precision(), Precision::F32);
+        assert_eq!(encode(&back, &lattice, 0), once);
+        for (found, x) in back.columns[0].values.iter().zip(&table.columns[0].values) {
+            assert_eq!(found.to_bits(), f64::from(*x as f32).to_bits());
         }
     }
 

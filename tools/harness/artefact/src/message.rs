@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::table::{Record, Table, WORLD};
+use crate::values::Precision;
 use crate::{cloud, grid};
 
 /// Schema name of a [`Table`].
@@ -76,6 +77,10 @@ impl Topic {
     /// A channel of grids of equal cells, with the axes that they share.
     pub(crate) fn grid(channel: &str, table: &Table) -> Self {
         let columns = table.columns.iter();
+        let kind = match table.precision() {
+            Precision::F32 => "f32",
+            Precision::F64 => "f64",
+        };
         let mut more = frame_of(table);
         more.insert(
             AXES.to_owned(),
@@ -85,7 +90,7 @@ impl Topic {
             more.insert(ATTRIBUTES.to_owned(), format!("{channel}/{ATTRIBUTES}"));
         }
         Self {
-            layout: columns.map(|c| format!("{} f64", c.name)).collect(),
+            layout: columns.map(|c| format!("{} {kind}", c.name)).collect(),
             more,
             ..Self::json(channel, GRID, "", table.units())
         }

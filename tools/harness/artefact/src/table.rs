@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
+use crate::values::Precision;
 
 /// A value with its unit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,6 +43,8 @@ pub struct Table {
     pub columns: Vec<Series>,
     #[serde(skip)]
     frame_id: String,
+    #[serde(skip)]
+    narrow: bool,
     #[serde(skip)]
     origin: String,
 }
@@ -108,6 +111,23 @@ impl Table {
             WORLD
         } else {
             &self.frame_id
+        }
+    }
+
+    /// Says how wide the values of a packed grid are; 8 bytes where nothing is said.
+    #[must_use]
+    pub fn in_precision(mut self, precision: Precision) -> Self {
+        self.narrow = precision == Precision::F32;
+        self
+    }
+
+    /// How wide the values of a packed grid are.
+    #[must_use]
+    pub fn precision(&self) -> Precision {
+        if self.narrow {
+            Precision::F32
+        } else {
+            Precision::F64
         }
     }
 
@@ -197,15 +217,20 @@ impl Table {
         ))
     }
 
-    /// First value that is not finite: column, entry, value.
+    /// First value that is not finite as wide as it will be: column, entry, value.
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "whether it is lost is the question"
+    )]
     pub(crate) fn not_finite(&self) -> Option<(String, usize, f64)> {
+        let lost = |x: f64| !x.is_finite() || (self.narrow && !(x as f32).is_finite());
         let attributes = self.attributes.iter().filter(|(_, q)| !q.value.is_finite());
         let mut found = attributes.map(|(name, q)| (name.clone(), 0, q.value));
         found.next().or_else(|| {
             self.axes.iter().chain(&self.columns).find_map(|c| {
                 c.values
                     .iter()
-                    .position(|x| !x.is_finite())
+                    .position(|x| lost(*x))
                     .map(|i| (c.name.clone(), i, c.values[i]))
             })
         })

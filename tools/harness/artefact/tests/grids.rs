@@ -379,6 +379,30 @@ fn every_command_knows_both_encodings() {
 }
 
 #[test]
+fn diff_compares_a_grid_with_the_same_grid_as_an_older_writer_stored_it() {
+    let folder = folder();
+    let a = sample(folder.path(), "a.mcap");
+    let old = folder.path().join("old.mcap");
+    let mut writer = Writer::create(&old, &header()).unwrap();
+    let schema = include_str!("../../../../schemas/table.v1.json");
+    let json = (TABLE, schema);
+    writer.json("/section", 0.0, json, &even(0.0)).unwrap();
+    writer.json("/section", 0.5, json, &even(0.25)).unwrap();
+    writer.finish().unwrap();
+    let only = ["diff", text(&a), text(&old), "--channel", "/section"];
+    let (code, said) = artefact(&only);
+    assert_eq!(code, 1, "{said}");
+    let holds = "holds foxglove.Grid in A, fusionline.table.v1 in B";
+    assert!(said.contains(holds), "{said}");
+    let row = |name: &str| said.lines().find(|l| l.contains(name)).map(str::to_owned);
+    assert!(
+        row("velocity_y_m_s").unwrap().contains(" 2.5000e-1 "),
+        "{said}"
+    );
+    assert_eq!(row("temperature_k"), None, "{said}");
+}
+
+#[test]
 fn a_grid_is_saved_with_its_scalars_from_a_run_that_was_killed() {
     let folder = folder();
     let path = folder.path().join("mean.mcap");

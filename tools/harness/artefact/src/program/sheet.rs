@@ -1,8 +1,8 @@
 //! A message of any schema as columns: what all commands look at.
 
 use artefact::{
-    Channel, Column, GRID, POINT_CLOUD, RECORD, Reader, Record, Result, Series, TABLE, Table,
-    Values,
+    Channel, Column, GRID, POINT_CLOUD, Precision, RECORD, Reader, Record, Result, Series, TABLE,
+    Table, Values,
 };
 use serde_json::Value;
 
@@ -89,10 +89,12 @@ impl Sheet {
         } else {
             Form::Grid
         };
+        let precision = table.precision();
+        let columns = table.columns.into_iter();
         let attributes = table.attributes.into_iter();
         Self {
             axes: table.axes.into_iter().map(series).collect(),
-            columns: table.columns.into_iter().map(series).collect(),
+            columns: columns.map(|c| as_wide(series(c), precision)).collect(),
             attributes: attributes
                 .map(|(name, q)| scalar(name, q.unit, q.value))
                 .collect(),
@@ -160,6 +162,22 @@ fn series(series: Series) -> Column {
         unit: series.unit,
         values: Values::F64(series.values),
     }
+}
+
+/// A column as wide as it stands in the file.
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "the values were read from f32"
+)]
+fn as_wide(column: Column, precision: Precision) -> Column {
+    let values = match precision {
+        Precision::F32 => {
+            let wide = column.values.to_f64();
+            Values::F32(wide.into_iter().map(|x| x as f32).collect())
+        }
+        Precision::F64 => column.values,
+    };
+    Column { values, ..column }
 }
 
 fn scalar(name: String, unit: String, value: f64) -> Column {

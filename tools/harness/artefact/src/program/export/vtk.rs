@@ -55,16 +55,18 @@ pub(super) fn cloud(sheet: &Sheet) -> Vec<u8> {
 /// A grid as image data where its axes are even, else as a rectilinear grid; and the suffix.
 ///
 /// An axis goes along x, y or z by its name (`y_m`; `radius_m` along x; `height_m` and `depth_m`
-/// along z), so that sections lie where the particles are; other axes take what is left.
+/// along z), so that sections lie where the particles are; other axes take what is left. Along its
+/// normal a section stands at the attribute `x_m`, `y_m` or `z_m`.
 pub(super) fn grid(sheet: &Sheet) -> (Vec<u8>, &'static str) {
     let directions = directions(&sheet.axes);
     let mut along = [const { Vec::new() }; 3];
     for (axis, &direction) in sheet.axes.iter().zip(&directions) {
         along[direction] = axis.values.to_f64();
     }
-    for axis in &mut along {
+    for (axis, name) in along.iter_mut().zip(["x_m", "y_m", "z_m"]) {
         if axis.is_empty() {
-            axis.push(0.0);
+            let place = sheet.attributes.iter().find(|a| a.name == name);
+            axis.push(place.map_or(0.0, |a| a.values.to_f64()[0]));
         }
     }
     let last = along.each_ref().map(|axis| axis.len() - 1);
