@@ -10,8 +10,6 @@ const CELLS_FREE: usize = 4096;
 const CELLS: usize = 8;
 /// Cells on each side of a point that may be left out of a run.
 const SIDE: usize = 2;
-/// Candidates that are written at once.
-const BLOCK: usize = 8;
 /// Part of an edge by which cells may be nearer than they should, by rounding.
 const SLACK: f64 = 1e-6;
 
@@ -31,18 +29,6 @@ impl Gaps {
     #[inline]
     fn square(&self, cell: usize) -> f64 {
         self.squares.get(cell - self.low).copied().unwrap_or(0.0)
-    }
-
-    /// First and last cell whose square is less than `rest`; the point's own one if none is.
-    #[inline]
-    fn within(&self, rest: f64) -> (usize, usize) {
-        let rest = rest.max(f64::MIN_POSITIVE);
-        let (mut low, mut high) = (self.low, self.high);
-        for (left, right) in self.left.iter().zip(&self.right) {
-            low += usize::from(*left >= rest);
-            high -= usize::from(*right >= rest);
-        }
-        (low, high)
     }
 }
 
@@ -183,7 +169,11 @@ impl Grid {
                 if rest <= 0.0 {
                     continue;
                 }
-                let (low, high) = x.within(rest);
+                let (mut low, mut high) = (x.low, x.high);
+                for (left, right) in x.left.iter().zip(&x.right) {
+                    low += usize::from(*left >= rest);
+                    high -= usize::from(*right >= rest);
+                }
                 let row = self.counts[0] * (j + self.counts[1] * k);
                 let run = self.start[row + low] as usize..self.start[row + high + 1] as usize;
                 if !run.is_empty() && stop(run) {
@@ -194,79 +184,38 @@ impl Grid {
         false
     }
 
-    /// Writes the places in [`Grid::sorted`] of all points that may lie within `radius` of `point`
-    /// to the front of `places`, in the order of [`Grid::runs`]; returns their number.
-    ///
-    /// Runs are short and of all lengths, so that a loop over one ends by surprise. Here a block of
-    /// numbers is written for each row of cells, needed or not, and the end moves on by as many as
-    /// count.
-    #[inline]
-    pub(crate) fn candidates(&self, point: [f64; 3], radius: f64, places: &mut Vec<u32>) -> usize {
-        let limit = radius * radius;
-        let [x, y, z] = [0, 1, 2].map(|axis| self.gaps(point, radius, axis));
-        let mut used = 0;
-        for k in z.low..=z.high {
-            let across = limit - z.square(k);
-            for j in y.low..=y.high {
-                let rest = across - y.square(j);
-                let (low, high) = x.within(rest);
-                let row = self.counts[0] * (j + self.counts[1] * k);
-                let (start, end) = (self.start[row + low], self.start[row + high + 1]);
-                let count = if rest > 0.0 { end - start } else { 0 } as usize;
-                if places.len() < used + count + BLOCK {
-                    places.resize(2 * (used + count + BLOCK), 0);
-                }
-                let mut block = 0;
-                loop {
-                    let slots = &mut places[used + block..used + block + BLOCK];
-                    for (slot, i) in slots.iter_mut().zip(0..) {
-                        *slot = start + block as u32 + i;
-                    }
-                    block += BLOCK;
-                    if block >= count {
-                        break;
-                    }
-                }
-                used += count;
-            }
-        }
-        used
-    }
-
     /// Cells along `axis` that a sphere may touch, and how far from its centre they begin.
     #[inline]
     fn gaps(&self, point: [f64; 3], radius: f64, axis: usize) -> Gaps {
         let x = point[axis] - self.origin[axis];
         let inverse = 1.0 / self.edge;
-        let last = (self.counts[axis] - 1) as u32;
         // A float cast saturates, so that what lies left of the origin lands in cell 0.
-        let cell = |x: f64| ((x * inverse) as u32).min(last);
-        let (low, own, high) = (cell(x - radius), cell(x), cell(x + radius));
-        let first = self.edge * f64::from(low) - x;
-        let mut squares = [0.0; CELLS];
-        for (i, square) in squares.iter_mut().enumerate() {
-            let start = first + self.edge * i as f64;
-            let gap = (start.max(-start - self.edge) - SLACK * self.edge).max(0.0);
-            *square = gap * gap;
-        }
-        let (low, own, high) = (low as usize, own as usize, high as usize);
-        // The squares fall toward the point and rise behind it; a cell counts for one side only.
-        let (mut left, mut right) = ([0.0; SIDE], [0.0; SIDE]);
-        for i in 0..SIDE {
-            if low + i < own {
-                left[i] = squares[i];
-            }
-            if high > own + i && high - i - low < CELLS {
-                right[i] = squares[high - i - low];
-            }
-        }
-        Gaps {
+        let cell = |x: f64| ((x * inverse) as usize).min(self.counts[axis] - 1);
+        let (low, high) = (cell(x - radius), cell(x + radius));
+        let mut gaps = Gaps {
             low,
             high,
-            squares,
-            left,
-            right,
+            squares: [0.0; CELLS],
+            left: [0.0; SIDE],
+            right: [0.0; SIDE],
+        };
+        for (i, square) in gaps.squares.iter_mut().enumerate() {
+            let start = self.edge * (low + i) as f64;
+            let gap = (start - x).max(x - start - self.edge) - SLACK * self.edge;
+            *square = gap.max(0.0) * gap.max(0.0);
         }
+        // The squares fall toward the point and rise behind it; a cell counts for one side only.
+        let own = cell(x);
+        for i in 0..SIDE {
+            let (left, right) = (low + i, high.wrapping_sub(i));
+            if left < own {
+                gaps.left[i] = gaps.square(left);
+            }
+            if right > own && right <= high {
+                gaps.right[i] = gaps.square(right);
+            }
+        }
+        gaps
     }
 
     fn enclose(&mut self, points: &[[f64; 3]]) {

@@ -14,7 +14,6 @@ pub struct Chunk {
     offsets: Vec<u32>,
     index: Vec<u32>,
     square: Vec<f64>,
-    candidates: Vec<u32>,
 }
 
 impl Chunk {
@@ -64,9 +63,9 @@ impl Chunk {
         self.offsets.clear();
         self.offsets.push(0);
         let mut used = 0;
-        for (a, &point) in points.iter().enumerate().take(end).skip(self.first) {
+        for a in self.first..end {
             if wanted(a) {
-                used = self.search(grid, (point, radius), (a, used), accepts);
+                used = self.search(grid, (points[a], radius), (a, used), accepts);
             }
             self.offsets.push(used as u32);
         }
@@ -85,24 +84,23 @@ impl Chunk {
         accepts: &impl Fn(usize, usize) -> bool,
     ) -> usize {
         let limit = radius * radius;
-        let count = grid.candidates(point, radius, &mut self.candidates);
-        let end = used + count;
-        if self.index.len() < end {
-            self.index.resize(2 * end, 0);
-        }
-        if self.square.len() < end {
-            self.square.resize(2 * end, 0.0);
-        }
-        let (index, squares) = (&mut self.index[used..end], &mut self.square[used..end]);
-        let (sorted, order) = (grid.sorted(), grid.order());
-        let mut hits = 0;
-        for &place in &self.candidates[..count] {
-            let square = distance_squared(point, sorted[place as usize]);
-            let b = order[place as usize];
-            (index[hits], squares[hits]) = (b, square);
-            hits += usize::from((square < limit) & (b as usize != a) & accepts(a, b as usize));
-        }
-        used += hits;
+        grid.runs(point, radius, |run| {
+            let end = used + run.len();
+            if self.index.len() < end {
+                self.index.resize(2 * end, 0);
+            }
+            if self.square.len() < end {
+                self.square.resize(2 * end, 0.0);
+            }
+            let (slots, squares) = (&mut self.index[used..end], &mut self.square[used..end]);
+            let mut hits = 0;
+            for (position, &b) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
+                let square = distance_squared(point, *position);
+                (slots[hits], squares[hits]) = (b, square);
+                hits += usize::from((square < limit) & (b as usize != a) & accepts(a, b as usize));
+            }
+            used += hits;
+        });
         used
     }
 
@@ -215,8 +213,7 @@ impl Lists {
         self.chunks
             .iter()
             .map(|chunk| {
-                let indices =
-                    chunk.index.capacity() + chunk.offsets.capacity() + chunk.candidates.capacity();
+                let indices = chunk.index.capacity() + chunk.offsets.capacity();
                 4 * indices + 8 * chunk.square.capacity()
             })
             .sum()
