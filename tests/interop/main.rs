@@ -1,5 +1,5 @@
-//! Our files open in other people's programs: MCAP readers for Foxglove's point clouds, VTK for
-//! ParaView, NumPy. The readers are Python packages in `build/python`, installed by `make test`.
+//! Our files open in other people's programs: MCAP readers for Foxglove's point clouds and grids, VTK
+//! for ParaView, NumPy. The readers are Python packages in `build/python`, installed by `make test`.
 
 #![allow(
     clippy::unwrap_used,
@@ -11,7 +11,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use artefact::{Frame, Header, Precision, Record, Table, Version, Writer};
+use artefact::{Frame, GRID, Header, Precision, Reader, Record, Table, Version, Writer};
 use serde_json::Value;
 
 fn root() -> PathBuf {
@@ -56,7 +56,7 @@ fn ask(python: &Path, script: &str, arguments: &[&str]) -> Value {
 }
 
 /// Three frames of a thousand particles, one without any, and tables on grids with uneven and even
-/// axes whose values are 1000 times the node's number.
+/// axes, 4 mm along y, whose values are 1000 times the node's number and a part that is no round number.
 fn sample(path: &Path) {
     let header = Header {
         kind: "particle-frames".to_owned(),
@@ -80,7 +80,9 @@ fn sample(path: &Path) {
             ("radius_m", "m", &[0.0, 1e-3, radius]),
             ("height_m", "m", &[0.0, height]),
         ])
-        .column("temperature_k", "K", (0..6).map(|i| 1000.0 * f64::from(i)));
+        .column("temperature_k", "K", (0..6).map(|i| 1000.0 * f64::from(i)))
+        .column("share", "1", (0..6).map(|i| f64::from(i) / 7.0))
+        .attribute("y_m", "m", 4e-3);
         writer.table(channel, 0.5, &table).unwrap();
     }
     let record = Record::new().with("mass_kg", "kg", 0.5);
@@ -129,6 +131,42 @@ fn point_clouds_are_read_by_the_packages_that_foxglove_publishes() {
     );
     assert_eq!(found["temperature_k"], serde_json::json!([300.0, 1301.0]));
     assert_eq!(found["metadata"]["fusionline"]["kind"], "particle-frames");
+}
+
+#[test]
+fn grids_are_read_by_the_packages_that_foxglove_publishes_as_by_our_reader() {
+    let Some(python) = python() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("frames.mcap");
+    sample(&file);
+    let found = ask(
+        &python,
+        "read_grid.py",
+        &[file.to_str().unwrap(), "/section"],
+    );
+    assert_eq!(found["schema"], GRID);
+    assert_eq!(found["times_s"], serde_json::json!([0.5]));
+    assert_eq!(found["stamp_s"], 0.5);
+    assert_eq!(found["frame_id"], "world");
+    let table = Reader::open(&file).unwrap().table("/section").unwrap();
+    assert_eq!(found["shape"], serde_json::json!(table.shape));
+    for column in &table.columns {
+        let values: Vec<f64> =
+            serde_json::from_value(found["values"][&column.name].clone()).unwrap();
+        assert_eq!(values, column.values, "{}, to the last bit", column.name);
+        assert_eq!(found["units"][&column.name], column.unit.as_str());
+    }
+    let centres: Vec<[f64; 3]> = serde_json::from_value(found["centres"].clone()).unwrap();
+    let (radius, height) = (
+        table.axis("radius_m").unwrap(),
+        table.axis("height_m").unwrap(),
+    );
+    assert_eq!(centres.len(), radius.len() * height.len());
+    for (n, [x, y, z]) in centres.into_iter().enumerate() {
+        let [i, j] = [n / height.len(), n % height.len()];
+        let there = near(x, radius[i]) && near(y, 4e-3) && near(z, height[j]);
+        assert!(there, "node {n} is at ({x}, {y}, {z}) m");
+    }
 }
 
 /// Exports with the program `artefact` and returns the files it wrote.
@@ -209,7 +247,7 @@ fn exports_open_in_the_library_that_paraview_reads_with() {
             let i = [0.0, 1e-3, radius].iter().position(|r| near(*r, x));
             let j = [0.0, height].iter().position(|h| near(*h, z));
             let node = 2 * i.unwrap() + j.unwrap();
-            assert!(near(y, 0.0) && near(value, 1000.0 * node as f64), "{grid}");
+            assert!(near(y, 4e-3) && near(value, 1000.0 * node as f64), "{grid}");
         }
     }
     let series = std::fs::read_to_string(folder.path().join("vtu/balance.csv")).unwrap();
@@ -274,7 +312,7 @@ fn the_programs_that_our_pages_show_do_what_they_say() {
     let file = folder.path().join("frames.mcap");
     sample(&file);
     let programs = programs_in("tools/harness/artefact/FORMAT.md");
-    let [frames, tables] = programs.as_slice() else {
+    let [frames, grids, tables] = programs.as_slice() else {
         panic!("{} programs", programs.len());
     };
     let told = print_of(&python, folder.path(), frames, &file);
@@ -283,10 +321,13 @@ fn the_programs_that_our_pages_show_do_what_they_say() {
     assert!(lines[2].starts_with("0.5 s 1002 1.001"), "{told}");
     assert!(lines[2].contains("\"temperature\":\"K\""), "{told}");
     let told = print_of(&python, folder.path(), tables, &file);
-    assert_eq!(
-        told,
-        "/plasma temperature_k K (3, 2) 5000.0\n/section temperature_k K (3, 2) 5000.0\n"
-    );
+    let share = 5.0 / 7.0;
+    let lines = |channel: &str| {
+        format!("{channel} temperature_k K (3, 2) 5000.0\n{channel} share 1 (3, 2) {share}\n")
+    };
+    assert_eq!(told, lines("/plasma"));
+    let told = print_of(&python, folder.path(), grids, &file);
+    assert_eq!(told, lines("/section"));
 
     let readme = programs_in("README.md");
     assert_eq!(readme.len(), 1, "the README shows one program");
