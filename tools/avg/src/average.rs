@@ -211,8 +211,9 @@ pub struct Averages {
 pub struct Averaging<'a> {
     scene: &'a Scene,
     plan: &'a Plan,
-    averages: Averages,
-    seen: Vec<BTreeSet<i64>>,
+    pub(crate) averages: Averages,
+    /// Droplet periods in each phase.
+    pub(crate) seen: Vec<BTreeSet<i64>>,
 }
 
 impl<'a> Averaging<'a> {

@@ -9,7 +9,7 @@ pub struct Moments {
     pub count: u32,
     /// Their mean; 0 without values.
     pub mean: f64,
-    squares: f64,
+    pub(crate) squares: f64,
 }
 
 impl Moments {
@@ -46,6 +46,25 @@ pub struct Point {
 }
 
 impl Point {
+    /// All its moments, in the order of a checkpoint.
+    pub(crate) fn moments(&self) -> [Moments; 6] {
+        let [x, y, z] = self.velocity;
+        [x, y, z, self.temperature, self.height, self.share]
+    }
+
+    /// The same, to be replaced.
+    pub(crate) fn moments_mut(&mut self) -> [&mut Moments; 6] {
+        let [x, y, z] = &mut self.velocity;
+        [
+            x,
+            y,
+            z,
+            &mut self.temperature,
+            &mut self.height,
+            &mut self.share,
+        ]
+    }
+
     fn add(&mut self, sample: &Sample) {
         if sample.metal {
             self.temperature.add(sample.temperature);
@@ -80,6 +99,16 @@ impl Ensemble {
             time: vec![Point::default(); points],
             frames: vec![0; phases],
         }
+    }
+
+    /// All points, those of the phases before those of the mean over all time.
+    pub(crate) fn points(&self) -> impl Iterator<Item = &Point> {
+        self.phases.iter().flatten().chain(&self.time)
+    }
+
+    /// The same, to be replaced.
+    pub(crate) fn points_mut(&mut self) -> impl Iterator<Item = &mut Point> {
+        self.phases.iter_mut().flatten().chain(&mut self.time)
     }
 
     /// Takes in the samples of a frame of the given phase. Frames come in the order of time, so

@@ -20,5 +20,6 @@ pub mod frames;
 pub mod grid;
 pub mod mean;
 pub mod phase;
+pub mod resume;
 pub mod scene;
 pub mod stage;

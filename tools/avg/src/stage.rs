@@ -7,6 +7,7 @@ use run::{Estimate, Failure, Fault, Input, Inputs, Plan as Shown, Session, Tool}
 
 use crate::average::{AverageError, Averages, Averaging, Plan};
 use crate::fields;
+use crate::resume;
 use crate::scene::Scene;
 
 /// Kind and major version of the frames that are averaged.
@@ -66,7 +67,11 @@ impl Tool for Avg {
         let (reader, plan) = open(scene, inputs)?;
         let mut averaging = Averaging::new(scene, &plan);
         let total = plan.frames.len() as u64;
-        for (done, index) in plan.frames.iter().enumerate() {
+        let taken = match session.restored() {
+            Some(mut checkpoint) => resume::restore(&mut checkpoint, &mut averaging)?,
+            None => 0,
+        };
+        for (done, index) in plan.frames.iter().enumerate().skip(taken) {
             let cloud = session.timed("read", || averaging.read(&reader, *index));
             let cloud = cloud.map_err(failure)?;
             session.timed("mean", || averaging.take(&cloud));
@@ -76,7 +81,7 @@ impl Tool for Avg {
                     ("phase", cloud.phase as f64, "1"),
                 ]
             });
-            session.stopped()?;
+            session.keep(|checkpoint| resume::save(checkpoint, &averaging, done + 1))?;
         }
         let averages = averaging.finish();
         for (channel, time, table) in fields::tables(&plan, &averages) {
