@@ -67,20 +67,31 @@ fn fill(writer: &mut Writer) {
 
 /// Writes `from` again with each message changed by `change`, checksums right.
 fn rewritten(from: &Path, change: impl Fn(&str, &mut Vec<u8>)) -> PathBuf {
+    copied(from, header().to_metadata(), |topic, data| {
+        change(topic, data);
+        true
+    })
+}
+
+/// Writes `from` again under other metadata, with the messages that `keep` keeps and may change.
+fn copied(
+    from: &Path,
+    metadata: BTreeMap<String, String>,
+    keep: impl Fn(&str, &mut Vec<u8>) -> bool,
+) -> PathBuf {
     let bytes = std::fs::read(from).unwrap();
     let mut out = std::io::Cursor::new(Vec::new());
     let mut writer = mcap::Writer::new(&mut out).unwrap();
-    let metadata = mcap::records::Metadata {
-        name: METADATA.to_owned(),
-        metadata: header().to_metadata(),
-    };
+    let name = METADATA.to_owned();
+    let metadata = mcap::records::Metadata { name, metadata };
     writer.write_metadata(&metadata).unwrap();
     for message in mcap::MessageStream::new(&bytes).unwrap() {
         let mut message = message.unwrap();
         let mut data = message.data.to_vec();
-        change(&message.channel.topic, &mut data);
-        message.data = data.into();
-        writer.write(&message).unwrap();
+        if keep(&message.channel.topic, &mut data) {
+            message.data = data.into();
+            writer.write(&message).unwrap();
+        }
     }
     writer.finish().unwrap();
     drop(writer);
@@ -207,6 +218,24 @@ fn the_record_of_the_header_names_the_unit_of_every_column() {
 }
 
 #[test]
+fn units_that_are_not_those_of_the_channels_are_named() {
+    let folder = folder();
+    let whole = sample(folder.path(), "a.mcap");
+    let reader = Reader::open(&whole).unwrap();
+    let mut record = reader.metadata(METADATA).unwrap().clone();
+    let units = record.get_mut("units").unwrap();
+    *units = units.replacen("\"temperature_k\":\"K\"", "\"temperature_k\":\"C\"", 1);
+    let path = copied(&whole, record, |_, _| true);
+    let (code, said) = artefact(&["validate", text(&path)]);
+    assert_eq!(code, 1);
+    let what = "units: channel '/section', column 'temperature_k': 'C', the channel says 'K'";
+    assert!(said.contains(what), "{said}");
+    // A file that says it in the channels alone.
+    let path = rewritten(&whole, |_, _| ());
+    assert_eq!(artefact(&["validate", text(&path)]).0, 0);
+}
+
+#[test]
 fn what_does_not_fit_is_refused_by_the_writer() {
     let folder = folder();
     let mut writer = Writer::create(folder.path().join("a.mcap"), &header()).unwrap();
@@ -270,27 +299,10 @@ fn a_spoilt_grid_is_named_by_file_channel_and_message() {
 #[test]
 fn scalars_that_lost_their_grid_are_named() {
     let folder = folder();
-    let path = rewritten(&sample(folder.path(), "a.mcap"), |_, _| ());
-    Reader::open(&path).unwrap().table("/section").unwrap();
-    // A name of the same length: the record beside the grids is gone.
-    let mut bytes = Vec::new();
-    let from = std::fs::read(&path).unwrap();
-    let mut out = std::io::Cursor::new(&mut bytes);
-    let mut writer = mcap::Writer::new(&mut out).unwrap();
-    let metadata = mcap::records::Metadata {
-        name: METADATA.to_owned(),
-        metadata: header().to_metadata(),
-    };
-    writer.write_metadata(&metadata).unwrap();
-    for message in mcap::MessageStream::new(&from).unwrap() {
-        let message = message.unwrap();
-        if message.channel.topic != "/section/attributes" {
-            writer.write(&message).unwrap();
-        }
-    }
-    writer.finish().unwrap();
-    drop(writer);
-    std::fs::write(&path, bytes).unwrap();
+    let whole = sample(folder.path(), "a.mcap");
+    let path = copied(&whole, header().to_metadata(), |topic, _| {
+        topic != "/section/attributes"
+    });
     let said = Reader::open(&path).unwrap().table("/section").unwrap_err();
     assert!(
         said.to_string()

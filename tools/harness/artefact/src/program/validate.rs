@@ -1,8 +1,9 @@
 //! `artefact validate`: checksums, schemas, and that every number is one.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use artefact::{Channel, Reader};
+use artefact::{Channel, METADATA, Reader};
 use jsonschema::Validator;
 use serde_json::Value;
 
@@ -16,7 +17,7 @@ use super::{Streams, json};
 #[command(after_help = "Example:
   target/release/artefact validate build/gmaw-quick/*.mcap build/gmaw-quick/*.run.json
 Of an MCAP file it reads every byte: checksums of data, chunks and index; order of times; each JSON
-message against the JSON Schema in the file; units; and NaN or infinity in any column, named by
+message against the JSON Schema in the file; strides, lengths and place of grids; units; and NaN or infinity in any column, named by
 channel, time, column and row. Of a JSON record it checks the schema of its kind.
 Exit code 1 when anything is wrong in any file.")]
 pub(crate) struct Arguments {
@@ -58,6 +59,7 @@ fn findings(path: &Path) -> (Vec<String>, String) {
     for channel in &channels {
         check_channel(&reader, channel, &mut found);
     }
+    check_units(&reader, &channels, &mut found);
     let messages: usize = channels.iter().map(|c| c.messages).sum();
     let header = reader.header();
     let what = format!(
@@ -68,6 +70,36 @@ fn findings(path: &Path) -> (Vec<String>, String) {
         reader.bytes()
     );
     (found, what)
+}
+
+/// What the record of the header says of units must be what the channels say. Older files say it in
+/// the channels alone.
+fn check_units(reader: &Reader, channels: &[Channel], found: &mut Vec<String>) {
+    let record = reader.metadata(METADATA);
+    let Some(text) = record.and_then(|record| record.get("units")) else {
+        return;
+    };
+    let at = format!(
+        "{}: metadata record '{METADATA}', units",
+        reader.path().display()
+    );
+    let stated: BTreeMap<String, BTreeMap<String, String>> = match serde_json::from_str(text) {
+        Ok(stated) => stated,
+        Err(e) => return found.push(format!("{at}: {e}")),
+    };
+    let nothing = BTreeMap::new();
+    for channel in channels {
+        let stated = stated.get(&channel.name).unwrap_or(&nothing);
+        for name in stated.keys().chain(channel.units.keys()) {
+            let (a, b) = (stated.get(name), channel.units.get(name));
+            if a != b {
+                let word = |unit: Option<&String>| unit.map_or("none", String::as_str).to_owned();
+                let (a, b) = (word(a), word(b));
+                let name = format!("channel '{}', column '{name}'", channel.name);
+                found.push(format!("{at}: {name}: '{a}', the channel says '{b}'"));
+            }
+        }
+    }
 }
 
 fn check_channel(reader: &Reader, channel: &Channel, found: &mut Vec<String>) {
