@@ -17,6 +17,7 @@ pub mod source;
 pub mod stage;
 pub mod state;
 pub mod surface;
+mod sweep;
 pub mod tool;
 mod trial;
 

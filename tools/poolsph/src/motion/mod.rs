@@ -5,7 +5,6 @@ pub mod integration;
 pub mod lattice;
 pub mod noise;
 pub mod projection;
-mod sweep;
 pub mod viscosity;
 
 pub use integration::{Method, Motion, Parameters};

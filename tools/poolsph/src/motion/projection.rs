@@ -27,9 +27,9 @@ use rayon::prelude::*;
 use neighbours::ROWS;
 
 use super::lattice::Lattice;
-use super::sweep::{carried, middle, summed};
 use crate::near::{Near, Role, dot, minus, plus, squared};
 use crate::state::Metal;
+use crate::sweep::{carried, middle, summed};
 
 /// Step of the gradient in parts of what the stiffest mode of the filled lattice allows;
 /// disordered clouds are somewhat stiffer.
@@ -46,6 +46,9 @@ const RELEASE: f64 = 0.01;
 /// Density that a solid particle leaves to a layer of liquid over what solid ones beside it have too
 /// much by themselves.
 const YIELD: f64 = 10.0;
+
+/// Particles per unit of parallel work, where each takes little.
+const GRAIN: usize = 2048;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
@@ -333,11 +336,15 @@ impl Projection {
 
     /// y = p_new + weight (p_new - p); p = p_new.
     fn extrapolate(&mut self, weight: f32) {
-        let points = self.tried.iter_mut().zip(&self.place).zip(&self.advanced);
-        for (((y, x), &new), p) in points.zip(&mut self.pressure) {
-            *y = carried(*x, (new + weight * (new - *p)).max(0.0));
-            *p = new;
-        }
+        let points = self.tried.par_iter_mut().zip(&self.place);
+        points
+            .zip(&self.advanced)
+            .zip(&mut self.pressure)
+            .with_min_len(GRAIN)
+            .for_each(|(((y, x), &new), p)| {
+                *y = carried(*x, (new + weight * (new - *p)).max(0.0));
+                *p = new;
+            });
     }
 
     /// Sums over all particles.

@@ -7,6 +7,8 @@ const CORNERS: usize = 48;
 pub(super) struct Polygon {
     corners: [[f64; 2]; CORNERS],
     n: usize,
+    /// Squared distance of the farthest corner from the origin.
+    reach: f64,
 }
 
 impl Polygon {
@@ -14,12 +16,21 @@ impl Polygon {
     pub(super) fn square(half: f64) -> Self {
         let mut corners = [[0.0; 2]; CORNERS];
         corners[..4].copy_from_slice(&[[-half, -half], [half, -half], [half, half], [-half, half]]);
-        Self { corners, n: 4 }
+        Self {
+            corners,
+            n: 4,
+            reach: 2.0 * half * half,
+        }
     }
 
     /// Keeps what has `normal . y <= offset`.
     #[inline]
     pub(super) fn cut(&mut self, normal: [f64; 2], offset: f64) {
+        // Most neighbours are too far to cut anything.
+        let square = normal[0] * normal[0] + normal[1] * normal[1];
+        if offset > 0.0 && offset * offset >= self.reach * square {
+            return;
+        }
         let height = |y: [f64; 2]| normal[0] * y[0] + normal[1] * y[1] - offset;
         let whole = &self.corners[..self.n];
         if whole.iter().all(|y| height(*y) <= 0.0) || self.n + 1 >= CORNERS {
@@ -44,6 +55,8 @@ impl Polygon {
         }
         self.corners[..n].copy_from_slice(&kept[..n]);
         self.n = n;
+        let squares = kept[..n].iter().map(|y| y[0] * y[0] + y[1] * y[1]);
+        self.reach = squares.fold(0.0, f64::max);
     }
 
     /// True if nothing is left.
@@ -79,5 +92,10 @@ mod tests {
             diamond.cut(normal, 1.0);
         }
         assert!((diamond.area() - 2.0).abs() < 1e-14);
+        // Its corners are at 1: what passes just outside leaves it, what passes just inside does not.
+        diamond.cut([2.0, 0.0], 2.0 + 1e-9);
+        assert!((diamond.area() - 2.0).abs() < 1e-14);
+        diamond.cut([2.0, 0.0], 1.0);
+        assert!((diamond.area() - 1.75).abs() < 1e-14);
     }
 }

@@ -7,7 +7,8 @@ use super::Patch;
 use super::area::Polygon;
 use super::columns::Columns;
 use super::{Cloud, tangents};
-use crate::near::{dot, minus, plus, squared};
+use crate::near::{dot, minus, squared};
+use crate::sweep::summed;
 
 /// A particle deeper than this many spacings is not of the band.
 const BAND: f64 = 1.75;
@@ -26,24 +27,24 @@ const STEEP: f64 = 0.7;
 /// Rows per unit of parallel work.
 const GRAIN: usize = 128;
 
-/// A neighbour of a member.
-#[derive(Debug, Clone, Copy)]
-struct Link {
-    /// Its number among the members.
-    to: u32,
-    /// W of the pair; for levels, times |grad C| of the neighbour, and only in the band.
-    weight: f64,
+/// Neighbours of a member.
+#[derive(Debug, Clone, Default)]
+struct Links {
+    /// Their numbers among the members.
+    to: Vec<u32>,
+    /// V W of the pairs; for levels, times |grad C| of the neighbour, and only in the band.
+    weight: Vec<f32>,
 }
 
 /// What the mean of the levels around a member keeps from turn to turn.
 #[derive(Debug, Clone, Copy)]
 struct Mean {
     /// Weight of the member itself.
-    own: f64,
+    own: f32,
     /// Sum of weight times rise of the surface from the member to each neighbour.
-    risen: f64,
+    risen: f32,
     /// Sum of all weights.
-    total: f64,
+    total: f32,
 }
 
 /// The band, with buffers that are kept from step to step.
@@ -54,15 +55,15 @@ pub(super) struct Band {
     width: usize,
     /// Number among the members, by number in the cloud.
     slots: Vec<u32>,
-    links: Vec<Vec<Link>>,
+    links: Vec<Links>,
     patches: Vec<Patch>,
     next: Vec<Patch>,
-    /// grad C of the members \[1/m\].
-    gradients: Vec<[f64; 3]>,
-    turned: Vec<[f64; 3]>,
+    /// grad C of the members \[1/m\], and a zero.
+    gradients: Vec<[f32; 4]>,
+    turned: Vec<[f32; 4]>,
     means: Vec<Mean>,
-    depths: Vec<f64>,
-    levelled: Vec<f64>,
+    depths: Vec<f32>,
+    levelled: Vec<f32>,
     columns: Columns,
 }
 
@@ -78,12 +79,13 @@ impl Band {
         coloured: &mut [Patch],
     ) {
         self.collect(cloud, coloured, spacing);
-        self.link(cloud, kernel);
         let volume = spacing * spacing * spacing;
+        let own = volume * kernel.value(0.0);
+        self.link(cloud, kernel, volume);
         for _ in 0..TURNS {
-            self.turn(kernel.value(0.0), volume);
+            self.turn(own);
         }
-        self.trust(cloud, kernel.value(0.0));
+        self.trust(cloud, own);
         for _ in 0..LEVELS {
             self.level();
         }
@@ -140,42 +142,42 @@ impl Band {
         self.patches
             .extend(self.members.iter().map(|k| coloured[*k as usize]));
         self.gradients.clear();
-        self.gradients
-            .extend(self.patches.iter().map(|patch| patch.gradient));
+        self.gradients.extend(self.patches.iter().map(|patch| {
+            let [x, y, z] = patch.gradient.map(|x| x as f32);
+            [x, y, z, 0.0]
+        }));
         if self.links.len() < self.width {
-            self.links.resize(self.width, Vec::new());
+            self.links.resize(self.width, Links::default());
         }
     }
 
-    fn link(&mut self, cloud: &Cloud<'_>, kernel: CubicSpline<3>) {
+    fn link(&mut self, cloud: &Cloud<'_>, kernel: CubicSpline<3>, volume: f64) {
         let (members, slots) = (&self.members[..self.width], &self.slots);
         let rows = self.links.par_iter_mut().zip(members).with_min_len(GRAIN);
         rows.for_each(|(links, &k)| {
-            links.clear();
-            links.extend(cloud.row(k as usize).iter().map(|&b| {
+            let row = cloud.row(k as usize);
+            links.to.clear();
+            links.to.extend(row.iter().map(|&b| slots[b as usize]));
+            links.weight.clear();
+            links.weight.extend(row.iter().map(|&b| {
                 let dx = minus(cloud.places[b as usize], cloud.places[k as usize]);
-                Link {
-                    to: slots[b as usize],
-                    weight: kernel.value(squared(dx).sqrt()),
-                }
+                (volume * kernel.value(squared(dx).sqrt())) as f32
             }));
         });
     }
 
     /// Averages grad C. The sum is not divided by that of the weights, so that particles with many
     /// neighbours on the surface count most.
-    fn turn(&mut self, own: f64, volume: f64) {
+    fn turn(&mut self, own: f64) {
         let (gradients, links) = (&self.gradients, &self.links);
+        let own = own as f32;
         gradients[..self.width]
             .par_iter()
             .zip(links)
             .with_min_len(GRAIN)
             .map(|(gradient, links)| {
-                let start = gradient.map(|x| own * x);
-                let sum = links.iter().fold(start, |sum, link| {
-                    plus(sum, link.weight, gradients[link.to as usize])
-                });
-                sum.map(|x| volume * x)
+                let sum = summed(&links.to, &links.weight, gradients);
+                std::array::from_fn(|i| own * gradient[i] + sum[i])
             })
             .collect_into_vec(&mut self.turned);
         self.gradients[..self.width].copy_from_slice(&self.turned);
@@ -186,10 +188,11 @@ impl Band {
     /// plane and on a sphere, so that averaging does not flatten curves.
     fn trust(&mut self, cloud: &Cloud<'_>, own: f64) {
         for (patch, gradient) in self.patches.iter_mut().zip(&self.gradients[..self.width]) {
-            let length = squared(*gradient).sqrt();
-            patch.gradient = *gradient;
+            let [x, y, z, _] = gradient.map(f64::from);
+            let length = squared([x, y, z]).sqrt();
+            patch.gradient = [x, y, z];
             if length > 0.0 {
-                patch.normal = gradient.map(|x| -x / length);
+                patch.normal = patch.gradient.map(|x| -x / length);
             }
         }
         let (members, patches, width) = (&self.members, &self.patches, self.width);
@@ -201,23 +204,26 @@ impl Band {
                 let (at, to) = (&patches[k], cloud.places[members[k] as usize]);
                 let own = own * squared(at.gradient).sqrt();
                 let (mut risen, mut total) = (0.0, own);
-                for link in links {
-                    if link.to as usize >= width {
-                        link.weight = 0.0;
+                for (&link, weight) in links.to.iter().zip(&mut links.weight) {
+                    let link = link as usize;
+                    if link >= width {
+                        *weight = 0.0;
                         continue;
                     }
-                    let other = &patches[link.to as usize];
-                    let dx = minus(cloud.places[members[link.to as usize] as usize], to);
-                    link.weight *= squared(other.gradient).sqrt();
-                    risen += link.weight * 0.5 * (dot(at.normal, dx) + dot(other.normal, dx));
-                    total += link.weight;
+                    let other = &patches[link];
+                    let dx = minus(cloud.places[members[link] as usize], to);
+                    *weight *= squared(other.gradient).sqrt() as f32;
+                    let rise = 0.5 * (dot(at.normal, dx) + dot(other.normal, dx));
+                    risen += f64::from(*weight) * rise;
+                    total += f64::from(*weight);
                 }
+                let [own, risen, total] = [own, risen, total].map(|x| x as f32);
                 Mean { own, risen, total }
             })
             .collect_into_vec(&mut self.means);
         self.depths.clear();
         self.depths
-            .extend(self.patches.iter().map(|patch| patch.depth));
+            .extend(self.patches.iter().map(|patch| patch.depth as f32));
     }
 
     /// Averages the level of the surface.
@@ -233,15 +239,13 @@ impl Band {
                     return *depth;
                 }
                 let start = mean.own * depth + mean.risen;
-                let sum = links.iter().fold(start, |sum, link| {
-                    sum + link.weight * depths[link.to as usize]
-                });
-                sum / mean.total
+                let row = links.to.iter().zip(&links.weight);
+                row.fold(start, |sum, (&b, w)| sum + w * depths[b as usize]) / mean.total
             })
             .collect_into_vec(&mut self.levelled);
         self.depths[..self.width].copy_from_slice(&self.levelled);
         for (patch, depth) in self.patches.iter_mut().zip(&self.levelled) {
-            patch.depth = *depth;
+            patch.depth = f64::from(*depth);
         }
     }
 

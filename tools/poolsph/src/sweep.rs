@@ -5,12 +5,12 @@
 
 /// y x and y.
 #[inline]
-pub(super) fn carried(x: [f32; 3], y: f32) -> [f32; 4] {
+pub(crate) fn carried(x: [f32; 3], y: f32) -> [f32; 4] {
     [y * x[0], y * x[1], y * x[2], y]
 }
 
 /// Middle of the box around `places`: numbers counted from there lose least by rounding.
-pub(super) fn middle(places: &[[f64; 3]]) -> [f64; 3] {
+pub(crate) fn middle(places: &[[f64; 3]]) -> [f64; 3] {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for place in places {
         for k in 0..3 {
@@ -24,7 +24,7 @@ pub(super) fn middle(places: &[[f64; 3]]) -> [f64; 3] {
 /// Sum of `weight` times `field` over the neighbours of a `row`, of every other one on its own, so
 /// that additions need not wait for each other.
 #[inline]
-pub(super) fn summed(row: &[u32], weight: &[f32], field: &[[f32; 4]]) -> [f32; 4] {
+pub(crate) fn summed(row: &[u32], weight: &[f32], field: &[[f32; 4]]) -> [f32; 4] {
     let (mut even, mut odd) = ([0.0_f32; 4], [0.0_f32; 4]);
     let ((twos, one), (weights, last)) = (row.as_chunks::<2>(), weight.as_chunks::<2>());
     for ([b, c], [v, w]) in twos.iter().zip(weights) {
