@@ -63,9 +63,9 @@ impl Chunk {
         self.offsets.clear();
         self.offsets.push(0);
         let mut used = 0;
-        for a in self.first..end {
+        for (a, &point) in points.iter().enumerate().take(end).skip(self.first) {
             if wanted(a) {
-                used = self.search(grid, (points[a], radius), (a, used), accepts);
+                used = self.search(grid, (point, radius), (a, used), accepts);
             }
             self.offsets.push(used as u32);
         }
