@@ -8,12 +8,10 @@
 //! The gradient of the temperature is that of the neighbours with the kernel gradient corrected to
 //! be exact for a linear field, at the surface as well as inside.
 
-use neighbours::ROWS;
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::near::{Near, Role, dot, minus, plus};
+use crate::near::{Near, Role, Row, dot, minus, plus};
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, State};
 
@@ -43,21 +41,14 @@ impl Marangoni {
     }
 }
 
-/// grad T at row `k` of a chunk, exact for linear fields; zero where the neighbours span no space.
-fn gradient<S: Copy + Into<f64>>(
-    near: &Near,
-    temperature: &[f64],
-    a: usize,
-    row: &[u32],
-    slope: &[S],
-) -> [f64; 3] {
+/// grad T at particle `a`, exact for linear fields; zero where the neighbours span no space.
+fn gradient(near: &Near, temperature: &[f64], a: usize, row: Row<'_>) -> [f64; 3] {
     let mut moment = [[0.0; 3]; 3];
     let mut sum = [0.0; 3];
-    for (&b, &slope) in row.iter().zip(slope) {
-        let b = b as usize;
+    for (b, slope) in row.slopes() {
         let dx = minus(near.position[b], near.position[a]);
         // The kernel falls with distance: -slope is the weight.
-        let weight = -slope.into();
+        let weight = -slope;
         sum = plus(sum, weight * (temperature[b] - temperature[a]), dx);
         for (line, x) in moment.iter_mut().zip(dx) {
             *line = plus(*line, weight * x, dx);
@@ -102,23 +93,14 @@ impl Stage for Marangoni {
         let (temperature, surface) = (&self.temperature, &state.surface);
         let mut force = std::mem::take(&mut state.near.force);
         let near = &state.near;
-        force
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((force, chunk), pairs)| {
-                for (k, force) in force.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    let patch = &surface[near.id[a] as usize];
-                    if near.role[a] != Role::Liquid || patch.area <= 0.0 {
-                        continue;
-                    }
-                    let slope = &pairs.slope[chunk.range(k)];
-                    let gradient = gradient(near, temperature, a, chunk.row(k), slope);
-                    let along = plus(gradient, -dot(gradient, patch.normal), patch.normal);
-                    *force = plus(*force, per_volume * patch.area, along);
-                }
-            });
+        near.each_row(&mut force, |a, row, force| {
+            let patch = &surface[near.id[a] as usize];
+            if near.role[a] == Role::Liquid && patch.area > 0.0 {
+                let gradient = gradient(near, temperature, a, row);
+                let along = plus(gradient, -dot(gradient, patch.normal), patch.normal);
+                *force = plus(*force, per_volume * patch.area, along);
+            }
+        });
         state.near.force = force;
         Ok(())
     }

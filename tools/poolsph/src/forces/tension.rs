@@ -134,28 +134,17 @@ impl Tension {
         let (pull, kept, role) = (&self.pull, &self.kept, &near.role);
         let exchange = self.exchange;
         self.smooth.resize(pull.len(), [0.0; 4]);
-        self.smooth
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((out, chunk), pairs)| {
-                for (k, out) in out.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    *out = [0.0; 4];
-                    if role[a] != Role::Liquid {
-                        continue;
-                    }
-                    let mut sum = [0.0; 4];
-                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                        let other = pull[b as usize];
-                        for i in 0..4 {
-                            sum[i] += w * other[i];
-                        }
-                    }
-                    let own = pull[a];
-                    *out = std::array::from_fn(|i| kept[a] * own[i] + exchange * sum[i]);
-                }
-            });
+        near.each_row(&mut self.smooth, |a, row, out| {
+            *out = [0.0; 4];
+            if role[a] == Role::Liquid {
+                let sum = row.values().fold([0.0; 4], |sum, (b, w)| {
+                    let other = pull[b];
+                    std::array::from_fn(|i| sum[i] + w * other[i])
+                });
+                let own = pull[a];
+                *out = std::array::from_fn(|i| kept[a] * own[i] + exchange * sum[i]);
+            }
+        });
         std::mem::swap(&mut self.pull, &mut self.smooth);
     }
 
@@ -163,28 +152,17 @@ impl Tension {
     /// that those of all exchanges are those of the sum of the pulls.
     fn strain(&self, near: &mut Near, metal: Metal) {
         let share = self.exchange / (6.0 * metal.volume());
-        let (total, position, role) = (&self.total, &near.position, &near.role);
-        near.virial
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((virial, chunk), pairs)| {
-                for (k, virial) in virial.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    if role[a] != Role::Liquid {
-                        continue;
-                    }
-                    let mut sum = 0.0;
-                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                        let b = b as usize;
-                        if role[b] == Role::Liquid {
-                            let force = minus(three(total[b]), three(total[a]));
-                            sum += w * dot(force, minus(position[a], position[b]));
-                        }
-                    }
-                    *virial += share * sum;
-                }
-            });
+        let total = &self.total;
+        near.each_virial(|near, a, row, virial| {
+            if near.role[a] == Role::Liquid {
+                let liquid = row.values().filter(|(b, _)| near.role[*b] == Role::Liquid);
+                let sum = liquid.fold(0.0, |sum, (b, w)| {
+                    let force = minus(three(total[b]), three(total[a]));
+                    sum + w * dot(force, minus(near.position[a], near.position[b]))
+                });
+                *virial += share * sum;
+            }
+        });
     }
 }
 

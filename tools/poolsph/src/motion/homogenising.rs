@@ -112,31 +112,22 @@ impl Homogenising {
     fn density(&mut self, near: &Near, lattice: Lattice) -> f64 {
         let (kernel, position) = (near.kernel, &near.position);
         let own = kernel.value(0.0);
-        self.error
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((error, chunk), pairs)| {
-                for (k, error) in error.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    *error = 0.0;
-                    let row = chunk.row(k);
-                    if near.role[a] == Role::Backing || row.is_empty() {
-                        continue;
-                    }
-                    let (mut lever, mut weight) = ([0.0; 3], own);
-                    for (&b, &w) in row.iter().zip(&pairs.value[chunk.range(k)]) {
-                        lever = plus(lever, w, minus(position[b as usize], position[a]));
-                        weight += w;
-                    }
-                    let centre = plus(position[a], 1.0 / weight, lever);
-                    let at = |place| kernel.value(squared(minus(place, centre)).sqrt());
-                    let number = row
-                        .iter()
-                        .fold(at(position[a]), |sum, &b| sum + at(position[b as usize]));
-                    *error = (number / lattice.number - 1.0).max(0.0);
-                }
-            });
+        near.each_row(&mut self.error, |a, row, error| {
+            *error = 0.0;
+            if near.role[a] == Role::Backing || row.index.is_empty() {
+                return;
+            }
+            let (mut lever, mut weight) = ([0.0; 3], own);
+            for (b, w) in row.values() {
+                lever = plus(lever, w, minus(position[b], position[a]));
+                weight += w;
+            }
+            let centre = plus(position[a], 1.0 / weight, lever);
+            let at = |place| kernel.value(squared(minus(place, centre)).sqrt());
+            let around = row.index.iter().map(|b| at(position[*b as usize]));
+            let number = around.fold(at(position[a]), |sum, w| sum + w);
+            *error = (number / lattice.number - 1.0).max(0.0);
+        });
         let liquid = self.error.iter().zip(&near.role);
         let sum: f64 = liquid
             .filter(|(_, role)| **role == Role::Liquid)
@@ -180,25 +171,14 @@ impl Homogenising {
     fn smooth(&mut self, near: &Near, lattice: Lattice) {
         let (shift, role) = (&self.shift, &near.role);
         let exchange = EXCHANGE / lattice.number;
-        self.smooth
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((out, chunk), pairs)| {
-                for (k, out) in out.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    *out = shift[a];
-                    if role[a] != Role::Liquid {
-                        continue;
-                    }
-                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                        let b = b as usize;
-                        if role[b] == Role::Liquid {
-                            *out = plus(*out, exchange * w, minus(shift[b], shift[a]));
-                        }
-                    }
+        near.each_row(&mut self.smooth, |a, row, out| {
+            *out = shift[a];
+            if role[a] == Role::Liquid {
+                for (b, w) in row.values().filter(|(b, _)| role[*b] == Role::Liquid) {
+                    *out = plus(*out, exchange * w, minus(shift[b], shift[a]));
                 }
-            });
+            }
+        });
     }
 
     /// Bytes held.

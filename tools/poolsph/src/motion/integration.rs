@@ -1,11 +1,8 @@
 //! A step of the motion (Komen 2019, fig. 3.16): prediction by inertia, viscosity and forces,
 //! correction by the pressure, new positions.
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use neighbours::ROWS;
 
 use super::homogenising::Homogenising;
 use super::noise::Noise;
@@ -194,27 +191,17 @@ impl Motion {
         let own = near.kernel.value(0.0);
         let (virial, role) = (&near.virial, &near.role);
         self.spread.resize(near.len(), 0.0);
-        self.spread
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((out, chunk), pairs)| {
-                for (k, out) in out.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    *out = virial[a];
-                    if role[a] != Role::Liquid {
-                        continue;
-                    }
-                    let (mut sum, mut weight) = (own * virial[a], own);
-                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                        if role[b as usize] == Role::Liquid {
-                            sum += w * virial[b as usize];
-                            weight += w;
-                        }
-                    }
-                    *out = sum / weight;
+        near.each_row(&mut self.spread, |a, row, out| {
+            *out = virial[a];
+            if role[a] == Role::Liquid {
+                let (mut sum, mut weight) = (own * virial[a], own);
+                for (b, w) in row.values().filter(|(b, _)| role[*b] == Role::Liquid) {
+                    sum += w * virial[b];
+                    weight += w;
                 }
-            });
+                *out = sum / weight;
+            }
+        });
     }
 
     /// Takes the results of the copy back to the particles.

@@ -15,10 +15,6 @@
 //! symmetric: momentum is kept, and energy can only fall. Without gravity nothing is packed and nothing
 //! damped.
 
-use rayon::prelude::*;
-
-use neighbours::ROWS;
-
 use super::lattice::Lattice;
 use crate::near::{Near, Role, minus, plus};
 use crate::state::Metal;
@@ -69,26 +65,14 @@ impl Noise {
 
 /// Adds `scale sum W (u_a - u_b)` over liquid pairs to `out`.
 fn difference(near: &Near, field: &[[f64; 3]], scale: f64, out: &mut [[f64; 3]]) {
-    let role = &near.role;
-    out.par_chunks_mut(ROWS)
-        .zip(near.lists.chunks())
-        .zip(&near.pairs)
-        .for_each(|((out, chunk), pairs)| {
-            for (k, out) in out.iter_mut().enumerate() {
-                let a = chunk.first() + k;
-                if role[a] != Role::Liquid {
-                    continue;
-                }
-                let (own, mut sum) = (field[a], [0.0; 3]);
-                for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                    let b = b as usize;
-                    if role[b] == Role::Liquid {
-                        sum = plus(sum, w, minus(own, field[b]));
-                    }
-                }
-                *out = plus(*out, scale, sum);
-            }
-        });
+    near.each_row(out, |a, row, out| {
+        if near.role[a] == Role::Liquid {
+            let own = field[a];
+            let liquid = row.values().filter(|(b, _)| near.role[*b] == Role::Liquid);
+            let sum = liquid.fold([0.0; 3], |sum, (b, w)| plus(sum, w, minus(own, field[b])));
+            *out = plus(*out, scale, sum);
+        }
+    });
 }
 
 #[cfg(test)]

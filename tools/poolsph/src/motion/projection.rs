@@ -272,26 +272,17 @@ impl Projection {
     fn accelerate(&mut self, near: &Near) {
         let (tried, place, sums) = (&self.tried, &self.place, &self.sums);
         let scale = self.scales.force as f32;
-        self.field
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((out, chunk), pairs)| {
-                for (k, out) in out.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    if near.role[a] != Role::Liquid {
-                        *out = [0.0; 4];
-                        continue;
-                    }
-                    let sum = summed(chunk.row(k), &pairs.slope[chunk.range(k)], tried);
-                    let (x, own) = (place[a], tried[a][3]);
-                    let acc: [f32; 3] = std::array::from_fn(|i| {
-                        scale * (sum[i] - own * sums[a][i] - sum[3] * x[i])
-                    });
-                    let turned = acc[0] * x[0] + acc[1] * x[1] + acc[2] * x[2];
-                    *out = [acc[0], acc[1], acc[2], turned];
-                }
-            });
+        near.each_row(&mut self.field, |a, row, out| {
+            *out = [0.0; 4];
+            if near.role[a] == Role::Liquid {
+                let sum = summed(row.index, row.slope, tried);
+                let (x, own) = (place[a], tried[a][3]);
+                let acc: [f32; 3] =
+                    std::array::from_fn(|i| scale * (sum[i] - own * sums[a][i] - sum[3] * x[i]));
+                let turned = acc[0] * x[0] + acc[1] * x[1] + acc[2] * x[2];
+                *out = [acc[0], acc[1], acc[2], turned];
+            }
+        });
     }
 
     /// One projected gradient step from y; leaves the new point in `advanced`.

@@ -10,10 +10,7 @@
 //! sides and momentum is kept (the local one would also overstate the force at a free surface).
 //! Solid neighbours stand still: the wall sticks.
 
-use rayon::prelude::*;
-
 use kernels::CubicSpline;
-use neighbours::ROWS;
 
 use crate::near::{Near, Role, plus};
 use crate::state::Metal;
@@ -59,25 +56,16 @@ impl Viscosity {
 
     /// Adds `dt` times the viscous acceleration of `near.velocity` to `predicted`.
     pub fn apply(&self, near: &Near, dt: f64, predicted: &mut [[f64; 3]]) {
-        let (velocity, role) = (&near.velocity, &near.role);
-        predicted
-            .par_chunks_mut(ROWS)
-            .zip(near.lists.chunks())
-            .zip(&near.pairs)
-            .for_each(|((out, chunk), pairs)| {
-                for (k, out) in out.iter_mut().enumerate() {
-                    let a = chunk.first() + k;
-                    if role[a] != Role::Liquid {
-                        continue;
-                    }
-                    let own = velocity[a];
-                    let mut sum = [0.0; 3];
-                    for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                        let other = velocity[b as usize];
-                        sum = std::array::from_fn(|i| sum[i] + w * (other[i] - own[i]));
-                    }
-                    *out = plus(*out, dt * self.scale, sum);
-                }
-            });
+        let velocity = &near.velocity;
+        near.each_row(predicted, |a, row, out| {
+            if near.role[a] == Role::Liquid {
+                let own = velocity[a];
+                let sum = row.values().fold([0.0; 3], |sum, (b, w)| {
+                    let other = velocity[b];
+                    std::array::from_fn(|i| sum[i] + w * (other[i] - own[i]))
+                });
+                *out = plus(*out, dt * self.scale, sum);
+            }
+        });
     }
 }

@@ -4,9 +4,14 @@
 //! are a function of the state only, so a resumed run repeats them. Roles are those of the
 //! moment of gathering: what melts during a step starts to move in the next.
 
+mod pairs;
+
 use kernels::CubicSpline;
-use neighbours::{Chunk, Grid, Halo, Lists, ROWS};
+use neighbours::{Grid, Halo, Lists};
 use rayon::prelude::*;
+
+use self::pairs::rows;
+pub use self::pairs::{PairChunk, Row};
 
 use crate::state::{Metal, Phase, State};
 
@@ -26,16 +31,6 @@ pub enum Role {
     Wet,
     /// Rests, within reach of a wet one only: completes the neighbourhood of those.
     Backing,
-}
-
-/// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists; buffers may
-/// be longer.
-#[derive(Debug, Clone, Default)]
-pub struct PairChunk {
-    /// W \[1/m3\].
-    pub value: Vec<f64>,
-    /// (dW/dr)/r \[1/m5\]; the same bits seen from both sides, so that pair forces cancel.
-    pub slope: Vec<f32>,
 }
 
 /// Compact particles: liquid ones, and solid ones around them.
@@ -189,6 +184,18 @@ impl Near {
         self.search();
     }
 
+    /// Calls `each` with every particle, its row and its item of `out`.
+    pub fn each_row<T: Send>(&self, out: &mut [T], each: impl Fn(usize, Row<'_>, &mut T) + Sync) {
+        pairs::each_row((&self.lists, &self.pairs), out, each);
+    }
+
+    /// As [`Near::each_row`], with the virials as `out`.
+    pub(crate) fn each_virial(&mut self, each: impl Fn(&Self, usize, Row<'_>, &mut f64) + Sync) {
+        let mut virial = std::mem::take(&mut self.virial);
+        self.each_row(&mut virial, |a, row, virial| each(self, a, row, virial));
+        self.virial = virial;
+    }
+
     /// Finds the neighbours after particles of the copy have moved.
     pub(crate) fn refresh(&mut self) {
         self.grid.bin(&self.position);
@@ -270,84 +277,6 @@ impl Near {
         for (id, _) in solid {
             self.candidates.push(id as u32);
             self.places.push(state.position[id]);
-        }
-    }
-}
-
-/// What belongs to a chunk of rows.
-struct Rows<'a> {
-    pairs: &'a mut PairChunk,
-    number: &'a mut [f64],
-    gradient: &'a mut [[f64; 3]],
-    squares: &'a mut [f64],
-}
-
-/// All rows by chunks.
-fn rows<'a>(
-    pairs: &'a mut Vec<PairChunk>,
-    (number, gradient, squares): (&'a mut Vec<f64>, &'a mut Vec<[f64; 3]>, &'a mut Vec<f64>),
-    n: usize,
-) -> impl IndexedParallelIterator<Item = Rows<'a>> {
-    pairs.resize_with(n.div_ceil(ROWS), PairChunk::default);
-    number.resize(n, 0.0);
-    gradient.resize(n, [0.0; 3]);
-    squares.resize(n, 0.0);
-    pairs
-        .par_iter_mut()
-        .zip(number.par_chunks_mut(ROWS))
-        .zip(gradient.par_chunks_mut(ROWS))
-        .zip(squares.par_chunks_mut(ROWS))
-        .map(|(((pairs, number), gradient), squares)| Rows {
-            pairs,
-            number,
-            gradient,
-            squares,
-        })
-}
-
-impl Rows<'_> {
-    /// Puts squared distances in the place of the kernel values.
-    fn measure(&mut self, chunk: &Chunk, marks: &[[f64; 4]]) {
-        for k in 0..chunk.rows() {
-            let [x, y, z, _] = marks[chunk.first() + k];
-            let values = &mut self.pairs.value[chunk.range(k)];
-            for (&b, value) in chunk.row(k).iter().zip(values) {
-                let [u, v, w, _] = marks[b as usize];
-                *value = squared(minus([x, y, z], [u, v, w]));
-            }
-        }
-    }
-
-    /// Turns squared distances into kernel values.
-    fn weigh(&mut self, chunk: &Chunk, kernel: CubicSpline<3>) {
-        let PairChunk { value, slope } = &mut *self.pairs;
-        let n = chunk.index().len();
-        slope.resize(n, 0.0);
-        for (value, slope) in value[..n].iter_mut().zip(slope) {
-            let sample = kernel.sample(value.sqrt());
-            (*value, *slope) = (sample.value, sample.slope as f32);
-        }
-    }
-
-    /// Sums over the rows; `own` is W at no distance.
-    fn sum(&mut self, chunk: &Chunk, marks: &[[f64; 4]], own: f64) {
-        let PairChunk { value, slope } = &*self.pairs;
-        for k in 0..chunk.rows() {
-            let at = marks[chunk.first() + k];
-            let (mut number, mut gradient, mut squares) = (own, [0.0; 4], 0.0);
-            let pairs = value[chunk.range(k)].iter().zip(&slope[chunk.range(k)]);
-            for (&b, (&value, &slope)) in chunk.row(k).iter().zip(pairs) {
-                let to = marks[b as usize];
-                let slope = f64::from(slope);
-                let pull: [f64; 4] = std::array::from_fn(|i| slope * (at[i] - to[i]));
-                gradient = std::array::from_fn(|i| gradient[i] + pull[i]);
-                squares += to[3] * squared([pull[0], pull[1], pull[2]]);
-                number += value;
-            }
-            let [x, y, z, _] = gradient;
-            // A row that is not kept is empty, and so is its sum.
-            self.number[k] = if chunk.row(k).is_empty() { 0.0 } else { number };
-            (self.gradient[k], self.squares[k]) = ([x, y, z], squares);
         }
     }
 }
