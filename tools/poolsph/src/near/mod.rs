@@ -66,8 +66,10 @@ pub struct Near {
     liquid_grid: Grid,
     halo: Halo,
     candidates: Vec<u32>,
-    wanted: Vec<bool>,
     places: Vec<[f64; 3]>,
+    roles: Vec<Role>,
+    /// Role of each particle of [`State`] that is solid and near.
+    solid: Vec<Option<Role>>,
     /// x, and 1 for liquid, 0 for solid.
     marks: Vec<[f64; 4]>,
 }
@@ -95,8 +97,9 @@ impl Near {
             liquid_grid: Grid::new(support),
             halo: Halo::new(support * (2.0 + MARGIN)),
             candidates: Vec::new(),
-            wanted: Vec::new(),
             places: Vec::new(),
+            roles: Vec::new(),
+            solid: Vec::new(),
             marks: Vec::new(),
         }
     }
@@ -133,6 +136,7 @@ impl Near {
     pub(crate) fn gather(&mut self, state: &State) {
         self.candidates.clear();
         self.places.clear();
+        self.roles.clear();
         if state.flowing {
             self.collect(state);
         }
@@ -146,21 +150,9 @@ impl Near {
         self.id.extend(members);
         self.position.clear();
         self.position.extend_from_slice(self.grid.sorted());
-        let reach = self.kernel.support() * (1.0 + MARGIN);
-        let (liquid_grid, id, position) = (&self.liquid_grid, &self.id, &self.position);
-        self.role.resize(id.len(), Role::Backing);
-        self.role
-            .par_iter_mut()
-            .zip(id)
-            .zip(position)
-            .with_min_len(GRAIN)
-            .for_each(|((role, &id), &place)| {
-                *role = match state.phase[id as usize] {
-                    Phase::Liquid => Role::Liquid,
-                    _ if liquid_grid.any_within(place, reach) => Role::Wet,
-                    _ => Role::Backing,
-                };
-            });
+        let roles = self.grid.order().iter().map(|&k| self.roles[k as usize]);
+        self.role.clear();
+        self.role.extend(roles);
         self.liquid_count = self
             .role
             .iter()
@@ -250,34 +242,41 @@ impl Near {
     fn collect(&mut self, state: &State) {
         for (id, phase) in state.phase.iter().enumerate() {
             if *phase == Phase::Liquid {
-                self.candidates.push(id as u32);
-                self.places.push(state.position[id]);
+                self.enter(state, id, Role::Liquid);
             }
         }
         self.liquid_grid.bin(&self.places);
-        let reach = self.kernel.support() * (2.0 + MARGIN);
         self.halo.mark(&self.places);
+        let [wet, backing] = [1.0, 2.0].map(|reaches| self.kernel.support() * (reaches + MARGIN));
         let (grid, halo) = (&self.liquid_grid, &self.halo);
-        self.wanted.resize(state.len(), false);
-        self.wanted
+        let mut solid = std::mem::take(&mut self.solid);
+        solid.resize(state.len(), None);
+        solid
             .par_iter_mut()
             .zip(&state.phase)
             .zip(&state.position)
             .with_min_len(GRAIN)
-            .for_each(|((wanted, phase), &place)| {
-                *wanted = *phase == Phase::Solid
-                    && halo.may_touch(place)
-                    && grid.any_within(place, reach);
+            .for_each(|((role, phase), &place)| {
+                *role = match phase {
+                    Phase::Solid if !halo.may_touch(place) => None,
+                    Phase::Solid if grid.any_within(place, wet) => Some(Role::Wet),
+                    Phase::Solid if grid.any_within(place, backing) => Some(Role::Backing),
+                    _ => None,
+                };
             });
-        let solid = self
-            .wanted
-            .iter()
-            .enumerate()
-            .filter(|(_, wanted)| **wanted);
-        for (id, _) in solid {
-            self.candidates.push(id as u32);
-            self.places.push(state.position[id]);
+        for (id, role) in solid.iter().enumerate() {
+            if let Some(role) = role {
+                self.enter(state, id, *role);
+            }
         }
+        self.solid = solid;
+    }
+
+    /// Takes a particle in.
+    fn enter(&mut self, state: &State, id: usize, role: Role) {
+        self.candidates.push(id as u32);
+        self.places.push(state.position[id]);
+        self.roles.push(role);
     }
 }
 
