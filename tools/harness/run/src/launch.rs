@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use artefact::{Header, beside};
 
+use crate::awake::Awake;
 use crate::command::{Action, Run, Study, parse};
 use crate::console::{Level, data, line};
 use crate::failure::Failure;
@@ -131,7 +132,9 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     if let Some(told) = told {
         session.note(told);
     }
+    let awake = Awake::keep();
     let ended = guarded(|| T::run(&ready.scene, &ready.inputs, &mut session));
+    drop(awake);
     let ended = ended.map_err(|failure| placed(failure, &ready.merged));
     let (ledger, ended) = session.end(ended);
     let record = RunRecord::new(

@@ -52,6 +52,7 @@
 //! ([`property`]); an artefact with its header set, a clock per stage, progress, checkpoints and a
 //! run record ([`Session`]); one exit code per kind of failure ([`Failure`]).
 
+mod awake;
 mod clock;
 mod command;
 mod console;

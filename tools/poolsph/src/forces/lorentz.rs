@@ -4,6 +4,7 @@
 //! particle is taken from the surface above it: the mean height of the surface particles within the
 //! support of the kernel, seen from above.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +16,8 @@ use crate::surface::Patch;
 
 /// A patch that looks upwards at least this much is surface seen from above.
 const UPWARD: f64 = 0.3;
+/// Particles per unit of parallel work.
+const GRAIN: usize = 1024;
 
 /// The Lorentz force (key `lorentz`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -110,17 +113,19 @@ impl Stage for Lorentz {
         let (near, surface) = (&mut state.near, &state.surface);
         self.heights
             .measure(near, surface, axis, self.table.radius());
-        for k in 0..near.len() {
-            if near.role[k] != Role::Liquid {
-                continue;
-            }
-            let x = near.position[k];
-            let (r, [outward_x, outward_y]) = axis.around(x);
-            let top = self.heights.above(x).unwrap_or(axis.position[2]);
-            let (radial, axial) = self.table.at(r, (top - x[2]).max(0.0));
-            let force = [radial * outward_x, radial * outward_y, axial];
-            near.force[k] = plus(near.force[k], 1.0, force);
-        }
+        let (table, heights) = (&self.table, &self.heights);
+        near.force
+            .par_iter_mut()
+            .zip(&near.role)
+            .zip(&near.position)
+            .with_min_len(GRAIN)
+            .filter(|((_, role), _)| **role == Role::Liquid)
+            .for_each(|((force, _), &x)| {
+                let (r, [outward_x, outward_y]) = axis.around(x);
+                let top = heights.above(x).unwrap_or(axis.position[2]);
+                let (radial, axial) = table.at(r, (top - x[2]).max(0.0));
+                *force = plus(*force, 1.0, [radial * outward_x, radial * outward_y, axial]);
+            });
         Ok(())
     }
 
