@@ -84,25 +84,26 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Shares the plan among patches that know what they see of the sky among their neighbours;
-    /// `place` tells where each is \[m\].
+    /// Shares the plan among the `rows` of `patches`, which know what they see of the sky among
+    /// their neighbours; `places` tells where they are \[m\].
     pub(super) fn settle(
         &mut self,
-        place: impl Fn(usize) -> [f64; 3] + Sync,
+        rows: &[u32],
+        places: &[[f64; 3]],
         spacing: f64,
         patches: &mut [Patch],
     ) {
         self.places.clear();
-        for k in 0..patches.len() {
-            self.enter(k, place(k), spacing);
+        for &k in rows {
+            self.enter(k, places[k as usize], spacing);
         }
         let tiles = &mut self.tiles[..self.places.len()];
         let known = &*patches;
         tiles
             .par_iter_mut()
-            .for_each(|tile| tile.share(&place, spacing, known));
-        for patch in patches.iter_mut() {
-            patch.seen = 0.0;
+            .for_each(|tile| tile.share(places, spacing, known));
+        for &k in rows {
+            patches[k as usize].seen = 0.0;
         }
         for tile in tiles {
             for (&k, seen) in tile.members.iter().zip(&tile.seen) {
@@ -112,7 +113,7 @@ impl Columns {
     }
 
     /// Makes particle `k` a member of all tiles within R.
-    fn enter(&mut self, k: usize, [x, y, _]: [f64; 3], spacing: f64) {
+    fn enter(&mut self, k: u32, [x, y, _]: [f64; 3], spacing: f64) {
         let tiles = |at| {
             let (first, last) = columns(at, spacing).into_inner();
             first.div_euclid(EDGE)..=last.div_euclid(EDGE)
@@ -129,7 +130,7 @@ impl Columns {
                     tile.key = [i, j];
                     tile.members.clear();
                 }
-                tile.members.push(k as u32);
+                tile.members.push(k);
             }
         }
     }
@@ -137,19 +138,19 @@ impl Columns {
 
 impl Tile {
     /// What of the columns here each member sees.
-    fn share(&mut self, place: &impl Fn(usize) -> [f64; 3], spacing: f64, patches: &[Patch]) {
+    fn share(&mut self, places: &[[f64; 3]], spacing: f64, patches: &[Patch]) {
         self.columns.clear();
         self.columns.resize(SIZE, EMPTY);
         self.shares.clear();
         self.ends.clear();
         for m in 0..self.members.len() {
             let k = self.members[m] as usize;
-            self.stand(place(k), &patches[k], spacing);
+            self.stand(places[k], &patches[k], spacing);
             self.ends.push(self.shares.len() as u32);
         }
         let mut from = 0;
         for (&k, &end) in self.members.iter().zip(&self.ends) {
-            let [_, _, height] = place(k as usize);
+            let [_, _, height] = places[k as usize];
             for share in &mut self.shares[from..end as usize] {
                 let column = &mut self.columns[share.column as usize];
                 let below = (column.top - height) / spacing;
@@ -236,7 +237,9 @@ mod tests {
 
     fn settled(bodies: &[([f64; 3], Patch)]) -> Vec<f64> {
         let mut patches: Vec<Patch> = bodies.iter().map(|body| body.1).collect();
-        Columns::default().settle(|k| bodies[k].0, 1.0, &mut patches);
+        let places: Vec<[f64; 3]> = bodies.iter().map(|body| body.0).collect();
+        let rows: Vec<u32> = (0..places.len() as u32).collect();
+        Columns::default().settle(&rows, &places, 1.0, &mut patches);
         patches.iter().map(|patch| patch.seen).collect()
     }
 
