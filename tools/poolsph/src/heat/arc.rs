@@ -20,7 +20,6 @@
 
 use std::sync::Arc as Shared;
 
-use rayon::prelude::*;
 use run::Fault;
 use run::property::Property;
 use schemars::JsonSchema;
@@ -29,6 +28,7 @@ use serde::{Deserialize, Serialize};
 use super::bounds::outside;
 use super::caloric::Caloric;
 use super::cathode::{Cathode, Emitter};
+use super::chunks::Chunks;
 use super::film::{Film, GasFilm};
 use super::flux::{Flux, Law, column};
 use super::ledger::Sum;
@@ -37,8 +37,6 @@ use crate::state::{Column, Metal, Phase, State};
 
 /// Most fluxes at once.
 const PARTS: usize = Part::ALL.len();
-/// Particles per unit of parallel work.
-const GRAIN: usize = 256;
 
 /// Heat of the arc (key `arc`): of the arc input, or of a formula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -190,7 +188,7 @@ pub struct Arc {
     /// Area that takes a step whole, times that step \[m2 s\].
     whole: f64,
     power: f64,
-    heated: Vec<Result<Option<Heated>, StageError>>,
+    heated: Chunks<Result<Heated, StageError>>,
 }
 
 /// What a step leaves of a particle.
@@ -240,7 +238,7 @@ impl Arc {
             fluxes,
             onto: parameters.on,
             power: 0.0,
-            heated: Vec::new(),
+            heated: Chunks::default(),
         })
     }
 
@@ -263,12 +261,14 @@ impl Arc {
         (area > 0.0).then(|| (square.sqrt(), area))
     }
 
-    /// Heats particle `a` for `dt` \[s\], in as many parts as it takes; `None` where the arc does not
-    /// reach.
-    fn heat(&self, state: &State, a: usize, dt: f64) -> Result<Option<Heated>, StageError> {
-        let Some((r, area)) = self.lit(state, a) else {
-            return Ok(None);
-        };
+    /// Heats particle `a` for `dt` \[s\], in as many parts as it takes.
+    fn heat(
+        &self,
+        state: &State,
+        a: usize,
+        (r, area): (f64, f64),
+        dt: f64,
+    ) -> Result<Heated, StageError> {
         let mut heated = Heated {
             a: a as u32,
             enthalpy: state.enthalpy[a],
@@ -289,7 +289,7 @@ impl Arc {
                 return Err(outside(state, a, heated.temperature, &self.caloric));
             }
         }
-        Ok(Some(heated))
+        Ok(heated)
     }
 }
 
@@ -310,12 +310,13 @@ impl Stage for Arc {
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let mut heated = std::mem::take(&mut self.heated);
-        (state.exposed.par_iter().with_min_len(GRAIN))
-            .map(|a| self.heat(state, *a as usize, dt))
-            .collect_into_vec(&mut heated);
+        heated.fill(&state.exposed, |a| {
+            let lit = self.lit(state, a)?;
+            Some(self.heat(state, a, lit, dt))
+        });
         let mut gain = 0.0;
-        for one in heated.drain(..) {
-            let Some(one) = one? else { continue };
+        for one in heated.drain() {
+            let one = one?;
             let a = one.a as usize;
             state.enthalpy[a] = one.enthalpy;
             state.temperature[a] = one.temperature;

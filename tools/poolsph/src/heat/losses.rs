@@ -13,12 +13,12 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::bounds::outside;
 use super::caloric::Caloric;
+use super::chunks::Chunks;
 use super::ledger::Sum;
 use super::vapour::Evaporation;
 use crate::stage::{Figure, Stage, StageError};
@@ -28,8 +28,6 @@ use crate::state::{Column, Phase, State};
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Most parts of a step; what would need more has left all temperatures of metal.
 const PARTS_MOST: f64 = 1e4;
-/// Particles per unit of parallel work.
-const GRAIN: usize = 512;
 
 /// Heat given off at the surface (key `losses`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -71,7 +69,7 @@ pub struct Losses {
     caloric: Arc<Caloric>,
     /// Radiated, transferred and evaporated \[J\].
     given: [Sum; 3],
-    cooled: Vec<Option<Cooled>>,
+    cooled: Chunks<Cooled>,
 }
 
 /// What a step leaves of a particle.
@@ -94,7 +92,7 @@ impl Losses {
             parameters,
             caloric,
             given: [Sum::default(); 3],
-            cooled: Vec::new(),
+            cooled: Chunks::default(),
         }
     }
 
@@ -180,10 +178,8 @@ impl Stage for Losses {
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let mut cooled = std::mem::take(&mut self.cooled);
-        (state.exposed.par_iter().with_min_len(GRAIN))
-            .map(|a| self.cool(state, *a as usize, dt))
-            .collect_into_vec(&mut cooled);
-        for one in cooled.iter().flatten() {
+        cooled.fill(&state.exposed, |a| self.cool(state, a, dt));
+        for one in cooled.drain() {
             let a = one.a as usize;
             if !self.caloric.covers(one.temperature) {
                 return Err(outside(state, a, one.temperature, &self.caloric));

@@ -4,6 +4,7 @@ mod arc;
 mod bounds;
 pub mod caloric;
 mod cathode;
+mod chunks;
 mod conduction;
 mod film;
 mod flux;
