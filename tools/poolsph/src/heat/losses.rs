@@ -105,33 +105,26 @@ impl Losses {
         (!off && patch.area > 0.0 && !hidden).then_some(patch.area)
     }
 
-    /// Vapour at temperature `t` \[K\], if there is any.
-    fn vapour(&self, t: f64) -> Option<Evaporation> {
-        self.parameters
-            .evaporation
-            .filter(|vapour| !vapour.is_cold(t))
-    }
-
-    /// Radiation, transfer and vapour at temperature `t` \[K\] \[W/m2\].
-    fn cooling(&self, t: f64) -> [f64; 3] {
+    /// Radiation, transfer and vapour at temperature `t` \[K\] \[W/m2\], and the rise of their sum with
+    /// temperature \[W/(m2 K)\].
+    fn cooling(&self, t: f64) -> ([f64; 3], f64) {
         let p = &self.parameters;
         let around = p.surroundings_k;
-        let radiation = p
-            .emissivity
-            .map(|eps| eps * STEFAN_BOLTZMANN * (t.powi(4) - around.powi(4)));
-        let transfer = p.transfer_w_m2_k.map(|psi| psi * (t - around));
-        let vapour = self.vapour(t).map(|vapour| vapour.heat(t));
-        [radiation, transfer, vapour].map(|q| q.unwrap_or(0.0))
-    }
-
-    /// Greatest rise of the heat given off with temperature on the way from `t` \[K\] to the balance
-    /// \[W/(m2 K)\]: all three rise the more the hotter the metal is.
-    fn slope(&self, t: f64) -> f64 {
-        let p = &self.parameters;
-        let hottest = t.max(p.surroundings_k);
-        let radiation = 4.0 * STEFAN_BOLTZMANN * hottest.powi(3) * p.emissivity.unwrap_or(0.0);
-        let vapour = self.vapour(hottest).map(|vapour| vapour.slope(hottest));
-        radiation + p.transfer_w_m2_k.unwrap_or(0.0) + vapour.unwrap_or(0.0)
+        let radiation = p.emissivity.map(|eps| {
+            let black = eps * STEFAN_BOLTZMANN;
+            (
+                black * (t.powi(4) - around.powi(4)),
+                4.0 * black * t.powi(3),
+            )
+        });
+        let transfer = p.transfer_w_m2_k.map(|psi| (psi * (t - around), psi));
+        let vapour = p.evaporation.filter(|vapour| !vapour.is_cold(t));
+        let vapour = vapour.map(|vapour| vapour.heat(t));
+        let parts = [radiation, transfer, vapour].map(Option::unwrap_or_default);
+        (
+            parts.map(|part| part.0),
+            parts.iter().map(|part| part.1).sum(),
+        )
     }
 
     /// Cools particle `a` for `dt` \[s\], in as many parts as it takes; `None` where nothing is given
@@ -145,13 +138,18 @@ impl Losses {
             given: [0.0; 3],
         };
         let mass = state.metal.mass();
-        let capacity = mass * self.caloric.least_heat();
-        let share = dt * area * self.slope(cooled.temperature) / capacity;
+        let (mut flux, mut rise) = self.cooling(cooled.temperature);
+        // On the way to the balance the rise is greatest where the metal is hottest.
+        if cooled.temperature < self.parameters.surroundings_k {
+            rise = self.cooling(self.parameters.surroundings_k).1;
+        }
+        let share = dt * area * rise / (mass * self.caloric.least_heat());
         let parts = share.ceil().clamp(1.0, PARTS_MOST);
-        for _ in 0..parts as u64 {
-            let heat = self
-                .cooling(cooled.temperature)
-                .map(|q| q * area * dt / parts);
+        for part in 0..parts as u64 {
+            if part > 0 {
+                (flux, _) = self.cooling(cooled.temperature);
+            }
+            let heat = flux.map(|q| q * area * dt / parts);
             let sum = heat[0] + heat[1] + heat[2];
             if sum.to_bits() == 0 {
                 break;

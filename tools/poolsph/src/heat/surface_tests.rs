@@ -183,7 +183,7 @@ fn radiation_and_vapour_have_their_size() {
     };
     // At the boiling point: L p sqrt(M / (2 pi R T)), 1 atm.
     let exact = 6.09e6 * 101_325.0 * (0.05585 / (2.0 * PI * 8.314_462_618 * 3134.0)).sqrt();
-    assert!((iron.heat(3134.0) / exact - 1.0).abs() < 1e-12);
+    assert!((iron.heat(3134.0).0 / exact - 1.0).abs() < 1e-12);
     let mut state = body([3; 3], |_| true);
     let parameters = LossParameters {
         surroundings_k: 300.0,
