@@ -30,8 +30,8 @@ fn validate(path: &Path) -> (bool, String) {
     (output.status.success(), said)
 }
 
-/// A case whose error is the square of the spacing, by two methods, with an error that is no
-/// number at the coarsest level.
+/// A case whose error is the square of the spacing, by three methods, the last of which is exact and
+/// only run at the coarser levels; one error is no number at the coarsest.
 struct Square;
 
 impl Case for Square {
@@ -39,54 +39,67 @@ impl Case for Square {
         "square"
     }
     fn tool(&self) -> &'static str {
-        "none"
+        "poolsph"
     }
     fn reference(&self) -> &'static str {
         "the square of the spacing"
     }
     fn methods(&self) -> &'static [&'static str] {
-        &["first", "second"]
+        &["first", "second", "exact"]
+    }
+    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
+        let most = if method == "exact" { 2 } else { 3 };
+        asked.iter().copied().filter(|l| *l <= most).collect()
     }
     fn targets(&self) -> Vec<Target> {
         vec![
-            Target::Error {
-                quantity: "a_linf",
-                max: 1e-3,
-            },
-            Target::Order {
-                quantity: "a_linf",
-                min: 1.9,
-            },
+            Target::error("a_linf", 1e-3),
+            Target::order("a_linf", 1.9),
+            Target::error("a_linf", 3e-3).at_level(1).of("second"),
+            Target::error("a_linf", 1e-9).at_level(4),
+            Target::order("a_linf", 1.9)
+                .of("exact")
+                .or_error_below(1e-12),
         ]
     }
-    fn measure(&self, _: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let patch = serde_json::json!({"time": {"end_s": 1e-4 * f64::from(level)}});
+        let label = format!("{method}{level}");
+        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
         let spacing_m = 0.1 / f64::from(1 << level);
+        let a = if method == "exact" {
+            1e-16
+        } else {
+            spacing_m * spacing_m
+        };
         let b = if level == 1 { f64::NAN } else { spacing_m };
-        Ok(Measurement {
-            points: u64::from(level) * 100,
+        let errors = Errors::from([("a_linf".to_owned(), a), ("b_linf".to_owned(), b)]);
+        Ok(Measurement::of(
+            run,
+            u64::from(level) * 100,
             spacing_m,
-            steps: 10,
-            run_time_s: 0.5,
-            errors: Errors::from([
-                ("a_linf".to_owned(), spacing_m * spacing_m),
-                ("b_linf".to_owned(), b),
-            ]),
-        })
+            errors,
+        ))
     }
 }
 
 #[test]
 fn the_record_of_an_exact_case_fits_its_schema() {
     let folder = tempfile::tempdir().unwrap();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
+    let place = folder.path().join("pipelines/verify/square");
+    std::fs::create_dir_all(&place).unwrap();
+    std::fs::copy(scene, place.join("scene.json")).unwrap();
     let lab = Lab {
         root: folder.path().to_owned(),
         programs: programs(),
         out: folder.path().to_owned(),
         threads: 2,
         patch: None,
+        repeat_s: 0.01,
     };
     let record = study(&Square, &lab, &[1, 2, 3]).unwrap();
-    assert!(record.holds);
+    assert!(record.holds, "{}", record.table());
     let path = folder.path().join("square.json");
     let mut value = serde_json::to_value(&record).unwrap();
     std::fs::write(&path, value.to_string()).unwrap();
@@ -95,6 +108,19 @@ fn the_record_of_an_exact_case_fits_its_schema() {
         good && said.contains("good: verification"),
         "{said}\n{value}"
     );
+    assert_eq!(value["levels"][0]["repeats"], 3);
+    assert_eq!(value["series"][1]["levels"].as_array().unwrap().len(), 2);
+    assert!(value["levels"][2]["peak_memory_bytes"].as_u64().unwrap() > 1_000_000);
+    let time = |key: &str| value["levels"][0][key].as_f64().unwrap();
+    assert!(time("run_time_least_s") <= time("run_time_s"));
+    assert!(time("run_time_s") < time("process_s"));
+    assert!(value["stages"].as_array().unwrap().len() > 1);
+    let targets = &value["targets"];
+    assert_eq!(
+        targets["a_linf_at_level_4"]["holds"],
+        serde_json::Value::Null
+    );
+    assert_eq!(targets["a_linf_at_level_1_of_second"]["at_points"], 100);
 
     value["levels"][1]["run_time_s"] = "fast".into();
     std::fs::write(&path, value.to_string()).unwrap();

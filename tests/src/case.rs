@@ -2,43 +2,143 @@
 
 use std::collections::BTreeMap;
 
-use crate::lab::{Lab, LabError};
+use crate::lab::{Finished, Lab, LabError};
 
 /// Errors by quantity, for example `temperature_linf`.
 pub type Errors = BTreeMap<String, f64>;
 
-/// A bound that the study must keep.
-#[derive(Debug, Clone)]
-pub enum Target {
-    /// The error of `quantity` at the finest level is at most `max`.
+/// What a target asks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// The error is at most `max`, in the unit of the quantity.
     Error {
-        /// Key of [`Errors`].
-        quantity: &'static str,
-        /// Largest admissible error, in the unit of the quantity.
+        /// Largest admissible error.
         max: f64,
     },
-    /// The observed order of `quantity` over all levels is at least `min`.
+    /// The observed order over all levels is at least `min`.
     Order {
-        /// Key of [`Errors`].
-        quantity: &'static str,
         /// Smallest admissible order.
         min: f64,
+        /// An error at the finest level of at most this will do too: what is exact to round-off has
+        /// no order.
+        or_error_below: Option<f64>,
     },
 }
 
-/// One run of a case at one resolution.
+/// A bound that the study must keep: of one quantity, one method and, for an error, one level.
+///
+/// ```
+/// use verification::case::Target;
+/// let targets = [
+///     Target::error("temperature_linf", 2e-3).at_level(1),
+///     Target::error("temperature_linf", 5e-4).at_level(2).of("pair-explicit"),
+///     Target::order("temperature_linf", 1.8).or_error_below(1e-12),
+/// ];
+/// assert_eq!(targets[1].name(), "temperature_linf_at_level_2_of_pair-explicit");
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// Key of [`Errors`].
+    pub quantity: String,
+    /// What is asked for.
+    pub bound: Bound,
+    /// The level at which an error is judged; the finest where none is named.
+    pub level: Option<u32>,
+    /// The method that is judged; the first of the case where none is named.
+    pub method: Option<String>,
+}
+
+impl Target {
+    /// The error of `quantity` is at most `max`.
+    #[must_use]
+    pub fn error(quantity: impl Into<String>, max: f64) -> Self {
+        Self::new(quantity.into(), Bound::Error { max })
+    }
+
+    /// The order of `quantity` is at least `min`.
+    #[must_use]
+    pub fn order(quantity: impl Into<String>, min: f64) -> Self {
+        let bound = Bound::Order {
+            min,
+            or_error_below: None,
+        };
+        Self::new(quantity.into(), bound)
+    }
+
+    fn new(quantity: String, bound: Bound) -> Self {
+        Self {
+            quantity,
+            bound,
+            level: None,
+            method: None,
+        }
+    }
+
+    /// Judged at this level (1 is the coarsest) instead of the finest; not judged where the level is
+    /// not run. An order has no level.
+    #[must_use]
+    pub fn at_level(mut self, level: u32) -> Self {
+        self.level = Some(level);
+        self
+    }
+
+    /// Judged on this method instead of the first.
+    #[must_use]
+    pub fn of(mut self, method: impl Into<String>) -> Self {
+        self.method = Some(method.into());
+        self
+    }
+
+    /// Met too where the error at the finest level is at most `error`. For an order only.
+    #[must_use]
+    pub fn or_error_below(mut self, error: f64) -> Self {
+        if let Bound::Order { or_error_below, .. } = &mut self.bound {
+            *or_error_below = Some(error);
+        }
+        self
+    }
+
+    /// The key of the target in the record.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let mut name = match self.bound {
+            Bound::Error { .. } => self.quantity.clone(),
+            Bound::Order { .. } => format!("order_{}", self.quantity),
+        };
+        if let Some(level) = self.level {
+            name += &format!("_at_level_{level}");
+        }
+        if let Some(method) = &self.method {
+            name += &format!("_of_{method}");
+        }
+        name
+    }
+}
+
+/// One method of a case at one resolution: what was run, and the errors of what it wrote.
 #[derive(Debug, Clone)]
 pub struct Measurement {
     /// Number of cells, points or particles.
     pub points: u64,
     /// Spacing \[m\].
     pub spacing_m: f64,
-    /// Steps or iterations taken.
-    pub steps: u64,
-    /// Wall time of the solver, as its run record tells \[s\].
-    pub run_time_s: f64,
-    /// Errors measured on the artefact of the same run.
+    /// The runs whose time counts; short ones are repeated by the study.
+    pub runs: Vec<Finished>,
+    /// Errors measured on the artefacts of these runs.
     pub errors: Errors,
+}
+
+impl Measurement {
+    /// A measurement of one run.
+    #[must_use]
+    pub fn of(run: Finished, points: u64, spacing_m: f64, errors: Errors) -> Self {
+        Self {
+            points,
+            spacing_m,
+            runs: vec![run],
+            errors,
+        }
+    }
 }
 
 /// An exact case. Level 1 is the coarsest.
@@ -49,13 +149,19 @@ pub trait Case: Sync {
     fn tool(&self) -> &'static str;
     /// The reference: exact solution, author, year, equation.
     fn reference(&self) -> &'static str;
-    /// Competing methods, each a series of its own; the first is the one that the targets bind.
+    /// Competing methods, each a series of its own; targets bind the first unless they name another.
     fn methods(&self) -> &'static [&'static str] {
         &["default"]
     }
+    /// The levels of `asked` at which `method` is run: all, unless some are beyond it.
+    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
+        let _ = method;
+        asked.to_vec()
+    }
     /// Bounds to keep.
     fn targets(&self) -> Vec<Target>;
-    /// Runs the tool at `level` with `method` and measures the errors on the written artefact.
+    /// Runs the tool at `level` with `method` and measures the errors on the written artefact. Runs
+    /// of one case need labels that differ by level and method: they are repeated later.
     ///
     /// # Errors
     /// When the tool fails or its artefact cannot be read.

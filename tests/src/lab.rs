@@ -1,7 +1,9 @@
 //! Runs tools the way a user does and hands back what they wrote.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 
 use serde_json::Value;
 use thiserror::Error;
@@ -26,6 +28,12 @@ pub enum LabError {
         code: Option<i32>,
         /// What it said on stderr.
         stderr: String,
+    },
+    /// The same command wrote other bytes the second time.
+    #[error("{artefact}: a repeat of the same run wrote other bytes")]
+    NotRepeatable {
+        /// The artefact of the first run.
+        artefact: PathBuf,
     },
     /// An artefact could not be read.
     #[error(transparent)]
@@ -53,6 +61,8 @@ pub struct Lab {
     pub threads: usize,
     /// A patch of the user's, applied after the case's own.
     pub patch: Option<PathBuf>,
+    /// Seconds that the repeats of one short run may take; 0 for no repeats.
+    pub repeat_s: f64,
 }
 
 /// What a run left behind.
@@ -64,20 +74,48 @@ pub struct Finished {
     pub record: Value,
     /// The scene as the tool ran it, patches applied.
     pub scene: Value,
+    /// From the start of the process to its end \[s\].
+    pub process_s: f64,
+    /// The program and its words, without `--out`.
+    command: Vec<OsString>,
 }
 
+/// Stages of a run record that are no part of solving: reading and checking the scene, files.
+const NOT_SOLVING: [&str; 3] = ["plan", "write", "checkpoint"];
+
 impl Finished {
-    /// Wall time of the run as its record tells \[s\].
+    /// Time of the solver as the run record tells \[s\]: the wall time of the run less what it spent
+    /// on reading its scene and writing its files. What the record does not name counts as solving;
+    /// starting the process (some milliseconds) does not.
     ///
     /// # Errors
     /// When the record has no `wall_s`.
-    pub fn wall_s(&self) -> Result<f64, LabError> {
-        self.record["wall_s"]
+    pub fn solver_s(&self) -> Result<f64, LabError> {
+        let wall = self.record["wall_s"]
             .as_f64()
             .ok_or_else(|| LabError::Content {
                 path: self.artefact.clone(),
                 what: "its run record has no wall_s".to_owned(),
-            })
+            })?;
+        let stages = self.record["stages"].as_array();
+        let outside = stages.into_iter().flatten().filter(|stage| {
+            let name = stage["name"].as_str().unwrap_or_default();
+            NOT_SOLVING.contains(&name)
+        });
+        let spent: f64 = outside.filter_map(|stage| stage["wall_s"].as_f64()).sum();
+        Ok((wall - spent).max(0.0))
+    }
+
+    /// Steps or iterations as the run record counts them.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.record["steps"].as_u64().unwrap_or(0)
+    }
+
+    /// Greatest resident memory of the run \[byte\], where the system told.
+    #[must_use]
+    pub fn peak_memory_bytes(&self) -> Option<u64> {
+        self.record["peak_memory_bytes"].as_u64()
     }
 }
 
@@ -122,25 +160,46 @@ impl Lab {
             .join(case)
             .join("scene.json");
         let artefact = folder.join(format!("{label}.mcap"));
-        discard_unfinished(&artefact);
-        let mut command = Command::new(self.programs.join(tool));
-        command
-            .current_dir(&self.root)
-            .arg("run")
-            .arg(&scene)
-            .arg("--patch")
-            .arg(&patch_file);
-        if let Some(user) = &self.patch {
-            command.arg("--patch").arg(user);
+        let mut command: Vec<OsString> = vec![self.programs.join(tool).into(), "run".into()];
+        command.push(scene.into());
+        let patches = std::iter::once(&patch_file).chain(&self.patch);
+        for patch in patches {
+            command.extend(["--patch".into(), patch.into()]);
         }
         for (name, path) in inputs {
-            command
-                .arg("--input")
-                .arg(format!("{name}={}", path.display()));
+            let input = format!("{name}={}", path.display());
+            command.extend(["--input".into(), input.into()]);
         }
+        let threads = self.threads.to_string();
+        command.extend(["--threads", &threads, "--progress", "none"].map(OsString::from));
+        self.execute(command, artefact)
+    }
+
+    /// The same run once more. Its artefact is compared with the first and removed.
+    ///
+    /// # Errors
+    /// When the run fails or its artefact differs from the first by a byte.
+    pub fn again(&self, first: &Finished) -> Result<Finished, LabError> {
+        let artefact = first.artefact.with_extension("again.mcap");
+        let again = self.execute(first.command.clone(), artefact.clone())?;
+        let same = bytes(&first.artefact)? == bytes(&artefact)?;
+        for old in [&artefact, &artefact.with_extension("run.json")] {
+            let _ = std::fs::remove_file(old);
+        }
+        if same {
+            return Ok(again);
+        }
+        Err(LabError::NotRepeatable {
+            artefact: first.artefact.clone(),
+        })
+    }
+
+    fn execute(&self, words: Vec<OsString>, artefact: PathBuf) -> Result<Finished, LabError> {
+        discard_unfinished(&artefact);
+        let mut command = Command::new(&words[0]);
+        command.current_dir(&self.root).args(&words[1..]);
         command.arg("--out").arg(&artefact);
-        command.args(["--threads", &self.threads.to_string(), "--progress", "none"]);
-        finish(&mut command, artefact)
+        finish(&mut command, words, artefact)
     }
 }
 
@@ -155,12 +214,18 @@ pub(crate) fn discard_unfinished(artefact: &Path) {
     }
 }
 
-fn finish(command: &mut Command, artefact: PathBuf) -> Result<Finished, LabError> {
+fn finish(
+    command: &mut Command,
+    words: Vec<OsString>,
+    artefact: PathBuf,
+) -> Result<Finished, LabError> {
     let program = PathBuf::from(command.get_program());
+    let start = Instant::now();
     let output = command.output().map_err(|source| LabError::Io {
         path: program,
         source,
     })?;
+    let process_s = start.elapsed().as_secs_f64();
     if !output.status.success() {
         return Err(LabError::Tool {
             command: format!("{command:?}"),
@@ -174,6 +239,15 @@ fn finish(command: &mut Command, artefact: PathBuf) -> Result<Finished, LabError
         artefact,
         record,
         scene,
+        process_s,
+        command: words,
+    })
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, LabError> {
+    std::fs::read(path).map_err(|source| LabError::Io {
+        path: path.to_owned(),
+        source,
     })
 }
 

@@ -76,15 +76,10 @@ pub(crate) fn number(run: &Finished, pointer: &str) -> Result<f64, LabError> {
 
 /// The measurement of a run with these errors.
 pub(crate) fn measurement(
-    run: &Finished,
+    run: Finished,
     points: usize,
     errors: Errors,
 ) -> Result<Measurement, LabError> {
-    Ok(Measurement {
-        points: points as u64,
-        spacing_m: number(run, "/spacing_m")?,
-        steps: run.record["steps"].as_u64().unwrap_or(0),
-        run_time_s: run.wall_s()?,
-        errors,
-    })
+    let spacing_m = number(&run, "/spacing_m")?;
+    Ok(Measurement::of(run, points as u64, spacing_m, errors))
 }

@@ -119,31 +119,15 @@ pub fn targets(quantities: &[&'static str], max: f64, order: f64) -> Vec<Target>
         .iter()
         .flat_map(|quantity| {
             [
-                Target::Error { quantity, max },
-                Target::Order {
-                    quantity,
-                    min: order,
-                },
+                Target::error(*quantity, max),
+                Target::order(*quantity, order),
             ]
         })
         .collect()
 }
 
-/// Puts errors and cost of a run together.
-///
-/// # Errors
-/// When the run record does not tell the wall time.
-pub fn measurement(
-    run: &Finished,
-    fields: &Plasma,
-    spacing_m: f64,
-    errors: Errors,
-) -> Result<Measurement, LabError> {
-    Ok(Measurement {
-        points: fields.cells(),
-        spacing_m,
-        steps: run.record["steps"].as_u64().unwrap_or(0),
-        run_time_s: run.wall_s()?,
-        errors,
-    })
+/// The measurement of a run with these errors.
+#[must_use]
+pub fn measurement(run: Finished, fields: &Plasma, spacing_m: f64, errors: Errors) -> Measurement {
+    Measurement::of(run, fields.cells(), spacing_m, errors)
 }

@@ -32,6 +32,9 @@ struct Arguments {
     /// Threads per run.
     #[arg(long, default_value_t = 2)]
     threads: usize,
+    /// Seconds that the repeats of one short run may take, for the median of its time; 0 for none.
+    #[arg(long, default_value_t = 3.0)]
+    repeat_s: f64,
     /// Names the cases and ends.
     #[arg(long)]
     list: bool,
@@ -78,6 +81,7 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
         out: arguments.out.clone(),
         threads: arguments.threads,
         patch: arguments.patch.clone(),
+        repeat_s: arguments.repeat_s,
     };
     std::fs::create_dir_all(&lab.out).map_err(|e| format!("{}: {e}", lab.out.display()))?;
     let mut good = true;

@@ -78,6 +78,6 @@ impl Case for ArcElenbaas {
             ("temperature_linf".to_owned(), temperature.1),
             ("field".to_owned(), (field / exact.field - 1.0).abs()),
         ]);
-        plasma::measurement(&run, &fields, spacing, errors)
+        Ok(plasma::measurement(run, &fields, spacing, errors))
     }
 }

@@ -89,7 +89,7 @@ impl Case for ArcMms {
         ];
         let mut targets = plasma::targets(&central, 5e-3, 1.9);
         for quantity in ["upwind_radial_velocity_l2", "upwind_axial_velocity_l2"] {
-            targets.push(Target::Order { quantity, min: 1.0 });
+            targets.push(Target::order(quantity, 1.0));
         }
         targets
     }
@@ -107,7 +107,7 @@ impl Case for ArcMms {
         let mut errors = errors_of(&fields, "")?;
         let other = lab.run("arcfvm", self.name(), &format!("upwind{level}"), &upwind)?;
         errors.append(&mut errors_of(&Plasma::read(&other)?, "upwind_")?);
-        plasma::measurement(&run, &fields, spacing, errors)
+        Ok(plasma::measurement(run, &fields, spacing, errors))
     }
 }
 

@@ -39,10 +39,7 @@ impl Case for ArcPinch {
 
     fn targets(&self) -> Vec<Target> {
         let mut targets = plasma::targets(&["pressure_linf"], 5e-3, 1.9);
-        targets.push(Target::Error {
-            quantity: "even_pressure_linf",
-            max: 1e-6,
-        });
+        targets.push(Target::error("even_pressure_linf", 1e-6));
         targets
     }
 
@@ -62,7 +59,8 @@ impl Case for ArcPinch {
             errors.insert(format!("{name}pressure_l2"), l2);
             errors.insert(format!("{name}pressure_linf"), linf);
         }
-        plasma::measurement(&run, &Plasma::read(&run)?, spacing, errors)
+        let fields = Plasma::read(&run)?;
+        Ok(plasma::measurement(run, &fields, spacing, errors))
     }
 }
 

@@ -39,10 +39,7 @@ impl Case for ArcPoiseuille {
     fn targets(&self) -> Vec<Target> {
         let mut targets = plasma::targets(&["velocity_linf", "pressure_gradient"], 5e-3, 1.9);
         for quantity in ["even_velocity_linf", "even_pressure_gradient"] {
-            targets.push(Target::Error {
-                quantity,
-                max: 1e-4,
-            });
+            targets.push(Target::error(quantity, 1e-4));
         }
         targets
     }
@@ -66,7 +63,8 @@ impl Case for ArcPoiseuille {
         // Of the growing viscosity 1e-3 Pa s on the axis; the slope of ln(1 + x^2) is 2x at small x.
         let fall = -4.0 * 1e-3 * AXIS_SPEED / 2.0_f64.ln() / radius.powi(2);
         errors.append(&mut errors_of(&run, "", &|r| growing(r / radius), fall)?);
-        plasma::measurement(&run, &Plasma::read(&run)?, spacing, errors)
+        let fields = Plasma::read(&run)?;
+        Ok(plasma::measurement(run, &fields, spacing, errors))
     }
 }
 

@@ -122,7 +122,7 @@ impl Case for ArcPotential {
             ("magnetic_l2".to_owned(), magnetic.0),
             ("magnetic_linf".to_owned(), magnetic.1),
         ]);
-        plasma::measurement(&run, &fields, spacing, errors)
+        Ok(plasma::measurement(run, &fields, spacing, errors))
     }
 }
 

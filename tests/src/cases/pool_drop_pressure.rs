@@ -23,10 +23,7 @@ impl Case for PoolDropPressure {
     }
 
     fn targets(&self) -> Vec<Target> {
-        vec![Target::Error {
-            quantity: "pressure",
-            max: 0.03,
-        }]
+        vec![Target::error("pressure", 0.03)]
     }
 
     fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
@@ -36,7 +33,8 @@ impl Case for PoolDropPressure {
         let run = lab.run("poolsph", self.name(), &format!("level{level}"), &patch)?;
         let frames = Frames::read(&run.artefact, "pressure")?;
         let liquid = frames.liquid();
-        measurement(&run, liquid.len(), errors(&run, &frames, &liquid)?)
+        let errors = errors(&run, &frames, &liquid)?;
+        measurement(run, liquid.len(), errors)
     }
 }
 

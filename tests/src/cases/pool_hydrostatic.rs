@@ -22,14 +22,8 @@ impl Case for PoolHydrostatic {
 
     fn targets(&self) -> Vec<Target> {
         vec![
-            Target::Error {
-                quantity: "pressure_l2",
-                max: 0.01,
-            },
-            Target::Error {
-                quantity: "speed_residual",
-                max: 0.005,
-            },
+            Target::error("pressure_l2", 0.01),
+            Target::error("speed_residual", 0.005),
         ]
     }
 
@@ -39,7 +33,8 @@ impl Case for PoolHydrostatic {
         let run = lab.run("poolsph", self.name(), &format!("level{level}"), &patch)?;
         let frames = Frames::read(&run.artefact, "pressure")?;
         let liquid = frames.liquid();
-        measurement(&run, liquid.len(), errors(&run, &frames, &liquid)?)
+        let errors = errors(&run, &frames, &liquid)?;
+        measurement(run, liquid.len(), errors)
     }
 }
 

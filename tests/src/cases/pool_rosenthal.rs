@@ -41,14 +41,8 @@ impl Case for PoolRosenthal {
 
     fn targets(&self) -> Vec<Target> {
         vec![
-            Target::Error {
-                quantity: "temperature_linf",
-                max: 0.02,
-            },
-            Target::Order {
-                quantity: "temperature_l2",
-                min: 1.0,
-            },
+            Target::error("temperature_linf", 0.02),
+            Target::order("temperature_l2", 1.0),
         ]
     }
 
@@ -61,7 +55,7 @@ impl Case for PoolRosenthal {
         let frames = Frames::read(&run.artefact, "temperature")?;
         let exact = Exact::of(&run)?;
         let errors = errors(&exact, &frames, number(&run, "/bodies/0/temperature_k")?);
-        measurement(&run, frames.scalar[0].len(), errors)
+        measurement(run, frames.scalar[0].len(), errors)
     }
 }
 

@@ -28,14 +28,8 @@ impl Case for PoolStefan {
 
     fn targets(&self) -> Vec<Target> {
         vec![
-            Target::Error {
-                quantity: "front",
-                max: 0.015,
-            },
-            Target::Error {
-                quantity: "temperature_l2",
-                max: 0.015,
-            },
+            Target::error("front", 0.015),
+            Target::error("temperature_l2", 0.015),
         ]
     }
 
@@ -47,7 +41,8 @@ impl Case for PoolStefan {
         let run = lab.run("poolsph", self.name(), &format!("level{level}"), &patch)?;
         let seen = Seen::read(&run)?;
         let exact = Exact::of(&run, seen.boundary)?;
-        measurement(&run, seen.place.len(), errors(&exact, &seen))
+        let errors = errors(&exact, &seen);
+        measurement(run, seen.place.len(), errors)
     }
 }
 

@@ -30,10 +30,7 @@ impl Case for PoolSurfaceHeat {
     fn targets(&self) -> Vec<Target> {
         ["plane", "inclined", "sphere"]
             .into_iter()
-            .map(|quantity| Target::Error {
-                quantity,
-                max: 0.01,
-            })
+            .map(|quantity| Target::error(quantity, 0.01))
             .collect()
     }
 
@@ -50,14 +47,14 @@ impl Case for PoolSurfaceHeat {
             let run = lab.run("poolsph", self.name(), &label, &patch)?;
             errors.insert(shape.to_owned(), error(&run, shape)?);
             let points = run_points(&run)?;
-            let one = measurement(&run, points, Errors::new())?;
+            let one = measurement(run, points, Errors::new())?;
             whole = Some(match whole {
                 None => one,
-                Some(sum) => Measurement {
-                    points: sum.points + one.points,
-                    run_time_s: sum.run_time_s + one.run_time_s,
-                    ..sum
-                },
+                Some(mut sum) => {
+                    sum.points += one.points;
+                    sum.runs.extend(one.runs);
+                    sum
+                }
             });
         }
         match whole {
