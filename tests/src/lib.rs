@@ -14,6 +14,7 @@ pub mod bench;
 pub mod case;
 pub mod cases;
 pub mod extreme;
+pub mod heat;
 pub mod lab;
 pub mod norms;
 mod particles;
