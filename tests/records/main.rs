@@ -145,9 +145,45 @@ fn the_record_of_an_extreme_case_fits_its_schema() {
     let record = extreme::run(&case, &programs(), folder.path(), 1).unwrap();
     assert!(record.holds, "{}", record.table());
     let path = folder.path().join("drop.json");
-    std::fs::write(&path, serde_json::to_string(&record).unwrap()).unwrap();
-    let (good, said) = validate(&path);
+    let (good, said) = written(&path, &record);
     assert!(good && said.contains("good: stability"), "{said}");
+}
+
+/// A map of temperature over viscosity: bounds that hold, and bounds that the middle row breaks.
+#[test]
+fn the_record_of_a_map_fits_its_schema_and_names_what_is_broken() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
+    let mut case = serde_json::json!({
+        "case": "map",
+        "tool": "poolsph",
+        "scene": scene,
+        "bounds": {"column": "temperature", "min": 0.99, "max": 2.61, "times": "y"},
+        "grid": {
+            "x": {"name": "viscosity [Pa s]", "set": "/flow/viscosity_pa_s",
+                  "values": [0.004, {"value": -1, "expect": ["refused"]}]},
+            "y": {"name": "temperature [K]", "set": "/bodies/0/temperature_k",
+                  "values": [1000, 1500]},
+            "patch": {"time": {"end_s": 2e-4}},
+            "expect": ["stable", "substepped"]
+        }
+    });
+    let run = |case: &serde_json::Value| {
+        let case: Extreme = serde_json::from_value(case.clone()).unwrap();
+        extreme::run(&case, &programs(), folder.path(), 1).unwrap()
+    };
+    let record = run(&case);
+    assert!(record.holds, "{}", record.table());
+    let (good, said) = written(&folder.path().join("map.json"), &record);
+    assert!(good && said.contains("good: stability"), "{said}");
+
+    case["bounds"]["min"] = 1.001.into();
+    case["grid"]["y"]["values"] = serde_json::json!([1000]);
+    let record = run(&case);
+    let told = serde_json::to_value(&record).unwrap();
+    assert!(!record.holds && told["runs"][1]["holds"] == true);
+    let broken = told["runs"][0]["broken"][0].as_str().unwrap();
+    assert!(broken.contains("temperature is 1.000"), "{broken}");
 }
 
 /// What `artefact validate` says of a record written to `path`.
@@ -222,6 +258,20 @@ fn the_benches_of_the_pipeline_can_be_read_and_ordered() {
         for path in bench.patches.iter().chain([&bench.scene]) {
             assert!(root.join(path).is_file(), "{}", path.display());
         }
+    }
+}
+
+#[test]
+fn the_extreme_cases_of_the_pipeline_can_be_read() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let cases = extreme::cases(&root.join("pipelines/stability")).unwrap();
+    for case in &cases {
+        assert!(
+            root.join(&case.scene).is_file(),
+            "{}: {}",
+            case.case,
+            case.scene.display()
+        );
     }
 }
 
