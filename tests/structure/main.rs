@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 4] = ["neighbours", "kernels", "props", "relax"];
+const NUMERICS: [&str; 5] = ["neighbours", "kernels", "props", "krylov", "relax"];
 const HARNESS: [&str; 2] = ["artefact", "run"];
 
 fn root() -> PathBuf {
@@ -19,7 +19,8 @@ fn root() -> PathBuf {
 /// Arrows that a crate of ours may point along.
 fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
-        "neighbours" | "props" | "relax" | "artefact" => &[],
+        "neighbours" | "props" | "krylov" | "artefact" => &[],
+        "relax" => &["krylov"],
         "kernels" => &["neighbours"],
         "run" => &["artefact"],
         "report" => &["artefact", "run"],

@@ -1,0 +1,123 @@
+//! From a matrix to the next coarser one: each group of rows becomes one row, the sum of theirs.
+
+use super::rows::{Balance, NONE, Rows, blocks};
+use crate::Error;
+
+/// Groups that one task restricts.
+const GROUPS: usize = 4096;
+
+/// Which rows form which group.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Groups {
+    /// Group of each row, [`NONE`] for rows in no group.
+    of: Vec<u32>,
+    starts: Vec<u32>,
+    members: Vec<u32>,
+}
+
+impl Groups {
+    pub(crate) fn new(of: Vec<u32>, count: usize) -> Self {
+        let mut starts = vec![0_u32; count + 1];
+        for &g in of.iter().filter(|g| **g != NONE) {
+            starts[g as usize + 1] += 1;
+        }
+        for g in 0..count {
+            starts[g + 1] += starts[g];
+        }
+        let mut next = starts.clone();
+        let mut members = vec![0; starts[count] as usize];
+        for (i, &g) in of.iter().enumerate().filter(|(_, g)| **g != NONE) {
+            members[next[g as usize] as usize] = i as u32;
+            next[g as usize] += 1;
+        }
+        Self {
+            of,
+            starts,
+            members,
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        4 * (self.of.capacity() + self.starts.capacity() + self.members.capacity())
+    }
+
+    fn group(&self, g: usize) -> &[u32] {
+        &self.members[self.starts[g] as usize..self.starts[g + 1] as usize]
+    }
+
+    /// The residual that a forward sweep to `x` leaves, summed over groups.
+    pub(crate) fn restrict(&self, rows: &Rows, x: &[f64], out: &mut [f64]) {
+        blocks(out, GROUPS, |first, out| {
+            for (k, out) in out.iter_mut().enumerate() {
+                let mut sum = 0.0;
+                for &i in self.group(first + k) {
+                    sum += rows.left_out(x, i as usize);
+                }
+                *out = sum;
+            }
+        });
+    }
+
+    /// Adds the correction of each group to its rows.
+    pub(crate) fn prolong(&self, correction: &[f64], x: &mut [f64]) {
+        blocks(x, 4 * GROUPS, |first, x| {
+            for (x, &g) in x.iter_mut().zip(&self.of[first..]) {
+                if g != NONE {
+                    *x += correction[g as usize];
+                }
+            }
+        });
+    }
+
+    /// Sums the rows of each group into `coarse`. Couplings to rows in no group stay in the
+    /// diagonal, as those to fixed values do.
+    pub(crate) fn sum(
+        &self,
+        (rows, balance): (&Rows, &Balance),
+        coarse: &mut Rows,
+        sums: &mut Balance,
+    ) -> Result<(), Error> {
+        coarse.clear();
+        sums.clear();
+        let mut slot = vec![NONE; self.len()];
+        let mut entries: Vec<(u32, f64)> = Vec::new();
+        for g in 0..self.len() {
+            entries.clear();
+            let mut excess = 0.0;
+            for &i in self.group(g) {
+                excess += balance.excess[i as usize];
+                let (columns, couplings) = rows.row(i as usize);
+                for (&j, &w) in columns.iter().zip(couplings) {
+                    let (other, w) = (self.of[j as usize], f64::from(w));
+                    if other == NONE {
+                        excess += w;
+                    } else if other as usize != g {
+                        let at = &mut slot[other as usize];
+                        if *at == NONE {
+                            *at = entries.len() as u32;
+                            entries.push((other, w));
+                        } else {
+                            entries[*at as usize].1 += w;
+                        }
+                    }
+                }
+            }
+            for (other, _) in &entries {
+                slot[*other as usize] = NONE;
+            }
+            let leader = balance.leader[self.group(g)[0] as usize];
+            let diagonal = excess + coarse.push(entries.iter().copied());
+            if diagonal.is_nan() || diagonal <= 0.0 {
+                let index = leader as usize;
+                return Err(Error::Singular { index });
+            }
+            coarse.close(diagonal);
+            sums.push(diagonal, excess, leader);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,199 @@
+//! Sparse matrices and preconditioned Krylov solvers.
+//!
+//! Made for the equations of meshless conduction: in each row a positive diagonal, off-diagonals
+//! that are not positive, and a row sum that is not negative (positive where a value is given or
+//! heat is stored). Coefficients may jump by nine orders between neighbours.
+//!
+//! - [`Sparse`]: rows over a shared [`Pattern`], the diagonal apart.
+//! - [`conjugate_gradient`] for symmetric, [`gmres`] for other matrices. Both are flexible: the
+//!   preconditioner may differ from call to call.
+//! - [`Jacobi`] (the diagonal), [`Scaled`] (columns scaled by known factors) and [`Aggregation`]
+//!   (algebraic multigrid), whose iteration count hardly knows the number of unknowns or the jumps.
+//!
+//! Sums run over chunks whose size depends on the length alone and whose results are added in
+//! order, and smoothing runs over blocks of fixed size: results are bitwise independent of the
+//! number of threads.
+
+#![cfg_attr(
+    test,
+    allow(clippy::float_cmp, reason = "bits are compared on purpose")
+)]
+
+mod aggregation;
+mod conjugate;
+mod gmres;
+mod jacobi;
+mod sparse;
+mod sums;
+
+pub use aggregation::Aggregation;
+pub use conjugate::conjugate_gradient;
+pub use gmres::gmres;
+pub use jacobi::{Jacobi, Scaled};
+pub use sparse::{Pattern, Sparse};
+
+use thiserror::Error;
+
+/// A square linear operator.
+pub trait Linear: Sync {
+    /// Number of unknowns.
+    fn len(&self) -> usize;
+
+    /// No unknowns at all.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// `out = A x`.
+    fn apply(&self, x: &[f64], out: &mut [f64]);
+
+    /// Euclidean norm of the rounding errors of [`Self::apply`], about: no residual can be made
+    /// smaller. Zero where it is not known.
+    fn rounding(&self, _x: &[f64]) -> f64 {
+        0.0
+    }
+}
+
+/// An approximate inverse.
+pub trait Precondition {
+    /// `out` becomes an approximate solution with `rhs` as the right side.
+    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]);
+}
+
+/// Stopping rule: `|r|_2 <= max(reduction * |r0|_2, floor)`, or `iterations` are spent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Krylov {
+    /// Wanted last / first residual.
+    pub reduction: f64,
+    /// Residual below which nothing is gained, in the unit of the right side.
+    pub floor: f64,
+    /// Most iterations.
+    pub iterations: usize,
+}
+
+impl Krylov {
+    /// The residual at which a solve that began with `first` may stop.
+    fn target(&self, first: f64) -> f64 {
+        (self.reduction * first).max(self.floor)
+    }
+
+    /// Did the solve reach what was asked for, or what rounding allows?
+    #[must_use]
+    pub fn reached(&self, outcome: &Outcome) -> bool {
+        outcome.last <= self.target(outcome.first).max(outcome.rounding)
+    }
+}
+
+/// How a solve ended; [`Krylov::reached`] tells whether it converged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outcome {
+    /// Iterations done.
+    pub iterations: usize,
+    /// Euclidean norm of the residual before, in the unit of the right side.
+    pub first: f64,
+    /// Euclidean norm of the residual after, `b - A x` evaluated anew, in the same unit.
+    pub last: f64,
+    /// What rounding leaves of a residual, about ([`Linear::rounding`]), in the same unit.
+    pub rounding: f64,
+}
+
+/// Scratch columns of a solve, kept between solves.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace {
+    columns: Vec<Vec<f64>>,
+    /// Columns of the Hessenberg matrix, rotations and the rotated right side.
+    small: Vec<f64>,
+}
+
+impl Workspace {
+    /// At least `count` columns of `n` numbers.
+    fn fit(&mut self, count: usize, n: usize) -> &mut [Vec<f64>] {
+        if self.columns.len() < count {
+            self.columns.resize_with(count, Vec::new);
+        }
+        for column in &mut self.columns[..count] {
+            column.resize(n, 0.0);
+        }
+        &mut self.columns
+    }
+}
+
+/// Why a solve failed.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Error {
+    /// A value or coefficient is not a number.
+    #[error("row {index}: {what} is not a finite number")]
+    NotFinite {
+        /// Row.
+        index: usize,
+        /// Which quantity.
+        what: &'static str,
+    },
+    /// A diagonal is zero or negative.
+    #[error("row {index}: the diagonal {value} is not positive")]
+    NotPositive {
+        /// Row.
+        index: usize,
+        /// The diagonal.
+        value: f64,
+    },
+    /// Rows hang together, but nothing fixes their level.
+    #[error("row {index} and the rows it hangs together with have no unique solution")]
+    Singular {
+        /// One of the rows.
+        index: usize,
+    },
+    /// The matrix (or its preconditioner) is not positive definite.
+    #[error(
+        "iteration {iteration}: curvature {value} is not positive, the matrix is not positive definite"
+    )]
+    Indefinite {
+        /// Iteration at which it showed.
+        iteration: usize,
+        /// The curvature.
+        value: f64,
+    },
+    /// Vectors and matrix do not fit.
+    #[error("a vector or matrix of {found} rows where {expected} are expected")]
+    Size {
+        /// Rows of the matrix.
+        expected: usize,
+        /// Rows given.
+        found: usize,
+    },
+}
+
+/// Refuses columns of the wrong length.
+fn sizes(a: &impl Linear, rhs: &[f64], x: &[f64]) -> Result<(), Error> {
+    let expected = a.len();
+    for found in [rhs.len(), x.len()] {
+        if found != expected {
+            return Err(Error::Size { expected, found });
+        }
+    }
+    Ok(())
+}
+
+/// Names the first number that is none.
+fn finite(what: &'static str, values: &[f64]) -> Result<(), Error> {
+    match values.iter().position(|v| !v.is_finite()) {
+        Some(index) => Err(Error::NotFinite { index, what }),
+        None => Ok(()),
+    }
+}
+
+/// `r = b - A x` and its norm.
+fn residual(a: &impl Linear, rhs: &[f64], x: &[f64], r: &mut [f64]) -> Result<f64, Error> {
+    a.apply(x, r);
+    let norm = sums::subtract_from(rhs, r).sqrt();
+    if !norm.is_finite() {
+        finite("the right side", rhs)?;
+        finite("the value", x)?;
+        finite("the residual", r)?;
+        return Err(Error::NotFinite {
+            index: 0,
+            what: "the norm of the residual",
+        });
+    }
+    Ok(norm)
+}
