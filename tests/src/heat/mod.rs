@@ -12,3 +12,4 @@ pub mod property;
 pub mod robin;
 pub mod sdirk;
 pub mod slabs;
+pub mod square;
