@@ -6,6 +6,7 @@
 
 pub mod bar;
 pub mod cylinder;
+pub mod disc;
 pub mod formula;
 pub mod plate;
 pub mod property;
