@@ -5,6 +5,17 @@ mod arc_mms;
 mod arc_pinch;
 mod arc_poiseuille;
 mod arc_potential;
+mod heat_block_3d;
+mod heat_cylinder_flux;
+mod heat_exp_t;
+mod heat_exp_t_transient;
+mod heat_exp_x;
+mod heat_exp_x_transient;
+mod heat_patch;
+mod heat_robin_square;
+mod heat_shock_disc;
+mod heat_sin_xy;
+mod heat_two_slabs;
 mod pool_drop_oscillation;
 mod pool_drop_pressure;
 mod pool_hydrostatic;
@@ -23,6 +34,17 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_pinch::ArcPinch),
         Box::new(arc_poiseuille::ArcPoiseuille),
         Box::new(arc_potential::ArcPotential),
+        Box::new(heat_patch::HeatPatch),
+        Box::new(heat_exp_x::HeatExpX),
+        Box::new(heat_exp_x_transient::HeatExpXTransient),
+        Box::new(heat_sin_xy::HeatSinXy),
+        Box::new(heat_exp_t::HeatExpT),
+        Box::new(heat_exp_t_transient::HeatExpTTransient),
+        Box::new(heat_block_3d::HeatBlock3d),
+        Box::new(heat_robin_square::HeatRobinSquare),
+        Box::new(heat_cylinder_flux::HeatCylinderFlux),
+        Box::new(heat_two_slabs::HeatTwoSlabs),
+        Box::new(heat_shock_disc::HeatShockDisc),
         Box::new(pool_drop_oscillation::PoolDropOscillation),
         Box::new(pool_drop_pressure::PoolDropPressure),
         Box::new(pool_hydrostatic::PoolHydrostatic),

@@ -28,16 +28,6 @@ impl Property {
         if let Some(text) = value["expr"].as_str() {
             return Formula::parse(text).map(Self::Formula);
         }
-        if let Some(parts) = value["mixture"].as_array() {
-            let part = |p: &Value| {
-                Ok([
-                    Self::read(&p["fraction"])?,
-                    Self::read(&p["conductivity_w_m_k"])?,
-                ])
-            };
-            let parts: Result<Vec<_>, String> = parts.iter().map(part).collect();
-            return parts.map(Self::Mixture);
-        }
         let numbers = |key: &str| -> Option<Vec<f64>> {
             value[key].as_array()?.iter().map(Value::as_f64).collect()
         };
@@ -45,8 +35,26 @@ impl Property {
             (Some(t), Some(v)) if t.len() == v.len() && t.len() > 1 => Ok(Self::Table(
                 t.into_iter().zip(v).map(|(t, v)| [t, v]).collect(),
             )),
-            _ => Err(format!("{value} is no number, formula, table or mixture")),
+            _ => Err(format!("{value} is no number, formula or table")),
         }
+    }
+
+    /// Reads the conductivity of a material: its own, or that of its mixture.
+    ///
+    /// # Errors
+    /// What is not understood.
+    pub fn conductivity(material: &Value) -> Result<Self, String> {
+        let Some(parts) = material["mixture"].as_array() else {
+            return Self::read(&material["conductivity_w_m_k"]);
+        };
+        let part = |p: &Value| {
+            Ok([
+                Self::read(&p["fraction"])?,
+                Self::read(&p["conductivity_w_m_k"])?,
+            ])
+        };
+        let parts: Result<Vec<_>, String> = parts.iter().map(part).collect();
+        parts.map(Self::Mixture)
     }
 
     /// The value.
@@ -94,6 +102,25 @@ pub fn at<'a>(run: &'a Finished, pointer: &str) -> Result<&'a Value, LabError> {
 /// When there is none or it is not understood.
 pub fn property(run: &Finished, pointer: &str) -> Result<Property, LabError> {
     Property::read(at(run, pointer)?).map_err(|what| fault(run, format!("{pointer}: {what}")))
+}
+
+/// The conductivity of the material with this index.
+///
+/// # Errors
+/// When there is none or it is not understood.
+pub fn conductivity(run: &Finished, material: usize) -> Result<Property, LabError> {
+    let pointer = format!("/materials/{material}");
+    let found = Property::conductivity(at(run, &pointer)?);
+    found.map_err(|what| fault(run, format!("{pointer}: {what}")))
+}
+
+/// Density times specific heat of the material with this index \[J/(m3 K)\].
+///
+/// # Errors
+/// When one is missing or no number.
+pub fn capacity(run: &Finished, material: usize) -> Result<f64, LabError> {
+    let density = number(run, &format!("/materials/{material}/density_kg_m3"))?;
+    Ok(density * number(run, &format!("/materials/{material}/specific_heat_j_kg_k"))?)
 }
 
 /// The number at a JSON pointer of the scene; a formula without variables is a number too.
@@ -181,7 +208,7 @@ mod tests {
         };
         let table = Property::read(&json!({"t_k": [300, 400, 500], "value": [1, 3, 4]})).unwrap();
         assert!((table.value(&hot) - 2.0).abs() < 1e-14);
-        let mixture = Property::read(&json!({"mixture": [
+        let mixture = Property::conductivity(&json!({"mixture": [
             {"fraction": {"expr": "1 - z"}, "conductivity_w_m_k": {"expr": "0.02*T"}},
             {"fraction": {"expr": "z"}, "conductivity_w_m_k": 2.8}]}))
         .unwrap();

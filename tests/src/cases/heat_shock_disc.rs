@@ -1,0 +1,183 @@
+//! `heat-shock-disc`: the layered disc of Rong and Kisu (2010), section 3, cooled from above.
+
+use serde_json::{Value, json};
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::heat::disc::{Disc, Fineness, Layer, temperatures};
+use crate::heat::formula::At;
+use crate::heat::frames::{Frames, greater};
+use crate::heat::methods::{self, TRANSIENT, over};
+use crate::heat::property::{Property, at, capacity, conductivity, fault, number, property};
+use crate::lab::{Finished, Lab, LabError};
+
+/// Temperatures at the start \[K\].
+const STARTS: [f64; 3] = [1023.0, 1073.0, 1123.0];
+
+/// Its own error, between this and twice as fine, is 4e-5 of the drop.
+const FINENESS: Fineness = Fineness {
+    radial: 15,
+    layer: 2,
+    tolerance: 1e-3,
+};
+
+/// The case.
+pub(super) struct HeatShockDisc;
+
+impl Case for HeatShockDisc {
+    fn name(&self) -> &'static str {
+        "heat-shock-disc"
+    }
+
+    fn tool(&self) -> &'static str {
+        "heatsph"
+    }
+
+    fn reference(&self) -> &'static str {
+        "Fine finite volumes in r and z, extrapolated, with the scene's h(r)"
+    }
+
+    fn methods(&self) -> &'static [&'static str] {
+        TRANSIENT
+    }
+
+    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
+        // Level 3 has 100,000 points; the explicit methods are slow there.
+        let most = if method == TRANSIENT[0] { 3 } else { 2 };
+        asked.iter().copied().filter(|l| *l <= most).collect()
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        let mut targets = Vec::new();
+        for start in STARTS {
+            let quantity = format!("temperature_linf_{start}k");
+            targets.push(Target::error(&quantity, 3e-3).at_level(2));
+            for method in TRANSIENT.iter().filter(|m| methods::is_jittered(m)) {
+                targets.push(Target::error(&quantity, 9e-3).at_level(2).of(*method));
+            }
+        }
+        targets
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let spacing = 1e-3 / f64::from(1 << (level.clamp(1, 4) - 1));
+        let mut all = Vec::new();
+        let mut errors = Errors::new();
+        let mut points = 0;
+        for start in STARTS {
+            let patch = over(
+                json!({"points": {"spacing_m": spacing}, "initial_temperature_k": start}),
+                &methods::patch(method),
+            );
+            let label = format!("level{level}-{method}-{start}k");
+            let run = lab.run(self.tool(), self.name(), &label, &patch)?;
+            let frames = Frames::read(&run)?;
+            errors.insert(format!("temperature_linf_{start}k"), error(&run, &frames)?);
+            points = frames.points();
+            all.push(run);
+        }
+        Ok(Measurement {
+            points,
+            spacing_m: spacing,
+            runs: all,
+            errors,
+        })
+    }
+}
+
+/// Largest error over the largest drop of the same time.
+fn error(run: &Finished, frames: &Frames) -> Result<f64, LabError> {
+    let disc = disc(run)?;
+    let places: Vec<[f64; 2]> = frames
+        .position
+        .iter()
+        .map(|p| [p[0].hypot(p[1]).min(disc.radius), p[2]])
+        .collect();
+    let exact = temperatures(&disc, &frames.later(), &places, FINENESS);
+    let exact = exact.ok_or_else(|| fault(run, "the reference cannot be marched".to_owned()))?;
+    let mut worst = 0.0;
+    for ((_, found), wanted) in frames.after_start().zip(&exact) {
+        let drop = wanted
+            .iter()
+            .fold(0.0_f64, |m, t| m.max((disc.start - t).abs()));
+        for (f, w) in found.iter().zip(wanted) {
+            worst = greater(worst, (f - w).abs() / drop);
+        }
+    }
+    Ok(worst)
+}
+
+/// The disc of a scene: a cylinder along z about the axis, layers from above, convection on `top`
+/// and `side`.
+fn disc(run: &Finished) -> Result<Disc, LabError> {
+    let length = number(run, "/body/cylinder/length_m")?;
+    let bottom = number(run, "/body/cylinder/centre_m/2")? - 0.5 * length;
+    let top = bottom + length;
+    let mut border = top;
+    let mut layers = Vec::new();
+    let materials = at(run, "/materials")?.as_array().map_or(0, Vec::len);
+    for material in 0..materials {
+        let region = format!("/materials/{material}/region/box/min_m/2");
+        let low = match run.scene.pointer(&region) {
+            Some(_) => number(run, &region)?.max(bottom),
+            None => bottom,
+        };
+        if low < border {
+            layers.push(Layer {
+                thickness: border - low,
+                conductivity: conductivity(run, material)?,
+                capacity: capacity(run, material)?,
+            });
+            border = low;
+        }
+    }
+    layers.reverse();
+    let (ambient, film) = films(run)?;
+    Ok(Disc {
+        radius: number(run, "/body/cylinder/radius_m")?,
+        bottom,
+        layers,
+        film,
+        ambient,
+        start: number(run, "/initial_temperature_k")?,
+    })
+}
+
+/// The surroundings, and the films on the upper face and on the side.
+fn films(run: &Finished) -> Result<(f64, [Property; 2]), LabError> {
+    let none = || Property::read(&Value::from(0.0)).map_err(|what| fault(run, what));
+    let mut found = [none()?, none()?];
+    let mut ambient = f64::NAN;
+    let boundaries = at(run, "/boundaries")?.as_array().map_or(0, Vec::len);
+    for i in 0..boundaries {
+        let pointer = format!("/boundaries/{i}/convection");
+        let film = property(run, &format!("{pointer}/coefficient_w_m2_k"))?;
+        ambient = number(run, &format!("{pointer}/ambient_k"))?;
+        let steady = [(0.0, 300.0), (9.0, 1100.0)].map(|(time, temperature)| {
+            film.value(&At {
+                time,
+                temperature,
+                ..At::place([0.004, 0.003, 0.001])
+            })
+        });
+        if (steady[0] - steady[1]).abs() > 0.0 {
+            return Err(fault(run, format!("{pointer} must depend on place alone")));
+        }
+        for face in at(run, &format!("/boundaries/{i}/on"))?
+            .as_array()
+            .into_iter()
+            .flatten()
+        {
+            match face.as_str() {
+                Some("top") => found[0] = film.clone(),
+                Some("side") => found[1] = film.clone(),
+                _ => {
+                    return Err(fault(
+                        run,
+                        "only top and side may be cooled here".to_owned(),
+                    ));
+                }
+            }
+        }
+    }
+    Ok((ambient, found))
+}

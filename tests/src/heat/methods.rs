@@ -1,0 +1,98 @@
+//! Methods of `heatsph` as series of a case: patches on a scene that names none of them.
+//!
+//! A name is an operator (`pair`, `corrected`), then a march in time where there is one (`explicit`,
+//! `stabilised`, `implicit`), then the jitter of the points in hundredths (`jitter-30`).
+
+use serde_json::{Value, json};
+
+/// Competing methods of a transient case.
+pub const TRANSIENT: &[&str] = &[
+    "corrected-implicit",
+    "pair-explicit",
+    "corrected-explicit",
+    "corrected-stabilised",
+    "pair-implicit",
+    "corrected-implicit-jitter-10",
+    "corrected-implicit-jitter-30",
+];
+
+/// Competing methods of a steady case.
+pub const STEADY: &[&str] = &[
+    "corrected",
+    "pair",
+    "corrected-jitter-10",
+    "corrected-jitter-30",
+];
+
+/// The patch of a method. An implicit or stabilised march takes its tolerance from the scene.
+#[must_use]
+pub fn patch(method: &str) -> Value {
+    let mut patch = json!({});
+    let mut words = method.split('-').peekable();
+    while let Some(word) = words.next() {
+        match word {
+            "pair" => patch["operator"] = json!({"pair": {}}),
+            "explicit" => patch["time"] = json!({"implicit": null, "explicit": {}}),
+            "stabilised" => patch["time"] = json!({"implicit": null, "stabilised": {}}),
+            "jitter" => {
+                let hundredths = words.next().and_then(|w| w.parse::<f64>().ok());
+                patch["points"] = json!({"jitter": hundredths.unwrap_or(0.0) / 100.0});
+            }
+            // `corrected` and `implicit` are what a scene has without a patch.
+            _ => {}
+        }
+    }
+    patch
+}
+
+/// Lays `upper` over `lower` (RFC 7386, without the removal that `null` asks for: it stays).
+#[must_use]
+pub fn over(lower: Value, upper: &Value) -> Value {
+    let (Value::Object(mut below), Value::Object(above)) = (lower.clone(), upper) else {
+        return upper.clone();
+    };
+    for (key, value) in above {
+        let merged = match below.get(key) {
+            Some(old) if value.is_object() => over(old.clone(), value),
+            _ => value.clone(),
+        };
+        below.insert(key.clone(), merged);
+    }
+    Value::Object(below)
+}
+
+/// Whether a method shifts the points at random.
+#[must_use]
+pub fn is_jittered(method: &str) -> bool {
+    method.contains("jitter")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_says_what_is_patched() {
+        assert_eq!(patch("corrected-implicit"), json!({}));
+        assert_eq!(
+            patch("pair-explicit"),
+            json!({"operator": {"pair": {}}, "time": {"implicit": null, "explicit": {}}})
+        );
+        assert_eq!(
+            patch("corrected-stabilised-jitter-30"),
+            json!({"time": {"implicit": null, "stabilised": {}}, "points": {"jitter": 0.3}})
+        );
+    }
+
+    #[test]
+    fn patches_are_laid_over_each_other() {
+        let lower = json!({"points": {"spacing_m": 0.1}, "time": {"end_s": 1, "implicit": {}}});
+        let found = over(lower, &patch("pair-explicit-jitter-10"));
+        assert_eq!(
+            found,
+            json!({"points": {"spacing_m": 0.1, "jitter": 0.1},
+                   "time": {"end_s": 1, "implicit": null, "explicit": {}},
+                   "operator": {"pair": {}}})
+        );
+    }
+}
