@@ -13,13 +13,6 @@ use crate::lab::{Finished, Lab, LabError};
 /// Temperatures at the start \[K\].
 const STARTS: [f64; 3] = [1023.0, 1073.0, 1123.0];
 
-/// Its own error, between this and twice as fine, is 4e-5 of the drop.
-const FINENESS: Fineness = Fineness {
-    radial: 15,
-    layer: 2,
-    tolerance: 1e-3,
-};
-
 /// The case.
 pub(super) struct HeatShockDisc;
 
@@ -92,7 +85,7 @@ fn error(run: &Finished, frames: &Frames) -> Result<f64, LabError> {
         .iter()
         .map(|p| [p[0].hypot(p[1]).min(disc.radius), p[2]])
         .collect();
-    let exact = temperatures(&disc, &frames.later(), &places, FINENESS);
+    let exact = temperatures(&disc, &frames.later(), &places, Fineness::FINE);
     let exact = exact.ok_or_else(|| fault(run, "the reference cannot be marched".to_owned()))?;
     let mut worst = 0.0;
     for ((_, found), wanted) in frames.after_start().zip(&exact) {
