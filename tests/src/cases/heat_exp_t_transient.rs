@@ -97,12 +97,16 @@ fn misses(frames: &Frames, exact: &Profiles, start: f64, range: f64) -> (f64, f6
         let values: Vec<f64> = warm.iter().map(|n| found[*n]).collect();
         let behind = worst(&places, &values, range, |p| exact.value(i, p[0]));
         misses.0 = greater(misses.0, behind);
-        let front = frames.position.iter().zip(found).filter_map(|(place, value)| {
-            let rise = (value - start).abs() / range;
-            let within = rise > FRONT[0] && rise < FRONT[1];
-            let x = within.then(|| place_of(exact, i, *value)).flatten()?;
-            Some((x - place[0]).abs())
-        });
+        let front = frames
+            .position
+            .iter()
+            .zip(found)
+            .filter_map(|(place, value)| {
+                let rise = (value - start).abs() / range;
+                let within = rise > FRONT[0] && rise < FRONT[1];
+                let x = within.then(|| place_of(exact, i, *value)).flatten()?;
+                Some((x - place[0]).abs())
+            });
         // No point in the front is no success.
         misses.1 = greater(misses.1, front.reduce(greater).unwrap_or(f64::NAN));
     }
