@@ -49,15 +49,12 @@ impl Groups {
         &self.members[self.starts[g] as usize..self.starts[g + 1] as usize]
     }
 
-    /// The residual that a forward sweep to `x` leaves, summed over groups.
-    pub(crate) fn restrict(&self, rows: &Rows, x: &[f64], out: &mut [f64]) {
+    /// Sums over groups.
+    pub(crate) fn restrict(&self, x: &[f64], out: &mut [f64]) {
         blocks(out, GROUPS, |first, out| {
             for (k, out) in out.iter_mut().enumerate() {
-                let mut sum = 0.0;
-                for &i in self.group(first + k) {
-                    sum += rows.left_out(x, i as usize);
-                }
-                *out = sum;
+                let members = self.group(first + k);
+                *out = members.iter().map(|i| x[*i as usize]).sum();
             }
         });
     }
@@ -90,8 +87,7 @@ impl Groups {
             let mut excess = 0.0;
             for &i in self.group(g) {
                 excess += balance.excess[i as usize];
-                let (columns, couplings) = rows.row(i as usize);
-                for (&j, &w) in columns.iter().zip(couplings) {
+                for &(j, w) in rows.row(i as usize) {
                     let (other, w) = (self.of[j as usize], f64::from(w));
                     if other == NONE {
                         excess += w;

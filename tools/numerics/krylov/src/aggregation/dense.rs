@@ -24,8 +24,7 @@ impl Dense {
         self.factors.clear();
         self.factors.resize(n * n, 0.0);
         for i in 0..n {
-            let (columns, couplings) = rows.row(i);
-            for (&j, &w) in columns.iter().zip(couplings) {
+            for &(j, w) in rows.row(i) {
                 self.factors[i * n + j as usize] += f64::from(w);
             }
         }

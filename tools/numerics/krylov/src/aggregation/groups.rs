@@ -5,8 +5,8 @@
 //! 34, A1079, algorithms 4.2 and 4.3; Notay 2012, the same, A2288 for unsymmetric matrices, where
 //! the symmetric part is looked at).
 
-use super::quality::Quality;
-use super::rows::{Balance, NONE, Rows};
+use super::quality::Candidate;
+use super::rows::{Balance, Link, NONE, Rows};
 
 /// Worst quality of a group in a narrow stencil.
 const QUALITY: f64 = 8.0;
@@ -14,9 +14,9 @@ const QUALITY: f64 = 8.0;
 /// outside a group, which matter the more the more neighbours a row has.
 const QUALITY_PER_NEIGHBOUR: f64 = 2.0;
 /// Partners whose quality is tried.
-const TRIES: usize = 4;
+const TRIES: usize = 3;
 /// Passes: groups of at most 2^PASSES rows.
-const PASSES: usize = 2;
+const PASSES: usize = 3;
 /// A share of groups per row above which groups are joined whatever their quality.
 const STALLED: f64 = 0.75;
 
@@ -24,8 +24,7 @@ const STALLED: f64 = 0.75;
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
     starts: Vec<u32>,
-    columns: Vec<u32>,
-    couplings: Vec<f32>,
+    links: Vec<Link>,
     excess: Vec<f64>,
 }
 
@@ -40,14 +39,11 @@ pub(crate) enum View<'a> {
 
 impl<'a> View<'a> {
     pub(crate) fn row(self, i: usize) -> impl Iterator<Item = (u32, f64)> + 'a {
-        let (columns, couplings) = match self {
+        let links = match self {
             View::Rows(rows, _) => rows.row(i),
             View::Part(graph, _) => graph.row(i),
         };
-        columns
-            .iter()
-            .zip(couplings)
-            .map(|(&j, &w)| (j, f64::from(w)))
+        links.iter().map(|&(j, w)| (j, f64::from(w)))
     }
 
     pub(crate) fn diagonal(self, i: usize) -> f64 {
@@ -72,9 +68,8 @@ impl<'a> View<'a> {
 }
 
 impl Graph {
-    fn row(&self, i: usize) -> (&[u32], &[f32]) {
-        let range = self.starts[i] as usize..self.starts[i + 1] as usize;
-        (&self.columns[range.clone()], &self.couplings[range])
+    fn row(&self, i: usize) -> &[Link] {
+        &self.links[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 
     /// The symmetric part of `rows`.
@@ -82,46 +77,42 @@ impl Graph {
         let (n, entries) = (rows.len(), rows.entries());
         let mut begin = vec![0_u32; n + 1];
         for i in 0..n {
-            for &j in rows.row(i).0 {
+            for &(j, _) in rows.row(i) {
                 begin[j as usize + 1] += 1;
             }
         }
         for i in 0..n {
             begin[i + 1] += begin[i];
         }
-        let (mut from, mut values) = (vec![0_u32; entries], vec![0.0_f32; entries]);
+        let mut transposed = vec![(0, 0.0); entries];
         let mut next = begin.clone();
         for i in 0..n {
-            let (columns, couplings) = rows.row(i);
-            for (&j, &w) in columns.iter().zip(couplings) {
-                let k = next[j as usize] as usize;
-                (from[k], values[k]) = (i as u32, w);
+            for &(j, w) in rows.row(i) {
+                transposed[next[j as usize] as usize] = (i as u32, w);
                 next[j as usize] += 1;
             }
         }
         let mut graph = Self {
             starts: vec![0],
-            ..Self::default()
+            links: Vec::with_capacity(entries),
+            excess: Vec::with_capacity(n),
         };
         let mut place = vec![NONE; n];
         for i in 0..n {
-            let first = graph.columns.len();
-            let (columns, couplings) = rows.row(i);
-            let other = begin[i] as usize..begin[i + 1] as usize;
-            let transposed = from[other.clone()].iter().zip(&values[other]);
+            let first = graph.links.len();
+            let other = &transposed[begin[i] as usize..begin[i + 1] as usize];
             let mut sum = 0.0;
-            for (&j, &w) in columns.iter().zip(couplings).chain(transposed) {
+            for &(j, w) in rows.row(i).iter().chain(other) {
                 let at = place[j as usize];
                 if at != NONE && at as usize >= first {
-                    graph.couplings[at as usize] += 0.5 * w;
+                    graph.links[at as usize].1 += 0.5 * w;
                 } else {
-                    place[j as usize] = graph.columns.len() as u32;
-                    graph.columns.push(j);
-                    graph.couplings.push(0.5 * w);
+                    place[j as usize] = graph.links.len() as u32;
+                    graph.links.push((j, 0.5 * w));
                 }
                 sum += 0.5 * f64::from(w);
             }
-            graph.starts.push(graph.columns.len() as u32);
+            graph.starts.push(graph.links.len() as u32);
             graph.excess.push(balance.diagonal[i] - sum);
         }
         graph
@@ -131,16 +122,7 @@ impl Graph {
 /// The group of each row, [`NONE`] for rows that smoothing alone solves, and the number of groups.
 pub(crate) fn form(view: View<'_>) -> (Vec<u32>, usize) {
     let mut joining = Joining::new(view);
-    let active = joining.count;
-    for pass in 0..PASSES {
-        joining.pass(pass == 0);
-    }
-    if joining.count as f64 > STALLED * active as f64 {
-        joining = Joining::new(view);
-        joining.any = true;
-        joining.pass(true);
-        joining.adopt();
-    }
+    joining.join();
     (joining.of, joining.count)
 }
 
@@ -180,21 +162,48 @@ impl<'a> Joining<'a> {
         for i in 0..n {
             let (mut sum, mut squares) = (0.0, 0.0);
             for (_, w) in view.row(i) {
-                sum += w.abs();
+                let w = w.max(0.0);
+                sum += w;
                 squares += w * w;
             }
-            new.wide
-                .push((sum * sum / f64::max(squares, f64::MIN_POSITIVE)) as f32);
+            let wide = sum * sum / f64::max(squares, f64::MIN_POSITIVE);
+            new.wide.push(wide as f32);
             // Smoothing alone solves a row of strong diagonal.
-            let diagonal = view.diagonal(i);
-            if diagonal < QUALITY / (QUALITY - 2.0) * sum {
-                new.of[i] = new.count as u32;
-                new.count += 1;
-                new.members.push(i as u32);
-                new.sums.push([diagonal, view.excess(i)]);
+            if view.diagonal(i) < QUALITY / (QUALITY - 2.0) * sum {
+                new.add(i);
             }
         }
         new
+    }
+
+    /// A group of one row.
+    fn add(&mut self, i: usize) {
+        self.of[i] = self.count as u32;
+        self.count += 1;
+        self.members.push(i as u32);
+        let sums = [self.view.diagonal(i), self.view.excess(i)];
+        self.sums.push(sums);
+    }
+
+    fn join(&mut self) {
+        let active = self.count;
+        for pass in 0..PASSES {
+            self.pass(pass == 0);
+        }
+        if self.count as f64 <= STALLED * active as f64 {
+            return;
+        }
+        // Once more, whatever the quality.
+        (self.count, self.stride, self.any) = (0, 1, true);
+        self.members.clear();
+        self.sums.clear();
+        for i in 0..self.of.len() {
+            if self.of[i] != NONE {
+                self.add(i);
+            }
+        }
+        self.pass(true);
+        self.adopt();
     }
 
     fn group(&self, g: usize) -> impl Iterator<Item = u32> {
@@ -208,7 +217,6 @@ impl<'a> Joining<'a> {
         let mut slot = vec![NONE; if rows { 0 } else { self.count }];
         let (mut members, mut sums) = (Vec::with_capacity(self.members.len()), Vec::new());
         let mut partners: Vec<Partner> = Vec::new();
-        let mut quality = Quality::default();
         for g in 0..self.count {
             if joined[g] != NONE {
                 continue;
@@ -219,7 +227,7 @@ impl<'a> Joining<'a> {
             } else {
                 self.near_group(g, &joined, &mut slot, &mut partners);
             }
-            let found = self.best(g, &mut partners, &mut quality);
+            let found = self.best(g, &mut partners);
             joined[g] = sums.len() as u32;
             let end = members.len() + 2 * self.stride;
             members.extend(self.group(g));
@@ -276,12 +284,7 @@ impl<'a> Joining<'a> {
     }
 
     /// The best partner of good quality.
-    fn best(
-        &self,
-        g: usize,
-        partners: &mut Vec<Partner>,
-        quality: &mut Quality,
-    ) -> Option<Partner> {
+    fn best(&self, g: usize, partners: &mut Vec<Partner>) -> Option<Partner> {
         for _ in 0..TRIES {
             let (mut best, mut place) = (0.0, None);
             for (k, &(other, w)) in partners.iter().enumerate() {
@@ -291,7 +294,7 @@ impl<'a> Joining<'a> {
                 }
             }
             let partner = partners.swap_remove(place?);
-            if self.any || self.good(g, partner, best, quality) {
+            if self.any || self.good(g, partner, best) {
                 return Some(partner);
             }
             if self.stride == 1 {
@@ -312,7 +315,7 @@ impl<'a> Joining<'a> {
         (w + tie) * (d0 + d1) / (d0 * d1).max(f64::MIN_POSITIVE)
     }
 
-    fn good(&self, g: usize, (other, _): Partner, value: f64, quality: &mut Quality) -> bool {
+    fn good(&self, g: usize, (other, _): Partner, value: f64) -> bool {
         let nodes = || self.group(g).chain(self.group(other as usize));
         let wide = nodes()
             .map(|i| f64::from(self.wide[i as usize]))
@@ -321,16 +324,11 @@ impl<'a> Joining<'a> {
         if self.stride == 1 {
             return 2.0 <= limit * value;
         }
-        quality.nodes.clear();
-        quality.nodes.extend(nodes());
-        quality.within(
-            self.view,
-            |j| {
-                let of = self.of[j as usize];
-                of == g as u32 || of == other
-            },
-            limit,
-        )
+        let inside = |j: u32| {
+            let of = self.of[j as usize];
+            of == g as u32 || of == other
+        };
+        Candidate::new(nodes()).within(self.view, inside, limit)
     }
 
     /// Rows that are alone join the group of their strongest neighbour.

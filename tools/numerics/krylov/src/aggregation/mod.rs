@@ -187,7 +187,9 @@ impl Cycle<'_> {
         };
         level.rows.forward(scale, rhs, &mut level.x);
         if level.groups.len() > 0 {
-            level.groups.restrict(&level.rows, &level.x, &mut level.rhs);
+            // The result's place serves as scratch.
+            level.rows.left_out(&level.x, out);
+            level.groups.restrict(out, &mut level.rhs);
             self.correct(level, rest);
             level.groups.prolong(&level.first[0], &mut level.x);
         }

@@ -25,10 +25,12 @@ pub(crate) struct Rows {
     lower: Vec<u32>,
     /// Begin of the columns after the row in its block.
     upper: Vec<u32>,
-    columns: Vec<u32>,
-    couplings: Vec<f32>,
+    links: Vec<Link>,
     inverse: Vec<f64>,
 }
+
+/// A column and the coupling to it.
+pub(crate) type Link = (u32, f32);
 
 /// What setting up needs to know of rows, and solving does not.
 #[derive(Debug, Clone, Default)]
@@ -55,23 +57,21 @@ impl Rows {
     }
 
     pub(crate) fn entries(&self) -> usize {
-        self.columns.len()
+        self.links.len()
     }
 
     /// Columns and couplings of row `i`.
-    pub(crate) fn row(&self, i: usize) -> (&[u32], &[f32]) {
+    pub(crate) fn row(&self, i: usize) -> &[Link] {
         self.part(self.starts[i], self.starts[i + 1])
     }
 
-    fn part(&self, from: u32, to: u32) -> (&[u32], &[f32]) {
-        let range = from as usize..to as usize;
-        (&self.columns[range.clone()], &self.couplings[range])
+    fn part(&self, from: u32, to: u32) -> &[Link] {
+        &self.links[from as usize..to as usize]
     }
 
     pub(crate) fn bytes(&self) -> usize {
         4 * (self.starts.capacity() + self.lower.capacity() + self.upper.capacity())
-            + 4 * (self.columns.capacity() + self.couplings.capacity())
-            + 8 * self.inverse.capacity()
+            + 8 * (self.links.capacity() + self.inverse.capacity())
     }
 
     pub(crate) fn clear(&mut self) {
@@ -79,8 +79,7 @@ impl Rows {
         self.starts.push(0);
         self.lower.clear();
         self.upper.clear();
-        self.columns.clear();
-        self.couplings.clear();
+        self.links.clear();
         self.inverse.clear();
     }
 
@@ -90,27 +89,28 @@ impl Rows {
         let first = (i / BLOCK * BLOCK) as u32;
         let (i, end) = (i as u32, first + BLOCK as u32);
         let mut sum = 0.0;
-        let mut take = |columns: &mut Vec<u32>, couplings: &mut Vec<f32>, which: u8| {
+        for which in [0, 1, 2] {
+            let begin = self.links.len();
             for (j, w) in entries.clone() {
-                let kind = if j < first || j >= end {
-                    1
-                } else {
-                    2 * u8::from(j > i)
-                };
+                let outside = j < first || j >= end;
+                let kind = if outside { 1 } else { 2 * u8::from(j > i) };
                 if kind == which {
                     let w = w as f32;
-                    columns.push(j);
-                    couplings.push(w);
+                    self.links.push((j, w));
                     sum += f64::from(w);
                 }
             }
-        };
-        take(&mut self.columns, &mut self.couplings, 0);
-        self.lower.push(self.columns.len() as u32);
-        take(&mut self.columns, &mut self.couplings, 1);
-        self.upper.push(self.columns.len() as u32);
-        take(&mut self.columns, &mut self.couplings, 2);
-        self.starts.push(self.columns.len() as u32);
+            // The row next to this one comes last in a sweep, which has just made its value.
+            let part = &mut self.links[begin..];
+            if !part.is_sorted_by_key(|link| link.0) {
+                part.sort_unstable_by_key(|link| link.0);
+            }
+            match which {
+                0 => self.lower.push(self.links.len() as u32),
+                1 => self.upper.push(self.links.len() as u32),
+                _ => self.starts.push(self.links.len() as u32),
+            }
+        }
         sum
     }
 
@@ -128,8 +128,7 @@ impl Rows {
     ) -> Result<(), Error> {
         self.clear();
         let pattern = a.pattern();
-        self.columns.reserve(pattern.columns().len());
-        self.couplings.reserve(pattern.columns().len());
+        self.links.reserve(pattern.columns().len());
         balance.clear();
         for (i, &diagonal) in a.diagonal().iter().enumerate() {
             let range = pattern.row(i);
@@ -155,9 +154,8 @@ impl Rows {
         blocks(out, BLOCK, |first, out| {
             for k in 0..out.len() {
                 let i = first + k;
-                let (columns, couplings) = self.part(self.starts[i], self.lower[i]);
                 let mut sum = scale * rhs[i];
-                for (&j, &w) in columns.iter().zip(couplings) {
+                for &(j, w) in self.part(self.starts[i], self.lower[i]) {
                     sum += f64::from(w) * out[j as usize - first];
                 }
                 out[k] = sum * self.inverse[i];
@@ -165,10 +163,13 @@ impl Rows {
         });
     }
 
-    /// The residual after [`Self::forward`], of row `i`: what the sweep left out.
-    pub(crate) fn left_out(&self, x: &[f64], i: usize) -> f64 {
-        let (columns, couplings) = self.part(self.lower[i], self.starts[i + 1]);
-        gather(columns, couplings, x)
+    /// The residual after [`Self::forward`]: what the sweep left out.
+    pub(crate) fn left_out(&self, x: &[f64], out: &mut [f64]) {
+        blocks(out, BLOCK, |first, out| {
+            for (i, out) in (first..).zip(out) {
+                *out = gather(self.part(self.lower[i], self.starts[i + 1]), x);
+            }
+        });
     }
 
     /// Backward sweep: `out = (D - U)^-1 (scale rhs + (L + O) x)`.
@@ -176,10 +177,9 @@ impl Rows {
         blocks(out, BLOCK, |first, out| {
             for k in (0..out.len()).rev() {
                 let i = first + k;
-                let (columns, couplings) = self.part(self.starts[i], self.upper[i]);
-                let mut sum = scale * rhs[i] + gather(columns, couplings, x);
-                let (columns, couplings) = self.part(self.upper[i], self.starts[i + 1]);
-                for (&j, &w) in columns.iter().zip(couplings) {
+                let before = self.part(self.starts[i], self.upper[i]);
+                let mut sum = scale * rhs[i] + gather(before, x);
+                for &(j, w) in self.part(self.upper[i], self.starts[i + 1]).iter().rev() {
                     sum += f64::from(w) * out[j as usize - first];
                 }
                 out[k] = sum * self.inverse[i];
@@ -200,8 +200,7 @@ impl Rows {
         blocks(v, BLOCK, |first, v| {
             for (k, v) in v.iter_mut().enumerate() {
                 let i = first + k;
-                let (columns, couplings) = self.part(self.starts[i], self.upper[i]);
-                *v = rhs[i] + gather(columns, couplings, x);
+                *v = rhs[i] + gather(self.part(self.starts[i], self.upper[i]), x);
             }
         });
     }
@@ -221,9 +220,10 @@ impl Balance {
     }
 }
 
-fn gather(columns: &[u32], couplings: &[f32], x: &[f64]) -> f64 {
+/// Sum of couplings times values.
+fn gather(links: &[Link], x: &[f64]) -> f64 {
     let mut sum = 0.0;
-    for (&j, &w) in columns.iter().zip(couplings) {
+    for &(j, w) in links {
         sum += f64::from(w) * x[j as usize];
     }
     sum

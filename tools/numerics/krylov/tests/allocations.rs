@@ -1,0 +1,61 @@
+//! Nothing is allocated by a solve whose sizes the workspace knows.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use krylov::{Aggregation, Krylov, Pattern, Sparse, Workspace, conjugate_gradient, gmres};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+use std::sync::Arc;
+
+#[global_allocator]
+static GLOBAL: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// A square of `n` by `n` points with four neighbours, fixed at its edges.
+fn square(n: usize) -> Sparse {
+    let (mut offsets, mut columns) = (vec![0], Vec::new());
+    for k in 0..n * n {
+        let (i, j) = (k % n, k / n);
+        columns.extend((j > 0).then(|| (k - n) as u32));
+        columns.extend((i > 0).then(|| k as u32 - 1));
+        columns.extend((i + 1 < n).then(|| k as u32 + 1));
+        columns.extend((j + 1 < n).then(|| (k + n) as u32));
+        offsets.push(columns.len());
+    }
+    let mut a = Sparse::zeros(Arc::new(Pattern::new(offsets, columns)));
+    a.fill(|_, _, values| {
+        values.fill(-1.0);
+        4.0
+    });
+    a
+}
+
+#[test]
+fn a_solve_allocates_nothing() {
+    let rule = Krylov {
+        reduction: 1e-8,
+        floor: 0.0,
+        iterations: 50,
+    };
+    // One thread: to hand a task to another allocates now and then, in the pool itself.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.unwrap().install(|| {
+        for n in [40, 150] {
+            let a = square(n);
+            let (rhs, mut x) = (vec![1.0; n * n], vec![0.0; n * n]);
+            let mut grid = Aggregation::new(&a, true).unwrap();
+            let mut any = Aggregation::new(&a, false).unwrap();
+            let mut work = Workspace::default();
+            let mut solve = || {
+                x.fill(0.0);
+                conjugate_gradient(&a, &rhs, &mut x, &mut grid, rule, &mut work).unwrap();
+                x.fill(0.0);
+                gmres(&a, &rhs, &mut x, &mut any, (rule, 10), &mut work).unwrap();
+            };
+            solve();
+            let region = Region::new(GLOBAL);
+            solve();
+            let change = region.change();
+            assert_eq!((change.allocations, change.reallocations), (0, 0), "{n}");
+        }
+    });
+}
