@@ -43,7 +43,8 @@ impl<'a> View<'a> {
             View::Rows(rows, _) => rows.row(i),
             View::Part(graph, _) => graph.row(i),
         };
-        links.iter().map(|&(j, w)| (j, f64::from(w)))
+        let others = links.iter().filter(move |link| link.0 as usize != i);
+        others.map(|&(j, w)| (j, f64::from(w)))
     }
 
     pub(crate) fn diagonal(self, i: usize) -> f64 {
@@ -75,9 +76,13 @@ impl Graph {
     /// The symmetric part of `rows`.
     pub(crate) fn of(rows: &Rows, balance: &Balance) -> Self {
         let (n, entries) = (rows.len(), rows.entries());
+        let others = |i: usize| {
+            let links = rows.row(i).iter();
+            links.filter(move |link| link.0 as usize != i)
+        };
         let mut begin = vec![0_u32; n + 1];
         for i in 0..n {
-            for &(j, _) in rows.row(i) {
+            for &(j, _) in others(i) {
                 begin[j as usize + 1] += 1;
             }
         }
@@ -87,7 +92,7 @@ impl Graph {
         let mut transposed = vec![(0, 0.0); entries];
         let mut next = begin.clone();
         for i in 0..n {
-            for &(j, w) in rows.row(i) {
+            for &(j, w) in others(i) {
                 transposed[next[j as usize] as usize] = (i as u32, w);
                 next[j as usize] += 1;
             }
@@ -102,7 +107,7 @@ impl Graph {
             let first = graph.links.len();
             let other = &transposed[begin[i] as usize..begin[i + 1] as usize];
             let mut sum = 0.0;
-            for &(j, w) in rows.row(i).iter().chain(other) {
+            for &(j, w) in others(i).chain(other) {
                 let at = place[j as usize];
                 if at != NONE && at as usize >= first {
                     graph.links[at as usize].1 += 0.5 * w;

@@ -25,7 +25,7 @@ const COARSEST: usize = 96;
 /// A second step on the coarse level is not needed if the first left this share of the residual.
 const ENOUGH: f64 = 0.25;
 /// Two steps on the coarse level only if it has at most this share of couplings.
-const TWICE: f64 = 0.45;
+const TWICE: f64 = 0.5;
 
 /// One matrix, its groups, and the vectors of the next coarser level.
 #[derive(Debug, Clone, Default)]

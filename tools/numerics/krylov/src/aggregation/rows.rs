@@ -5,7 +5,9 @@
 //! never touches what ties a region to its fixed values, whatever the jump of coefficients.
 //!
 //! Sweeps run over blocks of fixed size; within a block they are sequential, between blocks they
-//! use values from before the sweep. For an M-matrix this splitting always converges.
+//! use values from before the sweep. Half the couplings to other blocks are added to the diagonal
+//! of a sweep, and taken back as a coupling of the row with itself: this splitting converges however
+//! the rows are ordered (Baker, Falgout, Kolev and Yang 2011, SIAM J. Sci. Comput. 33, 2864).
 
 use crate::sums::update;
 use crate::{Error, Linear, Sparse};
@@ -17,7 +19,7 @@ pub(crate) const BLOCK: usize = 8192;
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// The rows of a matrix. In each row stand first the columns before it in its block, then those of
-/// other blocks, then those after it in its block.
+/// other blocks (and the row itself), then those after it in its block.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rows {
     starts: Vec<u32>,
@@ -26,7 +28,10 @@ pub(crate) struct Rows {
     /// Begin of the columns after the row in its block.
     upper: Vec<u32>,
     links: Vec<Link>,
+    /// Inverse of the diagonal of a sweep.
     inverse: Vec<f64>,
+    /// What the diagonal of a sweep has beyond that of the row which is being made.
+    beyond: f64,
 }
 
 /// A column and the coupling to it.
@@ -60,7 +65,7 @@ impl Rows {
         self.links.len()
     }
 
-    /// Columns and couplings of row `i`.
+    /// Columns and couplings of row `i`; one may be the row itself.
     pub(crate) fn row(&self, i: usize) -> &[Link] {
         self.part(self.starts[i], self.starts[i + 1])
     }
@@ -90,7 +95,7 @@ impl Rows {
         let (i, end) = (i as u32, first + BLOCK as u32);
         let mut sum = 0.0;
         for which in [0, 1, 2] {
-            let begin = self.links.len();
+            let (begin, before) = (self.links.len(), sum);
             for (j, w) in entries.clone() {
                 let outside = j < first || j >= end;
                 let kind = if outside { 1 } else { 2 * u8::from(j > i) };
@@ -105,6 +110,13 @@ impl Rows {
             if !part.is_sorted_by_key(|link| link.0) {
                 part.sort_unstable_by_key(|link| link.0);
             }
+            if which == 1 {
+                let half = (0.5 * (sum - before)).max(0.0) as f32;
+                self.beyond = f64::from(half);
+                if half > 0.0 {
+                    self.links.push((i, half));
+                }
+            }
             match which {
                 0 => self.lower.push(self.links.len() as u32),
                 1 => self.upper.push(self.links.len() as u32),
@@ -116,7 +128,7 @@ impl Rows {
 
     /// Closes a row with its diagonal.
     pub(crate) fn close(&mut self, diagonal: f64) {
-        self.inverse.push(1.0 / diagonal);
+        self.inverse.push(1.0 / (diagonal + self.beyond));
     }
 
     /// Takes the rows of `a` times `scale`.
@@ -128,7 +140,8 @@ impl Rows {
     ) -> Result<(), Error> {
         self.clear();
         let pattern = a.pattern();
-        self.links.reserve(pattern.columns().len());
+        let several = if a.len() > BLOCK { a.len() } else { 0 };
+        self.links.reserve_exact(pattern.columns().len() + several);
         balance.clear();
         for (i, &diagonal) in a.diagonal().iter().enumerate() {
             let range = pattern.row(i);

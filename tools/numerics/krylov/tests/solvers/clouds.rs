@@ -62,6 +62,26 @@ pub(crate) fn random(n: usize, seed: u64, spread: f64, symmetric: bool) -> (Spar
     (matrix(rows), rhs)
 }
 
+/// The same equations in random order.
+pub(crate) fn shuffled(a: &Sparse, rhs: &[f64]) -> (Sparse, Vec<f64>) {
+    let (n, mut numbers) = (rhs.len(), Numbers(5));
+    let mut from: Vec<usize> = (0..n).collect();
+    for i in (1..n).rev() {
+        from.swap(i, (numbers.next() * (i + 1) as f64) as usize);
+    }
+    let mut to = vec![0; n];
+    for (new, old) in from.iter().enumerate() {
+        to[*old] = new as u32;
+    }
+    let row = |old: &usize| {
+        let entries = a.pattern().row(*old);
+        let entries = entries.map(|k| (to[a.pattern().columns()[k] as usize], -a.values()[k]));
+        (a.diagonal()[*old], entries.collect())
+    };
+    let mixed = from.iter().map(|old| rhs[*old]).collect();
+    (matrix(from.iter().map(row).collect()), mixed)
+}
+
 /// The same matrix with all its zeros.
 pub(crate) fn dense(a: &Sparse) -> DMatrix<f64> {
     let mut full = DMatrix::zeros(a.diagonal().len(), a.diagonal().len());
