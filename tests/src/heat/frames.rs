@@ -1,6 +1,6 @@
 //! What `heatsph` wrote: temperatures at its points, and heat through its boundaries.
 
-use artefact::{Reader, Table};
+use artefact::Reader;
 
 use crate::lab::{Finished, LabError};
 
@@ -80,15 +80,17 @@ impl Frames {
 /// When the artefact does not tell.
 pub fn heat_rate(run: &Finished, boundary: usize) -> Result<f64, LabError> {
     let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
-    let tables = reader.json::<Table>("/boundaries")?;
+    let entry = |key: &str| run.scene.pointer(&format!("/boundaries/{boundary}/{key}"));
+    let name = entry("name").or_else(|| entry("on/0"));
     let content = |what: &str| LabError::Content {
         path: run.artefact.clone(),
         what: what.to_owned(),
     };
-    let (_, last) = tables.last().ok_or_else(|| content("no /boundaries"))?;
-    let rates = last.values("heat_rate_w")?;
-    let rate = rates.get(boundary).copied();
-    rate.ok_or_else(|| content("/boundaries has too few rows"))
+    let name = name.and_then(serde_json::Value::as_str);
+    let name = name.ok_or_else(|| content("its scene has no such boundary"))?;
+    let records = reader.records("/boundaries")?;
+    let (_, last) = records.last().ok_or_else(|| content("no /boundaries"))?;
+    Ok(last.get(&format!("{name}.heat_rate"))?)
 }
 
 /// Largest difference of `found` and what `wanted` says at each place, over `scale`.
