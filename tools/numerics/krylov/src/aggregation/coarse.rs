@@ -6,6 +6,12 @@ use crate::Error;
 /// Groups that one task restricts.
 const GROUPS: usize = 4096;
 
+/// Part of the diagonal that the excess of a row in no group must keep: a little less than what
+/// keeps a row out of all groups.
+const STRONG: f64 = 0.2;
+/// One in so many rows of weak diagonal and no group is too many.
+const FEW: usize = 100;
+
 /// Which rows form which group.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Groups {
@@ -47,6 +53,13 @@ impl Groups {
 
     fn group(&self, g: usize) -> &[u32] {
         &self.members[self.starts[g] as usize..self.starts[g + 1] as usize]
+    }
+
+    /// Are there many rows in no group whose diagonal is no longer strong?
+    pub(crate) fn outgrown(&self, balance: &Balance) -> bool {
+        let rows = self.of.iter().zip(&balance.excess).zip(&balance.diagonal);
+        let weak = rows.filter(|((g, e), d)| **g == NONE && **e < STRONG * **d);
+        weak.count() > self.of.len() / FEW
     }
 
     /// Sums over groups.

@@ -91,7 +91,9 @@ impl Aggregation {
         Ok(new)
     }
 
-    /// Takes new coefficients of a matrix of the same pattern; groups stay as they are.
+    /// Takes new coefficients of a matrix of the same size; groups stay as they are, unless many
+    /// rows have lost the strong diagonal that kept them out of all groups (a time step that grew):
+    /// then all is built anew. After other great changes, [`Self::new`] may save iterations.
     ///
     /// # Errors
     /// As for [`Self::new`], and when the number of rows differs. The hierarchy is then not fit for
@@ -111,6 +113,10 @@ impl Aggregation {
         for k in 0..self.levels.len() {
             let (fine, rest) = self.levels.split_at_mut(k + 1);
             let level = &mut fine[k];
+            if level.groups.outgrown(&balance) {
+                *self = Self::new(a, self.symmetric)?;
+                return Ok(());
+            }
             let mut coarse = match rest.first_mut() {
                 Some(next) => std::mem::take(&mut next.rows),
                 None => Rows::default(),
@@ -147,7 +153,7 @@ impl Aggregation {
         all / self.levels.first().map_or(1.0, entries).max(1.0)
     }
 
-    /// Memory held [B].
+    /// Memory held \[B\].
     #[must_use]
     pub fn bytes(&self) -> usize {
         let of = |level: &Level| {

@@ -309,6 +309,18 @@ fn renewed_is_as_good_as_new() {
     let work = &mut Workspace::default();
     let o = conjugate_gradient(&b, &rhs, &mut x, &mut grid, RULE, work).unwrap();
     assert!(o.iterations <= 30 && RULE.reached(&o), "{o:?}");
+    // Groups of a short time step are of no use without storage.
+    let (stored, _) = Cloud {
+        stored: 50.0,
+        ..Cloud::square(90)
+    }
+    .build();
+    let mut short = Aggregation::new(&stored, true).unwrap();
+    assert_eq!(short.levels(), 2);
+    short.renew(&a).unwrap();
+    x.fill(0.0);
+    let o = conjugate_gradient(&a, &rhs, &mut x, &mut short, RULE, work).unwrap();
+    assert!(o.iterations <= 22, "{o:?}");
     assert_eq!(
         grid.renew(&Cloud::square(3).build().0),
         Err(Error::Size {
