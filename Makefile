@@ -73,8 +73,19 @@ stability: programs ## stiff and extreme cases: stable, refused, sub-stepped or 
 validate: build/$(STUDY)/report.html ## a study against published experiments and simulations (STUDY=name)
 	$(BIN)/report validate --pool build/$(STUDY)/pool.mcap --targets pipelines/$(STUDY)/targets.json
 
-bench: programs ## time per step, per particle, per pair, per cell (CASE=name)
+bench: programs ## time per step, per pair, per cell, and of what is absent (CASE=name)
 	$(BIN)/bench $(if $(CASE),--case $(CASE)) --threads $(THREADS) --out build/bench
+
+# Other people's programs on the problems of our cases; they are installed into build/ and nowhere else.
+.PHONY: bench-others
+bench-others: programs build/others/.installed ## scikit-fem and FiPy beside heatsph: error and run time (installs them into build/)
+	$(BIN)/bench --others build/others/bin/python --threads $(THREADS) --out build/bench
+
+build/others/.installed: pipelines/bench/others/requirements.txt
+	@mkdir -p build
+	python3 -m venv build/others
+	build/others/bin/pip install --quiet --disable-pip-version-check -r $<
+	@touch $@
 
 report: programs ## gather all evidence into build/report/index.html
 	$(BIN)/report index --out build/report/index.html --verify build/verify --stability build/stability \

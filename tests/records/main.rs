@@ -5,6 +5,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use verification::bench::absence::{self, Absence};
+use verification::bench::others::Others;
 use verification::bench::{Bench, Record, Stand, benches, in_order};
 use verification::case::{Case, Errors, Measurement, Target};
 use verification::extreme::{self, Extreme};
@@ -248,8 +250,68 @@ fn the_record_of_a_bench_fits_its_schema() {
 }
 
 #[test]
+fn physics_that_is_absent_costs_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
+    let pair = |adds: serde_json::Value| -> Absence {
+        serde_json::from_value(serde_json::json!({"physics": "tension", "tool": "poolsph",
+            "scene": scene, "patch": {"time": {"end_s": 5e-4}, "tension": null}, "adds": adds}))
+        .unwrap()
+    };
+    let programs = programs();
+    let bench = absence::Bench {
+        programs: &programs,
+        out: folder.path(),
+        runs: 1,
+    };
+    let idle = pair(serde_json::json!({"tension": {"surface_tension_n_m": 0}}));
+    let record = bench.time(&idle).unwrap();
+    let told = serde_json::to_value(&record).unwrap();
+    let (good, said) = written(&folder.path().join("absent.json"), &told);
+    assert!(good && said.contains("good: absence"), "{said}\n{told}");
+    // Times of a single run are not judged here.
+    let claims = told["claims"].as_array().unwrap();
+    assert!(claims[..3].iter().all(|c| c["holds"] == true), "{told}");
+    // A patch that adds something else adds no tension.
+    let other = pair(serde_json::json!({"title": "another"}));
+    let record = serde_json::to_value(bench.time(&other).unwrap()).unwrap();
+    assert_eq!(record["claims"][1]["holds"], false);
+    assert_eq!(record["holds"], false);
+}
+
+#[test]
+fn programs_that_cannot_be_run_are_told_as_missing() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let others = Others::read(root).unwrap();
+    for path in others.files() {
+        assert!(root.join(&path).is_file(), "{}", path.display());
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let lab = Lab {
+        root: root.to_owned(),
+        programs: folder.path().join("nowhere"),
+        out: folder.path().to_owned(),
+        threads: 1,
+        patch: None,
+        repeat_s: 0.0,
+    };
+    let record = others.solve(&lab, Path::new("no-python"));
+    assert!(
+        !record.whole()
+            && record
+                .table()
+                .contains("MISSING sin-xy, 41 x 41: FiPy, SuperLU")
+    );
+    let (good, said) = written(&folder.path().join("others.json"), &record);
+    assert!(good && said.contains("good: others"), "{said}");
+}
+
+#[test]
 fn the_benches_of_the_pipeline_can_be_read_and_ordered() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    for pair in absence::absences(&root.join("pipelines/bench/absent")).unwrap() {
+        assert!(root.join(&pair.scene).is_file(), "{}", pair.name);
+    }
     let all = benches(&root.join("pipelines/bench")).unwrap();
     let order = in_order(&all, &["weld-developed".to_owned()]).unwrap();
     let names: Vec<&str> = order.iter().map(|bench| bench.name.as_str()).collect();

@@ -4,6 +4,8 @@
 //! Thread numbers take turns, so that a machine which slows down slows all of them; a figure is the
 //! median over the runs.
 
+pub mod absence;
+pub mod others;
 mod record;
 
 use std::collections::BTreeMap;

@@ -7,7 +7,7 @@ use super::Aim;
 use crate::speed::Row;
 
 /// Stages of a run that are no part of its steps.
-const OUTSIDE: [&str; 4] = ["plan", "write", "checkpoint", "other"];
+pub(super) const OUTSIDE: [&str; 4] = ["plan", "write", "checkpoint", "other"];
 
 /// An aim with what was found; `None` where it was not measured on so many threads.
 #[derive(Debug, Serialize)]
@@ -145,7 +145,7 @@ pub(super) fn verdict(aim: &Aim, rows: &[Row]) -> Verdict {
 }
 
 /// Load of the machine over the last minute, where the system tells.
-fn load() -> Option<f64> {
+pub(super) fn load() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/loadavg").ok()?;
     text.split_whitespace().next()?.parse().ok()
 }

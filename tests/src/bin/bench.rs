@@ -10,18 +10,28 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
+use serde::Serialize;
+use verification::bench::absence::{Absence, Bench, absences};
+use verification::bench::others::Others;
 use verification::bench::{Record, Stand, benches, in_order};
+use verification::lab::Lab;
 use verification::speed;
 
 /// The record of the numerical cores.
 const CORES: &str = "cores";
+/// Seconds that the repeats of a short run of ours may take beside the others.
+const REPEAT_S: f64 = 5.0;
+/// Turns of runs with and without physics at least: their least times are compared.
+const LEAST_TURNS: usize = 5;
+/// Before the names of records of absent physics.
+const ABSENT: &str = "absent";
 
-/// Times the numerical cores and the scenes of pipelines/bench; one record each.
+/// Times the numerical cores, the scenes of pipelines/bench, and absent physics; one record each.
 ///
-/// Example: bench --threads 2 --case cores,flow-dam-break-52k --out build/bench
+/// Example: bench --threads 2 --case cores,flow-dam-break-52k,absent-flow-tension --out build/bench
 #[derive(Parser)]
 struct Arguments {
-    /// Folders of pipelines/bench, or `cores`; all when none is named.
+    /// Folders of pipelines/bench, `cores`, `absent` or `absent-NAME`; all when none is named.
     #[arg(long, value_delimiter = ',')]
     case: Vec<String>,
     /// Where records and artefacts go.
@@ -33,6 +43,10 @@ struct Arguments {
     /// Times that each core is measured.
     #[arg(long, default_value_t = 11)]
     repeats: usize,
+    /// A Python with the programs of other people: they alone are timed, beside ours on the same
+    /// problems.
+    #[arg(long)]
+    others: Option<PathBuf>,
     /// Times that each scene is run on that many threads; on one thread it is run once.
     #[arg(long, default_value_t = 3)]
     runs: usize,
@@ -50,36 +64,88 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<(), String> {
     std::fs::create_dir_all(&arguments.out).map_err(|e| at(&arguments.out, e))?;
+    let program = std::env::current_exe().map_err(|e| e.to_string())?;
+    let programs = program.parent().map(PathBuf::from).unwrap_or_default();
+    if let Some(python) = &arguments.others {
+        return others(arguments, programs, python);
+    }
     let mut threads = vec![1, arguments.threads.max(1)];
     threads.dedup();
-    let (cores, scenes): (Vec<String>, Vec<String>) =
-        arguments.case.iter().cloned().partition(|c| c == CORES);
     let everything = arguments.case.is_empty();
-    if everything || !cores.is_empty() {
+    let wanted = |name: &str| everything || arguments.case.iter().any(|case| case == name);
+    if wanted(CORES) {
         let rows = speed::cores(&threads, arguments.repeats.max(1)).map_err(|e| e.to_string())?;
-        write(&arguments.out, CORES, &Record::of_rows(CORES, rows))?;
+        let record = Record::of_rows(CORES, rows);
+        write(&arguments.out, CORES, &record, &record.table())?;
     }
-    if !everything && scenes.is_empty() {
+    let all = absences(Path::new("pipelines/bench/absent")).map_err(|e| e.to_string())?;
+    let named = |pair: &&Absence| wanted(ABSENT) || wanted(&format!("{ABSENT}-{}", pair.name));
+    let bench = Bench {
+        programs: &programs,
+        out: &arguments.out,
+        runs: arguments.runs.max(LEAST_TURNS),
+    };
+    let mut good = true;
+    for pair in all.iter().filter(named) {
+        let record = bench.time(pair).map_err(|e| e.to_string())?;
+        good &= record.holds();
+        let name = format!("{ABSENT}-{}", pair.name);
+        write(&arguments.out, &name, &record, &record.table())?;
+    }
+    let named = arguments.case.iter().filter(|case| scene(case));
+    let scenes: Vec<String> = named.cloned().collect();
+    if everything || !scenes.is_empty() {
+        let stand = Stand {
+            programs,
+            out: arguments.out.clone(),
+            threads,
+            runs: arguments.runs,
+        };
+        time_scenes(&stand, &scenes)?;
+    }
+    if good {
         return Ok(());
     }
-    let program = std::env::current_exe().map_err(|e| e.to_string())?;
-    let stand = Stand {
-        programs: program.parent().map(PathBuf::from).unwrap_or_default(),
-        out: arguments.out.clone(),
-        threads,
-        runs: arguments.runs,
+    Err("physics that is absent costs something; see above".to_owned())
+}
+
+/// Times the programs of other people beside ours.
+fn others(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(), String> {
+    let lab = Lab {
+        root: std::env::current_dir().map_err(|e| e.to_string())?,
+        programs,
+        out: arguments.out.join("others"),
+        threads: arguments.threads.max(1),
+        patch: None,
+        repeat_s: REPEAT_S,
     };
+    let record = Others::read(&lab.root)
+        .map_err(|e| e.to_string())?
+        .solve(&lab, python);
+    write(&arguments.out, "others", &record, &record.table())?;
+    if record.whole() {
+        return Ok(());
+    }
+    Err("not all programs gave all figures; see above".to_owned())
+}
+
+/// Whether a case is a folder of pipelines/bench.
+fn scene(case: &str) -> bool {
+    case != CORES && case != ABSENT && !case.starts_with(&format!("{ABSENT}-"))
+}
+
+fn time_scenes(stand: &Stand, scenes: &[String]) -> Result<(), String> {
     let all = benches(Path::new("pipelines/bench")).map_err(|e| e.to_string())?;
-    for bench in in_order(&all, &scenes).map_err(|e| e.to_string())? {
+    for bench in in_order(&all, scenes).map_err(|e| e.to_string())? {
         let record = stand.time(&bench).map_err(|e| e.to_string())?;
-        write(&arguments.out, &bench.name, &record)?;
+        write(&stand.out, &bench.name, &record, &record.table())?;
     }
     Ok(())
 }
 
 /// Writes a record and shows it.
-fn write(out: &Path, name: &str, record: &Record) -> Result<(), String> {
-    print!("{}", record.table());
+fn write(out: &Path, name: &str, record: &impl Serialize, table: &str) -> Result<(), String> {
+    print!("{table}");
     let path = out.join(format!("{name}.json"));
     let text = serde_json::to_string_pretty(record).map_err(|e| at(&path, e))?;
     std::fs::write(&path, text + "\n").map_err(|e| at(&path, e))

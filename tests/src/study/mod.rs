@@ -1,7 +1,7 @@
 //! A convergence study: methods over the levels of a case, the observed orders, and whether the
 //! targets hold.
 
-mod repeat;
+pub(crate) mod repeat;
 mod verdict;
 
 use std::collections::BTreeMap;

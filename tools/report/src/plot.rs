@@ -37,6 +37,10 @@ pub(crate) struct Line {
     pub(crate) guide: bool,
     /// Marks at the points.
     pub(crate) marks: bool,
+    /// Thin bars along x: from, to, y.
+    pub(crate) spans: Vec<[f64; 3]>,
+    /// A guide of dots instead of dashes.
+    pub(crate) dots: bool,
 }
 
 impl Line {
@@ -47,7 +51,22 @@ impl Line {
             points,
             guide: false,
             marks: false,
+            spans: Vec::new(),
+            dots: false,
         }
+    }
+
+    /// With thin bars along x.
+    pub(crate) fn with_spans(mut self, spans: Vec<[f64; 3]>) -> Self {
+        self.spans = spans;
+        self
+    }
+
+    /// As a guide of dots.
+    pub(crate) fn dotted(mut self) -> Self {
+        self.guide = true;
+        self.dots = true;
+        self
     }
 
     /// With marks at the points.
@@ -101,6 +120,8 @@ impl Plot {
     /// Adds a line; nothing if no point of it can be shown.
     pub(crate) fn add(&mut self, mut line: Line) {
         line.points.retain(|p| self.shows(*p));
+        line.spans
+            .retain(|[from, to, y]| self.shows([*from, *y]) && self.shows([*to, *y]));
         if !line.points.is_empty() {
             self.lines.push(line);
         }
@@ -153,7 +174,9 @@ impl Plot {
             .lines
             .iter()
             .flat_map(|l| l.points.iter().map(|p| p[k]));
-        let all = values.chain(self.least[k]);
+        let bars = self.lines.iter().flat_map(|l| l.spans.iter());
+        let ends = bars.flat_map(|s| if k == 0 { [s[0], s[1]] } else { [s[2], s[2]] });
+        let all = values.chain(ends).chain(self.least[k]);
         let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
             (l.min(v), h.max(v))
         });
@@ -343,6 +366,11 @@ fn draw(line: &Line, frame: &Frame, colour: usize) -> String {
         path += &format!("{}{x:.1} {y:.1}", if i == 0 { "M" } else { "L" });
     }
     let mut out = stroke(line, &path, colour);
+    for [from, to, y] in &line.spans {
+        let ([x0, y], [x1, _]) = (frame.pixel([*from, *y]), frame.pixel([*to, *y]));
+        let hue = COLOURS[colour % COLOURS.len()];
+        out += &format!("<path d=\"M{x0:.1} {y:.1}H{x1:.1}\" stroke=\"{hue}\"/>\n");
+    }
     if line.marks {
         for point in &line.points {
             out += &mark(colour, frame.pixel(*point));
@@ -353,9 +381,14 @@ fn draw(line: &Line, frame: &Frame, colour: usize) -> String {
 
 fn stroke(line: &Line, path: &str, colour: usize) -> String {
     if line.guide {
+        let (width, dash) = if line.dots {
+            (2.0, "2 3")
+        } else {
+            (1.2, "5 4")
+        };
         return format!(
             "<path d=\"{path}\" fill=\"none\" stroke=\"currentColor\" stroke-opacity=\"0.6\" \
-             stroke-width=\"1.2\" stroke-dasharray=\"5 4\"/>\n"
+             stroke-width=\"{width}\" stroke-dasharray=\"{dash}\"/>\n"
         );
     }
     let (hue, dash) = (

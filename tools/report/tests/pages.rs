@@ -196,5 +196,6 @@ fn the_index_plots_errors_and_links_studies() {
     assert!(html.contains("0 of 1 runs with stiff or extreme parameters"));
     assert!(html.contains("broken.json is not a record that can be shown"));
     assert!(html.contains("pair sweep") && html.contains("3.250"));
-    assert_eq!(html.matches("<svg").count(), 2);
+    // Two methods: a pair of plots for each of the two quantities that have numbers.
+    assert_eq!(html.matches("<svg").count(), 4);
 }

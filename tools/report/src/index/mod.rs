@@ -1,6 +1,10 @@
 //! The page of all evidence: exact cases, extreme cases, speed, studies.
 
+mod absence;
 mod bench;
+mod cost;
+mod map;
+mod others;
 mod stability;
 mod verify;
 
@@ -8,22 +12,32 @@ use std::path::{Path, PathBuf};
 
 use run::Failure;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 
+use self::cost::{Cost, Prices};
 use crate::command::{Folders, save};
 use crate::html::{Page, escape, note, paragraph};
+use crate::records::RunRecord;
 
 /// Writes the page.
 pub(crate) fn write(folders: &Folders) -> Result<(), Failure> {
     let lead = "Evidence that the programs solve their equations: error against run time for cases with exact \
                 solutions, how extreme cases end, how fast it is, and the studies themselves.";
     let mut page = Page::new("Fusionline: evidence", &paragraph(lead));
+    let speed = match &folders.bench {
+        Some(folder) => Speed::read(folder)?,
+        None => Speed::default(),
+    };
+    let prices = absence::prices(&speed.absences);
     if let Some(folder) = &folders.studies {
-        page.section("Studies", studies(folder, &folders.out)?);
+        page.section("Studies", studies(folder, &folders.out, &prices)?);
     }
     if let Some(folder) = &folders.verify {
         page.section(
             "Exact cases",
-            all(folder, verify::summary, verify::section)?,
+            all(folder, verify::summary, |study| {
+                verify::section(study, &prices)
+            })?,
         );
     }
     if let Some(folder) = &folders.stability {
@@ -32,13 +46,75 @@ pub(crate) fn write(folders: &Folders) -> Result<(), Failure> {
             all(folder, stability::summary, stability::section)?,
         );
     }
-    if let Some(folder) = &folders.bench {
+    if folders.bench.is_some() {
+        page.section("Speed", speed.section());
+        page.section("Absent physics", absence::section(&speed.absences));
         page.section(
-            "Speed",
-            all(folder, |_: &[bench::Bench]| String::new(), bench::section)?,
+            "Other programs",
+            speed.others.iter().map(others::section).collect(),
         );
     }
     save(&folders.out, &page.render())
+}
+
+/// What `make bench` writes, by kind.
+#[derive(Debug, Default)]
+struct Speed {
+    benches: Vec<bench::Bench>,
+    absences: Vec<absence::Record>,
+    others: Vec<others::Record>,
+    notes: String,
+}
+
+impl Speed {
+    fn read(folder: &Path) -> Result<Self, Failure> {
+        let mut all = Self::default();
+        for path in files(folder)? {
+            let kind = parsed::<Value>(&path)?.ok();
+            match kind.as_ref().and_then(|v| v["kind"].as_str()) {
+                Some("absence") => take(&path, &mut all.absences, &mut all.notes)?,
+                Some("others") => take(&path, &mut all.others, &mut all.notes)?,
+                _ => take(&path, &mut all.benches, &mut all.notes)?,
+            }
+        }
+        Ok(all)
+    }
+
+    fn section(&self) -> String {
+        let bodies: String = self.benches.iter().map(bench::section).collect();
+        match bodies.is_empty() && self.notes.is_empty() {
+            true => paragraph("Nothing here yet."),
+            false => self.notes.clone() + &bodies,
+        }
+    }
+}
+
+/// A record of a file, or why it is none.
+fn parsed<T: DeserializeOwned>(path: &Path) -> Result<serde_json::Result<T>, Failure> {
+    let text = std::fs::read_to_string(path).map_err(|source| Failure::Io {
+        path: path.to_owned(),
+        action: "read",
+        source,
+    })?;
+    Ok(serde_json::from_str(&text))
+}
+
+/// Adds the record of a file; what cannot be read is named.
+fn take<T: DeserializeOwned>(
+    path: &Path,
+    records: &mut Vec<T>,
+    notes: &mut String,
+) -> Result<(), Failure> {
+    match parsed(path)? {
+        Ok(record) => records.push(record),
+        Err(e) => {
+            *notes += &note(&format!(
+                "{} is not a record that can be shown: {e}",
+                path.display()
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// All records of a folder, summed up and one after another. What cannot be read is named.
@@ -50,20 +126,7 @@ fn all<T: DeserializeOwned>(
     let mut records = Vec::new();
     let mut notes = String::new();
     for path in files(folder)? {
-        let text = std::fs::read_to_string(&path).map_err(|source| Failure::Io {
-            path: path.clone(),
-            action: "read",
-            source,
-        })?;
-        match serde_json::from_str::<T>(&text) {
-            Ok(record) => records.push(record),
-            Err(e) => {
-                notes += &note(&format!(
-                    "{} is not a record that can be shown: {e}",
-                    path.display()
-                ))
-            }
-        }
+        take(&path, &mut records, &mut notes)?;
     }
     if records.is_empty() && notes.is_empty() {
         return Ok(paragraph("Nothing here yet."));
@@ -102,8 +165,8 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         .collect())
 }
 
-/// Links to the pages of studies.
-fn studies(folder: &Path, out: &Path) -> Result<String, Failure> {
+/// Links to the pages of studies, and what their runs spent and left out.
+fn studies(folder: &Path, out: &Path, prices: &Prices) -> Result<String, Failure> {
     let mut found: Vec<PathBuf> = entries(folder)?
         .into_iter()
         .map(|p| p.join("report.html"))
@@ -112,7 +175,9 @@ fn studies(folder: &Path, out: &Path) -> Result<String, Failure> {
     found.sort();
     let from = out.parent().unwrap_or(Path::new("."));
     let mut links = String::new();
+    let mut records = Vec::new();
     for path in &found {
+        records.extend(runs(path.parent().unwrap_or(Path::new(".")))?);
         let name = path
             .parent()
             .and_then(Path::file_name)
@@ -128,7 +193,29 @@ fn studies(folder: &Path, out: &Path) -> Result<String, Failure> {
     if links.is_empty() {
         return Ok(paragraph("Nothing here yet."));
     }
-    Ok(format!("<ul>\n{links}</ul>\n"))
+    let costs: Vec<Cost> = records
+        .iter()
+        .map(|(name, record)| Cost {
+            name: name.clone(),
+            ..Cost::of(record)
+        })
+        .collect();
+    let table = cost::table("Run", &costs, prices);
+    Ok(format!("<ul>\n{links}</ul>\n{table}"))
+}
+
+/// The run records of a study by the names of their artefacts.
+fn runs(study: &Path) -> Result<Vec<(String, RunRecord)>, Failure> {
+    let mut found: Vec<PathBuf> = entries(study)?;
+    found.retain(|p| p.to_string_lossy().ends_with(".run.json"));
+    found.sort();
+    let whole = study.file_name().unwrap_or_default().to_string_lossy();
+    let read = |path: &PathBuf| {
+        let stem = path.file_name()?.to_string_lossy().replace(".run.json", "");
+        let record = RunRecord::beside(&path.with_file_name(format!("{stem}.mcap")))?;
+        Some((format!("{whole}: {stem}"), record))
+    };
+    Ok(found.iter().filter_map(read).collect())
 }
 
 /// The way from a folder to a file, for a link.

@@ -4,13 +4,16 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::heading;
-use crate::html::{Rows, escape, paragraph, verdict};
+use super::map::{Cell, Scales, svg};
+use crate::html::{Rows, escape, figure, paragraph, verdict};
 use crate::records::{Total, figure as digits};
 
 /// One run.
 #[derive(Debug, Clone, Deserialize)]
 struct Row {
     name: String,
+    #[serde(default)]
+    at: Option<[usize; 2]>,
     #[serde(default)]
     parameters: Value,
     outcome: String,
@@ -22,6 +25,8 @@ struct Row {
     conservation: Option<Vec<Total>>,
     #[serde(default)]
     message: String,
+    #[serde(default)]
+    broken: Vec<String>,
     holds: bool,
 }
 
@@ -30,6 +35,8 @@ struct Row {
 pub(super) struct Record {
     case: String,
     tool: String,
+    #[serde(default)]
+    map: Option<Scales>,
     runs: Vec<Row>,
     holds: bool,
 }
@@ -48,35 +55,24 @@ pub(super) fn summary(records: &[Record]) -> String {
     ))
 }
 
-/// The runs of a case.
+/// The runs of a case: a map where there is a grid, and all runs in a table.
 pub(super) fn section(record: &Record) -> String {
-    let mut table = Rows::new(&[
-        "Run",
-        "Changed",
-        "Ended",
-        "May end",
-        "Limits",
-        "Conservation",
-        "Verdict",
-    ]);
-    for row in &record.runs {
-        let word = if row.holds { "as it may" } else { "fails" };
-        table.row([
-            escape(&row.name),
-            format!("<code>{}</code>", escape(&compact(&row.parameters))),
-            escape(&row.outcome.replace('-', " ")),
-            escape(&row.expected.join(" or ").replace('-', " ")),
-            totals(row.limits.as_deref()),
-            totals(row.conservation.as_deref()),
-            verdict(word, Some(row.holds)),
-        ]);
-    }
     let mut out = heading(&record.case, record.holds, ("as it may", "fails"));
     out += &paragraph(&format!("Program {}.", record.tool));
-    out += &table.render();
+    let (mapped, single): (Vec<&Row>, Vec<&Row>) = record.runs.iter().partition(|r| r.at.is_some());
+    if let Some(scales) = &record.map {
+        out += &map(scales, &mapped);
+        out += &format!(
+            "<details>\n<summary>All {} runs of the map</summary>\n{}</details>\n",
+            mapped.len(),
+            table(&mapped)
+        );
+    }
+    out += &table(&single);
     for row in record
         .runs
         .iter()
+        .filter(|r| r.at.is_none() || !r.holds)
         .filter(|r| !r.message.is_empty() && r.outcome != "stable")
     {
         out += &format!(
@@ -86,6 +82,52 @@ pub(super) fn section(record: &Record) -> String {
         );
     }
     out
+}
+
+fn map(scales: &Scales, rows: &[&Row]) -> String {
+    let mut cells = Vec::new();
+    for row in rows {
+        cells.extend(row.at.map(|at| Cell {
+            at,
+            outcome: &row.outcome,
+            holds: row.holds,
+        }));
+    }
+    let good = rows.iter().filter(|r| r.holds).count();
+    let caption = format!(
+        "How each run ended. {good} of {} end as they may and keep their bounds; the others are framed and crossed.",
+        rows.len()
+    );
+    figure(&svg(scales, &cells), &caption)
+}
+
+fn table(rows: &[&Row]) -> String {
+    let mut table = Rows::new(&[
+        "Run",
+        "Changed",
+        "Ended",
+        "May end",
+        "Limits",
+        "Conservation",
+        "Verdict",
+    ]);
+    for row in rows {
+        let word = if row.holds { "as it may" } else { "fails" };
+        let mut judged = verdict(word, Some(row.holds));
+        for what in &row.broken {
+            judged += &format!("<br><small>{}</small>", escape(what));
+        }
+        table.row([
+            escape(&row.name),
+            format!("<code>{}</code>", escape(&compact(&row.parameters))),
+            escape(&row.outcome.replace('-', " ")),
+            escape(&row.expected.join(" or ").replace('-', " ")),
+            totals(row.limits.as_deref()),
+            totals(row.conservation.as_deref()),
+            judged,
+        ]);
+    }
+    table.render()
 }
 
 /// The leaves of a patch as `key.key = value`.
@@ -102,6 +144,7 @@ fn compact(value: &Value) -> String {
                     walk(inner, &longer, out);
                 }
             }
+            Value::String(text) => out.push(format!("{path} = {text}")),
             leaf => out.push(format!("{path} = {leaf}")),
         }
     }
@@ -140,6 +183,20 @@ mod tests {
     fn a_patch_reads_as_its_leaves() {
         let patch = serde_json::json!({"time": {"step_s": 1e-3}, "heat": null});
         assert_eq!(compact(&patch), "time.step_s = 0.001, heat = null");
+    }
+
+    #[test]
+    fn a_grid_is_a_map_and_what_is_broken_is_told() {
+        let record: Record = serde_json::from_value(serde_json::json!({"case": "c", "tool": "t", "holds": false,
+            "map": {"x": {"name": "a", "values": ["1", "2"]}},
+            "runs": [
+                {"name": "x0-y0", "at": [0, 0], "parameters": {"a": "1"}, "outcome": "stable", "holds": true},
+                {"name": "x1-y0", "at": [1, 0], "parameters": {"a": "2"}, "outcome": "stable", "holds": false,
+                 "broken": ["temperature is 2"]}]}))
+        .unwrap();
+        let html = section(&record);
+        assert!(html.contains("<svg") && html.contains("1 of 2 end as they may"));
+        assert!(html.contains("temperature is 2") && html.contains("All 2 runs"));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::trouble::{Trouble, file_error};
 use super::validate::schema_faults;
 
 /// Schemas of our JSON files by kind.
-const SCHEMAS: [(&str, &str); 5] = [
+const SCHEMAS: [(&str, &str); 7] = [
     (
         "run-record",
         include_str!("../../../../../schemas/run-record.v1.json"),
@@ -31,6 +31,14 @@ const SCHEMAS: [(&str, &str); 5] = [
     (
         "bench",
         include_str!("../../../../../schemas/bench.v1.json"),
+    ),
+    (
+        "absence",
+        include_str!("../../../../../schemas/absence.v1.json"),
+    ),
+    (
+        "others",
+        include_str!("../../../../../schemas/others.v1.json"),
     ),
 ];
 
