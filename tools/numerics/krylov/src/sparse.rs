@@ -7,6 +7,8 @@ use std::sync::Arc;
 
 /// Rows that one task of a product gathers.
 const ROWS: usize = 2048;
+/// A product of fewer coefficients is not worth waking a thread.
+const WORTH: usize = 100_000;
 
 /// Which columns the rows of a matrix hold, in any order; the diagonal is not among them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -174,7 +176,7 @@ impl Linear for Sparse {
                 *out = sum;
             }
         };
-        if out.len() <= 2 * ROWS {
+        if self.values.len() < WORTH {
             out.chunks_mut(ROWS).enumerate().for_each(product);
         } else {
             out.par_chunks_mut(ROWS).enumerate().for_each(product);

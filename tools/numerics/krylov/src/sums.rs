@@ -8,7 +8,7 @@ const CHUNKS: usize = 64;
 /// Least numbers of a chunk.
 const LEAST: usize = 4096;
 /// A vector of fewer numbers is not worth waking a thread.
-const WORTH: usize = 4 * LEAST;
+pub(crate) const WORTH: usize = 4 * LEAST;
 
 /// Numbers per chunk.
 pub(crate) fn chunk(n: usize) -> usize {

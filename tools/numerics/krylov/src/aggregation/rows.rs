@@ -9,7 +9,7 @@
 //! of a sweep, and taken back as a coupling of the row with itself: this splitting converges however
 //! the rows are ordered (Baker, Falgout, Kolev and Yang 2011, SIAM J. Sci. Comput. 33, 2864).
 
-use crate::sums::update;
+use crate::sums::{WORTH, update};
 use crate::{Error, Linear, Sparse};
 use rayon::prelude::*;
 
@@ -244,11 +244,10 @@ fn gather(links: &[Link], x: &[f64]) -> f64 {
 
 /// Runs `each` on blocks of `size` numbers, with the index of the first of them.
 pub(crate) fn blocks(out: &mut [f64], size: usize, each: impl Fn(usize, &mut [f64]) + Sync) {
-    if out.len() <= size {
-        each(0, out);
+    let each = |(block, out): (usize, &mut [f64])| each(block * size, out);
+    if out.len() < WORTH {
+        out.chunks_mut(size).enumerate().for_each(each);
     } else {
-        out.par_chunks_mut(size)
-            .enumerate()
-            .for_each(|(block, out)| each(block * size, out));
+        out.par_chunks_mut(size).enumerate().for_each(each);
     }
 }
