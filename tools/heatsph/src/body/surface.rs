@@ -1,0 +1,432 @@
+//! Faces of primitives, and the parts of them that are the surface of a body.
+//!
+//! Each face is a rectangle of two parameters (one in a plane scene). It is divided into elements; an element
+//! that the surface of the composed body crosses is divided further, so that areas are right to a small part of
+//! an element.
+
+use super::frame::{Frame, Vector, along, dot};
+use super::{Body, Kind, Primitive};
+
+/// Elements of a face per spacing, in a plane and in space.
+const PER_SPACING: [f64; 2] = [8.0, 3.0];
+/// How often an element at an edge of the surface is halved, in a plane and in space.
+const HALVINGS: [usize; 2] = [24, 5];
+
+/// A piece of surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Number of the face.
+    pub face: usize,
+    /// Middle \[m\].
+    pub place: Vector,
+    /// Out of the body.
+    pub normal: Vector,
+    /// Area \[m2\]; length \[m\] in a plane scene.
+    pub area: f64,
+}
+
+/// The shape of a face in the primitive's frame, with its two parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Sheet {
+    /// Own axis and side; parameters along the two other axes.
+    Flat(usize, f64),
+    /// Angle and height.
+    Side,
+    /// Sign of the end; radius and angle.
+    End(f64),
+    /// Angle and height over radius.
+    Globe,
+    /// Two lengths in the plane.
+    Plane,
+}
+
+/// A face of a primitive.
+#[derive(Debug, Clone, PartialEq)]
+struct Face {
+    sheet: Sheet,
+    label: &'static str,
+    range: [[f64; 2]; 2],
+    /// Length of the whole range of each parameter \[m\].
+    lengths: [f64; 2],
+}
+
+fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec<Face> {
+    use std::f64::consts::TAU;
+    let face = |sheet, label, range: [[f64; 2]; 2], lengths| Face {
+        sheet,
+        label,
+        range,
+        lengths,
+    };
+    match primitive.kind {
+        Kind::Box(half) => {
+            const LABELS: [[&str; 2]; 3] = [["x-", "x+"], ["y-", "y+"], ["z-", "z+"]];
+            let sides = (0..dimensions).flat_map(|axis| [(axis, 0), (axis, 1)]);
+            sides
+                .map(|(axis, side)| {
+                    let [u, v] = others(axis, dimensions);
+                    let range = [u, v].map(|k| if k < dimensions { half[k] } else { 0.5 });
+                    face(
+                        Sheet::Flat(axis, [-1.0, 1.0][side]),
+                        LABELS[axis][side],
+                        range.map(|h| [-h, h]),
+                        range.map(|h| 2.0 * h),
+                    )
+                })
+                .collect()
+        }
+        Kind::Cylinder { radius, half } if dimensions == 3 => {
+            let half = half.min(reach);
+            let side = [[0.0, TAU], [-half, half]];
+            let end = [[0.0, radius], [0.0, TAU]];
+            let mut all = vec![face(Sheet::Side, "side", side, [TAU * radius, 2.0 * half])];
+            for (sign, label) in [(-1.0, "bottom"), (1.0, "top")] {
+                all.push(face(Sheet::End(sign), label, end, [radius, TAU * radius]));
+            }
+            all
+        }
+        Kind::Cylinder { radius, .. } => {
+            let range = [[0.0, TAU], [-0.5, 0.5]];
+            vec![face(Sheet::Side, "rim", range, [TAU * radius, 1.0])]
+        }
+        Kind::Ball(radius) => {
+            let lengths = [TAU * radius, 0.5 * TAU * radius];
+            vec![face(
+                Sheet::Globe,
+                "surface",
+                [[0.0, TAU], [-1.0, 1.0]],
+                lengths,
+            )]
+        }
+        Kind::HalfSpace => {
+            let second = if dimensions == 3 { reach } else { 0.5 };
+            let range = [[-reach, reach], [-second, second]];
+            vec![face(
+                Sheet::Plane,
+                "plane",
+                range,
+                [2.0 * reach, 2.0 * second],
+            )]
+        }
+    }
+}
+
+/// The two axes beside `axis`, the one of the plane first.
+fn others(axis: usize, dimensions: usize) -> [usize; 2] {
+    match (dimensions, axis) {
+        (2, 0) => [1, 2],
+        (2, _) => [0, 2],
+        _ => [(axis + 1) % 3, (axis + 2) % 3],
+    }
+}
+
+impl Face {
+    /// Middle, outward normal of the primitive, and area of the part between two corners.
+    fn part(
+        &self,
+        kind: &Kind,
+        frame: &Frame,
+        [u, v]: [[f64; 2]; 2],
+        dimensions: usize,
+    ) -> (Vector, Vector, f64) {
+        let (mu, mv) = (0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
+        let (du, dv) = (u[1] - u[0], v[1] - v[0]);
+        let (place, normal, area) = match (self.sheet, kind) {
+            (Sheet::Flat(axis, sign), Kind::Box(half)) => {
+                let [a, b] = others(axis, dimensions);
+                let (mut place, mut normal) = ([0.0; 3], [0.0; 3]);
+                place[axis] = sign * half[axis];
+                place[a] = mu;
+                place[b] = if dimensions == 3 { mv } else { 0.0 };
+                normal[axis] = sign;
+                (place, normal, du * dv)
+            }
+            (Sheet::Side, Kind::Cylinder { radius, .. }) => {
+                let (sine, cosine) = mu.sin_cos();
+                let height = if dimensions == 3 { mv } else { 0.0 };
+                let place = [radius * cosine, radius * sine, height];
+                (place, [cosine, sine, 0.0], radius * du * dv)
+            }
+            (Sheet::End(sign), Kind::Cylinder { half, .. }) => {
+                let (sine, cosine) = mv.sin_cos();
+                // Radius of the middle of a ring's sector.
+                let radius = 2.0 / 3.0 * (u[0] * u[0] + u[0] * u[1] + u[1] * u[1]) / (u[0] + u[1]);
+                let place = [radius * cosine, radius * sine, sign * half];
+                (place, [0.0, 0.0, sign], mu * du * dv)
+            }
+            (Sheet::Globe, Kind::Ball(radius)) => {
+                let (sine, cosine) = mu.sin_cos();
+                let across = (1.0 - mv * mv).max(0.0).sqrt();
+                let normal = [across * cosine, across * sine, mv];
+                (
+                    normal.map(|n| radius * n),
+                    normal,
+                    radius * radius * du * dv,
+                )
+            }
+            _ => {
+                // The plane of a half space holds z in a plane scene: its line is along the other axis.
+                let place = [mu, if dimensions == 3 { mv } else { 0.0 }, 0.0];
+                (place, [0.0, 0.0, 1.0], du * dv)
+            }
+        };
+        (frame.place(place), frame.turn(normal), area)
+    }
+}
+
+/// Name of a face: the primitive's name before the label, if it has one.
+fn label(primitive: &Primitive, label: &str) -> String {
+    match &primitive.name {
+        Some(name) => format!("{name}.{label}"),
+        None => label.to_owned(),
+    }
+}
+
+/// Names of all faces of a body; equal names are one face.
+#[must_use]
+pub fn names(body: &Body, dimensions: usize) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for primitive in &body.primitives {
+        for face in faces(primitive, dimensions, 1.0) {
+            let name = label(primitive, face.label);
+            if !all.contains(&name) {
+                all.push(name);
+            }
+        }
+    }
+    all
+}
+
+/// The surface of a body in pieces of about a third of the spacing \[m\].
+#[must_use]
+pub fn pieces(body: &Body, dimensions: usize, spacing: f64) -> Vec<Piece> {
+    let names = names(body, dimensions);
+    let [low, high] = body.bounds();
+    let spread = (0..dimensions)
+        .map(|k| high[k] - low[k])
+        .fold(0.0, f64::hypot);
+    let far = (0..dimensions)
+        .map(|k| high[k].abs().max(low[k].abs()))
+        .fold(0.0, f64::max);
+    let mut found = Vec::new();
+    for (number, primitive) in body.primitives.iter().enumerate() {
+        let away = (0..dimensions)
+            .map(|k| primitive.frame.origin[k].abs())
+            .fold(0.0, f64::max);
+        for face in faces(primitive, dimensions, spread + far + away) {
+            let name = label(primitive, face.label);
+            let surface = Surface {
+                body,
+                number,
+                face: &face,
+                id: names.iter().position(|n| *n == name).unwrap_or_default(),
+                dimensions,
+                spacing,
+            };
+            surface.divide(&mut found);
+        }
+    }
+    found
+}
+
+/// One face of a body under division.
+struct Surface<'a> {
+    body: &'a Body,
+    number: usize,
+    face: &'a Face,
+    id: usize,
+    dimensions: usize,
+    spacing: f64,
+}
+
+impl Surface<'_> {
+    fn divide(&self, found: &mut Vec<Piece>) {
+        let size = self.spacing / PER_SPACING[self.dimensions - 2];
+        let parts = |k: usize| ((self.face.lengths[k] / size).ceil() as usize).max(1);
+        let (nu, nv) = (parts(0), if self.dimensions == 3 { parts(1) } else { 1 });
+        let cut = |[a, b]: [f64; 2], n: usize, i: usize| {
+            let at = |i: usize| a + (b - a) * i as f64 / n as f64;
+            [at(i), at(i + 1)]
+        };
+        for i in 0..nu {
+            for j in 0..nv {
+                let part = [
+                    cut(self.face.range[0], nu, i),
+                    cut(self.face.range[1], nv, j),
+                ];
+                self.refine(part, 0, found);
+            }
+        }
+    }
+
+    /// Takes a part whole, leaves it, or halves it where the surface has an edge.
+    fn refine(&self, part: [[f64; 2]; 2], depth: usize, found: &mut Vec<Piece>) {
+        let [u, v] = part;
+        let middle = self.kept(part);
+        let narrow = |[a, b]: [f64; 2], t: f64| {
+            let at = a + t * (b - a);
+            [at, at]
+        };
+        let mixed = depth < HALVINGS[self.dimensions - 2] && {
+            let ends = [1e-6, 1.0 - 1e-6];
+            let across: &[f64] = if self.dimensions == 3 { &ends } else { &[0.5] };
+            ends.iter().any(|s| {
+                across
+                    .iter()
+                    .any(|t| self.kept([narrow(u, *s), narrow(v, *t)]) != middle)
+            })
+        };
+        if mixed {
+            let halves = |[a, b]: [f64; 2]| [[a, 0.5 * (a + b)], [0.5 * (a + b), b]];
+            for u in halves(u) {
+                if self.dimensions == 3 {
+                    for v in halves(v) {
+                        self.refine([u, v], depth + 1, found);
+                    }
+                } else {
+                    self.refine([u, v], depth + 1, found);
+                }
+            }
+        } else if middle {
+            found.push(self.piece(part));
+        }
+    }
+
+    fn piece(&self, part: [[f64; 2]; 2]) -> Piece {
+        let primitive = &self.body.primitives[self.number];
+        let (place, normal, area) =
+            self.face
+                .part(&primitive.kind, &primitive.frame, part, self.dimensions);
+        Piece {
+            face: self.id,
+            place,
+            normal: if primitive.cut {
+                normal.map(|n| -n)
+            } else {
+                normal
+            },
+            area,
+        }
+    }
+
+    /// Whether the middle of a part lies on the surface of the body, and on no earlier primitive's same face.
+    fn kept(&self, part: [[f64; 2]; 2]) -> bool {
+        let step = 1e-5 * self.spacing;
+        let piece = self.piece(part);
+        let (inner, outer) = (
+            along(piece.place, -step, piece.normal),
+            along(piece.place, step, piece.normal),
+        );
+        let surface = self.body.distance(inner) < 0.0 && self.body.distance(outer) > 0.0;
+        surface
+            && !self.body.primitives[..self.number].iter().any(|earlier| {
+                let sign = if earlier.cut { -1.0 } else { 1.0 };
+                sign * earlier.distance(inner) < -0.5 * step
+                    && sign * earlier.distance(outer) > 0.5 * step
+            })
+    }
+}
+
+/// Sum of area times normal: zero over a closed surface.
+#[must_use]
+pub fn closure(pieces: &[Piece]) -> Vector {
+    pieces
+        .iter()
+        .fold([0.0; 3], |sum, p| along(sum, p.area, p.normal))
+}
+
+/// Volume behind a closed surface by Gauss' theorem \[m3; m2 in a plane scene\].
+#[must_use]
+pub fn enclosed(pieces: &[Piece], dimensions: usize) -> f64 {
+    let sum: f64 = pieces.iter().map(|p| p.area * dot(p.normal, p.place)).sum();
+    sum / dimensions as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn surface(text: &str, dimensions: usize, spacing: f64) -> (Vec<Piece>, Vec<String>) {
+        let body = Body::new(&serde_json::from_str(text).unwrap(), dimensions);
+        (pieces(&body, dimensions, spacing), names(&body, dimensions))
+    }
+
+    fn checked(text: &str, dimensions: usize, (area, volume, within): (f64, f64, f64)) {
+        let (found, _) = surface(text, dimensions, 0.1);
+        let total: f64 = found.iter().map(|p| p.area).sum();
+        assert!(
+            (total - area).abs() < within * area,
+            "area {total}, not {area}"
+        );
+        let inside = enclosed(&found, dimensions);
+        assert!(
+            (inside - volume).abs() < within * volume,
+            "volume {inside}, not {volume}"
+        );
+        let open = closure(&found);
+        assert!(
+            open.iter().all(|c| c.abs() < within * area),
+            "open by {open:?}"
+        );
+    }
+
+    #[test]
+    fn primitives_are_closed() {
+        checked(
+            r#"{"box": {"min_m": [1, 2], "max_m": [2, 4]}}"#,
+            2,
+            (6.0, 2.0, 1e-12),
+        );
+        checked(
+            r#"{"box": {"min_m": [1, 2, 0], "max_m": [2, 4, 3]}}"#,
+            3,
+            (22.0, 6.0, 1e-12),
+        );
+        checked(
+            r#"{"disc": {"centre_m": [3, 1], "radius_m": 1}}"#,
+            2,
+            (2.0 * PI, PI, 1e-4),
+        );
+        let bar =
+            r#"{"cylinder": {"centre_m": [1, 0, 2], "axis": "y", "radius_m": 1, "length_m": 2}}"#;
+        checked(bar, 3, (6.0 * PI, 2.0 * PI, 1e-3));
+        let ball = r#"{"sphere": {"centre_m": [1, 0, 2], "radius_m": 1}}"#;
+        checked(ball, 3, (4.0 * PI, 4.0 / 3.0 * PI, 1e-3));
+    }
+
+    #[test]
+    fn compositions_are_closed() {
+        let holed = r#"{"difference": [{"box": {"min_m": [0, 0], "max_m": [2, 2]}},
+            {"disc": {"name": "hole", "centre_m": [1, 1], "radius_m": 0.5}}]}"#;
+        checked(holed, 2, (8.0 + PI, 4.0 - 0.25 * PI, 1e-3));
+        // Two boxes that share a face and a plane.
+        let two = r#"{"union": [{"box": {"min_m": [0, 0], "max_m": [1, 1]}},
+            {"box": {"min_m": [0.5, 0], "max_m": [2, 1]}}]}"#;
+        checked(two, 2, (6.0, 2.0, 1e-5));
+        let quarter = r#"{"intersection": [{"disc": {"centre_m": [0, 0], "radius_m": 1}},
+            {"box": {"min_m": [0, 0], "max_m": [2, 2]}}]}"#;
+        checked(quarter, 2, (2.0 + 0.5 * PI, 0.25 * PI, 1e-4));
+        let lens = r#"{"intersection": [{"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}},
+            {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}]}"#;
+        checked(lens, 3, (3.0 * PI, 2.0 / 3.0 * PI, 2e-3));
+    }
+
+    #[test]
+    fn faces_have_names() {
+        let (found, names) = surface(
+            r#"{"difference": [{"box": {"min_m": [0, 0], "max_m": [2, 2]}},
+                {"disc": {"name": "hole", "centre_m": [1, 1], "radius_m": 0.5}}]}"#,
+            2,
+            0.1,
+        );
+        assert_eq!(names, ["x-", "x+", "y-", "y+", "hole.rim"]);
+        let hole: f64 = found.iter().filter(|p| p.face == 4).map(|p| p.area).sum();
+        assert!((hole - PI).abs() < 1e-9);
+        let inward = found.iter().filter(|p| p.face == 4);
+        for p in inward {
+            let radial = [p.place[0] - 1.0, p.place[1] - 1.0, 0.0];
+            assert!(dot(p.normal, radial) < 0.0);
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! From the scene's entries to films on patches of surface.
+
+use run::Fault;
+use run::property::{Curve, Property};
+
+use super::{Condition, Film, Held, Surface};
+use crate::body::Body;
+use crate::body::frame::along;
+use crate::cloud::{Cloud, Patch};
+use crate::scene::{Boundary, Scene};
+
+/// What a property of the surface may depend on.
+const NAMES: [&str; 5] = ["x", "y", "z", "r", "t"];
+/// A point nearer to its surface than this part of the spacing is on it.
+const ON: f64 = 1e-6;
+
+/// The surface of a cloud under the conditions of a scene.
+///
+/// # Errors
+/// Faults of the scene: faces that there are not, more or less than one condition in an entry, a temperature
+/// beside another condition.
+pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
+    let mut faults = Vec::new();
+    let mut surface = Surface::default();
+    let mut entries = Vec::new();
+    for (number, entry) in scene.boundaries.iter().enumerate() {
+        let at = format!("/boundaries/{number}");
+        match condition(entry, &at) {
+            Ok(condition) => surface.conditions.push(condition),
+            Err(found) => faults.extend(found),
+        }
+        let name = entry.name.clone().unwrap_or_else(|| entry.on.join(" "));
+        surface.names.push(name);
+        match Entry::new(entry, &at, (cloud, scene.dimensions)) {
+            Ok(entry) => entries.push(entry),
+            Err(found) => faults.extend(found),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    surface.area = vec![0.0; surface.conditions.len()];
+    for patch in &cloud.patches {
+        let own: Vec<u32> = (0..entries.len() as u32)
+            .filter(|e| entries[*e as usize].holds(patch))
+            .collect();
+        if let Err(fault) = cover(&mut surface, cloud, patch, own)
+            && !faults.contains(&fault)
+        {
+            faults.push(fault);
+        }
+    }
+    surface.films.sort_by_key(|film| film.point);
+    surface.held.sort_by_key(|held| (held.point, held.entry));
+    surface.held.dedup_by_key(|held| held.point);
+    for (entry, area) in surface.area.iter().enumerate() {
+        if *area <= 0.0 && faults.is_empty() {
+            let what = "no part of the surface is on these faces and within this shape";
+            faults.push(Fault::at(&format!("/boundaries/{entry}"), what));
+        }
+    }
+    if faults.is_empty() {
+        Ok(surface)
+    } else {
+        Err(faults)
+    }
+}
+
+/// Where an entry holds.
+struct Entry {
+    faces: Vec<u32>,
+    within: Option<Body>,
+}
+
+impl Entry {
+    fn new(
+        entry: &Boundary,
+        at: &str,
+        (cloud, dimensions): (&Cloud, usize),
+    ) -> Result<Self, Vec<Fault>> {
+        let mut faults = Vec::new();
+        let mut faces = Vec::new();
+        for (place, face) in entry.on.iter().enumerate() {
+            match cloud.faces.iter().position(|known| known == face) {
+                Some(found) => faces.push(found as u32),
+                None => faults.push(Fault::at(
+                    &format!("{at}/on/{place}"),
+                    format!(
+                        "the body has no face \"{face}\"; it has {}",
+                        cloud.faces.join(", ")
+                    ),
+                )),
+            }
+        }
+        let within = entry
+            .within
+            .as_ref()
+            .map(|shape| Body::new(shape, dimensions));
+        if faults.is_empty() {
+            Ok(Self { faces, within })
+        } else {
+            Err(faults)
+        }
+    }
+
+    fn holds(&self, patch: &Patch) -> bool {
+        let inside = |region: &Body| region.holds(patch.place);
+        self.faces.contains(&patch.face) && self.within.as_ref().is_none_or(inside)
+    }
+}
+
+/// Puts the entries of a patch into effect.
+fn cover(
+    surface: &mut Surface,
+    cloud: &Cloud,
+    patch: &Patch,
+    entries: Vec<u32>,
+) -> Result<(), Fault> {
+    if entries.is_empty() {
+        return Ok(());
+    }
+    let held = |e: &&u32| matches!(surface.conditions[**e as usize], Condition::Temperature(_));
+    let temperature = entries.iter().find(held).copied();
+    if let (Some(entry), true) = (temperature, entries.len() > 1) {
+        let what = format!(
+            "a temperature stands alone, and \"{}\" has another entry on the same face",
+            cloud.faces[patch.face as usize]
+        );
+        return Err(Fault::at(&format!("/boundaries/{entry}"), what));
+    }
+    for entry in &entries {
+        surface.area[*entry as usize] += patch.area;
+    }
+    let depth = cloud.depth(patch);
+    let on = depth < ON * cloud.spacing[patch.point as usize];
+    match temperature {
+        Some(entry) if on => surface.held.push(Held {
+            point: patch.point,
+            entry,
+        }),
+        _ => surface.films.push(Film {
+            point: patch.point,
+            depth: if on { 0.0 } else { depth },
+            area: patch.area,
+            place: patch.place,
+            above: along(cloud.position[patch.point as usize], depth, patch.normal),
+            entries,
+        }),
+    }
+    Ok(())
+}
+
+/// The one condition of an entry.
+fn condition(entry: &Boundary, at: &str) -> Result<Condition, Vec<Fault>> {
+    let given = [
+        entry.temperature_k.is_some(),
+        entry.heat_flux_w_m2.is_some(),
+        entry.convection.is_some(),
+        entry.radiation.is_some(),
+    ];
+    if given.iter().filter(|g| **g).count() != 1 {
+        let what = "exactly one of \"temperature_k\", \"heat_flux_w_m2\", \"convection\" and \"radiation\" \
+                    is wanted; several fluxes on one face are several entries";
+        return Err(vec![Fault::at(at, what)]);
+    }
+    let curve = |property: &Property, key: &str| -> Result<Curve, Vec<Fault>> {
+        property
+            .compile(&format!("{at}/{key}"), &NAMES)
+            .map_err(|fault| vec![fault])
+    };
+    if let Some(property) = &entry.temperature_k {
+        return Ok(Condition::Temperature(curve(property, "temperature_k")?));
+    }
+    if let Some(property) = &entry.heat_flux_w_m2 {
+        return Ok(Condition::Flux(curve(property, "heat_flux_w_m2")?));
+    }
+    if let Some(robin) = &entry.convection {
+        let coefficient = curve(&robin.coefficient_w_m2_k, "convection/coefficient_w_m2_k")?;
+        positive(
+            &coefficient,
+            &format!("{at}/convection/coefficient_w_m2_k"),
+            ("W/(m2 K)", f64::INFINITY),
+        )?;
+        let ambient = curve(&robin.ambient_k, "convection/ambient_k")?;
+        return Ok(Condition::Convection(coefficient, ambient));
+    }
+    let Some(radiation) = &entry.radiation else {
+        unreachable!("one of the four is given");
+    };
+    let emissivity = curve(&radiation.emissivity, "radiation/emissivity")?;
+    positive(
+        &emissivity,
+        &format!("{at}/radiation/emissivity"),
+        ("", 1.0),
+    )?;
+    let surroundings = curve(&radiation.surroundings_k, "radiation/surroundings_k")?;
+    positive(
+        &surroundings,
+        &format!("{at}/radiation/surroundings_k"),
+        ("K", f64::INFINITY),
+    )?;
+    Ok(Condition::Radiation(emissivity, surroundings))
+}
+
+/// Refuses a number below zero or above `most`.
+fn positive(curve: &Curve, at: &str, (unit, most): (&str, f64)) -> Result<(), Vec<Fault>> {
+    match curve.constant() {
+        Some(value) if value < 0.0 || value > most => {
+            let range = if most.is_finite() {
+                format!("from 0 to {most}")
+            } else {
+                "at least 0".to_owned()
+            };
+            let what = format!("{value} {unit} is out of range: {range} {unit}");
+            Err(vec![Fault::at(at, what)])
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,29 @@
+//! SPH heat conduction in functionally graded materials.
+//!
+//! After Rong and Kisu (2010), with their errata: conductivity a function of place and temperature, bodies of
+//! any shape, every kind of boundary. The way of a scene through the crate:
+//!
+//! - [`body`] composes shapes, [`cloud`] fills them with points and gives each its patches of surface;
+//! - [`operator`] weighs the links between points: the pair form of the paper, or weights balanced so that linear
+//!   fields are exact on any cloud while no heat is lost;
+//! - [`material`] says how links conduct and cells store, [`boundary`] what passes through the surface;
+//! - [`system`] is the equation of every point, `C dT/dt = W`, and its Newton matrix;
+//! - [`mod@march`] takes it through time (explicit, stabilised or implicit), [`steady`] to its end at once, with
+//!   the solves of [`solve`];
+//! - [`simulate`] leads the march, [`output`] writes.
+
+pub mod assemble;
+pub mod body;
+pub mod boundary;
+pub mod cloud;
+pub mod march;
+pub mod material;
+pub mod monitor;
+pub mod operator;
+pub mod output;
+pub mod scene;
+pub mod simulate;
+pub mod solve;
+pub mod stage;
+pub mod steady;
+pub mod system;

@@ -1,0 +1,7 @@
+//! `heatsph`: heat conduction by smoothed particles.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    run::main::<heatsph::stage::HeatSph>()
+}

@@ -1,0 +1,41 @@
+//! The explicit Euler method (Rong and Kisu 2010, eq. 3).
+
+use super::{Method, State, StepError};
+use crate::system::{Rates, System};
+
+/// Explicit Euler.
+#[derive(Debug, Clone, Default)]
+pub struct Explicit {
+    steps: u64,
+    before: Vec<f64>,
+}
+
+impl Method for Explicit {
+    fn advance(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        rates: &mut Rates,
+        step: f64,
+    ) -> Result<f64, StepError> {
+        self.before.clone_from(&state.temperature);
+        for (i, t) in state.temperature.iter_mut().enumerate() {
+            *t += step * rates.heat[i] / system.capacity[i];
+        }
+        state.pass(rates, step);
+        state.time += step;
+        system.hold(&mut state.temperature, state.time)?;
+        state.settle(system, &self.before);
+        system.rates(state.time, &state.temperature, rates)?;
+        self.steps += 1;
+        Ok(0.0)
+    }
+
+    fn longest(&self, system: &System, rates: &Rates) -> f64 {
+        system.explicit_limit(rates)
+    }
+
+    fn report(&self) -> Vec<(&'static str, f64)> {
+        vec![("explicit_steps", self.steps as f64)]
+    }
+}

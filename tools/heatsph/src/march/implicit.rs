@@ -1,0 +1,197 @@
+//! The singly diagonally implicit Runge-Kutta method of second order, L-stable (Alexander 1977, SIAM J. Numer.
+//! Anal. 14, 1006), with gamma = 1 - 1/sqrt(2):
+//!
+//! ```text
+//! T1 = T + gamma dt F(T1),   T2 = T + (1 - gamma) dt F(T1) + gamma dt F(T2)
+//! ```
+//!
+//! No method of second order keeps temperatures between their neighbours at any step (Bolley and Crouzeix 1978).
+//! Where a step of given length is so long that the error estimate is a good part of the range of temperature, or
+//! where its result leaves the range of what came before, it is taken by the implicit Euler method, which does.
+
+use super::{Method, State, StepError, estimate};
+use crate::solve::{Goal, Problem, Solver};
+use crate::system::{Rates, System, extent};
+
+/// Part of the range of temperature that an error of a second-order step may be.
+const SMOOTH: f64 = 0.01;
+/// Overshoot of the range that is left to rounding.
+const OVER: f64 = 1e-9;
+/// Reduction of the residual in the filter of the estimate.
+const FILTER: f64 = 1e-2;
+/// Newton steps of a stage.
+const NEWTON: usize = 40;
+
+/// Implicit Runge-Kutta of second order.
+#[derive(Debug)]
+pub struct Implicit {
+    solver: Solver,
+    goal: Goal,
+    /// Whether a rough step is taken by the implicit Euler method: where steps are given.
+    guard: bool,
+    newton: u64,
+    iterations: u64,
+    euler: u64,
+    first: Rates,
+    middle: Rates,
+    guess: Vec<f64>,
+    base: Vec<f64>,
+    error: Vec<f64>,
+}
+
+impl Implicit {
+    /// The method with stages solved to `residual` of the heat that passes; `guard`ed where steps are given.
+    #[must_use]
+    pub fn new(system: &System, residual: f64, guard: bool) -> Self {
+        Self {
+            solver: Solver::new(system),
+            goal: Goal {
+                residual,
+                steps: NEWTON,
+            },
+            guard,
+            newton: 0,
+            iterations: 0,
+            euler: 0,
+            first: Rates::default(),
+            middle: Rates::default(),
+            guess: Vec::new(),
+            base: Vec::new(),
+            error: Vec::new(),
+        }
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.solver.bytes()
+    }
+
+    /// Solves `T = base + length F(T)`; `temperature` is the first guess.
+    fn stage(
+        &mut self,
+        system: &System,
+        (time, length): (f64, f64),
+        (temperature, rates): (&mut Vec<f64>, &mut Rates),
+    ) -> Result<(), StepError> {
+        system.hold(temperature, time)?;
+        let problem = Problem {
+            shift: 1.0 / length,
+            from: &self.base,
+            time,
+        };
+        let effort = self
+            .solver
+            .newton(system, problem, (temperature, rates), self.goal)?;
+        self.newton += effort.newton as u64;
+        self.iterations += effort.iterations as u64;
+        Ok(())
+    }
+
+    /// A step of the implicit Euler method.
+    fn euler(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        rates: &mut Rates,
+        step: f64,
+    ) -> Result<(), StepError> {
+        self.base.clone_from(&state.temperature);
+        let mut temperature = state.temperature.clone();
+        let end = state.time + step;
+        self.stage(system, (end, step), (&mut temperature, rates))?;
+        let before = std::mem::replace(&mut state.temperature, temperature);
+        state.pass(rates, step);
+        state.time = end;
+        state.settle(system, &before);
+        self.euler += 1;
+        Ok(())
+    }
+}
+
+impl Method for Implicit {
+    fn advance(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        rates: &mut Rates,
+        step: f64,
+    ) -> Result<f64, StepError> {
+        let gamma = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+        // What is left of the last step must not change the bits of this one: runs are taken up between steps.
+        self.solver.forget();
+        self.first.clone_from(rates);
+        let before = state.clone();
+        // First stage.
+        self.base.clone_from(&before.temperature);
+        let mut temperature = std::mem::take(&mut self.guess);
+        temperature.clone_from(&before.temperature);
+        let mut middle = std::mem::take(&mut self.middle);
+        let early = before.time + gamma * step;
+        let solved = self.stage(
+            system,
+            (early, gamma * step),
+            (&mut temperature, &mut middle),
+        );
+        self.middle = middle;
+        solved?;
+        // Second stage, from where the first one's rate leads.
+        for (i, base) in self.base.iter_mut().enumerate() {
+            let rate = (temperature[i] - before.temperature[i]) / gamma;
+            *base = before.temperature[i] + (1.0 - gamma) * rate;
+            temperature[i] = before.temperature[i] + rate.clamp(-f64::MAX, f64::MAX);
+        }
+        let end = before.time + step;
+        let (low, high) = extent(&before.temperature);
+        let outside = |t: &f64| !(*t >= low && *t <= high);
+        if temperature.iter().any(outside) {
+            // A guess beyond all that was is a bad one.
+            temperature.clone_from(&before.temperature);
+        }
+        self.stage(system, (end, gamma * step), (&mut temperature, rates))?;
+        self.guess = std::mem::replace(&mut state.temperature, temperature);
+        state.pass(&self.middle, (1.0 - gamma) * step);
+        state.pass(rates, gamma * step);
+        state.time = end;
+        state.settle(system, &before.temperature);
+        // The estimate, filtered: a stiff part that the step has damped is no error.
+        let both = (before.temperature.as_slice(), state.temperature.as_slice());
+        estimate(system, both, (&self.first, rates), step, &mut self.error);
+        let shift = 1.0 / (gamma * step);
+        let scaled: Vec<f64> = self.error.iter().map(|e| shift * e).collect();
+        let filtered = self.solver.filter(&scaled, FILTER)?;
+        let error = filtered.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
+        if self.guard && rough(system, (&before, state), error) {
+            state.clone_from(&before);
+            self.euler(system, state, rates, step)?;
+        }
+        Ok(error)
+    }
+
+    fn longest(&self, _: &System, _: &Rates) -> f64 {
+        f64::INFINITY
+    }
+
+    fn report(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("newton_steps", self.newton as f64),
+            ("linear_iterations", self.iterations as f64),
+            ("euler_steps", self.euler as f64),
+        ]
+    }
+}
+
+/// Whether a step is too long for the second order: its error is a good part of the range of temperature, or its
+/// result leaves the range of what came before and of what is prescribed now.
+fn rough(system: &System, (before, after): (&State, &State), error: f64) -> bool {
+    let (mut low, mut high) = extent(&before.temperature);
+    for held in &system.surface.held {
+        let t = after.temperature[held.point as usize];
+        (low, high) = (low.min(t), high.max(t));
+    }
+    let range = high - low;
+    let (least, greatest) = extent(&after.temperature);
+    let sources = system.source.is_some() || !system.surface.films.is_empty();
+    let beyond = (low - least).max(greatest - high) > OVER * range;
+    error > SMOOTH * range.max(greatest - least) || (beyond && !sources)
+}

@@ -1,0 +1,115 @@
+//! The march in time: explicit, stabilised, implicit.
+
+pub mod control;
+pub mod explicit;
+pub mod implicit;
+pub mod stabilised;
+
+use run::property::OutOfRange;
+
+use crate::solve::SolveError;
+use crate::system::{Rates, System};
+
+/// Temperatures at an instant, and what has passed until then.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct State {
+    /// \[s\].
+    pub time: f64,
+    /// Of each point \[K\].
+    pub temperature: Vec<f64>,
+    /// Heat through each entry of the surface since the start \[J\].
+    pub entries: Vec<f64>,
+    /// Heat of the source since the start \[J\].
+    pub source: f64,
+}
+
+/// Why a step failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StepError {
+    /// A property has no value.
+    #[error(transparent)]
+    Property(#[from] OutOfRange),
+    /// An implicit stage was not solved.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// A method that takes steps.
+pub trait Method {
+    /// Takes `state` from its time over `step` \[s\]; `rates` are those of the state, before and after. Gives the
+    /// greatest error of a temperature, as estimated \[K\].
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then not to be used.
+    fn advance(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        rates: &mut Rates,
+        step: f64,
+    ) -> Result<f64, StepError>;
+
+    /// The longest step that the method can take at these rates \[s\].
+    fn longest(&self, system: &System, rates: &Rates) -> f64;
+
+    /// Names and numbers of what it has done so far.
+    fn report(&self) -> Vec<(&'static str, f64)>;
+}
+
+impl State {
+    /// The state at the start.
+    #[must_use]
+    pub fn new(temperature: Vec<f64>, entries: usize) -> Self {
+        Self {
+            time: 0.0,
+            temperature,
+            entries: vec![0.0; entries],
+            source: 0.0,
+        }
+    }
+
+    /// Adds the heat of `rates` over `time` \[s\].
+    pub(crate) fn pass(&mut self, rates: &Rates, time: f64) {
+        for (sum, rate) in self.entries.iter_mut().zip(&rates.entries) {
+            *sum += time * rate;
+        }
+        self.source += time * rates.source;
+    }
+
+    /// Adds what held points have stored themselves since `before` \[K\].
+    pub(crate) fn settle(&mut self, system: &System, before: &[f64]) {
+        for held in &system.surface.held {
+            let i = held.point as usize;
+            let rise = self.temperature[i] - before[i];
+            self.entries[held.entry as usize] += system.capacity[i] * rise;
+        }
+    }
+
+    /// The first point whose temperature is no number.
+    #[must_use]
+    pub fn lost(&self) -> Option<usize> {
+        self.temperature.iter().position(|t| !t.is_finite())
+    }
+}
+
+/// Estimate of the error of a step of second order from the rates at its ends (Sommeijer, Shampine and Verwer
+/// 1998, eq. 2.9): `(12 (T_n - T_n+1) + 6 dt (F_n + F_n+1)) / 15`, here times the capacity \[J\].
+pub(crate) fn estimate(
+    system: &System,
+    (before, after): (&[f64], &[f64]),
+    (first, last): (&Rates, &Rates),
+    step: f64,
+    out: &mut Vec<f64>,
+) {
+    out.clear();
+    out.extend((0..before.len()).map(|i| {
+        if system.is_held(i) {
+            return 0.0;
+        }
+        let change = system.capacity[i] * (before[i] - after[i]);
+        (12.0 * change + 6.0 * step * (first.heat[i] + last.heat[i])) / 15.0
+    }));
+}
+
+#[cfg(test)]
+mod tests;

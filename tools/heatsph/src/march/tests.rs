@@ -1,0 +1,125 @@
+use super::explicit::Explicit;
+use super::implicit::Implicit;
+use super::stabilised::Stabilised;
+use super::*;
+use crate::assemble;
+use crate::scene::Scene;
+
+/// A bar from 0 to 1 with k = c = 1, held at 0 and T1 at its ends.
+fn bar(spacing: f64, k: &str, ends: [&str; 2], initial: &str) -> System {
+    let text = format!(
+        r#"{{"dimensions": 2, "body": {{"box": {{"min_m": [0, 0], "max_m": [1, {}]}}}},
+            "points": {{"spacing_m": {spacing}}}, "initial_temperature_k": {{"expr": "{initial}"}},
+            "materials": [{{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1,
+              "conductivity_w_m_k": {{"expr": "{k}"}}}}],
+            "boundaries": [{{"on": ["x-"], {}}}, {{"on": ["x+"], {}}}],
+            "time": {{"end_s": 1}}}}"#,
+        4.0 * spacing,
+        ends[0],
+        ends[1]
+    );
+    let scene: Scene = serde_json::from_str(&text).unwrap();
+    assemble::system(&scene).unwrap().0
+}
+
+fn start(system: &System, initial: impl Fn(f64) -> f64) -> (State, Rates) {
+    let temperature = (0..system.len())
+        .map(|i| initial(system.place(i)[0]))
+        .collect();
+    let mut state = State::new(temperature, system.surface.conditions.len());
+    system.hold(&mut state.temperature, 0.0).unwrap();
+    let mut rates = Rates::default();
+    system.rates(0.0, &state.temperature, &mut rates).unwrap();
+    (state, rates)
+}
+
+const COLD: &str = r#""temperature_k": 0"#;
+
+/// Greatest error of the decaying sine at t = 0.1, in `steps` steps.
+fn decay(method: &mut dyn Method, system: &System, steps: usize) -> (f64, f64) {
+    let sine = |x: f64| (std::f64::consts::PI * x).sin();
+    let (mut state, mut rates) = start(system, sine);
+    let before = system.stored(&state.temperature);
+    for _ in 0..steps {
+        method
+            .advance(system, &mut state, &mut rates, 0.1 / steps as f64)
+            .unwrap();
+    }
+    let heat: f64 = state.entries.iter().sum();
+    let stored = system.stored(&state.temperature) - before;
+    // The eigenvalue of the lattice, so that only the error in time is left.
+    let s = 0.05;
+    let rate = 4.0 / (s * s) * (0.5 * std::f64::consts::PI * s).sin().powi(2);
+    let exact = |i: usize| (-rate * 0.1).exp() * sine(system.place(i)[0]);
+    let error = (0..system.len()).map(|i| (state.temperature[i] - exact(i)).abs());
+    (error.fold(0.0, f64::max), ((stored - heat) / stored).abs())
+}
+
+#[test]
+fn methods_have_their_order_and_lose_no_heat() {
+    let system = bar(0.05, "1", [COLD, COLD], "sin(pi*x)");
+    let errors = |make: &dyn Fn() -> Box<dyn Method>, steps: [usize; 2]| {
+        steps.map(|n| {
+            let (error, imbalance) = decay(make().as_mut(), &system, n);
+            assert!(imbalance < 1e-10, "{n} steps lose {imbalance:e}");
+            error
+        })
+    };
+    let [a, b] = errors(&|| Box::new(Explicit::default()), [100, 200]);
+    assert!((a / b).log2() > 0.9, "explicit: {a} {b}");
+    let [a, b] = errors(&|| Box::new(Stabilised::default()), [8, 16]);
+    assert!((a / b).log2() > 1.8, "stabilised: {a} {b}");
+    let [a, b] = errors(&|| Box::new(Implicit::new(&system, 1e-12, false)), [8, 16]);
+    assert!((a / b).log2() > 1.8, "implicit: {a} {b}");
+}
+
+#[test]
+fn a_steep_law_is_exact_when_steady() {
+    for a in [1.0_f64, 4.0, 8.0, -3.0] {
+        let hot = r#""temperature_k": 1"#;
+        let system = bar(0.05, &format!("exp({a}*T)"), [COLD, hot], "0");
+        let (mut state, mut rates) = start(&system, |_| 0.0);
+        let mut solver = crate::solve::Solver::new(&system);
+        let from = state.temperature.clone();
+        let problem = crate::solve::Problem {
+            shift: 0.0,
+            from: &from,
+            time: 0.0,
+        };
+        let goal = crate::solve::Goal {
+            residual: 1e-11,
+            steps: 60,
+        };
+        let effort = solver
+            .newton(&system, problem, (&mut state.temperature, &mut rates), goal)
+            .unwrap();
+        for i in 0..system.len() {
+            let exact = ((a.exp() - 1.0) * system.place(i)[0]).ln_1p() / a;
+            let error = (state.temperature[i] - exact).abs();
+            assert!(error < 1e-7, "a = {a}: {error:e}, {effort:?}");
+        }
+    }
+}
+
+#[test]
+fn long_implicit_steps_stay_between_the_ends() {
+    let hot = r#""temperature_k": 1"#;
+    for k in ["1", "exp(8*T)", "1e6"] {
+        let system = bar(0.05, k, [COLD, hot], "0");
+        for factor in [1.0, 10.0, 1000.0] {
+            let (mut state, mut rates) = start(&system, |_| 0.0);
+            let step = factor * system.explicit_limit(&rates);
+            let mut method = Implicit::new(&system, 1e-10, true);
+            for _ in 0..10 {
+                method
+                    .advance(&system, &mut state, &mut rates, step)
+                    .unwrap();
+                let (low, high) = crate::system::extent(&state.temperature);
+                assert!(
+                    low > -1e-8 && high < 1.0 + 1e-8,
+                    "{k} {factor}: {low} {high}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,386 @@
+//! Materials: where each is, what it stores and how it conducts.
+
+pub mod conductor;
+pub mod path;
+
+use run::property::{Arguments, Curve, OutOfRange};
+use run::{Fault, property::Property};
+
+use crate::body::Body;
+use crate::body::frame::Vector;
+use crate::cloud::Cloud;
+use crate::scene::{Material, Scene};
+use conductor::Conductor;
+
+/// What a property of place may depend on.
+pub const PLACE: [&str; 4] = ["x", "y", "z", "r"];
+
+/// One term of a conductivity: a function of place times one of temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// The factor that depends on place.
+    pub fraction: Curve,
+    /// Number of the factor that depends on temperature.
+    pub conductor: usize,
+}
+
+/// Conductivity of a material.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Law {
+    /// A sum of products of a function of place and one of temperature.
+    Sum(Vec<Part>),
+    /// Any formula of place and temperature.
+    Formula(Curve),
+}
+
+/// A material of a body.
+#[derive(Debug, Clone, PartialEq)]
+struct Kind {
+    region: Option<Body>,
+    density: Curve,
+    specific_heat: Curve,
+    law: Law,
+}
+
+/// All materials of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Materials {
+    kinds: Vec<Kind>,
+    /// All functions of temperature.
+    pub conductors: Vec<Conductor>,
+    /// Resistance between materials i and j \[m2 K/W\] at `i * kinds + j`.
+    contact: Vec<f64>,
+    dimensions: usize,
+}
+
+/// Samples along an edge of a cell that an interface crosses.
+const SAMPLES: [usize; 2] = [16, 8];
+
+impl Materials {
+    /// The materials of a scene whose temperatures lie between `low` and `high` \[K\] at the start.
+    ///
+    /// # Errors
+    /// Faults of the scene.
+    pub fn new(scene: &Scene, (low, high): (f64, f64)) -> Result<Self, Vec<Fault>> {
+        let mut faults = Vec::new();
+        let mut conductors = Vec::new();
+        let mut kinds = Vec::new();
+        for (number, material) in scene.materials.iter().enumerate() {
+            let at = format!("/materials/{number}");
+            match kind(
+                material,
+                &at,
+                scene.dimensions,
+                (low, high),
+                &mut conductors,
+            ) {
+                Ok(kind) => kinds.push(kind),
+                Err(found) => faults.extend(found),
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let mut contact = vec![0.0; kinds.len() * kinds.len()];
+        for (number, resistance) in scene.contacts.iter().enumerate() {
+            let mut sides = [0; 2];
+            for (side, name) in resistance.between.iter().enumerate() {
+                match scene.materials.iter().position(|m| m.name == *name) {
+                    Some(found) => sides[side] = found,
+                    None => faults.push(Fault::at(
+                        &format!("/contacts/{number}/between/{side}"),
+                        format!("there is no material \"{name}\""),
+                    )),
+                }
+            }
+            let [a, b] = sides;
+            contact[a * kinds.len() + b] = resistance.resistance_m2_k_w;
+            contact[b * kinds.len() + a] = resistance.resistance_m2_k_w;
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        Ok(Self {
+            kinds,
+            conductors,
+            contact,
+            dimensions: scene.dimensions,
+        })
+    }
+
+    /// Number of materials.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// True without materials.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.kinds.is_empty()
+    }
+
+    /// The material at a place; the last where no region holds it.
+    #[must_use]
+    pub fn at(&self, x: Vector) -> usize {
+        let holds = |kind: &Kind| kind.region.as_ref().is_none_or(|region| region.holds(x));
+        self.kinds
+            .iter()
+            .position(holds)
+            .unwrap_or(self.kinds.len() - 1)
+    }
+
+    /// Conductivity of a material.
+    #[must_use]
+    pub fn law(&self, material: usize) -> &Law {
+        &self.kinds[material].law
+    }
+
+    /// Resistance between two materials \[m2 K/W\].
+    #[must_use]
+    pub fn contact(&self, a: usize, b: usize) -> f64 {
+        self.contact[a * self.kinds.len() + b]
+    }
+
+    /// Normal of the interface of two materials that meet at `x`.
+    #[must_use]
+    pub fn interface(&self, (a, b): (usize, usize), x: Vector, step: f64) -> Vector {
+        // The first of the two has the region that bounds the other.
+        let region = self.kinds[a.min(b)].region.as_ref();
+        region.map_or([0.0; 3], |region| region.normal(x, step))
+    }
+
+    /// Whether conductivity depends on temperature anywhere.
+    #[must_use]
+    pub fn nonlinear(&self) -> bool {
+        self.kinds.iter().any(|kind| match &kind.law {
+            Law::Sum(parts) => parts
+                .iter()
+                .any(|p| self.conductors[p.conductor].constant().is_none()),
+            Law::Formula(_) => true,
+        })
+    }
+
+    /// Conductivity at a place and temperature \[W/(m K)\].
+    ///
+    /// # Errors
+    /// Where a property has no value.
+    pub fn conductivity(
+        &self,
+        material: usize,
+        x: Vector,
+        temperature: f64,
+    ) -> Result<f64, OutOfRange> {
+        match self.law(material) {
+            Law::Sum(parts) => {
+                let mut sum = 0.0;
+                for part in parts {
+                    let k = self.conductors[part.conductor].value(temperature);
+                    sum += k * part.fraction.value(&Arguments::at(x, 0.0))?;
+                }
+                Ok(sum)
+            }
+            Law::Formula(curve) => curve.value(&arguments(x, temperature, 0.0)),
+        }
+    }
+
+    /// Heat capacity of the cell about each point \[J/K\] (per metre of depth in a plane scene). A cell that
+    /// an interface crosses has the mean of its parts.
+    ///
+    /// # Errors
+    /// Where a property has no value, or one that is not positive.
+    pub fn capacities(
+        &self,
+        cloud: &Cloud,
+        body: &Body,
+        volume: &[f64],
+    ) -> Result<Vec<f64>, OutOfRange> {
+        use rayon::prelude::*;
+        (0..volume.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|i| {
+                let x = cloud.position[i];
+                let edge = cloud.spacing[i];
+                let near = 0.5 * edge * (self.dimensions as f64).sqrt();
+                let crossed = self.kinds.len() > 1
+                    && self.kinds.iter().any(|kind| {
+                        kind.region
+                            .as_ref()
+                            .is_some_and(|region| region.distance(x).abs() < near)
+                    });
+                let density = if crossed {
+                    self.mixed(x, edge, body)?
+                } else {
+                    self.stored(self.at(x), x)?
+                };
+                Ok(density * volume[i])
+            })
+            .collect()
+    }
+
+    /// rho c of a material at a place \[J/(m3 K)\].
+    fn stored(&self, material: usize, x: Vector) -> Result<f64, OutOfRange> {
+        let (kind, at) = (&self.kinds[material], Arguments::at(x, 0.0));
+        let value = kind.density.value(&at)? * kind.specific_heat.value(&at)?;
+        if value > 0.0 {
+            Ok(value)
+        } else {
+            Err(OutOfRange::Formula { value, at })
+        }
+    }
+
+    /// Mean of rho c over the part of a cube about `x` that is inside the body.
+    fn mixed(&self, x: Vector, edge: f64, body: &Body) -> Result<f64, OutOfRange> {
+        let each = SAMPLES[self.dimensions - 2];
+        let size = edge / each as f64;
+        let offset = |i: usize| (i as f64 + 0.5) * size - 0.5 * edge;
+        let covered = |distance: f64| (0.5 - distance / size).clamp(0.0, 1.0);
+        let deep = if self.dimensions == 3 { each } else { 1 };
+        let (mut sum, mut whole) = (0.0, 0.0);
+        for i in 0..each {
+            for j in 0..each {
+                for k in 0..deep {
+                    let z = if deep > 1 { offset(k) } else { 0.0 };
+                    let place = [x[0] + offset(i), x[1] + offset(j), x[2] + z];
+                    let mut left = covered(body.distance(place));
+                    whole += left;
+                    for (number, kind) in self.kinds.iter().enumerate() {
+                        let last = number + 1 == self.kinds.len();
+                        let part = match &kind.region {
+                            Some(region) if !last => left * covered(region.distance(place)),
+                            _ => left,
+                        };
+                        if part > 0.0 {
+                            sum += part * self.stored(number, place)?;
+                        }
+                        left -= part;
+                    }
+                }
+            }
+        }
+        if whole > 0.0 {
+            Ok(sum / whole)
+        } else {
+            self.stored(self.at(x), x)
+        }
+    }
+}
+
+/// Arguments of a property at a place, temperature and time.
+#[must_use]
+pub fn arguments(x: Vector, temperature: f64, time: f64) -> Arguments {
+    Arguments {
+        temperature,
+        ..Arguments::at(x, time)
+    }
+}
+
+fn alone(fault: Fault) -> Vec<Fault> {
+    vec![fault]
+}
+
+fn kind(
+    material: &Material,
+    at: &str,
+    dimensions: usize,
+    range: (f64, f64),
+    conductors: &mut Vec<Conductor>,
+) -> Result<Kind, Vec<Fault>> {
+    let density = material
+        .density_kg_m3
+        .compile_positive(&format!("{at}/density_kg_m3"), &PLACE, "kg/m3")
+        .map_err(alone)?;
+    let specific_heat = material
+        .specific_heat_j_kg_k
+        .compile_positive(&format!("{at}/specific_heat_j_kg_k"), &PLACE, "J/(kg K)")
+        .map_err(alone)?;
+    let law = match (&material.conductivity_w_m_k, &material.mixture) {
+        (Some(property), None) => law(
+            property,
+            &format!("{at}/conductivity_w_m_k"),
+            range,
+            conductors,
+        )?,
+        (None, Some(constituents)) => {
+            let mut parts = Vec::new();
+            for (number, constituent) in constituents.iter().enumerate() {
+                let at = format!("{at}/mixture/{number}");
+                let fraction = constituent
+                    .fraction
+                    .compile(&format!("{at}/fraction"), &PLACE)
+                    .map_err(alone)?;
+                let at = format!("{at}/conductivity_w_m_k");
+                let curve = constituent
+                    .conductivity_w_m_k
+                    .compile_positive(&at, &["T"], "W/(m K)")
+                    .map_err(alone)?;
+                parts.push(Part {
+                    fraction,
+                    conductor: tabulate(curve, &at, range, conductors)?,
+                });
+            }
+            Law::Sum(parts)
+        }
+        (Some(_), Some(_)) => {
+            let what = "\"conductivity_w_m_k\" and \"mixture\" exclude each other";
+            return Err(vec![Fault::at(&format!("{at}/mixture"), what)]);
+        }
+        (None, None) => {
+            let what = "a conductivity is missing: give \"conductivity_w_m_k\" or \"mixture\"";
+            return Err(vec![Fault::at(at, what)]);
+        }
+    };
+    Ok(Kind {
+        region: material
+            .region
+            .as_ref()
+            .map(|shape| Body::new(shape, dimensions)),
+        density,
+        specific_heat,
+        law,
+    })
+}
+
+/// The law of a property: a function of place, or of temperature, or of both.
+fn law(
+    property: &Property,
+    at: &str,
+    range: (f64, f64),
+    conductors: &mut Vec<Conductor>,
+) -> Result<Law, Vec<Fault>> {
+    let all = property
+        .compile_positive(at, &["x", "y", "z", "r", "T"], "W/(m K)")
+        .map_err(alone)?;
+    if property.compile(at, &["T"]).is_ok() {
+        return Ok(Law::Sum(vec![Part {
+            fraction: Curve::Constant(1.0),
+            conductor: tabulate(all, at, range, conductors)?,
+        }]));
+    }
+    if let Ok(fraction) = property.compile(at, &PLACE) {
+        return Ok(Law::Sum(vec![Part {
+            fraction,
+            conductor: tabulate(Curve::Constant(1.0), at, range, conductors)?,
+        }]));
+    }
+    Ok(Law::Formula(all))
+}
+
+fn tabulate(
+    curve: Curve,
+    at: &str,
+    (low, high): (f64, f64),
+    conductors: &mut Vec<Conductor>,
+) -> Result<usize, Vec<Fault>> {
+    let conductor =
+        Conductor::new(curve, low, high).map_err(|error| vec![Fault::at(at, error.to_string())])?;
+    let place = conductors.iter().position(|known| *known == conductor);
+    Ok(place.unwrap_or_else(|| {
+        conductors.push(conductor);
+        conductors.len() - 1
+    }))
+}
+
+#[cfg(test)]
+mod tests;

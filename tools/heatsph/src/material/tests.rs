@@ -1,0 +1,94 @@
+use super::*;
+
+fn materials(text: &str, contacts: &str) -> Materials {
+    let scene = format!(
+        r#"{{"dimensions": 2, "body": {{"box": {{"min_m": [0, 0], "max_m": [1, 1]}}}},
+            "points": {{"spacing_m": 0.1}}, "initial_temperature_k": 0,
+            "materials": {text}, "contacts": {contacts}}}"#
+    );
+    Materials::new(&serde_json::from_str(&scene).unwrap(), (0.0, 1.0)).unwrap()
+}
+
+const TWO: &str = r#"[
+    {"name": "left", "density_kg_m3": 2, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": 10,
+     "region": {"half_space": {"point_m": [0.43, 0], "normal": [1, 0]}}},
+    {"name": "right", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": 0.1}]"#;
+
+#[test]
+fn layers_are_resistances_in_series() {
+    let layers = materials(TWO, "[]");
+    let (a, b) = ([0.4, 0.2, 0.0], [0.5, 0.6, 0.0]);
+    let k = layers.fixed(a, b).unwrap();
+    let exact = 1.0 / (0.3 / 10.0 + 0.7 / 0.1);
+    assert!((k - exact).abs() < 1e-10 * exact, "{k} {exact}");
+    assert!((layers.fixed(b, a).unwrap() - k).abs() < 1e-12 * k);
+    assert!((layers.fixed([0.1, 0.0, 0.0], [0.2, 0.3, 0.0]).unwrap() - 10.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_contact_adds_its_resistance_across_the_interface() {
+    let layers = materials(
+        TWO,
+        r#"[{"between": ["right", "left"], "resistance_m2_k_w": 0.5}]"#,
+    );
+    // Along a slanted link of a field that varies with x alone: dx / k = dx1/k1 + R + dx2/k2.
+    let (a, b) = ([0.4, 0.2, 0.0], [0.5, 0.6, 0.0]);
+    let exact = 0.1 / (0.03 / 10.0 + 0.5 + 0.07 / 0.1);
+    let k = layers.fixed(a, b).unwrap();
+    assert!((k - exact).abs() < 1e-8 * exact, "{k} {exact}");
+}
+
+#[test]
+fn a_conductivity_of_place_has_its_harmonic_mean() {
+    let graded = materials(
+        r#"[{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": {"expr": "exp(3*x)"}}]"#,
+        "[]",
+    );
+    let exact = 0.1 * 3.0 / ((-0.6_f64).exp() - (-0.9_f64).exp());
+    let k = graded.fixed([0.2, 0.0, 0.0], [0.3, 0.0, 0.0]).unwrap();
+    assert!((k - exact).abs() < 1e-7 * exact, "{k} {exact}");
+    assert!(!graded.nonlinear());
+    let jump = materials(
+        r#"[{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": {"expr": "if(x - 0.25, 100, 1)"}}]"#,
+        "[]",
+    );
+    let k = jump.fixed([0.2, 0.0, 0.0], [0.3, 0.0, 0.0]).unwrap();
+    assert!((k - 1.0 / 0.505).abs() < 0.02, "{k}");
+}
+
+#[test]
+fn a_cell_across_an_interface_stores_the_mean() {
+    let layers = materials(TWO, "[]");
+    let body = Body::new(
+        &serde_json::from_str(r#"{"box": {"min_m": [0, 0], "max_m": [1, 1]}}"#).unwrap(),
+        2,
+    );
+    let cloud = Cloud {
+        dimensions: 2,
+        position: vec![[0.4, 0.5, 0.0], [0.4, 0.0, 0.0], [0.1, 0.5, 0.0]],
+        spacing: vec![0.1; 3],
+        share: vec![0.01, 0.005, 0.01],
+        ..Cloud::default()
+    };
+    let found = layers.capacities(&cloud, &body, &cloud.share).unwrap();
+    // The cell from 0.35 to 0.45: 0.08 of the left material, 0.02 of the right.
+    assert!((found[0] - 0.01 * 1.8).abs() < 1e-9, "{found:?}");
+    assert!((found[1] - 0.005 * 1.8).abs() < 1e-9, "{found:?}");
+    assert!((found[2] - 0.02).abs() < 1e-15);
+}
+
+#[test]
+fn a_formula_of_place_and_temperature_is_told_from_the_others() {
+    let one = |k: &str| {
+        let text = format!(
+            r#"[{{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": {k}}}]"#
+        );
+        materials(&text, "[]")
+    };
+    assert!(matches!(
+        one(r#"{"expr": "x + exp(T)"}"#).law(0),
+        Law::Formula(_)
+    ));
+    assert!(one(r#"{"expr": "exp(T)"}"#).nonlinear());
+    assert!(!one("7").nonlinear());
+}

@@ -1,0 +1,116 @@
+//! Weights with which heat passes from point to point.
+//!
+//! Both operators have the pair form: with conductivity `k_ij` along the link of points i and j,
+//!
+//! ```text
+//! div(k grad T)_i V_i = sum_j a_ij k_ij (T_j - T_i) + heat through the patches of i
+//! ```
+//!
+//! and `a_ij = a_ji`, so that what leaves one point arrives at the other. They differ in the weights:
+//! - [`kernel`]: the second term of Rong and Kisu (2010), eq. 3, which alone is the divergence of the heat flux
+//!   (errata), `a_ij = 2 V_i V_j F_ij` with `F = -(dW/dr)/r`.
+//! - [`balance`]: these, each times a positive factor, such that linear fields are exact at every point of every
+//!   cloud and up to the boundary, and quadratic ones nearly so.
+
+pub mod balance;
+mod basis;
+pub mod kernel;
+
+use std::sync::Arc;
+
+use krylov::Pattern;
+
+use crate::body::frame::Vector;
+use crate::cloud::Cloud;
+use crate::scene::Operator;
+
+pub use balance::Balance;
+
+/// Links between points, symmetric.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Links {
+    /// Which points each point is linked with.
+    pub pattern: Arc<Pattern>,
+    /// Weight of each link \[m^(D-2)\], in the order of the pattern.
+    pub weight: Vec<f64>,
+    /// Volume of each point \[m3; m2 in a plane scene\].
+    pub volume: Vec<f64>,
+    /// How the weights were balanced; none of the plain pair form.
+    pub balance: Option<Balance>,
+}
+
+/// Why weights cannot be had.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum OperatorError {
+    /// A point has no neighbour.
+    #[error("the point at ({}, {}, {}) m has no neighbour within the support of the kernel; a greater \"smoothing\" reaches further", .0[0], .0[1], .0[2])]
+    Alone(Vector),
+    /// No positive weights are exact.
+    #[error(
+        "the weights about ({}, {}, {}) m cannot be balanced: linear fields err by {residual:.1e} there; points \
+         are missing on one side of it, or the support is too small (\"smoothing\")", place[0], place[1], place[2]
+    )]
+    Unbalanced {
+        /// Where.
+        place: Vector,
+        /// Error of the gradient of a linear field, relative.
+        residual: f64,
+    },
+}
+
+/// Smoothing length over spacing of clouds that are no plain lattice, in a plane and in space.
+const SMOOTHING: [f64; 2] = [1.2, 1.05];
+/// Smoothing length over spacing of plain lattices: all points at less than two spacings are linked.
+const LATTICE: f64 = 1.0;
+
+impl Links {
+    /// The links of a cloud.
+    ///
+    /// # Errors
+    /// [`OperatorError`].
+    pub fn new(cloud: &Cloud, operator: Operator) -> Result<Self, OperatorError> {
+        match operator {
+            Operator::Pair(pair) => {
+                let (pattern, weight) = kernel::pair(cloud, pair.smoothing)?;
+                Ok(Self {
+                    pattern,
+                    weight,
+                    volume: cloud.share.clone(),
+                    balance: None,
+                })
+            }
+            Operator::Corrected(corrected) => {
+                let usual = if cloud.lattice {
+                    LATTICE
+                } else {
+                    SMOOTHING[cloud.dimensions - 2]
+                };
+                let smoothing = corrected.smoothing.unwrap_or(usual);
+                let (pattern, weight) = kernel::trial(cloud, smoothing)?;
+                balance::balanced(cloud, pattern, weight)
+            }
+        }
+    }
+
+    /// Number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.volume.len()
+    }
+
+    /// True without points.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.volume.is_empty()
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        let links = self.weight.len() as u64;
+        (8 + 4) * links + 16 * self.volume.len() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,250 @@
+//! What is written: frames of points, monitors, heat through the surface, the balance of heat.
+
+use artefact::{Frame, Precision, Record};
+use run::{Failure, Session};
+
+use crate::march::State;
+use crate::monitor::Monitor;
+use crate::scene::Scene;
+use crate::scene::method::Precision as Wanted;
+use crate::system::{Rates, System};
+
+/// An instant at which something is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// \[s\].
+    pub time: f64,
+    /// Whether the frame of points is written beside the records.
+    pub frame: bool,
+}
+
+impl Event {
+    /// Everything is written.
+    #[must_use]
+    pub fn whole(time: f64) -> Self {
+        Self { time, frame: true }
+    }
+}
+
+/// What is written, and what was there at the start.
+#[derive(Debug, Clone)]
+pub struct Output {
+    precision: Precision,
+    monitors: Vec<Monitor>,
+    events: Vec<Event>,
+    /// Temperatures at the start \[K\].
+    first: Vec<f64>,
+    outer: Vec<u8>,
+}
+
+impl Output {
+    /// The output of a scene whose points begin with the given temperatures.
+    #[must_use]
+    pub fn new(scene: &Scene, system: &System, temperature: &[f64]) -> Self {
+        let mut outer = vec![0; system.len()];
+        for patch in &system.cloud.patches {
+            outer[patch.point as usize] = 1;
+        }
+        Self {
+            precision: match scene.output.precision {
+                Wanted::F32 => Precision::F32,
+                Wanted::F64 => Precision::F64,
+            },
+            monitors: scene
+                .output
+                .monitors
+                .iter()
+                .map(|m| Monitor::new(&m.name, &m.place_m, &system.cloud))
+                .collect(),
+            events: events(scene),
+            first: temperature.to_vec(),
+            outer,
+        }
+    }
+
+    /// All instants, rising, from the start to the end.
+    #[must_use]
+    pub fn events(&self) -> Vec<Event> {
+        self.events.clone()
+    }
+
+    /// Writes what an event asks for.
+    ///
+    /// # Errors
+    /// When a value is no number or the disk refuses.
+    pub fn write(
+        &mut self,
+        system: &System,
+        (state, rates): (&State, &Rates),
+        event: Event,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        if event.frame {
+            session.frame("/points", event.time, &self.frame(system, state))?;
+        }
+        if !self.monitors.is_empty() {
+            let mut record = Record::new();
+            for monitor in &self.monitors {
+                record = record.with(&monitor.name, "K", monitor.temperature(&state.temperature));
+            }
+            session.record("/monitors", event.time, &record)?;
+        }
+        if !system.surface.is_insulated() {
+            session.record("/boundaries", event.time, &boundaries(system, state, rates))?;
+        }
+        session.record("/balance", event.time, &self.balance(system, state))
+    }
+
+    fn frame(&self, system: &System, state: &State) -> Frame {
+        let t = &state.temperature;
+        let conductivity = (0..system.len()).map(|i| system.conductivity(i, t[i]));
+        let mut frame = Frame::new(self.precision)
+            .positions(system.cloud.position.iter().copied())
+            .scalar("temperature", "K", t.iter().copied())
+            .scalar("conductivity", "W/(m K)", conductivity);
+        let unit = if system.cloud.dimensions == 2 {
+            "m2"
+        } else {
+            "m3"
+        };
+        frame = frame.scalar("volume", unit, system.links.volume.iter().copied());
+        if system.materials.len() > 1 {
+            frame = frame.flag("material", system.material.iter().map(|m| *m as u8));
+        }
+        frame.flag("boundary", self.outer.iter().copied())
+    }
+
+    /// Heat stored since the start, and the sum of what each point has stored or given up \[J\].
+    fn stored(&self, system: &System, state: &State) -> (f64, f64) {
+        let each = state
+            .temperature
+            .iter()
+            .zip(&self.first)
+            .zip(&system.capacity);
+        each.map(|((t, first), c)| c * (t - first))
+            .fold((0.0, 0.0), |(sum, gross), heat| {
+                (sum + heat, gross + heat.abs())
+            })
+    }
+
+    /// The balance of heat since the start.
+    fn balance(&self, system: &System, state: &State) -> Record {
+        let (stored, _) = self.stored(system, state);
+        let through: f64 = state.entries.iter().sum();
+        let mut record = Record::new()
+            .with("stored", "J", stored)
+            .with("boundaries", "J", through);
+        if system.source.is_some() {
+            record = record.with("source", "J", state.source);
+        }
+        record.with("imbalance", "J", stored - through - state.source)
+    }
+
+    /// Totals of a march.
+    pub fn close(&self, system: &System, state: &State, session: &mut Session) {
+        let (stored, moved) = self.stored(system, state);
+        let through: f64 = state.entries.iter().sum();
+        let gross: f64 = state.entries.iter().map(|e| e.abs()).sum();
+        let whole = moved.max(gross).max(state.source.abs());
+        let imbalance = (stored - through - state.source).abs();
+        session.closing("heat_stored", "J", stored);
+        session.closing("heat_boundaries", "J", through);
+        if system.source.is_some() {
+            session.closing("heat_source", "J", state.source);
+        }
+        let relative = if whole > 0.0 { imbalance / whole } else { 0.0 };
+        session.closing("energy_balance", "1", relative);
+    }
+
+    /// Totals of a steady state.
+    pub fn close_steady(&self, system: &System, rates: &Rates, session: &mut Session) {
+        let through: f64 = rates.entries.iter().sum();
+        let gross: f64 = rates.entries.iter().map(|e| e.abs()).sum::<f64>() + rates.source.abs();
+        for (name, heat) in system.surface.names.iter().zip(&rates.entries) {
+            session.closing(&format!("heat_rate {name}"), "W", *heat);
+        }
+        if system.source.is_some() {
+            session.closing("heat_rate source", "W", rates.source);
+        }
+        let relative = if gross > 0.0 {
+            (through + rates.source).abs() / gross
+        } else {
+            0.0
+        };
+        session.closing("energy_balance", "1", relative);
+    }
+}
+
+/// Area, heat rate, heat since the start and mean temperature of each entry of the surface.
+fn boundaries(system: &System, state: &State, rates: &Rates) -> Record {
+    let surface = &system.surface;
+    let mut mean = vec![(0.0, 0.0); surface.conditions.len()];
+    for film in &surface.films {
+        for entry in &film.entries {
+            let (sum, area) = &mut mean[*entry as usize];
+            *sum += film.area * state.temperature[film.point as usize];
+            *area += film.area;
+        }
+    }
+    for held in &surface.held {
+        let (sum, area) = &mut mean[held.entry as usize];
+        let own = system.cloud.spacing[held.point as usize];
+        *sum += own * state.temperature[held.point as usize];
+        *area += own;
+    }
+    let mut record = Record::new();
+    for (entry, name) in surface.names.iter().enumerate() {
+        let unit = if system.cloud.dimensions == 2 {
+            ("m", "W/m", "J/m")
+        } else {
+            ("m2", "W", "J")
+        };
+        let (sum, area) = mean[entry];
+        record = record
+            .with(&format!("{name}.area"), unit.0, surface.area[entry])
+            .with(&format!("{name}.heat_rate"), unit.1, rates.entries[entry])
+            .with(&format!("{name}.heat"), unit.2, state.entries[entry])
+            .with(&format!("{name}.temperature"), "K", sum / area);
+    }
+    record
+}
+
+/// Instants of frames and records: start, end, and what the scene asks for.
+fn events(scene: &Scene) -> Vec<Event> {
+    let Some(time) = &scene.time else {
+        return vec![Event::whole(0.0)];
+    };
+    let output = &scene.output;
+    let every = |interval: f64, frame: bool| {
+        let count = (time.end_s / interval * (1.0 + 1e-12)).floor() as u64;
+        (1..=count).map(move |n| Event {
+            time: n as f64 * interval,
+            frame,
+        })
+    };
+    let mut all = vec![Event::whole(0.0), Event::whole(time.end_s)];
+    all.extend(output.at_s.iter().map(|t| Event::whole(*t)));
+    all.extend(output.every_s.into_iter().flat_map(|s| every(s, true)));
+    all.extend(
+        output
+            .monitors_every_s
+            .into_iter()
+            .flat_map(|s| every(s, false)),
+    );
+    all.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * time.end_s;
+    let mut merged: Vec<Event> = Vec::new();
+    for event in all {
+        match merged.last_mut() {
+            Some(last) if near(last.time, event.time) => {
+                last.frame |= event.frame;
+                // The end is the end, whatever a multiple of the interval rounds to.
+                if near(time.end_s, event.time) {
+                    last.time = time.end_s;
+                }
+            }
+            _ => merged.push(event),
+        }
+    }
+    merged
+}

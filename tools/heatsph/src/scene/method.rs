@@ -1,0 +1,176 @@
+//! The operator, the march in time, the steady solve, and what is written.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The pair form of the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Pair {
+    /// Smoothing length over spacing.
+    #[serde(default = "pair_smoothing")]
+    #[schemars(range(min = 0.6, max = 3.0), extend("x-unit" = "1"))]
+    pub smoothing: f64,
+}
+
+fn pair_smoothing() -> f64 {
+    1.2
+}
+
+/// The balanced pair form.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Corrected {
+    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.2 in a
+    /// plane and 1.05 in space.
+    #[schemars(range(min = 0.8, max = 3.0), extend("x-unit" = "1"))]
+    pub smoothing: Option<f64>,
+}
+
+/// How the divergence of the heat flux is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Operator {
+    /// The pair form of Rong and Kisu (2010), eq. 3, with the errata: kernel weights as they are.
+    Pair(Pair),
+    /// Kernel weights corrected pair by pair, so that linear fields are exact on every cloud and up to the
+    /// boundary; heat passes from point to point without loss.
+    Corrected(Corrected),
+}
+
+impl Default for Operator {
+    fn default() -> Self {
+        Self::Corrected(Corrected::default())
+    }
+}
+
+/// What becomes of an explicit step beyond its limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Beyond {
+    /// It is divided into equal steps within the limit, and the record says so.
+    #[default]
+    Substep,
+    /// The scene is refused.
+    Refuse,
+}
+
+/// The explicit Euler method of the paper, first order in time.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Explicit {
+    /// Step; 0.9 of the limit when it is absent.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub step_s: Option<f64>,
+    /// What becomes of a step beyond the limit.
+    #[serde(default)]
+    pub beyond_limit: Beyond,
+}
+
+/// A method whose steps follow its error.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Controlled {
+    /// Largest error of a step over the range of temperature.
+    #[serde(default = "tolerance")]
+    #[schemars(range(min = 1e-12, max = 0.1), extend("x-unit" = "1"))]
+    pub tolerance: f64,
+    /// Steps of this length in place of error control.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub step_s: Option<f64>,
+}
+
+fn tolerance() -> f64 {
+    1e-5
+}
+
+impl Default for Controlled {
+    fn default() -> Self {
+        Self {
+            tolerance: tolerance(),
+            step_s: None,
+        }
+    }
+}
+
+/// The march in time: exactly one method.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// End of the run.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub end_s: f64,
+    /// Explicit Euler.
+    pub explicit: Option<Explicit>,
+    /// Runge-Kutta-Legendre of second order (Meyer, Balsara and Aslam 2014): explicit, with as many stages as
+    /// the step needs.
+    pub stabilised: Option<Controlled>,
+    /// Singly diagonally implicit Runge-Kutta of second order, L-stable (Alexander 1977).
+    pub implicit: Option<Controlled>,
+}
+
+/// The steady state, without a march.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Steady {
+    /// Largest residual over the heat that passes.
+    #[serde(default = "steady_tolerance")]
+    #[schemars(range(min = 1e-15, max = 1e-2), extend("x-unit" = "1"))]
+    pub tolerance: f64,
+    /// Most Newton steps.
+    #[serde(default = "newton_steps")]
+    #[schemars(range(min = 1))]
+    pub newton_steps: usize,
+}
+
+fn steady_tolerance() -> f64 {
+    1e-12
+}
+
+fn newton_steps() -> usize {
+    60
+}
+
+/// A place whose temperature is written at every output.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Monitor {
+    /// Name: a column of the table.
+    pub name: String,
+    /// Place.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub place_m: Vec<f64>,
+}
+
+/// Precision of the floats in frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// Four bytes.
+    #[default]
+    F32,
+    /// Eight bytes.
+    F64,
+}
+
+/// What is written, and when: start and end always.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Times of frames, rising.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "s"))]
+    pub at_s: Vec<f64>,
+    /// Interval of frames.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub every_s: Option<f64>,
+    /// Interval of monitors and balances; that of the frames when it is absent.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub monitors_every_s: Option<f64>,
+    /// Precision of the frames.
+    #[serde(default)]
+    pub precision: Precision,
+    /// Places whose temperature is written.
+    #[serde(default)]
+    pub monitors: Vec<Monitor>,
+}

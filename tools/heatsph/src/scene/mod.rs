@@ -1,0 +1,59 @@
+//! The scene: a body, its points and materials, what happens at its surface, and how it is solved.
+
+pub mod boundary;
+mod faults;
+
+pub mod material;
+pub mod method;
+pub mod points;
+pub mod shape;
+
+use run::property::Property;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use boundary::Boundary;
+pub use material::{Constituent, Contact, Material};
+pub use method::{Operator, Output, Steady, Time};
+pub use points::{Arrangement, Points};
+pub use shape::Shape;
+
+/// Heat conduction in a body.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Title of reports.
+    pub title: Option<String>,
+    /// 2: a plane body, per metre of depth; 3: a body in space.
+    #[schemars(range(min = 2, max = 3))]
+    pub dimensions: usize,
+    /// The body.
+    pub body: Shape,
+    /// How points fill it.
+    pub points: Points,
+    /// Materials.
+    #[schemars(length(min = 1))]
+    pub materials: Vec<Material>,
+    /// Resistances between materials.
+    #[serde(default)]
+    pub contacts: Vec<Contact>,
+    /// Temperature at the start, a function of x, y, z, r; the first guess of a steady solve.
+    #[schemars(extend("x-unit" = "K"))]
+    pub initial_temperature_k: Property,
+    /// Heat source, a function of x, y, z, r, T, t.
+    #[schemars(extend("x-unit" = "W/m3"))]
+    pub source_w_m3: Option<Property>,
+    /// What happens at the surface; insulated where nothing is said.
+    #[serde(default)]
+    pub boundaries: Vec<Boundary>,
+    /// How the divergence of the heat flux is formed.
+    #[serde(default)]
+    pub operator: Operator,
+    /// March in time; this or `steady`.
+    pub time: Option<Time>,
+    /// Steady state; this or `time`.
+    pub steady: Option<Steady>,
+    /// What is written.
+    #[serde(default)]
+    pub output: Output,
+}

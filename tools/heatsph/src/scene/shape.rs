@@ -1,0 +1,144 @@
+//! Shapes of bodies, regions and parts of faces, as a scene writes them.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A coordinate axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Along z.
+    Z,
+}
+
+impl Axis {
+    /// 0, 1, 2 for x, y, z.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// A box along the axes; faces `x-`, `x+`, `y-`, `y+`, `z-`, `z+`.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxShape {
+    /// Name, which its faces carry in front: `plate.x-`.
+    pub name: Option<String>,
+    /// Lower corner; two numbers in a plane scene.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub min_m: Vec<f64>,
+    /// Upper corner.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub max_m: Vec<f64>,
+}
+
+/// A round bar along an axis; faces `side`, `bottom`, `top`.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cylinder {
+    /// Name, which its faces carry in front.
+    pub name: Option<String>,
+    /// Centre of the bar.
+    #[schemars(extend("x-unit" = "m"), length(min = 3, max = 3))]
+    pub centre_m: Vec<f64>,
+    /// Direction of the bar.
+    #[serde(default = "along_z")]
+    pub axis: Axis,
+    /// Radius.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+    /// Length.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub length_m: f64,
+}
+
+fn along_z() -> Axis {
+    Axis::Z
+}
+
+/// A disc of a plane scene; face `rim`. In space: an endless bar along z.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Disc {
+    /// Name, which its faces carry in front.
+    pub name: Option<String>,
+    /// Centre.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub centre_m: Vec<f64>,
+    /// Radius.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+}
+
+/// A ball; face `surface`.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sphere {
+    /// Name, which its faces carry in front.
+    pub name: Option<String>,
+    /// Centre.
+    #[schemars(extend("x-unit" = "m"), length(min = 3, max = 3))]
+    pub centre_m: Vec<f64>,
+    /// Radius.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+}
+
+/// All that lies behind a plane; face `plane`.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HalfSpace {
+    /// Name, which its faces carry in front.
+    pub name: Option<String>,
+    /// A place on the plane.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub point_m: Vec<f64>,
+    /// Direction out of the half space.
+    #[schemars(extend("x-unit" = "1"), length(min = 2, max = 3))]
+    pub normal: Vec<f64>,
+}
+
+/// A shape turned about an axis through a place.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Turned {
+    /// What is turned.
+    pub shape: Box<Shape>,
+    /// Axis of the turn.
+    #[serde(default = "along_z")]
+    pub axis: Axis,
+    /// Angle, right-handed about the axis.
+    pub angle_deg: f64,
+    /// A place on the axis of the turn; the origin when it is absent.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub about_m: Option<Vec<f64>>,
+}
+
+/// A shape, named after what it is: `{"box": {...}}`.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// A box along the axes.
+    Box(BoxShape),
+    /// A round bar.
+    Cylinder(Cylinder),
+    /// A disc of a plane scene.
+    Disc(Disc),
+    /// A ball.
+    Sphere(Sphere),
+    /// All behind a plane.
+    HalfSpace(HalfSpace),
+    /// A shape turned.
+    Turned(Turned),
+    /// What is in any of the shapes.
+    Union(Vec<Shape>),
+    /// What is in all of the shapes.
+    Intersection(Vec<Shape>),
+    /// What is in the first shape and in none of the others.
+    Difference(Vec<Shape>),
+}

@@ -1,0 +1,412 @@
+//! The march from start to end: steps, outputs, checkpoints.
+
+use run::{Failure, Session};
+
+use crate::march::control::{even, suited, toward};
+use crate::march::explicit::Explicit;
+use crate::march::implicit::Implicit;
+use crate::march::stabilised::Stabilised;
+use crate::march::{Method, State, StepError};
+use crate::output::{Event, Output};
+use crate::scene::Scene;
+use crate::scene::method::{Beyond, Controlled};
+use crate::system::{Rates, System, extent};
+
+/// Tolerance of the stages of the implicit method where steps are given.
+const STAGE: f64 = 1e-10;
+/// Shortest step over the whole time.
+const SHORTEST: f64 = 1e-14;
+/// Part of the explicit limit that is used where no step is given.
+const LIMIT: f64 = 0.9;
+/// Shares of the progress bar.
+const SHARES: f64 = 1e4;
+
+/// How steps are chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Steps {
+    /// Part of the explicit limit.
+    Limited,
+    /// Given; what becomes of one beyond the limit.
+    Given(f64, Beyond),
+    /// By the error of a step over the range of temperature.
+    Controlled(f64),
+}
+
+/// What of the march changes from step to step.
+#[derive(Debug, Clone, PartialEq)]
+struct Pace {
+    /// Steps taken.
+    steps: u64,
+    /// Steps refused by their error.
+    rejected: u64,
+    /// The next step \[s\].
+    step: f64,
+    /// Range of temperature so far \[K\].
+    range: f64,
+    /// Number of the next output.
+    next: usize,
+    /// Least explicit limit met \[s\].
+    limit: f64,
+    /// Greatest and least step \[s\].
+    taken: [f64; 2],
+    substepped: bool,
+}
+
+/// The method of a scene and how its steps are chosen; implicit with error control where the scene names none.
+#[must_use]
+pub fn method(scene: &Scene, system: &System) -> (Box<dyn Method>, Steps) {
+    let time = scene.time.as_ref();
+    if let Some(explicit) = time.and_then(|t| t.explicit) {
+        let steps = explicit.step_s.map_or(Steps::Limited, |step| {
+            Steps::Given(step, explicit.beyond_limit)
+        });
+        return (Box::new(Explicit::default()), steps);
+    }
+    let chosen = |controlled: Controlled| {
+        controlled
+            .step_s
+            .map_or(Steps::Controlled(controlled.tolerance), |step| {
+                Steps::Given(step, Beyond::Substep)
+            })
+    };
+    if let Some(stabilised) = time.and_then(|t| t.stabilised) {
+        return (Box::new(Stabilised::default()), chosen(stabilised));
+    }
+    let implicit = time.and_then(|t| t.implicit).unwrap_or_default();
+    let steps = chosen(implicit);
+    let (residual, guard) = match steps {
+        Steps::Controlled(tolerance) => ((1e-3 * tolerance).max(1e-12), false),
+        _ => (STAGE, true),
+    };
+    (Box::new(Implicit::new(system, residual, guard)), steps)
+}
+
+/// A march under way.
+struct March<'a> {
+    system: &'a mut System,
+    method: Box<dyn Method>,
+    steps: Steps,
+    state: State,
+    rates: Rates,
+    pace: Pace,
+    end: f64,
+}
+
+/// Marches to the end.
+///
+/// # Errors
+/// When the numerics diverge, the user interrupts or the disk refuses.
+pub fn march(
+    scene: &Scene,
+    system: &mut System,
+    temperature: Vec<f64>,
+    session: &mut Session,
+) -> Result<(), Failure> {
+    let Some(time) = &scene.time else {
+        return Ok(());
+    };
+    let (method, steps) = method(scene, system);
+    let mut output = Output::new(scene, system, &temperature);
+    let mut march = March {
+        state: State::new(temperature, system.surface.conditions.len()),
+        system,
+        method,
+        steps,
+        rates: Rates::default(),
+        pace: Pace {
+            steps: 0,
+            rejected: 0,
+            step: 0.0,
+            range: 0.0,
+            next: 0,
+            limit: f64::INFINITY,
+            taken: [0.0, f64::INFINITY],
+            substepped: false,
+        },
+        end: time.end_s,
+    };
+    let events = output.events();
+    let resumed = session.restored();
+    let fresh = resumed.is_none();
+    if let Some(mut checkpoint) = resumed {
+        march.restore(&mut checkpoint)?;
+    }
+    march.begin(session, fresh)?;
+    if fresh {
+        march.write(&mut output, events[0], session)?;
+    }
+    while march.pace.next < events.len() {
+        let event = events[march.pace.next];
+        march.toward(event, session)?;
+        march.write(&mut output, event, session)?;
+        session.keep(|checkpoint| march.save(checkpoint))?;
+    }
+    march.close(&output, session);
+    Ok(())
+}
+
+impl March<'_> {
+    /// Rates at the start, the scale of errors and the first step.
+    fn begin(&mut self, session: &mut Session, fresh: bool) -> Result<(), Failure> {
+        self.evaluate()?;
+        let limit = self.system.explicit_limit(&self.rates);
+        if fresh {
+            let (low, high) = self.system.surface.extent(extent(&self.state.temperature));
+            let skin = self.system.skin(&self.state.temperature, &self.rates);
+            self.pace.range = (high - low).max(skin);
+            self.pace.limit = limit;
+            self.pace.step = match self.steps {
+                Steps::Given(step, _) => step,
+                _ => LIMIT * limit.min(self.end),
+            };
+            session.limit("step_explicit", limit, "s");
+        }
+        Ok(())
+    }
+
+    /// Rates of the state; tables are widened where they end.
+    fn evaluate(&mut self) -> Result<(), Failure> {
+        let reached = self.system.reach(&self.state.temperature).map(|_| ());
+        reached
+            .and_then(|()| {
+                self.system
+                    .rates(self.state.time, &self.state.temperature, &mut self.rates)
+            })
+            .map_err(|error| self.diverged("property", &error.to_string(), None))
+    }
+
+    /// Steps until the event.
+    fn toward(&mut self, event: Event, session: &mut Session) -> Result<(), Failure> {
+        while self.state.time < event.time {
+            let step = self.length(event.time, session)?;
+            self.take(step, event.time, session)?;
+            let done = (SHARES * self.state.time / self.end) as u64;
+            let (state, rates, pace) = (&self.state, &self.rates, &self.pace);
+            session.progress(done.min(SHARES as u64), SHARES as u64, || {
+                let (low, high) = extent(&state.temperature);
+                vec![
+                    ("time", state.time, "s"),
+                    ("step", pace.taken[0], "s"),
+                    ("least", low, "K"),
+                    ("greatest", high, "K"),
+                    (
+                        "heat",
+                        rates.entries.iter().sum::<f64>() + rates.source,
+                        "W",
+                    ),
+                ]
+            });
+            session.steps(self.pace.steps);
+            if self.state.time < event.time {
+                session.keep(|checkpoint| self.save(checkpoint))?;
+            }
+        }
+        self.pace.next += 1;
+        Ok(())
+    }
+
+    /// The length of the next step \[s\].
+    fn length(&mut self, until: f64, session: &mut Session) -> Result<f64, Failure> {
+        let time = self.state.time;
+        let longest = self.method.longest(self.system, &self.rates);
+        self.pace.limit = self.pace.limit.min(self.system.explicit_limit(&self.rates));
+        match self.steps {
+            Steps::Limited => Ok(even(time, until, LIMIT * longest)),
+            Steps::Controlled(_) => Ok(toward(time, until, self.pace.step.min(longest))),
+            Steps::Given(step, beyond) => {
+                let step = even(time, until, step);
+                if step <= longest * (1.0 + 1e-9) {
+                    return Ok(step);
+                }
+                if beyond == Beyond::Refuse {
+                    let what = format!(
+                        "a step of {step:.3e} s is beyond the explicit limit of {longest:.3e} s"
+                    );
+                    return Err(self.diverged("step", &what, None));
+                }
+                let parts = (step / longest).ceil();
+                if !self.pace.substepped {
+                    self.pace.substepped = true;
+                    session.substepped();
+                    session.note(format!(
+                        "steps of {step:.3e} s are beyond the limit of {longest:.3e} s: they are divided by {parts} and more"
+                    ));
+                }
+                Ok(step / parts)
+            }
+        }
+    }
+
+    /// Takes a step; one that errs too much is taken again, shorter.
+    fn take(&mut self, step: f64, until: f64, session: &mut Session) -> Result<(), Failure> {
+        let (state, rates) = (self.state.clone(), self.rates.clone());
+        let mut step = step;
+        loop {
+            let last = (until - state.time - step).abs() <= 1e-12 * until;
+            let taken = session.timed("march", || {
+                let (state, rates) = (&mut self.state, &mut self.rates);
+                self.method.advance(self.system, state, rates, step)
+            });
+            let verdict = self.judge(taken, step)?;
+            if let Some(shorter) = verdict {
+                self.state.clone_from(&state);
+                self.rates.clone_from(&rates);
+                if shorter < SHORTEST * self.end {
+                    return Err(self.diverged("step", "no step is short enough", None));
+                }
+                if shorter < step {
+                    self.pace.rejected += 1;
+                } else {
+                    // The tables have grown: the same step again, from rates of the wider tables.
+                    self.evaluate()?;
+                }
+                step = shorter;
+                continue;
+            }
+            if last {
+                self.state.time = until;
+            }
+            self.pace.steps += 1;
+            self.pace.taken = [self.pace.taken[0].max(step), self.pace.taken[1].min(step)];
+            let (low, high) = extent(&self.state.temperature);
+            self.pace.range = self.pace.range.max(high - low);
+            return Ok(());
+        }
+    }
+
+    /// Whether a step is good: none, or the step to take instead \[s\].
+    fn judge(&mut self, taken: Result<f64, StepError>, step: f64) -> Result<Option<f64>, Failure> {
+        let controlled = matches!(self.steps, Steps::Controlled(_));
+        let error = match taken {
+            Ok(error) => error,
+            Err(StepError::Solve(_)) if controlled => return Ok(Some(0.25 * step)),
+            Err(failed) => return Err(self.diverged("temperature", &failed.to_string(), None)),
+        };
+        if let Some(i) = self.state.lost() {
+            if controlled {
+                return Ok(Some(0.25 * step));
+            }
+            return Err(self.diverged("temperature [K]", "no number any more", Some(i)));
+        }
+        let grown = self.system.reach(&self.state.temperature);
+        if grown.map_err(|error| self.diverged("property", &error.to_string(), None))? {
+            return Ok(Some(step));
+        }
+        if let Steps::Controlled(tolerance) = self.steps {
+            let (low, high) = extent(&self.state.temperature);
+            let ratio =
+                error / (tolerance * self.pace.range.max(high - low).max(f64::MIN_POSITIVE));
+            if ratio.is_nan() {
+                return Ok(Some(0.25 * step));
+            }
+            let next = suited(step, ratio);
+            if ratio > 1.0 {
+                return Ok(Some(next));
+            }
+            // A step that was cut short by an output says little of the next.
+            self.pace.step = if step < 0.5 * self.pace.step {
+                next.max(self.pace.step)
+            } else {
+                next
+            };
+        }
+        Ok(None)
+    }
+
+    fn write(
+        &mut self,
+        output: &mut Output,
+        event: Event,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        output.write(self.system, (&self.state, &self.rates), event, session)
+    }
+
+    fn diverged(&self, quantity: &str, what: &str, point: Option<usize>) -> Failure {
+        let place = match point {
+            Some(i) => {
+                let [x, y, z] = self.system.place(i);
+                format!("point {i} at ({x:.4e}, {y:.4e}, {z:.4e}) m")
+            }
+            None => "all points".to_owned(),
+        };
+        Failure::Diverged {
+            step: self.pace.steps + 1,
+            time_s: self.state.time,
+            place,
+            quantity: quantity.to_owned(),
+            what: what.to_owned(),
+        }
+    }
+
+    fn close(&self, output: &Output, session: &mut Session) {
+        session.steps(self.pace.steps);
+        session.limit("step_explicit_least", self.pace.limit, "s");
+        session.closing("step_greatest", "s", self.pace.taken[0]);
+        session.closing("step_least", "s", self.pace.taken[1]);
+        if matches!(self.steps, Steps::Controlled(_)) {
+            session.closing("steps_rejected", "1", self.pace.rejected as f64);
+        }
+        for (name, value) in self.method.report() {
+            session.closing(name, "1", value);
+        }
+        output.close(self.system, &self.state, session);
+    }
+
+    fn save(&self, checkpoint: &mut artefact::Checkpoint) -> artefact::Result<()> {
+        checkpoint.put_f64("time", &[self.state.time, self.state.source]);
+        checkpoint.put_f64("temperature", &self.state.temperature);
+        checkpoint.put_f64("entries", &self.state.entries);
+        checkpoint.put_f64(
+            "pace",
+            &[
+                self.pace.step,
+                self.pace.range,
+                self.pace.limit,
+                self.pace.taken[0],
+                self.pace.taken[1],
+            ],
+        );
+        checkpoint.put_u64(
+            "count",
+            &[
+                self.pace.steps,
+                self.pace.rejected,
+                self.pace.next as u64,
+                u64::from(self.pace.substepped),
+            ],
+        );
+        Ok(())
+    }
+
+    fn restore(&mut self, checkpoint: &mut artefact::Checkpoint) -> Result<(), Failure> {
+        let (time, pace, count) = (
+            checkpoint.f64("time")?,
+            checkpoint.f64("pace")?,
+            checkpoint.u64("count")?,
+        );
+        self.state.temperature = checkpoint.f64("temperature")?;
+        self.state.entries = checkpoint.f64("entries")?;
+        if let (
+            [time, source],
+            [step, range, limit, most, least],
+            [steps, rejected, next, substepped],
+        ) = (&time[..], &pace[..], &count[..])
+        {
+            (self.state.time, self.state.source) = (*time, *source);
+            self.pace = Pace {
+                steps: *steps,
+                rejected: *rejected,
+                step: *step,
+                range: *range,
+                next: *next as usize,
+                limit: *limit,
+                taken: [*most, *least],
+                substepped: *substepped > 0,
+            };
+            Ok(())
+        } else {
+            Err(Failure::Other("the checkpoint lacks a part".to_owned()))
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! Linear and Newton solves of `shift C (T - T0) = W(T)`.
+//!
+//! A stage of the implicit march has a shift of one over its step; the steady state has none.
+
+use krylov::{
+    Aggregation, Jacobi, Krylov, Precondition, Sparse, Workspace, conjugate_gradient, gmres,
+};
+use run::property::OutOfRange;
+
+use crate::system::{Rates, System};
+
+/// Own part of the diagonal above which its inverse alone is a good preconditioner.
+const DOMINANT: f64 = 0.05;
+/// Columns of GMRES between restarts.
+const RESTART: usize = 40;
+/// Iterations of a linear solve.
+const ITERATIONS: usize = 500;
+/// Halvings of a Newton step.
+const HALVINGS: usize = 12;
+/// Iterations for a temperature from a rise of the integral of conductivity.
+const INVERSION: usize = 60;
+
+/// Why a solve failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// A property has no value.
+    #[error(transparent)]
+    Property(#[from] OutOfRange),
+    /// The linear solver failed.
+    #[error(transparent)]
+    Linear(#[from] krylov::Error),
+    /// Newton's method did not converge.
+    #[error(
+        "Newton's method stands at a residual of {residual:.1e} of the heat that passes after {steps} steps"
+    )]
+    NotConverged {
+        /// Residual over the heat that passes.
+        residual: f64,
+        /// Steps done.
+        steps: usize,
+    },
+}
+
+/// What is to be solved.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    /// One over a time \[1/s\]; 0 for the steady state.
+    pub shift: f64,
+    /// T0 \[K\].
+    pub from: &'a [f64],
+    /// Time at which properties are taken \[s\].
+    pub time: f64,
+}
+
+/// When a solve is done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// Largest residual over the heat that passes.
+    pub residual: f64,
+    /// Most Newton steps.
+    pub steps: usize,
+}
+
+/// How a solve went.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Effort {
+    /// Newton steps.
+    pub newton: usize,
+    /// Iterations of the linear solver.
+    pub iterations: usize,
+    /// Residual over the heat that passes.
+    pub residual: f64,
+}
+
+/// The preconditioner in use.
+#[derive(Debug)]
+enum Near {
+    Nothing,
+    Diagonal(Jacobi),
+    Grid(Box<Aggregation>),
+}
+
+impl Precondition for Near {
+    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
+        match self {
+            Self::Nothing => out.copy_from_slice(rhs),
+            Self::Diagonal(jacobi) => jacobi.precondition(rhs, out),
+            Self::Grid(grid) => grid.precondition(rhs, out),
+        }
+    }
+}
+
+/// Matrix, preconditioner and scratch columns, kept between solves.
+#[derive(Debug)]
+pub struct Solver {
+    matrix: Sparse,
+    near: Near,
+    work: Workspace,
+    symmetric: bool,
+    residual: Vec<f64>,
+    change: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl Solver {
+    /// A solver for a system.
+    #[must_use]
+    pub fn new(system: &System) -> Self {
+        Self {
+            matrix: system.matrix(),
+            near: Near::Nothing,
+            work: Workspace::default(),
+            symmetric: system.conduction().is_fixed(),
+            residual: Vec::new(),
+            change: Vec::new(),
+            trial: Vec::new(),
+        }
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        let matrix = 8 * (self.matrix.values().len() + self.matrix.diagonal().len());
+        let near = match &self.near {
+            Near::Grid(grid) => grid.bytes(),
+            _ => 0,
+        };
+        (matrix + near) as u64
+    }
+
+    /// Takes the matrix of a problem at `rates`, and what it is preconditioned with.
+    fn linearise(
+        &mut self,
+        system: &System,
+        problem: Problem<'_>,
+        (temperature, rates): (&[f64], &Rates),
+    ) -> Result<(), SolveError> {
+        system.fill(
+            &mut self.matrix,
+            problem.shift,
+            (problem.time, temperature, rates),
+        )?;
+        let dominance = |i: usize| problem.shift * system.capacity[i] / self.matrix.diagonal()[i];
+        let least = (0..system.len())
+            .filter(|i| !system.is_held(*i))
+            .map(dominance)
+            .fold(f64::INFINITY, f64::min);
+        self.near = if least > DOMINANT {
+            Near::Diagonal(Jacobi::new(&self.matrix)?)
+        } else {
+            match std::mem::replace(&mut self.near, Near::Nothing) {
+                Near::Grid(mut grid) => {
+                    grid.renew(&self.matrix)?;
+                    Near::Grid(grid)
+                }
+                _ => Near::Grid(Box::new(Aggregation::new(&self.matrix, self.symmetric)?)),
+            }
+        };
+        Ok(())
+    }
+
+    /// Forgets the preconditioner, so that what follows does not depend on what came before.
+    pub fn forget(&mut self) {
+        self.near = Near::Nothing;
+    }
+
+    /// `matrix x = rhs` from a first guess of zero; gives the iterations.
+    fn linear(&mut self, rhs: &[f64], reduction: f64) -> Result<usize, SolveError> {
+        self.change.clear();
+        self.change.resize(rhs.len(), 0.0);
+        let rule = Krylov {
+            reduction,
+            floor: 0.0,
+            iterations: ITERATIONS,
+        };
+        let (matrix, near, work) = (&self.matrix, &mut self.near, &mut self.work);
+        let outcome = if self.symmetric {
+            conjugate_gradient(matrix, rhs, &mut self.change, near, rule, work)?
+        } else {
+            gmres(matrix, rhs, &mut self.change, near, (rule, RESTART), work)?
+        };
+        Ok(outcome.iterations)
+    }
+
+    /// Filters `values` \[W\] by the matrix of the last solve: what a stiff part would become within its step.
+    ///
+    /// # Errors
+    /// As the linear solver.
+    pub fn filter(&mut self, values: &[f64], reduction: f64) -> Result<&[f64], SolveError> {
+        self.linear(values, reduction)?;
+        Ok(&self.change)
+    }
+
+    /// Residual `W - shift C (T - T0)` of free points; returns its norm and that of the heat that passes.
+    fn weigh(
+        &mut self,
+        system: &System,
+        problem: Problem<'_>,
+        temperature: &[f64],
+        rates: &Rates,
+    ) -> (f64, f64) {
+        self.residual.resize(system.len(), 0.0);
+        let (mut norm, mut passing) = (0.0, 0.0);
+        for (i, residual) in self.residual.iter_mut().enumerate() {
+            if system.is_held(i) {
+                *residual = 0.0;
+                continue;
+            }
+            let stored = problem.shift * system.capacity[i] * (temperature[i] - problem.from[i]);
+            *residual = rates.heat[i] - stored;
+            norm += *residual * *residual;
+            passing += stored * stored;
+        }
+        for entry in &rates.entries {
+            passing += entry * entry;
+        }
+        passing += rates.source * rates.source;
+        (norm.sqrt(), passing.sqrt())
+    }
+
+    /// Solves a problem; `temperature` is the first guess and becomes the solution, `rates` are those of it.
+    /// The temperatures of held points must stand.
+    ///
+    /// # Errors
+    /// [`SolveError`].
+    pub fn newton(
+        &mut self,
+        system: &System,
+        problem: Problem<'_>,
+        (temperature, rates): (&mut Vec<f64>, &mut Rates),
+        goal: Goal,
+    ) -> Result<Effort, SolveError> {
+        let mut effort = Effort::default();
+        system.rates(problem.time, temperature, rates)?;
+        let (mut norm, mut passing) = self.weigh(system, problem, temperature, rates);
+        // The heat that passed at the start stands for scenes in which nothing passes at the end.
+        let first = norm;
+        let linear = system.is_linear();
+        for _ in 0..goal.steps {
+            let scale = passing.max(1e-3 * first).max(f64::MIN_POSITIVE);
+            effort.residual = norm / scale;
+            if norm <= goal.residual * scale || norm <= 0.0 {
+                return Ok(effort);
+            }
+            self.linearise(system, problem, (temperature, rates))?;
+            let reduction = if linear {
+                (0.1 * goal.residual * scale / norm).clamp(1e-14, 0.1)
+            } else {
+                (0.1 * goal.residual * scale / norm).clamp(1e-4, 0.1)
+            };
+            let right = std::mem::take(&mut self.residual);
+            let solved = self.linear(&right, reduction);
+            self.residual = right;
+            effort.iterations += solved?;
+            effort.newton += 1;
+            let before = norm;
+            (norm, passing) = self.step(system, problem, (temperature, rates), norm)?;
+            if norm >= before * (1.0 - 1e-12) {
+                break;
+            }
+        }
+        let scale = passing.max(1e-3 * first).max(f64::MIN_POSITIVE);
+        effort.residual = norm / scale;
+        // What rounding leaves is no failure.
+        if norm <= goal.residual.max(1e-9) * scale {
+            Ok(effort)
+        } else {
+            Err(SolveError::NotConverged {
+                residual: effort.residual,
+                steps: effort.newton,
+            })
+        }
+    }
+
+    /// A Newton step, halved until the residual falls (Armijo 1966).
+    fn step(
+        &mut self,
+        system: &System,
+        problem: Problem<'_>,
+        (temperature, rates): (&mut Vec<f64>, &mut Rates),
+        norm: f64,
+    ) -> Result<(f64, f64), SolveError> {
+        let mut length = 1.0;
+        for _ in 0..=HALVINGS {
+            self.trial.clear();
+            for (i, t) in temperature.iter().enumerate() {
+                let change = length * self.change[i];
+                self.trial.push(if system.is_held(i) || change == 0.0 {
+                    *t
+                } else {
+                    moved(system, i, *t, change)
+                });
+            }
+            let trial = std::mem::take(&mut self.trial);
+            let evaluated = system.rates(problem.time, &trial, rates);
+            let weighed = evaluated.map(|()| self.weigh(system, problem, &trial, rates));
+            self.trial = trial;
+            match weighed {
+                Ok((new, passing)) if new <= (1.0 - 1e-4 * length) * norm => {
+                    std::mem::swap(temperature, &mut self.trial);
+                    return Ok((new, passing));
+                }
+                Err(error) if length < 1e-3 => return Err(error.into()),
+                _ => length *= 0.5,
+            }
+        }
+        // Nothing better was found: stay.
+        system.rates(problem.time, temperature, rates)?;
+        Ok(self.weigh(system, problem, temperature, rates))
+    }
+}
+
+/// The temperature of point `i` after a change that is a change of the integral of conductivity: with it, the
+/// steady state of any k(T) is a linear problem.
+fn moved(system: &System, i: usize, from: f64, change: f64) -> f64 {
+    if system.conduction().is_fixed() {
+        return from + change;
+    }
+    let rise = system.conductivity(i, from) * change;
+    let mut to = from + change;
+    for _ in 0..INVERSION {
+        let error = rise - system.mean_conductivity(i, from, to) * (to - from);
+        let step = error / system.conductivity(i, to);
+        to += step;
+        if step.abs() <= 1e-13 * (to.abs() + from.abs()) {
+            break;
+        }
+    }
+    if to.is_finite() { to } else { from + change }
+}

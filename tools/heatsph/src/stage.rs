@@ -1,0 +1,138 @@
+//! The program: plan, run, record.
+
+use std::sync::Mutex;
+use std::time::Instant;
+
+use artefact::Version;
+use run::{Estimate, Failure, Inputs, Plan, Session, Tool};
+
+use crate::assemble;
+use crate::march::State;
+use crate::scene::{Operator, Scene};
+use crate::system::{Rates, System};
+use crate::{simulate, steady};
+
+/// Heat conduction by smoothed particles.
+#[derive(Debug)]
+pub struct HeatSph;
+
+/// What the plan of a scene has put together, for the run that follows it.
+static READY: Mutex<Option<(Scene, System, Vec<f64>)>> = Mutex::new(None);
+
+/// The system of a scene: that of its plan, if there was one.
+fn ready(scene: &Scene) -> Result<(System, Vec<f64>), Failure> {
+    let kept = READY.lock().ok().and_then(|mut ready| ready.take());
+    match kept {
+        Some((planned, system, temperature)) if planned == *scene => Ok((system, temperature)),
+        _ => Ok(assemble::system(scene)?),
+    }
+}
+
+impl Tool for HeatSph {
+    const NAME: &'static str = "heatsph";
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+    const ABOUT: &'static str = "Heat conduction by smoothed particles, with a conductivity that varies with place and temperature.";
+    const EXAMPLE: &'static str = "target/release/heatsph run pipelines/verify/heat-robin-square/scene.json --out build/heat.mcap";
+    const SCENE_KIND: &'static str = "heatsph.scene";
+    const ARTEFACT_KIND: &'static str = "point-fields";
+    const ARTEFACT_VERSION: Version = Version::new(1, 0);
+
+    type Scene = Scene;
+
+    fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
+        let (system, temperature) = assemble::system(scene)?;
+        let mut rates = Rates::default();
+        let evaluated = system.rates(0.0, &temperature, &mut rates);
+        evaluated.map_err(|error| Failure::Other(error.to_string()))?;
+        let plan = shown(scene, &system, &rates);
+        if let Ok(mut ready) = READY.lock() {
+            *ready = Some((scene.clone(), system, temperature));
+        }
+        Ok(plan)
+    }
+
+    fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
+        let Some(time) = &scene.time else {
+            return Ok(None);
+        };
+        let (system, temperature) = ready(scene)?;
+        let (mut method, steps) = simulate::method(scene, &system);
+        let mut rates = Rates::default();
+        let mut state = State::new(temperature, system.surface.conditions.len());
+        let failed = |error: String| Failure::Other(error);
+        system
+            .rates(0.0, &state.temperature, &mut rates)
+            .map_err(|e| failed(e.to_string()))?;
+        let longest = method.longest(&system, &rates);
+        let step = match steps {
+            simulate::Steps::Controlled(_) => return Ok(None),
+            simulate::Steps::Limited => longest,
+            simulate::Steps::Given(step, _) => step.min(longest),
+        };
+        let began = Instant::now();
+        let taken = method.advance(&system, &mut state, &mut rates, step.min(time.end_s));
+        taken.map_err(|e| failed(e.to_string()))?;
+        let each = began.elapsed().as_secs_f64();
+        Ok(Some(Estimate {
+            seconds: each * (time.end_s / step).ceil(),
+            basis: format!("{:.2} ms a step, as the first", 1e3 * each),
+        }))
+    }
+
+    fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
+        let (mut system, temperature) = session.timed("assemble", || ready(scene))?;
+        if let Some(balance) = system.links.balance {
+            session.closing("balance_newton_steps", "1", balance.steps as f64);
+            session.closing("balance_iterations", "1", balance.iterations as f64);
+            session.closing("balance_linear_error", "1", balance.linear);
+        }
+        match scene.steady {
+            Some(rule) => steady::solve(scene, rule, (&mut system, temperature), session),
+            None => simulate::march(scene, &mut system, temperature, session),
+        }
+    }
+}
+
+fn shown(scene: &Scene, system: &System, rates: &Rates) -> Plan {
+    let links = system.links.weight.len() as u64;
+    let mut plan = Plan::new()
+        .stage("assemble")
+        .count("points", system.len() as u64)
+        .count("links", links / 2)
+        .count("surface patches", system.cloud.patches.len() as u64)
+        .column("temperature", "K")
+        .column("conductivity", "W/(m K)")
+        .column("volume", if scene.dimensions == 2 { "m2" } else { "m3" })
+        .memory("links", system.links.bytes())
+        .memory("conductance of links", system.conduction().bytes());
+    plan = match scene.steady {
+        Some(_) => plan
+            .stage("solve")
+            .left_out("march in time", "the scene asks for the steady state"),
+        None => plan
+            .stage("march")
+            .limit("step_explicit", system.explicit_limit(rates), "s"),
+    };
+    if let Operator::Pair(_) = scene.operator {
+        plan = plan.left_out(
+            "balance of weights",
+            "the scene asks for the plain pair form",
+        );
+    }
+    if system.source.is_none() {
+        plan = plan.left_out("heat source", "no key 'source_w_m3'");
+    }
+    if system.conduction().is_fixed() {
+        plan = plan.left_out("conductivity of temperature", "no material has one");
+    }
+    if scene.contacts.is_empty() && scene.materials.len() > 1 {
+        plan = plan.left_out("contact resistance", "no key 'contacts'");
+    }
+    if scene.materials.len() == 1 {
+        plan = plan.left_out("interfaces", "one material");
+    }
+    if system.surface.is_insulated() {
+        plan = plan.note("the whole surface is insulated");
+    }
+    plan
+}

@@ -1,0 +1,393 @@
+//! The equations of all points: capacity times rate of temperature equals heat.
+//!
+//! ```text
+//! C_i dT_i/dt = sum_j a_ij k_ij (T_j - T_i) + heat of its patches + Q V_i = W_i
+//! ```
+
+pub mod conduction;
+mod matrix;
+
+use rayon::prelude::*;
+use run::property::{Curve, OutOfRange};
+
+use crate::body::Body;
+use crate::body::frame::Vector;
+use crate::boundary::{Film, Passed, Surface};
+use crate::cloud::Cloud;
+use crate::material::{Law, Materials, arguments};
+use crate::operator::Links;
+use conduction::{Conduction, Ends, Node};
+
+/// Points that one task gathers.
+const ROWS: usize = 256;
+
+/// A body ready to conduct.
+#[derive(Debug, Clone, PartialEq)]
+pub struct System {
+    /// Points.
+    pub cloud: Cloud,
+    /// Links.
+    pub links: Links,
+    /// Materials.
+    pub materials: Materials,
+    /// Surface.
+    pub surface: Surface,
+    /// Heat capacity of each point's cell \[J/K\].
+    pub capacity: Vec<f64>,
+    /// Material of each point.
+    pub material: Vec<u32>,
+    /// Heat source \[W/m3\].
+    pub source: Option<Curve>,
+    conduction: Conduction,
+    /// First film of each point.
+    films: Vec<u32>,
+    /// Whether a point's temperature is prescribed.
+    held: Vec<bool>,
+}
+
+/// Heat at an instant.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Rates {
+    /// Heat into each point \[W\].
+    pub heat: Vec<f64>,
+    /// Sum of the conductances of each point, and of its films' slopes \[W/K\].
+    pub stiffness: Vec<f64>,
+    /// Heat through each entry of the surface \[W\]; of prescribed temperatures what their points pass on.
+    pub entries: Vec<f64>,
+    /// Heat of the source \[W\].
+    pub source: f64,
+    nodes: Vec<Node>,
+    passed: Vec<Passed>,
+}
+
+impl System {
+    /// Puts a system together.
+    ///
+    /// # Errors
+    /// Where a property has no value.
+    pub fn new(
+        (cloud, links): (Cloud, Links),
+        (materials, surface): (Materials, Surface),
+        source: Option<Curve>,
+        body: &Body,
+    ) -> Result<Self, OutOfRange> {
+        let conduction = Conduction::new(&materials, &cloud.position, &links)?;
+        let capacity = materials.capacities(&cloud, body, &links.volume)?;
+        let material = cloud
+            .position
+            .iter()
+            .map(|x| materials.at(*x) as u32)
+            .collect();
+        let mut films = vec![0];
+        let mut rest = surface.films.as_slice();
+        for i in 0..links.len() {
+            let own = rest.partition_point(|film| film.point as usize <= i);
+            rest = &rest[own..];
+            films.push(films[i] + own as u32);
+        }
+        let mut held = vec![false; links.len()];
+        surface
+            .held
+            .iter()
+            .for_each(|h| held[h.point as usize] = true);
+        Ok(Self {
+            cloud,
+            links,
+            materials,
+            surface,
+            capacity,
+            material,
+            source,
+            conduction,
+            films,
+            held,
+        })
+    }
+
+    /// Number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.links.len()
+    }
+
+    /// True without points.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.links.is_empty()
+    }
+
+    /// Whether the temperature of point `i` is prescribed.
+    #[must_use]
+    pub fn is_held(&self, i: usize) -> bool {
+        self.held[i]
+    }
+
+    /// Whether heat is linear in the temperatures and the matrix symmetric.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        let radiates =
+            |c: &crate::boundary::Condition| matches!(c, crate::boundary::Condition::Radiation(..));
+        self.conduction.is_fixed()
+            && self.source.is_none()
+            && !self.surface.conditions.iter().any(radiates)
+    }
+
+    /// How links conduct.
+    #[must_use]
+    pub fn conduction(&self) -> &Conduction {
+        &self.conduction
+    }
+
+    /// Gives the held points their temperatures at `time`.
+    ///
+    /// # Errors
+    /// Where a property has no value.
+    pub fn hold(&self, temperature: &mut [f64], time: f64) -> Result<(), OutOfRange> {
+        for held in &self.surface.held {
+            let i = held.point as usize;
+            temperature[i] = self
+                .surface
+                .prescribed(*held, self.cloud.position[i], time)?;
+        }
+        Ok(())
+    }
+
+    /// Conductivity at a point \[W/(m K)\].
+    #[must_use]
+    pub fn conductivity(&self, i: usize, temperature: f64) -> f64 {
+        let (material, x) = (self.material[i] as usize, self.cloud.position[i]);
+        self.materials
+            .conductivity(material, x, temperature)
+            .unwrap_or(f64::NAN)
+    }
+
+    /// Mean conductivity at a point between two temperatures \[W/(m K)\].
+    #[must_use]
+    pub fn mean_conductivity(&self, i: usize, a: f64, b: f64) -> f64 {
+        if self.conduction.is_fixed() || (b - a).abs() <= 1e-6 * (a.abs() + b.abs()) {
+            return self.conductivity(i, 0.5 * (a + b));
+        }
+        let (material, x) = (self.material[i] as usize, self.cloud.position[i]);
+        match self.materials.law(material) {
+            Law::Sum(parts) => parts
+                .iter()
+                .map(|part| {
+                    let conductor = &self.materials.conductors[part.conductor];
+                    let rise =
+                        conductor.value_and_integral(b).1 - conductor.value_and_integral(a).1;
+                    part.fraction
+                        .value(&arguments(x, 0.0, 0.0))
+                        .unwrap_or(f64::NAN)
+                        * rise
+                        / (b - a)
+                })
+                .sum(),
+            Law::Formula(_) => {
+                let at = |s: f64| self.conductivity(i, a + s * (b - a));
+                (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+            }
+        }
+    }
+
+    /// Makes the tables of conductivity span all temperatures; tells whether they did not.
+    ///
+    /// # Errors
+    /// Where a property has no value.
+    pub fn reach(&mut self, temperature: &[f64]) -> Result<bool, OutOfRange> {
+        let (low, high) = extent(temperature);
+        let mut grown = false;
+        for conductor in &mut self.materials.conductors {
+            let (from, to) = conductor.span();
+            if low < from || high > to {
+                conductor.widen(low.min(from), high.max(to))?;
+                grown = true;
+            }
+        }
+        Ok(grown)
+    }
+
+    /// Evaluates conductivities at the points.
+    fn nodes(&self, temperature: &[f64], nodes: &mut Vec<Node>) {
+        let count = self.materials.conductors.len();
+        nodes.clear();
+        if self.conduction.is_fixed() {
+            return;
+        }
+        nodes.resize(count * temperature.len(), (0.0, 0.0));
+        nodes
+            .par_chunks_mut(count)
+            .zip(temperature)
+            .with_min_len(ROWS)
+            .for_each(|(nodes, t)| {
+                for (node, conductor) in nodes.iter_mut().zip(&self.materials.conductors) {
+                    *node = conductor.value_and_integral(*t);
+                }
+            });
+    }
+
+    /// The two ends of the link from i to j.
+    #[inline]
+    fn ends<'a>(&self, (i, j): (usize, usize), t: &[f64], nodes: &'a [Node]) -> Ends<'a> {
+        let of = |i: usize| {
+            let count = self.materials.conductors.len();
+            if nodes.is_empty() {
+                &[][..]
+            } else {
+                &nodes[i * count..][..count]
+            }
+        };
+        Ends {
+            temperature: [t[i], t[j]],
+            nodes: [of(i), of(j)],
+        }
+    }
+
+    /// Heat at `time` with the given temperatures.
+    ///
+    /// # Errors
+    /// Where a property has no value.
+    pub fn rates(
+        &self,
+        time: f64,
+        temperature: &[f64],
+        rates: &mut Rates,
+    ) -> Result<(), OutOfRange> {
+        self.nodes(temperature, &mut rates.nodes);
+        self.pass(time, temperature, &mut rates.passed)?;
+        rates.heat.resize(self.len(), 0.0);
+        rates.stiffness.resize(self.len(), 0.0);
+        let (nodes, passed) = (&rates.nodes, &rates.passed);
+        rates
+            .heat
+            .par_iter_mut()
+            .zip(&mut rates.stiffness)
+            .enumerate()
+            .with_min_len(ROWS)
+            .for_each(|(i, (heat, stiffness))| {
+                (*heat, *stiffness) = self.links_of(i, temperature, nodes);
+                for passed in &passed[self.films[i] as usize..self.films[i + 1] as usize] {
+                    *heat += passed.heat;
+                    *stiffness -= passed.slope;
+                }
+            });
+        rates.source = 0.0;
+        if let Some(source) = &self.source {
+            for (i, heat) in rates.heat.iter_mut().enumerate() {
+                let at = arguments(self.cloud.position[i], temperature[i], time);
+                let own = source.value(&at)? * self.links.volume[i];
+                *heat += own;
+                rates.source += own;
+            }
+        }
+        self.entries(time, rates)
+    }
+
+    /// Heat through the links of point `i`, and the sum of their conductances.
+    #[inline]
+    fn links_of(&self, i: usize, temperature: &[f64], nodes: &[Node]) -> (f64, f64) {
+        let (mut heat, mut stiffness) = (0.0, 0.0);
+        let (pattern, weight) = (&self.links.pattern, &self.links.weight);
+        for k in pattern.row(i) {
+            let j = pattern.columns()[k] as usize;
+            if let Conduction::Fixed(g) = &self.conduction {
+                heat += g[k] * (temperature[j] - temperature[i]);
+                stiffness += g[k];
+            } else {
+                let ends = self.ends((i, j), temperature, nodes);
+                let g = self.conduction.conductance(k, weight[k], &ends);
+                heat += g * (temperature[j] - temperature[i]);
+                stiffness += g;
+            }
+        }
+        (heat, stiffness)
+    }
+
+    /// Heat through every film.
+    fn pass(
+        &self,
+        time: f64,
+        temperature: &[f64],
+        passed: &mut Vec<Passed>,
+    ) -> Result<(), OutOfRange> {
+        passed.clear();
+        for film in &self.surface.films {
+            let i = film.point as usize;
+            let k = |a: f64, b: f64| self.mean_conductivity(i, a, b);
+            passed.push(self.surface.pass(film, temperature[i], time, k)?);
+        }
+        Ok(())
+    }
+
+    /// Heat through each entry.
+    fn entries(&self, time: f64, rates: &mut Rates) -> Result<(), OutOfRange> {
+        rates.entries.clear();
+        rates.entries.resize(self.surface.conditions.len(), 0.0);
+        for (film, passed) in self.surface.films.iter().zip(&rates.passed) {
+            match film.entries.as_slice() {
+                [entry] => rates.entries[*entry as usize] += passed.heat,
+                entries => {
+                    for entry in entries {
+                        rates.entries[*entry as usize] +=
+                            self.surface.part(film, *entry, *passed, time)?;
+                    }
+                }
+            }
+        }
+        for held in &self.surface.held {
+            rates.entries[held.entry as usize] -= rates.heat[held.point as usize];
+        }
+        Ok(())
+    }
+
+    /// The greatest step of the explicit Euler method at which every new temperature is a mean of old ones \[s\]:
+    /// it is stable, bounded and monotone.
+    #[must_use]
+    pub fn explicit_limit(&self, rates: &Rates) -> f64 {
+        let each = self.capacity.iter().zip(&rates.stiffness).zip(&self.held);
+        each.filter(|(_, held)| !**held)
+            .map(|((c, s), _)| if *s > 0.0 { c / s } else { f64::INFINITY })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Heat that is stored above 0 K \[J\].
+    #[must_use]
+    pub fn stored(&self, temperature: &[f64]) -> f64 {
+        self.capacity
+            .iter()
+            .zip(temperature)
+            .map(|(c, t)| c * t)
+            .sum()
+    }
+
+    /// The difference of temperature that fluxes at the surface make over a spacing \[K\].
+    #[must_use]
+    pub fn skin(&self, temperature: &[f64], rates: &Rates) -> f64 {
+        let of = |(film, passed): (&Film, &Passed)| {
+            let i = film.point as usize;
+            let k = self.conductivity(i, temperature[i]);
+            (passed.heat / film.area).abs() * self.cloud.spacing[i] / k
+        };
+        self.surface
+            .films
+            .iter()
+            .zip(&rates.passed)
+            .map(of)
+            .fold(0.0, f64::max)
+    }
+
+    /// Where a point is \[m\].
+    #[must_use]
+    pub fn place(&self, i: usize) -> Vector {
+        self.cloud.position[i]
+    }
+}
+
+/// Least and greatest value.
+#[must_use]
+pub fn extent(values: &[f64]) -> (f64, f64) {
+    values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(*v), high.max(*v))
+        })
+}
