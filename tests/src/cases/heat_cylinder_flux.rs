@@ -31,15 +31,11 @@ impl Case for HeatCylinderFlux {
 
     fn targets(&self) -> Vec<Target> {
         let mut targets = vec![
-            Target::error("temperature_linf", 5e-3).at_level(2),
+            Target::error("temperature_linf", 5e-3),
             Target::error("mean", 1e-6),
         ];
         for method in TRANSIENT.iter().filter(|m| methods::is_jittered(m)) {
-            targets.push(
-                Target::error("temperature_linf", 1.5e-2)
-                    .at_level(2)
-                    .of(*method),
-            );
+            targets.push(Target::error("temperature_linf", 1.5e-2).of(*method));
             targets.push(Target::error("mean", 1e-6).of(*method));
         }
         targets

@@ -191,8 +191,9 @@ fn box_mixed() -> Value {
 }
 
 fn rings_mixed() -> Value {
-    let half = json!({"box": {"min_m": [-9, -9], "max_m": [0, 9]}});
-    let other = json!({"box": {"min_m": [0, -9], "max_m": [9, 9]}});
+    // Beside 0, where points lie: a point may not be held and heated.
+    let half = json!({"box": {"min_m": [-9, -9], "max_m": [0.0137, 9]}});
+    let other = json!({"box": {"min_m": [0.0137, -9], "max_m": [9, 9]}});
     let mut held = held(&["rim"]);
     held["within"] = half;
     let mut flux = flux(&["rim"], ["x/0.5", "y/0.5", "0"]);
@@ -218,8 +219,8 @@ fn sphere() -> Value {
 }
 
 fn sphere_mixed() -> Value {
-    let below = json!({"box": {"min_m": [-9, -9, -9], "max_m": [9, 9, 0]}});
-    let above = json!({"box": {"min_m": [-9, -9, 0], "max_m": [9, 9, 9]}});
+    let below = json!({"box": {"min_m": [-9, -9, -9], "max_m": [9, 9, 0.0137]}});
+    let above = json!({"box": {"min_m": [-9, -9, 0.0137], "max_m": [9, 9, 9]}});
     let mut held = held(&["surface"]);
     held["within"] = below;
     let mut flux = flux(&["surface"], ["x/0.5", "y/0.5", "z/0.5"]);
