@@ -139,6 +139,13 @@ impl Rows {
         }
     }
 
+    /// Gives a column another head.
+    pub(crate) fn rename(&mut self, column: usize, head: &str) {
+        if let Some(old) = self.head.get_mut(column) {
+            head.clone_into(old);
+        }
+    }
+
     /// Adds a row of HTML cells.
     pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());

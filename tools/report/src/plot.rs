@@ -13,7 +13,7 @@ const COLOURS: [&str; 7] = [
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 380.0;
 /// Left, right, top, bottom.
-const MARGIN: [f64; 4] = [68.0, 18.0, 14.0, 50.0];
+const MARGIN: [f64; 4] = [80.0, 18.0, 14.0, 50.0];
 /// Height of a row of the legend.
 const ROW: f64 = 18.0;
 

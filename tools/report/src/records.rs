@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 /// Wall time of a stage.
@@ -38,8 +38,14 @@ pub(crate) struct LeftOut {
 #[serde(default)]
 pub(crate) struct Total {
     pub(crate) name: String,
+    /// A value that is not finite is null in JSON: a limit that does not bind.
+    #[serde(deserialize_with = "finite_or_not")]
     pub(crate) value: f64,
     pub(crate) unit: String,
+}
+
+fn finite_or_not<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::<f64>::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
 /// A quantity over steps, sweeps or time.
@@ -123,7 +129,9 @@ pub(crate) fn figure(value: f64) -> String {
     let size = value.abs();
     let text = if size <= 0.0 {
         "0".to_owned()
-    } else if !value.is_finite() {
+    } else if value.is_infinite() {
+        "unbounded".to_owned()
+    } else if value.is_nan() {
         "not a number".to_owned()
     } else if !(1e-3..1e5).contains(&size) {
         format!("{value:.2e}")
@@ -155,6 +163,14 @@ mod tests {
                 "98765"
             ]
         );
+    }
+
+    #[test]
+    fn a_limit_that_does_not_bind_is_unbounded() {
+        let total: Total =
+            serde_json::from_str(r#"{"name": "step", "value": null, "unit": "s"}"#).unwrap();
+        assert_eq!(figure(total.value), "unbounded");
+        assert_eq!(figure(f64::NAN), "not a number");
     }
 
     #[test]

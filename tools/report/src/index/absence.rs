@@ -53,14 +53,13 @@ pub(super) fn section(records: &[Record]) -> String {
     }
     let mut table = Rows::new(&[
         "Physics",
-        "Program",
         "#Step without",
-        "#Step with it idle",
-        "#Step with it removed",
-        "#Time",
+        "#idle",
+        "#removed",
+        "#Idle / without",
         "#Memory without",
-        "#Memory idle",
-        "#Memory",
+        "#idle",
+        "#Idle / without",
         "Absent, it costs nothing",
     ]);
     for record in records {

@@ -8,6 +8,15 @@ use crate::records::{LeftOut, Memory, RunRecord, Spent, bytes, duration};
 /// Stages shorter than this part of a run are not named.
 const SHOWN: f64 = 0.01;
 
+const HEAD: [&str; 6] = [
+    "",
+    "#Time",
+    "#Peak memory",
+    "Time went to",
+    "Memory went to",
+    "Left out",
+];
+
 /// A run that is accounted for.
 #[derive(Debug, Clone)]
 pub(super) struct Cost<'a> {
@@ -61,28 +70,31 @@ impl Prices {
     }
 }
 
-/// A row per run; nothing without runs.
+/// A row per run, and what they left out: once where all left out the same. Nothing without runs.
 pub(super) fn table(first: &str, costs: &[Cost], prices: &Prices) -> String {
-    let mut table = Rows::new(&[
-        first,
-        "#Time",
-        "#Peak memory",
-        "Time went to",
-        "Memory went to",
-        "Left out",
-    ]);
+    let names =
+        |cost: &Cost| -> Vec<String> { cost.left_out.iter().map(|a| a.name.clone()).collect() };
+    let alike = costs.len() > 1 && costs.windows(2).all(|p| names(&p[0]) == names(&p[1]));
+    let mut table = Rows::new(if alike { &HEAD[..5] } else { &HEAD });
+    table.rename(0, first);
     for cost in costs {
-        table.row([
+        let mut cells = vec![
             escape(&cost.name),
             duration(cost.time_s),
             cost.peak_memory_bytes
                 .map_or_else(|| "\u{2013}".to_owned(), bytes),
             stages(cost.stages),
             memory(cost.memory),
-            left_out(cost, prices),
-        ]);
+        ];
+        if !alike {
+            cells.push(left_out(cost, prices));
+        }
+        table.row(cells);
     }
-    table.render()
+    match costs.first().filter(|_| alike) {
+        Some(cost) => format!("<p>Left out: {}.</p>\n", left_out(cost, prices)) + &table.render(),
+        None => table.render(),
+    }
 }
 
 fn stages(stages: &[Spent]) -> String {
@@ -139,5 +151,8 @@ mod tests {
         assert!(html.contains("+25.0 % time, \u{2212}1.0 % memory"));
         assert!(html.contains(">heat</span></td>") && html.contains("3.0 MB"));
         assert!(html.contains("b&nbsp;90&nbsp;%") && !html.contains("a&nbsp;0"));
+        // What all left out stands once.
+        let html = table("Run", &[Cost::of(&record), Cost::of(&record)], &prices);
+        assert_eq!(html.matches("tension").count(), 1);
     }
 }
