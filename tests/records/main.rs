@@ -269,7 +269,7 @@ fn physics_that_is_absent_costs_nothing() {
     let told = serde_json::to_value(&record).unwrap();
     let (good, said) = written(&folder.path().join("absent.json"), &told);
     assert!(good && said.contains("good: absence"), "{said}\n{told}");
-    // Times of a single run are not judged here.
+    // The time of a single run is not judged here.
     let claims = told["claims"].as_array().unwrap();
     assert!(claims[..3].iter().all(|c| c["holds"] == true), "{told}");
     // A patch that adds something else adds no tension.

@@ -50,6 +50,9 @@ struct Problem {
     along: Vec<u32>,
     /// Who takes part.
     programs: Vec<String>,
+    /// The most points along a side of a program that would take too long beyond.
+    #[serde(default)]
+    most: BTreeMap<String, u32>,
 }
 
 /// One program, one method, one size.
@@ -125,7 +128,8 @@ impl Others {
                     }),
                 };
                 take(named(&self.tool), self.ours(lab, python, problem, along));
-                for program in &problem.programs {
+                let fits = |p: &&String| problem.most.get(*p).is_none_or(|most| along <= *most);
+                for program in problem.programs.iter().filter(fits) {
                     take(named(program), self.theirs(python, problem, program, along));
                 }
             }
