@@ -53,13 +53,13 @@ pub(super) fn section(records: &[Record]) -> String {
     }
     let mut table = Rows::new(&[
         "Physics",
-        "#Step without",
+        "#Step",
         "#idle",
         "#removed",
-        "#Idle / without",
-        "#Memory without",
+        "#Ratio",
+        "#Memory",
         "#idle",
-        "#Idle / without",
+        "#Ratio",
         "Absent, it costs nothing",
     ]);
     for record in records {
@@ -74,11 +74,11 @@ pub(super) fn section(records: &[Record]) -> String {
         let ratio = |r: Option<f64>| r.map_or_else(String::new, |r| format!("\u{d7} {r:.2}"));
         table.row([
             format!(
-                "{}<br><small>{}</small>",
+                "{}<br><small>{}: {}</small>",
                 escape(&record.physics),
+                escape(&record.tool),
                 escape(&record.name)
             ),
-            escape(&record.tool),
             step(0),
             step(1),
             step(2),
@@ -89,9 +89,9 @@ pub(super) fn section(records: &[Record]) -> String {
             judged(&record.claims),
         ]);
     }
-    let words = "The same scene without the physics, with it but of no strength, and with it taken out again by a \
-                 patch: least time per step over turns on one thread, and peak memory. What a study leaves out is \
-                 priced by these.";
+    let words = "The same scene without the physics, with it but of no strength (idle), and with it taken out again by \
+                 a patch (removed): least time per step over turns on one thread, and peak memory. The ratios, idle \
+                 over without, are the prices of what studies leave out.";
     paragraph(words) + &table.render()
 }
 

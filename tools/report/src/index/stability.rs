@@ -62,6 +62,7 @@ pub(super) fn section(record: &Record) -> String {
     let (mapped, single): (Vec<&Row>, Vec<&Row>) = record.runs.iter().partition(|r| r.at.is_some());
     if let Some(scales) = &record.map {
         out += &map(scales, &mapped);
+        out += &wrong(&mapped);
         out += &format!(
             "<details>\n<summary>All {} runs of the map</summary>\n{}</details>\n",
             mapped.len(),
@@ -69,19 +70,50 @@ pub(super) fn section(record: &Record) -> String {
         );
     }
     out += &table(&single);
-    for row in record
-        .runs
-        .iter()
-        .filter(|r| r.at.is_none() || !r.holds)
-        .filter(|r| !r.message.is_empty() && r.outcome != "stable")
-    {
-        out += &format!(
-            "<details>\n<summary>What it said: {}</summary>\n<pre>{}</pre>\n</details>\n",
-            escape(&row.name),
-            escape(&row.message)
-        );
+    for row in single {
+        if !row.message.is_empty() && row.outcome != "stable" {
+            out += &said(row);
+        }
     }
     out
+}
+
+fn said(row: &Row) -> String {
+    format!(
+        "<details>\n<summary>What it said: {}</summary>\n<pre>{}</pre>\n</details>\n",
+        escape(&row.name),
+        escape(&row.message)
+    )
+}
+
+/// What is wrong with the runs of a map, each once, with the number of runs.
+fn wrong(rows: &[&Row]) -> String {
+    let mut found: Vec<(String, String, usize)> = Vec::new();
+    for row in rows.iter().filter(|r| !r.holds) {
+        let what = match row.broken.first() {
+            Some(broken) => broken.clone(),
+            None => format!("ended {}", row.outcome.replace('-', " ")),
+        };
+        // Figures differ from run to run; the words before the first of them do not.
+        let kind: String = what.chars().take_while(|c| !c.is_ascii_digit()).collect();
+        match found.iter_mut().find(|(known, ..)| *known == kind) {
+            Some((_, _, more)) => *more += 1,
+            None => found.push((kind, format!("{}: {what}", compact(&row.parameters)), 0)),
+        }
+    }
+    let mut out = String::new();
+    for (_, first, more) in found {
+        let more = match more {
+            0 => String::new(),
+            1 => "; one more like this".to_owned(),
+            n => format!("; {n} more like this"),
+        };
+        out += &format!("<li>{}{more}</li>\n", escape(&first));
+    }
+    if out.is_empty() {
+        return out;
+    }
+    format!("<ul>\n{out}</ul>\n")
 }
 
 fn map(scales: &Scales, rows: &[&Row]) -> String {
@@ -194,6 +226,9 @@ mod tests {
                 {"name": "x1-y0", "at": [1, 0], "parameters": {"a": "2"}, "outcome": "stable", "holds": false,
                  "broken": ["temperature is 2"]}]}))
         .unwrap();
+        assert!(
+            wrong(&record.runs.iter().collect::<Vec<_>>()).contains("a = 2: temperature is 2</li>")
+        );
         let html = section(&record);
         assert!(html.contains("<svg") && html.contains("1 of 2 end as they may"));
         assert!(html.contains("temperature is 2") && html.contains("All 2 runs"));
