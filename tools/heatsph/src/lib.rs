@@ -21,6 +21,7 @@ pub mod material;
 pub mod monitor;
 pub mod operator;
 pub mod output;
+pub mod pace;
 pub mod scene;
 pub mod simulate;
 pub mod solve;

@@ -8,6 +8,7 @@ use crate::march::implicit::Implicit;
 use crate::march::stabilised::Stabilised;
 use crate::march::{Method, State, StepError};
 use crate::output::{Event, Output};
+use crate::pace::Pace;
 use crate::scene::Scene;
 use crate::scene::method::{Beyond, Controlled};
 use crate::system::{Rates, System, extent};
@@ -30,26 +31,6 @@ pub enum Steps {
     Given(f64, Beyond),
     /// By the error of a step over the range of temperature.
     Controlled(f64),
-}
-
-/// What of the march changes from step to step.
-#[derive(Debug, Clone, PartialEq)]
-struct Pace {
-    /// Steps taken.
-    steps: u64,
-    /// Steps refused by their error.
-    rejected: u64,
-    /// The next step \[s\].
-    step: f64,
-    /// Range of temperature so far \[K\].
-    range: f64,
-    /// Number of the next output.
-    next: usize,
-    /// Least explicit limit met \[s\].
-    limit: f64,
-    /// Greatest and least step \[s\].
-    taken: [f64; 2],
-    substepped: bool,
 }
 
 /// The method of a scene and how its steps are chosen; implicit with error control where the scene names none.
@@ -113,23 +94,14 @@ pub fn march(
         method,
         steps,
         rates: Rates::default(),
-        pace: Pace {
-            steps: 0,
-            rejected: 0,
-            step: 0.0,
-            range: 0.0,
-            next: 0,
-            limit: f64::INFINITY,
-            taken: [0.0, f64::INFINITY],
-            substepped: false,
-        },
+        pace: Pace::default(),
         end: time.end_s,
     };
     let events = output.events();
     let resumed = session.restored();
     let fresh = resumed.is_none();
     if let Some(mut checkpoint) = resumed {
-        march.restore(&mut checkpoint)?;
+        (march.pace, march.state) = Pace::restore(&mut checkpoint)?;
     }
     march.begin(session, fresh)?;
     if fresh {
@@ -139,7 +111,7 @@ pub fn march(
         let event = events[march.pace.next];
         march.toward(event, session)?;
         march.write(&mut output, event, session)?;
-        session.keep(|checkpoint| march.save(checkpoint))?;
+        session.keep(|checkpoint| march.pace.save(&march.state, checkpoint))?;
     }
     march.close(&output, session);
     Ok(())
@@ -198,7 +170,7 @@ impl March<'_> {
             });
             session.steps(self.pace.steps);
             if self.state.time < event.time {
-                session.keep(|checkpoint| self.save(checkpoint))?;
+                session.keep(|checkpoint| self.pace.save(&self.state, checkpoint))?;
             }
         }
         self.pace.next += 1;
@@ -351,62 +323,5 @@ impl March<'_> {
             session.closing(name, "1", value);
         }
         output.close(self.system, &self.state, session);
-    }
-
-    fn save(&self, checkpoint: &mut artefact::Checkpoint) -> artefact::Result<()> {
-        checkpoint.put_f64("time", &[self.state.time, self.state.source]);
-        checkpoint.put_f64("temperature", &self.state.temperature);
-        checkpoint.put_f64("entries", &self.state.entries);
-        checkpoint.put_f64(
-            "pace",
-            &[
-                self.pace.step,
-                self.pace.range,
-                self.pace.limit,
-                self.pace.taken[0],
-                self.pace.taken[1],
-            ],
-        );
-        checkpoint.put_u64(
-            "count",
-            &[
-                self.pace.steps,
-                self.pace.rejected,
-                self.pace.next as u64,
-                u64::from(self.pace.substepped),
-            ],
-        );
-        Ok(())
-    }
-
-    fn restore(&mut self, checkpoint: &mut artefact::Checkpoint) -> Result<(), Failure> {
-        let (time, pace, count) = (
-            checkpoint.f64("time")?,
-            checkpoint.f64("pace")?,
-            checkpoint.u64("count")?,
-        );
-        self.state.temperature = checkpoint.f64("temperature")?;
-        self.state.entries = checkpoint.f64("entries")?;
-        if let (
-            [time, source],
-            [step, range, limit, most, least],
-            [steps, rejected, next, substepped],
-        ) = (&time[..], &pace[..], &count[..])
-        {
-            (self.state.time, self.state.source) = (*time, *source);
-            self.pace = Pace {
-                steps: *steps,
-                rejected: *rejected,
-                step: *step,
-                range: *range,
-                next: *next as usize,
-                limit: *limit,
-                taken: [*most, *least],
-                substepped: *substepped > 0,
-            };
-            Ok(())
-        } else {
-            Err(Failure::Other("the checkpoint lacks a part".to_owned()))
-        }
     }
 }

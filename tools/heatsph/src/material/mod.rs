@@ -54,7 +54,7 @@ pub struct Materials {
 }
 
 /// Samples along an edge of a cell that an interface crosses.
-const SAMPLES: [usize; 2] = [16, 8];
+const SAMPLES: [usize; 2] = [8, 4];
 
 impl Materials {
     /// The materials of a scene whose temperatures lie between `low` and `high` \[K\] at the start.

@@ -14,7 +14,9 @@
 
 pub mod balance;
 mod basis;
+pub mod closure;
 pub mod kernel;
+mod net;
 
 use std::sync::Arc;
 

@@ -15,7 +15,7 @@ fn corrected(cloud: &Cloud) -> Links {
 /// Greatest error of the balance of a linear field, over the heat that passes a point.
 fn linear_error(cloud: &Cloud, links: &Links) -> f64 {
     let g = [0.3, -0.8, if cloud.dimensions == 3 { 0.5 } else { 0.0 }];
-    let vectors = balance::close(cloud);
+    let vectors = closure::close(cloud);
     let mut sum = vec![0.0; links.len()];
     let mut gross = vec![0.0; links.len()];
     for i in 0..links.len() {

@@ -81,7 +81,7 @@ pub struct Controlled {
 }
 
 fn tolerance() -> f64 {
-    1e-5
+    1e-4
 }
 
 impl Default for Controlled {

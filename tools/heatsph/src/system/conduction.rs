@@ -1,5 +1,6 @@
 //! Conductance of links, in the cheapest form that the materials allow.
 
+use rayon::prelude::*;
 use run::property::{Curve, OutOfRange};
 
 use crate::body::frame::Vector;
@@ -9,6 +10,8 @@ use crate::operator::kernel::rows;
 
 /// Temperatures nearer than this part have the mean of their conductivities.
 const NEAR: f64 = 1e-6;
+/// Links that one task evaluates.
+const EDGES: usize = 1024;
 /// Gauss' points on [0, 1].
 const TWO: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 
@@ -16,6 +19,8 @@ const TWO: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     part: f64,
+    /// What does not depend on temperature \[W/(m K)\].
+    constant: f64,
     material: u32,
     /// First of its fractions, or its place.
     first: u32,
@@ -24,14 +29,17 @@ struct Piece {
 /// The pieces of links through materials of any kind.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
-    /// Number of each directed link's pieces in `edges`.
+    /// Number of each directed link among the undirected ones.
     edge: Vec<u32>,
+    /// Points of each undirected link.
+    ends: Vec<[u32; 2]>,
     /// Begin of the pieces of each undirected link.
     begin: Vec<u32>,
     contact: Vec<f64>,
     pieces: Vec<Piece>,
     fractions: Vec<f64>,
     places: Vec<Vector>,
+    /// Functions of temperature of each material.
     parts: Vec<Vec<usize>>,
     formulas: Vec<Option<Curve>>,
 }
@@ -127,8 +135,8 @@ impl Conduction {
             Self::Fixed(g) => 8 * g.len() as u64,
             Self::Kirchhoff { .. } => 0,
             Self::Series(s) => {
-                let links = 4 * s.edge.len() + 12 * s.begin.len();
-                (links + 16 * s.pieces.len() + 8 * s.fractions.len() + 24 * s.places.len()) as u64
+                let links = 4 * s.edge.len() + 20 * s.begin.len();
+                (links + 24 * s.pieces.len() + 8 * s.fractions.len() + 24 * s.places.len()) as u64
             }
         }
     }
@@ -144,52 +152,26 @@ pub struct Ends<'a> {
 }
 
 impl Ends<'_> {
+    /// One over the difference of temperatures; none where they are equal but for rounding.
+    #[inline]
+    fn inverse(&self) -> Option<f64> {
+        let [a, b] = self.temperature;
+        ((b - a).abs() > NEAR * (a.abs() + b.abs())).then(|| 1.0 / (b - a))
+    }
+
     /// Mean of a function of temperature between the ends.
     #[inline]
-    fn mean(&self, conductor: usize) -> f64 {
-        let [a, b] = self.temperature;
+    fn mean(&self, conductor: usize, inverse: Option<f64>) -> f64 {
         let ((ka, ia), (kb, ib)) = (self.nodes[0][conductor], self.nodes[1][conductor]);
-        if (b - a).abs() > NEAR * (a.abs() + b.abs()) {
-            (ib - ia) / (b - a)
-        } else {
-            0.5 * (ka + kb)
-        }
+        inverse.map_or(0.5 * (ka + kb), |inverse| (ib - ia) * inverse)
     }
 }
 
 impl Conduction {
-    /// Conductance of link `k` of weight `a` \[W/K\]: heat over the difference of temperatures.
+    /// Slopes of the heat through link `k` of weight `a`, whose mean conductivity is known for a series.
     #[inline]
     #[must_use]
-    pub fn conductance(&self, k: usize, a: f64, ends: &Ends<'_>) -> f64 {
-        match self {
-            Self::Fixed(g) => g[k],
-            Self::Kirchhoff {
-                conductor,
-                fraction,
-            } => a * fraction * ends.mean(*conductor),
-            Self::Series(series) => a * series.mean(k, ends),
-        }
-    }
-
-    /// Heat through link `k` into the own end \[W\].
-    #[inline]
-    #[must_use]
-    pub fn heat(&self, k: usize, a: f64, ends: &Ends<'_>) -> f64 {
-        if let Self::Kirchhoff {
-            conductor,
-            fraction,
-        } = self
-        {
-            return a * fraction * (ends.nodes[1][*conductor].1 - ends.nodes[0][*conductor].1);
-        }
-        self.conductance(k, a, ends) * (ends.temperature[1] - ends.temperature[0])
-    }
-
-    /// Slopes of the heat through link `k`.
-    #[inline]
-    #[must_use]
-    pub fn slopes(&self, k: usize, a: f64, ends: &Ends<'_>) -> Slopes {
+    pub fn slopes(&self, k: usize, a: f64, (ends, mean): (&Ends<'_>, &[f64])) -> Slopes {
         match self {
             Self::Fixed(g) => Slopes {
                 own: g[k],
@@ -202,9 +184,16 @@ impl Conduction {
                 own: a * fraction * ends.nodes[0][*conductor].0,
                 other: a * fraction * ends.nodes[1][*conductor].0,
             },
-            Self::Series(series) => series.slopes(k, a, ends),
+            Self::Series(series) => series.slopes((k, a), ends, mean),
         }
     }
+}
+
+/// Conductance of a link of weight `a` under one function of temperature, over the weight \[W/(m K)\].
+#[inline]
+#[must_use]
+pub fn kirchhoff(ends: &Ends<'_>, conductor: usize) -> f64 {
+    ends.mean(conductor, ends.inverse())
 }
 
 impl Series {
@@ -215,8 +204,12 @@ impl Series {
             ..Self::default()
         };
         for material in 0..materials.len() {
+            let varies = |c: &usize| materials.conductors[*c].constant().is_none();
             let (parts, formula) = match materials.law(material) {
-                Law::Sum(parts) => (parts.iter().map(|p| p.conductor).collect(), None),
+                Law::Sum(parts) => {
+                    let all = parts.iter().map(|p| p.conductor);
+                    (all.filter(varies).collect(), None)
+                }
                 Law::Formula(curve) => (Vec::new(), Some(curve.clone())),
             };
             series.parts.push(parts);
@@ -226,14 +219,13 @@ impl Series {
             for k in links.pattern.row(i) {
                 let j = links.pattern.columns()[k] as usize;
                 if i < j {
-                    series.edge[k] = series.contact.len() as u32;
+                    series.edge[k] = series.ends.len() as u32;
+                    series.ends.push([i as u32, j as u32]);
                     series.add(materials, [position[i], position[j]])?;
                 } else {
                     // The other end came first and knows the pieces.
-                    let row = links.pattern.row(j);
-                    let other = row
-                        .into_iter()
-                        .find(|m| links.pattern.columns()[*m] as usize == i);
+                    let mut row = links.pattern.row(j);
+                    let other = row.find(|m| links.pattern.columns()[*m] as usize == i);
                     series.edge[k] = other.map_or(0, |m| series.edge[m]);
                 }
             }
@@ -244,12 +236,17 @@ impl Series {
     fn add(&mut self, materials: &Materials, [a, b]: [Vector; 2]) -> Result<(), OutOfRange> {
         let path = materials.path(a, b);
         for piece in path.pieces {
+            let mut constant = 0.0;
             let first = match materials.law(piece.material) {
                 Law::Sum(parts) => {
                     let first = self.fractions.len();
                     for part in parts {
                         let at = arguments(piece.place, 0.0, 0.0);
-                        self.fractions.push(part.fraction.value(&at)?);
+                        let fraction = part.fraction.value(&at)?;
+                        match materials.conductors[part.conductor].constant() {
+                            Some(k) => constant += fraction * k,
+                            None => self.fractions.push(fraction),
+                        }
                     }
                     first
                 }
@@ -260,6 +257,7 @@ impl Series {
             };
             self.pieces.push(Piece {
                 part: piece.part,
+                constant,
                 material: piece.material as u32,
                 first: first as u32,
             });
@@ -269,28 +267,48 @@ impl Series {
         Ok(())
     }
 
+    /// Number of an undirected link.
     #[inline]
-    fn pieces(&self, k: usize) -> (&[Piece], f64) {
-        let edge = self.edge[k] as usize;
+    #[must_use]
+    pub fn edge(&self, k: usize) -> usize {
+        self.edge[k] as usize
+    }
+
+    /// Mean conductivity of every undirected link \[W/(m K)\], each reckoned once for both of its ends.
+    pub fn means<'a>(&self, ends: impl Fn([u32; 2]) -> Ends<'a> + Sync, means: &mut Vec<f64>) {
+        means.resize(self.ends.len(), 0.0);
+        means
+            .par_iter_mut()
+            .enumerate()
+            .with_min_len(EDGES)
+            .for_each(|(edge, mean)| *mean = self.mean(edge, &ends(self.ends[edge])));
+    }
+
+    #[inline]
+    fn pieces(&self, edge: usize) -> (&[Piece], f64) {
         let range = self.begin[edge] as usize..self.begin[edge + 1] as usize;
         (&self.pieces[range], self.contact[edge])
     }
 
+    /// Functions of temperature of a piece and their fractions.
+    #[inline]
+    fn terms(&self, piece: &Piece) -> impl Iterator<Item = (f64, usize)> {
+        let conductors = &self.parts[piece.material as usize];
+        let fractions = &self.fractions[piece.first as usize..];
+        fractions.iter().copied().zip(conductors.iter().copied())
+    }
+
     /// Mean conductivity of a piece between the temperatures of the link's ends.
     #[inline]
-    fn between(&self, piece: &Piece, ends: &Ends<'_>) -> f64 {
+    fn between(&self, piece: &Piece, ends: &Ends<'_>, inverse: Option<f64>) -> f64 {
         match &self.formulas[piece.material as usize] {
             None => {
-                let conductors = &self.parts[piece.material as usize];
-                let fractions = &self.fractions[piece.first as usize..][..conductors.len()];
-                let terms = fractions.iter().zip(conductors);
-                terms.map(|(f, c)| f * ends.mean(*c)).sum()
+                let means = self.terms(piece).map(|(f, c)| f * ends.mean(c, inverse));
+                piece.constant + means.sum::<f64>()
             }
             Some(curve) => {
-                // Both directions take the ends in the same order.
                 let [a, b] = ends.temperature;
-                let (low, high) = (a.min(b), a.max(b));
-                let each = TWO.map(|s| self.formula(curve, piece, low + s * (high - low)));
+                let each = TWO.map(|s| self.formula(curve, piece, a + s * (b - a)));
                 0.5 * (each[0] + each[1])
             }
         }
@@ -307,33 +325,40 @@ impl Series {
     fn at_end(&self, piece: &Piece, ends: &Ends<'_>, end: usize) -> f64 {
         match &self.formulas[piece.material as usize] {
             None => {
-                let conductors = &self.parts[piece.material as usize];
-                let fractions = &self.fractions[piece.first as usize..][..conductors.len()];
-                let terms = fractions.iter().zip(conductors);
-                terms.map(|(f, c)| f * ends.nodes[end][*c].0).sum()
+                let values = self.terms(piece).map(|(f, c)| f * ends.nodes[end][c].0);
+                piece.constant + values.sum::<f64>()
             }
             Some(curve) => self.formula(curve, piece, ends.temperature[end]),
         }
     }
 
     #[inline]
-    fn mean(&self, k: usize, ends: &Ends<'_>) -> f64 {
-        let (pieces, contact) = self.pieces(k);
-        let resistance: f64 = pieces.iter().map(|p| p.part / self.between(p, ends)).sum();
-        1.0 / (contact + resistance)
+    fn mean(&self, edge: usize, ends: &Ends<'_>) -> f64 {
+        let inverse = ends.inverse();
+        match self.pieces(edge) {
+            ([piece], 0.0) => self.between(piece, ends, inverse),
+            (pieces, contact) => {
+                let resistance = |p: &Piece| p.part / self.between(p, ends, inverse);
+                1.0 / (contact + pieces.iter().map(resistance).sum::<f64>())
+            }
+        }
     }
 
     /// With `k = 1 / sum(w/k_p)` the heat is `k dT`, and `d(k dT)/dT_j = sum w (k/k_p)^2 k_p(T_j)`.
-    fn slopes(&self, k: usize, a: f64, ends: &Ends<'_>) -> Slopes {
-        let mean = self.mean(k, ends);
-        let (pieces, _) = self.pieces(k);
+    fn slopes(&self, (k, a): (usize, f64), ends: &Ends<'_>, means: &[f64]) -> Slopes {
+        let edge = self.edge(k);
+        let (pieces, contact) = self.pieces(edge);
         let mut slopes = Slopes {
             own: 0.0,
             other: 0.0,
         };
         for piece in pieces {
-            let share = mean / self.between(piece, ends);
-            let weight = a * piece.part * share * share;
+            let weight = if pieces.len() == 1 && contact == 0.0 {
+                a
+            } else {
+                let share = means[edge] / self.between(piece, ends, ends.inverse());
+                a * piece.part * share * share
+            };
             slopes.own += weight * self.at_end(piece, ends, 0);
             slopes.other += weight * self.at_end(piece, ends, 1);
         }

@@ -32,7 +32,7 @@ impl System {
             for (m, (value, j)) in values.iter_mut().zip(columns).enumerate() {
                 let (k, j) = (first + m, *j as usize);
                 let ends = self.ends((i, j), temperature, &rates.nodes);
-                let slopes = self.conduction.slopes(k, weight[k], &ends);
+                let slopes = self.conduction.slopes(k, weight[k], (&ends, &rates.means));
                 diagonal += slopes.own;
                 *value = if self.held[i] || self.held[j] {
                     0.0

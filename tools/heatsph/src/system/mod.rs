@@ -6,8 +6,10 @@
 
 pub mod conduction;
 mod matrix;
+mod rates;
 
-use rayon::prelude::*;
+pub use rates::Rates;
+
 use run::property::{Curve, OutOfRange};
 
 use crate::body::Body;
@@ -16,10 +18,7 @@ use crate::boundary::{Film, Passed, Surface};
 use crate::cloud::Cloud;
 use crate::material::{Law, Materials, arguments};
 use crate::operator::Links;
-use conduction::{Conduction, Ends, Node};
-
-/// Points that one task gathers.
-const ROWS: usize = 256;
+use conduction::Conduction;
 
 /// A body ready to conduct.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,21 +42,6 @@ pub struct System {
     films: Vec<u32>,
     /// Whether a point's temperature is prescribed.
     held: Vec<bool>,
-}
-
-/// Heat at an instant.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Rates {
-    /// Heat into each point \[W\].
-    pub heat: Vec<f64>,
-    /// Sum of the conductances of each point, and of its films' slopes \[W/K\].
-    pub stiffness: Vec<f64>,
-    /// Heat through each entry of the surface \[W\]; of prescribed temperatures what their points pass on.
-    pub entries: Vec<f64>,
-    /// Heat of the source \[W\].
-    pub source: f64,
-    nodes: Vec<Node>,
-    passed: Vec<Passed>,
 }
 
 impl System {
@@ -204,139 +188,6 @@ impl System {
             }
         }
         Ok(grown)
-    }
-
-    /// Evaluates conductivities at the points.
-    fn nodes(&self, temperature: &[f64], nodes: &mut Vec<Node>) {
-        let count = self.materials.conductors.len();
-        nodes.clear();
-        if self.conduction.is_fixed() {
-            return;
-        }
-        nodes.resize(count * temperature.len(), (0.0, 0.0));
-        nodes
-            .par_chunks_mut(count)
-            .zip(temperature)
-            .with_min_len(ROWS)
-            .for_each(|(nodes, t)| {
-                for (node, conductor) in nodes.iter_mut().zip(&self.materials.conductors) {
-                    *node = conductor.value_and_integral(*t);
-                }
-            });
-    }
-
-    /// The two ends of the link from i to j.
-    #[inline]
-    fn ends<'a>(&self, (i, j): (usize, usize), t: &[f64], nodes: &'a [Node]) -> Ends<'a> {
-        let of = |i: usize| {
-            let count = self.materials.conductors.len();
-            if nodes.is_empty() {
-                &[][..]
-            } else {
-                &nodes[i * count..][..count]
-            }
-        };
-        Ends {
-            temperature: [t[i], t[j]],
-            nodes: [of(i), of(j)],
-        }
-    }
-
-    /// Heat at `time` with the given temperatures.
-    ///
-    /// # Errors
-    /// Where a property has no value.
-    pub fn rates(
-        &self,
-        time: f64,
-        temperature: &[f64],
-        rates: &mut Rates,
-    ) -> Result<(), OutOfRange> {
-        self.nodes(temperature, &mut rates.nodes);
-        self.pass(time, temperature, &mut rates.passed)?;
-        rates.heat.resize(self.len(), 0.0);
-        rates.stiffness.resize(self.len(), 0.0);
-        let (nodes, passed) = (&rates.nodes, &rates.passed);
-        rates
-            .heat
-            .par_iter_mut()
-            .zip(&mut rates.stiffness)
-            .enumerate()
-            .with_min_len(ROWS)
-            .for_each(|(i, (heat, stiffness))| {
-                (*heat, *stiffness) = self.links_of(i, temperature, nodes);
-                for passed in &passed[self.films[i] as usize..self.films[i + 1] as usize] {
-                    *heat += passed.heat;
-                    *stiffness -= passed.slope;
-                }
-            });
-        rates.source = 0.0;
-        if let Some(source) = &self.source {
-            for (i, heat) in rates.heat.iter_mut().enumerate() {
-                let at = arguments(self.cloud.position[i], temperature[i], time);
-                let own = source.value(&at)? * self.links.volume[i];
-                *heat += own;
-                rates.source += own;
-            }
-        }
-        self.entries(time, rates)
-    }
-
-    /// Heat through the links of point `i`, and the sum of their conductances.
-    #[inline]
-    fn links_of(&self, i: usize, temperature: &[f64], nodes: &[Node]) -> (f64, f64) {
-        let (mut heat, mut stiffness) = (0.0, 0.0);
-        let (pattern, weight) = (&self.links.pattern, &self.links.weight);
-        for k in pattern.row(i) {
-            let j = pattern.columns()[k] as usize;
-            if let Conduction::Fixed(g) = &self.conduction {
-                heat += g[k] * (temperature[j] - temperature[i]);
-                stiffness += g[k];
-            } else {
-                let ends = self.ends((i, j), temperature, nodes);
-                let g = self.conduction.conductance(k, weight[k], &ends);
-                heat += g * (temperature[j] - temperature[i]);
-                stiffness += g;
-            }
-        }
-        (heat, stiffness)
-    }
-
-    /// Heat through every film.
-    fn pass(
-        &self,
-        time: f64,
-        temperature: &[f64],
-        passed: &mut Vec<Passed>,
-    ) -> Result<(), OutOfRange> {
-        passed.clear();
-        for film in &self.surface.films {
-            let i = film.point as usize;
-            let k = |a: f64, b: f64| self.mean_conductivity(i, a, b);
-            passed.push(self.surface.pass(film, temperature[i], time, k)?);
-        }
-        Ok(())
-    }
-
-    /// Heat through each entry.
-    fn entries(&self, time: f64, rates: &mut Rates) -> Result<(), OutOfRange> {
-        rates.entries.clear();
-        rates.entries.resize(self.surface.conditions.len(), 0.0);
-        for (film, passed) in self.surface.films.iter().zip(&rates.passed) {
-            match film.entries.as_slice() {
-                [entry] => rates.entries[*entry as usize] += passed.heat,
-                entries => {
-                    for entry in entries {
-                        rates.entries[*entry as usize] +=
-                            self.surface.part(film, *entry, *passed, time)?;
-                    }
-                }
-            }
-        }
-        for held in &self.surface.held {
-            rates.entries[held.entry as usize] -= rates.heat[held.point as usize];
-        }
-        Ok(())
     }
 
     /// The greatest step of the explicit Euler method at which every new temperature is a mean of old ones \[s\]:
