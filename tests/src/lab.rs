@@ -80,8 +80,9 @@ pub struct Finished {
     command: Vec<OsString>,
 }
 
-/// Stages of a run record that are no part of solving: reading and checking the scene, files.
-const NOT_SOLVING: [&str; 3] = ["plan", "write", "checkpoint"];
+/// Stages of a run record that are no part of solving: reading and checking the scene, files. The plan
+/// is a part: a program may put together there what it solves.
+const NOT_SOLVING: [&str; 3] = ["scene", "write", "checkpoint"];
 
 impl Finished {
     /// Time of the solver as the run record tells \[s\]: the wall time of the run less what it spent

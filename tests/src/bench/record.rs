@@ -7,7 +7,7 @@ use super::Aim;
 use crate::speed::Row;
 
 /// Stages of a run that are no part of its steps.
-pub(super) const OUTSIDE: [&str; 4] = ["plan", "write", "checkpoint", "other"];
+pub(super) const OUTSIDE: [&str; 5] = ["scene", "plan", "write", "checkpoint", "other"];
 
 /// An aim with what was found; `None` where it was not measured on so many threads.
 #[derive(Debug, Serialize)]

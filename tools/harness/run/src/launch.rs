@@ -65,15 +65,19 @@ struct Ready<S> {
     plan: Plan,
     header: Header,
     merged: Merged,
+    /// What reading and checking the scene against its schema took.
+    read: Duration,
 }
 
 fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
+    let began = Instant::now();
     let schema = schema_of::<T::Scene>(expected::<T>());
     let Loaded {
         scene,
         merged,
         migrated,
     } = load::<T::Scene>(&study.scene, &study.patches, &schema, expected::<T>())?;
+    let read = began.elapsed();
     let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
     let plan = guarded(|| T::plan(&scene, &inputs)).map_err(|failure| placed(failure, &merged))?;
     let plan = match migrated {
@@ -97,6 +101,7 @@ fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
         plan,
         header,
         merged,
+        read,
     })
 }
 
@@ -124,7 +129,7 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     let (start, began) = (machine::now(), Instant::now());
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study)?;
-    let (mut session, told) = open::<T>(run, &ready.header, began)?;
+    let (mut session, told) = open::<T>(run, &ready.header, (began, ready.read))?;
     if run.level() > Level::Quiet {
         head::<T>(run, &ready);
     }
@@ -165,11 +170,12 @@ fn guarded<R>(work: impl FnOnce() -> Result<R, Failure>) -> Result<R, Failure> {
     })
 }
 
-/// The session, and what is to be told of an earlier run to the same place.
+/// The session, and what is to be told of an earlier run to the same place. Told are when the program
+/// began and how long it read the scene.
 fn open<T: Tool>(
     run: &Run,
     header: &Header,
-    began: Instant,
+    (began, read): (Instant, Duration),
 ) -> Result<(Session, Option<String>), Failure> {
     if run.out.is_dir() {
         return Err(Failure::Usage(format!(
@@ -193,6 +199,7 @@ fn open<T: Tool>(
     };
     let session = Session::open(Opening {
         began,
+        read,
         out: &run.out,
         header: header.clone(),
         resume: run.resume,

@@ -25,6 +25,8 @@ const CHECKPOINT_SHARE: u32 = 20;
 pub(crate) struct Opening<'a> {
     /// When scene and plan were begun.
     pub(crate) began: Instant,
+    /// How much of the time since was spent on reading the scene.
+    pub(crate) read: Duration,
     pub(crate) out: &'a Path,
     pub(crate) header: Header,
     pub(crate) resume: bool,
@@ -58,6 +60,7 @@ impl Session {
     pub fn quiet(out: &Path, header: Header) -> Result<Self, Failure> {
         Self::open(Opening {
             began: Instant::now(),
+            read: Duration::ZERO,
             out,
             header,
             resume: false,
@@ -72,7 +75,8 @@ impl Session {
         let checkpoint = beside(opening.out, ".checkpoint");
         let mut ledger = Ledger::default();
         let mut clock = Clock::since(opening.began);
-        clock.add("plan", opening.began.elapsed());
+        clock.add("scene", opening.read);
+        clock.add("plan", opening.began.elapsed().saturating_sub(opening.read));
         let (writer, restored) = if opening.resume {
             let restored = Checkpoint::read(&checkpoint, &opening.header)?;
             let position: Position = restored.json(POSITION)?;

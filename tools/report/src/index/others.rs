@@ -54,9 +54,8 @@ struct Missing {
 pub(super) fn section(record: &Record) -> String {
     let words = format!(
         "Programs from elsewhere on the problems of our cases, at equal numbers of points, nodes or cells, judged \
-         by one function. Theirs: meshing, assembly and solution within a Python that is warm, with two or more \
-         threads where their libraries use them; imports are not counted. Ours: the solver's time of a run of its \
-         own on {} threads.",
+         by one function. Theirs: meshing, assembly and solution within a Python that is warm; imports are not \
+         counted. Ours: a run of its own on {} threads, without reading its scene and writing its files.",
         record.threads
     );
     let mut out = paragraph(&words);
