@@ -70,13 +70,17 @@ impl Prices {
     }
 }
 
-/// A row per run, and what they left out: once where all left out the same. Nothing without runs.
+/// A row per run, and above it what all of several runs left out. Nothing without runs.
 pub(super) fn table(first: &str, costs: &[Cost], prices: &Prices) -> String {
-    let names =
-        |cost: &Cost| -> Vec<String> { cost.left_out.iter().map(|a| a.name.clone()).collect() };
-    let alike = costs.len() > 1 && costs.windows(2).all(|p| names(&p[0]) == names(&p[1]));
+    let shared = |name: &str| {
+        let has = |cost: &Cost| cost.left_out.iter().any(|absent| absent.name == name);
+        costs.len() > 1 && costs.iter().all(has)
+    };
+    let own = |cost: &Cost| cost.left_out.iter().any(|absent| !shared(&absent.name));
+    let alike = costs.len() > 1 && !costs.iter().any(own);
     let mut table = Rows::new(if alike { &HEAD[..5] } else { &HEAD });
     table.rename(0, first);
+    let common = costs.first().map(|cost| left_out(cost, prices, &shared));
     for cost in costs {
         let mut cells = vec![
             escape(&cost.name),
@@ -87,12 +91,12 @@ pub(super) fn table(first: &str, costs: &[Cost], prices: &Prices) -> String {
             memory(cost.memory),
         ];
         if !alike {
-            cells.push(left_out(cost, prices));
+            cells.push(left_out(cost, prices, &|name| !shared(name)));
         }
         table.row(cells);
     }
-    match costs.first().filter(|_| alike) {
-        Some(cost) => format!("<p>Left out: {}.</p>\n", left_out(cost, prices)) + &table.render(),
+    match common.filter(|common| !common.is_empty()) {
+        Some(common) => format!("<p>All left out {common}.</p>\n") + &table.render(),
         None => table.render(),
     }
 }
@@ -117,7 +121,8 @@ fn memory(parts: &[Memory]) -> String {
     named.iter().take(4).map(one).collect::<Vec<_>>().join(", ")
 }
 
-fn left_out(cost: &Cost, prices: &Prices) -> String {
+/// What a run left out, of the names that are wanted.
+fn left_out(cost: &Cost, prices: &Prices, wanted: &dyn Fn(&str) -> bool) -> String {
     let one = |absent: &LeftOut| {
         format!(
             "<span title=\"{}\">{}</span>{}",
@@ -126,10 +131,8 @@ fn left_out(cost: &Cost, prices: &Prices) -> String {
             prices.of(cost.tool, &absent.name)
         )
     };
-    match cost.left_out {
-        [] => "nothing".to_owned(),
-        some => some.iter().map(one).collect::<Vec<_>>().join(", "),
-    }
+    let named = cost.left_out.iter().filter(|absent| wanted(&absent.name));
+    named.map(one).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -154,5 +157,12 @@ mod tests {
         // What all left out stands once.
         let html = table("Run", &[Cost::of(&record), Cost::of(&record)], &prices);
         assert_eq!(html.matches("tension").count(), 1);
+        assert!(!html.contains("<th>Left out"));
+        // What only one left out stands in its row.
+        let mut less = record.clone();
+        less.left_out.pop();
+        let html = table("Run", &[Cost::of(&record), Cost::of(&less)], &prices);
+        assert!(html.contains("<p>All left out <span title=\"no key\">tension"));
+        assert!(html.contains("<th>Left out") && html.contains("<td><span title=\"none\">heat"));
     }
 }
