@@ -39,7 +39,7 @@ impl Case for HeatExpTTransient {
     }
 
     fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
-        // At level 3 the explicit method takes 100,000 steps, and Newton's method minutes.
+        // Level 3 is left to what is quick.
         let quick = ["corrected-implicit", "corrected-stabilised"].contains(&method);
         let most = if quick { 3 } else { 2 };
         asked.iter().copied().filter(|l| *l <= most).collect()

@@ -34,7 +34,7 @@ impl Case for HeatShockDisc {
     }
 
     fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
-        // Level 3 has 100,000 points; the explicit methods are slow there.
+        // Level 3 is left to the first method.
         let most = if method == TRANSIENT[0] { 3 } else { 2 };
         asked.iter().copied().filter(|l| *l <= most).collect()
     }
