@@ -22,6 +22,10 @@ enum Scene {
     Drop,
     /// A short weld: all the physics there is, with an arc.
     Weld,
+    /// Conduction on a random cloud, in implicit steps that follow their error.
+    Heat,
+    /// Conduction on a lattice, in explicit stages.
+    Rod,
 }
 
 impl Scene {
@@ -29,15 +33,32 @@ impl Scene {
         let name = match self {
             Self::Drop => "drop.json",
             Self::Weld => "weld.json",
+            Self::Heat => "heat.json",
+            Self::Rod => "rod.json",
         };
         Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("resume")
             .join(name)
     }
 
-    /// `poolsph run` of the scene, with a checkpoint every 50 ms.
+    fn tool(self) -> &'static str {
+        match self {
+            Self::Drop | Self::Weld => "poolsph",
+            Self::Heat | Self::Rod => "heatsph",
+        }
+    }
+
+    /// Channel of the frames.
+    fn frames(self) -> &'static str {
+        match self {
+            Self::Drop | Self::Weld => "/particles",
+            Self::Heat | Self::Rod => "/points",
+        }
+    }
+
+    /// The run of the scene, with a checkpoint every 50 ms.
     fn command(self, folder: &Path, threads: u8) -> Command {
-        let program = Path::new(env!("CARGO_BIN_EXE_verify")).with_file_name("poolsph");
+        let program = Path::new(env!("CARGO_BIN_EXE_verify")).with_file_name(self.tool());
         assert!(
             program.exists(),
             "{} is not built: run `cargo build --release` first",
@@ -66,14 +87,22 @@ impl Scene {
     fn straight(self) -> &'static [u8] {
         static DROP: OnceLock<Vec<u8>> = OnceLock::new();
         static WELD: OnceLock<Vec<u8>> = OnceLock::new();
+        static HEAT: OnceLock<Vec<u8>> = OnceLock::new();
+        static ROD: OnceLock<Vec<u8>> = OnceLock::new();
         let bytes = match self {
             Self::Drop => &DROP,
             Self::Weld => &WELD,
+            Self::Heat => &HEAT,
+            Self::Rod => &ROD,
         };
         bytes.get_or_init(|| {
             let folder = folder();
             let bytes = finish(&mut self.command(folder.path(), 1), folder.path());
-            happens(&Reader::open(folder.path().join(OUT)).unwrap());
+            let reader = Reader::open(folder.path().join(OUT)).unwrap();
+            match self {
+                Self::Drop | Self::Weld => happens(&reader),
+                Self::Heat | Self::Rod => warms(&reader),
+            }
             bytes
         })
     }
@@ -96,6 +125,18 @@ fn happens(reader: &Reader) {
     let (start, end) = (at(frames - 2), at(frames - 1));
     let moved = start.iter().zip(&end).map(|(a, b)| (a[2] - b[2]).abs());
     assert!(moved.fold(0.0, f64::max) > 1e-4);
+}
+
+/// Temperatures must change, and heat must not be lost.
+fn warms(reader: &Reader) {
+    let balance = reader.records("/balance").unwrap();
+    let last = &balance[balance.len() - 1].1;
+    let (stored, lost) = (last.get("stored").unwrap(), last.get("imbalance").unwrap());
+    assert!(stored.abs() > 0.01, "stored {stored} J");
+    assert!(
+        lost.abs() < 1e-6 * stored.abs(),
+        "lost {lost} J of {stored} J"
+    );
 }
 
 /// Runs to the end and gives the bytes.
@@ -139,7 +180,7 @@ fn record(folder: &Path) -> serde_json::Value {
 
 #[test]
 fn two_threads_write_the_bytes_of_one() {
-    for scene in [Scene::Drop, Scene::Weld] {
+    for scene in [Scene::Drop, Scene::Weld, Scene::Heat, Scene::Rod] {
         let folder = folder();
         let bytes = finish(&mut scene.command(folder.path(), 2), folder.path());
         assert!(bytes == scene.straight(), "{scene:?}");
@@ -173,7 +214,7 @@ fn ctrl_c_leaves_a_checkpoint_and_the_run_goes_on_to_the_same_bytes() {
 
 #[test]
 fn a_run_killed_at_any_moment_goes_on_to_the_same_bytes() {
-    for scene in [Scene::Drop, Scene::Weld] {
+    for scene in [Scene::Drop, Scene::Weld, Scene::Heat, Scene::Rod] {
         let folder = folder();
         let folder = folder.path();
         let out = folder.join(OUT);
@@ -185,7 +226,7 @@ fn a_run_killed_at_any_moment_goes_on_to_the_same_bytes() {
             assert_eq!(status.code(), None, "killed, not ended");
             assert!(!out.exists());
             let part = Reader::recover(beside(&out, ".part")).unwrap();
-            assert_eq!(part.times("/particles").unwrap()[0].to_bits(), 0);
+            assert_eq!(part.times(scene.frames()).unwrap()[0].to_bits(), 0);
             let mut resumed = scene.command(folder, 2);
             child = resumed.arg("--resume").spawn().unwrap();
         }

@@ -56,7 +56,7 @@ pub fn method(scene: &Scene, system: &System) -> (Box<dyn Method>, Steps) {
     let implicit = time.and_then(|t| t.implicit).unwrap_or_default();
     let steps = chosen(implicit);
     let (residual, guard) = match steps {
-        Steps::Controlled(tolerance) => ((1e-3 * tolerance).max(1e-12), false),
+        Steps::Controlled(tolerance) => ((1e-3 * tolerance).clamp(1e-12, 1e-8), false),
         _ => (STAGE, true),
     };
     (Box::new(Implicit::new(system, residual, guard)), steps)

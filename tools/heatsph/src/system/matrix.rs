@@ -1,8 +1,12 @@
 //! The matrix of Newton's method: `shift C - dW/dT`.
+//!
+//! Where all heat flows under one function of temperature, `W_i = sum_j a_ij (theta_j - theta_i)`, the matrix is
+//! `(shift C / k + A) diag(k)`: with the transform theta as the unknown it is symmetric.
 
 use krylov::Sparse;
 use run::property::OutOfRange;
 
+use super::conduction::Conduction;
 use super::{Rates, System};
 use crate::material::arguments;
 
@@ -25,27 +29,64 @@ impl System {
         (time, temperature, rates): (f64, &[f64], &Rates),
     ) -> Result<(), OutOfRange> {
         let heating = self.heating(time, temperature)?;
+        let own = |i: usize| {
+            let films = &rates.passed[self.films[i] as usize..self.films[i + 1] as usize];
+            let slopes: f64 = films.iter().map(|passed| passed.slope).sum();
+            shift * self.capacity[i] - slopes - heating.get(i).copied().unwrap_or(0.0)
+        };
         let weight = &self.links.weight;
+        let free = |i: usize, j: usize, value: f64| {
+            if self.held[i] || self.held[j] {
+                0.0
+            } else {
+                value
+            }
+        };
+        if let Conduction::Kirchhoff {
+            conductor,
+            fraction,
+        } = &self.conduction
+        {
+            let count = self.materials.conductors.len();
+            matrix.fill(|i, columns, values| {
+                let first = self.links.pattern.row(i).start;
+                let k = fraction * rates.nodes[i * count + conductor].0;
+                let mut diagonal = own(i) / k;
+                for (m, (value, j)) in values.iter_mut().zip(columns).enumerate() {
+                    diagonal += weight[first + m];
+                    *value = free(i, *j as usize, -weight[first + m]);
+                }
+                diagonal
+            });
+            return Ok(());
+        }
         matrix.fill(|i, columns, values| {
             let first = self.links.pattern.row(i).start;
-            let mut diagonal = shift * self.capacity[i];
+            let mut diagonal = own(i);
             for (m, (value, j)) in values.iter_mut().zip(columns).enumerate() {
                 let (k, j) = (first + m, *j as usize);
                 let ends = self.ends((i, j), temperature, &rates.nodes);
                 let slopes = self.conduction.slopes(k, weight[k], (&ends, &rates.means));
                 diagonal += slopes.own;
-                *value = if self.held[i] || self.held[j] {
-                    0.0
-                } else {
-                    -slopes.other
-                };
+                *value = free(i, j, -slopes.other);
             }
-            for passed in &rates.passed[self.films[i] as usize..self.films[i + 1] as usize] {
-                diagonal -= passed.slope;
-            }
-            diagonal - heating.get(i).copied().unwrap_or(0.0)
+            diagonal
         });
         Ok(())
+    }
+
+    /// What the solution is to be divided by, point by point; nothing where it is the change of temperature.
+    pub fn scale(&self, rates: &Rates, scale: &mut Vec<f64>) {
+        scale.clear();
+        if let Conduction::Kirchhoff {
+            conductor,
+            fraction,
+        } = &self.conduction
+        {
+            let count = self.materials.conductors.len();
+            let each = rates.nodes.chunks(count);
+            scale.extend(each.map(|nodes| fraction * nodes[*conductor].0));
+        }
     }
 
     /// Derivative of the source by temperature, where it cools a point that is too hot \[W/K\].
