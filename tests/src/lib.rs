@@ -7,7 +7,7 @@
 //!
 //! - [`case`] says what a case is, [`lab`] runs tools, [`norms`] measures, [`study`] turns three
 //!   resolutions into a record of error against run time.
-//! - [`cases`] holds one file per exact solution.
+//! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction.
 
 pub mod bell;
 pub mod bench;
