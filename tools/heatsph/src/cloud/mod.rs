@@ -4,6 +4,7 @@
 //! each stands for, and which pieces of surface, with area, normal and middle, each owns. A point on the surface
 //! owns pieces at no depth; a point of a cut lattice lies some way below its pieces.
 
+pub mod closure;
 mod cut;
 mod lattice;
 mod rings;
@@ -97,6 +98,7 @@ impl Cloud {
             Arrangement::Fitted => Self::fitted(body, points, dimensions)?,
         };
         cloud.add(body, points)?;
+        closure::close(&mut cloud);
         if cloud.position.is_empty() {
             return Err(CloudError::Empty(points.spacing_m));
         }

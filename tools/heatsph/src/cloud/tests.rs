@@ -70,7 +70,7 @@ fn rings_and_shells_fill_round_bodies() {
     );
     let (gauss, share, open) = sums(&ball);
     let volume = 4.0 / 3.0 * PI;
-    assert!((gauss - volume).abs() < 1e-9 && (share - volume).abs() < 1e-9 && open < 1e-2);
+    assert!((gauss - volume).abs() < 1e-9 && (share - volume).abs() < 1e-9 && open < 1e-12);
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn a_cut_lattice_owns_the_whole_surface() {
         let (gauss, _, open) = sums(&c);
         let area = 4.0 - 0.25 * PI;
         assert!(
-            (gauss - area).abs() < 2e-3 * area && open < 1e-2,
+            (gauss - area).abs() < 2e-3 * area && open < 1e-12,
             "{gauss} {open}"
         );
         assert!(c.patches.iter().all(|p| c.depth(p) > 0.2 * 0.05));

@@ -22,7 +22,7 @@
 //!
 //! The multipliers `l` and `M` of (1) and (2) minimise a smooth convex function, so that Newton's method finds
 //! them; its matrix is that of a net of springs. (1) is a truss in equilibrium under the pressure of its surface:
-//! it has a solution when the forces of the surface balance, which [`close`](super::closure::close) sees to. (2) need not have one; it
+//! it has a solution when the forces of the surface balance, which the areas of the patches are made for. (2) need not have one; it
 //! is met in the sense of least squares, with some softness, before (1) is met to rounding.
 //!
 //! The trace of the second moment gives the volume that a point stands for,
@@ -38,10 +38,9 @@ use std::sync::Arc;
 use krylov::{Krylov, Pattern, Workspace, conjugate_gradient};
 use rayon::prelude::*;
 
-use super::closure::close;
 use super::net::{Blocks, Net, Springs};
 use super::{Links, OperatorError};
-use crate::body::frame::{Vector, difference, dot};
+use crate::body::frame::{difference, dot};
 use crate::cloud::Cloud;
 
 /// Second moments within this part are left as they are.
@@ -83,18 +82,17 @@ pub fn balanced(
     pattern: Arc<Pattern>,
     mut weight: Vec<f64>,
 ) -> Result<Links, OperatorError> {
-    let patches = close(cloud);
     let unit = cloud.spacing.iter().sum::<f64>() / cloud.spacing.len() as f64;
     // In units of the spacing weights are numbers about one.
     let scale = unit.powi(2 - cloud.dimensions as i32);
     weight.iter_mut().for_each(|a| *a *= scale);
-    let ground = (cloud, patches.as_slice(), &*pattern, unit);
+    let ground = (cloud, &*pattern, unit);
     let done = match cloud.dimensions {
         2 => found::<2, 4>(ground, &mut weight)?,
         _ => found::<3, 8>(ground, &mut weight)?,
     };
     weight.iter_mut().for_each(|a| *a /= scale);
-    let volume = volumes(cloud, &patches, (&pattern, &weight));
+    let volume = volumes(cloud, &pattern, &weight);
     Ok(Links {
         pattern,
         weight,
@@ -105,10 +103,10 @@ pub fn balanced(
 
 /// Meets (2) as far as it can be met, then (1).
 fn found<const D: usize, const K: usize>(
-    ground: (&Cloud, &[Vector], &Pattern, f64),
+    ground: (&Cloud, &Pattern, f64),
     weight: &mut [f64],
 ) -> Result<Balance, OperatorError> {
-    let (cloud, _, _, unit) = ground;
+    let (cloud, _, unit) = ground;
     let far = cloud
         .position
         .iter()
@@ -232,7 +230,7 @@ fn step<const D: usize, const K: usize>(
 }
 
 /// The volumes (4).
-fn volumes(cloud: &Cloud, patches: &[Vector], (pattern, weight): (&Pattern, &[f64])) -> Vec<f64> {
+fn volumes(cloud: &Cloud, pattern: &Pattern, weight: &[f64]) -> Vec<f64> {
     let each = 1.0 / cloud.dimensions as f64;
     let x = &cloud.position;
     let mut volume: Vec<f64> = (0..x.len())
@@ -246,9 +244,8 @@ fn volumes(cloud: &Cloud, patches: &[Vector], (pattern, weight): (&Pattern, &[f6
             0.5 * each * pattern.row(i).map(square).sum::<f64>()
         })
         .collect();
-    for (patch, vector) in cloud.patches.iter().zip(patches) {
-        let point = patch.point as usize;
-        volume[point] += each * dot(*vector, difference(patch.place, x[point]));
+    for patch in &cloud.patches {
+        volume[patch.point as usize] += each * patch.area * cloud.depth(patch);
     }
     volume
 }

@@ -14,7 +14,6 @@
 
 pub mod balance;
 mod basis;
-pub mod closure;
 pub mod kernel;
 mod net;
 

@@ -26,16 +26,14 @@ pub(super) struct Net<'a, const D: usize, const K: usize> {
 }
 
 impl<'a, const D: usize, const K: usize> Net<'a, D, K> {
-    /// The net of a cloud whose patches have the given area times normal.
-    pub(super) fn new(
-        (cloud, patches, pattern, unit): (&'a Cloud, &[Vector], &'a Pattern, f64),
-    ) -> Self {
+    /// The net of a cloud with the given links and spacing.
+    pub(super) fn new((cloud, pattern, unit): (&'a Cloud, &'a Pattern, f64)) -> Self {
         let mut surface = vec![0.0; K * cloud.position.len()];
         let scale = unit.powi(1 - D as i32);
-        for (patch, vector) in cloud.patches.iter().zip(patches) {
+        for patch in &cloud.patches {
             let point = patch.point as usize;
             let away = difference(patch.place, cloud.position[point]).map(|d| d / unit);
-            let own = slopes::<D, K>(vector.map(|v| scale * v), away);
+            let own = slopes::<D, K>(patch.normal.map(|n| scale * patch.area * n), away);
             for (sum, slope) in surface[point * K..][..K].iter_mut().zip(own) {
                 *sum += slope;
             }

@@ -15,7 +15,6 @@ fn corrected(cloud: &Cloud) -> Links {
 /// Greatest error of the balance of a linear field, over the heat that passes a point.
 fn linear_error(cloud: &Cloud, links: &Links) -> f64 {
     let g = [0.3, -0.8, if cloud.dimensions == 3 { 0.5 } else { 0.0 }];
-    let vectors = closure::close(cloud);
     let mut sum = vec![0.0; links.len()];
     let mut gross = vec![0.0; links.len()];
     for i in 0..links.len() {
@@ -26,8 +25,8 @@ fn linear_error(cloud: &Cloud, links: &Links) -> f64 {
             gross[i] += heat.abs();
         }
     }
-    for (patch, vector) in cloud.patches.iter().zip(&vectors) {
-        sum[patch.point as usize] += dot(g, *vector);
+    for patch in &cloud.patches {
+        sum[patch.point as usize] += patch.area * dot(g, patch.normal);
     }
     sum.iter()
         .zip(&gross)
