@@ -17,6 +17,8 @@ const DOMINANT: f64 = 0.003;
 const RESTART: usize = 40;
 /// Iterations of a linear solve.
 const ITERATIONS: usize = 500;
+/// Roundings in the heat of a point, on average.
+const ROUNDING: f64 = 2.0;
 /// Halvings of a Newton step.
 const HALVINGS: usize = 12;
 /// Iterations for a temperature from a rise of the integral of conductivity.
@@ -72,6 +74,16 @@ pub struct Effort {
     pub iterations: usize,
     /// Residual over the heat that passes.
     pub residual: f64,
+}
+
+/// Norms over all free points \[W\].
+#[derive(Debug, Clone, Copy, Default)]
+struct Norm {
+    residual: f64,
+    /// Heat that passes.
+    passing: f64,
+    /// What rounding may leave of a residual.
+    rounding: f64,
 }
 
 /// The preconditioner in use.
@@ -199,31 +211,38 @@ impl Solver {
         Ok(&self.change)
     }
 
-    /// Residual `W - shift C (T - T0)` of free points; returns its norm and that of the heat that passes.
+    /// Residual `W - shift C (T - T0)` of free points; gives its norm.
     fn weigh(
         &mut self,
         system: &System,
         problem: Problem<'_>,
         temperature: &[f64],
         rates: &Rates,
-    ) -> (f64, f64) {
+    ) -> Norm {
         self.residual.resize(system.len(), 0.0);
-        let (mut norm, mut passing) = (0.0, 0.0);
+        let mut norm = Norm::default();
         for (i, residual) in self.residual.iter_mut().enumerate() {
             if system.is_held(i) {
                 *residual = 0.0;
                 continue;
             }
-            let stored = problem.shift * system.capacity[i] * (temperature[i] - problem.from[i]);
+            let shift = problem.shift * system.capacity[i];
+            let stored = shift * (temperature[i] - problem.from[i]);
             *residual = rates.heat[i] - stored;
-            norm += *residual * *residual;
-            passing += stored * stored;
+            norm.residual += *residual * *residual;
+            norm.passing += stored * stored;
+            let gross = (rates.stiffness[i] + shift) * temperature[i];
+            norm.rounding += gross * gross;
         }
         for entry in &rates.entries {
-            passing += entry * entry;
+            norm.passing += entry * entry;
         }
-        passing += rates.source * rates.source;
-        (norm.sqrt(), passing.sqrt())
+        norm.passing += rates.source * rates.source;
+        Norm {
+            residual: norm.residual.sqrt(),
+            passing: norm.passing.sqrt(),
+            rounding: ROUNDING * f64::EPSILON * norm.rounding.sqrt(),
+        }
     }
 
     /// Solves a problem; `temperature` is the first guess and becomes the solution, `rates` are those of it.
@@ -240,37 +259,34 @@ impl Solver {
     ) -> Result<Effort, SolveError> {
         let mut effort = Effort::default();
         system.rates(problem.time, temperature, rates)?;
-        let (mut norm, mut passing) = self.weigh(system, problem, temperature, rates);
+        let mut norm = self.weigh(system, problem, temperature, rates);
         // The heat that passed at the start stands for scenes in which nothing passes at the end.
-        let first = norm;
-        let linear = system.is_linear();
+        let first = norm.residual;
+        let scale = |norm: &Norm| norm.passing.max(1e-3 * first).max(f64::MIN_POSITIVE);
+        let least = if system.is_linear() { 1e-14 } else { 1e-4 };
         for _ in 0..goal.steps {
-            let scale = passing.max(1e-3 * first).max(f64::MIN_POSITIVE);
-            effort.residual = norm / scale;
-            if norm <= goal.residual * scale || norm <= 0.0 {
+            effort.residual = norm.residual / scale(&norm);
+            let wanted = (goal.residual * scale(&norm)).max(norm.rounding);
+            if norm.residual <= wanted {
                 return Ok(effort);
             }
             self.linearise(system, problem, (temperature, rates))?;
-            let reduction = if linear {
-                (0.1 * goal.residual * scale / norm).clamp(1e-14, 0.1)
-            } else {
-                (0.1 * goal.residual * scale / norm).clamp(1e-4, 0.1)
-            };
+            let reduction = (0.1 * wanted / norm.residual).clamp(least, 0.1);
             let right = std::mem::take(&mut self.residual);
             let solved = self.linear(&right, reduction);
             self.residual = right;
             effort.iterations += solved?;
             effort.newton += 1;
-            let before = norm;
-            (norm, passing) = self.step(system, problem, (temperature, rates), norm)?;
-            if norm >= before * (1.0 - 1e-12) {
+            let before = norm.residual;
+            norm = self.step(system, problem, (temperature, rates), before)?;
+            if norm.residual >= before * (1.0 - 1e-12) {
                 break;
             }
         }
-        let scale = passing.max(1e-3 * first).max(f64::MIN_POSITIVE);
-        effort.residual = norm / scale;
+        effort.residual = norm.residual / scale(&norm);
         // What rounding leaves is no failure.
-        if norm <= goal.residual.max(1e-9) * scale {
+        let wanted = goal.residual.max(1e-9) * scale(&norm);
+        if norm.residual <= wanted.max(10.0 * norm.rounding) {
             Ok(effort)
         } else {
             Err(SolveError::NotConverged {
@@ -287,7 +303,7 @@ impl Solver {
         problem: Problem<'_>,
         (temperature, rates): (&mut Vec<f64>, &mut Rates),
         norm: f64,
-    ) -> Result<(f64, f64), SolveError> {
+    ) -> Result<Norm, SolveError> {
         let mut length = 1.0;
         for _ in 0..=HALVINGS {
             self.trial.clear();
@@ -304,9 +320,9 @@ impl Solver {
             let weighed = evaluated.map(|()| self.weigh(system, problem, &trial, rates));
             self.trial = trial;
             match weighed {
-                Ok((new, passing)) if new <= (1.0 - 1e-4 * length) * norm => {
+                Ok(new) if new.residual <= (1.0 - 1e-4 * length) * norm => {
                     std::mem::swap(temperature, &mut self.trial);
-                    return Ok((new, passing));
+                    return Ok(new);
                 }
                 Err(error) if length < 1e-3 => return Err(error.into()),
                 _ => length *= 0.5,

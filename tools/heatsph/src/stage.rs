@@ -4,10 +4,11 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use artefact::Version;
-use run::{Estimate, Failure, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Fault, Inputs, Plan, Session, Tool};
 
 use crate::assemble;
 use crate::march::State;
+use crate::scene::method::Beyond;
 use crate::scene::{Operator, Scene};
 use crate::system::{Rates, System};
 use crate::{simulate, steady};
@@ -44,6 +45,7 @@ impl Tool for HeatSph {
         let mut rates = Rates::default();
         let evaluated = system.rates(0.0, &temperature, &mut rates);
         evaluated.map_err(|error| Failure::Other(error.to_string()))?;
+        refuse(scene, system.explicit_limit(&rates))?;
         let plan = shown(scene, &system, &rates);
         if let Ok(mut ready) = READY.lock() {
             *ready = Some((scene.clone(), system, temperature));
@@ -90,6 +92,18 @@ impl Tool for HeatSph {
             Some(rule) => steady::solve(scene, rule, (&mut system, temperature), session),
             None => simulate::march(scene, &mut system, temperature, session),
         }
+    }
+}
+
+/// Refuses an explicit step beyond the limit where the scene wants it refused.
+fn refuse(scene: &Scene, limit: f64) -> Result<(), Fault> {
+    let explicit = scene.time.as_ref().and_then(|time| time.explicit);
+    match explicit.map(|explicit| (explicit.step_s, explicit.beyond_limit)) {
+        Some((Some(step), Beyond::Refuse)) if step > limit * (1.0 + 1e-9) => Err(Fault::at(
+            "/time/explicit/step_s",
+            format!("{step} s is beyond the explicit limit of {limit:.4e} s"),
+        )),
+        _ => Ok(()),
     }
 }
 

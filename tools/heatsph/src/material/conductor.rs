@@ -4,7 +4,7 @@
 //! with Kirchhoff's transform, `theta(T)`, the integral of k. With the mean `(theta2 - theta1)/(T2 - T1)` on every
 //! link, one-dimensional steady states are exact at the points, however steep k(T) is.
 
-use run::property::{Curve, OutOfRange};
+use run::property::{Arguments, Curve, OutOfRange};
 
 /// Intervals of the table over the range of temperature at the start.
 const INTERVALS: f64 = 2048.0;
@@ -34,7 +34,7 @@ impl Conductor {
     /// A table from `low` to `high` \[K\].
     ///
     /// # Errors
-    /// Where the curve has no value.
+    /// Where the curve has no value, or one that is not positive.
     pub fn new(curve: Curve, low: f64, high: f64) -> Result<Self, OutOfRange> {
         let mut conductor = Self {
             origin: low,
@@ -50,7 +50,8 @@ impl Conductor {
             conductor.integral = vec![0.0];
             return Ok(conductor);
         }
-        conductor.value.push(conductor.curve.at_temperature(low)?);
+        let first = conductor.at(0)?;
+        conductor.value.push(first);
         conductor.integral.push(0.0);
         conductor.widen(low, high)?;
         Ok(conductor)
@@ -75,11 +76,7 @@ impl Conductor {
         if !(from > -(MOST as f64) && to < MOST as f64) {
             return Err(OutOfRange::Formula {
                 value: f64::NAN,
-                at: run::property::Arguments::at_temperature(if to < MOST as f64 {
-                    low
-                } else {
-                    high
-                }),
+                at: Arguments::at_temperature(if to < MOST as f64 { low } else { high }),
             });
         }
         // The ends lie within an interval of the wanted temperatures; the curve may end at these.
@@ -126,8 +123,18 @@ impl Conductor {
         }
     }
 
+    /// k at a node, which must be above zero.
     fn at(&self, node: i64) -> Result<f64, OutOfRange> {
-        self.curve.at_temperature(self.temperature(node as f64))
+        let t = self.temperature(node as f64);
+        let value = self.curve.at_temperature(t)?;
+        if value > 0.0 {
+            Ok(value)
+        } else {
+            Err(OutOfRange::Formula {
+                value,
+                at: Arguments::at_temperature(t),
+            })
+        }
     }
 
     fn integrate(&self, node: i64, intervals: i64) -> Result<f64, OutOfRange> {

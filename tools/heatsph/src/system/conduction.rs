@@ -317,7 +317,8 @@ impl Series {
     fn formula(&self, curve: &Curve, piece: &Piece, temperature: f64) -> f64 {
         let place = self.places[piece.first as usize];
         let value = curve.value(&arguments(place, temperature, 0.0));
-        value.unwrap_or(f64::NAN)
+        // No conductivity is a number that is not positive: who sums it up finds it.
+        value.ok().filter(|k| *k > 0.0).unwrap_or(f64::NAN)
     }
 
     /// Conductivity of a piece at the temperature of one end.

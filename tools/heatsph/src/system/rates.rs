@@ -33,7 +33,7 @@ impl System {
     fn nodes(&self, temperature: &[f64], nodes: &mut Vec<Node>) {
         let count = self.materials.conductors.len();
         nodes.clear();
-        if self.conduction.is_fixed() {
+        if count == 0 || self.conduction.is_fixed() {
             return;
         }
         nodes.resize(count * temperature.len(), (0.0, 0.0));
@@ -103,6 +103,12 @@ impl System {
                     *stiffness -= passed.slope;
                 }
             });
+        if let Some(i) = rates.heat.iter().position(|heat| heat.is_nan()) {
+            return Err(OutOfRange::Formula {
+                value: self.conductivity(i, temperature[i]),
+                at: arguments(self.cloud.position[i], temperature[i], time),
+            });
+        }
         rates.source = 0.0;
         if let Some(source) = &self.source {
             for (i, heat) in rates.heat.iter_mut().enumerate() {
