@@ -129,13 +129,10 @@ impl Pair {
 }
 
 impl Pair {
-    /// 1 on the left and 0 on the right; a point whose cell the interface cuts has the temperature at
-    /// which its heat is that of both parts.
+    /// 1 on the left and 0 on the right.
     fn start(&self, spacing: f64) -> String {
         let interface = self.shift * spacing;
-        let part = format!("min(1, max(0, ({interface} - x)/{spacing} + 0.5))");
-        let ratio = self.ratio;
-        format!("{ratio}*{part}/({ratio}*{part} + 1 - {part})")
+        format!("if({interface} - x, 1, 0)")
     }
 }
 

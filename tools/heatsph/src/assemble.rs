@@ -1,7 +1,7 @@
 //! From a scene to a system of equations and its first temperatures.
 
 use run::Fault;
-use run::property::Arguments;
+use run::property::{Arguments, Curve, OutOfRange};
 
 use crate::body::Body;
 use crate::boundary::{self, Surface};
@@ -27,9 +27,14 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     let cloud = Cloud::fill(&body, &scene.points, scene.dimensions)
         .map_err(|error| vec![Fault::at("/points", error.to_string())])?;
     let surface = boundary::compile(scene, &cloud)?;
-    let temperature = initial(scene, &cloud, &surface)?;
-    let range = range(scene, &surface, &temperature);
+    let at_points = initial(scene, &cloud, &surface, |i, curve| {
+        curve.value(&Arguments::at(cloud.position[i], 0.0))
+    })?;
+    let range = range(scene, &surface, &at_points);
     let materials = Materials::new(scene, range)?;
+    let temperature = initial(scene, &cloud, &surface, |i, curve| {
+        materials.start((cloud.position[i], cloud.spacing[i]), &body, curve)
+    })?;
     let source = match &scene.source_w_m3 {
         Some(property) => Some(
             property
@@ -45,18 +50,20 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     Ok((system, temperature))
 }
 
-/// Temperatures at the start, those of held points as prescribed.
-fn initial(scene: &Scene, cloud: &Cloud, surface: &Surface) -> Result<Vec<f64>, Vec<Fault>> {
+/// Temperatures at the start, those of held points as prescribed, of others as `value` has them.
+fn initial(
+    scene: &Scene,
+    cloud: &Cloud,
+    surface: &Surface,
+    value: impl Fn(usize, &Curve) -> Result<f64, OutOfRange>,
+) -> Result<Vec<f64>, Vec<Fault>> {
     let at = "/initial_temperature_k";
     let curve = scene
         .initial_temperature_k
         .compile(at, &PLACE)
         .map_err(|f| vec![f])?;
-    let values = cloud
-        .position
-        .iter()
-        .map(|x| curve.value(&Arguments::at(*x, 0.0)));
-    let mut temperature: Vec<f64> = values
+    let mut temperature: Vec<f64> = (0..cloud.position.len())
+        .map(|i| value(i, &curve))
         .collect::<Result<_, _>>()
         .map_err(|error| vec![Fault::at(at, error.to_string())])?;
     for held in &surface.held {
