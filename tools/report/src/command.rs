@@ -26,6 +26,9 @@ struct Line {
 enum Action {
     /// One page about a study; it shows what there is of it.
     Page(PageFiles),
+    /// One page about a study of heat conduction, of one run or of several.
+    #[command(after_help = HEAT)]
+    Heat(HeatFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
     Index(Folders),
     /// Compares a weld with published values; exit code 1 where a tolerance is missed.
@@ -62,6 +65,34 @@ pub(crate) struct PageFiles {
     pub(crate) targets: Option<PathBuf>,
 }
 
+const HEAT: &str = "Example, from the repository root:\n  \
+    target/release/report heat --study fgm-shock --out build/fgm-shock/report.html \\\n    \
+    --frames 1023=build/fgm-shock/disc-1023.mcap --frames 1073=build/fgm-shock/disc-1073.mcap";
+
+/// Files of a page about heat.
+#[derive(Debug, clap::Args)]
+pub(crate) struct HeatFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Points of a run, and what the page calls it; once for each run.
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) frames: Vec<(String, PathBuf)>,
+}
+
+/// A file with the name that is given to it.
+fn named(word: &str) -> Result<(String, PathBuf), String> {
+    match word.split_once('=') {
+        Some((name, file)) if !name.is_empty() && !file.is_empty() => {
+            Ok((name.to_owned(), PathBuf::from(file)))
+        }
+        _ => Err("wanted is NAME=FILE".to_owned()),
+    }
+}
+
 /// Folders of the index.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Folders {
@@ -95,6 +126,7 @@ pub fn main() -> ExitCode {
     };
     let done = match &line.action {
         Action::Page(files) => page::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Validate { pool, targets } => validate::run(pool, targets),
     };

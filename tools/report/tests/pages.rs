@@ -140,6 +140,86 @@ fn a_file_of_another_kind_is_refused_by_name() {
     );
 }
 
+fn heat(folder: &Path, runs: &[(&str, &str)]) -> (Output, PathBuf) {
+    let out = folder.join("report.html");
+    let mut words = vec!["heat".to_owned(), "--study".to_owned(), "sample".to_owned()];
+    words.extend(["--out".to_owned(), out.display().to_string()]);
+    for (name, file) in runs {
+        let file = folder.join(file).display().to_string();
+        words.extend(["--frames".to_owned(), format!("{name}={file}")]);
+    }
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    (report(&words), out)
+}
+
+#[test]
+fn a_study_of_heat_shows_fields_curves_and_balances_of_every_run() {
+    let folder = folder("heat");
+    sample::disc(&folder.join("cold.mcap"), 1000.0);
+    sample::disc(&folder.join("hot.mcap"), 1100.0);
+    let (output, out) = heat(&folder, &[("cold", "cold.mcap"), ("hot", "hot.mcap")]);
+    assert!(output.status.success(), "{output:?}");
+    let html = std::fs::read_to_string(out).unwrap();
+    for heading in [
+        "The temperature at the end",
+        "Temperatures over time",
+        "Heat through the surface",
+        "The balance of heat",
+        "How it was computed",
+    ] {
+        assert!(html.contains(&format!(">{heading}</h2>")), "{heading}");
+    }
+    // After 4 s the centre is at the start less 80 K, the rim at the start less 48 K.
+    for cell in ["920.0", "952.0", "1020.0", "1052.0", "32.0"] {
+        assert!(html.contains(&format!(">{cell}</td>")), "{cell}");
+    }
+    assert_eq!(html.matches("data:image/png;base64,").count(), 2);
+    // Under each picture, and in it for those who cannot see it.
+    assert_eq!(html.matches("half a section through the axis").count(), 4);
+    assert!(html.contains("Isotherms every 5 K. Dashed: where one material meets another."));
+    // Monitors of all and of each run, three plots of the surface, two balances and the imbalance, two
+    // histories of residuals.
+    assert_eq!(html.matches("<svg").count(), 11);
+    assert!(html.contains("cold: centre") && html.contains("hot: side"));
+    // 2.8e-7 J of 140 J.
+    assert!(html.contains("relative imbalance [10\u{207b}\u{2079}]"));
+    assert!(html.contains("heatsph 0.1.0: cold") && html.contains("no key 'gas_shear'"));
+    assert!(!html.contains("http:") && !html.contains("https:") && !html.contains("<script"));
+}
+
+#[test]
+fn a_steady_plane_body_has_its_field_and_nothing_over_time() {
+    let folder = folder("steady");
+    sample::plate(&folder.join("plate.mcap"));
+    let (output, out) = heat(&folder, &[("plate", "plate.mcap")]);
+    assert!(output.status.success(), "{output:?}");
+    let html = std::fs::read_to_string(out).unwrap();
+    assert!(html.contains("The temperature in the steady state in the plane of the body"));
+    assert!(html.contains(">302.00</td>") && !html.contains("Dashed"));
+    for heading in ["Temperatures over time", "Heat through", "The balance"] {
+        assert!(!html.contains(heading), "{heading}");
+    }
+    assert!(!html.contains("<svg"));
+}
+
+#[test]
+fn a_page_of_heat_refuses_another_kind_and_files_without_a_name() {
+    let folder = folder("heat-kind");
+    sample::arc(&folder.join("arc.mcap"));
+    let (output, _) = heat(&folder, &[("arc", "arc.mcap")]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        said.contains("arc-source") && said.contains("point-fields"),
+        "{said}"
+    );
+    let output = report(&[
+        "heat", "--study", "s", "--out", "x.html", "--frames", "a.mcap",
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("NAME=FILE"));
+}
+
 #[test]
 fn the_index_plots_errors_and_links_studies() {
     let folder = folder("index");

@@ -3,10 +3,10 @@
 use artefact::{Reader, Record};
 use run::Failure;
 
-use super::Named;
+use super::{Named, program};
 use crate::html::{Rows, beside, escape, figure, side_by_side};
 use crate::plot::{Line, Plot};
-use crate::records::{RunRecord, figure as digits};
+use crate::records::figure as digits;
 
 /// The section; nothing where nothing was balanced.
 pub(super) fn section(
@@ -144,12 +144,12 @@ fn bare(name: &str, unit: &str) -> String {
 /// Conserved totals of every program.
 fn closing(records: &[Named]) -> String {
     let mut table = Rows::new(&["Program", "Total", "#Value", "Unit"]);
-    for (_, record) in records {
-        let RunRecord { tool, closing, .. } = record;
-        for total in closing {
+    for (name, record) in records {
+        let tool = program(records, name, record);
+        for total in &record.closing {
             let unit = if total.unit == "1" { "" } else { &total.unit };
             table.row([
-                escape(tool),
+                escape(&tool),
                 escape(&bare(&total.name, &total.unit).replace('_', " ")),
                 digits(total.value),
                 escape(unit),

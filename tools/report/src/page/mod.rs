@@ -4,6 +4,7 @@ mod arc;
 mod balance;
 mod bead;
 mod compare;
+pub(crate) mod heat;
 mod mean;
 mod runs;
 
@@ -17,7 +18,7 @@ use crate::targets::Targets;
 use crate::weld::Weld;
 
 /// A program's record under the name of its artefact.
-type Named = (&'static str, RunRecord);
+type Named = (String, RunRecord);
 
 /// Writes the page of a study.
 pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
@@ -38,7 +39,7 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         ("mean", &files.mean),
     ]
     .into_iter()
-    .filter_map(|(name, path)| Some((name, RunRecord::beside(path.as_deref()?)?)))
+    .filter_map(|(name, path)| Some((name.to_owned(), RunRecord::beside(path.as_deref()?)?)))
     .collect();
     let weld = match &pool {
         Some(reader) => Weld::last(reader)?,
@@ -79,6 +80,16 @@ fn lead(records: &[Named]) -> String {
     match said.as_slice() {
         [] => String::new(),
         all => paragraph(&all.join(" \u{b7} ")),
+    }
+}
+
+/// The program of a record; with the name of its artefact where it ran more than once.
+fn program(records: &[Named], name: &str, record: &RunRecord) -> String {
+    let same = records.iter().filter(|(_, r)| r.tool == record.tool);
+    if same.count() > 1 {
+        format!("{}: {name}", record.tool)
+    } else {
+        record.tool.clone()
     }
 }
 

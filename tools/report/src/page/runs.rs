@@ -1,6 +1,6 @@
 //! How the study was computed: programs, active stages, memory, what was left out.
 
-use super::Named;
+use super::{Named, program};
 use crate::html::{Rows, beside, escape, figure, note};
 use crate::plot::{Line, Plot};
 use crate::records::{RunRecord, bytes, duration, figure as digits};
@@ -16,9 +16,11 @@ pub(super) fn section(records: &[Named]) -> String {
         "#Peak memory",
         "Started",
     ]);
-    for (_, record) in records {
+    for (name, record) in records {
+        let program = program(records, name, record);
+        let tool = format!("{} {}", record.tool, record.tool_version);
         table.row([
-            escape(&format!("{} {}", record.tool, record.tool_version)),
+            escape(&program.replacen(&record.tool, &tool, 1)),
             escape(&record.outcome),
             duration(record.wall_s),
             record.steps.to_string(),
@@ -30,13 +32,13 @@ pub(super) fn section(records: &[Named]) -> String {
         ]);
     }
     let mut out = table.render();
-    for (_, record) in records {
-        out += &one(record);
+    for (name, record) in records {
+        out += &one(record, &program(records, name, record));
     }
     out
 }
 
-fn one(record: &RunRecord) -> String {
+fn one(record: &RunRecord, title: &str) -> String {
     let mut out = String::new();
     for warning in &record.warnings {
         out += &note(&format!("Warning: {warning}"));
@@ -55,7 +57,7 @@ fn one(record: &RunRecord) -> String {
     if out.is_empty() {
         return out;
     }
-    format!("<h3>{}</h3>\n{out}", escape(&record.tool))
+    format!("<h3>{}</h3>\n{out}", escape(title))
 }
 
 fn stages(record: &RunRecord) -> String {

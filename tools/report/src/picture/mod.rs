@@ -3,6 +3,7 @@
 pub(crate) mod arc;
 pub(crate) mod bead;
 pub(crate) mod cross;
+pub(crate) mod heat;
 pub(crate) mod mean;
 
 use crate::draw::axes::{Scale, number};

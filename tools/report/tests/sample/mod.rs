@@ -1,4 +1,4 @@
-//! Artefacts with known content: a bead of half-ellipses, a vortex, a Gaussian arc.
+//! Artefacts with known content: a bead of half-ellipses, a vortex, a Gaussian arc, bodies that cool.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -289,6 +289,89 @@ fn lorentz(radius: &[f64]) -> Table {
     Table::grid(&[("radius_m", "m", radius), ("depth_m", "m", &depth)])
         .column("lorentz_radial_n_m3", "N/m3", force(-1e5))
         .column("lorentz_axial_n_m3", "N/m3", force(-0.5e5))
+}
+
+/// A disc of two layers that cools from a temperature, in frames of a march.
+pub(crate) fn disc(path: &Path, start: f64) {
+    let scene = json!({"title": format!("A disc at {start} K"), "dimensions": 3,
+        "body": {"cylinder": {"centre_m": [0, 0, 0.002], "radius_m": 0.01, "length_m": 0.004}},
+        "materials": [{"region": {"box": {"min_m": [-1, -1, 0.002], "max_m": [1, 1, 1]}}}, {}]});
+    let place = |i: i32, k: i32, m: i32| {
+        [
+            f64::from(i) * 1e-3,
+            f64::from(k) * 1e-3,
+            f64::from(m) * 1e-3,
+        ]
+    };
+    let all =
+        (-10..=10).flat_map(|i| (-10..=10).flat_map(move |k| (0..=4).map(move |m| (i, k, m))));
+    let position: Vec<[f64; 3]> = all
+        .filter(|(i, k, _)| i * i + k * k <= 100)
+        .map(|(i, k, m)| place(i, k, m))
+        .collect();
+    let mut writer = Writer::create(path, &points_header(scene)).unwrap();
+    for n in 0..=4 {
+        let time = f64::from(n);
+        let t = |p: &[f64; 3]| start - time * (20.0 - 8.0 * (p[0].hypot(p[1]) / 0.01).powi(2));
+        let frame = Frame::new(Precision::F64)
+            .positions(position.iter().copied())
+            .scalar("temperature", "K", position.iter().map(t))
+            .scalar("volume", "m3", position.iter().map(|_| 1e-9))
+            .flag("material", position.iter().map(|p| u8::from(p[2] < 0.002)));
+        writer.frame("/points", time, &frame).unwrap();
+        let monitors =
+            Record::new()
+                .with("centre", "K", t(&[0.0; 3]))
+                .with("rim", "K", t(&[0.01, 0.0, 0.0]));
+        writer.record("/monitors", time, &monitors).unwrap();
+        let mut boundaries = Record::new();
+        for (name, rate) in [("top", -30.0), ("side", -5.0)] {
+            boundaries = boundaries
+                .with(&format!("{name}.area"), "m2", 3e-4)
+                .with(&format!("{name}.heat_rate"), "W", rate)
+                .with(&format!("{name}.heat"), "J", rate * time)
+                .with(&format!("{name}.temperature"), "K", start - 15.0 * time);
+        }
+        writer.record("/boundaries", time, &boundaries).unwrap();
+        let balance = Record::new()
+            .with("stored", "J", -35.0 * time)
+            .with("boundaries", "J", -35.0 * time)
+            .with("imbalance", "J", 7e-8 * time);
+        writer.record("/balance", time, &balance).unwrap();
+    }
+    writer.finish().unwrap();
+    record(
+        path,
+        "heatsph",
+        json!([{"name": "march", "wall_s": 1.5, "share": 1.0}]),
+    );
+}
+
+/// A plane plate in its steady state: one frame, nothing over time.
+pub(crate) fn plate(path: &Path) {
+    let scene = json!({"dimensions": 2, "body": {"box": {"min_m": [0, 0], "max_m": [2, 1]}},
+        "materials": [{}], "steady": {}});
+    let position: Vec<[f64; 3]> = (0..=20)
+        .flat_map(|i| (0..=10).map(move |k| [0.1 * f64::from(i), 0.1 * f64::from(k), 0.0]))
+        .collect();
+    let mut writer = Writer::create(path, &points_header(scene)).unwrap();
+    let frame = Frame::new(Precision::F64)
+        .positions(position.iter().copied())
+        .scalar(
+            "temperature",
+            "K",
+            position.iter().map(|p| 300.0 + 2.0 * p[0]),
+        )
+        .scalar("volume", "m2", position.iter().map(|_| 0.01));
+    writer.frame("/points", 0.0, &frame).unwrap();
+    writer.finish().unwrap();
+}
+
+fn points_header(scene: Value) -> Header {
+    Header {
+        scene,
+        ..header("point-fields", "heatsph")
+    }
 }
 
 fn record(artefact: &Path, tool: &str, stages: Value) {
