@@ -1,11 +1,12 @@
 //! From a scene to a system of equations and its first temperatures.
 
 use run::Fault;
-use run::property::{Arguments, Curve, OutOfRange};
+use run::property::{Arguments, OutOfRange};
 
 use crate::body::Body;
 use crate::boundary::{self, Surface};
 use crate::cloud::Cloud;
+use crate::material::cells::Ground;
 use crate::material::{Materials, PLACE};
 use crate::operator::Links;
 use crate::scene::Scene;
@@ -27,14 +28,19 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     let cloud = Cloud::fill(&body, &scene.points, scene.dimensions)
         .map_err(|error| vec![Fault::at("/points", error.to_string())])?;
     let surface = boundary::compile(scene, &cloud)?;
-    let at_points = initial(scene, &cloud, &surface, |i, curve| {
-        curve.value(&Arguments::at(cloud.position[i], 0.0))
-    })?;
-    let range = range(scene, &surface, &at_points);
-    let materials = Materials::new(scene, range)?;
-    let temperature = initial(scene, &cloud, &surface, |i, curve| {
-        materials.start((cloud.position[i], cloud.spacing[i]), &body, curve)
-    })?;
+    let at = "/initial_temperature_k";
+    let fault = |at: &str, error: OutOfRange| vec![Fault::at(at, error.to_string())];
+    let curve = scene
+        .initial_temperature_k
+        .compile(at, &PLACE)
+        .map_err(|f| vec![f])?;
+    let values = cloud
+        .position
+        .iter()
+        .map(|x| curve.value(&Arguments::at(*x, 0.0)));
+    let mut temperature: Vec<f64> = values.collect::<Result<_, _>>().map_err(|e| fault(at, e))?;
+    hold(&surface, &cloud, &mut temperature)?;
+    let materials = Materials::new(scene, range(scene, &surface, &temperature))?;
     let source = match &scene.source_w_m3 {
         Some(property) => Some(
             property
@@ -45,39 +51,35 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     };
     let links = Links::new(&cloud, scene.operator)
         .map_err(|error| vec![Fault::at("/operator", error.to_string())])?;
-    let system = System::new((cloud, links), (materials, surface), source, &body)
-        .map_err(|error| vec![Fault::at("/materials", error.to_string())])?;
-    Ok((system, temperature))
+    let ground = Ground {
+        cloud: &cloud,
+        links: &links,
+        body: &body,
+    };
+    let mut cells = materials
+        .cells(ground, &curve)
+        .map_err(|e| fault("/materials", e))?;
+    hold(&surface, &cloud, &mut cells.temperature)?;
+    let system = System::new(
+        (cloud, links),
+        (materials, surface),
+        (cells.capacity, source),
+    )
+    .map_err(|error| fault("/materials", error))?;
+    Ok((system, cells.temperature))
 }
 
-/// Temperatures at the start, those of held points as prescribed, of others as `value` has them.
-fn initial(
-    scene: &Scene,
-    cloud: &Cloud,
-    surface: &Surface,
-    value: impl Fn(usize, &Curve) -> Result<f64, OutOfRange>,
-) -> Result<Vec<f64>, Vec<Fault>> {
-    let at = "/initial_temperature_k";
-    let curve = scene
-        .initial_temperature_k
-        .compile(at, &PLACE)
-        .map_err(|f| vec![f])?;
-    let mut temperature: Vec<f64> = (0..cloud.position.len())
-        .map(|i| value(i, &curve))
-        .collect::<Result<_, _>>()
-        .map_err(|error| vec![Fault::at(at, error.to_string())])?;
+/// Gives held points their temperatures at the start.
+fn hold(surface: &Surface, cloud: &Cloud, temperature: &mut [f64]) -> Result<(), Vec<Fault>> {
     for held in &surface.held {
         let i = held.point as usize;
-        temperature[i] = surface
-            .prescribed(*held, cloud.position[i], 0.0)
-            .map_err(|error| {
-                vec![Fault::at(
-                    &format!("/boundaries/{}", held.entry),
-                    error.to_string(),
-                )]
-            })?;
+        let value = surface.prescribed(*held, cloud.position[i], 0.0);
+        temperature[i] = value.map_err(|error| {
+            let at = format!("/boundaries/{}", held.entry);
+            vec![Fault::at(&at, error.to_string())]
+        })?;
     }
-    Ok(temperature)
+    Ok(())
 }
 
 /// Temperatures between which tables are made at first: those of the start and of constant surroundings.

@@ -1,5 +1,6 @@
 //! Materials: where each is, what it stores and how it conducts.
 
+pub mod cells;
 pub mod conductor;
 pub mod path;
 
@@ -7,8 +8,7 @@ use run::property::{Arguments, Curve, OutOfRange};
 use run::{Fault, property::Property};
 
 use crate::body::Body;
-use crate::body::frame::{Vector, along};
-use crate::cloud::Cloud;
+use crate::body::frame::Vector;
 use crate::scene::{Material, Scene};
 use conductor::Conductor;
 
@@ -52,9 +52,6 @@ pub struct Materials {
     contact: Vec<f64>,
     dimensions: usize,
 }
-
-/// Samples along an edge of a cell that an interface crosses.
-const SAMPLES: [usize; 2] = [8, 4];
 
 impl Materials {
     /// The materials of a scene whose temperatures lie between `low` and `high` \[K\] at the start.
@@ -136,6 +133,11 @@ impl Materials {
         &self.kinds[material].law
     }
 
+    /// Where a material is; nothing for one that is elsewhere.
+    pub(crate) fn region(&self, material: usize) -> Option<&Body> {
+        self.kinds[material].region.as_ref()
+    }
+
     /// Resistance between two materials \[m2 K/W\].
     #[must_use]
     pub fn contact(&self, a: usize, b: usize) -> f64 {
@@ -184,54 +186,8 @@ impl Materials {
         }
     }
 
-    /// Heat capacity of the cell about each point \[J/K\] (per metre of depth in a plane scene). A cell that
-    /// an interface crosses has the mean of its parts.
-    ///
-    /// # Errors
-    /// Where a property has no value, or one that is not positive.
-    pub fn capacities(
-        &self,
-        cloud: &Cloud,
-        body: &Body,
-        volume: &[f64],
-    ) -> Result<Vec<f64>, OutOfRange> {
-        use rayon::prelude::*;
-        (0..volume.len())
-            .into_par_iter()
-            .with_min_len(256)
-            .map(|i| {
-                let (x, edge) = (cloud.position[i], cloud.spacing[i]);
-                let density = if self.crossed(x, edge) {
-                    self.mixed((x, edge), body, |_| Ok(1.0))?.0
-                } else {
-                    self.stored(self.at(x), x)?
-                };
-                Ok(density * volume[i])
-            })
-            .collect()
-    }
-
-    /// Temperature with which the cell about `x` holds the heat of `initial`; the value at the point where no
-    /// interface crosses its cell.
-    ///
-    /// # Errors
-    /// Where a property has no value.
-    pub fn start(
-        &self,
-        (x, edge): (Vector, f64),
-        body: &Body,
-        initial: &Curve,
-    ) -> Result<f64, OutOfRange> {
-        let at = |x: Vector| initial.value(&Arguments::at(x, 0.0));
-        if initial.constant().is_none() && self.crossed(x, edge) {
-            let (capacity, heat) = self.mixed((x, edge), body, at)?;
-            return Ok(heat / capacity);
-        }
-        at(x)
-    }
-
     /// Whether an interface may cross the cell of the given edge about `x`.
-    fn crossed(&self, x: Vector, edge: f64) -> bool {
+    pub(crate) fn crossed(&self, x: Vector, edge: f64) -> bool {
         let near = 0.5 * edge * (self.dimensions as f64).sqrt();
         let close = |kind: &Kind| {
             let region = kind.region.as_ref();
@@ -241,7 +197,7 @@ impl Materials {
     }
 
     /// rho c of a material at a place \[J/(m3 K)\].
-    fn stored(&self, material: usize, x: Vector) -> Result<f64, OutOfRange> {
+    pub(crate) fn stored(&self, material: usize, x: Vector) -> Result<f64, OutOfRange> {
         let (kind, at) = (&self.kinds[material], Arguments::at(x, 0.0));
         let value = kind.density.value(&at)? * kind.specific_heat.value(&at)?;
         if value > 0.0 {
@@ -249,84 +205,6 @@ impl Materials {
         } else {
             Err(OutOfRange::Formula { value, at })
         }
-    }
-
-    /// Means of rho c, and of rho c times `value`, over the part of a cube about `x` that is inside the body.
-    fn mixed(
-        &self,
-        (x, edge): (Vector, f64),
-        body: &Body,
-        value: impl Fn(Vector) -> Result<f64, OutOfRange>,
-    ) -> Result<(f64, f64), OutOfRange> {
-        let each = SAMPLES[self.dimensions - 2];
-        let size = edge / each as f64;
-        let offset = |i: usize| (i as f64 + 0.5) * size - 0.5 * edge;
-        let covered = |distance: f64| (0.5 - distance / size).clamp(0.0, 1.0);
-        let deep = if self.dimensions == 3 { each } else { 1 };
-        let (mut capacity, mut heat, mut whole) = (0.0, 0.0, 0.0);
-        for number in 0..each * each * deep {
-            let (i, j, k) = (number % each, number / each % each, number / (each * each));
-            let z = if deep > 1 { offset(k) } else { 0.0 };
-            let place = [x[0] + offset(i), x[1] + offset(j), x[2] + z];
-            let mut left = covered(body.distance(place));
-            whole += left;
-            for (number, kind) in self.kinds.iter().enumerate() {
-                let (part, own) = match &kind.region {
-                    Some(region) if number + 1 < self.kinds.len() => {
-                        let distance = region.distance(place);
-                        (
-                            left * covered(distance),
-                            inside(region, place, distance, size),
-                        )
-                    }
-                    _ => (left, self.beyond(place, size)),
-                };
-                if part > 0.0 {
-                    let stored = part * self.stored(number, own)?;
-                    capacity += stored;
-                    heat += stored * value(own)?;
-                }
-                left -= part;
-            }
-        }
-        if whole > 0.0 {
-            return Ok((capacity / whole, heat / whole));
-        }
-        let stored = self.stored(self.at(x), x)?;
-        Ok((stored, stored * value(x)?))
-    }
-
-    /// A place by `place` that is in no region.
-    fn beyond(&self, place: Vector, size: f64) -> Vector {
-        let regions = self.kinds[..self.kinds.len() - 1].iter();
-        let near = regions
-            .filter_map(|kind| kind.region.as_ref())
-            .find(|region| region.holds(place));
-        near.map_or(place, |region| {
-            let distance = region.distance(place);
-            if -distance < size {
-                along(
-                    place,
-                    1e-6 * size - distance,
-                    region.normal(place, 1e-3 * size),
-                )
-            } else {
-                place
-            }
-        })
-    }
-}
-
-/// The place itself if it is inside the region, else the nearest inside, if that is near.
-fn inside(region: &Body, place: Vector, distance: f64, size: f64) -> Vector {
-    if distance > 0.0 && distance < size {
-        along(
-            place,
-            -distance - 1e-6 * size,
-            region.normal(place, 1e-3 * size),
-        )
-    } else {
-        place
     }
 }
 

@@ -1,4 +1,9 @@
+use super::cells::{Cells, Ground};
 use super::*;
+use crate::cloud::Cloud;
+use crate::operator::Links;
+use crate::scene::Operator;
+use run::property::{Formula, Property};
 
 fn materials(text: &str, contacts: &str) -> Materials {
     let scene = format!(
@@ -56,25 +61,71 @@ fn a_conductivity_of_place_has_its_harmonic_mean() {
     assert!((k - 1.0 / 0.505).abs() < 0.02, "{k}");
 }
 
-#[test]
-fn a_cell_across_an_interface_stores_the_mean() {
-    let layers = materials(TWO, "[]");
+/// Capacities and first temperatures of a lattice of 0.1 across the interface at 0.43.
+fn cells(materials: &Materials, spacing: &str) -> (Cloud, Cells) {
     let body = Body::new(
         &serde_json::from_str(r#"{"box": {"min_m": [0, 0], "max_m": [1, 1]}}"#).unwrap(),
         2,
     );
-    let cloud = Cloud {
-        dimensions: 2,
-        position: vec![[0.4, 0.5, 0.0], [0.4, 0.0, 0.0], [0.1, 0.5, 0.0]],
-        spacing: vec![0.1; 3],
-        share: vec![0.01, 0.005, 0.01],
-        ..Cloud::default()
+    let points = format!(r#"{{"spacing_m": {spacing}}}"#);
+    let cloud = Cloud::fill(&body, &serde_json::from_str(&points).unwrap(), 2).unwrap();
+    let links = Links::new(&cloud, Operator::default()).unwrap();
+    let step = Property::Formula(Formula {
+        expr: "if(0.43 - x, 5, 1)".to_owned(),
+    });
+    let ground = Ground {
+        cloud: &cloud,
+        links: &links,
+        body: &body,
     };
-    let found = layers.capacities(&cloud, &body, &cloud.share).unwrap();
-    // The cell from 0.35 to 0.45: 0.08 of the left material, 0.02 of the right.
-    assert!((found[0] - 0.01 * 1.8).abs() < 1e-9, "{found:?}");
-    assert!((found[1] - 0.005 * 1.8).abs() < 1e-9, "{found:?}");
-    assert!((found[2] - 0.02).abs() < 1e-15);
+    let cells = materials
+        .cells(ground, &step.compile("/t", &PLACE).unwrap())
+        .unwrap();
+    (cloud, cells)
+}
+
+#[test]
+fn cells_store_what_the_body_stores() {
+    for contacts in [
+        "[]",
+        r#"[{"between": ["left", "right"], "resistance_m2_k_w": 0.5}]"#,
+    ] {
+        let layers = materials(TWO, contacts);
+        let (_, cells) = cells(&layers, "0.1");
+        let capacity: f64 = cells.capacity.iter().sum();
+        assert!((capacity - (2.0 * 0.43 + 0.57)).abs() < 1e-9, "{capacity}");
+        let heat = cells
+            .capacity
+            .iter()
+            .zip(&cells.temperature)
+            .map(|(c, t)| c * t);
+        let heat: f64 = heat.sum();
+        assert!((heat - (5.0 * 2.0 * 0.43 + 0.57)).abs() < 1e-9, "{heat}");
+    }
+}
+
+#[test]
+fn a_foreign_part_goes_to_those_who_conduct_to_it() {
+    // The cell about x = 0.4 reaches from 0.35 to 0.45: 0.02 of it are the poor conductor's, 0.03 away from a
+    // point of the good one and 0.07 from points of its own: it hangs on the former but for 0.4 %.
+    let (cloud, found) = cells(&materials(TWO, "[]"), "0.1");
+    let at = |x: f64, cells: &Cells| {
+        let place = cloud
+            .position
+            .iter()
+            .position(|p| (p[0] - x).abs() + (p[1] - 0.5).abs() < 1e-9);
+        cells.capacity[place.unwrap()]
+    };
+    let whole = 0.01 * (0.8 * 2.0 + 0.2);
+    assert!(
+        (at(0.4, &found) - whole).abs() < 0.01 * whole,
+        "{}",
+        at(0.4, &found)
+    );
+    // Behind a contact it hangs on its own kind.
+    let behind = r#"[{"between": ["left", "right"], "resistance_m2_k_w": 1e6}]"#;
+    let (_, found) = cells(&materials(TWO, behind), "0.1");
+    assert!((at(0.4, &found) - 0.01 * 1.6).abs() < 1e-6);
 }
 
 #[test]

@@ -12,7 +12,6 @@ pub use rates::Rates;
 
 use run::property::{Curve, OutOfRange};
 
-use crate::body::Body;
 use crate::body::frame::Vector;
 use crate::boundary::{Film, Passed, Surface};
 use crate::cloud::Cloud;
@@ -52,11 +51,9 @@ impl System {
     pub fn new(
         (cloud, links): (Cloud, Links),
         (materials, surface): (Materials, Surface),
-        source: Option<Curve>,
-        body: &Body,
+        (capacity, source): (Vec<f64>, Option<Curve>),
     ) -> Result<Self, OutOfRange> {
         let conduction = Conduction::new(&materials, &cloud.position, &links)?;
-        let capacity = materials.capacities(&cloud, body, &links.volume)?;
         let material = cloud
             .position
             .iter()
