@@ -16,6 +16,10 @@ const SAME: f64 = 0.25;
 const EVEN: f64 = 0.02;
 /// Part of another axis's change of temperature that is clearly less, whatever the edges of the body add.
 const LESS: f64 = 0.8;
+/// Part of all change of temperature that is none.
+const NOISE: f64 = 1e-6;
+/// A body that many times higher than wide is laid down.
+const HIGH: f64 = 2.5;
 /// Half of the slab whose points tell of a section, in spacings.
 const SLAB: f64 = 2.0;
 /// Nodes of the field along an axis.
@@ -41,6 +45,8 @@ pub(crate) enum Cut {
 pub(crate) struct Field {
     /// How the plane lies.
     pub(crate) cut: Cut,
+    /// Whether what would point upwards points to the right, because the body is long that way.
+    pub(crate) lying: bool,
     /// Coordinate of the section \[m\], where it is one through the middle.
     pub(crate) depth: f64,
     /// Range to the right and upwards that the body fills \[m\].
@@ -87,7 +93,9 @@ impl Field {
     fn cut(points: &Points, cut: Cut) -> Option<Self> {
         let centre = points.centre();
         let spacing = points.spacing();
-        let samples = project(points, cut, centre);
+        let size = bounds(&project(points, (cut, false), centre))?.map(|[a, b]| b - a);
+        let lying = size[1] > HIGH * size[0];
+        let samples = project(points, (cut, lying), centre);
         let groups = if points.body.jumps {
             points.material.as_ref()
         } else {
@@ -104,6 +112,7 @@ impl Field {
         let near = merged(&samples, |_| true, spacing)?;
         let mut field = Self {
             cut,
+            lying,
             depth: match cut {
                 Cut::Middle(k) => centre[k],
                 _ => 0.0,
@@ -132,7 +141,8 @@ impl Field {
     }
 
     /// The place in space of a place in the plane \[m\].
-    pub(crate) fn place(&self, [u, v]: [f64; 2]) -> [f64; 3] {
+    pub(crate) fn place(&self, p: [f64; 2]) -> [f64; 3] {
+        let [u, v] = if self.lying { [p[1], p[0]] } else { p };
         let mut at = self.centre;
         match self.cut {
             Cut::Plane => at = [u, v, 0.0],
@@ -148,9 +158,14 @@ impl Field {
         at
     }
 
+    /// Which direction of the plane is the radius: 0 to the right, 1 upwards.
+    pub(crate) fn radial(&self) -> Option<usize> {
+        matches!(self.cut, Cut::Half(_)).then_some(usize::from(self.lying))
+    }
+
     /// Whether a place in the plane is inside the body.
     pub(crate) fn holds(&self, points: &Points, p: [f64; 2]) -> bool {
-        if matches!(self.cut, Cut::Half(_)) && p[0] < 0.0 {
+        if self.radial().is_some_and(|k| p[k] < 0.0) {
             return false;
         }
         let known = points.body.holds(self.place(p));
@@ -191,7 +206,7 @@ impl Field {
     fn deviation(&self, points: &Points) -> f64 {
         let range = points.range();
         let width = (range.greatest - range.least).max(1e-6 * range.greatest.abs());
-        let samples = project(points, self.cut, self.centre);
+        let samples = project(points, (self.cut, self.lying), self.centre);
         let grid = crate::draw::contour::Grid {
             first: &self.across,
             second: &self.up,
@@ -215,7 +230,7 @@ impl Field {
 }
 
 /// All points that a plane shows, in its coordinates; the others of the section far off it.
-fn project(points: &Points, cut: Cut, centre: [f64; 3]) -> Vec<Sample> {
+fn project(points: &Points, (cut, lying): (Cut, bool), centre: [f64; 3]) -> Vec<Sample> {
     let each = points.position.iter().zip(&points.temperature);
     let at = |p: &[f64; 3]| match cut {
         Cut::Plane => [p[0], p[1], 0.0],
@@ -228,9 +243,12 @@ fn project(points: &Points, cut: Cut, centre: [f64; 3]) -> Vec<Sample> {
             [p[a], p[b], p[axis] - centre[axis]]
         }
     };
-    each.map(|(p, t)| Sample {
-        at: at(p),
-        value: *t,
+    each.map(|(p, t)| {
+        let [u, v, w] = at(p);
+        Sample {
+            at: if lying { [v, u, w] } else { [u, v, w] },
+            value: *t,
+        }
     })
     .collect()
 }
@@ -294,15 +312,18 @@ fn is_round(points: &Points, axis: usize) -> bool {
     })
 }
 
-/// The axis along which the temperature changes least; y where they are equal.
+/// The axis along which the temperature changes least; of those where it changes as little the one along
+/// which the body is shortest, and y before x before z.
 fn steadiest(points: &Points) -> usize {
-    let size = 2.0 * points.spacing();
+    let size = points.spacing();
+    let mean = points.range().mean;
     let change = |axis: usize| {
         let [a, b] = beside(axis);
         let mut columns: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
         for (p, t) in points.position.iter().zip(&points.temperature) {
-            let key = [p[a], p[b]].map(|x| (x / size).floor() as i64);
+            let key = [p[a], p[b]].map(|x| (x / size).round() as i64);
             let [count, sum, square] = columns.entry(key).or_default();
+            let t = t - mean;
             *count += 1.0;
             *sum += t;
             *square += t * t;
@@ -311,10 +332,24 @@ fn steadiest(points: &Points) -> usize {
         columns.values().map(own).sum::<f64>()
     };
     let changes = [1, 0, 2].map(|k| (k, change(k)));
-    let least = changes[1..].iter().fold(changes[0], |best, next| {
-        if next.1 < LESS * best.1 { *next } else { best }
+    let least = changes.iter().fold(f64::INFINITY, |m, c| m.min(c.1));
+    let whole: f64 = points.temperature.iter().map(|t| (t - mean).powi(2)).sum();
+    let long = |k: usize| {
+        let along = || points.position.iter().map(|p| p[k]);
+        along().fold(f64::NEG_INFINITY, f64::max) - along().fold(f64::INFINITY, f64::min)
+    };
+    let steady = changes
+        .iter()
+        .filter(|c| LESS * c.1 <= least + NOISE * whole)
+        .map(|c| c.0);
+    let shortest = steady.reduce(|best, next| {
+        if long(next) < 0.99 * long(best) {
+            next
+        } else {
+            best
+        }
     });
-    least.0
+    shortest.unwrap_or(1)
 }
 
 #[cfg(test)]
@@ -372,11 +407,30 @@ mod tests {
             assert!(off.abs() < 0.3, "{p:?}: {off}");
         }
         assert!((field.window[0][1] - 1.0).abs() < 0.01);
-        // The same disc, heated from one side, is not the same all around: it is cut where x shows.
+        // The same disc, heated from one side, is not the same all around: it is cut across z.
         let side = points(&disc, |p| 300.0 + 20.0 * p[0]);
         let field = Field::of(&side).unwrap();
-        assert_eq!(field.cut, Cut::Middle(1));
+        assert_eq!(field.cut, Cut::Middle(2));
         assert!((sample(&field, [-0.5, 0.1], 0) - 290.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn a_long_body_lies_down() {
+        let rod =
+            json!({"body": {"cylinder": {"centre_m": [0, 0, 0], "radius_m": 0.25, "length_m": 2}}});
+        let hot = points(&rod, |p| 300.0 + 10.0 * p[2]);
+        let field = Field::of(&hot).unwrap();
+        assert_eq!((field.cut, field.lying), (Cut::Half(2), true));
+        assert!((sample(&field, [0.5, 0.1], 0) - 305.0).abs() < 1e-3);
+        assert!(field.holds(&hot, [0.9, 0.2]) && !field.holds(&hot, [0.2, 0.9]));
+        assert!(!field.holds(&hot, [0.0, -0.1]));
+    }
+
+    #[test]
+    fn a_plate_is_cut_where_it_shows_most() {
+        let plate = json!({"body": {"box": {"min_m": [-1, -1, -0.3], "max_m": [1, 1, 0.3]}}});
+        let hot = points(&plate, |p| 500.0 + 50.0 * p[0]);
+        assert_eq!(Field::of(&hot).unwrap().cut, Cut::Middle(2));
     }
 
     #[test]

@@ -12,11 +12,15 @@ use crate::heat::field::{Cut, Field};
 /// Left, right, top, bottom of the area \[px\].
 const MARGIN: [f64; 4] = [150.0, 210.0, 44.0, 90.0];
 /// Least and greatest height of the area \[px\].
-const HEIGHT: [f64; 2] = [150.0, 900.0];
+const HEIGHT: [f64; 2] = [200.0, 900.0];
 /// Part of the greater extent that stays free around the body.
 const ROOM: f64 = 0.02;
 /// Isotherms, about.
 const LINES: f64 = 12.0;
+/// Temperatures that differ by less, as part of themselves, are the same.
+const SAME: f64 = 1e-6;
+/// Half of the scale of a body of one temperature, as part of it.
+const ALIKE: f64 = 5e-4;
 /// Length of a dash of an interface and of what follows it \[px\].
 const DASH: i64 = 14;
 
@@ -42,8 +46,8 @@ fn unit(extent: f64) -> (&'static str, f64) {
 }
 
 /// Titles of the axes.
-fn titles(cut: Cut, unit: &str) -> [String; 2] {
-    let names = match cut {
+fn titles(field: &Field, unit: &str) -> [String; 2] {
+    let mut names = match field.cut {
         Cut::Plane | Cut::Middle(2) => ["x", "y"],
         Cut::Half(0) => ["r", "x"],
         Cut::Half(1) => ["r", "y"],
@@ -51,6 +55,9 @@ fn titles(cut: Cut, unit: &str) -> [String; 2] {
         Cut::Middle(0) => ["y", "z"],
         Cut::Middle(_) => ["x", "z"],
     };
+    if field.lying {
+        names.reverse();
+    }
     names.map(|n| format!("{n} [{unit}]"))
 }
 
@@ -59,23 +66,20 @@ fn frame(field: &Field, factor: f64) -> (Axes, f64) {
     let body = field.window.map(|range| range.map(|v| factor * v));
     let size = body.map(|[a, b]| b - a);
     let room = ROOM * size[0].max(size[1]);
-    let left = if matches!(field.cut, Cut::Half(_)) {
-        body[0][0].max(0.0)
-    } else {
-        body[0][0] - room
+    let range = |k: usize, room: f64| match field.radial() {
+        Some(radius) if radius == k => [body[k][0].max(0.0), body[k][1] + room],
+        _ => [body[k][0] - room, body[k][1] + room],
     };
-    let x = [left, body[0][1] + room];
-    let mut y = [body[1][0] - room, body[1][1] + room];
+    let (x, mut y) = (range(0, room), range(1, room));
     let most = WIDTH as f64 - MARGIN[0] - MARGIN[1];
     let scale = (most / (x[1] - x[0])).min(HEIGHT[1] / (y[1] - y[0]));
     let mut stretch = 1.0;
     let flat = scale * (y[1] - y[0]);
     if flat < HEIGHT[0] {
         stretch = (HEIGHT[0] / flat).ceil();
-        let own = room / stretch;
-        y = [body[1][0] - own, body[1][1] + own];
+        y = range(1, room / stretch);
     }
-    let w = (scale * (x[1] - x[0])).max(HEIGHT[0]).min(most).round();
+    let w = (scale * (x[1] - x[0])).round();
     let h = (stretch * scale * (y[1] - y[0])).max(60.0).round();
     let high = h.max(220.0);
     let area = Rect {
@@ -104,10 +108,10 @@ pub(crate) fn picture(points: &Points, field: &Field) -> Option<Shown> {
     };
     let kinds = view.kinds();
     view.paint(&mut canvas, &scale, &kinds);
-    let levels = levels(&scale);
-    let layers = view.edges(&mut canvas, &kinds);
+    let levels = levels(points, &scale);
+    let layers = view.edges(&mut canvas, &scale, &kinds);
     view.isotherms(&mut canvas, &scale, &levels);
-    let [x, y] = titles(field.cut, unit);
+    let [x, y] = titles(field, unit);
     axes.draw(&mut canvas, &x, &y);
     bar_beside(&mut canvas, &scale, axes.area);
     Some(Shown {
@@ -121,8 +125,14 @@ pub(crate) fn picture(points: &Points, field: &Field) -> Option<Shown> {
 /// Colours from the coldest to the hottest point.
 fn scale(points: &Points) -> Scale {
     let range = points.range();
-    let least = 1e-6 * range.least.abs().max(range.greatest.abs()).max(1e-9);
-    let more = (0.5 * (least - (range.greatest - range.least))).max(0.0);
+    let size = range.least.abs().max(range.greatest.abs());
+    let more = if range.greatest - range.least > SAME * size {
+        0.0
+    } else if size > 0.0 {
+        ALIKE * size
+    } else {
+        0.5
+    };
     Scale {
         map: Map::Molten,
         range: [range.least - more, range.greatest + more],
@@ -131,9 +141,10 @@ fn scale(points: &Points) -> Scale {
 }
 
 /// Temperatures of the isotherms \[K\]; none in a body of one temperature.
-fn levels(scale: &Scale) -> Vec<f64> {
+fn levels(points: &Points, scale: &Scale) -> Vec<f64> {
     let [low, high] = scale.range;
-    if high - low <= 1.5e-6 * low.abs().max(high.abs()) {
+    let range = points.range();
+    if range.greatest - range.least <= SAME * range.greatest.abs().max(range.least.abs()) {
         return Vec::new();
     }
     let mut levels = ticks(scale.range, LINES);
@@ -171,23 +182,28 @@ impl View<'_> {
         }
     }
 
+    /// The temperature shown at a pixel \[K\].
+    fn value(&self, [x, y]: [i64; 2], material: usize) -> Option<f64> {
+        let p = self.axes.point(x, y).map(|v| v / self.factor);
+        let window = self.field.window;
+        let [u, v] = [0, 1].map(|k| p[k].clamp(window[k][0], window[k][1]));
+        self.grid(material).sample(u, v)
+    }
+
     fn paint(&self, canvas: &mut Canvas, scale: &Scale, kinds: &[Option<usize>]) {
         let area = self.axes.area;
         let (x0, y0, w) = (area.x as i64, area.y as i64, area.w as i64);
         for (n, kind) in kinds.iter().enumerate() {
             let Some(material) = kind else { continue };
             let (x, y) = (x0 + n as i64 % w, y0 + n as i64 / w);
-            let p = self.axes.point(x, y).map(|v| v / self.factor);
-            let [u, v] =
-                [0, 1].map(|k| p[k].clamp(self.field.window[k][0], self.field.window[k][1]));
-            if let Some(value) = self.grid(*material).sample(u, v) {
+            if let Some(value) = self.value([x, y], *material) {
                 canvas.blend(x, y, scale.colour(value), 1.0);
             }
         }
     }
 
     /// Draws the outline of the body and, dashed, what parts its materials; tells whether any does.
-    fn edges(&self, canvas: &mut Canvas, kinds: &[Option<usize>]) -> bool {
+    fn edges(&self, canvas: &mut Canvas, scale: &Scale, kinds: &[Option<usize>]) -> bool {
         let area = self.axes.area;
         let (x0, y0, w) = (area.x as i64, area.y as i64, area.w as i64);
         let mut layers = false;
@@ -206,8 +222,11 @@ impl View<'_> {
                 if parts && (along / DASH) % 2 == 1 {
                     continue;
                 }
-                canvas.blend(x0 + x, y0 + y, INK, 1.0);
-                canvas.blend(x0 + x + aside[1], y0 + y + aside[0], INK, 1.0);
+                let at = [x0 + x, y0 + y];
+                let value = kind.filter(|_| parts).and_then(|m| self.value(at, m));
+                let pen = value.map_or(INK, |v| contrast(scale.colour(v)));
+                canvas.blend(at[0], at[1], pen, 1.0);
+                canvas.blend(at[0] + aside[1], at[1] + aside[0], pen, 1.0);
             }
         }
         layers

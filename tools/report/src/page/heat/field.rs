@@ -36,9 +36,9 @@ pub(super) fn section(runs: &[Run], records: &[Named]) -> Result<String, Failure
 /// Temperatures with as many digits as tell them apart.
 pub(super) fn kelvin(value: f64, range: Range) -> String {
     let spread = (range.greatest - range.least)
-        .max(1e-6 * range.greatest.abs())
+        .max(1e-3 * range.greatest.abs())
         .max(1e-9);
-    let digits = (2.0 - spread.log10().floor()).clamp(0.0, 6.0) as usize;
+    let digits = (2.0 - spread.log10().floor()).clamp(0.0, 5.0) as usize;
     format!("{value:.digits$}").replace('-', "\u{2212}")
 }
 
@@ -118,6 +118,6 @@ mod tests {
         assert_eq!(kelvin(1023.456, range(1000.0, 1023.456)), "1023.5");
         assert_eq!(kelvin(1023.456, range(300.0, 1023.456)), "1023");
         assert_eq!(kelvin(0.51234, range(0.0, 1.0)), "0.51");
-        assert_eq!(kelvin(-2.0, range(-2.0, -2.0)), "\u{2212}2.000000");
+        assert_eq!(kelvin(-2.0, range(-2.0, -2.0)), "\u{2212}2.00000");
     }
 }
