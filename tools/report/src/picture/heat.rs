@@ -76,7 +76,9 @@ fn frame(field: &Field, factor: f64) -> (Axes, f64) {
     let mut stretch = 1.0;
     let flat = scale * (y[1] - y[0]);
     if flat < HEIGHT[0] {
-        stretch = (HEIGHT[0] / flat).ceil();
+        // The room around the body is not stretched with it.
+        let own = scale * size[1];
+        stretch = ((HEIGHT[0] - (flat - own)) / own).ceil().max(2.0);
         y = range(1, room / stretch);
     }
     let w = (scale * (x[1] - x[0])).round();
