@@ -1,20 +1,24 @@
 //! What the cells of points store.
 //!
-//! A cell that an interface crosses holds parts of several materials. Its own part stays with its point. A part of
-//! another material lies between the point, beyond the interface, and the points of its own material with which
-//! the point is linked; it is shared between them as they conduct to it, so that a good conductor's heat does not
-//! hang on a poor one, nor cross a contact.
+//! A cell that an interface crosses holds parts of several materials, and a point may stand for what another one
+//! conducts to far better. Between two linked points what is stored belongs to the one to which it has the
+//! shorter way, as a resistance: up to the middle of the link's resistance, not of its length. In one material
+//! the two are the same. A good conductor's heat then does not hang on a poor one, nor does it cross a contact,
+//! and the flux at an interface between points is of second order.
 
 use run::property::{Arguments, Curve, OutOfRange};
 
 use super::Materials;
 use crate::body::Body;
-use crate::body::frame::{Vector, along};
+use crate::body::frame::{Vector, along, difference, dot, length};
 use crate::cloud::Cloud;
 use crate::operator::Links;
 
 /// Samples along an edge of a cell that an interface crosses, in a plane and in space.
 const SAMPLES: [usize; 2] = [8, 4];
+
+/// Most of its own part that a cell gives to others.
+const MOST: f64 = 0.4;
 
 /// Capacity of a material's part of a cell \[J/(m3 K)\], and its heat \[J/m3\].
 type Part = (f64, f64);
@@ -37,6 +41,34 @@ pub struct Ground<'a> {
     pub links: &'a Links,
     /// The body.
     pub body: &'a Body,
+}
+
+/// A link across an interface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Way {
+    to: usize,
+    /// Material at its other end.
+    material: usize,
+    /// Twice the volume between its ends, as seen along the normal of the interface \[m3\].
+    weight: f64,
+    /// Volume on the own side of the interface to which the other end has the shorter way \[m3\].
+    own: f64,
+    /// Part of what lies behind the interface within the own cell to which it has so.
+    foreign: f64,
+}
+
+/// Where half of the resistance of a link is left behind, as a part of its length, for an interface at `near`
+/// between conductivities `k` and a resistance there over the length.
+fn middle(near: f64, k: [f64; 2], contact: f64) -> f64 {
+    let (here, there) = (near / k[0], (1.0 - near) / k[1]);
+    let half = 0.5 * (here + contact + there);
+    if half <= here {
+        half * k[0]
+    } else if half <= here + contact {
+        near
+    } else {
+        1.0 - half * k[1]
+    }
 }
 
 impl Materials {
@@ -62,19 +94,32 @@ impl Materials {
                 continue;
             }
             let parts = self.parts((x, edge), ground.body, start)?;
+            let ways = self.ways(ground, (i, own), temperature[i])?;
             for (material, (stored, heat)) in parts.into_iter().enumerate() {
-                if stored <= 0.0 {
+                let mut give = |j: usize, stored: f64, heat: f64| {
+                    capacity[j] += stored * volume[i];
+                    surplus[j] += (heat - stored * temperature[j]) * volume[i];
+                };
+                if material == own {
+                    // What of the own part lies beyond the middle of a way, at most a good part of it.
+                    let away: f64 = ways.iter().map(|way| way.own).sum::<f64>() / volume[i];
+                    let scale = (MOST / away.max(MOST)) / volume[i];
+                    for way in &ways {
+                        give(way.to, scale * way.own * stored, scale * way.own * heat);
+                    }
+                    let kept = 1.0 - away.min(MOST);
+                    give(i, kept * stored, kept * heat);
                     continue;
                 }
-                let shares = if material == own {
-                    vec![(i, 1.0)]
-                } else {
-                    self.shares(ground, (i, own), material, temperature[i])?
-                };
-                for (j, share) in shares {
-                    capacity[j] += share * stored * volume[i];
-                    surplus[j] += share * (heat - stored * temperature[j]) * volume[i];
+                let there = ways.iter().filter(|way| way.material == material);
+                let whole: f64 = there.clone().map(|way| way.weight).sum();
+                let mut kept = 1.0;
+                for way in there {
+                    let share = way.weight / whole * way.foreign;
+                    kept -= share;
+                    give(way.to, share * stored, share * heat);
                 }
+                give(i, kept * stored, kept * heat);
             }
         }
         for ((t, surplus), capacity) in temperature.iter_mut().zip(&surplus).zip(&capacity) {
@@ -86,46 +131,51 @@ impl Materials {
         })
     }
 
-    /// The points that share a part of `material` in the cell of point `i` of material `own`.
-    fn shares(
+    /// The ways from point `i` of material `own` across an interface.
+    fn ways(
         &self,
         ground: Ground<'_>,
         (i, own): (usize, usize),
-        material: usize,
         temperature: f64,
-    ) -> Result<Vec<(usize, f64)>, OutOfRange> {
+    ) -> Result<Vec<Way>, OutOfRange> {
         let position = &ground.cloud.position;
         let pattern = &ground.links.pattern;
-        let near: Vec<(usize, f64)> = pattern
-            .row(i)
-            .map(|k| (pattern.columns()[k] as usize, ground.links.weight[k]))
-            .filter(|(j, weight)| *weight > 0.0 && self.at(position[*j]) == material)
-            .collect();
-        let whole: f64 = near.iter().map(|(_, weight)| weight).sum();
-        if near.is_empty() {
-            return Ok(vec![(i, 1.0)]);
+        let mut ways = Vec::new();
+        for link in pattern.row(i) {
+            let to = pattern.columns()[link] as usize;
+            let material = self.at(position[to]);
+            let Some(region) = self.region(own.min(material)) else {
+                continue;
+            };
+            let d = difference(position[to], position[i]);
+            let normal = region.normal(position[i], 1e-3 * length(d));
+            let along_normal = dot(normal, d);
+            let weight = ground.links.weight[link] * along_normal * along_normal;
+            if material == own || weight <= 0.0 {
+                continue;
+            }
+            let distances = [i, to].map(|k| region.distance(position[k]).abs());
+            let near = distances[0] / (distances[0] + distances[1]).max(f64::MIN_POSITIVE);
+            let k = [
+                self.conductivity(own, position[i], temperature)?,
+                self.conductivity(material, position[to], temperature)?,
+            ];
+            let contact = self.contact(own, material) / along_normal.abs();
+            let middle = middle(near, k, contact);
+            let half = near.min(0.5);
+            ways.push(Way {
+                to,
+                material,
+                weight,
+                own: weight * (half - middle).max(0.0),
+                foreign: if near < 0.5 {
+                    1.0 - ((middle - near) / (0.5 - near)).clamp(0.0, 1.0)
+                } else {
+                    1.0
+                },
+            });
         }
-        // Ways from the interface to the point and to those of the part's own material, as resistances.
-        let k = self.conductivity(own, position[i], temperature)?;
-        let here = self.distance((own, material), position[i]) / k + self.contact(own, material);
-        let mut there = 0.0;
-        for (j, weight) in &near {
-            let k = self.conductivity(material, position[*j], temperature)?;
-            there += weight / whole * self.distance((own, material), position[*j]) / k;
-        }
-        let left = there / (here + there).max(f64::MIN_POSITIVE);
-        let mut shares = vec![(i, left)];
-        shares.extend(
-            near.iter()
-                .map(|(j, weight)| (*j, (1.0 - left) * weight / whole)),
-        );
-        Ok(shares)
-    }
-
-    /// Distance of a place from the interface of two materials \[m\].
-    fn distance(&self, (a, b): (usize, usize), x: Vector) -> f64 {
-        self.region(a.min(b))
-            .map_or(0.0, |region| region.distance(x).abs())
+        Ok(ways)
     }
 
     /// The part of each material in a cube about `x`, as far as that is inside the body.
