@@ -236,7 +236,7 @@ impl View<'_> {
 
     fn isotherms(&self, canvas: &mut Canvas, scale: &Scale, levels: &[f64]) {
         let materials = self.field.values.len();
-        let mut labels: Vec<Rect> = Vec::new();
+        let mut drawn = Vec::new();
         for level in levels {
             let pen = contrast(scale.colour(*level));
             let mut lines = Vec::new();
@@ -251,7 +251,11 @@ impl View<'_> {
                 lines.extend(inside.map(|s| s.map(|p| p.map(|v| self.factor * v))));
             }
             self.axes.segments(canvas, &lines, (pen, 2.0));
-            self.label(canvas, (*level, pen), &lines, (scale, &mut labels));
+            drawn.push((*level, pen, lines));
+        }
+        let mut labels: Vec<Rect> = Vec::new();
+        for (level, pen, lines) in drawn {
+            self.label(canvas, (level, pen), &lines, (scale, &mut labels));
         }
     }
 
