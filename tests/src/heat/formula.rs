@@ -1,7 +1,7 @@
 //! Formulas of a scene, read and evaluated by code of our own.
 //!
-//! `+ - * / ^`, parentheses, numbers, x y z r T t, pi, e, and the functions listed in [`ONE`] and
-//! [`TWO`]; anything else is refused with its place.
+//! `+ - * / ^`, parentheses, numbers, x y z r T t, pi, e, and the functions listed in `ONE` and
+//! `TWO`; anything else is refused with its place.
 
 use std::f64::consts::{E, PI};
 
