@@ -131,13 +131,15 @@ impl Output {
     fn balance(&self, system: &System, state: &State) -> Record {
         let (stored, _) = self.stored(system, state);
         let through: f64 = state.entries.iter().sum();
-        let mut record = Record::new()
-            .with("stored", "J", stored)
-            .with("boundaries", "J", through);
+        let (joule, _) = units(system);
+        let mut record =
+            Record::new()
+                .with("stored", joule, stored)
+                .with("boundaries", joule, through);
         if system.source.is_some() {
-            record = record.with("source", "J", state.source);
+            record = record.with("source", joule, state.source);
         }
-        record.with("imbalance", "J", stored - through - state.source)
+        record.with("imbalance", joule, stored - through - state.source)
     }
 
     /// Totals of a march.
@@ -147,10 +149,11 @@ impl Output {
         let gross: f64 = state.entries.iter().map(|e| e.abs()).sum();
         let whole = moved.max(gross).max(state.source.abs());
         let imbalance = (stored - through - state.source).abs();
-        session.closing("heat_stored", "J", stored);
-        session.closing("heat_boundaries", "J", through);
+        let (joule, _) = units(system);
+        session.closing("heat_stored", joule, stored);
+        session.closing("heat_boundaries", joule, through);
         if system.source.is_some() {
-            session.closing("heat_source", "J", state.source);
+            session.closing("heat_source", joule, state.source);
         }
         let relative = if whole > 0.0 { imbalance / whole } else { 0.0 };
         session.closing("energy_balance", "1", relative);
@@ -158,13 +161,14 @@ impl Output {
 
     /// Totals of a steady state.
     pub fn close_steady(&self, system: &System, rates: &Rates, session: &mut Session) {
+        let (_, watt) = units(system);
         let through: f64 = rates.entries.iter().sum();
         let gross: f64 = rates.entries.iter().map(|e| e.abs()).sum::<f64>() + rates.source.abs();
         for (name, heat) in system.surface.names.iter().zip(&rates.entries) {
-            session.closing(&format!("heat_rate {name}"), "W", *heat);
+            session.closing(&format!("heat_rate {name}"), watt, *heat);
         }
         if system.source.is_some() {
-            session.closing("heat_rate source", "W", rates.source);
+            session.closing("heat_rate source", watt, rates.source);
         }
         let relative = if gross > 0.0 {
             (through + rates.source).abs() / gross
@@ -172,6 +176,15 @@ impl Output {
             0.0
         };
         session.closing("energy_balance", "1", relative);
+    }
+}
+
+/// Units of heat and of its rate: per metre of depth in a plane scene.
+fn units(system: &System) -> (&'static str, &'static str) {
+    if system.cloud.dimensions == 2 {
+        ("J/m", "W/m")
+    } else {
+        ("J", "W")
     }
 }
 
