@@ -24,6 +24,7 @@ use krylov::Pattern;
 use crate::body::frame::Vector;
 use crate::cloud::Cloud;
 use crate::scene::Operator;
+use crate::scene::method::Corrected;
 
 pub use balance::Balance;
 
@@ -64,6 +65,9 @@ const SMOOTHING: [f64; 2] = [1.2, 1.05];
 /// Smoothing length over spacing of plain lattices: all points at less than two spacings are linked.
 const LATTICE: f64 = 1.0;
 
+/// Factors of the smoothing length that are tried in turn where the usual one has no balanced weights.
+const WIDER: [f64; 3] = [1.15, 1.3, 1.5];
+
 impl Links {
     /// The links of a cloud.
     ///
@@ -80,17 +84,32 @@ impl Links {
                     balance: None,
                 })
             }
-            Operator::Corrected(corrected) => {
+            Operator::Corrected(Corrected {
+                smoothing: Some(smoothing),
+            }) => Self::balanced(cloud, smoothing),
+            Operator::Corrected(_) => {
                 let usual = if cloud.lattice {
                     LATTICE
                 } else {
                     SMOOTHING[cloud.dimensions - 2]
                 };
-                let smoothing = corrected.smoothing.unwrap_or(usual);
-                let (pattern, weight) = kernel::trial(cloud, smoothing)?;
-                balance::balanced(cloud, pattern, weight)
+                // Few layers or a sudden change of spacing may want more links than is usual.
+                let mut found = Self::balanced(cloud, usual);
+                for wider in WIDER {
+                    if !matches!(found, Err(OperatorError::Unbalanced { .. })) {
+                        break;
+                    }
+                    found = Self::balanced(cloud, wider * usual);
+                }
+                found
             }
         }
+    }
+
+    /// Balanced links of the given smoothing length over spacing.
+    fn balanced(cloud: &Cloud, smoothing: f64) -> Result<Self, OperatorError> {
+        let (pattern, weight) = kernel::trial(cloud, smoothing)?;
+        balance::balanced(cloud, pattern, weight)
     }
 
     /// Number of points.

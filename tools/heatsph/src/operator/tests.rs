@@ -113,6 +113,18 @@ fn every_cloud_is_exact_for_linear_fields() {
 }
 
 #[test]
+fn few_layers_of_rings_are_balanced() {
+    let cloud = cloud(
+        r#"{"cylinder": {"centre_m": [0, 0, 0], "radius_m": 15, "length_m": 2.5}}"#,
+        r#"{"spacing_m": 1}"#,
+        3,
+    );
+    let links = corrected(&cloud);
+    let error = linear_error(&cloud, &links);
+    assert!(error < 1e-10, "{error:e}");
+}
+
+#[test]
 fn links_are_symmetric_to_the_bit() {
     let cloud = cloud(SQUARE, r#"{"spacing_m": 0.1, "jitter": 0.3}"#, 2);
     for operator in [Operator::Pair(Pair { smoothing: 1.2 }), Operator::default()] {
