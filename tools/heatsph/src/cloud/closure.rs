@@ -73,14 +73,3 @@ fn mend(cloud: &mut Cloud) {
         patch.area *= 1.0 + DVector::from_column_slice(share).dot(&change);
     }
 }
-
-/// What the surface of a cloud lacks to be closed: the sum of area times normal, over the area.
-#[must_use]
-pub fn gap(cloud: &Cloud) -> f64 {
-    let area: f64 = cloud.patches.iter().map(|p| p.area).sum();
-    let sum = cloud
-        .patches
-        .iter()
-        .fold([0.0; 3], |s, p| along(s, p.area / area, p.normal));
-    length(sum)
-}

@@ -4,7 +4,7 @@
 //! each stands for, and which pieces of surface, with area, normal and middle, each owns. A point on the surface
 //! owns pieces at no depth; a point of a cut lattice lies some way below its pieces.
 
-pub mod closure;
+mod closure;
 mod cut;
 mod lattice;
 mod rings;

@@ -50,7 +50,7 @@ const EXACT: f64 = 1e-13;
 /// Roundings of coordinates that an imbalance may hold.
 const ROUNDING: f64 = 16.0;
 /// Linear fields must be exact to this part at least.
-const NEEDED: f64 = 5e-11;
+const NEEDED: f64 = 1e-11;
 /// Most Newton steps.
 const STEPS: usize = 30;
 /// Newton steps for the second moments, and iterations in each.
@@ -164,9 +164,10 @@ fn solve<const D: usize>(
     let mut multipliers = vec![0.0; net.len()];
     let mut work = Workspace::default();
     let needed = NEEDED.max(exact);
+    let motions = net.motions();
     let mut best = (f64::INFINITY, Vec::new());
     for _ in 0..STEPS {
-        let imbalance = net.imbalance(weight, &[]);
+        let mut imbalance = net.imbalance(weight, &[]);
         let residual = greatest(&imbalance);
         if residual < best.0 {
             best = (residual, multipliers.clone());
@@ -176,8 +177,14 @@ fn solve<const D: usize>(
         if residual < exact {
             break;
         }
-        // Newton's method squares the residual: to ask for more is in vain. The matrix is singular for motions of
-        // the whole body, which rounding feeds: not much is asked for at once.
+        // The matrix is singular for motions of the whole body: what rounding has left of them is taken out.
+        for motion in &motions {
+            let part = product(motion, &imbalance);
+            for (sum, m) in imbalance.iter_mut().zip(motion) {
+                *sum -= part * m;
+            }
+        }
+        // Newton's method squares the residual: to ask for more is in vain.
         let rule = Krylov {
             reduction: residual.clamp(1e-4, 1e-2).max(0.1 * exact / residual),
             floor: 0.0,
@@ -249,6 +256,10 @@ fn volumes(cloud: &Cloud, pattern: &Pattern, weight: &[f64]) -> Vec<f64> {
         volume[patch.point as usize] += each * patch.area * cloud.depth(patch);
     }
     volume
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn greatest(values: &[f64]) -> f64 {

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::basis::{slopes, values};
 use super::kernel::rows;
-use crate::body::frame::{Vector, difference};
+use crate::body::frame::{Frame, Vector, cross, difference};
 use crate::cloud::Cloud;
 
 /// Weight of the square of a multiplier of a quadratic function, in the part that the point's own links have.
@@ -56,6 +56,35 @@ impl<'a, const D: usize, const K: usize> Net<'a, D, K> {
     /// Where a point is \[m\].
     pub(super) fn place(&self, i: usize) -> Vector {
         self.position[i]
+    }
+
+    /// Shifts and turns of the whole body as multipliers of the coordinates, orthonormal: they change no weight.
+    pub(super) fn motions(&self) -> Vec<Vec<f64>> {
+        let axes = if D == 2 { 2..3 } else { 0..3 };
+        let shifts = (0..D).map(|k| self.motion(|_| Frame::SCENE.axes[k]));
+        let turns = axes.map(|k| self.motion(move |x| cross(Frame::SCENE.axes[k], x)));
+        let mut found: Vec<Vec<f64>> = Vec::new();
+        for mut motion in shifts.chain(turns) {
+            // Twice, for rounding.
+            for other in found.iter().chain(&found) {
+                let part: f64 = motion.iter().zip(other).map(|(a, b)| a * b).sum();
+                motion
+                    .iter_mut()
+                    .zip(other)
+                    .for_each(|(a, b)| *a -= part * b);
+            }
+            let square: f64 = motion.iter().map(|a| a * a).sum();
+            if square > 0.0 {
+                motion.iter_mut().for_each(|a| *a /= square.sqrt());
+                found.push(motion);
+            }
+        }
+        found
+    }
+
+    fn motion(&self, of: impl Fn(Vector) -> Vector) -> Vec<f64> {
+        let each = self.position.iter();
+        each.flat_map(|x| of(*x).into_iter().take(D)).collect()
     }
 
     /// Values of the functions at the displacement from i to j.
