@@ -4,7 +4,8 @@
 //! [`Table::at`] and held at the end value by [`Table::held`]; the caller decides which it means.
 //! [`Integral`] is `F(x)`, the exact (piecewise quadratic) integral of a positive table from its
 //! first node, continued beyond the ends with the end value; [`Integral::inverse`] undoes it, so
-//! that an enthalpy `h(T)` made from a specific heat gives back `T` to rounding.
+//! that an enthalpy `h(T)` made from a specific heat gives back `T` to rounding. A [`Surface`] is a row of
+//! tables, linear in a second variable between them.
 //!
 //! ```
 //! let cp = props::Table::new(vec![300.0, 1300.0], vec![500.0, 600.0]).unwrap();
@@ -14,9 +15,11 @@
 //! ```
 
 mod integral;
+mod surface;
 mod table;
 
 pub use integral::Integral;
+pub use surface::Surface;
 pub use table::{Outside, Table};
 
 use thiserror::Error;
