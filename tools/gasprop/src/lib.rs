@@ -9,6 +9,7 @@
 //!   current, diffusion of iron;
 //! - [`radiation`] sums lines and continuum to what the gas loses by light.
 
+pub mod constants;
 pub mod mixture;
 pub mod radiation;
 pub mod transport;
