@@ -9,10 +9,10 @@
 //! is a gas here, whatever its vapour pressure.
 
 mod levels;
-mod library;
+pub mod library;
 mod nasa9;
-mod species;
-mod thermodynamics;
+pub mod species;
+pub mod thermodynamics;
 
 pub use library::{DataError, Library};
 pub use species::{Element, Internal, Kind, Species, UnknownElement};
