@@ -13,7 +13,7 @@
 use super::voigt::profile;
 
 /// Step of the trapezoidal rule in u.
-const STEP: f64 = 0.08;
+const STEP: f64 = 0.05;
 /// First u: x = 5e-10 Doppler widths, where the integrand no longer counts.
 const FIRST: f64 = -3.0;
 /// An optical depth at the centre below this absorbs nothing that would show.

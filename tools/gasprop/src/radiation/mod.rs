@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::constants::{BOLTZMANN, LIGHT_SPEED, PLANCK};
-use crate::mixture::species::{Kind, Species};
+use crate::mixture::{Kind, Species};
 
 pub mod continuum;
 pub mod escape;
@@ -222,3 +222,6 @@ impl Surroundings {
         emitted * escape::factor(area * self.per_state * populated * self.length / doppler, a)
     }
 }
+
+#[cfg(test)]
+mod tests;
