@@ -15,6 +15,13 @@ pub enum Bound {
         /// Largest admissible error.
         max: f64,
     },
+    /// The error is at most a multiple of that of the case's first method at the same level.
+    Multiple {
+        /// The multiple.
+        times: f64,
+        /// An error of at most this will do too: there are no multiples of round-off.
+        or_error_below: f64,
+    },
     /// The observed order over all levels is at least `min`.
     Order {
         /// Smallest admissible order.
@@ -53,6 +60,17 @@ impl Target {
     #[must_use]
     pub fn error(quantity: impl Into<String>, max: f64) -> Self {
         Self::new(quantity.into(), Bound::Error { max })
+    }
+
+    /// The error of `quantity` is at most `times` that of the case's first method, or at most
+    /// `or_error_below`.
+    #[must_use]
+    pub fn multiple(quantity: impl Into<String>, times: f64, or_error_below: f64) -> Self {
+        let bound = Bound::Multiple {
+            times,
+            or_error_below,
+        };
+        Self::new(quantity.into(), bound)
     }
 
     /// The order of `quantity` is at least `min`.
@@ -102,7 +120,7 @@ impl Target {
     #[must_use]
     pub fn name(&self) -> String {
         let mut name = match self.bound {
-            Bound::Error { .. } => self.quantity.clone(),
+            Bound::Error { .. } | Bound::Multiple { .. } => self.quantity.clone(),
             Bound::Order { .. } => format!("order_{}", self.quantity),
         };
         if let Some(level) = self.level {

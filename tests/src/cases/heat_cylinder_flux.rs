@@ -1,11 +1,9 @@
 //! `heat-cylinder-flux`: a cylinder heated evenly on its side, in a plane.
 
-use serde_json::json;
-
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::heat::cylinder::Cylinder;
 use crate::heat::frames::{Frames, greater, worst};
-use crate::heat::methods::{self, TRANSIENT, over};
+use crate::heat::methods::{self, TRANSIENT};
 use crate::heat::property::{capacity, fault, number};
 use crate::lab::{Finished, Lab, LabError};
 
@@ -30,12 +28,10 @@ impl Case for HeatCylinderFlux {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let mut targets = vec![
-            Target::error("temperature_linf", 5e-3),
-            Target::error("mean", 1e-6),
-        ];
+        let targets = vec![Target::error("temperature_linf", 5e-3)];
+        let mut targets = methods::also_jittered(targets, TRANSIENT);
+        targets.push(Target::error("mean", 1e-6));
         for method in TRANSIENT.iter().filter(|m| methods::is_jittered(m)) {
-            targets.push(Target::error("temperature_linf", 1.5e-2).of(*method));
             targets.push(Target::error("mean", 1e-6).of(*method));
         }
         targets
@@ -44,16 +40,7 @@ impl Case for HeatCylinderFlux {
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         // 21, 41, 81 points across.
         let spacing = 0.1 / f64::from(1 << (level.clamp(1, 6) - 1));
-        let patch = over(
-            json!({"points": {"spacing_m": spacing}}),
-            &methods::patch(method),
-        );
-        let run = lab.run(
-            self.tool(),
-            self.name(),
-            &format!("level{level}-{method}"),
-            &patch,
-        )?;
+        let run = methods::run(self, lab, level, method, spacing)?;
         let frames = Frames::read(&run)?;
         let errors = errors(&run, &frames)?;
         Ok(Measurement::of(run, frames.points(), spacing, errors))

@@ -38,15 +38,10 @@ impl Case for HeatExpT {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let mut targets = Vec::new();
-        for (rate, max) in RATES {
-            let quantity = format!("temperature_linf_a{rate}");
-            targets.push(Target::error(&quantity, max).at_level(2));
-            for method in STEADY.iter().filter(|m| methods::is_jittered(m)) {
-                targets.push(Target::error(&quantity, 3.0 * max).at_level(2).of(*method));
-            }
-        }
-        targets
+        let target = |(rate, max): &(f64, f64)| {
+            Target::error(format!("temperature_linf_a{rate}"), *max).at_level(2)
+        };
+        methods::also_jittered(RATES.iter().map(target).collect(), STEADY)
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {

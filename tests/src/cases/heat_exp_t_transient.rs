@@ -46,16 +46,12 @@ impl Case for HeatExpTTransient {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let mut targets = Vec::new();
-        for rate in RATES {
-            let (behind, front) = (format!("behind_a{rate}"), format!("front_spacings_a{rate}"));
-            targets.push(Target::error(&behind, 5e-3).at_level(2));
-            targets.push(Target::error(&front, 1.0).at_level(2));
-            for method in TRANSIENT.iter().filter(|m| methods::is_jittered(m)) {
-                targets.push(Target::error(&behind, 1.5e-2).at_level(2).of(*method));
-            }
-        }
-        targets
+        let pair = |rate: &f64| {
+            let behind = Target::error(format!("behind_a{rate}"), 5e-3);
+            let front = Target::error(format!("front_spacings_a{rate}"), 1.0);
+            [behind.at_level(2), front.at_level(2)]
+        };
+        methods::also_jittered(RATES.iter().flat_map(pair).collect(), TRANSIENT)
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {

@@ -33,16 +33,11 @@ impl Case for HeatExpX {
     }
 
     fn targets(&self) -> Vec<Target> {
-        vec![
+        let targets = vec![
             Target::error("temperature_linf", 1e-4).at_level(2),
             Target::order("temperature_linf", 1.8).or_error_below(1e-9),
-            Target::error("temperature_linf", 3e-4)
-                .at_level(2)
-                .of("corrected-jitter-10"),
-            Target::error("temperature_linf", 3e-4)
-                .at_level(2)
-                .of("corrected-jitter-30"),
-        ]
+        ];
+        methods::also_jittered(targets, STEADY)
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {

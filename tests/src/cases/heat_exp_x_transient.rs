@@ -1,12 +1,10 @@
 //! `heat-exp-x-transient`: the plate of `heat-exp-x` heated suddenly on one side.
 
-use serde_json::json;
-
 use super::heat_exp_x::{plate, square_spacing};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::heat::bar::{Bar, Profiles, profiles};
 use crate::heat::frames::{Frames, greater, worst};
-use crate::heat::methods::{self, TRANSIENT, over};
+use crate::heat::methods::{self, TRANSIENT};
 use crate::heat::property::{capacity, fault, number};
 use crate::lab::{Finished, Lab, LabError};
 
@@ -31,37 +29,16 @@ impl Case for HeatExpXTransient {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let mut targets = vec![
+        let targets = vec![
             Target::error("temperature_linf", 2e-3).at_level(2),
             Target::error("temperature_linf", 5e-4).at_level(3),
         ];
-        for method in TRANSIENT.iter().filter(|m| methods::is_jittered(m)) {
-            targets.push(
-                Target::error("temperature_linf", 6e-3)
-                    .at_level(2)
-                    .of(*method),
-            );
-            targets.push(
-                Target::error("temperature_linf", 1.5e-3)
-                    .at_level(3)
-                    .of(*method),
-            );
-        }
-        targets
+        methods::also_jittered(targets, TRANSIENT)
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let spacing = square_spacing(level);
-        let patch = over(
-            json!({"points": {"spacing_m": spacing}}),
-            &methods::patch(method),
-        );
-        let run = lab.run(
-            self.tool(),
-            self.name(),
-            &format!("level{level}-{method}"),
-            &patch,
-        )?;
+        let run = methods::run(self, lab, level, method, spacing)?;
         let frames = Frames::read(&run)?;
         let (bar, reference) = reference(&run, &frames, 200)?;
         let range = range(&bar);

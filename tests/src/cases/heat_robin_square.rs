@@ -1,10 +1,8 @@
 //! `heat-robin-square`: a square that cools by convection on two sides.
 
-use serde_json::json;
-
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::heat::frames::{Frames, greater, worst};
-use crate::heat::methods::{self, TRANSIENT, over};
+use crate::heat::methods::{self, TRANSIENT};
 use crate::heat::property::{capacity, number};
 use crate::heat::robin::Slab;
 use crate::lab::{Finished, Lab, LabError};
@@ -30,28 +28,16 @@ impl Case for HeatRobinSquare {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let mut targets = vec![
+        let targets = vec![
             Target::error("temperature_linf", 5e-4),
             Target::order("temperature_linf", 1.8),
         ];
-        for method in TRANSIENT.iter().filter(|m| methods::is_jittered(m)) {
-            targets.push(Target::error("temperature_linf", 1.5e-3).of(*method));
-        }
-        targets
+        methods::also_jittered(targets, TRANSIENT)
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let spacing = 0.005 / f64::from(1 << (level.clamp(1, 6) - 1));
-        let patch = over(
-            json!({"points": {"spacing_m": spacing}}),
-            &methods::patch(method),
-        );
-        let run = lab.run(
-            self.tool(),
-            self.name(),
-            &format!("level{level}-{method}"),
-            &patch,
-        )?;
+        let run = methods::run(self, lab, level, method, spacing)?;
         let frames = Frames::read(&run)?;
         let exact = Cooling::of(&run, &frames)?;
         let mut errors = Errors::from([("temperature_linf".to_owned(), 0.0)]);

@@ -1,11 +1,9 @@
 //! `heat-sin-xy`: a conductivity that varies along x and y, steady.
 
-use serde_json::json;
-
 use super::heat_exp_x::{held, square_spacing};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::heat::frames::{Frames, heat_rate, worst};
-use crate::heat::methods::{self, STEADY, over};
+use crate::heat::methods::{self, STEADY};
 use crate::heat::property::{conductivity, fault, number};
 use crate::heat::square::{Solution, Square, solve};
 use crate::lab::{Finished, Lab, LabError};
@@ -31,39 +29,18 @@ impl Case for HeatSinXy {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let mut targets = vec![
+        let targets = vec![
             Target::error("temperature_linf", 2e-3).at_level(1),
             Target::error("temperature_linf", 5e-4).at_level(2),
             Target::error("flow", 5e-3).at_level(1),
             Target::error("flow", 5e-3).at_level(2),
         ];
-        for method in STEADY.iter().filter(|m| methods::is_jittered(m)) {
-            targets.push(
-                Target::error("temperature_linf", 6e-3)
-                    .at_level(1)
-                    .of(*method),
-            );
-            targets.push(
-                Target::error("temperature_linf", 1.5e-3)
-                    .at_level(2)
-                    .of(*method),
-            );
-        }
-        targets
+        methods::also_jittered(targets, STEADY)
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let spacing = square_spacing(level);
-        let patch = over(
-            json!({"points": {"spacing_m": spacing}}),
-            &methods::patch(method),
-        );
-        let run = lab.run(
-            self.tool(),
-            self.name(),
-            &format!("level{level}-{method}"),
-            &patch,
-        )?;
+        let run = methods::run(self, lab, level, method, spacing)?;
         let frames = Frames::read(&run)?;
         let held = held(&run)?;
         let exact = exact(&run, held)?;

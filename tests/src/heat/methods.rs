@@ -5,6 +5,14 @@
 
 use serde_json::{Value, json};
 
+use crate::case::{Bound, Case, Target};
+use crate::lab::{Finished, Lab, LabError};
+
+/// Points shifted at random may be this many times as wrong as regular ones.
+const TIMES_REGULAR: f64 = 3.0;
+/// What counts as exact, of the range of temperature.
+const ROUND_OFF: f64 = 1e-10;
+
 /// Competing methods of a transient case.
 pub const TRANSIENT: &[&str] = &[
     "corrected-implicit",
@@ -45,6 +53,27 @@ pub fn patch(method: &str) -> Value {
     patch
 }
 
+/// The run of a case at a level: its scene with this spacing and method.
+///
+/// # Errors
+/// When the tool fails.
+pub fn run(
+    case: &impl Case,
+    lab: &Lab,
+    level: u32,
+    method: &str,
+    spacing: f64,
+) -> Result<Finished, LabError> {
+    let points = json!({"points": {"spacing_m": spacing}});
+    let label = format!("level{level}-{method}");
+    lab.run(
+        case.tool(),
+        case.name(),
+        &label,
+        &over(points, &patch(method)),
+    )
+}
+
 /// Lays `upper` over `lower` (RFC 7386, without the removal that `null` asks for: it stays).
 #[must_use]
 pub fn over(lower: Value, upper: &Value) -> Value {
@@ -67,6 +96,21 @@ pub fn is_jittered(method: &str) -> bool {
     method.contains("jitter")
 }
 
+/// The targets, and those on points shifted at random: each error within three times the regular
+/// one, wherever the regular one is judged.
+#[must_use]
+pub fn also_jittered(mut targets: Vec<Target>, methods: &[&str]) -> Vec<Target> {
+    let errors = |t: &&Target| matches!(t.bound, Bound::Error { .. }) && t.method.is_none();
+    let regular: Vec<Target> = targets.iter().filter(errors).cloned().collect();
+    for method in methods.iter().filter(|m| is_jittered(m)) {
+        targets.extend(regular.iter().map(|target| Target {
+            level: target.level,
+            ..Target::multiple(&target.quantity, TIMES_REGULAR, ROUND_OFF).of(*method)
+        }));
+    }
+    targets
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,6 +125,25 @@ mod tests {
         assert_eq!(
             patch("corrected-stabilised-jitter-30"),
             json!({"time": {"implicit": null, "stabilised": {}}, "points": {"jitter": 0.3}})
+        );
+    }
+
+    #[test]
+    fn jittered_points_are_held_against_the_regular_ones() {
+        let regular = vec![
+            Target::error("a", 1e-3).at_level(2),
+            Target::error("a", 1e-2).of("pair"),
+            Target::order("a", 1.8),
+        ];
+        let all = also_jittered(regular.clone(), STEADY);
+        assert_eq!(all[..3], regular);
+        let names: Vec<String> = all[3..].iter().map(Target::name).collect();
+        assert_eq!(
+            names,
+            [
+                "a_at_level_2_of_corrected-jitter-10",
+                "a_at_level_2_of_corrected-jitter-30"
+            ]
         );
     }
 

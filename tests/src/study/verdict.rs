@@ -18,6 +18,9 @@ pub struct Verdict {
     at_points: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     max: Option<f64>,
+    /// What `max` is a multiple of: times the error of the first method.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     min: Option<f64>,
     /// What will do in place of an order, and the error at the finest level.
@@ -39,60 +42,104 @@ pub(super) fn verdicts(
     let judged = targets.iter().map(|target| {
         let wanted = |s: &&Series| target.method.as_ref().is_none_or(|m| *m == s.method);
         let series = all.iter().find(wanted);
-        (target.name(), verdict(target, series, levels))
+        let mut verdict = Verdict::open(target, series);
+        verdict.judge(target, series, all.first(), levels);
+        (target.name(), verdict)
     });
     judged.collect()
 }
 
-fn verdict(target: &Target, series: Option<&Series>, levels: &[u32]) -> Verdict {
-    let named = target.method.clone().unwrap_or_default();
-    let mut verdict = Verdict {
-        quantity: target.quantity.clone(),
-        method: series.map_or(named, |s| s.method.clone()),
-        at_level: None,
-        at_points: None,
-        max: None,
-        min: None,
-        or_error_below: None,
-        finest_error: None,
-        found: None,
-        holds: Some(false),
-    };
-    let finest = series.and_then(|s| s.levels.last());
-    match target.bound {
-        Bound::Error { max } => {
-            let at = match target.level {
-                Some(wanted) => {
-                    series.and_then(|s| s.levels.iter().find(|level| level.level == wanted))
-                }
-                None => finest,
-            };
-            verdict.max = Some(max);
-            verdict.at_level = target.level;
-            verdict.at_points = at.map(|level| level.points);
-            verdict.found = at.and_then(|level| error(level, &target.quantity));
-            let asked = target.level.is_none_or(|level| levels.contains(&level));
-            verdict.holds = asked.then_some(verdict.found.is_some_and(|e| e <= max));
-        }
-        Bound::Order {
-            min,
-            or_error_below,
-        } => {
-            let order = series.and_then(|s| s.order.get(&target.quantity));
-            verdict.min = Some(min);
-            verdict.or_error_below = or_error_below;
-            verdict.found = order.copied().flatten();
-            let rises = verdict.found.is_some_and(|order| order >= min);
-            verdict.finest_error = or_error_below
-                .and(finest)
-                .and_then(|level| error(level, &target.quantity));
-            let exact = or_error_below
-                .zip(verdict.finest_error)
-                .is_some_and(|(below, error)| error <= below);
-            verdict.holds = Some(rises || exact);
+impl Verdict {
+    /// A verdict that is not yet found, and is missed so far.
+    fn open(target: &Target, series: Option<&Series>) -> Self {
+        let named = target.method.clone().unwrap_or_default();
+        Self {
+            quantity: target.quantity.clone(),
+            method: series.map_or(named, |s| s.method.clone()),
+            at_level: None,
+            at_points: None,
+            max: None,
+            times: None,
+            min: None,
+            or_error_below: None,
+            finest_error: None,
+            found: None,
+            holds: Some(false),
         }
     }
-    verdict
+
+    fn judge(
+        &mut self,
+        target: &Target,
+        series: Option<&Series>,
+        first: Option<&Series>,
+        levels: &[u32],
+    ) {
+        match target.bound {
+            Bound::Error { max } => {
+                self.max = Some(max);
+                self.judge_error(target, series, levels);
+            }
+            Bound::Multiple {
+                times,
+                or_error_below,
+            } => {
+                self.times = Some(times);
+                let of =
+                    first.and_then(|first| error(level(first, target.level)?, &target.quantity));
+                self.max = of.map(|of| (times * of).max(or_error_below));
+                self.judge_error(target, series, levels);
+            }
+            Bound::Order {
+                min,
+                or_error_below,
+            } => {
+                self.min = Some(min);
+                self.or_error_below = or_error_below;
+                self.judge_order(series);
+            }
+        }
+    }
+
+    /// The error at the level of the target against `max`.
+    fn judge_error(&mut self, target: &Target, series: Option<&Series>, levels: &[u32]) {
+        let at = series.and_then(|series| level(series, target.level));
+        self.at_level = target.level;
+        self.at_points = at.map(|level| level.points);
+        self.found = at.and_then(|level| error(level, &target.quantity));
+        let asked = target.level.is_none_or(|level| levels.contains(&level));
+        let holds = self
+            .found
+            .zip(self.max)
+            .is_some_and(|(found, max)| found <= max);
+        self.holds = asked.then_some(holds);
+    }
+
+    /// The order over all levels against `min`.
+    fn judge_order(&mut self, series: Option<&Series>) {
+        self.found = series.and_then(|s| s.order.get(&self.quantity).copied().flatten());
+        let rises = self
+            .found
+            .zip(self.min)
+            .is_some_and(|(order, min)| order >= min);
+        self.finest_error = self
+            .or_error_below
+            .and(series.and_then(|s| level(s, None)))
+            .and_then(|level| error(level, &self.quantity));
+        let exact = self
+            .or_error_below
+            .zip(self.finest_error)
+            .is_some_and(|(below, error)| error <= below);
+        self.holds = Some(rises || exact);
+    }
+}
+
+/// The wanted level of a series, or its finest.
+fn level(series: &Series, wanted: Option<u32>) -> Option<&Level> {
+    match wanted {
+        Some(wanted) => series.levels.iter().find(|level| level.level == wanted),
+        None => series.levels.last(),
+    }
 }
 
 fn error(level: &Level, quantity: &str) -> Option<f64> {
@@ -103,7 +150,10 @@ impl Verdict {
     /// The verdict in a line for people.
     pub(super) fn line(&self, name: &str) -> String {
         let bound = match (self.max, self.min, self.or_error_below) {
-            (Some(max), ..) => format!("at most {max:.3e}"),
+            (Some(max), ..) => match self.times {
+                Some(times) => format!("at most {max:.3e} ({times} times the first method)"),
+                None => format!("at most {max:.3e}"),
+            },
             (_, Some(min), Some(below)) => format!("at least {min}, or an error below {below:.0e}"),
             (_, Some(min), None) => format!("at least {min}"),
             _ => String::new(),
@@ -172,6 +222,24 @@ mod tests {
         assert_eq!(holds(absent.clone(), &[1, 2]), None);
         // A level that was asked for and is not there is no excuse.
         assert_eq!(holds(absent, &[1, 2, 3]), Some(false));
+    }
+
+    #[test]
+    fn a_multiple_is_of_the_first_method_at_the_same_level() {
+        let within = |times, below| Target::multiple("a", times, below).of("rough");
+        let judge = |target: Target| {
+            let all = [
+                series("fine", &[(1, 1e-3), (2, 1e-4)], Some(2.0)),
+                series("rough", &[(1, 2e-3), (2, 4e-4)], Some(2.0)),
+            ];
+            let judged = verdicts(std::slice::from_ref(&target), &all, &[1, 2]);
+            judged[&target.name()].holds
+        };
+        assert_eq!(judge(within(3.0, 1e-10)), Some(false));
+        assert_eq!(judge(within(3.0, 1e-10).at_level(1)), Some(true));
+        assert_eq!(judge(within(3.0, 4e-4)), Some(true));
+        let absent = Target::multiple("b", 3.0, 1e-10).of("rough");
+        assert_eq!(judge(absent), Some(false));
     }
 
     #[test]
