@@ -154,14 +154,15 @@ fn electrical(arc: &Arc, electric: &Electric, setup: &PotentialCase, record: Rec
     let Some(current) = setup.driven else {
         return record;
     };
-    let column = electric.potential.drive;
+    // A current that leaves the driven face has a negative potential there.
+    let column = electric.potential.drive.abs();
     let cathode = surface::ion_power(arc) / current.abs();
     record = record
         .with("current_a", "A", current)
         .with("voltage_column_v", "V", column)
         .with("voltage_cathode_v", "V", cathode)
         .with("voltage_v", "V", column + cathode)
-        .with("power_w", "W", (column + cathode) * current);
+        .with("power_w", "W", (column + cathode) * current.abs());
     if let Some(drop) = surface::wire_drop(arc) {
         record = record.with("voltage_wire_v", "V", drop);
     }

@@ -91,7 +91,7 @@ pub fn close(arc: &Arc, balance: Option<&Balance>, session: &mut Session) {
         arc.case.potential.as_ref().and_then(|p| p.driven),
     ) {
         let cathode = surface::ion_power(arc) / current.abs();
-        session.closing("voltage_v", "V", electric.potential.drive + cathode);
+        session.closing("voltage_v", "V", electric.potential.drive.abs() + cathode);
     }
     if let Some(balance) = balance {
         let scale = surface::power(arc, balance);

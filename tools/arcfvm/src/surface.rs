@@ -9,7 +9,7 @@ use crate::heat::{Contact, Role, Surfaces};
 use crate::scene::Sample;
 use crate::solver::Arc;
 
-/// Material of the base metal: the cathode, where there is one.
+/// Material of the base metal: the lowest electrode, where there is one.
 #[must_use]
 pub fn base(arc: &Arc) -> Option<usize> {
     let row = arc.case.surface_row?;
@@ -44,7 +44,7 @@ pub fn ion_power(arc: &Arc) -> f64 {
 pub fn wire_drop(arc: &Arc) -> Option<f64> {
     let (wire, electric) = (arc.case.wire?, arc.electric.as_ref()?);
     let tip = electric.potential.value[arc.case.grid.cell(0, wire.tip)];
-    Some(electric.potential.drive - tip)
+    Some((electric.potential.drive - tip).abs())
 }
 
 /// Power for scale \[W\]: that of current and ions, or all that is given and exchanged.

@@ -105,16 +105,18 @@ impl Layout {
         (last + 1 < self.grid.nz).then_some(last + 1)
     }
 
-    /// For each gas cell within `depth` of an electrode, straight off its surface, the first cell
-    /// beyond; itself elsewhere.
-    pub(crate) fn sheath(&self, bodies: &[(&String, &Body)], depth: f64) -> Vec<usize> {
+    /// The lowest material on the axis that `has`.
+    pub(crate) fn lowest(&self, has: impl Fn(usize) -> bool) -> Option<usize> {
+        let column = (0..self.grid.nz).map(|j| self.material[self.grid.cell(0, j)]);
+        column.into_iter().find(|m| has(*m))
+    }
+
+    /// For each gas cell within `depth` of a material that `has` a sheath, straight off its surface,
+    /// the first cell beyond; itself elsewhere.
+    pub(crate) fn sheath(&self, has: impl Fn(usize) -> bool, depth: f64) -> Vec<usize> {
         let grid = &self.grid;
         let mut from: Vec<usize> = (0..grid.len()).collect();
-        let is_electrode = |k: usize| {
-            let body = self.material[k].checked_sub(1).map(|n| bodies[n].1);
-            body.is_some_and(|b| b.anode.is_some() || b.cathode.is_some())
-        };
-        for k in (0..grid.len()).filter(|k| is_electrode(*k)) {
+        for k in (0..grid.len()).filter(|k| has(self.material[*k])) {
             let (i, j) = (k % grid.nr, k / grid.nr);
             let up: Vec<_> = (j + 1..grid.nz)
                 .map(|n| (grid.cell(i, n), grid.dz[n]))

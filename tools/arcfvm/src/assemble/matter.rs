@@ -6,9 +6,8 @@ use serde::Deserialize;
 
 use crate::assemble::Faults;
 use crate::error::Error;
-use crate::heat::{Electrode, Evaporation, Role};
 use crate::material::{Enthalpy, Law, Material, Melting, REFERENCE_K};
-use crate::scene::{self, BeyondTable, Body, Gas, Scene, SpecificHeat};
+use crate::scene::{BeyondTable, Body, Gas, Scene, SpecificHeat};
 
 /// Names that a material law may use.
 const NAMES: [&str; 3] = ["r", "z", "T"];
@@ -199,12 +198,6 @@ fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) ->
     if density.is_none() && body.moving.is_some() && heat {
         faults.add(&at, "a moving body wants density_kg_m3");
     }
-    if body.anode.is_some() && body.cathode.is_some() {
-        faults.add(
-            &format!("/bodies/{name}"),
-            "is anode and cathode; one of both at most",
-        );
-    }
     let melting = metal.melting.as_ref().map(|m| Melting {
         point: m.point_k,
         half_range: m.half_range_k,
@@ -311,45 +304,6 @@ fn enthalpy(
             None
         }
     }
-}
-
-fn vapour(evaporation: Option<&scene::Evaporation>) -> Option<Evaporation> {
-    evaporation.map(|e| Evaporation {
-        boiling: e.boiling_k,
-        latent_heat: e.latent_heat_j_kg,
-        molar_mass: e.molar_mass_kg_mol,
-    })
-}
-
-/// The electrode that a body is.
-pub(crate) fn electrode(name: &str, body: &Body) -> Option<Electrode> {
-    let (role, emissivity, evaporation) = match (&body.anode, &body.cathode) {
-        (Some(a), _) => (
-            Role::Anode {
-                work_function: a.work_function_v,
-            },
-            a.emissivity,
-            vapour(a.evaporation.as_ref()),
-        ),
-        (None, Some(c)) => (
-            Role::Cathode {
-                work_function: c.work_function_v,
-                ionisation_voltage: c.ionisation_voltage_v,
-                richardson: c.richardson_a_m2_k2,
-            },
-            c.emissivity,
-            vapour(c.evaporation.as_ref()),
-        ),
-        (None, None) => return None,
-    };
-    Some(Electrode {
-        name: name.to_owned(),
-        absorbs: matches!(role, Role::Cathode { .. }),
-        role,
-        emissivity,
-        surroundings: REFERENCE_K,
-        evaporation,
-    })
 }
 
 #[cfg(test)]

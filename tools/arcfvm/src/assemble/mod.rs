@@ -1,6 +1,7 @@
 //! From the scene to the problem: the only place that asks what the scene contains.
 
 mod edges;
+mod electrodes;
 mod layout;
 mod matter;
 
@@ -11,7 +12,8 @@ use crate::case::{Case, FeedRule, FlowCase, Gravity, HeatCase, MovingPlate, Pote
 use crate::grid::Grid;
 use crate::heat::{Surfaces, contacts};
 use crate::material::REFERENCE_K;
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, Scene, SheathAt};
+use electrodes::Electrodes;
 use layout::Layout;
 pub use matter::GasFile;
 
@@ -60,7 +62,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     let (grid, bodies) = (&layout.grid, Layout::bodies(scene));
     let wire = wire(&layout, &bodies, &mut faults);
     let start = start(scene, &layout, wire.as_ref(), &mut faults);
-    let potential = scene.current.as_ref().map(|current| PotentialCase {
+    let mut potential = scene.current.as_ref().map(|current| PotentialCase {
         edges: edges::current(scene, grid, &mut faults),
         driven: edges::driven(scene),
         source: cell_source(
@@ -69,8 +71,14 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
             "/current/source_a_m3",
             &mut faults,
         ),
-        sheath: current.sheath_m.map(|depth| layout.sheath(&bodies, depth)),
+        sheath: None,
     });
+    let electrodes = Electrodes::new(&layout, &bodies, potential.as_ref(), &mut faults);
+    if let (Some(potential), Some(current)) = (&mut potential, &scene.current) {
+        potential.sheath = current
+            .sheath_m
+            .map(|depth| sheath(&layout, &electrodes, current.sheath_at, depth));
+    }
     let flow = scene
         .flow
         .as_ref()
@@ -83,14 +91,11 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
             "/heat/source_w_m3",
             &mut faults,
         ),
-        surfaces: surfaces(&layout, &bodies, heat.absorbed_radiation),
+        surfaces: surfaces(&layout, &electrodes, heat.absorbed_radiation),
         plate: plate(&bodies, &mut faults),
     });
     faults.none()?;
-    let surface_row = bodies
-        .iter()
-        .position(|(_, b)| b.cathode.is_some())
-        .and_then(|n| layout.row_above(n + 1));
+    let surface_row = electrodes.base.and_then(|m| layout.row_above(m));
     Ok(Case {
         material: layout.material,
         materials,
@@ -244,17 +249,21 @@ fn start(scene: &Scene, layout: &Layout, wire: Option<&Wire>, faults: &mut Fault
     all
 }
 
-fn surfaces(
-    layout: &Layout,
-    bodies: &[(&String, &Body)],
-    absorbed: Option<f64>,
-) -> Option<Surfaces> {
+fn sheath(layout: &Layout, electrodes: &Electrodes, at: SheathAt, depth: f64) -> Vec<usize> {
+    let has = |m: usize| match at {
+        SheathAt::Electrodes => electrodes.of[m].is_some(),
+        SheathAt::Cathode => electrodes.is_cathode(m),
+    };
+    layout.sheath(has, depth)
+}
+
+fn surfaces(layout: &Layout, all: &Electrodes, absorbed: Option<f64>) -> Option<Surfaces> {
     let mut electrodes = Vec::new();
-    let mut index = vec![None; bodies.len() + 1];
-    for (n, (name, body)) in bodies.iter().enumerate() {
-        if let Some(electrode) = matter::electrode(name, body) {
-            index[n + 1] = Some(electrodes.len());
-            electrodes.push(electrode);
+    let mut index = vec![None; all.of.len()];
+    for (material, electrode) in all.of.iter().enumerate() {
+        if let Some(electrode) = electrode {
+            index[material] = Some(electrodes.len());
+            electrodes.push(electrode.clone());
         }
     }
     let contacts = contacts(&layout.grid, &layout.material, |m| index[m]);

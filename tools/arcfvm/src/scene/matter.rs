@@ -4,6 +4,8 @@ use run::property::{Property, TemperatureTable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::electrode::{Anode, Cathode, Electrode};
+
 /// The gas: a table named on the command line, or properties given here.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -76,6 +78,8 @@ pub struct Body {
     pub anode: Option<Anode>,
     /// Electrode that emits electrons.
     pub cathode: Option<Cathode>,
+    /// Electrode that the sign of the driven current makes an anode or a cathode.
+    pub electrode: Option<Electrode>,
     /// Fed down along the axis, as a wire; one body at most.
     pub feed: Option<Feed>,
     /// A plate moving past the arc; one body at most.
@@ -132,55 +136,6 @@ pub struct Melting {
     /// Latent heat.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub latent_heat_j_kg: f64,
-}
-
-/// Electrode that takes up electrons (Komen 2019, eq. 5.16).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Anode {
-    /// Work function.
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub work_function_v: f64,
-    /// Emissivity.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub emissivity: f64,
-    /// Evaporation; absent: none.
-    pub evaporation: Option<Evaporation>,
-}
-
-/// Electrode that emits electrons (Komen 2019, eqs 5.19 to 5.21).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Cathode {
-    /// Work function.
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub work_function_v: f64,
-    /// Ionisation voltage of the gas.
-    #[schemars(range(min = 0.0, max = 30.0))]
-    pub ionisation_voltage_v: f64,
-    /// Richardson constant.
-    #[schemars(range(min = 0.0))]
-    pub richardson_a_m2_k2: f64,
-    /// Emissivity.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub emissivity: f64,
-    /// Evaporation; absent: none.
-    pub evaporation: Option<Evaporation>,
-}
-
-/// Vapour leaving a surface (Komen 2019, eq. 5.24).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Evaporation {
-    /// Boiling point at 1 atm.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub boiling_k: f64,
-    /// Latent heat.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub latent_heat_j_kg: f64,
-    /// Molar mass.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub molar_mass_kg_mol: f64,
 }
 
 /// How a wire is fed: exactly one of both.

@@ -1,14 +1,16 @@
 //! The scene: what a person writes, in SI units. Optional physics is an absent key.
 
 mod edges;
+mod electrode;
 mod iterate;
 mod matter;
 
 pub use edges::{CurrentEdge, FlowEdge, HeatEdge, Sides};
+pub use electrode::{Anode, Cathode, Electrode, Evaporation};
 pub use iterate::{Coupling, Iterate, LinearSolver};
 pub use matter::{
-    Anode, BeyondTable, Body, Cathode, Evaporation, Feed, Gas, GasTable, GivenGas, Melting, Metal,
-    Moving, Ring, Shape, SpecificHeat,
+    BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, Ring, Shape,
+    SpecificHeat,
 };
 
 use std::collections::BTreeMap;
@@ -106,6 +108,20 @@ pub struct Current {
     /// 5.2.3); absent: as its own temperature says.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub sheath_m: Option<f64>,
+    /// At which electrodes; absent: at both.
+    #[serde(default)]
+    pub sheath_at: SheathAt,
+}
+
+/// Electrodes with a sheath.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SheathAt {
+    /// Anode and cathode.
+    #[default]
+    Electrodes,
+    /// The cathode, as Komen (2019), fig. 5.12, has it.
+    Cathode,
 }
 
 /// Flow of the gas (Komen 2019, eqs 3.3 to 3.5, 5.1, 5.2); the Lorentz force acts if there is current.
@@ -133,7 +149,8 @@ pub struct Heat {
     pub edges: Sides<HeatEdge>,
     /// Given source of heat in r, z \[W/m3\].
     pub source_w_m3: Option<Property>,
-    /// Part of all radiation of the gas that cathodes take up; absent: none.
+    /// Part of all radiation of the gas that the base metal, the lowest electrode, takes up; absent:
+    /// none.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub absorbed_radiation: Option<f64>,
 }

@@ -1,0 +1,172 @@
+//! Which bodies are electrodes, and which way current crosses them.
+
+use crate::assemble::Faults;
+use crate::assemble::layout::Layout;
+use crate::case::{Edges, PotentialCase, PotentialEdge};
+use crate::heat::{Electrode, Evaporation, Role};
+use crate::material::REFERENCE_K;
+use crate::scene::{self, Body};
+
+/// Electrodes by material, the gas being 0.
+pub(crate) struct Electrodes {
+    /// The electrode of each material.
+    pub(crate) of: Vec<Option<Electrode>>,
+    /// Material of the base metal: the lowest electrode on the axis.
+    pub(crate) base: Option<usize>,
+}
+
+impl Electrodes {
+    /// All electrodes of the scene in their roles.
+    pub(crate) fn new(
+        layout: &Layout,
+        bodies: &[(&String, &Body)],
+        potential: Option<&PotentialCase>,
+        faults: &mut Faults,
+    ) -> Self {
+        let polarity = potential.and_then(|p| Polarity::new(layout, p));
+        let mut of = vec![None];
+        for (n, (name, body)) in bodies.iter().enumerate() {
+            let positive = polarity.map(|p| p.is_anode(n + 1));
+            of.push(electrode(name, body, positive, faults));
+        }
+        let base = layout.lowest(|m| of[m].is_some());
+        if let Some(one) = base.and_then(|m| of[m].as_mut()) {
+            one.absorbs = true;
+        }
+        let roles = Self { of, base };
+        if let Some(polarity) = polarity.filter(|p| roles.of[p.fed].is_some()) {
+            roles.check(bodies, polarity, faults);
+        }
+        roles
+    }
+
+    /// Whether `material` is a cathode.
+    pub(crate) fn is_cathode(&self, material: usize) -> bool {
+        let role = self.of[material].as_ref().map(|e| e.role);
+        matches!(role, Some(Role::Cathode { .. }))
+    }
+
+    /// Roles that bodies were given must be those that the current gives them.
+    fn check(&self, bodies: &[(&String, &Body)], polarity: Polarity, faults: &mut Faults) {
+        for (n, (name, _)) in bodies.iter().enumerate() {
+            if self.of[n + 1].is_none() || self.is_cathode(n + 1) != polarity.is_anode(n + 1) {
+                continue;
+            }
+            let (is, fits) = if self.is_cathode(n + 1) {
+                ("a cathode", "an anode")
+            } else {
+                ("an anode", "a cathode")
+            };
+            let what = format!("is {is}, but the sign of total_current_a makes it {fits}");
+            faults.add(&format!("/bodies/{name}"), what);
+        }
+    }
+}
+
+/// Which way the driven current goes.
+#[derive(Debug, Clone, Copy)]
+struct Polarity {
+    /// Material under the driven faces.
+    fed: usize,
+    /// Whether current enters through them.
+    enters: bool,
+}
+
+impl Polarity {
+    fn new(layout: &Layout, potential: &PotentialCase) -> Option<Self> {
+        let current = potential.driven?;
+        Some(Self {
+            fed: layout.material[fed_cell(layout, &potential.edges)?],
+            enters: current > 0.0,
+        })
+    }
+
+    fn is_anode(self, material: usize) -> bool {
+        (material == self.fed) == self.enters
+    }
+}
+
+/// A cell under a driven face.
+fn fed_cell(layout: &Layout, edges: &Edges<PotentialEdge>) -> Option<usize> {
+    let grid = &layout.grid;
+    let on = |side: &[PotentialEdge]| side.iter().position(|e| *e == PotentialEdge::Driven);
+    let top = on(&edges.top).map(|i| grid.cell(i, grid.nz - 1));
+    let bottom = || on(&edges.bottom).map(|i| grid.cell(i, 0));
+    let outer = || on(&edges.outer).map(|j| grid.cell(grid.nr - 1, j));
+    let inner = || on(&edges.inner).map(|j| grid.cell(0, j));
+    top.or_else(bottom).or_else(outer).or_else(inner)
+}
+
+fn vapour(evaporation: Option<&scene::Evaporation>) -> Option<Evaporation> {
+    evaporation.map(|e| Evaporation {
+        boiling: e.boiling_k,
+        latent_heat: e.latent_heat_j_kg,
+        molar_mass: e.molar_mass_kg_mol,
+    })
+}
+
+/// The electrode that a body is; `positive` tells whether the driven current makes it an anode.
+fn electrode(
+    name: &str,
+    body: &Body,
+    positive: Option<bool>,
+    faults: &mut Faults,
+) -> Option<Electrode> {
+    let at = format!("/bodies/{name}");
+    let (role, emissivity, evaporation) = match (&body.anode, &body.cathode, &body.electrode) {
+        (None, None, None) => return None,
+        (Some(a), None, None) => (
+            anode(a.work_function_v),
+            a.emissivity,
+            a.evaporation.as_ref(),
+        ),
+        (None, Some(c), None) => (cathode(c), c.emissivity, c.evaporation.as_ref()),
+        (None, None, Some(e)) => {
+            let Some(positive) = positive else {
+                let what = "wants a total_current_a, whose sign makes it an anode or a cathode";
+                faults.add(&format!("{at}/electrode"), what);
+                return None;
+            };
+            let role = if positive {
+                anode(e.work_function_v)
+            } else {
+                cathode(&as_cathode(e))
+            };
+            (role, e.emissivity, e.evaporation.as_ref())
+        }
+        _ => {
+            faults.add(&at, "has more than one of anode, cathode, electrode");
+            return None;
+        }
+    };
+    Some(Electrode {
+        name: name.to_owned(),
+        absorbs: false,
+        role,
+        emissivity,
+        surroundings: REFERENCE_K,
+        evaporation: vapour(evaporation),
+    })
+}
+
+fn anode(work_function: f64) -> Role {
+    Role::Anode { work_function }
+}
+
+fn cathode(c: &scene::Cathode) -> Role {
+    Role::Cathode {
+        work_function: c.work_function_v,
+        ionisation_voltage: c.ionisation_voltage_v,
+        richardson: c.richardson_a_m2_k2,
+    }
+}
+
+fn as_cathode(e: &scene::Electrode) -> scene::Cathode {
+    scene::Cathode {
+        work_function_v: e.work_function_v,
+        ionisation_voltage_v: e.ionisation_voltage_v,
+        richardson_a_m2_k2: e.richardson_a_m2_k2,
+        emissivity: e.emissivity,
+        evaporation: e.evaporation.clone(),
+    }
+}

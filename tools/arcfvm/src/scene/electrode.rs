@@ -1,0 +1,74 @@
+//! Electrodes: what happens where current crosses the surface of a body.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Electrode that takes up electrons (Komen 2019, eq. 5.16).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Anode {
+    /// Work function.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub work_function_v: f64,
+    /// Emissivity.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub emissivity: f64,
+    /// Evaporation; absent: none.
+    pub evaporation: Option<Evaporation>,
+}
+
+/// Electrode that emits electrons (Komen 2019, eqs 5.19 to 5.21).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cathode {
+    /// Work function.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub work_function_v: f64,
+    /// Ionisation voltage of the gas.
+    #[schemars(range(min = 0.0, max = 30.0))]
+    pub ionisation_voltage_v: f64,
+    /// Richardson constant.
+    #[schemars(range(min = 0.0))]
+    pub richardson_a_m2_k2: f64,
+    /// Emissivity.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub emissivity: f64,
+    /// Evaporation; absent: none.
+    pub evaporation: Option<Evaporation>,
+}
+
+/// Vapour leaving a surface (Komen 2019, eq. 5.24).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Evaporation {
+    /// Boiling point at 1 atm.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub boiling_k: f64,
+    /// Latent heat.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub latent_heat_j_kg: f64,
+    /// Molar mass.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub molar_mass_kg_mol: f64,
+}
+
+/// Electrode of either polarity: an anode where the driven current leaves it for the gas, a cathode
+/// where it enters (Komen 2019, eqs 5.16, 5.19 to 5.21).
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Electrode {
+    /// Work function.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub work_function_v: f64,
+    /// Ionisation voltage of the gas, where it is the cathode.
+    #[schemars(range(min = 0.0, max = 30.0))]
+    pub ionisation_voltage_v: f64,
+    /// Richardson constant, where it is the cathode.
+    #[schemars(range(min = 0.0))]
+    pub richardson_a_m2_k2: f64,
+    /// Emissivity.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub emissivity: f64,
+    /// Evaporation; absent: none.
+    pub evaporation: Option<Evaporation>,
+}

@@ -1,0 +1,122 @@
+//! Bodies in the current: which way it crosses them, and what follows from that.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use arcfvm::assemble::assemble;
+use arcfvm::case::Case;
+use arcfvm::scene::Scene;
+use arcfvm::settings::Settings;
+use arcfvm::solver::Arc;
+use run::scene::{Expected, parse};
+use serde_json::{Value, json};
+
+fn read(scene: &Value) -> Scene {
+    let expected = Expected {
+        kind: "arcfvm.scene",
+        version: 1,
+        migrations: &[],
+    };
+    parse::<Scene>(&scene.to_string(), expected).unwrap().scene
+}
+
+fn case(scene: &Value) -> Result<Case, String> {
+    assemble(&read(scene), None).map_err(|e| e.to_string())
+}
+
+fn solve(scene: &Value) -> Arc {
+    let scene = read(scene);
+    let mut arc = Arc::new(
+        assemble(&scene, None).unwrap(),
+        Settings::from(&scene.iterate),
+    );
+    for _ in 0..scene.iterate.most {
+        let found = arc.iterate(&mut ()).unwrap();
+        if found.within(scene.iterate.tolerance) && arc.iteration > 2 {
+            return arc;
+        }
+    }
+    panic!("not converged");
+}
+
+fn plate(z: [f64; 2]) -> Value {
+    json!({
+        "shape": {"ring": {"r_m": [0, 0.01], "z_m": z}},
+        "material": {
+            "density_kg_m3": 7800, "specific_heat_j_kg_k": 600,
+            "thermal_conductivity_w_m_k": 30, "electric_conductivity_s_m": 1e6
+        },
+        "electrode": {
+            "work_function_v": 4.5, "ionisation_voltage_v": 7.9, "richardson_a_m2_k2": 1.2e6,
+            "emissivity": 0.4
+        }
+    })
+}
+
+/// Two plates, mirror images of each other, with gas between them.
+fn mirror(current: f64) -> Value {
+    json!({
+        "kind": "arcfvm.scene", "version": 1, "title": "two plates",
+        "domain": {"r_m": [0, 0.01], "z_m": [0, 0.02]}, "grid": {"r": 0.002, "z": 0.001},
+        "gas": {"given": {
+            "thermal_conductivity_w_m_k": {"expr": "0.5 + 1e-4*T"}, "specific_heat_j_kg_k": 1000,
+            "electric_conductivity_s_m": {"expr": "200 + 0.1*T"}
+        }},
+        "bodies": {"lower": plate([0.0, 0.004]), "upper": plate([0.016, 0.02])},
+        "current": {"edges": {
+            "bottom": [{"voltage_v": 0}], "top": [{"total_current_a": current}]
+        }},
+        "heat": {"edges": {"bottom": [{"temperature_k": 300}], "top": [{"temperature_k": 300}]}},
+        "iterate": {"tolerance": 1e-10, "most": 3000}
+    })
+}
+
+#[test]
+fn the_other_polarity_is_the_mirror_image() {
+    let (positive, mut negative) = (solve(&mirror(80.0)), solve(&mirror(-80.0)));
+    let grid = &positive.case.grid;
+    let (a, b) = (positive.temperature(), negative.temperature());
+    for j in 0..grid.nz {
+        let mirrored = b[grid.cell(2, grid.nz - 1 - j)];
+        let here = a[grid.cell(2, j)];
+        assert!(
+            (here - mirrored).abs() < 1e-5 * here,
+            "{j} {here} {mirrored}"
+        );
+    }
+    let drives = [&positive, &negative].map(|arc| arc.electric.as_ref().unwrap().potential.drive);
+    assert!((drives[0] + drives[1]).abs() < 1e-6 * drives[0]);
+    let balance = negative.settle().unwrap();
+    assert!(balance.closure().abs() < 1e-6 * balance.joule);
+    // The lower plate is the anode now: it takes up its work function, the upper one ions.
+    assert!((balance.electrodes[0].electron - 80.0 * 4.5).abs() < 1e-6 * 360.0);
+    assert!(balance.electrodes[1].ion > 600.0 && balance.electrodes[0].ion.abs() < 1e-12);
+}
+
+#[test]
+fn a_sheath_at_the_cathode_changes_sides_with_the_current() {
+    for (current, row) in [(80.0, 4), (-80.0, 15)] {
+        let mut scene = mirror(current);
+        scene["current"]["sheath_m"] = json!(1e-3);
+        scene["current"]["sheath_at"] = json!("cathode");
+        let case = case(&scene).unwrap();
+        let sheath = case.potential.as_ref().unwrap().sheath.as_ref().unwrap();
+        let moved: Vec<usize> = (0..sheath.len()).filter(|k| sheath[*k] != *k).collect();
+        let rows: Vec<usize> = moved.iter().map(|k| k / case.grid.nr).collect();
+        assert_eq!(rows, vec![row; case.grid.nr]);
+    }
+}
+
+#[test]
+fn an_anode_that_current_enters_from_the_gas_is_refused() {
+    let mut scene = mirror(-80.0);
+    let upper = scene["bodies"]["upper"].as_object_mut().unwrap();
+    upper.remove("electrode");
+    upper.insert(
+        "anode".to_owned(),
+        json!({"work_function_v": 4.5, "emissivity": 0.4}),
+    );
+    let told = case(&scene).unwrap_err();
+    assert!(told.contains("/bodies/upper"), "{told}");
+    scene["current"]["edges"]["top"][0]["total_current_a"] = json!(80.0);
+    assert!(case(&scene).is_ok());
+}
