@@ -2,16 +2,21 @@
 //!
 //! - [`Library`] reads the species from the data of the crate; [`Species`] is one of them;
 //! - [`Mixture`] is a cold gas with or without iron and all species that its elements can form;
-//! - `Mixture::equilibrium` finds how many there are of each at a temperature, pressure and iron content;
-//! - `Mixture::thermodynamics` finds density, enthalpy, specific heat and the derivatives of the composition.
+//! - [`Mixture::equilibrium`] finds how many there are of each at a temperature, pressure and iron content;
+//! - [`Mixture::thermodynamics`] finds density, enthalpy, specific heat and the derivatives of the composition.
 //!
-//! The gas is ideal, one temperature rules it, and reactions are infinitely fast. Condensation is left out: cold iron
+//! One temperature rules the gas and reactions are infinitely fast. It is ideal, or charges attract each other by Debye
+//! and Hueckel's limiting law ([`Lowering`]). Condensation is left out: cold iron
 //! is a gas here, whatever its vapour pressure.
 
+mod balance;
+mod basis;
+mod composition;
 mod levels;
 pub mod library;
 mod nasa9;
 pub mod species;
+mod system;
 pub mod thermodynamics;
 
 pub use library::{DataError, Library};
@@ -32,6 +37,26 @@ pub struct Mixture {
     pub elements: Vec<Element>,
     /// Moles of each of `elements` in one mole of the cold gas without iron.
     pub base: Vec<f64>,
+    with_iron: bool,
+    lowering: Lowering,
+}
+
+/// How charges change the energy of each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Lowering {
+    /// Not at all: an ideal gas of all species.
+    #[default]
+    None,
+    /// By Debye and Hueckel's limiting law: ionisation takes less energy by (z + 1) e^2/(4 pi eps0 Debye length).
+    DebyeHueckel,
+}
+
+/// What holds besides temperature and recipe.
+#[derive(Debug, Clone, Copy)]
+struct Conditions {
+    /// Pressure, Pa.
+    pressure: f64,
+    lowering: Lowering,
 }
 
 /// How many of each species there are.
@@ -107,6 +132,18 @@ pub enum EquilibriumError {
         /// The fraction.
         iron: f64,
     },
+    /// A composition whose equations do not determine how it answers.
+    #[error(
+        "the composition at {temperature} K, {pressure} Pa, iron mole fraction {iron} has no derivatives"
+    )]
+    Singular {
+        /// Temperature, K.
+        temperature: f64,
+        /// Pressure, Pa.
+        pressure: f64,
+        /// Iron mole fraction.
+        iron: f64,
+    },
     /// Newton's iteration stood still above its tolerance.
     #[error(
         "no equilibrium at {temperature} K, {pressure} Pa, iron mole fraction {iron}: after {iterations} iterations \
@@ -169,7 +206,16 @@ impl Mixture {
             species,
             elements,
             base,
+            with_iron,
+            lowering: Lowering::None,
         })
+    }
+
+    /// The same mixture with charges that act on each other.
+    #[must_use]
+    pub fn with_lowering(mut self, lowering: Lowering) -> Self {
+        self.lowering = lowering;
+        self
     }
 
     /// Where the species of this name stands in [`Mixture::species`].
