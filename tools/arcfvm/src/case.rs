@@ -1,8 +1,10 @@
 //! The assembled problem: grid, materials, edges, and what is solved. Physics reads this, never
 //! the scene.
 
+use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::Surfaces;
+use crate::heat::granular::Granular;
 use crate::material::Material;
 
 /// Index of the gas among the materials.
@@ -78,8 +80,8 @@ pub struct PotentialCase {
     pub driven: Option<f64>,
     /// Current source of each cell \[A\], `[nr nz]`; manufactured solutions only.
     pub source: Option<Vec<f64>>,
-    /// For each cell, the cell whose conductivity it takes (the sheath rule); itself mostly.
-    pub sheath: Option<Vec<usize>>,
+    /// Gas close to electrodes that conducts as the gas beyond.
+    pub sheath: Option<Sheath>,
 }
 
 /// Gravity acting on the excess of density.
@@ -105,7 +107,7 @@ pub struct FlowCase {
 }
 
 /// Heat that a moving plate carries away (Komen 2019, eq. 5.22).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MovingPlate {
     /// Welding speed \[m/s\].
     pub speed: f64,
@@ -113,6 +115,8 @@ pub struct MovingPlate {
     pub ahead: f64,
     /// Material of the plate.
     pub material: usize,
+    /// Temperature beyond the edge of the domain, by row \[K\].
+    pub beyond: Vec<f64>,
 }
 
 /// How fast a wire is fed.
@@ -150,8 +154,10 @@ pub struct HeatCase {
     pub source: Option<Vec<f64>>,
     /// Surfaces of wire and base metal with electrode heat.
     pub surfaces: Option<Surfaces>,
-    /// The moving plate.
-    pub plate: Option<MovingPlate>,
+    /// Plates and beds of flux that move past the arc.
+    pub plates: Vec<MovingPlate>,
+    /// Granular flux that boils into the cavity.
+    pub granular: Option<Granular>,
 }
 
 /// The whole problem.

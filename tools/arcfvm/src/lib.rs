@@ -3,6 +3,7 @@
 
 pub mod assemble;
 pub mod case;
+mod cavity;
 pub mod error;
 mod feed;
 pub mod fields;

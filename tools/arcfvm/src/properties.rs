@@ -106,7 +106,7 @@ impl Properties {
         };
         let (electric, before) = (&mut self.electric, &mut self.before);
         before.clone_from(electric);
-        for (k, from) in sheath.iter().enumerate() {
+        for (k, from) in sheath.from.iter().enumerate() {
             electric[k] = before[*from].max(before[k]);
         }
     }

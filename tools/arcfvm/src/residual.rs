@@ -13,6 +13,8 @@ pub struct Residuals {
     pub heat: Option<f64>,
     /// Change that the speed of the wire still wants.
     pub feed: Option<f64>,
+    /// Part of the bed of flux that still boils or comes back.
+    pub cavity: Option<f64>,
     /// Cells whose temperature step was limited.
     pub limited: usize,
 }
@@ -26,6 +28,7 @@ impl Residuals {
             ("residual_mass", self.mass),
             ("residual_heat", self.heat),
             ("residual_feed", self.feed),
+            ("residual_cavity", self.cavity),
         ];
         all.into_iter()
             .filter_map(|(name, value)| Some((name, value?)))

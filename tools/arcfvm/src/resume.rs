@@ -11,6 +11,11 @@ use crate::solver::Arc;
 pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
     c.put_json("iteration", &arc.iteration)?;
     c.put_f64("feed", &[arc.feed]);
+    if let Some([boiled, changes]) = arc.bed() {
+        c.put_u8("bed_boiled", &boiled);
+        c.put_u8("bed_changes", &changes);
+        c.put_json("bed_part", &arc.boiled)?;
+    }
     if let Some(electric) = &arc.electric {
         c.put_f64("potential", &electric.potential.value);
         c.put_f64("drive", &[electric.potential.drive]);
@@ -40,6 +45,11 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
 pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
     arc.iteration = c.json("iteration")?;
     arc.feed = one(c, "feed")?;
+    if arc.bed().is_some() {
+        let (boiled, changes) = (c.u8("bed_boiled")?, c.u8("bed_changes")?);
+        arc.restore_bed(&boiled, changes);
+        arc.boiled = c.json("bed_part")?;
+    }
     if let Some(electric) = &mut arc.electric {
         electric.potential.value = c.f64("potential")?;
         electric.potential.drive = one(c, "drive")?;

@@ -49,7 +49,7 @@ pub struct Electric {
 /// The flow and its solver.
 #[derive(Debug, Clone)]
 pub struct Flowing {
-    setup: FlowCase,
+    pub(crate) setup: FlowCase,
     /// Velocities and pressure.
     pub flow: Flow,
     solver: FlowSolver,
@@ -83,6 +83,8 @@ pub struct Arc {
     pub heating: Option<Heating>,
     /// Speed of the wire \[m/s\].
     pub feed: f64,
+    /// Part of the bed of flux that changed when it was last looked at.
+    pub(crate) boiled: Option<f64>,
 }
 
 impl Arc {
@@ -119,6 +121,7 @@ impl Arc {
             flowing,
             heating,
             feed: 0.0,
+            boiled: None,
         };
         arc.feed = arc.first_feed();
         arc
@@ -146,7 +149,10 @@ impl Arc {
     /// When a field diverges; names the equation and the place.
     pub fn iterate(&mut self, clock: &mut impl Stopwatch) -> Result<Residuals, Error> {
         self.iteration += 1;
-        let mut residuals = Residuals::default();
+        let mut residuals = Residuals {
+            cavity: self.boil(),
+            ..Residuals::default()
+        };
         clock.timed("properties", || self.take_properties());
         if self.electric.is_some() {
             residuals.charge = Some(clock.timed("current", || self.solve_current())?);

@@ -99,7 +99,8 @@ fn a_sheath_at_the_cathode_changes_sides_with_the_current() {
         scene["current"]["sheath_m"] = json!(1e-3);
         scene["current"]["sheath_at"] = json!("cathode");
         let case = case(&scene).unwrap();
-        let sheath = case.potential.as_ref().unwrap().sheath.as_ref().unwrap();
+        let potential = case.potential.as_ref().unwrap();
+        let sheath = &potential.sheath.as_ref().unwrap().from;
         let moved: Vec<usize> = (0..sheath.len()).filter(|k| sheath[*k] != *k).collect();
         let rows: Vec<usize> = moved.iter().map(|k| k / case.grid.nr).collect();
         assert_eq!(rows, vec![row; case.grid.nr]);
@@ -119,4 +120,58 @@ fn an_anode_that_current_enters_from_the_gas_is_refused() {
     assert!(told.contains("/bodies/upper"), "{told}");
     scene["current"]["edges"]["top"][0]["total_current_a"] = json!(80.0);
     assert!(case(&scene).is_ok());
+}
+
+/// A column of flux on a cold plate, heated from above through gas.
+fn bed() -> Value {
+    json!({
+        "kind": "arcfvm.scene", "version": 1, "title": "boiling bed",
+        "domain": {"r_m": [0, 0.002], "z_m": [0, 0.01]}, "grid": {"r": 0.001, "z": 5e-5},
+        "gas": {"given": {"thermal_conductivity_w_m_k": 1, "specific_heat_j_kg_k": 1000}},
+        "bodies": {"flux": {
+            "shape": {"ring": {"r_m": [0, 0.002], "z_m": [0, 0.0095]}},
+            "material": {
+                "density_kg_m3": 3000, "specific_heat_j_kg_k": 1000, "thermal_conductivity_w_m_k": 1,
+                "melting": {"point_k": 2500, "half_range_k": 1, "latent_heat_j_kg": 5e5}
+            },
+            "granular": {"slag_conductivity_ratio": 3, "boiling_k": 3100}
+        }},
+        "heat": {"edges": {"bottom": [{"temperature_k": 300}], "top": [{"flux_w_m2": 5e5}]}},
+        "iterate": {"tolerance": 1e-9, "most": 3000}
+    })
+}
+
+#[test]
+fn slag_is_as_thick_as_it_conducts_from_boiling_to_melting() {
+    let arc = solve(&bed());
+    let grid = &arc.case.grid;
+    let gas = |j: &usize| arc.case.material[grid.cell(0, *j)] == 0;
+    let front = grid.zf[(0..grid.nz).find(gas).unwrap()];
+    // k (Tm - T0) / q of flux and 3 k (Tb - Tm) / q of slag.
+    let (flux, slag) = (2200.0 / 5e5, 3.0 * 600.0 / 5e5);
+    assert!((front - flux - slag).abs() < 2.0 * 5e-5, "{front}");
+    let t = arc.temperature();
+    let molten = (0..grid.nz).find(|j| t[grid.cell(0, *j)] > 2500.0).unwrap();
+    assert!((grid.zf[molten] - flux).abs() < 1.5 * 5e-5);
+}
+
+#[test]
+fn flux_that_never_boils_stays_and_costs_nothing_else() {
+    let mut scene = bed();
+    scene["heat"]["edges"]["top"][0]["flux_w_m2"] = json!(1e5);
+    let bed = solve(&scene);
+    let plain = scene["bodies"]["flux"].as_object_mut().unwrap();
+    plain.remove("granular");
+    let plain = solve(&scene);
+    assert_eq!(bed.case.material, plain.case.material);
+    assert_eq!(bed.temperature(), plain.temperature());
+}
+
+#[test]
+fn a_bed_that_cannot_melt_is_refused() {
+    let mut scene = bed();
+    let material = scene["bodies"]["flux"]["material"].as_object_mut().unwrap();
+    material.remove("melting");
+    let told = case(&scene).unwrap_err();
+    assert!(told.contains("/bodies/flux/granular"), "{told}");
 }

@@ -48,14 +48,7 @@ impl Layout {
             }
         }
         let (mut r_breaks, mut z_breaks) = (r.to_vec(), z.to_vec());
-        for (name, body) in &scene.bodies {
-            let Shape::Ring(ring) = &body.shape;
-            let at = format!("/bodies/{name}/shape/ring");
-            inside(&format!("{at}/r_m"), ring.r_m, r, faults);
-            inside(&format!("{at}/z_m"), ring.z_m, z, faults);
-            r_breaks.extend(ring.r_m);
-            z_breaks.extend(ring.z_m);
-        }
+        rings(scene, [r, z], [&mut r_breaks, &mut z_breaks], faults);
         spans(scene, [r, z], [&mut r_breaks, &mut z_breaks], faults);
         let r_spacing = spacing(&scene.grid.r, "/grid/r", faults)?;
         let z_spacing = spacing(&scene.grid.z, "/grid/z", faults)?;
@@ -110,53 +103,6 @@ impl Layout {
         let column = (0..self.grid.nz).map(|j| self.material[self.grid.cell(0, j)]);
         column.into_iter().find(|m| has(*m))
     }
-
-    /// For each gas cell within `depth` of a material that `has` a sheath, straight off its surface,
-    /// the first cell beyond; itself elsewhere.
-    pub(crate) fn sheath(&self, has: impl Fn(usize) -> bool, depth: f64) -> Vec<usize> {
-        let grid = &self.grid;
-        let mut from: Vec<usize> = (0..grid.len()).collect();
-        for k in (0..grid.len()).filter(|k| has(self.material[*k])) {
-            let (i, j) = (k % grid.nr, k / grid.nr);
-            let up: Vec<_> = (j + 1..grid.nz)
-                .map(|n| (grid.cell(i, n), grid.dz[n]))
-                .collect();
-            let down: Vec<_> = (0..j)
-                .rev()
-                .map(|n| (grid.cell(i, n), grid.dz[n]))
-                .collect();
-            let out: Vec<_> = (i + 1..grid.nr)
-                .map(|n| (grid.cell(n, j), grid.dr[n]))
-                .collect();
-            let within: Vec<_> = (0..i)
-                .rev()
-                .map(|n| (grid.cell(n, j), grid.dr[n]))
-                .collect();
-            for line in [up, down, out, within] {
-                self.sheath_line(&line, depth, &mut from);
-            }
-        }
-        from
-    }
-
-    fn sheath_line(&self, line: &[(usize, f64)], depth: f64, from: &mut [usize]) {
-        let mut reached = 0.0;
-        let mut thin = Vec::new();
-        for (cell, width) in line {
-            if !self.is_gas(*cell) {
-                return;
-            }
-            // A cell belongs to the sheath if its centre does.
-            if reached + 0.5 * width > depth {
-                for k in thin {
-                    from[k] = *cell;
-                }
-                return;
-            }
-            thin.push(*cell);
-            reached += width;
-        }
-    }
 }
 
 /// Why so many cells are refused, and how much coarser they would have to be.
@@ -201,6 +147,23 @@ fn spacing(scene: &SpacingScene, at: &str, faults: &mut Faults) -> Option<Spacin
         return None;
     }
     Some(found)
+}
+
+/// Edges of the rings of bodies become faces.
+fn rings(scene: &Scene, [r, z]: [[f64; 2]; 2], breaks: [&mut Vec<f64>; 2], faults: &mut Faults) {
+    let [r_breaks, z_breaks] = breaks;
+    for (name, body) in &scene.bodies {
+        for (n, ring) in body.shape.rings().iter().enumerate() {
+            let at = match &body.shape {
+                Shape::Ring(_) => format!("/bodies/{name}/shape/ring"),
+                Shape::Rings(_) => format!("/bodies/{name}/shape/rings/{n}"),
+            };
+            inside(&format!("{at}/r_m"), ring.r_m, r, faults);
+            inside(&format!("{at}/z_m"), ring.z_m, z, faults);
+            r_breaks.extend(ring.r_m);
+            z_breaks.extend(ring.z_m);
+        }
+    }
 }
 
 /// Ends of the parts of sides become faces.
@@ -254,14 +217,12 @@ fn tidy(mut breaks: Vec<f64>, domain: [f64; 2]) -> Vec<f64> {
 fn fill(scene: &Scene, grid: &Grid, faults: &mut Faults) -> Vec<usize> {
     let mut material = vec![GAS; grid.len()];
     for (n, (name, body)) in scene.bodies.iter().enumerate() {
-        let Shape::Ring(ring) = &body.shape;
+        let rings = body.shape.rings();
         let mut filled = 0;
         for j in 0..grid.nz {
             for i in 0..grid.nr {
                 let (r, z) = (grid.rc[i], grid.zc[j]);
-                let within =
-                    r > ring.r_m[0] && r < ring.r_m[1] && z > ring.z_m[0] && z < ring.z_m[1];
-                if !within {
+                if !rings.iter().any(|ring| ring.holds(r, z)) {
                     continue;
                 }
                 let k = grid.cell(i, j);

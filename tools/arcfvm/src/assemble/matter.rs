@@ -5,6 +5,7 @@ use run::property::{Arguments, Curve, Property};
 use serde::Deserialize;
 
 use crate::assemble::Faults;
+use crate::assemble::granular::conductivity;
 use crate::error::Error;
 use crate::material::{Enthalpy, Law, Material, Melting, REFERENCE_K};
 use crate::scene::{BeyondTable, Body, Gas, Scene, SpecificHeat};
@@ -204,16 +205,22 @@ fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) ->
         latent_heat: m.latent_heat_j_kg,
     });
     let path = format!("{at}/specific_heat_j_kg_k");
+    let own = metal.thermal_conductivity_w_m_k.as_ref();
+    let thermal = read(
+        own,
+        &format!("{at}/thermal_conductivity_w_m_k"),
+        heat,
+        faults,
+    );
+    let thermal = match &body.granular {
+        Some(granular) => thermal.map(|law| conductivity(law, granular, melting)),
+        None => thermal,
+    };
     Material {
         name: name.to_owned(),
         density,
         viscosity: None,
-        thermal_conductivity: read(
-            metal.thermal_conductivity_w_m_k.as_ref(),
-            &format!("{at}/thermal_conductivity_w_m_k"),
-            heat,
-            faults,
-        ),
+        thermal_conductivity: thermal,
         electric_conductivity: read(
             metal.electric_conductivity_s_m.as_ref(),
             &format!("{at}/electric_conductivity_s_m"),

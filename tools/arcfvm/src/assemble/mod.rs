@@ -2,17 +2,21 @@
 
 mod edges;
 mod electrodes;
+mod granular;
 mod layout;
 mod matter;
 
 use run::property::{Arguments, Curve, Property};
 use run::{Failure, Fault};
 
-use crate::case::{Case, FeedRule, FlowCase, Gravity, HeatCase, MovingPlate, PotentialCase, Wire};
+use crate::case::{
+    Case, Edges, FeedRule, FlowCase, Gravity, HeatCase, HeatEdge, MovingPlate, PotentialCase, Wire,
+};
+use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::{Surfaces, contacts};
 use crate::material::REFERENCE_K;
-use crate::scene::{Body, Scene, SheathAt};
+use crate::scene::{Body, Moving, Scene, SheathAt};
 use electrodes::Electrodes;
 use layout::Layout;
 pub use matter::GasFile;
@@ -83,8 +87,11 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         .flow
         .as_ref()
         .map(|_| flow(scene, &layout, &materials, &mut faults));
+    let heat_edges = edges::heat(scene, grid, &mut faults);
     let heat = scene.heat.as_ref().map(|heat| HeatCase {
-        edges: edges::heat(scene, grid, &mut faults),
+        plates: plates(&bodies, &heat_edges),
+        edges: heat_edges,
+        granular: granular::granular(scene, &layout, &bodies, &mut faults),
         source: cell_source(
             grid,
             heat.source_w_m3.as_ref(),
@@ -92,7 +99,6 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
             &mut faults,
         ),
         surfaces: surfaces(&layout, &electrodes, heat.absorbed_radiation),
-        plate: plate(&bodies, &mut faults),
     });
     faults.none()?;
     let surface_row = electrodes.base.and_then(|m| layout.row_above(m));
@@ -249,12 +255,13 @@ fn start(scene: &Scene, layout: &Layout, wire: Option<&Wire>, faults: &mut Fault
     all
 }
 
-fn sheath(layout: &Layout, electrodes: &Electrodes, at: SheathAt, depth: f64) -> Vec<usize> {
+fn sheath(layout: &Layout, electrodes: &Electrodes, at: SheathAt, depth: f64) -> Sheath {
     let has = |m: usize| match at {
         SheathAt::Electrodes => electrodes.of[m].is_some(),
         SheathAt::Cathode => electrodes.is_cathode(m),
     };
-    layout.sheath(has, depth)
+    let has = (0..electrodes.of.len()).map(has).collect();
+    Sheath::new(&layout.grid, &layout.material, has, depth)
 }
 
 fn surfaces(layout: &Layout, all: &Electrodes, absorbed: Option<f64>) -> Option<Surfaces> {
@@ -271,29 +278,26 @@ fn surfaces(layout: &Layout, all: &Electrodes, absorbed: Option<f64>) -> Option<
         electrodes,
         contacts,
         absorbed,
+        electrode_of: index,
     })
 }
 
-fn plate(bodies: &[(&String, &Body)], faults: &mut Faults) -> Option<MovingPlate> {
-    let mut all = bodies.iter().enumerate().filter_map(|(n, (name, b))| {
-        let moving = b.moving.as_ref()?;
-        Some((
-            name,
-            MovingPlate {
-                speed: moving.speed_m_s,
-                ahead: moving.ahead_m,
-                material: n + 1,
-            },
-        ))
+/// Moving bodies; beyond the edge of the domain they are as warm as the edge is, or as the room.
+fn plates(bodies: &[(&String, &Body)], edges: &Edges<HeatEdge>) -> Vec<MovingPlate> {
+    let beyond = edges.outer.iter().map(|edge| match edge {
+        HeatEdge::Temperature(t) => *t,
+        HeatEdge::Insulated | HeatEdge::Flux(_) => REFERENCE_K,
     });
-    let first = all.next();
-    if let Some((name, _)) = all.next() {
-        faults.add(
-            &format!("/bodies/{name}/moving"),
-            "a second moving body; only one can move",
-        );
-    }
-    first.map(|(_, plate)| plate)
+    let beyond: Vec<f64> = beyond.collect();
+    let moving = bodies.iter().enumerate();
+    let moving = moving.filter_map(|(n, (_, body))| Some((n, body.moving.as_ref()?)));
+    let plate = |(n, moving): (usize, &Moving)| MovingPlate {
+        speed: moving.speed_m_s,
+        ahead: moving.ahead_m,
+        material: n + 1,
+        beyond: beyond.clone(),
+    };
+    moving.map(plate).collect()
 }
 
 fn wire(layout: &Layout, bodies: &[(&String, &Body)], faults: &mut Faults) -> Option<Wire> {
@@ -311,7 +315,10 @@ fn wire(layout: &Layout, bodies: &[(&String, &Body)], faults: &mut Faults) -> Op
                 continue;
             }
         };
-        let crate::scene::Shape::Ring(ring) = &body.shape;
+        let [ring] = body.shape.rings() else {
+            faults.add(&at, "a fed wire is a single ring");
+            continue;
+        };
         let grid = &layout.grid;
         let top = grid.zf[grid.nz];
         if ring.r_m[0] > 0.0 || (ring.z_m[1] - top).abs() > 1e-9 {

@@ -91,18 +91,23 @@ fn coefficient(
     scheme(mass_out, conductance / heat_capacity) * heat_capacity
 }
 
+/// Gas cells that touch an electrode.
+fn on_electrode(case: &Case) -> Vec<bool> {
+    let mut on_electrode = vec![false; case.grid.len()];
+    let surfaces = case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
+    for contact in surfaces.iter().flat_map(|s| &s.contacts) {
+        on_electrode[contact.gas] = true;
+    }
+    on_electrode
+}
+
 impl Energy {
     /// Starts from `case.start`.
     #[must_use]
     pub fn new(case: &Case, solver: Solver) -> Self {
         let grid = &case.grid;
-        let mut on_electrode = vec![false; grid.len()];
-        let surfaces = case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
-        for contact in surfaces.iter().flat_map(|s| &s.contacts) {
-            on_electrode[contact.gas] = true;
-        }
         Self {
-            on_electrode,
+            on_electrode: on_electrode(case),
             calm: vec![1.0; grid.len()],
             last: vec![0.0; grid.len()],
             alternations: vec![0; grid.len()],
@@ -116,6 +121,11 @@ impl Energy {
             scratch: vec![0.0; grid.len()],
             solver,
         }
+    }
+
+    /// Takes the surfaces of `case` anew.
+    pub(crate) fn touch(&mut self, case: &Case) {
+        self.on_electrode = on_electrode(case);
     }
 
     /// Conductances at the present temperatures.

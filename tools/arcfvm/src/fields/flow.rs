@@ -46,39 +46,7 @@ impl Flow {
     #[must_use]
     pub fn new(case: &Case, setup: &FlowCase) -> Self {
         let grid = &case.grid;
-        let fixed = |edge: FlowEdge, axis: usize| match edge {
-            FlowEdge::Velocity(v) => Face::Fixed(v[axis]),
-            FlowEdge::Open(_) => Face::Solved,
-            FlowEdge::Slip => Face::Fixed(0.0),
-        };
-        let mut radial_kind = vec![Face::Fixed(0.0); grid.radial_faces()];
-        for j in 0..grid.nz {
-            for i in 1..grid.nr {
-                if case.is_gas(i - 1, j) && case.is_gas(i, j) {
-                    radial_kind[grid.radial_face(i, j)] = Face::Solved;
-                }
-            }
-            if case.is_gas(grid.nr - 1, j) {
-                radial_kind[grid.radial_face(grid.nr, j)] = fixed(setup.edges.outer[j], 0);
-            }
-            if case.is_gas(0, j) && grid.rf[0] > 0.0 {
-                radial_kind[grid.radial_face(0, j)] = fixed(setup.edges.inner[j], 0);
-            }
-        }
-        let mut axial_kind = vec![Face::Fixed(0.0); grid.axial_faces()];
-        for i in 0..grid.nr {
-            for j in 1..grid.nz {
-                if case.is_gas(i, j - 1) && case.is_gas(i, j) {
-                    axial_kind[grid.axial_face(i, j)] = Face::Solved;
-                }
-            }
-            if case.is_gas(i, 0) {
-                axial_kind[grid.axial_face(i, 0)] = fixed(setup.edges.bottom[i], 1);
-            }
-            if case.is_gas(i, grid.nz - 1) {
-                axial_kind[grid.axial_face(i, grid.nz)] = fixed(setup.edges.top[i], 1);
-            }
-        }
+        let [radial_kind, axial_kind] = kinds(case, setup);
         let start = |kinds: &[Face]| {
             kinds
                 .iter()
@@ -95,6 +63,39 @@ impl Flow {
             axial_kind,
             inlet_density: inlets(case),
         }
+    }
+
+    /// Takes the gas cells of `case` anew: faces that are walls now have their velocity, and cells that
+    /// were none before have the pressure of their neighbours.
+    pub(crate) fn reshape(
+        &mut self,
+        case: &Case,
+        setup: &FlowCase,
+        was_gas: impl Fn(usize) -> bool,
+    ) {
+        let [radial_kind, axial_kind] = kinds(case, setup);
+        hold(&radial_kind, &mut self.radial);
+        hold(&axial_kind, &mut self.axial);
+        (self.radial_kind, self.axial_kind) = (radial_kind, axial_kind);
+        let grid = &case.grid;
+        for k in (0..grid.len()).filter(|k| case.material[*k] == GAS && !was_gas(*k)) {
+            self.pressure[k] = self.around(case, k, &was_gas);
+        }
+    }
+
+    /// Mean pressure of the cells next to `k` that were gas before.
+    fn around(&self, case: &Case, k: usize, was_gas: impl Fn(usize) -> bool) -> f64 {
+        let grid = &case.grid;
+        let (i, j) = (k % grid.nr, k / grid.nr);
+        let sides = [
+            (i + 1 < grid.nr).then(|| k + 1),
+            (i > 0).then(|| k - 1),
+            (j + 1 < grid.nz).then(|| k + grid.nr),
+            (j > 0).then(|| k - grid.nr),
+        ];
+        let known = sides.into_iter().flatten().filter(|n| was_gas(*n));
+        let (sum, count) = known.fold((0.0, 0.0), |(s, c), n| (s + self.pressure[n], c + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
     }
 
     /// Density carried through radial face `i` of row `j` \[kg/m3\]: that of the edge where it is known
@@ -213,6 +214,54 @@ impl Flow {
             }
         }
     }
+}
+
+/// Gives fixed faces their velocity.
+fn hold(kinds: &[Face], velocity: &mut [f64]) {
+    for (kind, v) in kinds.iter().zip(velocity) {
+        if let Face::Fixed(fixed) = kind {
+            *v = *fixed;
+        }
+    }
+}
+
+/// What each radial and each axial face is.
+fn kinds(case: &Case, setup: &FlowCase) -> [Vec<Face>; 2] {
+    let grid = &case.grid;
+    let fixed = |edge: FlowEdge, axis: usize| match edge {
+        FlowEdge::Velocity(v) => Face::Fixed(v[axis]),
+        FlowEdge::Open(_) => Face::Solved,
+        FlowEdge::Slip => Face::Fixed(0.0),
+    };
+    let mut radial_kind = vec![Face::Fixed(0.0); grid.radial_faces()];
+    for j in 0..grid.nz {
+        for i in 1..grid.nr {
+            if case.is_gas(i - 1, j) && case.is_gas(i, j) {
+                radial_kind[grid.radial_face(i, j)] = Face::Solved;
+            }
+        }
+        if case.is_gas(grid.nr - 1, j) {
+            radial_kind[grid.radial_face(grid.nr, j)] = fixed(setup.edges.outer[j], 0);
+        }
+        if case.is_gas(0, j) && grid.rf[0] > 0.0 {
+            radial_kind[grid.radial_face(0, j)] = fixed(setup.edges.inner[j], 0);
+        }
+    }
+    let mut axial_kind = vec![Face::Fixed(0.0); grid.axial_faces()];
+    for i in 0..grid.nr {
+        for j in 1..grid.nz {
+            if case.is_gas(i, j - 1) && case.is_gas(i, j) {
+                axial_kind[grid.axial_face(i, j)] = Face::Solved;
+            }
+        }
+        if case.is_gas(i, 0) {
+            axial_kind[grid.axial_face(i, 0)] = fixed(setup.edges.bottom[i], 1);
+        }
+        if case.is_gas(i, grid.nz - 1) {
+            axial_kind[grid.axial_face(i, grid.nz)] = fixed(setup.edges.top[i], 1);
+        }
+    }
+    [radial_kind, axial_kind]
 }
 
 /// Densities of the gas at edges whose temperature is given.

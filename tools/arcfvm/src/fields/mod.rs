@@ -9,6 +9,7 @@ pub mod momentum_axial;
 pub mod momentum_radial;
 pub mod potential;
 pub mod pressure;
+pub mod sheath;
 
 use relax::{
     Error, FivePoint, Incomplete, Krylov, Multigrid, Outcome, Precondition, Sor, Workspace,

@@ -49,8 +49,10 @@ pub struct Balance {
     pub radiation: f64,
     /// Electrodes.
     pub electrodes: Vec<ElectrodeHeat>,
-    /// Carried away by the moving plate.
+    /// Carried away by all moving plates.
     pub plate: f64,
+    /// Radiation taken up by granular flux and slag.
+    pub granular: f64,
     /// Through the edges by conduction.
     pub edges: f64,
     /// Through the edges with gas and metal.
@@ -79,7 +81,8 @@ impl Balance {
             given: sources.given,
             radiation: -sources.emission.iter().sum::<f64>(),
             electrodes: electrodes(heat, energy, sources),
-            plate: -sources.plate,
+            plate: -sources.plates.iter().sum::<f64>(),
+            granular: sources.granular,
             edges: through.conduction,
             flow: through.flow,
             drops: -drops,
@@ -93,7 +96,7 @@ impl Balance {
         let surface = |e: &ElectrodeHeat| e.sum() - e.convection - e.joule;
         let surfaces: f64 = self.electrodes.iter().map(surface).sum();
         let inner = self.joule + self.given + self.radiation + surfaces;
-        inner + self.plate + self.edges + self.flow + self.drops
+        inner + self.granular + self.plate + self.edges + self.flow + self.drops
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod balance;
 pub mod electrode;
+pub mod granular;
 pub mod motion;
 pub mod radiation;
 pub mod sources;
@@ -52,6 +53,15 @@ pub struct Surfaces {
     pub contacts: Vec<Contact>,
     /// Part of all radiation that electrodes which absorb take up.
     pub absorbed: Option<f64>,
+    /// The electrode that each material is.
+    pub electrode_of: Vec<Option<usize>>,
+}
+
+impl Surfaces {
+    /// Takes the faces of `material` anew.
+    pub fn renew(&mut self, grid: &Grid, material: &[usize]) {
+        self.contacts = contacts(grid, material, |m| self.electrode_of[m]);
+    }
 }
 
 /// Every face between a gas cell and a cell of a material that `electrode_of` knows.

@@ -1,7 +1,7 @@
 //! Heat that moves with metal: the fed wire and the moving plate.
 
 use crate::case::{Case, FeedRule, MovingPlate, Wire};
-use crate::material::{Enthalpy, REFERENCE_K};
+use crate::material::Enthalpy;
 
 impl Wire {
     /// Mass fed per time \[kg/s\] at `speed` \[m/s\].
@@ -54,7 +54,7 @@ impl MovingPlate {
         };
         let far = grid.rc[i] + self.ahead;
         let ahead = if far >= grid.rf[grid.nr] {
-            REFERENCE_K
+            self.beyond[j]
         } else {
             temperature[grid.cell(grid.column_of(far), j)]
         };

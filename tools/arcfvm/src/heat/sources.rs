@@ -27,8 +27,12 @@ pub struct Sources {
     pub contacts: Vec<ContactHeat>,
     /// Radiation taken up by each contact \[W/m2\]; renewed now and then.
     absorbed: Vec<f64>,
-    /// Heat carried away by the moving plate \[W\].
-    pub plate: f64,
+    /// Heat carried away by each moving plate \[W\].
+    pub plates: Vec<f64>,
+    /// Radiation taken up by granular flux and slag \[W\].
+    pub granular: f64,
+    /// Whether what surfaces see has to be worked out anew.
+    stale: bool,
     /// Given sources \[W\].
     pub given: f64,
     given_size: f64,
@@ -81,6 +85,7 @@ impl Sources {
             self.given_size = given.iter().map(|g| g.abs()).sum();
         }
         self.shine(reads, out);
+        self.warm_bed(reads, out);
         if let Some(surfaces) = &reads.heat.surfaces {
             self.surfaces(reads, surfaces, view, out);
         }
@@ -132,8 +137,9 @@ impl Sources {
         let count = surfaces.contacts.len();
         self.contacts.resize(count, ContactHeat::default());
         self.absorbed.resize(count, 0.0);
-        if view {
+        if view || self.stale {
             self.view(reads, surfaces);
+            self.stale = false;
         }
         for (n, contact) in surfaces.contacts.iter().enumerate() {
             let electrode = &surfaces.electrodes[contact.electrode];
@@ -168,20 +174,36 @@ impl Sources {
         }
     }
 
+    /// What surfaces there are has changed.
+    pub(crate) fn look_again(&mut self) {
+        self.stale = true;
+    }
+
+    fn warm_bed(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
+        self.granular = 0.0;
+        if let Some(bed) = &reads.heat.granular {
+            let (case, shine) = (reads.case, self.emission.iter().sum());
+            self.granular = bed.take_up(&case.grid, &case.material, shine, |k, heat| {
+                out[k][0] += heat
+            });
+        }
+    }
+
     fn carry_away(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
-        self.plate = 0.0;
-        let Some(plate) = reads.heat.plate else {
-            return;
-        };
+        self.plates.clear();
         let case = reads.case;
-        for (k, cell) in out.iter_mut().enumerate() {
-            if case.material[k] == plate.material {
-                let (i, j) = (k % case.grid.nr, k / case.grid.nr);
-                let (loss, slope) = plate.loss(case, i, j, reads.temperature);
-                cell[0] -= loss;
-                cell[1] -= slope;
-                self.plate += loss;
+        for plate in &reads.heat.plates {
+            let mut carried = 0.0;
+            for (k, cell) in out.iter_mut().enumerate() {
+                if case.material[k] == plate.material {
+                    let (i, j) = (k % case.grid.nr, k / case.grid.nr);
+                    let (loss, slope) = plate.loss(case, i, j, reads.temperature);
+                    cell[0] -= loss;
+                    cell[1] -= slope;
+                    carried += loss;
+                }
             }
+            self.plates.push(carried);
         }
     }
 }

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::electrode::{Anode, Cathode, Electrode};
+use super::granular::Granular;
 
 /// The gas: a table named on the command line, or properties given here.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -82,8 +83,10 @@ pub struct Body {
     pub electrode: Option<Electrode>,
     /// Fed down along the axis, as a wire; one body at most.
     pub feed: Option<Feed>,
-    /// A plate moving past the arc; one body at most.
+    /// A plate or a bed moving past the arc.
     pub moving: Option<Moving>,
+    /// A bed of granular flux; one body at most.
+    pub granular: Option<Granular>,
 }
 
 /// Where a body is.
@@ -92,6 +95,19 @@ pub struct Body {
 pub enum Shape {
     /// Between two radii and two heights.
     Ring(Ring),
+    /// Several of these together.
+    Rings(Vec<Ring>),
+}
+
+impl Shape {
+    /// All rings of the shape.
+    #[must_use]
+    pub fn rings(&self) -> &[Ring] {
+        match self {
+            Self::Ring(ring) => std::slice::from_ref(ring),
+            Self::Rings(rings) => rings,
+        }
+    }
 }
 
 /// Between two radii and two heights.
@@ -104,6 +120,14 @@ pub struct Ring {
     /// Lower and upper height.
     #[schemars(extend("x-unit" = "m"))]
     pub z_m: [f64; 2],
+}
+
+impl Ring {
+    /// Whether a point is inside.
+    #[must_use]
+    pub fn holds(&self, r: f64, z: f64) -> bool {
+        r > self.r_m[0] && r < self.r_m[1] && z > self.z_m[0] && z < self.z_m[1]
+    }
 }
 
 /// Properties of a body in r, z (m), T (K); those of physics that is absent may be absent.

@@ -2,11 +2,13 @@
 
 mod edges;
 mod electrode;
+mod granular;
 mod iterate;
 mod matter;
 
 pub use edges::{CurrentEdge, FlowEdge, HeatEdge, Sides};
 pub use electrode::{Anode, Cathode, Electrode, Evaporation};
+pub use granular::Granular;
 pub use iterate::{Coupling, Iterate, LinearSolver};
 pub use matter::{
     BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, Ring, Shape,

@@ -1,0 +1,86 @@
+//! What changes when slag boils into the cavity or comes back: cells, faces, sheath and walls.
+
+use crate::case::GAS;
+use crate::solver::Arc;
+
+/// Iterations between two looks at what boils.
+const LOOK_EVERY: usize = 5;
+/// Iterations before the first look.
+const FIRST_LOOK: usize = 20;
+
+impl Arc {
+    /// Lets slag boil where it is time to look; returns the part of the bed that changed, once looked.
+    pub(crate) fn boil(&mut self) -> Option<f64> {
+        let heating = self.heating.as_mut()?;
+        let granular = heating.setup.granular.as_mut()?;
+        if self.iteration < FIRST_LOOK {
+            return Some(1.0);
+        }
+        if !self.iteration.is_multiple_of(LOOK_EVERY) {
+            return self.boiled;
+        }
+        let case = &mut self.case;
+        let temperature = &heating.energy.temperature;
+        let before = case.material.clone();
+        let changed = granular.boil(&case.grid, temperature, &mut case.material);
+        let part = changed as f64 / granular.cells.len().max(1) as f64;
+        if changed > 0 {
+            self.reshape(&before);
+        }
+        self.boiled = Some(part);
+        self.boiled
+    }
+
+    /// The bed as it is, for a checkpoint: what boiled, and how often each cell changed.
+    pub(crate) fn bed(&self) -> Option<[Vec<u8>; 2]> {
+        let granular = self.heating.as_ref()?.setup.granular.as_ref()?;
+        let gas = |k: &usize| u8::from(self.case.material[*k] == GAS);
+        let boiled = granular.cells.iter().map(gas).collect();
+        Some([boiled, granular.changes.clone()])
+    }
+
+    /// Takes the bed from a checkpoint.
+    pub(crate) fn restore_bed(&mut self, boiled: &[u8], changes: Vec<u8>) {
+        let Some(granular) = self
+            .heating
+            .as_mut()
+            .and_then(|h| h.setup.granular.as_mut())
+        else {
+            return;
+        };
+        for (k, gas) in granular.cells.iter().zip(boiled) {
+            let now = if *gas == 1 { GAS } else { granular.material };
+            self.case.material[*k] = now;
+        }
+        granular.changes = changes;
+        // Pressures come from the checkpoint: no cell is new.
+        let now = self.case.material.clone();
+        self.reshape(&now);
+    }
+
+    /// Brings everything that follows from the materials of the cells from what they were `before` to
+    /// what they are.
+    fn reshape(&mut self, before: &[usize]) {
+        let case = &mut self.case;
+        if let Some(heating) = &mut self.heating {
+            if let Some(surfaces) = &mut heating.setup.surfaces {
+                surfaces.renew(&case.grid, &case.material);
+            }
+            if let Some(heat) = &mut case.heat {
+                heat.surfaces.clone_from(&heating.setup.surfaces);
+            }
+            heating.energy.touch(case);
+            heating.sources.look_again();
+        }
+        if let Some(sheath) = self.electric.as_mut().and_then(|e| e.setup.sheath.as_mut()) {
+            sheath.renew(&case.grid, &case.material);
+            if let Some(potential) = &mut case.potential {
+                potential.sheath = Some(sheath.clone());
+            }
+        }
+        if let Some(flowing) = &mut self.flowing {
+            let was_gas = |k: usize| before[k] == GAS;
+            flowing.flow.reshape(case, &flowing.setup, was_gas);
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Granular flux.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Granular flux that melts into slag and boils into the cavity (Komen 2019, section 5.2.3). It melts
+/// as `material/melting` says.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Granular {
+    /// How many times as well as flux slag conducts heat, for the convection within it.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub slag_conductivity_ratio: f64,
+    /// What is hotter, and joins the gas, is gas.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub boiling_k: f64,
+    /// Part of all radiation of the gas that flux and slag take up, evenly over their volume; absent:
+    /// none.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub absorbed_radiation: Option<f64>,
+}
