@@ -8,7 +8,7 @@ use crate::fields::magnetic::AtCentre;
 use crate::heat::balance::Balance;
 use crate::scene::Sample;
 use crate::solver::{Arc, Electric};
-use crate::surface;
+use crate::{bed, surface};
 
 /// Writes every channel that the solved fields fill.
 ///
@@ -71,6 +71,9 @@ fn plasma(arc: &Arc) -> Table {
             let value = |i, j| part(&electric.magnetic.at_centre(grid, &electric.potential, i, j));
             table = table.column(name, unit, by_height(arc, value));
         }
+    }
+    if let Some(slag) = bed::slag(arc) {
+        table = table.column("slag", "1", by_height(arc, |i, j| slag[cell(i, j)]));
     }
     let material = |i, j| arc.case.material[cell(i, j)] as f64;
     table.column(
@@ -135,7 +138,7 @@ fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
         record = electrical(arc, electric, setup, record);
     }
     if let Some(balance) = balance {
-        record = heat(arc, balance, record);
+        record = bed::record(arc, heat(arc, balance, record));
     }
     if let Some(wire) = arc.case.wire {
         record = record.with("wire_feed_m_s", "m/s", arc.feed).with(

@@ -2,6 +2,7 @@
 //! a base metal (Komen 2019, sections 3.2 and 5.2).
 
 pub mod assemble;
+pub mod bed;
 pub mod case;
 mod cavity;
 pub mod error;

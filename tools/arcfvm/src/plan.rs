@@ -58,5 +58,8 @@ pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
             plan = plan.column(name, unit);
         }
     }
+    if case.heat.as_ref().is_some_and(|h| h.granular.is_some()) {
+        plan = plan.column("slag", "1");
+    }
     plan
 }

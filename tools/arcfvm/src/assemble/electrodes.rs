@@ -163,7 +163,7 @@ fn cathode(c: &scene::Cathode) -> Role {
 
 fn as_cathode(e: &scene::Electrode) -> scene::Cathode {
     scene::Cathode {
-        work_function_v: e.work_function_v,
+        work_function_v: e.emission_work_function_v.unwrap_or(e.work_function_v),
         ionisation_voltage_v: e.ionisation_voltage_v,
         richardson_a_m2_k2: e.richardson_a_m2_k2,
         emissivity: e.emissivity,

@@ -60,6 +60,10 @@ pub struct Electrode {
     /// Work function.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub work_function_v: f64,
+    /// Work function of what emits, where it is the cathode: its oxide may emit more easily than the
+    /// metal; absent: the same.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub emission_work_function_v: Option<f64>,
     /// Ionisation voltage of the gas, where it is the cathode.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub ionisation_voltage_v: f64,

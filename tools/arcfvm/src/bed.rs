@@ -1,0 +1,161 @@
+//! What is written of granular flux, slag and cavity.
+
+use artefact::Record;
+
+use crate::case::GAS;
+use crate::heat::granular::Granular;
+use crate::solver::Arc;
+
+/// Sizes and heats of the bed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Bed {
+    /// Volume of slag \[m3\].
+    pub slag_volume: f64,
+    /// Volume of the cavity, as far as it lies within the bed \[m3\].
+    pub cavity_volume: f64,
+    /// Area of the wall between slag and gas \[m2\].
+    pub wall: f64,
+    /// Greatest radius of the gas \[m\].
+    pub cavity_radius: f64,
+    /// Thickness of the slag at that radius, outwards, to its melting point \[m\].
+    pub slag_thickness: f64,
+    /// Heat conducted from the gas into the bed \[W\].
+    pub convection: f64,
+    /// Heat conducted from the bed into metal \[W\].
+    pub into_metal: f64,
+}
+
+/// The bed of the arc, where there is one.
+#[must_use]
+pub fn granular(arc: &Arc) -> Option<&Granular> {
+    arc.heating.as_ref()?.setup.granular.as_ref()
+}
+
+/// Whether each cell of the bed is slag now: 1 where it is, 0 elsewhere.
+#[must_use]
+pub fn slag(arc: &Arc) -> Option<Vec<f64>> {
+    let granular = granular(arc)?;
+    let (t, material) = (arc.temperature(), &arc.case.material);
+    let molten = |k: usize| material[k] == granular.material && t[k] > granular.melting;
+    let cells = 0..arc.case.grid.len();
+    Some(cells.map(|k| f64::from(u8::from(molten(k)))).collect())
+}
+
+/// Adds up the bed.
+#[must_use]
+pub fn measure(arc: &Arc) -> Option<Bed> {
+    let (granular, slag) = (granular(arc)?, slag(arc)?);
+    let (grid, material) = (&arc.case.grid, &arc.case.material);
+    let mut bed = Bed::default();
+    for k in &granular.cells {
+        let volume = grid.volume(k % grid.nr, k / grid.nr);
+        bed.slag_volume += slag[*k] * volume;
+        if material[*k] == GAS {
+            bed.cavity_volume += volume;
+        }
+    }
+    walls(arc, granular.material, &mut bed);
+    side(arc, granular, &mut bed);
+    Some(bed)
+}
+
+/// Faces between the bed and what is beside it.
+fn walls(arc: &Arc, own: usize, bed: &mut Bed) {
+    let (Some(heating), grid) = (&arc.heating, &arc.case.grid) else {
+        return;
+    };
+    let (t, material) = (&heating.energy.temperature, &arc.case.material);
+    let mut meet = |a: usize, b: usize, area: f64, conductance: f64| {
+        let other = if material[a] == own { b } else { a };
+        let inner = if other == a { b } else { a };
+        if material[inner] != own || material[other] == own {
+            return;
+        }
+        let inward = conductance * (t[other] - t[inner]);
+        if material[other] == GAS {
+            bed.wall += area;
+            bed.convection += inward;
+        } else {
+            bed.into_metal -= inward;
+        }
+    };
+    for j in 0..grid.nz {
+        for i in 0..grid.nr {
+            let k = grid.cell(i, j);
+            if i + 1 < grid.nr {
+                let conductance = heating.energy.radial[grid.radial_face(i + 1, j)];
+                meet(k, k + 1, grid.area(i + 1, j), conductance);
+            }
+            if j + 1 < grid.nz {
+                let conductance = heating.energy.axial[grid.axial_face(i, j + 1)];
+                meet(k, k + grid.nr, grid.ring[i], conductance);
+            }
+        }
+    }
+}
+
+/// Where the cavity is widest: its radius, and the slag from there out.
+fn side(arc: &Arc, granular: &Granular, bed: &mut Bed) {
+    let (grid, t) = (&arc.case.grid, arc.temperature());
+    let material = &arc.case.material;
+    let outermost = |j: usize| {
+        (0..grid.nr)
+            .rev()
+            .find(|i| material[grid.cell(*i, j)] == GAS)
+    };
+    let widest = (0..grid.nz).filter_map(|j| Some((outermost(j)?, j)));
+    let Some((front, j)) = widest.max_by_key(|(i, j)| (*i, grid.nz - j)) else {
+        return;
+    };
+    bed.cavity_radius = grid.rf[front + 1];
+    for i in front + 1..grid.nr {
+        let k = grid.cell(i, j);
+        if t[k] > granular.melting {
+            continue;
+        }
+        // The melting point lies between this centre and the one before, or on the wall itself.
+        let inner = if i > front + 1 {
+            (grid.rc[i - 1], t[k - 1])
+        } else {
+            (grid.rf[i], t[k])
+        };
+        let part = (inner.1 - granular.melting) / (inner.1 - t[k]).max(f64::MIN_POSITIVE);
+        let at = inner.0 + part.clamp(0.0, 1.0) * (grid.rc[i] - inner.0);
+        bed.slag_thickness = at - bed.cavity_radius;
+        return;
+    }
+}
+
+/// The lines of the balance.
+#[must_use]
+pub fn record(arc: &Arc, record: Record) -> Record {
+    let Some((granular, bed, heating)) = granular(arc)
+        .zip(measure(arc))
+        .and_then(|(g, b)| Some((g, b, arc.heating.as_ref()?)))
+    else {
+        return record;
+    };
+    let name = &arc.case.materials[granular.material].name;
+    let plates = heating.setup.plates.iter().zip(&heating.sources.plates);
+    let own = plates.filter(|(p, _)| p.material == granular.material);
+    let motion: f64 = own.map(|(_, heat)| heat).sum();
+    let mean = if bed.wall > 0.0 {
+        bed.slag_volume / bed.wall
+    } else {
+        0.0
+    };
+    record
+        .with(
+            &format!("{name}_radiation_w"),
+            "W",
+            heating.sources.granular,
+        )
+        .with(&format!("{name}_convection_w"), "W", bed.convection)
+        .with(&format!("{name}_motion_w"), "W", -motion)
+        .with(&format!("{name}_into_metal_w"), "W", -bed.into_metal)
+        .with("slag_volume_m3", "m3", bed.slag_volume)
+        .with("slag_thickness_m", "m", bed.slag_thickness)
+        .with("slag_thickness_mean_m", "m", mean)
+        .with("cavity_volume_m3", "m3", bed.cavity_volume)
+        .with("cavity_radius_m", "m", bed.cavity_radius)
+}
