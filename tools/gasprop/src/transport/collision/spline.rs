@@ -65,14 +65,14 @@ impl Spline {
         let last = self.x.len() - 1;
         let inside = x.clamp(self.x[0], self.x[last]);
         let local = self.at(inside);
-        if inside < x || inside > x {
+        if (self.x[0]..=self.x[last]).contains(&x) {
+            local
+        } else {
             Local {
                 slope: 0.0,
                 curvature: 0.0,
                 ..local
             }
-        } else {
-            local
         }
     }
 
