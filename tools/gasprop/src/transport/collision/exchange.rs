@@ -87,4 +87,17 @@ mod tests {
             assert!((sum / weights / q - 1.0).abs() < 1e-6);
         }
     }
+
+    #[test]
+    fn the_fit_is_of_the_size_of_known_tables() {
+        // Ar 32.20 pi, C 29.99 pi A2 at 10,000 K (Wright et al. 2005, 2007).
+        let unit = crate::constants::ATOMIC_MASS;
+        for (ionisation, mass, table, expected) in
+            [(15.76, 39.948, 32.20, 1.33), (11.26, 12.011, 29.99, 2.13)]
+        {
+            let exchange = Exchange::empirical(ionisation, 0.5 * mass * unit, 1.0);
+            let ratio = exchange.at(10_000.0)[0] / (table * PI * 1e-20);
+            assert!((ratio - expected).abs() < 0.03, "{ratio}");
+        }
+    }
 }
