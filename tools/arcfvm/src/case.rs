@@ -3,9 +3,11 @@
 
 use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
-use crate::heat::Surfaces;
+use crate::heat::evaporation::Evaporating;
 use crate::heat::granular::Granular;
+use crate::heat::{Contact, Surfaces};
 use crate::material::Material;
+use crate::mixture::Molar;
 
 /// Index of the gas among the materials.
 pub const GAS: usize = 0;
@@ -160,6 +162,52 @@ pub struct HeatCase {
     pub granular: Option<Granular>,
 }
 
+impl HeatCase {
+    /// Leaves evaporation to the vapour, where that is solved: its surfaces do not evaporate into a
+    /// vacuum.
+    #[must_use]
+    pub fn giving_vapour_to(mut self, vapour: Option<&VapourCase>) -> Self {
+        if let (Some(_), Some(surfaces)) = (vapour, &mut self.surfaces) {
+            for electrode in &mut surfaces.electrodes {
+                electrode.evaporation = None;
+            }
+        }
+        self
+    }
+}
+
+/// What iron vapour meets at an edge face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum VapourEdge {
+    /// No iron diffuses through; what flows in holds as much as the cell.
+    Sealed,
+    /// Fixed mass fraction.
+    Fraction(f64),
+}
+
+/// Iron vapour, where it is solved.
+#[derive(Debug, Clone)]
+pub struct VapourCase {
+    /// Edges.
+    pub edges: Edges<VapourEdge>,
+    /// Mass fraction at the start, `[nr nz]`.
+    pub start: Vec<f64>,
+    /// Source of each cell \[kg/s\], `[nr nz]`; manufactured solutions only.
+    pub source: Option<Vec<f64>>,
+    /// Faces of electrodes to the gas, in the order of those of the heat.
+    pub contacts: Vec<Contact>,
+    /// How the metal of each electrode evaporates, where it does.
+    pub metals: Vec<Option<Evaporating>>,
+    /// Whether vapour adds to the mass of the gas, or takes the place of as much gas.
+    pub adds: bool,
+    /// Molar masses of gas and iron.
+    pub molar: Molar,
+    /// Pressure \[Pa\].
+    pub pressure: f64,
+    /// Ionisation voltage of iron \[V\], where it counts.
+    pub ionisation: Option<f64>,
+}
+
 /// The whole problem.
 #[derive(Debug, Clone)]
 pub struct Case {
@@ -177,6 +225,8 @@ pub struct Case {
     pub flow: Option<FlowCase>,
     /// Heat and temperature.
     pub heat: Option<HeatCase>,
+    /// Iron vapour.
+    pub vapour: Option<VapourCase>,
     /// The wire, where there is one.
     pub wire: Option<Wire>,
     /// Row of the lowest gas cell above the base metal, where there is one.

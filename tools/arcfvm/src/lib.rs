@@ -14,6 +14,7 @@ pub mod heat;
 mod limits;
 pub mod march;
 pub mod material;
+pub mod mixture;
 pub mod pace;
 mod plan;
 pub mod properties;
@@ -104,13 +105,7 @@ impl Tool for ArcFvm {
 /// Reads the inputs that the scene asks for and assembles the problem.
 fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
     let gas = match (&scene.gas, inputs.get("gas")) {
-        (Gas::Table(_), Some(path)) => {
-            let file = artefact::json_artefact::<GasFile>(path, "gas-table", 1)?;
-            if let Some(what) = file.impossible() {
-                return Err(Failure::Other(format!("{}: {what}", path.display())));
-            }
-            Some(file)
-        }
+        (Gas::Table(_), Some(path)) => Some(GasFile::read(path)?),
         _ => None,
     };
     assemble(scene, gas.as_ref())

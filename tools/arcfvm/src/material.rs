@@ -3,13 +3,15 @@
 use std::fmt;
 use std::sync::Arc;
 
-use props::{Integral, Table};
+use props::{Integral, Surface, Table};
+
+use crate::mixture::Mixed;
 
 /// Temperature at which every enthalpy is zero \[K\].
 pub const REFERENCE_K: f64 = 300.0;
 
-/// A law in radius \[m\], height \[m\] and temperature \[K\].
-pub type Formula = Arc<dyn Fn(f64, f64, f64) -> f64 + Send + Sync>;
+/// A law in radius \[m\], height \[m\], temperature \[K\] and mass fraction of iron.
+pub type Formula = Arc<dyn Fn(f64, f64, f64, f64) -> f64 + Send + Sync>;
 
 /// One property of a material.
 #[derive(Clone)]
@@ -18,7 +20,9 @@ pub enum Law {
     Constant(f64),
     /// Against temperature, held beyond the ends.
     Table(Table),
-    /// A formula in r, z and T.
+    /// Against mole fraction of iron and temperature.
+    Mixed(Mixed),
+    /// A formula in r, z, T and Y.
     Formula(Formula),
 }
 
@@ -27,36 +31,47 @@ impl fmt::Debug for Law {
         match self {
             Self::Constant(value) => write!(f, "Constant({value})"),
             Self::Table(table) => write!(f, "Table({} nodes)", table.nodes().len()),
+            Self::Mixed(mixed) => write!(f, "Mixed({} rows)", mixed.table.rows().len()),
             Self::Formula(_) => write!(f, "Formula"),
         }
     }
 }
 
 impl Law {
-    /// The value at radius `r`, height `z`, temperature `t`.
+    /// The value without iron at radius `r`, height `z`, temperature `t`.
     #[must_use]
     #[inline]
     pub fn at(&self, r: f64, z: f64, t: f64) -> f64 {
+        self.within(r, z, t, 0.0)
+    }
+
+    /// The value at radius `r`, height `z`, temperature `t` in gas with the mass fraction `y` of iron.
+    #[must_use]
+    #[inline]
+    pub fn within(&self, r: f64, z: f64, t: f64, y: f64) -> f64 {
         match self {
             Self::Constant(value) => *value,
             Self::Table(table) => table.held(t),
-            Self::Formula(formula) => formula(r, z, t),
+            Self::Mixed(mixed) => mixed.at(t, y),
+            Self::Formula(formula) => formula(r, z, t, y),
         }
     }
 
     /// A law from a formula.
-    pub fn formula(f: impl Fn(f64, f64, f64) -> f64 + Send + Sync + 'static) -> Self {
+    pub fn formula(f: impl Fn(f64, f64, f64, f64) -> f64 + Send + Sync + 'static) -> Self {
         Self::Formula(Arc::new(f))
     }
 }
 
-/// Enthalpy against temperature, zero at 300 K.
+/// Enthalpy against temperature, zero at 300 K for a gas or a body of one kind.
 #[derive(Debug, Clone)]
 pub enum Enthalpy {
     /// Constant specific heat \[J/(kg K)\].
     Linear(f64),
     /// The integral of a table, and its value at 300 K.
     Integral(Integral, f64),
+    /// Over the mass fraction of iron and temperature, as its table has it.
+    Mixed(Arc<Surface>),
 }
 
 impl Enthalpy {
@@ -75,33 +90,50 @@ impl Enthalpy {
         Ok(Self::Integral(integral, zero))
     }
 
-    /// Enthalpy at `t` \[J/kg\].
+    /// Enthalpy without iron at `t` \[J/kg\].
     #[must_use]
     #[inline]
     pub fn at(&self, t: f64) -> f64 {
+        self.within(t, 0.0)
+    }
+
+    /// Enthalpy at `t` with the mass fraction `y` of iron \[J/kg\].
+    #[must_use]
+    #[inline]
+    pub fn within(&self, t: f64, y: f64) -> f64 {
         match self {
             Self::Linear(cp) => cp * (t - REFERENCE_K),
             Self::Integral(integral, zero) => integral.value(t) - zero,
+            Self::Mixed(table) => table.extended(y, t),
         }
     }
 
-    /// Specific heat at `t` \[J/(kg K)\].
+    /// Specific heat without iron at `t` \[J/(kg K)\].
     #[must_use]
     #[inline]
     pub fn slope(&self, t: f64) -> f64 {
+        self.slope_within(t, 0.0)
+    }
+
+    /// Specific heat at `t` with the mass fraction `y` of iron \[J/(kg K)\].
+    #[must_use]
+    #[inline]
+    pub fn slope_within(&self, t: f64, y: f64) -> f64 {
         match self {
             Self::Linear(cp) => *cp,
             Self::Integral(integral, _) => integral.slope(t),
+            Self::Mixed(table) => table.slope(y, t),
         }
     }
 
-    /// Temperature at enthalpy `h` \[K\].
+    /// Temperature at enthalpy `h` \[K\] with the mass fraction `y` of iron.
     #[must_use]
     #[inline]
-    pub fn temperature(&self, h: f64) -> f64 {
+    pub fn temperature(&self, h: f64, y: f64) -> f64 {
         match self {
             Self::Linear(cp) => REFERENCE_K + h / cp,
             Self::Integral(integral, zero) => integral.inverse(h + zero),
+            Self::Mixed(table) => table.inverse(y, h),
         }
     }
 }
@@ -146,6 +178,10 @@ pub struct Material {
     pub electric_conductivity: Option<Law>,
     /// Net emission, a loss of volume \[W/m3\]; a gas only.
     pub net_emission: Option<Law>,
+    /// Electrons \[1/m3\]; a gas whose table tells them.
+    pub electron_density: Option<Law>,
+    /// Diffusion coefficient of iron \[m2/s\]; a gas with vapour only.
+    pub iron_diffusion: Option<Law>,
     /// Enthalpy \[J/kg\].
     pub enthalpy: Option<Enthalpy>,
     /// Melting; its latent heat is part of the enthalpy.
@@ -172,7 +208,27 @@ mod tests {
         assert!((h.at(1700.0) - 600.0 * 1400.0).abs() < 1e-6);
         assert!((h.at(2000.0) - (600.0 * 1700.0 + 250e3)).abs() < 1e-6);
         for t in [310.0, 1749.0, 1751.0, 2500.0, 3500.0] {
-            assert!((h.temperature(h.at(t)) - t).abs() < 1e-8, "{t}");
+            assert!((h.temperature(h.at(t), 0.0) - t).abs() < 1e-8, "{t}");
+        }
+    }
+
+    #[test]
+    fn the_temperature_of_a_mixture_is_found_again() {
+        let row = |cp: f64| {
+            let t = vec![300.0, 1000.0, 5000.0, 20_000.0];
+            let h = vec![0.0, cp * 700.0, cp * 9000.0, cp * 3e4];
+            Table::new(t, h).unwrap()
+        };
+        let table = Surface::new(vec![0.0, 0.4, 1.0], vec![row(1e3), row(8e2), row(5e2)]).unwrap();
+        let h = Enthalpy::Mixed(Arc::new(table));
+        for y in [0.0, 0.1, 0.4, 0.83, 1.0] {
+            for t in [250.0, 300.0, 4000.0, 19_999.0, 30_000.0] {
+                assert!((h.temperature(h.within(t, y), y) - t).abs() < 1e-9 * t);
+                let slope = (h.within(t + 0.1, y) - h.within(t - 0.1, y)) / 0.2;
+                if t > 301.0 {
+                    assert!((h.slope_within(t, y) / slope - 1.0).abs() < 1e-9);
+                }
+            }
         }
     }
 
@@ -182,6 +238,6 @@ mod tests {
         let h = Enthalpy::new(&cp, None).unwrap();
         assert!(h.at(REFERENCE_K).abs() < 1e-9);
         assert!(h.at(250.0) < 0.0);
-        assert!((Enthalpy::Linear(1000.0).temperature(2e5) - 500.0).abs() < 1e-12);
+        assert!((Enthalpy::Linear(1000.0).temperature(2e5, 0.0) - 500.0).abs() < 1e-12);
     }
 }

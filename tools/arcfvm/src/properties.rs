@@ -24,6 +24,10 @@ pub struct Properties {
     pub enthalpy: Vec<f64>,
     /// Net emission \[W/m3\].
     pub emission: Vec<f64>,
+    /// Mass fraction of iron that the others were taken at; empty without vapour.
+    pub iron: Vec<f64>,
+    /// Density times diffusion coefficient of iron \[kg/(m s)\]; empty without vapour.
+    pub iron_diffusion: Vec<f64>,
     /// Electric conductivity before that of the sheath is set; empty without one.
     before: Vec<f64>,
 }
@@ -36,64 +40,70 @@ impl Properties {
         let column = |needed: bool| vec![0.0; if needed { n } else { 0 }];
         let heat = case.heat.is_some();
         let emits = case.materials[GAS].net_emission.is_some();
+        let vapour = case.vapour.is_some();
         Self {
-            density: column(case.flow.is_some()),
+            density: column(case.flow.is_some() || vapour),
             viscosity: column(case.flow.is_some()),
             electric: column(case.potential.is_some()),
             thermal: column(heat),
             enthalpy: column(heat),
             emission: column(heat && emits),
+            iron: column(vapour),
+            iron_diffusion: column(vapour),
             before: Vec::new(),
         }
     }
 
-    /// Takes them at `temperature` \[K, per cell\].
-    pub fn update(&mut self, case: &Case, temperature: &[f64]) {
+    /// Mass fraction of iron in cell `k`; none without vapour.
+    #[must_use]
+    #[inline]
+    pub fn iron_at(&self, k: usize) -> f64 {
+        self.iron.get(k).copied().unwrap_or(0.0)
+    }
+
+    /// Takes them at `temperature` \[K, per cell\] and the mass fraction `iron`, where there is vapour.
+    pub fn update(&mut self, case: &Case, temperature: &[f64], iron: Option<&[f64]>) {
+        if let Some(iron) = iron {
+            self.iron.copy_from_slice(iron);
+        }
+        let at = Places {
+            case,
+            temperature,
+            iron,
+        };
         let gas_only = |law: fn(&Material) -> &Option<Law>, floor: f64| {
-            move |k: usize, place: [f64; 3]| {
+            move |k: usize, p: Place| {
                 let gas = case.material[k] == GAS;
                 let law = law(case.of(k)).as_ref().filter(|_| gas);
-                law.map_or(floor, |l| l.at(place[0], place[1], place[2]))
+                law.map_or(floor, |l| l.within(p.r, p.z, p.t, p.y))
             }
         };
         // Metals do not flow: any positive density and viscosity serves their cells.
-        fill(
-            case,
-            temperature,
-            &mut self.density,
-            gas_only(|m| &m.density, 1.0),
+        at.fill(&mut self.density, gas_only(|m| &m.density, 1.0));
+        at.fill(&mut self.viscosity, gas_only(|m| &m.viscosity, 1.0));
+        at.fill(&mut self.emission, gas_only(|m| &m.net_emission, 0.0));
+        at.fill(
+            &mut self.iron_diffusion,
+            gas_only(|m| &m.iron_diffusion, 0.0),
         );
-        fill(
-            case,
-            temperature,
-            &mut self.viscosity,
-            gas_only(|m| &m.viscosity, 1.0),
-        );
-        fill(
-            case,
-            temperature,
-            &mut self.emission,
-            gas_only(|m| &m.net_emission, 0.0),
-        );
+        for (product, density) in self.iron_diffusion.iter_mut().zip(&self.density) {
+            *product *= density;
+        }
         let all = |law: fn(&Material) -> &Option<Law>| {
-            move |k: usize, place: [f64; 3]| {
+            move |k: usize, p: Place| {
                 law(case.of(k))
                     .as_ref()
-                    .map_or(0.0, |l| l.at(place[0], place[1], place[2]))
+                    .map_or(0.0, |l| l.within(p.r, p.z, p.t, p.y))
             }
         };
         let electric = all(|m| &m.electric_conductivity);
-        fill(case, temperature, &mut self.electric, |k, p| {
+        at.fill(&mut self.electric, |k, p| {
             electric(k, p).max(LEAST_CONDUCTIVITY)
         });
-        fill(
-            case,
-            temperature,
-            &mut self.thermal,
-            all(|m| &m.thermal_conductivity),
-        );
-        fill(case, temperature, &mut self.enthalpy, |k, p| {
-            case.of(k).enthalpy.as_ref().map_or(0.0, |h| h.at(p[2]))
+        at.fill(&mut self.thermal, all(|m| &m.thermal_conductivity));
+        at.fill(&mut self.enthalpy, |k, p| {
+            let law = case.of(k).enthalpy.as_ref();
+            law.map_or(0.0, |h| h.within(p.t, p.y))
         });
         self.sheath(case);
     }
@@ -112,23 +122,44 @@ impl Properties {
     }
 }
 
-fn fill(
-    case: &Case,
-    temperature: &[f64],
-    column: &mut [f64],
-    value: impl Fn(usize, [f64; 3]) -> f64 + Sync,
-) {
-    let grid = &case.grid;
-    if column.is_empty() {
-        return;
+/// Radius, height, temperature and mass fraction of iron of a cell.
+#[derive(Clone, Copy)]
+struct Place {
+    r: f64,
+    z: f64,
+    t: f64,
+    y: f64,
+}
+
+/// Where every cell is, how warm it is and how much iron it holds.
+#[derive(Clone, Copy)]
+struct Places<'a> {
+    case: &'a Case,
+    temperature: &'a [f64],
+    iron: Option<&'a [f64]>,
+}
+
+impl Places<'_> {
+    /// Fills a column, if it is not absent.
+    fn fill(&self, column: &mut [f64], value: impl Fn(usize, Place) -> f64 + Sync) {
+        let grid = &self.case.grid;
+        if column.is_empty() {
+            return;
+        }
+        column
+            .par_chunks_mut(grid.nr)
+            .enumerate()
+            .for_each(|(j, row)| {
+                for (i, out) in row.iter_mut().enumerate() {
+                    let k = grid.cell(i, j);
+                    let place = Place {
+                        r: grid.rc[i],
+                        z: grid.zc[j],
+                        t: self.temperature[k],
+                        y: self.iron.map_or(0.0, |iron| iron[k]),
+                    };
+                    *out = value(k, place);
+                }
+            });
     }
-    column
-        .par_chunks_mut(grid.nr)
-        .enumerate()
-        .for_each(|(j, row)| {
-            for (i, out) in row.iter_mut().enumerate() {
-                let k = grid.cell(i, j);
-                *out = value(k, [grid.rc[i], grid.zc[j], temperature[k]]);
-            }
-        });
 }

@@ -217,7 +217,7 @@ impl Arc {
         let temperature = heating
             .as_ref()
             .map_or(&case.start, |h| &h.energy.temperature);
-        properties.update(case, temperature);
+        properties.update(case, temperature, None);
     }
 
     fn solve_current(&mut self) -> Result<f64, Error> {

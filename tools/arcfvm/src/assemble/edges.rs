@@ -4,7 +4,7 @@ use run::property::Property;
 
 use crate::assemble::layout::{Layout, each};
 use crate::assemble::{Faults, PLACE, value};
-use crate::case::{Edges, FlowEdge, GAS, HeatEdge, PotentialEdge};
+use crate::case::{Edges, FlowEdge, GAS, HeatEdge, PotentialEdge, VapourEdge};
 use crate::grid::Grid;
 use crate::material::REFERENCE_K;
 use crate::scene::{Scene, Sides};
@@ -327,6 +327,32 @@ pub(crate) fn heat(scene: &Scene, grid: &Grid, faults: &mut Faults) -> Edges<Hea
                 faults.add(at, "wants exactly one of temperature_k, flux_w_m2");
                 Vec::new()
             }
+        },
+    );
+    edges
+}
+
+/// Edges of the vapour.
+pub(crate) fn vapour(scene: &Scene, grid: &Grid, faults: &mut Faults) -> Edges<VapourEdge> {
+    let mut edges = Edges::uniform(grid, VapourEdge::Sealed);
+    let Some(vapour) = &scene.vapour else {
+        return edges;
+    };
+    paint(
+        &vapour.edges,
+        grid,
+        "/vapour/edges",
+        &mut edges,
+        |at, c, faces| {
+            let at = format!("{at}/iron_mass_fraction");
+            let found = values(&c.iron_mass_fraction, c.over_m, faces, &at, faults);
+            if found.iter().flatten().any(|y| !(0.0..=1.0).contains(y)) {
+                faults.add(&at, "is not from 0 to 1 everywhere");
+            }
+            found
+                .into_iter()
+                .map(|y| y.map(VapourEdge::Fraction))
+                .collect()
         },
     );
     edges

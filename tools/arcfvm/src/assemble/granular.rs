@@ -61,7 +61,7 @@ pub(crate) fn conductivity(law: Law, granular: &scene::Granular, melting: Option
         return law;
     };
     let rise = granular.slag_conductivity_ratio - 1.0;
-    Law::formula(move |r, z, t| {
+    Law::formula(move |r, z, t, _| {
         let molten = 0.5 * (1.0 + (t - melting.point) / melting.half_range);
         law.at(r, z, t) * (1.0 + rise * molten.clamp(0.0, 1.0))
     })

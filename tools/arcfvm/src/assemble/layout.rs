@@ -188,6 +188,9 @@ fn spans(scene: &Scene, domain: [[f64; 2]; 2], breaks: [&mut Vec<f64>; 2], fault
     if let Some(h) = &scene.heat {
         each(&h.edges, "/heat/edges", |at, r, e| take(at, r, e.over_m));
     }
+    if let Some(v) = &scene.vapour {
+        each(&v.edges, "/vapour/edges", |at, r, e| take(at, r, e.over_m));
+    }
 }
 
 /// Visits every condition with its path and whether its side runs along the radius.

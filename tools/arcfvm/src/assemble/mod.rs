@@ -2,9 +2,11 @@
 
 mod edges;
 mod electrodes;
+mod gas;
 mod granular;
 mod layout;
 mod matter;
+mod vapour;
 
 use run::property::{Arguments, Curve, Property};
 use run::{Failure, Fault};
@@ -18,8 +20,8 @@ use crate::heat::{Surfaces, contacts};
 use crate::material::REFERENCE_K;
 use crate::scene::{Body, Moving, Scene, SheathAt};
 use electrodes::Electrodes;
+pub use gas::GasFile;
 use layout::Layout;
-pub use matter::GasFile;
 
 /// How far a hot channel reaches up the wire, in its radius: an arc spreads over the wire's side.
 const CLIMB: f64 = 0.5;
@@ -100,6 +102,8 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         ),
         surfaces: surfaces(&layout, &electrodes, heat.absorbed_radiation),
     });
+    let parts = (&layout, &electrodes, flow.as_ref());
+    let vapour = vapour::vapour(scene, gas, parts, &mut faults);
     faults.none()?;
     let surface_row = electrodes.base.and_then(|m| layout.row_above(m));
     Ok(Case {
@@ -108,7 +112,8 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         start,
         potential,
         flow,
-        heat,
+        heat: heat.map(|heat| heat.giving_vapour_to(vapour.as_ref())),
+        vapour,
         wire,
         surface_row,
         grid: layout.grid,

@@ -11,6 +11,7 @@ use relax::{Coefficients, Error, FivePoint, Outcome};
 use crate::case::{Case, GAS, HeatCase, HeatEdge};
 use crate::fields::Solver;
 use crate::fields::energy_edges::{Beyond, FaceOf, Side, edge_of};
+use crate::fields::faces::Carriers;
 use crate::heat::{Contact, FaceIndex, Surfaces};
 use crate::properties::Properties;
 use crate::transport::{dirichlet, hybrid};
@@ -252,51 +253,13 @@ impl Energy {
     }
 
     pub(crate) fn faces(&self, case: &Case, i: usize, j: usize) -> [FaceOf; 4] {
-        let grid = &case.grid;
-        let own = grid.cell(i, j);
-        let radial = |at: usize, sign: f64, beyond: Beyond| {
-            let face = grid.radial_face(at, j);
-            let (mass_out, conductance) = (sign * self.mass_radial[face], self.radial[face]);
-            FaceOf {
-                own,
-                beyond,
-                mass_out,
-                conductance,
-                area: grid.area(at, j),
-            }
+        let carriers = Carriers {
+            mass_radial: &self.mass_radial,
+            mass_axial: &self.mass_axial,
+            radial: &self.radial,
+            axial: &self.axial,
         };
-        let axial = |at: usize, sign: f64, beyond: Beyond| {
-            let face = grid.axial_face(i, at);
-            let (mass_out, conductance) = (sign * self.mass_axial[face], self.axial[face]);
-            FaceOf {
-                own,
-                beyond,
-                mass_out,
-                conductance,
-                area: grid.ring[i],
-            }
-        };
-        let side = |inside: bool, cell: usize, edge: Side| {
-            if inside {
-                Beyond::Cell(cell)
-            } else {
-                Beyond::Edge(edge)
-            }
-        };
-        [
-            radial(i + 1, 1.0, side(i + 1 < grid.nr, own + 1, Side::Outer(j))),
-            radial(i, -1.0, side(i > 0, own.wrapping_sub(1), Side::Inner(j))),
-            axial(
-                j + 1,
-                1.0,
-                side(j + 1 < grid.nz, own + grid.nr, Side::Top(i)),
-            ),
-            axial(
-                j,
-                -1.0,
-                side(j > 0, own.wrapping_sub(grid.nr), Side::Bottom(i)),
-            ),
-        ]
+        carriers.faces(&case.grid, i, j)
     }
 
     /// Under-relaxation of cell `k`. Metal conducts almost linearly: relaxing it would only let its

@@ -3,6 +3,7 @@
 pub mod edge_shear;
 pub mod energy;
 pub mod energy_edges;
+mod faces;
 pub mod flow;
 pub mod magnetic;
 pub mod momentum_axial;

@@ -2,6 +2,7 @@
 
 pub mod balance;
 pub mod electrode;
+pub mod evaporation;
 pub mod granular;
 pub mod motion;
 pub mod radiation;

@@ -37,7 +37,8 @@ pub struct Cathode {
     pub evaporation: Option<Evaporation>,
 }
 
-/// Vapour leaving a surface (Komen 2019, eq. 5.24).
+/// Vapour leaving a surface (Komen 2019, eq. 5.24). Without `vapour` in the scene it leaves into a vacuum;
+/// with it, into the gas, which gives it back where it is saturated.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Evaporation {
@@ -50,6 +51,20 @@ pub struct Evaporation {
     /// Molar mass.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub molar_mass_kg_mol: f64,
+    /// Saturation pressure p0, a scene with `vapour` only; absent: by Clausius and Clapeyron from the
+    /// boiling point.
+    pub saturation: Option<Saturation>,
+}
+
+/// Saturation pressure: log10(p0/atm) = `a` - `b_k`/T.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Saturation {
+    /// The constant a.
+    pub a: f64,
+    /// The constant b.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub b_k: f64,
 }
 
 /// Electrode of either polarity: an anode where the driven current leaves it for the gas, a cathode

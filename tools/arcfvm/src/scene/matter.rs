@@ -39,7 +39,8 @@ pub enum BeyondTable {
     Extend,
 }
 
-/// Properties of the gas in r, z (m), T (K); those of physics that is absent may be absent.
+/// Properties of the gas in r, z (m), T (K) and Y (mass fraction of iron, 0 without `vapour`); those of
+/// physics that is absent may be absent.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GivenGas {
@@ -55,6 +56,14 @@ pub struct GivenGas {
     pub electric_conductivity_s_m: Option<Property>,
     /// Radiation that leaves a volume.
     pub net_emission_w_m3: Option<Property>,
+    /// Diffusion coefficient of iron.
+    pub iron_diffusion_m2_s: Option<Property>,
+    /// Molar mass of the gas without iron; vapour needs it.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub molar_mass_kg_mol: Option<f64>,
+    /// Pressure; absent: 1 atm. Surfaces that evaporate need it.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub pressure_pa: Option<f64>,
 }
 
 /// A specific heat: a number, or a table over temperature held at its ends.

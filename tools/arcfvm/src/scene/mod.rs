@@ -5,15 +5,18 @@ mod electrode;
 mod granular;
 mod iterate;
 mod matter;
+mod vapour;
 
 pub use edges::{CurrentEdge, FlowEdge, HeatEdge, Sides};
-pub use electrode::{Anode, Cathode, Electrode, Evaporation};
+pub use electrode::{Anode, Cathode, Electrode, Evaporation, Saturation};
 pub use granular::Granular;
 pub use iterate::{Coupling, Iterate, LinearSolver};
 pub use matter::{
     BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, Ring, Shape,
     SpecificHeat,
 };
+
+pub use vapour::{Diffusion, Vapour, VapourEdge, VapourMass};
 
 use std::collections::BTreeMap;
 
@@ -42,6 +45,8 @@ pub struct Scene {
     pub flow: Option<FlowScene>,
     /// Heat; absent: temperatures stay as they start.
     pub heat: Option<Heat>,
+    /// Iron vapour; absent: the gas holds none.
+    pub vapour: Option<Vapour>,
     /// Temperatures at the start.
     #[serde(default)]
     pub start: Start,

@@ -14,6 +14,7 @@ fn at() -> Arguments {
         r: 0.9,
         temperature: 1800.0,
         time: 0.125,
+        fraction: 0.25,
     }
 }
 

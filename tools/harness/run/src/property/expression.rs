@@ -20,7 +20,7 @@ pub(super) enum Operation {
     Choose,
 }
 
-pub(super) const VARIABLES: [&str; 6] = ["x", "y", "z", "r", "T", "t"];
+pub(super) const VARIABLES: [&str; 7] = ["x", "y", "z", "r", "T", "t", "Y"];
 pub(super) const CONSTANTS: [(&str, f64); 2] =
     [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
 pub(super) type Function1 = (&'static str, fn(f64) -> f64);
@@ -79,7 +79,7 @@ impl PartialEq for Expression {
 }
 
 impl Expression {
-    /// Compiles a formula that may use the variables in `names` (of x, y, z, r, T, t), `pi`, `e`
+    /// Compiles a formula that may use the variables in `names` (of x, y, z, r, T, t, Y), `pi`, `e`
     /// and the functions of the usual names, `min`, `max`, `atan2`, `hypot`, `mod`, `step`, and
     /// `if(c, a, b)`: a where c > 0, else b.
     ///
@@ -96,7 +96,7 @@ impl Expression {
     #[must_use]
     #[inline]
     pub fn value(&self, at: &Arguments) -> f64 {
-        let variables = [at.x, at.y, at.z, at.r, at.temperature, at.time];
+        let variables = [at.x, at.y, at.z, at.r, at.temperature, at.time, at.fraction];
         let mut stack = [0.0; DEPTH];
         let mut top = 0;
         for operation in &self.operations {

@@ -26,6 +26,8 @@ pub struct Arguments {
     pub temperature: f64,
     /// Time \[s\].
     pub time: f64,
+    /// Mass fraction of what a gas carries.
+    pub fraction: f64,
 }
 
 impl Arguments {
@@ -47,8 +49,8 @@ impl Arguments {
             y,
             z,
             r: x.hypot(y),
-            temperature: 0.0,
             time,
+            ..Self::default()
         }
     }
 }

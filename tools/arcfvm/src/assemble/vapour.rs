@@ -1,0 +1,142 @@
+//! Iron vapour of the scene.
+
+use crate::assemble::electrodes::Electrodes;
+use crate::assemble::gas::GasFile;
+use crate::assemble::layout::Layout;
+use crate::assemble::{Faults, PLACE, cell_source, edges, surfaces, value};
+use crate::case::{FlowCase, VapourCase};
+use crate::heat::evaporation::Evaporating;
+use crate::material::REFERENCE_K;
+use crate::mixture::Molar;
+use crate::scene::{Body, Evaporation, Gas, Scene, Vapour, VapourMass};
+
+/// Molar mass of iron \[kg/mol\], where no table tells it.
+const IRON: f64 = 0.055_845;
+/// Pressure where neither table nor scene tell it \[Pa\].
+const ATMOSPHERE: f64 = 101_325.0;
+
+/// The vapour, where the scene asks for it.
+pub(crate) fn vapour(
+    scene: &Scene,
+    gas: Option<&GasFile>,
+    (layout, electrodes, flow): (&Layout, &Electrodes, Option<&FlowCase>),
+    faults: &mut Faults,
+) -> Option<VapourCase> {
+    let bodies = Layout::bodies(scene);
+    let Some(given) = scene.vapour.as_ref() else {
+        refuse_saturation(&bodies, faults);
+        return None;
+    };
+    let adds = given.mass == VapourMass::Added;
+    if adds && flow.is_none_or(|f| f.closed) {
+        let what = "added vapour wants flow with an open edge through which gas can leave";
+        faults.add("/vapour/mass", what);
+    }
+    if given.ionisation_voltage_v.is_some()
+        && !(0..electrodes.of.len()).any(|m| electrodes.is_cathode(m))
+    {
+        faults.add(
+            "/vapour/ionisation_voltage_v",
+            "is for a cathode; there is none",
+        );
+    }
+    let source = cell_source(
+        &layout.grid,
+        given.source_kg_m3_s.as_ref(),
+        "/vapour/source_kg_m3_s",
+        faults,
+    );
+    let (molar, pressure) = mixture(scene, gas, faults)?;
+    Some(VapourCase {
+        edges: edges::vapour(scene, &layout.grid, faults),
+        start: start(given, layout, faults),
+        source,
+        contacts: surfaces(layout, electrodes, None).map_or(Vec::new(), |s| s.contacts),
+        metals: metals(&bodies, electrodes),
+        adds,
+        molar,
+        pressure,
+        ionisation: given.ionisation_voltage_v,
+    })
+}
+
+/// Molar masses and pressure, of the table or given.
+fn mixture(scene: &Scene, gas: Option<&GasFile>, faults: &mut Faults) -> Option<(Molar, f64)> {
+    match (&scene.gas, gas) {
+        (Gas::Table(_), Some(file)) => Some((file.molar?, file.pressure)),
+        (Gas::Table(_), None) => None,
+        (Gas::Given(given), _) => {
+            let Some(gas) = given.molar_mass_kg_mol else {
+                faults.add(
+                    "/gas/given/molar_mass_kg_mol",
+                    "is missing; vapour needs it",
+                );
+                return None;
+            };
+            let molar = Molar { gas, iron: IRON };
+            Some((molar, given.pressure_pa.unwrap_or(ATMOSPHERE)))
+        }
+    }
+}
+
+/// How a body evaporates, as whichever electrode it is.
+fn evaporation(body: &Body) -> Option<&Evaporation> {
+    let anode = body.anode.as_ref().and_then(|a| a.evaporation.as_ref());
+    let cathode = body.cathode.as_ref().and_then(|c| c.evaporation.as_ref());
+    let either = body.electrode.as_ref().and_then(|e| e.evaporation.as_ref());
+    anode.or(cathode).or(either)
+}
+
+/// A saturation pressure means nothing where vapour leaves into a vacuum.
+fn refuse_saturation(bodies: &[(&String, &Body)], faults: &mut Faults) {
+    for (name, body) in bodies {
+        if evaporation(body).is_some_and(|e| e.saturation.is_some()) {
+            let what = "evaporation/saturation wants vapour in the scene";
+            faults.add(&format!("/bodies/{name}"), what);
+        }
+    }
+}
+
+/// How the metal of each electrode evaporates, in the order of the electrodes.
+fn metals(bodies: &[(&String, &Body)], electrodes: &Electrodes) -> Vec<Option<Evaporating>> {
+    let electrodes = bodies
+        .iter()
+        .enumerate()
+        .filter(|(n, _)| electrodes.of[n + 1].is_some());
+    electrodes
+        .map(|(_, (_, body))| evaporation(body).map(evaporating))
+        .collect()
+}
+
+fn evaporating(given: &Evaporation) -> Evaporating {
+    let (heat, molar) = (given.latent_heat_j_kg, given.molar_mass_kg_mol);
+    match &given.saturation {
+        Some(s) => Evaporating::decimal(s.a, s.b_k, heat, molar),
+        None => Evaporating::boiling(given.boiling_k, heat, molar),
+    }
+}
+
+/// Mass fraction of each cell at the start; none in bodies.
+fn start(given: &Vapour, layout: &Layout, faults: &mut Faults) -> Vec<f64> {
+    let grid = &layout.grid;
+    let at = "/vapour/start";
+    let mut all = vec![0.0; grid.len()];
+    let Some(curve) = faults.keep(given.start.compile(at, &PLACE)) else {
+        return all;
+    };
+    for k in (0..grid.len()).filter(|k| layout.is_gas(*k)) {
+        let (r, z) = (grid.rc[k % grid.nr], grid.zc[k / grid.nr]);
+        match value(&curve, r, z, REFERENCE_K) {
+            Ok(y) if (0.0..=1.0).contains(&y) => all[k] = y,
+            Ok(y) => {
+                faults.add(at, format!("{y} is not from 0 to 1 at {}", layout.place(k)));
+                return all;
+            }
+            Err(what) => {
+                faults.add(at, what);
+                return all;
+            }
+        }
+    }
+    all
+}

@@ -1,0 +1,65 @@
+//! The four faces of a cell as a transported quantity sees them.
+
+use crate::fields::energy_edges::{Beyond, FaceOf, Side};
+use crate::grid::Grid;
+
+/// Mass fluxes and conductances at the faces of the grid.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Carriers<'a> {
+    /// Mass flux through radial faces, outward \[kg/s\].
+    pub(crate) mass_radial: &'a [f64],
+    /// Mass flux through axial faces, upward \[kg/s\].
+    pub(crate) mass_axial: &'a [f64],
+    /// Conductance of radial faces.
+    pub(crate) radial: &'a [f64],
+    /// Conductance of axial faces.
+    pub(crate) axial: &'a [f64],
+}
+
+impl Carriers<'_> {
+    /// East, west, north and south of cell `(i, j)`.
+    pub(crate) fn faces(&self, grid: &Grid, i: usize, j: usize) -> [FaceOf; 4] {
+        let own = grid.cell(i, j);
+        let radial = |at: usize, sign: f64, beyond: Beyond| {
+            let face = grid.radial_face(at, j);
+            FaceOf {
+                own,
+                beyond,
+                mass_out: sign * self.mass_radial[face],
+                conductance: self.radial[face],
+                area: grid.area(at, j),
+            }
+        };
+        let axial = |at: usize, sign: f64, beyond: Beyond| {
+            let face = grid.axial_face(i, at);
+            FaceOf {
+                own,
+                beyond,
+                mass_out: sign * self.mass_axial[face],
+                conductance: self.axial[face],
+                area: grid.ring[i],
+            }
+        };
+        let side = |inside: bool, cell: usize, edge: Side| {
+            if inside {
+                Beyond::Cell(cell)
+            } else {
+                Beyond::Edge(edge)
+            }
+        };
+        [
+            radial(i + 1, 1.0, side(i + 1 < grid.nr, own + 1, Side::Outer(j))),
+            radial(i, -1.0, side(i > 0, own.wrapping_sub(1), Side::Inner(j))),
+            axial(
+                j + 1,
+                1.0,
+                side(j + 1 < grid.nz, own + grid.nr, Side::Top(i)),
+            ),
+            axial(
+                j,
+                -1.0,
+                side(j > 0, own.wrapping_sub(grid.nr), Side::Bottom(i)),
+            ),
+        ]
+    }
+}
