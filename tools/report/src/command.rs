@@ -29,6 +29,9 @@ enum Action {
     /// One page about a study of heat conduction, of one run or of several.
     #[command(after_help = HEAT)]
     Heat(HeatFiles),
+    /// One page about tables of gases: curves, composition, published values, uncertain inputs.
+    #[command(after_help = GAS)]
+    Gas(GasFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
     Index(Folders),
     /// Compares a weld with published values; exit code 1 where a tolerance is missed.
@@ -83,6 +86,30 @@ pub(crate) struct HeatFiles {
     pub(crate) frames: Vec<(String, PathBuf)>,
 }
 
+const GAS: &str = "Example, from the repository root:\n  \
+    target/release/report gas --study gases --out build/gases/report.html \\\n    \
+    --table argon=build/gases/argon.mcap --reference argon=pipelines/gases/reference-argon.json";
+
+/// Files of a page about gases.
+#[derive(Debug, clap::Args)]
+pub(crate) struct GasFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// A gas table, and what the page calls it; once for each gas.
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) table: Vec<(String, PathBuf)>,
+    /// Published properties of the gas of that name.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) reference: Vec<(String, PathBuf)>,
+    /// The gas of that name with another value of an uncertain input, and what the page calls it.
+    #[arg(long, value_name = "NAME/VARIANT=FILE", value_parser = named)]
+    pub(crate) variant: Vec<(String, PathBuf)>,
+}
+
 /// A file with the name that is given to it.
 fn named(word: &str) -> Result<(String, PathBuf), String> {
     match word.split_once('=') {
@@ -127,6 +154,7 @@ pub fn main() -> ExitCode {
     let done = match &line.action {
         Action::Page(files) => page::write(files).map(|()| ExitCode::SUCCESS),
         Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Validate { pool, targets } => validate::run(pool, targets),
     };

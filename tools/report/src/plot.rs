@@ -59,6 +59,12 @@ impl Plot {
         self
     }
 
+    /// With a logarithmic y axis; points below 0 are left out.
+    pub(crate) fn log_y(mut self) -> Self {
+        self.run[1] = Run::Log;
+        self
+    }
+
     /// With the y axis through `value`.
     pub(crate) fn through(mut self, value: f64) -> Self {
         self.least[1] = Some(value);

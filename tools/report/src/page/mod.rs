@@ -4,6 +4,7 @@ mod arc;
 mod balance;
 mod bead;
 mod compare;
+pub(crate) mod gas;
 pub(crate) mod heat;
 mod mean;
 mod runs;
