@@ -159,7 +159,7 @@ fn electrical(arc: &Arc, electric: &Electric, setup: &PotentialCase, record: Rec
     };
     // A current that leaves the driven face has a negative potential there.
     let column = electric.potential.drive.abs();
-    let cathode = surface::ion_power(arc) / current.abs();
+    let cathode = surface::cathode_power(arc) / current.abs();
     record = record
         .with("current_a", "A", current)
         .with("voltage_column_v", "V", column)
@@ -197,6 +197,9 @@ fn heat(arc: &Arc, balance: &Balance, record: Record) -> Record {
         ];
         for (part, value) in parts {
             record = record.with(&format!("{name}_{part}_w"), "W", value);
+        }
+        if one.into_gas > 0.0 {
+            record = record.with(&format!("{name}_into_gas_w"), "W", one.into_gas);
         }
     }
     record.with("closure_w", "W", balance.closure()).with(

@@ -90,7 +90,7 @@ pub fn close(arc: &Arc, balance: Option<&Balance>, session: &mut Session) {
         &arc.electric,
         arc.case.potential.as_ref().and_then(|p| p.driven),
     ) {
-        let cathode = surface::ion_power(arc) / current.abs();
+        let cathode = surface::cathode_power(arc) / current.abs();
         session.closing("voltage_v", "V", electric.potential.drive.abs() + cathode);
     }
     if let Some(balance) = balance {

@@ -24,19 +24,15 @@ fn surfaces(arc: &Arc) -> Option<(&Surfaces, &[ContactHeat])> {
     ))
 }
 
-/// Heat of all ions at cathodes \[W\]; over the current it is the cathode drop (Komen 2019,
-/// eq. 5.29, with the areas that the sum needs).
+/// Power of the layers in front of cathodes \[W\]; over the current it is the cathode drop (Komen
+/// 2019, eq. 5.29).
 #[must_use]
-pub fn ion_power(arc: &Arc) -> f64 {
+pub fn cathode_power(arc: &Arc) -> f64 {
     let Some((surfaces, found)) = surfaces(arc) else {
         return 0.0;
     };
-    surfaces
-        .contacts
-        .iter()
-        .zip(found)
-        .map(|(c, f)| c.area * f.parts.ion)
-        .sum()
+    let each = surfaces.contacts.iter().zip(found);
+    each.map(|(c, f)| c.area * f.layer).sum()
 }
 
 /// Voltage over the wire on the axis \[V\].
@@ -47,10 +43,10 @@ pub fn wire_drop(arc: &Arc) -> Option<f64> {
     Some((electric.potential.drive - tip).abs())
 }
 
-/// Power for scale \[W\]: that of current and ions, or all that is given and exchanged.
+/// Power for scale \[W\]: that of the column and of the cathode, or all that is given and exchanged.
 #[must_use]
 pub fn power(arc: &Arc, balance: &Balance) -> f64 {
-    let electric = balance.joule + ion_power(arc);
+    let electric = balance.joule + cathode_power(arc);
     if electric > 0.0 {
         electric
     } else {

@@ -93,6 +93,25 @@ fn the_other_polarity_is_the_mirror_image() {
 }
 
 #[test]
+fn a_cathode_of_given_fall_takes_no_more_than_the_supply_gives() {
+    for current in [80.0, -80.0] {
+        let mut scene = mirror(current);
+        for name in ["lower", "upper"] {
+            let electrode = scene["bodies"][name]["electrode"].as_object_mut().unwrap();
+            electrode.remove("richardson_a_m2_k2");
+            electrode.insert("fall_v".to_owned(), json!(15.0));
+            electrode.insert("emissivity".to_owned(), json!(0.0));
+        }
+        let mut arc = solve(&scene);
+        let balance = arc.settle().unwrap();
+        let voltage = arc.electric.as_ref().unwrap().potential.drive.abs() + 15.0;
+        // Both work functions are the same: all that leaves through the edges is voltage times current.
+        assert!((80.0 * voltage + balance.edges).abs() < 1e-6 * 80.0 * voltage);
+        assert!(balance.closure().abs() < 1e-6 * 80.0 * voltage);
+    }
+}
+
+#[test]
 fn a_sheath_at_the_cathode_changes_sides_with_the_current() {
     for (current, row) in [(80.0, 4), (-80.0, 15)] {
         let mut scene = mirror(current);

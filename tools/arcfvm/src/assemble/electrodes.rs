@@ -3,7 +3,7 @@
 use crate::assemble::Faults;
 use crate::assemble::layout::Layout;
 use crate::case::{Edges, PotentialCase, PotentialEdge};
-use crate::heat::{Electrode, Evaporation, Role};
+use crate::heat::{Electrode, Emission, Evaporation, Role};
 use crate::material::REFERENCE_K;
 use crate::scene::{self, Body};
 
@@ -120,7 +120,10 @@ fn electrode(
             a.emissivity,
             a.evaporation.as_ref(),
         ),
-        (None, Some(c), None) => (cathode(c), c.emissivity, c.evaporation.as_ref()),
+        (None, Some(c), None) => {
+            let role = cathode(c, &format!("{at}/cathode"), faults)?;
+            (role, c.emissivity, c.evaporation.as_ref())
+        }
         (None, None, Some(e)) => {
             let Some(positive) = positive else {
                 let what = "wants a total_current_a, whose sign makes it an anode or a cathode";
@@ -130,7 +133,7 @@ fn electrode(
             let role = if positive {
                 anode(e.work_function_v)
             } else {
-                cathode(&as_cathode(e))
+                cathode(&as_cathode(e), &format!("{at}/electrode"), faults)?
             };
             (role, e.emissivity, e.evaporation.as_ref())
         }
@@ -153,12 +156,20 @@ fn anode(work_function: f64) -> Role {
     Role::Anode { work_function }
 }
 
-fn cathode(c: &scene::Cathode) -> Role {
-    Role::Cathode {
+fn cathode(c: &scene::Cathode, at: &str, faults: &mut Faults) -> Option<Role> {
+    let emission = match (c.richardson_a_m2_k2, c.fall_v) {
+        (Some(richardson), None) => Emission::Thermionic(richardson),
+        (None, Some(fall)) => Emission::Fall(fall),
+        _ => {
+            faults.add(at, "wants exactly one of richardson_a_m2_k2 and fall_v");
+            return None;
+        }
+    };
+    Some(Role::Cathode {
         work_function: c.work_function_v,
         ionisation_voltage: c.ionisation_voltage_v,
-        richardson: c.richardson_a_m2_k2,
-    }
+        emission,
+    })
 }
 
 fn as_cathode(e: &scene::Electrode) -> scene::Cathode {
@@ -166,6 +177,7 @@ fn as_cathode(e: &scene::Electrode) -> scene::Cathode {
         work_function_v: e.emission_work_function_v.unwrap_or(e.work_function_v),
         ionisation_voltage_v: e.ionisation_voltage_v,
         richardson_a_m2_k2: e.richardson_a_m2_k2,
+        fall_v: e.fall_v,
         emissivity: e.emissivity,
         evaporation: e.evaporation.clone(),
     }

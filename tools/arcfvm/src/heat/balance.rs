@@ -22,6 +22,8 @@ pub struct ElectrodeHeat {
     pub vapour: f64,
     /// Joule heat within the metal.
     pub joule: f64,
+    /// Brought into the gas by emitted electrons; no heat of the metal.
+    pub into_gas: f64,
 }
 
 impl ElectrodeHeat {
@@ -93,7 +95,7 @@ impl Balance {
     #[must_use]
     pub fn closure(&self) -> f64 {
         // Conduction from gas to metal stays within the domain.
-        let surface = |e: &ElectrodeHeat| e.sum() - e.convection - e.joule;
+        let surface = |e: &ElectrodeHeat| e.sum() - e.convection - e.joule + e.into_gas;
         let surfaces: f64 = self.electrodes.iter().map(surface).sum();
         let inner = self.joule + self.given + self.radiation + surfaces;
         inner + self.granular + self.plate + self.edges + self.flow + self.drops
@@ -115,6 +117,7 @@ pub fn electrodes(heat: &HeatCase, energy: &Energy, sources: &Sources) -> Vec<El
         one.ion += found.parts.ion * contact.area;
         one.emission += found.parts.emission * contact.area;
         one.vapour += found.parts.vapour * contact.area;
+        one.into_gas += found.into_gas * contact.area;
     }
     all
 }

@@ -3,7 +3,23 @@
 //!
 //! Conduction from the gas is part of the energy equation. The anode takes up `|j| phi`. The cathode
 //! gives off `j_e phi` by the electrons of Richardson and Dushman, never more than carry the whole
-//! current, and takes up `(|j| - j_e) V_i` from ions. Radiation goes off as `eps sigma (T^4 - Ta^4)`
+//! current, and takes up `(|j| - j_e) V_i` from ions.
+//!
+//! A metal that boils before it emits, as iron does, is no thermionic cathode, and spots too small and
+//! too brief to resolve carry its current. The other closure takes the cathode fall U as given, from
+//! measurement, and the energy of the layer in front of the metal as the law: electrons that crossed
+//! the fall ionise what comes back as ions and enter the column at its temperature,
+//! `j_e U = j_i V_i + 3.2 j k T_e / e`, so that with `theta = k T_e / e`
+//!
+//! ```text
+//! j_i = j (U - 3.2 theta) / (U + V_i)    q = j_i (U + V_i - phi) - j_e phi = j (U - phi - 3.2 theta)
+//! ```
+//!
+//! (Benilov and Marotta 1995; Benilov 2008 for q). The gas beside the metal takes up `3.2 j theta`, and
+//! U is the voltage of the cathode: what the supply gives is what metal and gas take up. Neglected: the
+//! current of electrons from the gas against the fall, and the heat of the metal's own electrons.
+//!
+//! Radiation goes off as `eps sigma (T^4 - Ta^4)`
 //! (eq. 4.10; eqs 5.16 and 5.19 leave out the surroundings), vapour as Hertz and Knudsen tell for
 //! evaporation into a gas free of it.
 
@@ -13,6 +29,8 @@ const KELVIN_PER_VOLT: f64 = 11_604.518_12;
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Molar gas constant \[J/(mol K)\].
 const MOLAR_GAS: f64 = 8.314_462_618;
+/// Energy that an electron takes into the column, over k T_e (Benilov and Marotta 1995).
+const ENTERING: f64 = 3.2;
 /// Pressure at the boiling point \[Pa\].
 const ATMOSPHERE: f64 = 101_325.0;
 
@@ -30,9 +48,18 @@ pub enum Role {
         work_function: f64,
         /// Ionisation voltage of the gas \[V\].
         ionisation_voltage: f64,
-        /// Richardson constant \[A/(m2 K2)\].
-        richardson: f64,
+        /// What makes it emit.
+        emission: Emission,
     },
+}
+
+/// The closure of a cathode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Emission {
+    /// Electrons leave by heat, with this Richardson constant \[A/(m2 K2)\] (eq. 5.20).
+    Thermionic(f64),
+    /// The energy of the layer that has this fall \[V\] tells how many.
+    Fall(f64),
 }
 
 /// Vapour leaving a surface.
@@ -76,6 +103,11 @@ pub struct SurfaceHeat {
     pub vapour: f64,
 }
 
+/// Voltage that carries an electron into gas at `gas` \[K\] \[V\].
+fn entering(gas: f64) -> f64 {
+    ENTERING * gas / KELVIN_PER_VOLT
+}
+
 impl SurfaceHeat {
     /// Sum of the parts.
     #[must_use]
@@ -97,37 +129,47 @@ impl Evaporation {
 }
 
 impl Electrode {
-    /// Current density of emitted electrons \[A/m2\] where the whole is `current` (eq. 5.20).
+    /// Current density of emitted electrons \[A/m2\] where the whole is `current`, the surface at `t`
+    /// and the gas beside it at `gas` \[K\] (eq. 5.20, or the energy of the layer).
     #[must_use]
-    pub fn emitted(&self, current: f64, t: f64) -> f64 {
-        match self.role {
-            Role::Anode { .. } => 0.0,
-            Role::Cathode {
-                work_function,
-                richardson,
-                ..
-            } => {
+    pub fn emitted(&self, current: f64, t: f64, gas: f64) -> f64 {
+        let Role::Cathode {
+            work_function,
+            ionisation_voltage,
+            emission,
+        } = self.role
+        else {
+            return 0.0;
+        };
+        match emission {
+            Emission::Thermionic(richardson) => {
                 let thermionic = richardson * t * t * (-work_function * KELVIN_PER_VOLT / t).exp();
                 thermionic.min(current)
+            }
+            Emission::Fall(fall) => {
+                let ions = (fall - entering(gas)) / (fall + ionisation_voltage);
+                current * (1.0 - ions.max(0.0))
             }
         }
     }
 
-    /// Heat at surface temperature `t` \[K\] with the current density `current` \[A/m2\].
+    /// Heat at surface temperature `t` with the current density `current` \[A/m2\] from gas at `gas`
+    /// \[K\].
     #[must_use]
-    pub fn heat(&self, current: f64, t: f64) -> SurfaceHeat {
+    pub fn heat(&self, current: f64, t: f64, gas: f64) -> SurfaceHeat {
         let (electron, ion) = match self.role {
             Role::Anode { work_function } => (current * work_function, 0.0),
             Role::Cathode {
                 work_function,
                 ionisation_voltage,
-                ..
+                emission,
             } => {
-                let emitted = self.emitted(current, t);
-                (
-                    -emitted * work_function,
-                    (current - emitted) * ionisation_voltage,
-                )
+                let emitted = self.emitted(current, t, gas);
+                let each = match emission {
+                    Emission::Thermionic(_) => ionisation_voltage,
+                    Emission::Fall(fall) => fall + ionisation_voltage - work_function,
+                };
+                (-emitted * work_function, (current - emitted) * each)
             }
         };
         let fourth = t.powi(4) - self.surroundings.powi(4);
@@ -139,13 +181,39 @@ impl Electrode {
         }
     }
 
+    /// Heat that emitted electrons bring into gas at `gas` \[K\] \[W/m2\]: what is left of the fall,
+    /// where it is the law.
+    #[must_use]
+    pub fn into_gas(&self, current: f64, gas: f64) -> f64 {
+        match self.role {
+            Role::Cathode {
+                emission: Emission::Fall(fall),
+                ..
+            } => current * entering(gas).min(fall),
+            _ => 0.0,
+        }
+    }
+
+    /// Power of the layer in front of a cathode \[W/m2\]; over the current it is the cathode drop (eq.
+    /// 5.29, with the areas that the sum needs).
+    #[must_use]
+    pub fn layer(&self, current: f64, heat: SurfaceHeat) -> f64 {
+        match self.role {
+            Role::Anode { .. } => 0.0,
+            Role::Cathode { emission, .. } => match emission {
+                Emission::Thermionic(_) => heat.ion,
+                Emission::Fall(fall) => fall * current,
+            },
+        }
+    }
+
     /// Slope of the sum of [`Electrode::heat`] with temperature \[W/(m2 K)\], never positive.
     #[must_use]
-    pub fn slope(&self, current: f64, t: f64) -> f64 {
+    pub fn slope(&self, current: f64, t: f64, gas: f64) -> f64 {
         let step = 1e-4 * t;
         let (low, high) = (
-            self.heat(current, t - step).sum(),
-            self.heat(current, t + step).sum(),
+            self.heat(current, t - step, gas).sum(),
+            self.heat(current, t + step, gas).sum(),
         );
         ((high - low) / (2.0 * step)).min(0.0)
     }
@@ -161,7 +229,7 @@ mod tests {
             role: Role::Cathode {
                 work_function: 3.85,
                 ionisation_voltage: 15.68,
-                richardson: 1.2e6,
+                emission: Emission::Thermionic(1.2e6),
             },
             emissivity: 0.4,
             surroundings: 300.0,
@@ -173,10 +241,10 @@ mod tests {
     #[test]
     fn a_cold_cathode_lives_on_ions_and_a_hot_one_on_electrons() {
         let e = cathode();
-        let cold = e.heat(1e7, 300.0);
+        let cold = e.heat(1e7, 300.0, 300.0);
         assert!((cold.ion - 1e7 * 15.68).abs() < 1e-3);
         assert!(cold.electron.abs() < 1e-12 && cold.emission.abs() < 1e-12);
-        let hot = e.heat(1e7, 5000.0);
+        let hot = e.heat(1e7, 5000.0, 300.0);
         assert!(hot.ion.abs() < 1e-9);
         assert!((hot.electron + 1e7 * 3.85).abs() < 1e-3);
     }
@@ -185,7 +253,31 @@ mod tests {
     fn richardson_and_dushman_at_2000_k() {
         // 1.2e6 * 4e6 * exp(-3.85 * 11604.518 / 2000), worked out by hand.
         let want = 4.8e12 * (-22.338_697_4_f64).exp();
-        assert!((cathode().emitted(1e9, 2000.0) - want).abs() < 1e-6 * want);
+        assert!((cathode().emitted(1e9, 2000.0, 300.0) - want).abs() < 1e-6 * want);
+    }
+
+    #[test]
+    fn the_fall_is_shared_between_metal_and_gas() {
+        let mut e = cathode();
+        let Role::Cathode { emission, .. } = &mut e.role else {
+            panic!("no cathode")
+        };
+        *emission = Emission::Fall(15.0);
+        e.emissivity = 0.0;
+        for (t, gas) in [(300.0, 2000.0), (2500.0, 11_604.518_12), (2500.0, 20_000.0)] {
+            let heat = e.heat(1e7, t, gas);
+            let theta = gas / 11_604.518_12;
+            assert!((heat.sum() - 1e7 * (15.0 - 3.85 - 3.2 * theta)).abs() < 1e-4);
+            // Fall, less the work that electrons took along, is what both take up.
+            let all = heat.sum() + e.into_gas(1e7, gas);
+            assert!((all - (e.layer(1e7, heat) - 1e7 * 3.85)).abs() < 1e-4);
+            // Electrons pay for ions and for what they bring into the gas.
+            let emitted = e.emitted(1e7, t, gas);
+            let paid = (1e7 - emitted) * 15.68 + e.into_gas(1e7, gas);
+            assert!((emitted * 15.0 - paid).abs() < 1e-4);
+        }
+        // A fall that only carries electrons into the gas makes no ions.
+        assert!((e.emitted(1e7, 300.0, 1e5) - 1e7).abs() < 1e-6);
     }
 
     #[test]
@@ -196,7 +288,7 @@ mod tests {
             },
             ..cathode()
         };
-        assert!((e.heat(2e7, 300.0).sum() - 9.3e7).abs() < 1e-3);
+        assert!((e.heat(2e7, 300.0, 300.0).sum() - 9.3e7).abs() < 1e-3);
     }
 
     #[test]
@@ -218,7 +310,7 @@ mod tests {
     fn the_slope_is_that_of_the_heat() {
         let e = cathode();
         let t = 2600.0;
-        let fine = (e.heat(1e7, t + 0.01).sum() - e.heat(1e7, t - 0.01).sum()) / 0.02;
-        assert!((e.slope(1e7, t) - fine).abs() < 1e-4 * fine.abs());
+        let fine = (e.heat(1e7, t + 0.01, 300.0).sum() - e.heat(1e7, t - 0.01, 300.0).sum()) / 0.02;
+        assert!((e.slope(1e7, t, 300.0) - fine).abs() < 1e-4 * fine.abs());
     }
 }

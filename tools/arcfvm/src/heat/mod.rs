@@ -8,7 +8,7 @@ pub mod motion;
 pub mod radiation;
 pub mod sources;
 
-pub use electrode::{Electrode, Evaporation, Role, SurfaceHeat};
+pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
 
 use crate::case::GAS;
 use crate::grid::Grid;

@@ -16,6 +16,10 @@ pub struct ContactHeat {
     pub parts: SurfaceHeat,
     /// Radiation of the arc taken up.
     pub absorbed: f64,
+    /// Heat that emitted electrons bring into the gas.
+    pub into_gas: f64,
+    /// Power of the layer in front of a cathode.
+    pub layer: f64,
 }
 
 /// The heat sources of one iteration.
@@ -145,17 +149,21 @@ impl Sources {
             let electrode = &surfaces.electrodes[contact.electrode];
             let current = reads.potential.map_or(0.0, |p| current(p, contact));
             let t = reads.temperature[contact.metal];
-            let parts = electrode.heat(current, t);
-            let emitted = electrode.emitted(current, t);
+            let gas = reads.temperature[contact.gas];
+            let parts = electrode.heat(current, t, gas);
+            let into_gas = electrode.into_gas(current, gas);
             self.contacts[n] = ContactHeat {
                 current,
-                emitted,
+                emitted: electrode.emitted(current, t, gas),
                 parts,
                 absorbed: self.absorbed[n],
+                into_gas,
+                layer: electrode.layer(current, parts),
             };
+            out[contact.gas][0] += contact.area * into_gas;
             let cell = &mut out[contact.metal];
             cell[0] += contact.area * (parts.sum() + self.absorbed[n]);
-            cell[1] += contact.area * electrode.slope(current, t);
+            cell[1] += contact.area * electrode.slope(current, t, gas);
         }
     }
 

@@ -27,9 +27,13 @@ pub struct Cathode {
     /// Ionisation voltage of the gas.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub ionisation_voltage_v: f64,
-    /// Richardson constant.
+    /// Richardson constant of a thermionic cathode (Komen 2019, eq. 5.20); or `fall_v`.
     #[schemars(range(min = 0.0))]
-    pub richardson_a_m2_k2: f64,
+    pub richardson_a_m2_k2: Option<f64>,
+    /// Cathode fall of a metal that does not emit by heat alone: the energy of the layer in front of it
+    /// tells electrons from ions (Benilov and Marotta 1995); or `richardson_a_m2_k2`.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub fall_v: Option<f64>,
     /// Emissivity.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub emissivity: f64,
@@ -82,9 +86,12 @@ pub struct Electrode {
     /// Ionisation voltage of the gas, where it is the cathode.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub ionisation_voltage_v: f64,
-    /// Richardson constant, where it is the cathode.
+    /// Richardson constant, where it is a thermionic cathode; or `fall_v`.
     #[schemars(range(min = 0.0))]
-    pub richardson_a_m2_k2: f64,
+    pub richardson_a_m2_k2: Option<f64>,
+    /// Cathode fall, where it is a cathode that does not emit by heat alone; or `richardson_a_m2_k2`.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub fall_v: Option<f64>,
     /// Emissivity.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub emissivity: f64,
