@@ -122,12 +122,6 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// e^2/(4 pi eps0 kT), m.
-    fn landau_length(&self) -> f64 {
-        ELEMENTARY_CHARGE * ELEMENTARY_CHARGE
-            / (4.0 * PI * PERMITTIVITY * BOLTZMANN * self.system.temperature)
-    }
-
     /// The equations at `unknowns`.
     pub(super) fn evaluate(&self, unknowns: &[f64]) -> Evaluation {
         let size = self.unknowns();
@@ -161,9 +155,9 @@ impl<'a> Balance<'a> {
     /// ln n of the members and how they answer.
     fn members(&self, unknowns: &[f64]) -> (Vec<f64>, Vec<Slope>) {
         let count = self.basis.components.len();
-        let half = unknowns
-            .get(count + 1)
-            .map_or(0.0, |log| 0.5 * self.landau_length() * log.exp());
+        let half = unknowns.get(count + 1).map_or(0.0, |log| {
+            0.5 * landau_length(self.system.temperature) * log.exp()
+        });
         let members = self
             .basis
             .reactions
@@ -238,9 +232,15 @@ impl<'a> Balance<'a> {
             ..Slope::default()
         };
         right.unknown[row] = 2.0;
-        let value = left + (4.0 * PI * self.landau_length()).ln() - 2.0 * unknowns[row];
+        let value =
+            left + (4.0 * PI * landau_length(self.system.temperature)).ln() - 2.0 * unknowns[row];
         evaluation.set(row, value, &left_slope, &right);
     }
+}
+
+/// e^2/(4 pi eps0 kT), m.
+pub(super) fn landau_length(temperature: f64) -> f64 {
+    ELEMENTARY_CHARGE * ELEMENTARY_CHARGE / (4.0 * PI * PERMITTIVITY * BOLTZMANN * temperature)
 }
 
 impl Evaluation {

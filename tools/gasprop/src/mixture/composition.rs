@@ -5,12 +5,13 @@
 //! Newton, with components chosen anew. Cold states, whose traces span three hundred decades, are so never far from
 //! one that is known, and the answer depends on nothing but its arguments.
 
-use super::balance::{Balance, Evaluation};
+use super::balance::{Balance, Evaluation, landau_length};
 use super::basis::Basis;
-use super::system::{Recipe, System};
+use super::system::{CONSTRAINTS, Member, Recipe, System};
 use super::{Conditions, EquilibriumError, Kind, Mixture, State, TEMPERATURE_RANGE};
 use crate::constants::BOLTZMANN;
 use nalgebra::DVector;
+use std::f64::consts::PI;
 
 /// The temperature of the first equilibrium, K.
 const START_TEMPERATURE: f64 = 10_000.0;
@@ -113,6 +114,38 @@ impl Mixture {
                 value: stalled.value,
                 tolerance: TOLERANCE,
             })
+    }
+
+    /// The equations of a state that was found before; none if they do not agree with it.
+    pub(super) fn again(&self, state: &State, recipe: Recipe) -> Option<Solution> {
+        let system = System::new(self, state.temperature, recipe);
+        let number = |member: &Member| state.number[member.index];
+        let nuclei =
+            |amounts: &[f64; CONSTRAINTS]| amounts[..system.elements.len()].iter().sum::<f64>();
+        let held: f64 = system
+            .members
+            .iter()
+            .map(|s| number(s) * nuclei(&s.content))
+            .sum();
+        let charges: f64 = system
+            .members
+            .iter()
+            .map(|s| number(s) * s.charge_squared(&system))
+            .sum();
+        let screening = 4.0 * PI * landau_length(state.temperature) * charges;
+        let guess = Guess {
+            logarithms: system
+                .members
+                .iter()
+                .map(|member| number(member).ln())
+                .collect(),
+            rest: vec![(held / nuclei(&system.moles)).ln(), 0.5 * screening.ln()],
+        };
+        let conditions = Conditions {
+            pressure: state.pressure,
+            lowering: self.lowering,
+        };
+        self.newton(system, &guess, conditions).ok()
     }
 
     fn walk(
@@ -244,7 +277,7 @@ fn first_guess(mixture: &Mixture, system: &System, conditions: Conditions) -> Gu
             }
         })
         .collect();
-    let screening = 0.5 * (electrons + (4.0 * std::f64::consts::PI * 1.671e-9).ln());
+    let screening = 0.5 * (electrons + (4.0 * PI * landau_length(system.temperature)).ln());
     Guess {
         logarithms,
         rest: vec![all - nuclei.ln(), screening],

@@ -5,8 +5,8 @@
 //! - [`Mixture::equilibrium`] finds how many there are of each at a temperature, pressure and iron content;
 //! - [`Mixture::thermodynamics`] finds density, enthalpy, specific heat and the derivatives of the composition.
 //!
-//! One temperature rules the gas and reactions are infinitely fast. It is ideal, or charges attract each other by Debye
-//! and Hueckel's limiting law ([`Lowering`]). Condensation is left out: cold iron
+//! One temperature rules the gas and reactions are infinitely fast. Charges attract each other by Debye and
+//! Hueckel's limiting law, unless an ideal gas is asked for ([`Lowering`]). Condensation is left out: cold iron
 //! is a gas here, whatever its vapour pressure.
 
 mod balance;
@@ -45,9 +45,9 @@ pub struct Mixture {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Lowering {
     /// Not at all: an ideal gas of all species.
-    #[default]
     None,
     /// By Debye and Hueckel's limiting law: ionisation takes less energy by (z + 1) e^2/(4 pi eps0 Debye length).
+    #[default]
     DebyeHueckel,
 }
 
@@ -207,7 +207,7 @@ impl Mixture {
             elements,
             base,
             with_iron,
-            lowering: Lowering::None,
+            lowering: Lowering::default(),
         })
     }
 

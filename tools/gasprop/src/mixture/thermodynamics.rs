@@ -42,7 +42,12 @@ impl Mixture {
             gas: (1.0 - state.iron).max(least),
             iron: state.iron.max(least),
         };
-        let solution = self.solve(state.temperature, state.pressure, recipe)?;
+        let complete = !self.with_iron || recipe.iron.min(recipe.gas) > TRACE;
+        let found = complete.then(|| self.again(state, recipe)).flatten();
+        let solution = match found {
+            Some(solution) => solution,
+            None => self.solve(state.temperature, state.pressure, recipe)?,
+        };
         let singular = || EquilibriumError::Singular {
             temperature: state.temperature,
             pressure: state.pressure,
