@@ -1,0 +1,270 @@
+//! A gas as a scene asks for it, and what it is at a temperature and iron fraction.
+
+use thiserror::Error;
+
+use crate::columns::{Column, Part};
+use crate::constants::{AVOGADRO, BOLTZMANN};
+use crate::mixture::{
+    DataError, EquilibriumError, Library, Mixture, MixtureError, Species, Thermodynamics,
+};
+use crate::radiation::{Radiation, RadiationError};
+use crate::scene::Scene;
+use crate::transport::{Coefficients, Transport, TransportError, Uncertain};
+
+/// Temperature at which the enthalpy of the cold gas, and that of iron atoms, counts as zero, K.
+pub const ZERO: f64 = 300.0;
+
+/// Why a gas cannot be made or evaluated.
+#[derive(Debug, Error)]
+pub enum GasError {
+    /// The data of the species.
+    #[error(transparent)]
+    Data(#[from] DataError),
+    /// The cold gas.
+    #[error(transparent)]
+    Mixture(#[from] MixtureError),
+    /// The data of radiation.
+    #[error(transparent)]
+    Radiation(#[from] RadiationError),
+    /// The data of collisions, or a system of equations that has no solution.
+    #[error(transparent)]
+    Transport(#[from] TransportError),
+    /// The composition.
+    #[error(transparent)]
+    Equilibrium(#[from] EquilibriumError),
+    /// A column that is no number.
+    #[error("{column} is {value} {unit} at {temperature} K, iron mole fraction {iron}")]
+    NotFinite {
+        /// The column.
+        column: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// Temperature, K.
+        temperature: f64,
+        /// Iron mole fraction.
+        iron: f64,
+    },
+}
+
+/// Zero of enthalpy of each group of elements that the gas keeps, J/kg above separate neutral atoms.
+#[derive(Debug, Clone, Copy)]
+struct Zero {
+    /// The cold gas as its components are named, at [`ZERO`].
+    base: f64,
+    /// Iron as a gas of atoms, at [`ZERO`].
+    iron: f64,
+}
+
+/// A gas as a scene asks for it.
+#[derive(Debug, Clone)]
+pub struct Gas {
+    library: Library,
+    mixture: Mixture,
+    transport: Transport,
+    radiation: Option<Radiation>,
+    absorption_length: Option<f64>,
+    pressure: f64,
+    molar_mass: f64,
+    iron: Option<f64>,
+    zero: Zero,
+}
+
+/// What the gas is at a temperature and iron fraction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Point {
+    /// Values of [`Gas::columns`].
+    pub values: Vec<f64>,
+    /// Values of [`Gas::parts`].
+    pub parts: Vec<f64>,
+    /// Mole fraction of each species.
+    pub fractions: Vec<f64>,
+}
+
+impl Gas {
+    /// The gas of a scene.
+    ///
+    /// # Errors
+    /// A cold gas that cannot be, or data that cannot be read.
+    pub fn new(scene: &Scene) -> Result<Self, GasError> {
+        let library = Library::embedded()?;
+        let base: Vec<(String, f64)> = scene
+            .gas
+            .iter()
+            .map(|(name, x)| (name.clone(), *x))
+            .collect();
+        let with_iron = scene.iron_mole_fraction.is_some();
+        let mixture = Mixture::new(&library, &base, with_iron)?;
+        let radiation = match scene.radiation {
+            Some(_) => Some(Radiation::new(library.data(), &mixture.species)?),
+            None => None,
+        };
+        let mut mass = 0.0;
+        let mut energy = 0.0;
+        for (name, fraction) in &base {
+            if let Some(species) = library.get(name) {
+                mass += fraction * species.mass;
+                energy += fraction * enthalpy(species);
+            }
+        }
+        let iron = library.get("Fe").filter(|_| with_iron);
+        Ok(Self {
+            transport: Transport::new(&mixture, &library, uncertain(scene))?,
+            radiation,
+            absorption_length: scene
+                .radiation
+                .and_then(|radiation| radiation.absorption_length_m),
+            pressure: scene.pressure_pa,
+            molar_mass: mass * AVOGADRO,
+            iron: iron.map(|species| species.mass * AVOGADRO),
+            zero: Zero {
+                base: energy / mass,
+                iron: iron.map_or(0.0, |species| enthalpy(species) / species.mass),
+            },
+            mixture,
+            library,
+        })
+    }
+
+    /// The species and elements.
+    #[must_use]
+    pub fn mixture(&self) -> &Mixture {
+        &self.mixture
+    }
+
+    /// The data of the species.
+    #[must_use]
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// The lines, where the scene asks for net emission.
+    #[must_use]
+    pub fn radiation(&self) -> Option<&Radiation> {
+        self.radiation.as_ref()
+    }
+
+    /// Pressure, Pa.
+    #[must_use]
+    pub fn pressure(&self) -> f64 {
+        self.pressure
+    }
+
+    /// Molar mass of the cold gas without iron, kg/mol.
+    #[must_use]
+    pub fn molar_mass(&self) -> f64 {
+        self.molar_mass
+    }
+
+    /// Molar mass of iron, kg/mol, where there is some.
+    #[must_use]
+    pub fn iron_molar_mass(&self) -> Option<f64> {
+        self.iron
+    }
+
+    /// The columns of the table.
+    #[must_use]
+    pub fn columns(&self) -> Vec<Column> {
+        Column::of(self.radiation.is_some(), self.iron.is_some())
+    }
+
+    /// Mass fraction of iron at `x` moles of iron per mole of iron and cold gas.
+    #[must_use]
+    pub fn iron_mass_fraction(&self, x: f64) -> f64 {
+        let iron = x * self.iron.unwrap_or(0.0);
+        iron / (iron + (1.0 - x) * self.molar_mass)
+    }
+
+    /// What the gas is at `t` K with `x` moles of iron per mole of iron and cold gas.
+    ///
+    /// # Errors
+    /// No equilibrium, or a value that is no number.
+    pub fn at(&self, t: f64, x: f64) -> Result<Point, GasError> {
+        let state = self.mixture.equilibrium(t, self.pressure, x)?;
+        let thermodynamics = self.mixture.thermodynamics(&state)?;
+        let transport = self.transport.at(&state, &thermodynamics);
+        let y = self.iron_mass_fraction(x);
+        let thermodynamics = Thermodynamics {
+            enthalpy: thermodynamics.enthalpy - (1.0 - y) * self.zero.base - y * self.zero.iron,
+            ..thermodynamics
+        };
+        let emission = self.radiation.as_ref().map(|radiation| {
+            let species = &self.mixture.species;
+            radiation
+                .net_emission(species, t, &state.number, self.absorption_length)
+                .total()
+        });
+        let all: f64 = state.number.iter().sum();
+        let columns = self.columns();
+        let values = columns.iter().map(|column| match column.part {
+            Part::Density => thermodynamics.density,
+            Part::Enthalpy => thermodynamics.enthalpy,
+            Part::SpecificHeat => thermodynamics.specific_heat,
+            Part::Viscosity => transport.viscosity,
+            Part::ThermalConductivity => transport.thermal.total(),
+            Part::ElectricConductivity => transport.electric_conductivity,
+            Part::NetEmission => emission.unwrap_or(0.0),
+            Part::Electrons => state.number[0],
+            Part::IronDiffusion => transport.iron_diffusion.unwrap_or(0.0),
+        });
+        let point = Point {
+            values: values.collect(),
+            parts: parts(&transport),
+            fractions: state.number.iter().map(|n| n / all).collect(),
+        };
+        self.checked(point, t, x)
+    }
+
+    fn checked(&self, point: Point, temperature: f64, iron: f64) -> Result<Point, GasError> {
+        let columns = self.columns();
+        match columns
+            .iter()
+            .zip(&point.values)
+            .find(|(_, value)| !value.is_finite())
+        {
+            None => Ok(point),
+            Some((column, value)) => Err(GasError::NotFinite {
+                column: column.name,
+                value: *value,
+                unit: column.unit,
+                temperature,
+                iron,
+            }),
+        }
+    }
+}
+
+/// Enthalpy of one particle of the cold gas at [`ZERO`], J above separate neutral atoms.
+fn enthalpy(species: &Species) -> f64 {
+    2.5 * BOLTZMANN * ZERO + species.internal(ZERO).energy + species.formation
+}
+
+/// Names and units of the parts of thermal conductivity, as [`Point::parts`].
+pub const PARTS: [&str; 4] = ["heavy", "electron", "internal", "reactive"];
+
+fn parts(transport: &Coefficients) -> Vec<f64> {
+    let parts = &transport.thermal;
+    vec![parts.heavy, parts.electron, parts.internal, parts.reactive]
+}
+
+fn uncertain(scene: &Scene) -> Uncertain {
+    let usual = Uncertain::default();
+    let Some(given) = scene.uncertain else {
+        return usual;
+    };
+    Uncertain {
+        electron_iron_m2: given
+            .electron_iron_cross_section_m2
+            .unwrap_or(usual.electron_iron_m2),
+        electron_other_m2: given
+            .electron_other_cross_section_m2
+            .unwrap_or(usual.electron_other_m2),
+        iron_exchange_factor: given
+            .iron_charge_exchange_factor
+            .unwrap_or(usual.iron_exchange_factor),
+        iron_effective_electrons: given
+            .iron_effective_electrons
+            .unwrap_or(usual.iron_effective_electrons),
+    }
+}
