@@ -211,6 +211,7 @@ fn energies_close_their_cycles() {
     );
     close("affinity of O", -e("O-"), 1.4611, 0.001);
     close("affinity of C", -e("C-"), 1.2621, 0.001);
+    close("first ionisation of C", e("C+"), 11.2603, 1e-4);
     close("affinity of O2", e("O2") - e("O2-"), 0.448, 0.01);
     // FeO by JANAF (1966), 4.24 +- 0.2 eV, against 4.1808; C2 by Gurvich (1991), 6.22 eV, the value of the thermochemical
     // network (6.245), against 6.371.

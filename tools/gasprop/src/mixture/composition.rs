@@ -324,3 +324,67 @@ impl Solution {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mixture::Library;
+
+    /// A walk from another first equilibrium ends in the same one, to rounding of logarithms of several hundred.
+    #[test]
+    fn the_answer_does_not_depend_on_where_the_walk_starts() {
+        let library = Library::embedded().unwrap();
+        let gas = [("CO".to_owned(), 0.4), ("Ar".to_owned(), 0.6)];
+        let mixture = Mixture::new(&library, &gas, true).unwrap();
+        let recipe = Recipe {
+            gas: 0.8,
+            iron: 0.2,
+        };
+        for target in [300.0, 1200.0, 4000.0, 9000.0, 16_000.0, 30_000.0] {
+            let walk = |from: f64| {
+                mixture
+                    .walk(from, target, 1e5, recipe)
+                    .ok()
+                    .unwrap()
+                    .evaluation
+                    .logarithms
+            };
+            let expected = walk(START_TEMPERATURE);
+            for from in [6000.0, 14_000.0, 25_000.0] {
+                for (a, b) in walk(from).iter().zip(&expected) {
+                    assert!(
+                        (a - b).abs() < 1e-14 * a.abs().max(100.0),
+                        "{target} K from {from} K: {a} {b}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// What was found is found again without a walk.
+    #[test]
+    fn states_are_taken_up_again() {
+        let library = Library::embedded().unwrap();
+        let mixture = Mixture::new(&library, &[("CO2".to_owned(), 1.0)], true).unwrap();
+        for (t, x) in [(300.0, 0.5), (2500.0, 0.01), (8000.0, 0.3), (30_000.0, 0.9)] {
+            let state = mixture.equilibrium(t, 1e5, x).unwrap();
+            let recipe = Recipe {
+                gas: 1.0 - x,
+                iron: x,
+            };
+            let again = mixture.again(&state, recipe).unwrap();
+            for (member, log) in again
+                .system
+                .members
+                .iter()
+                .zip(&again.evaluation.logarithms)
+            {
+                let number = state.number[member.index];
+                assert!(
+                    (log.exp() - number).abs() <= 1e-11 * number,
+                    "{t} K: {number}"
+                );
+            }
+        }
+    }
+}
