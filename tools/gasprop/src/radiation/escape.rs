@@ -182,7 +182,7 @@ mod tests {
                 let (s, a) = (1e-4 * 1.8_f64.powi(i), 1e-7 * 1.7_f64.powi(j));
                 let (table, integral) = (factor(s, a), exact(s, a));
                 assert!(
-                    (table / integral - 1.0).abs() < 1e-3,
+                    (table / integral - 1.0).abs() < 2e-3,
                     "{s} {a}: {table} {integral}"
                 );
             }
