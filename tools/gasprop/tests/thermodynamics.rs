@@ -240,6 +240,51 @@ fn argon_agrees_with_a_published_table() {
     assert!(rows.len() > 50 && worst(Lowering::None) > 0.05);
 }
 
+/// Rows of minplascalc 1.1.1 (Quinn Reynolds, run for this table), an ideal gas in equilibrium, argon and argon with iron
+/// at 1 atm, up to where its partition functions hold: x, T [K], rho [kg/m3], cp [J/(kg K)], n_e [1/m3].
+const IDEAL_ROWS: [(f64, f64, f64, f64, f64); 20] = [
+    (0.0, 1000.0, 0.4868, 520.3, 1.339e-14),
+    (0.0, 2000.0, 0.2434, 520.3, 1.204e+06),
+    (0.0, 3000.0, 0.1623, 520.3, 5.706e+12),
+    (0.0, 5000.0, 0.09737, 520.5, 1.319e18),
+    (0.0, 6000.0, 0.08114, 523.1, 2.934e19),
+    (0.0, 7000.0, 0.06953, 542.6, 2.707e20),
+    (0.0, 8000.0, 0.06076, 626.9, 1.438e21),
+    (0.0, 9000.0, 0.05374, 878.9, 5.269e21),
+    (0.0, 10_000.0, 0.0477, 1464.0, 1.478e22),
+    (0.0, 11_000.0, 0.04202, 2593.0, 3.373e22),
+    (0.0, 12_000.0, 0.03628, 4453.0, 6.467e22),
+    (0.0, 13_000.0, 0.03044, 6961.0, 1.057e23),
+    (0.0, 14_000.0, 0.02494, 9213.0, 1.482e23),
+    (0.1, 3000.0, 0.1687, 513.7, 4.011e18),
+    (0.1, 4000.0, 0.1265, 528.6, 1.984e20),
+    (0.1, 5000.0, 0.1011, 591.3, 2.043e21),
+    (0.1, 6000.0, 0.08372, 770.6, 9.316e21),
+    (0.1, 7000.0, 0.07058, 1048.0, 2.512e22),
+    (0.1, 8000.0, 0.06017, 1186.0, 4.501e22),
+    (0.1, 9000.0, 0.05222, 1049.0, 5.828e22),
+];
+
+#[test]
+fn ideal_argon_with_iron_agrees_with_a_program_of_others() {
+    let mixture = with_iron(&[("Ar", 1.0)]).with_lowering(Lowering::None);
+    for (x, t, density, specific_heat, electrons) in IDEAL_ROWS {
+        let state = mixture.equilibrium(t, ATMOSPHERE, x).unwrap();
+        let gas = mixture.thermodynamics(&state).unwrap();
+        let pairs = [
+            (gas.density, density),
+            (gas.specific_heat, specific_heat),
+            (state.number[0], electrons),
+        ];
+        for (got, expected) in pairs {
+            assert!(
+                (got / expected - 1.0).abs() < 1e-3,
+                "x {x}, {t} K: {got:e} {expected:e}"
+            );
+        }
+    }
+}
+
 /// Rows of an independent solver (numpy, the same energy levels, ionisation lowered by the electrons' own Debye length,
 /// pressure ideal), argon with iron at 1 atm: x, T [K], rho [kg/m3], h [J/kg], n_e [1/m3], rounded to four figures.
 const ROWS: [(f64, f64, f64, f64, f64); 16] = [
