@@ -34,11 +34,14 @@ enum Action {
     Gas(GasFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
     Index(Folders),
-    /// Compares a weld with published values; exit code 1 where a tolerance is missed.
+    /// Compares a weld or arcs with published values; exit code 1 where a tolerance is missed.
     Validate {
         /// Particle frames of the weld.
         #[arg(long)]
-        pool: PathBuf,
+        pool: Option<PathBuf>,
+        /// Arc source; of several, what the targets call each.
+        #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named)]
+        arc: Vec<(String, PathBuf)>,
         /// Published values.
         #[arg(long)]
         targets: PathBuf,
@@ -54,9 +57,9 @@ pub(crate) struct PageFiles {
     /// The page to write.
     #[arg(long)]
     pub(crate) out: PathBuf,
-    /// Arc source.
-    #[arg(long)]
-    pub(crate) arc: Option<PathBuf>,
+    /// Arc source; of several, what the page calls each.
+    #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named)]
+    pub(crate) arc: Vec<(String, PathBuf)>,
     /// Particle frames of the pool.
     #[arg(long)]
     pub(crate) pool: Option<PathBuf>,
@@ -120,6 +123,14 @@ fn named(word: &str) -> Result<(String, PathBuf), String> {
     }
 }
 
+/// A file that may have a name; without one it is called as its kind is.
+fn perhaps_named(word: &str) -> Result<(String, PathBuf), String> {
+    if word.is_empty() {
+        return Err("wanted is FILE or NAME=FILE".to_owned());
+    }
+    Ok(named(word).unwrap_or_else(|_| ("arc".to_owned(), PathBuf::from(word))))
+}
+
 /// Folders of the index.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Folders {
@@ -156,7 +167,7 @@ pub fn main() -> ExitCode {
         Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
-        Action::Validate { pool, targets } => validate::run(pool, targets),
+        Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),
     };
     done.unwrap_or_else(|failure| run::report_failure("report", &failure))
 }

@@ -1,14 +1,18 @@
 //! Published values and how far the study is from them.
 //!
-//! A targets file lists measures of the bead with their published values. A row with a tolerance
-//! is judged, a row without one is shown for comparison only. The bead of an experiment is frozen:
+//! A targets file lists measures of the bead, or of the balance of an arc, with their published
+//! values. A row with a tolerance is judged, a row without one is shown for comparison only. The bead of an experiment is frozen:
 //! while nothing of the weld has frozen, its measures are shown but nothing is judged.
 
 use std::path::Path;
 
+use artefact::Record;
 use serde::Deserialize;
 
 use crate::weld::Stretch;
+
+/// Balances of arcs, each with the name of its arc.
+pub(crate) type Balances = [(String, Record)];
 
 /// Where a published value comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -48,13 +52,13 @@ pub(crate) enum Bound {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Target {
     /// Measure: penetration, fused_width, fused_half_width, reinforcement, bead_width, area_above,
-    /// area_below or dilution.
+    /// area_below or dilution; or ARC/NAME, a value of the balance of the arc that is called ARC.
     pub(crate) measure: String,
     /// What the measure is called in the source.
     pub(crate) title: String,
     /// Published value.
     pub(crate) value: f64,
-    /// Its unit: m, m2 or 1.
+    /// Its unit, as the measure has it.
     pub(crate) unit: String,
     /// Where it is published.
     pub(crate) source: String,
@@ -113,29 +117,35 @@ pub(crate) struct Row {
     pub(crate) verdict: Verdict,
 }
 
-/// Compares every target with a stretch of weld; `None` where there is no weld.
-pub(crate) fn compare(targets: &Targets, stretch: Option<&Stretch>) -> Vec<Row> {
+/// Compares every target with a stretch of weld, `None` where there is no weld, and with arcs.
+pub(crate) fn compare(targets: &Targets, stretch: Option<&Stretch>, arcs: &Balances) -> Vec<Row> {
     let row = |target: &Target| {
-        let found = stretch.and_then(|s| s.get(&target.measure));
-        let frozen = stretch.is_some_and(|s| s.frozen);
+        let bead = stretch.and_then(|s| s.get(&target.measure));
+        let of_arc = target.measure.split_once('/').and_then(|(arc, name)| {
+            let (_, balance) = arcs.iter().find(|(own, _)| own == arc)?;
+            balance.get(name).ok()
+        });
+        let measured = bead.map(|m| m.value).or(of_arc);
+        // An arc is as it stays; a bead must have frozen.
+        let settled = of_arc.is_some() || stretch.is_some_and(|s| s.frozen);
         Row {
             target: target.clone(),
-            measured: found.map(|m| m.value),
-            range: found.map(|m| m.range),
-            verdict: judge(target, found.map(|m| m.value), frozen),
+            measured,
+            range: bead.map(|m| m.range),
+            verdict: judge(target, measured, settled),
         }
     };
     targets.targets.iter().map(row).collect()
 }
 
-fn judge(target: &Target, measured: Option<f64>, frozen: bool) -> Verdict {
+fn judge(target: &Target, measured: Option<f64>, settled: bool) -> Verdict {
     let Some(measured) = measured.filter(|m| m.is_finite()) else {
         return Verdict::Unknown;
     };
     let Some(tolerance) = target.tolerance else {
         return Verdict::Shown;
     };
-    if !frozen {
+    if !settled {
         return Verdict::NotYet;
     }
     let off = measured - target.value;
@@ -158,11 +168,12 @@ impl Row {
     pub(crate) fn shown(&self, value: f64) -> String {
         let (factor, _) = people(&self.target.unit);
         let scaled = factor * value;
-        let text = if factor > 1.0 {
-            format!("{scaled:.1}")
-        } else {
-            format!("{scaled:.2}")
+        let digits = match self.target.unit.as_str() {
+            "W" => 0,
+            "m" | "m2" | "V" => 1,
+            _ => 2,
         };
+        let text = format!("{scaled:.digits$}");
         text.replace('-', "\u{2212}")
     }
 
@@ -220,6 +231,7 @@ fn people(unit: &str) -> (f64, &str) {
     match unit {
         "m" => (1e3, "mm"),
         "m2" => (1e6, "mm\u{b2}"),
+        "m/s" => (60.0, "m/min"),
         "1" => (1.0, ""),
         other => (1.0, other),
     }
@@ -258,7 +270,7 @@ mod tests {
         let targets = Targets {
             targets: vec![target],
         };
-        compare(&targets, Some(&stretch(depth, frozen)))[0].verdict
+        compare(&targets, Some(&stretch(depth, frozen)), &[])[0].verdict
     }
 
     #[test]
@@ -293,8 +305,30 @@ mod tests {
                 targets: vec![target(Bound::Within, Some(1.0))],
             },
             None,
+            &[],
         );
         assert_eq!(none[0].verdict, Verdict::Unknown);
+    }
+
+    #[test]
+    fn a_balance_is_judged_by_the_name_of_its_arc() {
+        let mut feed = target(Bound::Within, Some(0.001));
+        feed.measure = "dcen/wire_feed_m_s".to_owned();
+        feed.unit = "m/s".to_owned();
+        feed.value = 1.94 / 60.0;
+        let targets = Targets {
+            targets: vec![feed],
+        };
+        let balance = |speed: f64| Record::new().with("wire_feed_m_s", "m/s", speed);
+        let arcs = [
+            ("dcep".to_owned(), balance(0.02)),
+            ("dcen".to_owned(), balance(0.033)),
+        ];
+        let row = &compare(&targets, None, &arcs)[0];
+        assert_eq!(row.verdict, Verdict::Holds);
+        assert_eq!(row.difference(), "+0.04 m/min");
+        let row = &compare(&targets, None, &arcs[..1])[0];
+        assert_eq!(row.verdict, Verdict::Unknown);
     }
 
     #[test]
@@ -302,7 +336,7 @@ mod tests {
         let targets = Targets {
             targets: vec![target(Bound::Within, Some(0.5e-3))],
         };
-        let row = &compare(&targets, Some(&stretch(2.2e-3, true)))[0];
+        let row = &compare(&targets, Some(&stretch(2.2e-3, true)), &[])[0];
         assert_eq!(row.difference(), "\u{2212}0.7 mm");
         assert_eq!(row.tolerance(), "\u{b1} 0.5 mm");
         assert_eq!(row.words().0, "misses the tolerance: too small");
@@ -319,8 +353,14 @@ mod tests {
         assert!(!files.is_empty());
         for path in files {
             let targets = Targets::read(&path).unwrap();
-            for row in compare(&targets, Some(&stretch(2e-3, true))) {
-                assert_ne!(row.verdict, Verdict::Unknown, "{}", row.target.measure);
+            for row in compare(&targets, Some(&stretch(2e-3, true)), &[]) {
+                // What an arc tells stands in its file.
+                let of_arc = row.target.measure.contains('/');
+                assert!(
+                    of_arc || row.verdict != Verdict::Unknown,
+                    "{}",
+                    row.target.measure
+                );
             }
         }
     }

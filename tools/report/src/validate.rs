@@ -1,7 +1,7 @@
-//! `report validate`: a weld against published values, row by row.
+//! `report validate`: a weld and arcs against published values, row by row.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use artefact::Reader;
@@ -11,11 +11,25 @@ use crate::targets::{Row, Targets, Verdict, compare};
 use crate::weld::Weld;
 
 /// Prints each row; the exit code is 1 where a tolerance is missed or cannot be judged.
-pub(crate) fn run(pool: &Path, targets: &Path) -> Result<ExitCode, Failure> {
+pub(crate) fn run(
+    pool: Option<&Path>,
+    arcs: &[(String, PathBuf)],
+    targets: &Path,
+) -> Result<ExitCode, Failure> {
     let targets = Targets::read(targets)?;
-    let reader = Reader::open_kind(pool, "particle-frames", 1)?;
-    let stretch = Weld::last(&reader)?.and_then(|weld| weld.bead());
-    let rows = compare(&targets, stretch.as_ref());
+    let stretch = match pool {
+        Some(pool) => {
+            let reader = Reader::open_kind(pool, "particle-frames", 1)?;
+            Weld::last(&reader)?.and_then(|weld| weld.bead())
+        }
+        None => None,
+    };
+    let mut balances = Vec::new();
+    for (name, path) in arcs {
+        let reader = Reader::open_kind(path, "arc-source", 1)?;
+        balances.push((name.clone(), reader.record("/balance")?));
+    }
+    let rows = compare(&targets, stretch.as_ref(), &balances);
     let text = table(&rows);
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());

@@ -136,7 +136,7 @@ fn heads(record: &Record) -> String {
 }
 
 /// A name without the unit at its end: `wire_feed_m_s` in m/s is `wire_feed`.
-fn bare(name: &str, unit: &str) -> String {
+pub(super) fn bare(name: &str, unit: &str) -> String {
     let ending = format!("_{}", unit.to_lowercase().replace(['/', ' ', '*'], "_"));
     name.strip_suffix(&ending).unwrap_or(name).to_owned()
 }

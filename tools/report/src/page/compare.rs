@@ -1,12 +1,12 @@
 //! The comparison with published values.
 
 use crate::html::{Rows, escape, paragraph, verdict};
-use crate::targets::{Row, Targets, Verdict, compare};
+use crate::targets::{Balances, Row, Targets, Verdict, compare};
 use crate::weld::Stretch;
 
 /// The section.
-pub(super) fn section(targets: &Targets, stretch: Option<&Stretch>) -> String {
-    let rows = compare(targets, stretch);
+pub(super) fn section(targets: &Targets, stretch: Option<&Stretch>, arcs: &Balances) -> String {
+    let rows = compare(targets, stretch, arcs);
     let mut table = Rows::new(&[
         "Measure",
         "#Published",

@@ -1,6 +1,9 @@
 //! The page of a study.
 
+use std::path::{Path, PathBuf};
+
 mod arc;
+mod arcs;
 mod balance;
 mod bead;
 mod compare;
@@ -23,25 +26,31 @@ type Named = (String, RunRecord);
 
 /// Writes the page of a study.
 pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
-    let open = |path: &Option<std::path::PathBuf>, kind| match path {
+    let open = |path: &Option<PathBuf>, kind| match path {
         Some(path) => Reader::open_kind(path, kind, 1).map(Some),
         None => Ok(None),
     };
-    let arc = open(&files.arc, "arc-source")?;
+    let mut arcs = Vec::new();
+    for (name, path) in &files.arc {
+        arcs.push((name.clone(), Reader::open_kind(path, "arc-source", 1)?));
+    }
+    let balances = arcs::balances(&arcs)?;
     let pool = open(&files.pool, "particle-frames")?;
     let mean = open(&files.mean, "mean-fields")?;
     let targets = match &files.targets {
         Some(path) => Some(Targets::read(path)?),
         None => None,
     };
-    let records: Vec<Named> = [
-        ("arc", &files.arc),
-        ("pool", &files.pool),
-        ("mean", &files.mean),
-    ]
-    .into_iter()
-    .filter_map(|(name, path)| Some((name.to_owned(), RunRecord::beside(path.as_deref()?)?)))
-    .collect();
+    let mut paths: Vec<(&str, Option<&Path>)> = Vec::new();
+    for (name, path) in &files.arc {
+        paths.push((name, Some(path)));
+    }
+    paths.push(("pool", files.pool.as_deref()));
+    paths.push(("mean", files.mean.as_deref()));
+    let records: Vec<Named> = paths
+        .into_iter()
+        .filter_map(|(name, path)| Some((name.to_owned(), RunRecord::beside(path?)?)))
+        .collect();
     let weld = match &pool {
         Some(reader) => Weld::last(reader)?,
         None => None,
@@ -52,17 +61,29 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         page.section("The bead", bead::section(reader, weld, stretch.as_ref())?);
     }
     if let Some(targets) = &targets {
-        let body = compare::section(targets, stretch.as_ref());
+        let body = compare::section(targets, stretch.as_ref(), &balances);
         page.section("Against experiment and simulation", body);
     }
     if let Some(reader) = &mean {
         let melting = weld.as_ref().and_then(|w| w.plate.melting_point_k);
         page.section("The flow in the pool", mean::section(reader, melting)?);
     }
-    if let Some(reader) = &arc {
-        page.section("The arc", arc::section(reader)?);
+    if arcs.len() > 1 {
+        page.section("The arcs beside each other", arcs::section(&balances));
     }
-    let body = balance::section(pool.as_ref(), arc.as_ref(), &records)?;
+    for (name, reader) in &arcs {
+        let title = if arcs.len() > 1 {
+            format!("The arc: {name}")
+        } else {
+            "The arc".to_owned()
+        };
+        page.section(&title, arc::section(reader)?);
+    }
+    let only = arcs
+        .first()
+        .filter(|_| arcs.len() == 1)
+        .map(|(_, reader)| reader);
+    let body = balance::section(pool.as_ref(), only, &records)?;
     page.section("Mass and energy", body);
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
