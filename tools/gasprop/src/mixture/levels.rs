@@ -2,8 +2,8 @@
 //!
 //! The sum runs over the levels that are stored, all below the ionisation energy of the free atom (the highest Rydberg
 //! levels, which crowd below it without end, are not tabulated and would be cut by the plasma anyway).
-//! With the mean <x> = sum g x exp(-E/kT) / Q, the energy is <E> and the heat capacity is (<E^2> - <E>^2)/kT^2:
-//! the exact derivatives of the same sum.
+//! With means weighted by g exp(-E/kT), the energy is the mean of E and the heat capacity is its variance over kT^2: the
+//! exact derivatives of the same sum.
 
 use super::species::Internal;
 use crate::constants::BOLTZMANN;
