@@ -3,7 +3,7 @@
 use artefact::{Record, Table};
 use run::{Failure, Session};
 
-use crate::case::PotentialCase;
+use crate::case::{HeatCase, PotentialCase};
 use crate::fields::magnetic::AtCentre;
 use crate::heat::balance::Balance;
 use crate::scene::Sample;
@@ -140,6 +140,9 @@ fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
     if let Some(balance) = balance {
         record = bed::record(arc, heat(arc, balance, record));
     }
+    if let (Some(balance), Some(heating)) = (balance, &arc.heating) {
+        record = input(arc, balance, &heating.setup, record);
+    }
     if let Some(wire) = arc.case.wire {
         record = record.with("wire_feed_m_s", "m/s", arc.feed).with(
             "wire_volume_m3_s",
@@ -148,6 +151,24 @@ fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
         );
     }
     record
+}
+
+/// What the base metal takes up in all, drops included, and the part of the power that it is (Komen
+/// 2019, tables 5.6 and 5.7).
+fn input(arc: &Arc, balance: &Balance, heat: &HeatCase, record: Record) -> Record {
+    let own = arc.case.wire.zip(surface::base(arc)).and_then(|(_, base)| {
+        let electrode = heat.surfaces.as_ref()?.electrode_of[base]?;
+        Some(balance.electrodes[electrode].sum())
+    });
+    let Some(own) = own else {
+        return record;
+    };
+    // Drops carry heat out of the wire: it is negative there.
+    let all = own - balance.drops;
+    record
+        .with("base_drops_w", "W", -balance.drops)
+        .with("base_input_w", "W", all)
+        .with("efficiency", "1", all / surface::power(arc, balance))
 }
 
 fn electrical(arc: &Arc, electric: &Electric, setup: &PotentialCase, record: Record) -> Record {

@@ -41,16 +41,7 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         Some(path) => Some(Targets::read(path)?),
         None => None,
     };
-    let mut paths: Vec<(&str, Option<&Path>)> = Vec::new();
-    for (name, path) in &files.arc {
-        paths.push((name, Some(path)));
-    }
-    paths.push(("pool", files.pool.as_deref()));
-    paths.push(("mean", files.mean.as_deref()));
-    let records: Vec<Named> = paths
-        .into_iter()
-        .filter_map(|(name, path)| Some((name.to_owned(), RunRecord::beside(path?)?)))
-        .collect();
+    let records = beside(files);
     let weld = match &pool {
         Some(reader) => Weld::last(reader)?,
         None => None,
@@ -87,6 +78,20 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     page.section("Mass and energy", body);
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
+}
+
+/// The record beside each artefact that has one.
+fn beside(files: &PageFiles) -> Vec<Named> {
+    let mut paths: Vec<(&str, Option<&Path>)> = Vec::new();
+    for (name, path) in &files.arc {
+        paths.push((name, Some(path)));
+    }
+    paths.push(("pool", files.pool.as_deref()));
+    paths.push(("mean", files.mean.as_deref()));
+    paths
+        .into_iter()
+        .filter_map(|(name, path)| Some((name.to_owned(), RunRecord::beside(path?)?)))
+        .collect()
 }
 
 /// Titles of the scenes, each once.
