@@ -280,6 +280,36 @@ fn what_cannot_be_is_named() {
     assert!(fails(40_000.0, 1e5, 0.0).to_string().contains("40000 K"));
 }
 
+/// Where Debye and Hueckel's law has no thin plasma left to act on, the equation that fails is named, with where.
+#[test]
+fn what_does_not_converge_is_named() {
+    let mixture = with_iron(&[("CO", 1.0)]);
+    let error = mixture.equilibrium(9000.0, 1e10, 0.3).unwrap_err();
+    let EquilibriumError::NotConverged {
+        residual,
+        value,
+        tolerance,
+        ..
+    } = &error
+    else {
+        panic!("{error}");
+    };
+    assert!(residual == "screening length" && value > tolerance);
+    assert!(
+        error
+            .to_string()
+            .contains("9000 K, 10000000000.0 Pa, iron mole fraction 0.3"),
+        "{error}"
+    );
+    assert!(
+        mixture
+            .clone()
+            .with_lowering(Lowering::None)
+            .equilibrium(9000.0, 1e10, 0.3)
+            .is_ok()
+    );
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 

@@ -52,6 +52,9 @@ impl Mixture {
     /// How many of each species there are at `t` K, `pressure` Pa and `x_iron` moles of iron per mole of iron and
     /// cold gas.
     ///
+    /// The model is that of thin plasmas, to some hundred atmospheres; below 1e-20 Pa and above 1e9 Pa the iteration
+    /// itself may find no equilibrium, and says so.
+    ///
     /// # Errors
     /// Arguments out of range, or an iteration that does not converge.
     pub fn equilibrium(

@@ -119,7 +119,7 @@ pub enum EquilibriumError {
         temperature: f64,
     },
     /// A pressure that is no positive number.
-    #[error("pressure {pressure} Pa must be positive and finite")]
+    #[error("pressure {pressure:?} Pa must be positive and finite")]
     Pressure {
         /// The pressure, Pa.
         pressure: f64,
@@ -134,7 +134,7 @@ pub enum EquilibriumError {
     },
     /// A composition whose equations do not determine how it answers.
     #[error(
-        "the composition at {temperature} K, {pressure} Pa, iron mole fraction {iron} has no derivatives"
+        "the composition at {temperature} K, {pressure:?} Pa, iron mole fraction {iron} has no derivatives"
     )]
     Singular {
         /// Temperature, K.
@@ -146,7 +146,7 @@ pub enum EquilibriumError {
     },
     /// Newton's iteration stood still above its tolerance.
     #[error(
-        "no equilibrium at {temperature} K, {pressure} Pa, iron mole fraction {iron}: after {iterations} iterations \
+        "no equilibrium at {temperature} K, {pressure:?} Pa, iron mole fraction {iron}: after {iterations} iterations \
          the relative residual of {residual} is {value:e}, above {tolerance:e}"
     )]
     NotConverged {
