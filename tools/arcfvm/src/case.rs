@@ -208,6 +208,30 @@ pub struct VapourCase {
     pub ionisation: Option<f64>,
 }
 
+/// The base metal: the lowest electrode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Base {
+    /// Its material.
+    pub material: usize,
+    /// Row above its highest cell, by column; nothing where a column holds none of it, `[nr]`.
+    pub above: Vec<Option<usize>>,
+}
+
+impl Base {
+    /// Row above its highest cell of all.
+    #[must_use]
+    pub fn top(&self) -> usize {
+        self.above.iter().flatten().copied().max().unwrap_or(0)
+    }
+
+    /// Whether it lies deeper in some columns than in others.
+    #[must_use]
+    pub fn is_deformed(&self) -> bool {
+        let top = self.top();
+        self.above.iter().flatten().any(|row| *row != top)
+    }
+}
+
 /// The whole problem.
 #[derive(Debug, Clone)]
 pub struct Case {
@@ -229,8 +253,8 @@ pub struct Case {
     pub vapour: Option<VapourCase>,
     /// The wire, where there is one.
     pub wire: Option<Wire>,
-    /// Row of the lowest gas cell above the base metal, where there is one.
-    pub surface_row: Option<usize>,
+    /// The base metal, where there is one.
+    pub base: Option<Base>,
 }
 
 impl Case {

@@ -116,15 +116,21 @@ fn lorentz(arc: &Arc) -> Option<Table> {
         ..
     } = arc.electric.as_ref()?;
     let grid = &arc.case.grid;
-    let above = arc.case.surface_row?;
+    let base = arc.case.base.as_ref()?;
+    let above = base.top();
     let surface = grid.zf[above];
     let depth: Vec<f64> = (0..above).rev().map(|j| surface - grid.zc[j]).collect();
     let mut table = Table::grid(&[("radius_m", "m", &grid.rc), ("depth_m", "m", &depth)]);
     for (name, unit, part) in &PARTS[3..] {
         let mut values = Vec::with_capacity(grid.nr * above);
         for i in 0..grid.nr {
-            let row = (0..above).rev();
-            values.extend(row.map(|j| part(&magnetic.at_centre(grid, potential, i, j))));
+            let metal = |j: usize| arc.case.material[grid.cell(i, j)] == base.material;
+            let at = |j: usize| match metal(j) {
+                true => part(&magnetic.at_centre(grid, potential, i, j)),
+                // Above a pool that is pressed down there is no metal.
+                false => 0.0,
+            };
+            values.extend((0..above).rev().map(at));
         }
         table = table.column(name, unit, values);
     }

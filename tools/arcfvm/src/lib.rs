@@ -17,6 +17,7 @@ pub mod material;
 pub mod mixture;
 pub mod pace;
 mod plan;
+mod pool;
 pub mod properties;
 pub mod residual;
 pub mod resume;
@@ -59,11 +60,18 @@ impl Tool for ArcFvm {
          --input gas=pipelines/gases/argon-1atm.json --out build/arc.mcap";
     const SCENE_KIND: &'static str = "arcfvm.scene";
     const ARTEFACT_KIND: &'static str = "arc-source";
-    const INPUTS: &'static [Input] = &[Input {
-        name: "gas",
-        what: "gas table (gas-table 1.x)",
-        required: false,
-    }];
+    const INPUTS: &'static [Input] = &[
+        Input {
+            name: "gas",
+            what: "gas table (gas-table 1.x)",
+            required: false,
+        },
+        Input {
+            name: "surface",
+            what: "surface of a body with a profile (surface-profile 1.x)",
+            required: false,
+        },
+    ];
     type Scene = Scene;
 
     fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
@@ -108,5 +116,8 @@ fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
         (Gas::Table(_), Some(path)) => Some(GasFile::read(path)?),
         _ => None,
     };
-    assemble(scene, gas.as_ref())
+    match inputs.get("surface") {
+        Some(path) => assemble(&pool::deform(scene, path)?, gas.as_ref()),
+        None => assemble(scene, gas.as_ref()),
+    }
 }

@@ -2,18 +2,17 @@
 
 use artefact::Table;
 
-use crate::case::GAS;
+use crate::case::{Base, GAS};
 use crate::heat::balance::Balance;
 use crate::heat::sources::ContactHeat;
-use crate::heat::{Contact, Role, Surfaces};
+use crate::heat::{Role, Surfaces};
 use crate::scene::Sample;
 use crate::solver::Arc;
 
 /// Material of the base metal: the lowest electrode, where there is one.
 #[must_use]
 pub fn base(arc: &Arc) -> Option<usize> {
-    let row = arc.case.surface_row?;
-    Some(arc.case.material[arc.case.grid.cell(0, row - 1)])
+    arc.case.base.as_ref().map(|base| base.material)
 }
 
 fn surfaces(arc: &Arc) -> Option<(&Surfaces, &[ContactHeat])> {
@@ -54,52 +53,72 @@ pub fn power(arc: &Arc, balance: &Balance) -> f64 {
     }
 }
 
-/// The upward contacts of the base metal's top row, by column.
-fn columns<'a>(arc: &Arc, surfaces: &'a Surfaces) -> Vec<Option<(usize, &'a Contact)>> {
+/// A column of the base metal's surface.
+struct Column {
+    /// Column of the grid.
+    i: usize,
+    /// Row above the metal.
+    row: usize,
+    /// Contacts of its metal with gas, on top and, where the surface is steep, at its sides.
+    contacts: Vec<usize>,
+}
+
+/// The columns of the base metal that the gas touches.
+fn columns(arc: &Arc, surfaces: &Surfaces) -> Vec<Column> {
     let grid = &arc.case.grid;
-    let mut all = vec![None; grid.nr];
-    let Some(row) = arc.case.surface_row else {
-        return all;
+    let Some(base) = &arc.case.base else {
+        return Vec::new();
     };
+    let mut all: Vec<Vec<usize>> = vec![Vec::new(); grid.nr];
     for (n, contact) in surfaces.contacts.iter().enumerate() {
-        let i = contact.metal % grid.nr;
-        if contact.metal / grid.nr + 1 == row && contact.gas == grid.cell(i, row) {
-            all[i] = Some((n, contact));
+        if arc.case.material[contact.metal] == base.material {
+            all[contact.metal % grid.nr].push(n);
         }
     }
-    all
+    let touched = all.into_iter().enumerate();
+    let touched = touched.filter(|(i, contacts)| {
+        let row = base.above[*i].unwrap_or(0);
+        let tops = contacts
+            .iter()
+            .any(|n| surfaces.contacts[*n].gas == grid.cell(*i, row));
+        tops && row > 0
+    });
+    touched
+        .filter_map(|(i, contacts)| base.above[i].map(|row| Column { i, row, contacts }))
+        .collect()
 }
 
 /// The table of the surface, where there is a base metal, heat, current and flow.
 #[must_use]
 pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
     let (surfaces, found) = surfaces(arc)?;
-    let row = arc.case.surface_row?;
     let (heating, _) = (arc.heating.as_ref()?, arc.flowing.as_ref()?);
-    let rows: Vec<(usize, usize, &Contact)> = columns(arc, surfaces)
-        .into_iter()
-        .enumerate()
-        .filter_map(|(i, c)| c.map(|(n, c)| (i, n, c)))
-        .collect();
-    let electrode = &surfaces.electrodes[rows.first()?.2.electrode];
+    let rows = columns(arc, surfaces);
+    let first = *rows.first()?.contacts.first()?;
+    let electrode = &surfaces.electrodes[surfaces.contacts[first].electrode];
     let ionisation = match electrode.role {
         Role::Cathode {
             ionisation_voltage, ..
         } => ionisation_voltage,
         Role::Anode { .. } => 0.0,
     };
-    let per = |value: &dyn Fn(&ContactHeat) -> f64| -> Vec<f64> {
-        rows.iter().map(|(_, n, _)| value(&found[*n])).collect()
+    let ring = &arc.case.grid.ring;
+    // Per area of the plane: what steep parts take up belongs to their column.
+    let over = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let column = |c: &Column| match c.contacts.as_slice() {
+            [only] => value(*only),
+            all => {
+                let each = all.iter().map(|n| value(*n) * surfaces.contacts[*n].area);
+                each.sum::<f64>() / ring[c.i]
+            }
+        };
+        rows.iter().map(column).collect()
     };
-    let convection: Vec<f64> = rows
-        .iter()
-        .map(|(_, _, c)| heating.energy.convection(c))
-        .collect();
-    let total = rows
-        .iter()
-        .zip(&convection)
-        .map(|((_, n, _), q)| q + found[*n].absorbed + found[*n].parts.sum());
-    let table = gas_columns(arc, sample, row, &rows)
+    let per = |value: &dyn Fn(&ContactHeat) -> f64| over(&|n| value(&found[n]));
+    let convection = over(&|n| heating.energy.convection(&surfaces.contacts[n]));
+    let rest = per(&|f| f.absorbed + f.parts.sum());
+    let total = convection.iter().zip(rest).map(|(q, rest)| q + rest);
+    let table = gas_columns(arc, sample, &rows)
         .column(
             "heat_flux_convection_w_m2",
             "W/m2",
@@ -126,36 +145,35 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
             per(&|f| f.current - f.emitted),
         )
         .column("electron_current_density_a_m2", "A/m2", per(&|f| f.emitted))
-        .column("ionisation_voltage_v", "V", per(&|_| ionisation));
+        .column("ionisation_voltage_v", "V", rows.iter().map(|_| ionisation));
     Some(table)
 }
 
-/// A column of the base metal's surface: its index, and its contact with that one's index.
-type Row<'a> = (usize, usize, &'a Contact);
-
 /// Radius, gas, pressure and temperature of the metal.
-fn gas_columns(arc: &Arc, sample: &Sample, row: usize, rows: &[Row<'_>]) -> Table {
+fn gas_columns(arc: &Arc, sample: &Sample, rows: &[Column]) -> Table {
     let (grid, t) = (&arc.case.grid, arc.temperature());
-    let of = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
-        rows.iter().map(|(i, ..)| value(*i)).collect()
+    let of = |value: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
+        rows.iter().map(|c| value(c.i, c.row)).collect()
     };
-    let temperature = |i: usize| gas_temperature(arc, i, row, sample.temperature_height_m);
-    let velocity = |i: usize| gas_velocity(arc, i, row, sample.velocity_height_m);
-    let pressure = |i: usize| {
-        arc.flowing
-            .as_ref()
-            .map_or(0.0, |f| f.flow.pressure[grid.cell(i, row)])
-    };
-    Table::new(rows.len())
-        .column("radius_m", "m", of(&|i| grid.rc[i]))
+    let temperature =
+        |i: usize, row: usize| gas_temperature(arc, i, row, sample.temperature_height_m);
+    let velocity = |i: usize, row: usize| gas_velocity(arc, i, row, sample.velocity_height_m);
+    let flow = arc.flowing.as_ref().map(|f| &f.flow);
+    let pressure = |i: usize, row: usize| flow.map_or(0.0, |f| f.pressure[grid.cell(i, row)]);
+    let mut table = Table::new(rows.len())
+        .column("radius_m", "m", of(&|i, _| grid.rc[i]))
         .column("gas_temperature_k", "K", of(&temperature))
         .column("gas_radial_velocity_m_s", "m/s", of(&velocity))
         .column("arc_pressure_pa", "Pa", of(&pressure))
         .column(
             "surface_temperature_k",
             "K",
-            of(&|i| t[grid.cell(i, row - 1)]),
-        )
+            of(&|i, row| t[grid.cell(i, row - 1)]),
+        );
+    if arc.case.base.as_ref().is_some_and(Base::is_deformed) {
+        table = table.column("surface_height_m", "m", of(&|_, row| grid.zf[row]));
+    }
+    table
         .attribute("gas_temperature_height_m", "m", sample.temperature_height_m)
         .attribute("gas_velocity_height_m", "m", sample.velocity_height_m)
 }

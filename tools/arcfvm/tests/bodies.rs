@@ -198,3 +198,65 @@ fn a_bed_that_cannot_melt_is_refused() {
     let told = case(&scene).unwrap_err();
     assert!(told.contains("/bodies/flux/granular"), "{told}");
 }
+
+/// The two plates with gas that flows, the lower one below a curved surface.
+fn pressed(top: &Value) -> Value {
+    let mut scene = mirror(80.0);
+    scene["grid"] = json!({"r": 5e-4, "z": 5e-4});
+    let gas = scene["gas"]["given"].as_object_mut().unwrap();
+    gas.insert("density_kg_m3".to_owned(), json!({"expr": "480/T"}));
+    gas.insert("viscosity_pa_s".to_owned(), json!(1e-3));
+    scene["flow"] = json!({});
+    scene["bodies"]["lower"]["shape"] = json!({"profile": {
+        "r_m": [0, 0.01], "bottom_m": 0, "top": top
+    }});
+    scene["iterate"] = json!({"tolerance": 1e-7, "most": 3000});
+    scene
+}
+
+#[test]
+fn a_level_profile_is_a_ring() {
+    let level = pressed(&json!({"r_m": [0.005], "z_m": [0.004]}));
+    let mut ring = level.clone();
+    ring["bodies"]["lower"]["shape"] = json!({"ring": {"r_m": [0, 0.01], "z_m": [0, 0.004]}});
+    let (level, ring) = (case(&level).unwrap(), case(&ring).unwrap());
+    assert_eq!(level.grid, ring.grid);
+    assert_eq!(level.material, ring.material);
+    assert_eq!(level.base, ring.base);
+    assert!(!level.base.unwrap().is_deformed());
+}
+
+#[test]
+fn a_pit_takes_up_in_its_columns_what_its_walls_take_up() {
+    let scene = pressed(&json!({"r_m": [0, 0.004], "z_m": [0.002, 0.004]}));
+    let mut arc = solve(&scene);
+    let balance = arc.settle().unwrap();
+    let scale = balance.joule;
+    assert!(balance.closure().abs() < 1e-6 * scale);
+    let base = arc.case.base.clone().unwrap();
+    let grid = &arc.case.grid;
+    // Half of the first cell lies above 2 mm, where the pit is deepest.
+    assert!((grid.zf[base.above[0].unwrap()] - 0.002).abs() < 1e-12);
+    assert!(base.is_deformed() && (grid.zf[base.top()] - 0.004).abs() < 1e-12);
+    let table = arcfvm::surface::table(&arc, &read(&scene).sample).unwrap();
+    let sum = |name: &str| {
+        let values = table.values(name).unwrap();
+        let rings = values.iter().zip(&grid.ring);
+        rings.map(|(q, ring)| q * ring).sum::<f64>()
+    };
+    let lower = balance.electrodes[0];
+    let heat = lower.sum() - lower.joule;
+    assert!((sum("heat_flux_total_w_m2") - heat).abs() < 1e-9 * heat.abs());
+    assert!((sum("heat_flux_ion_w_m2") - lower.ion).abs() < 1e-9 * lower.ion);
+    // All current crosses the surface of the pit.
+    assert!((sum("current_density_a_m2") - 80.0).abs() < 1e-6 * 80.0);
+    assert!(table.values("surface_height_m").is_ok());
+}
+
+#[test]
+fn a_profile_without_a_surface_asks_for_the_input() {
+    let told = case(&pressed(&Value::Null)).unwrap_err();
+    assert!(told.contains("--input surface=FILE"), "{told}");
+    let told = case(&pressed(&json!({"r_m": [1, 1], "z_m": [0, 0]}))).unwrap_err();
+    assert!(told.contains("do not rise"), "{told}");
+}

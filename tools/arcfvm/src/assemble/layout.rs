@@ -1,9 +1,9 @@
 //! The grid and which body fills each cell.
 
 use crate::assemble::Faults;
-use crate::case::GAS;
+use crate::case::{Base, GAS};
 use crate::grid::{Grid, Spacing, faces, wanted};
-use crate::scene::{Body, Scene, Shape, Sides, SpacingScene};
+use crate::scene::{Body, Profile, Scene, Shape, Sides, SpacingScene};
 
 /// Most cells of a scene.
 const MOST_CELLS: usize = 4_000_000;
@@ -90,12 +90,19 @@ impl Layout {
         )
     }
 
-    /// The lowest row above the cells of `material` on the axis.
-    pub(crate) fn row_above(&self, material: usize) -> Option<usize> {
-        let last = (0..self.grid.nz)
-            .rev()
-            .find(|j| self.material[self.grid.cell(0, *j)] == material)?;
-        (last + 1 < self.grid.nz).then_some(last + 1)
+    /// The body of `material`, if there is room above it on the axis.
+    pub(crate) fn base(&self, material: usize) -> Option<Base> {
+        let grid = &self.grid;
+        let last = |i: usize| {
+            let mut rows = (0..grid.nz).rev();
+            rows.find(|j| self.material[grid.cell(i, *j)] == material)
+        };
+        let above = |i: usize| last(i).map(|j| j + 1).filter(|j| *j < grid.nz);
+        let base = Base {
+            material,
+            above: (0..grid.nr).map(above).collect(),
+        };
+        base.above[0].is_some().then_some(base)
     }
 
     /// The lowest material on the axis that `has`.
@@ -153,10 +160,19 @@ fn spacing(scene: &SpacingScene, at: &str, faults: &mut Faults) -> Option<Spacin
 fn rings(scene: &Scene, [r, z]: [[f64; 2]; 2], breaks: [&mut Vec<f64>; 2], faults: &mut Faults) {
     let [r_breaks, z_breaks] = breaks;
     for (name, body) in &scene.bodies {
+        if let Shape::Profile(profile) = &body.shape {
+            profile_breaks(
+                name,
+                profile,
+                [r, z],
+                [&mut *r_breaks, &mut *z_breaks],
+                faults,
+            );
+        }
         for (n, ring) in body.shape.rings().iter().enumerate() {
             let at = match &body.shape {
-                Shape::Ring(_) => format!("/bodies/{name}/shape/ring"),
                 Shape::Rings(_) => format!("/bodies/{name}/shape/rings/{n}"),
+                _ => format!("/bodies/{name}/shape/ring"),
             };
             inside(&format!("{at}/r_m"), ring.r_m, r, faults);
             inside(&format!("{at}/z_m"), ring.z_m, z, faults);
@@ -164,6 +180,33 @@ fn rings(scene: &Scene, [r, z]: [[f64; 2]; 2], breaks: [&mut Vec<f64>; 2], fault
             z_breaks.extend(ring.z_m);
         }
     }
+}
+
+/// The ends of a body with a curved top, its bottom, and its height at the outer end become faces.
+fn profile_breaks(
+    name: &str,
+    profile: &Profile,
+    [r, z]: [[f64; 2]; 2],
+    [r_breaks, z_breaks]: [&mut Vec<f64>; 2],
+    faults: &mut Faults,
+) {
+    let at = format!("/bodies/{name}/shape/profile");
+    let Some(top) = &profile.top else {
+        let what =
+            "is missing, and so is the input \"surface\" that would tell it: --input surface=FILE";
+        faults.add(&format!("{at}/top"), what);
+        return;
+    };
+    if let Some(what) = top.fault() {
+        faults.add(&format!("{at}/top"), what);
+        return;
+    }
+    inside(&format!("{at}/r_m"), profile.r_m, r, faults);
+    for height in &top.z_m {
+        inside(&format!("{at}/top"), [profile.bottom_m, *height], z, faults);
+    }
+    r_breaks.extend(profile.r_m);
+    z_breaks.extend([profile.bottom_m, top.height(profile.r_m[1])]);
 }
 
 /// Ends of the parts of sides become faces.
@@ -220,12 +263,11 @@ fn tidy(mut breaks: Vec<f64>, domain: [f64; 2]) -> Vec<f64> {
 fn fill(scene: &Scene, grid: &Grid, faults: &mut Faults) -> Vec<usize> {
     let mut material = vec![GAS; grid.len()];
     for (n, (name, body)) in scene.bodies.iter().enumerate() {
-        let rings = body.shape.rings();
         let mut filled = 0;
         for j in 0..grid.nz {
             for i in 0..grid.nr {
                 let (r, z) = (grid.rc[i], grid.zc[j]);
-                if !rings.iter().any(|ring| ring.holds(r, z)) {
+                if !body.shape.holds(r, z) {
                     continue;
                 }
                 let k = grid.cell(i, j);

@@ -105,7 +105,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     let parts = (&layout, &electrodes, flow.as_ref());
     let vapour = vapour::vapour(scene, gas, parts, &mut faults);
     faults.none()?;
-    let surface_row = electrodes.base.and_then(|m| layout.row_above(m));
+    let base = electrodes.base.and_then(|m| layout.base(m));
     Ok(Case {
         material: layout.material,
         materials,
@@ -115,7 +115,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         heat: heat.map(|heat| heat.giving_vapour_to(vapour.as_ref())),
         vapour,
         wire,
-        surface_row,
+        base,
         grid: layout.grid,
     })
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::electrode::{Anode, Cathode, Electrode};
 use super::granular::Granular;
+use super::shape::Shape;
 
 /// The gas: a table named on the command line, or properties given here.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
@@ -96,47 +97,6 @@ pub struct Body {
     pub moving: Option<Moving>,
     /// A bed of granular flux; one body at most.
     pub granular: Option<Granular>,
-}
-
-/// Where a body is.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Shape {
-    /// Between two radii and two heights.
-    Ring(Ring),
-    /// Several of these together.
-    Rings(Vec<Ring>),
-}
-
-impl Shape {
-    /// All rings of the shape.
-    #[must_use]
-    pub fn rings(&self) -> &[Ring] {
-        match self {
-            Self::Ring(ring) => std::slice::from_ref(ring),
-            Self::Rings(rings) => rings,
-        }
-    }
-}
-
-/// Between two radii and two heights.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Ring {
-    /// Inner and outer radius; an inner radius of 0 makes a cylinder.
-    #[schemars(extend("x-unit" = "m"))]
-    pub r_m: [f64; 2],
-    /// Lower and upper height.
-    #[schemars(extend("x-unit" = "m"))]
-    pub z_m: [f64; 2],
-}
-
-impl Ring {
-    /// Whether a point is inside.
-    #[must_use]
-    pub fn holds(&self, r: f64, z: f64) -> bool {
-        r > self.r_m[0] && r < self.r_m[1] && z > self.z_m[0] && z < self.z_m[1]
-    }
 }
 
 /// Properties of a body in r, z (m), T (K); those of physics that is absent may be absent.

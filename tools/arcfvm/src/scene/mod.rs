@@ -5,6 +5,7 @@ mod electrode;
 mod granular;
 mod iterate;
 mod matter;
+mod shape;
 mod vapour;
 
 pub use edges::{CurrentEdge, FlowEdge, HeatEdge, Sides};
@@ -12,9 +13,9 @@ pub use electrode::{Anode, Cathode, Electrode, Evaporation, Saturation};
 pub use granular::Granular;
 pub use iterate::{Coupling, Iterate, LinearSolver};
 pub use matter::{
-    BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, Ring, Shape,
-    SpecificHeat,
+    BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, SpecificHeat,
 };
+pub use shape::{Profile, Ring, Shape, Surface};
 
 pub use vapour::{Diffusion, Vapour, VapourEdge, VapourMass};
 
