@@ -13,7 +13,9 @@ use crate::cloud::Cloud;
 /// A link steeper than this against a face is whole; one along the face has half of its cross-section outside.
 const STEEP: f64 = 0.3;
 
-/// Pattern and weights of the pair form, `a_ij = 2 V_i V_j F_ij`.
+/// Pattern and weights of the pair form, `a_ij = 2 V_i V_j F_ij`, with the volumes as they would be far from any
+/// surface (in print all particles have one mass, those of the surface too), and of each link the part of its
+/// cross-section that lies inside the body.
 ///
 /// The sum that stands for the integral of `F r^2` is not exactly the number of dimensions, however fine the
 /// points; the weights are divided by its value on a plain lattice, so that the diffusivity is right.
@@ -21,30 +23,10 @@ const STEEP: f64 = 0.3;
 /// # Errors
 /// When a point has no neighbour.
 pub fn pair(cloud: &Cloud, smoothing: f64) -> Result<(Arc<Pattern>, Vec<f64>), OperatorError> {
-    weights(cloud, smoothing, |i, j, _| cloud.share[i] * cloud.share[j])
-}
-
-/// As [`pair`], with the volumes as they would be far from any surface, and of each link the part of its
-/// cross-section that lies inside the body.
-///
-/// # Errors
-/// When a point has no neighbour.
-pub fn trial(cloud: &Cloud, smoothing: f64) -> Result<(Arc<Pattern>, Vec<f64>), OperatorError> {
     let faces = Faces::of(cloud);
     let full: Vec<f64> = (0..cloud.share.len())
         .map(|i| cloud.share[i] * f64::from(1_u32 << faces.at(i).len().min(3)))
         .collect();
-    weights(cloud, smoothing, |i, j, d| {
-        let inside = faces.inside(i, d) * faces.inside(j, d);
-        full[i] * full[j] * inside.sqrt()
-    })
-}
-
-fn weights(
-    cloud: &Cloud,
-    smoothing: f64,
-    volumes: impl Fn(usize, usize, Vector) -> f64 + Sync,
-) -> Result<(Arc<Pattern>, Vec<f64>), OperatorError> {
     let pattern = Arc::new(search(cloud, smoothing)?);
     let scale = 2.0 / lattice_moment(smoothing, cloud.dimensions);
     let mut weight = vec![0.0; pattern.columns().len()];
@@ -52,7 +34,8 @@ fn weights(
         let d = difference(cloud.position[j], cloud.position[i]);
         let h = 0.5 * smoothing * (cloud.spacing[i] + cloud.spacing[j]);
         let force = -slope(length(d), h, cloud.dimensions);
-        scale * force * volumes(i, j, d)
+        let inside = faces.inside(i, d) * faces.inside(j, d);
+        scale * force * (full[i] * full[j] * inside.sqrt())
     });
     Ok((pattern, weight))
 }

@@ -8,7 +8,8 @@
 //!
 //! and `a_ij = a_ji`, so that what leaves one point arrives at the other. They differ in the weights:
 //! - [`kernel`]: the second term of Rong and Kisu (2010), eq. 3, which alone is the divergence of the heat flux
-//!   (errata), `a_ij = 2 V_i V_j F_ij` with `F = -(dW/dr)/r`.
+//!   (errata), `a_ij = 2 V_i V_j F_ij` with `F = -(dW/dr)/r`. On a plain lattice they are exact for linear fields
+//!   up to the surface as long as no link reaches past the next but one point (smoothing 1).
 //! - [`balance`]: these, each times a positive factor, such that linear fields are exact at every point of every
 //!   cloud and up to the boundary, and quadratic ones nearly so.
 
@@ -68,6 +69,14 @@ const LATTICE: f64 = 1.0;
 /// Factors of the smoothing length that are tried in turn where the usual one has no balanced weights.
 const WIDER: [f64; 3] = [1.15, 1.3, 1.5];
 
+fn usual_smoothing(cloud: &Cloud) -> f64 {
+    if cloud.lattice {
+        LATTICE
+    } else {
+        SMOOTHING[cloud.dimensions - 2]
+    }
+}
+
 impl Links {
     /// The links of a cloud.
     ///
@@ -76,7 +85,8 @@ impl Links {
     pub fn new(cloud: &Cloud, operator: Operator) -> Result<Self, OperatorError> {
         match operator {
             Operator::Pair(pair) => {
-                let (pattern, weight) = kernel::pair(cloud, pair.smoothing)?;
+                let smoothing = pair.smoothing.unwrap_or_else(|| usual_smoothing(cloud));
+                let (pattern, weight) = kernel::pair(cloud, smoothing)?;
                 Ok(Self {
                     pattern,
                     weight,
@@ -88,11 +98,7 @@ impl Links {
                 smoothing: Some(smoothing),
             }) => Self::balanced(cloud, smoothing),
             Operator::Corrected(_) => {
-                let usual = if cloud.lattice {
-                    LATTICE
-                } else {
-                    SMOOTHING[cloud.dimensions - 2]
-                };
+                let usual = usual_smoothing(cloud);
                 // Few layers or a sudden change of spacing may want more links than is usual.
                 let mut found = Self::balanced(cloud, usual);
                 for wider in WIDER {
@@ -108,7 +114,7 @@ impl Links {
 
     /// Balanced links of the given smoothing length over spacing.
     fn balanced(cloud: &Cloud, smoothing: f64) -> Result<Self, OperatorError> {
-        let (pattern, weight) = kernel::trial(cloud, smoothing)?;
+        let (pattern, weight) = kernel::pair(cloud, smoothing)?;
         balance::balanced(cloud, pattern, weight)
     }
 

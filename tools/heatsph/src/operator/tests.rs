@@ -127,7 +127,7 @@ fn few_layers_of_rings_are_balanced() {
 #[test]
 fn links_are_symmetric_to_the_bit() {
     let cloud = cloud(SQUARE, r#"{"spacing_m": 0.1, "jitter": 0.3}"#, 2);
-    for operator in [Operator::Pair(Pair { smoothing: 1.2 }), Operator::default()] {
+    for operator in [Operator::Pair(Pair::default()), Operator::default()] {
         let links = Links::new(&cloud, operator).unwrap();
         let weight = |i: usize, j: usize| {
             let k = links
@@ -149,6 +149,19 @@ fn links_are_symmetric_to_the_bit() {
 fn a_lone_point_is_named() {
     let mut cloud = cloud(SQUARE, r#"{"spacing_m": 0.5}"#, 2);
     cloud.position[0] = [9.0, 9.0, 0.0];
-    let error = Links::new(&cloud, Operator::Pair(Pair { smoothing: 1.0 })).unwrap_err();
+    let error = Links::new(&cloud, Operator::Pair(Pair::default())).unwrap_err();
     assert_eq!(error, OperatorError::Alone([9.0, 9.0, 0.0]));
+}
+
+#[test]
+fn the_pair_form_is_exact_on_a_lattice_and_off_on_shifted_points() {
+    for (points, exact) in [
+        (r#"{"spacing_m": 0.1}"#, true),
+        (r#"{"spacing_m": 0.1, "jitter": 0.1, "seed": 3}"#, false),
+    ] {
+        let cloud = cloud(SQUARE, points, 2);
+        let links = Links::new(&cloud, Operator::Pair(Pair::default())).unwrap();
+        let error = linear_error(&cloud, &links);
+        assert_eq!(error < 1e-12, exact, "{points}: {error:e}");
+    }
 }

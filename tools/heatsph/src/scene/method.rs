@@ -4,17 +4,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The pair form of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pair {
-    /// Smoothing length over spacing.
-    #[serde(default = "pair_smoothing")]
+    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.2 in a
+    /// plane and 1.05 in space.
     #[schemars(range(min = 0.6, max = 3.0), extend("x-unit" = "1"))]
-    pub smoothing: f64,
-}
-
-fn pair_smoothing() -> f64 {
-    1.2
+    pub smoothing: Option<f64>,
 }
 
 /// The balanced pair form.
