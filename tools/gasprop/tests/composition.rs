@@ -87,6 +87,8 @@ fn every_corner_is_conserved() {
                 for x in [
                     0.0,
                     1e-300,
+                    1e-50,
+                    1.85e-17,
                     1e-12,
                     0.01,
                     1.0 / 3.0,

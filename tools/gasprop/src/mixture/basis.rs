@@ -5,6 +5,7 @@
 //! at 300 K, for example, carbon and oxygen are both held by CO to thirty decimals; with CO and CO2 as components the
 //! second balance reads n(CO2) + 2 n(O2) + n(O) + ... = n(C) + 3 n(C3) + ..., where CO has dropped out exactly.
 
+use super::Element;
 use super::system::{CONSTRAINTS, System};
 use nalgebra::DMatrix;
 
@@ -46,50 +47,65 @@ impl Basis {
         let inverse =
             DMatrix::from_fn(count, count, |row, column| content(components[column], row))
                 .try_inverse()?;
-        let reactions = system
-            .members
-            .iter()
-            .map(|member| {
-                let mut reaction = [0.0; CONSTRAINTS];
-                for (j, slot) in reaction.iter_mut().enumerate().take(count) {
-                    let value: f64 = (0..count)
-                        .map(|row| inverse[(j, row)] * member.content[row])
-                        .sum();
-                    *slot = if value.abs() < NO_COEFFICIENT {
-                        0.0
-                    } else {
-                        value
-                    };
-                }
-                reaction
-            })
+        let members = system.members.iter();
+        let reactions = members
+            .map(|member| reaction(&inverse, &member.content))
             .collect();
+        let cold = cold_gas(system, &inverse);
+        let iron = system
+            .elements
+            .iter()
+            .position(|element| *element == Element::Fe);
+        let iron = iron.map_or([0.0; CONSTRAINTS], |place| {
+            let mut atom = [0.0; CONSTRAINTS];
+            atom[place] = 1.0;
+            reaction(&inverse, &atom)
+        });
+        let (mut moles, mut moles_by_iron) = ([0.0; CONSTRAINTS], [0.0; CONSTRAINTS]);
+        for j in 0..count {
+            moles[j] = system.recipe.gas * cold[j] + system.recipe.iron * iron[j];
+            moles_by_iron[j] = iron[j] - cold[j];
+        }
         Some(Self {
             components,
             reactions,
-            moles: transformed(&inverse, &system.moles),
-            moles_by_iron: transformed(&inverse, &system.moles_by_iron),
+            moles,
+            moles_by_iron,
         })
     }
 }
 
-/// Amounts per component from amounts per constraint.
-fn transformed(inverse: &DMatrix<f64>, amounts: &[f64; CONSTRAINTS]) -> [f64; CONSTRAINTS] {
-    let mut moles = [0.0; CONSTRAINTS];
-    for (j, slot) in moles.iter_mut().enumerate().take(inverse.nrows()) {
-        let (mut sum, mut size) = (0.0, 0.0);
-        for (row, amount) in amounts.iter().enumerate().take(inverse.ncols()) {
-            let factor = inverse[(j, row)];
-            if factor.abs() > NO_COEFFICIENT {
-                sum += factor * amount;
-                size += (factor * amount).abs();
-            }
-        }
-        *slot = if sum.abs() <= ROUNDINGS * f64::EPSILON * size {
+/// How many of each component make a particle of this content.
+fn reaction(inverse: &DMatrix<f64>, content: &[f64; CONSTRAINTS]) -> [f64; CONSTRAINTS] {
+    let mut reaction = [0.0; CONSTRAINTS];
+    for (j, slot) in reaction.iter_mut().enumerate().take(inverse.nrows()) {
+        let value: f64 = (0..inverse.ncols())
+            .map(|row| inverse[(j, row)] * content[row])
+            .sum();
+        *slot = if value.abs() < NO_COEFFICIENT {
             0.0
         } else {
-            sum
+            value
         };
+    }
+    reaction
+}
+
+/// Moles of each component in one mole of the cold gas. They are summed over what the gas was mixed of, not over its
+/// elements: where a component of the basis is one of the gas, the others get nothing, to the last digit, and the
+/// smallest trace of iron added later is not lost beside it.
+fn cold_gas(system: &System, inverse: &DMatrix<f64>) -> [f64; CONSTRAINTS] {
+    let (mut moles, mut sizes) = ([0.0; CONSTRAINTS], [0.0; CONSTRAINTS]);
+    for (content, fraction) in &system.cold {
+        for (j, coefficient) in reaction(inverse, content).into_iter().enumerate() {
+            moles[j] += coefficient * fraction;
+            sizes[j] += (coefficient * fraction).abs();
+        }
+    }
+    for (amount, size) in moles.iter_mut().zip(sizes) {
+        if amount.abs() <= ROUNDINGS * f64::EPSILON * size {
+            *amount = 0.0;
+        }
     }
     moles
 }

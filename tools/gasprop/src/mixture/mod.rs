@@ -37,6 +37,8 @@ pub struct Mixture {
     pub elements: Vec<Element>,
     /// Moles of each of `elements` in one mole of the cold gas without iron.
     pub base: Vec<f64>,
+    /// The components of the cold gas and their mole fractions.
+    cold: Vec<(Species, f64)>,
     with_iron: bool,
     lowering: Lowering,
 }
@@ -178,7 +180,14 @@ impl Mixture {
         base: &[(String, f64)],
         with_iron: bool,
     ) -> Result<Self, MixtureError> {
-        let moles = cold_elements(library, base)?;
+        let cold = cold_components(library, base)?;
+        let mut moles = [0.0; Element::ALL.len()];
+        for (slot, element) in moles.iter_mut().zip(Element::ALL) {
+            *slot = cold
+                .iter()
+                .map(|(species, x)| x * f64::from(species.count(element)))
+                .sum();
+        }
         let elements: Vec<Element> = Element::ALL
             .into_iter()
             .zip(moles)
@@ -206,6 +215,7 @@ impl Mixture {
             species,
             elements,
             base,
+            cold,
             with_iron,
             lowering: Lowering::default(),
         })
@@ -225,10 +235,12 @@ impl Mixture {
     }
 }
 
-/// Moles of each of [`Element::ALL`] in one mole of the cold gas.
-fn cold_elements(library: &Library, base: &[(String, f64)]) -> Result<[f64; 4], MixtureError> {
-    let mut moles = [0.0; 4];
-    let mut sum = 0.0;
+/// The components of a cold gas, checked.
+fn cold_components(
+    library: &Library,
+    base: &[(String, f64)],
+) -> Result<Vec<(Species, f64)>, MixtureError> {
+    let mut cold = Vec::with_capacity(base.len());
     for (name, fraction) in base {
         let species = library
             .get(name)
@@ -248,16 +260,14 @@ fn cold_elements(library: &Library, base: &[(String, f64)]) -> Result<[f64; 4], 
                 fraction: *fraction,
             });
         }
-        sum += fraction;
-        for (slot, element) in moles.iter_mut().zip(Element::ALL) {
-            *slot += fraction * f64::from(species.count(element));
-        }
+        cold.push((species.clone(), *fraction));
     }
-    if base.is_empty() {
+    if cold.is_empty() {
         return Err(MixtureError::Empty);
     }
+    let sum: f64 = cold.iter().map(|(_, fraction)| fraction).sum();
     if (sum - 1.0).abs() > 1e-9 {
         return Err(MixtureError::Sum { sum });
     }
-    Ok(moles)
+    Ok(cold)
 }

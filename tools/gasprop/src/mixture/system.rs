@@ -47,8 +47,10 @@ pub(super) struct System {
     pub(super) elements: Vec<Element>,
     /// Moles of each constraint's element in one mole of the mixture; 0 for the charge, which is the last.
     pub(super) moles: [f64; CONSTRAINTS],
-    /// d moles / d x.
-    pub(super) moles_by_iron: [f64; CONSTRAINTS],
+    /// Moles of cold gas and of iron.
+    pub(super) recipe: Recipe,
+    /// What the cold gas is mixed of: content of one particle, and mole fraction.
+    pub(super) cold: Vec<([f64; CONSTRAINTS], f64)>,
     /// The species.
     pub(super) members: Vec<Member>,
 }
@@ -56,14 +58,13 @@ pub(super) struct System {
 impl System {
     /// The species of `mixture` at `temperature` whose elements `recipe` brings.
     pub(super) fn new(mixture: &Mixture, temperature: f64, recipe: Recipe) -> Self {
-        let (mut moles, mut slopes) = ([0.0; CONSTRAINTS], [0.0; CONSTRAINTS]);
+        let mut moles = [0.0; CONSTRAINTS];
         let mut elements = Vec::with_capacity(CONSTRAINTS - 1);
         for (element, base) in mixture.elements.iter().zip(&mixture.base) {
             let added = f64::from(u8::from(*element == Element::Fe));
             let amount = base * recipe.gas + added * recipe.iron;
             if amount > 0.0 {
                 moles[elements.len()] = amount;
-                slopes[elements.len()] = added - base;
                 elements.push(*element);
             }
         }
@@ -79,11 +80,16 @@ impl System {
             })
             .map(|(index, species)| Member::new(index, species, &elements, temperature))
             .collect();
+        let present = mixture.cold.iter().filter(|_| recipe.gas > 0.0);
+        let cold = present
+            .map(|(species, fraction)| (content(species, &elements), *fraction))
+            .collect();
         Self {
             temperature,
             elements,
             moles,
-            moles_by_iron: slopes,
+            recipe,
+            cold,
             members,
         }
     }
@@ -99,15 +105,10 @@ impl Member {
         let thermal = BOLTZMANN * temperature;
         let internal = species.internal(temperature);
         let energy = species.formation + internal.energy;
-        let mut content = [0.0; CONSTRAINTS];
-        for (slot, element) in content.iter_mut().zip(elements) {
-            *slot = f64::from(species.count(*element));
-        }
-        content[elements.len()] = f64::from(species.charge);
         let flight = 2.0 * std::f64::consts::PI * species.mass * thermal / (PLANCK * PLANCK);
         Self {
             index,
-            content,
+            content: content(species, elements),
             ln_partition: 1.5 * flight.ln() + internal.ln_partition - species.formation / thermal,
             ln_partition_by_temperature: (1.5 + energy / thermal) / temperature,
             energy,
@@ -120,4 +121,14 @@ impl Member {
     pub(super) fn charge_squared(&self, system: &System) -> f64 {
         self.content[system.elements.len()].powi(2)
     }
+}
+
+/// Nuclei of each element in one particle, and its charge behind them.
+fn content(species: &Species, elements: &[Element]) -> [f64; CONSTRAINTS] {
+    let mut content = [0.0; CONSTRAINTS];
+    for (slot, element) in content.iter_mut().zip(elements) {
+        *slot = f64::from(species.count(*element));
+    }
+    content[elements.len()] = f64::from(species.charge);
+    content
 }
