@@ -5,6 +5,7 @@ mod arc_mms;
 mod arc_pinch;
 mod arc_poiseuille;
 mod arc_potential;
+mod gas_argon;
 mod heat_block_3d;
 mod heat_cylinder_flux;
 mod heat_exp_t;
@@ -34,6 +35,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_pinch::ArcPinch),
         Box::new(arc_poiseuille::ArcPoiseuille),
         Box::new(arc_potential::ArcPotential),
+        Box::new(gas_argon::GasArgon),
         Box::new(heat_patch::HeatPatch),
         Box::new(heat_exp_x::HeatExpX),
         Box::new(heat_exp_x_transient::HeatExpXTransient),

@@ -168,7 +168,12 @@ fn write(path: &Path, value: &Value) -> Result<(), LabError> {
 }
 
 /// What a run that finished may lose, as parts of the whole.
-const CONSERVED: [(&str, f64); 2] = [("mass_error", 1e-12), ("energy_balance", 5e-3)];
+const CONSERVED: [(&str, f64); 4] = [
+    ("mass_error", 1e-12),
+    ("energy_balance", 5e-3),
+    ("element_error", 1e-10),
+    ("charge_error", 1e-10),
+];
 
 /// A conserved total that was not conserved.
 fn lost(closing: &Value) -> Option<String> {

@@ -127,6 +127,12 @@ impl Column {
         };
         ALL.iter().filter(wanted).copied().collect()
     }
+
+    /// Whether a gas can have this value: a number, and none below 0 but enthalpy.
+    #[must_use]
+    pub fn can_be(&self, value: f64) -> bool {
+        value.is_finite() && (value >= 0.0 || self.part == Part::Enthalpy)
+    }
 }
 
 #[cfg(test)]
@@ -144,6 +150,19 @@ mod tests {
         assert_eq!(names(true, true).len(), 9);
         assert!(!names(false, true).contains(&"net_emission_w_m3"));
         assert!(!names(true, false).contains(&"iron_diffusion_m2_s"));
+    }
+
+    #[test]
+    fn only_enthalpy_may_be_negative() {
+        for column in ALL {
+            assert!(column.can_be(1.0) && !column.can_be(f64::NAN));
+            assert_eq!(
+                column.can_be(-1.0),
+                column.part == Part::Enthalpy,
+                "{}",
+                column.name
+            );
+        }
     }
 
     #[test]

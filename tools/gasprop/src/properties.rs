@@ -5,7 +5,8 @@ use thiserror::Error;
 use crate::columns::{Column, Part};
 use crate::constants::{AVOGADRO, BOLTZMANN};
 use crate::mixture::{
-    DataError, EquilibriumError, Library, Mixture, MixtureError, Species, Thermodynamics,
+    DataError, Element, EquilibriumError, Library, Mixture, MixtureError, Species, State,
+    Thermodynamics,
 };
 use crate::radiation::{Radiation, RadiationError};
 use crate::scene::Scene;
@@ -32,9 +33,9 @@ pub enum GasError {
     /// The composition.
     #[error(transparent)]
     Equilibrium(#[from] EquilibriumError),
-    /// A column that is no number.
+    /// A column that no gas can have.
     #[error("{column} is {value} {unit} at {temperature} K, iron mole fraction {iron}")]
-    NotFinite {
+    Value {
         /// The column.
         column: &'static str,
         /// Its value.
@@ -80,6 +81,28 @@ pub struct Point {
     pub parts: Vec<f64>,
     /// Mole fraction of each species.
     pub fractions: Vec<f64>,
+    /// How well elements and charge are kept.
+    pub kept: Kept,
+}
+
+/// How well a composition keeps what no reaction changes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Kept {
+    /// Greatest deviation of an element's part of all nuclei from what was put in, relative to that.
+    pub element: f64,
+    /// Net charge over the sum of positive and negative charge.
+    pub charge: f64,
+}
+
+impl Kept {
+    /// The worse of both.
+    #[must_use]
+    pub fn worse(self, other: Self) -> Self {
+        Self {
+            element: self.element.max(other.element),
+            charge: self.charge.max(other.charge),
+        }
+    }
 }
 
 impl Gas {
@@ -212,8 +235,45 @@ impl Gas {
             values: values.collect(),
             parts: parts(&transport),
             fractions: state.number.iter().map(|n| n / all).collect(),
+            kept: self.kept(&state),
         };
         self.checked(point, t, x)
+    }
+
+    /// Elements and charge of a composition, counted from the numbers themselves.
+    fn kept(&self, state: &State) -> Kept {
+        let species = &self.mixture.species;
+        let pairs = || species.iter().zip(&state.number);
+        let put: Vec<f64> = self
+            .mixture
+            .elements
+            .iter()
+            .zip(&self.mixture.base)
+            .map(|(element, moles)| {
+                let iron = if *element == Element::Fe {
+                    state.iron
+                } else {
+                    0.0
+                };
+                (1.0 - state.iron) * moles + iron
+            })
+            .collect();
+        let nuclei = |element: &Element| -> f64 {
+            pairs().map(|(s, n)| f64::from(s.count(*element)) * n).sum()
+        };
+        let found: Vec<f64> = self.mixture.elements.iter().map(nuclei).collect();
+        let (all_put, all_found): (f64, f64) = (put.iter().sum(), found.iter().sum());
+        let element = put
+            .iter()
+            .zip(&found)
+            .filter(|(put, _)| **put > 0.0)
+            .map(|(put, found)| (found * all_put / (all_found * put) - 1.0).abs());
+        let net: f64 = pairs().map(|(s, n)| f64::from(s.charge) * n).sum();
+        let sum: f64 = pairs().map(|(s, n)| f64::from(s.charge.abs()) * n).sum();
+        Kept {
+            element: element.fold(0.0, f64::max),
+            charge: if sum > 0.0 { (net / sum).abs() } else { 0.0 },
+        }
     }
 
     fn checked(&self, point: Point, temperature: f64, iron: f64) -> Result<Point, GasError> {
@@ -221,10 +281,10 @@ impl Gas {
         match columns
             .iter()
             .zip(&point.values)
-            .find(|(_, value)| !value.is_finite())
+            .find(|(column, value)| !column.can_be(**value))
         {
             None => Ok(point),
-            Some((column, value)) => Err(GasError::NotFinite {
+            Some((column, value)) => Err(GasError::Value {
                 column: column.name,
                 value: *value,
                 unit: column.unit,

@@ -8,7 +8,7 @@ use run::{Estimate, Failure, Fault, Inputs, Plan, Session, Tool};
 
 use crate::grid::{self, Sheet, Worst};
 use crate::mixture::MixtureError;
-use crate::properties::{Gas, GasError, PARTS, Point};
+use crate::properties::{Gas, GasError, Kept, PARTS, Point};
 use crate::scene::{Scene, Temperatures};
 use crate::table::{self, Errors, Rows};
 
@@ -58,9 +58,11 @@ impl Tool for GasProp {
             session,
             done: 0,
             total: states(scene) as u64,
+            kept: Kept::default(),
         };
         let (sheet, points) = temperatures(scene, &mut work)?;
         let between = work.rows(&sheet.temperatures, &grid::middles(scene.iron()))?;
+        let kept = work.kept;
         let rows = Rows {
             iron: scene.iron(),
             temperatures: &sheet.temperatures,
@@ -80,6 +82,8 @@ impl Tool for GasProp {
         session.table("/parts", 0.0, &rows.parts())?;
         let sources = table::sources(&gas, left_out(scene, &gas));
         session.json("/sources", 0.0, table::SOURCES, &sources)?;
+        session.closing("element_error", "1", kept.element);
+        session.closing("charge_error", "1", kept.charge);
         tell(scene, &gas, &errors, session);
         Ok(())
     }
@@ -119,6 +123,7 @@ struct Work<'a> {
     session: &'a mut Session,
     done: u64,
     total: u64,
+    kept: Kept,
 }
 
 impl Work<'_> {
@@ -137,6 +142,9 @@ impl Work<'_> {
                 found.into_iter().collect::<Result<Vec<_>, _>>()
             });
             rows.extend(found.map_err(failure)?);
+            for point in rows[rows.len() - some.len()..].iter().flatten() {
+                self.kept = self.kept.worse(point.kept);
+            }
             self.done += (some.len() * iron.len()) as u64;
             let hottest = some.iter().fold(0.0_f64, |most, t| most.max(*t));
             self.session.progress(self.done, self.total, || {

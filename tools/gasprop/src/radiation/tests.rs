@@ -2,7 +2,7 @@
 
 use super::{Radiation, continuum, escape, voigt};
 use crate::constants::{BOLTZMANN, ELECTRON_VOLT};
-use crate::mixture::{Library, Species};
+use crate::mixture::{Library, Mixture, Species};
 
 /// Each species alone, with no electrons: lines are all there is.
 fn alone(name: &str) -> (Library, Radiation, Vec<Species>) {
@@ -129,4 +129,53 @@ fn a_great_sphere_stays_below_the_black_body() {
     assert!(
         continuum::loss(1e4, 1e50, Some(1.0)) < 4.0 * crate::constants::STEFAN_BOLTZMANN * 1e16
     );
+}
+
+/// What escapes of argon's light above 200 nm in an optically thin gas, over a sample of a published coefficient: the
+/// ratios that the data tell of another program's sums. The published coefficient is itself uncertain; nothing is fitted
+/// to it.
+#[test]
+fn thin_argon_above_200_nm_is_to_published_light_as_the_data_say() {
+    let library = Library::embedded().unwrap();
+    let gas = Mixture::new(&library, &[("Ar".to_owned(), 1.0)], false).unwrap();
+    let radiation = Radiation::new(library.data(), &gas.species).unwrap();
+    let published = library.data()["radiation"]["argon_tps"]["data"]
+        .as_array()
+        .unwrap();
+    for (t, told) in [(8095.5, 1.08), (10_070.3, 1.42), (15_336.0, 1.13)] {
+        let row = published
+            .iter()
+            .find(|row| (row[0].as_f64().unwrap() - t).abs() < 20.0)
+            .unwrap();
+        let t = row[0].as_f64().unwrap();
+        let state = gas.equilibrium(t, 101_325.0, 0.0).unwrap();
+        let mut far_ultraviolet = 0.0;
+        for emitter in &radiation.emitters {
+            let own = &gas.species[emitter.place];
+            let per_state = state.number[emitter.place] * (-own.internal(t).ln_partition).exp();
+            for line in emitter
+                .spectrum
+                .lines
+                .iter()
+                .filter(|line| line.wavelength < 200e-9)
+            {
+                far_ultraviolet += per_state * line.power() * (-line.upper / (BOLTZMANN * t)).exp();
+            }
+        }
+        let all = radiation
+            .net_emission(&gas.species, t, &state.number, None)
+            .total();
+        let light = 4.0 * std::f64::consts::PI * row[1].as_f64().unwrap();
+        let ratio = (all - far_ultraviolet) / light;
+        assert!(
+            (ratio / told - 1.0).abs() < 0.03,
+            "{t} K: {ratio}, told {told}"
+        );
+        // The far ultraviolet is most of a thin gas's light, and hardly any leaves a millimetre.
+        let absorbed = radiation
+            .net_emission(&gas.species, t, &state.number, Some(1e-3))
+            .total();
+        assert!(far_ultraviolet > 2.0 * (all - far_ultraviolet), "{t} K");
+        assert!(absorbed < 2.0 * (all - far_ultraviolet), "{t} K");
+    }
 }
