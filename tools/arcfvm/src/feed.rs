@@ -17,7 +17,7 @@ impl Arc {
         let all = electrodes(&heating.setup, &heating.energy, &heating.sources);
         let surfaces = heating.setup.surfaces.as_ref();
         let name = &self.case.materials[wire.material].name;
-        let own = surfaces.and_then(|s| s.electrodes.iter().position(|e| e.name == *name));
+        let own = surfaces.and_then(|s| s.electrodes.iter().position(|e| *e.name == **name));
         let surface = own.map_or(0.0, |n| all[n].sum());
         let joule = self.electric.as_ref().map_or(0.0, |e| {
             let cells = e.potential.joule.iter().zip(&self.case.material);

@@ -8,7 +8,7 @@ use crate::fields::magnetic::AtCentre;
 use crate::heat::balance::Balance;
 use crate::scene::Sample;
 use crate::solver::{Arc, Electric};
-use crate::{bed, surface};
+use crate::{bed, iron, surface};
 
 /// Writes every channel that the solved fields fill.
 ///
@@ -31,7 +31,7 @@ pub fn write(
 }
 
 /// Values of every cell in the order of a grid table, the height running fastest.
-fn by_height(arc: &Arc, value: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+pub(crate) fn by_height(arc: &Arc, value: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let grid = &arc.case.grid;
     (0..grid.nr)
         .flat_map(|i| (0..grid.nz).map(move |j| (i, j)))
@@ -72,6 +72,7 @@ fn plasma(arc: &Arc) -> Table {
             table = table.column(name, unit, by_height(arc, value));
         }
     }
+    table = iron::plasma(arc, table);
     if let Some(slag) = bed::slag(arc) {
         table = table.column("slag", "1", by_height(arc, |i, j| slag[cell(i, j)]));
     }
@@ -156,7 +157,7 @@ fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
             arc.feed * wire.section,
         );
     }
-    record
+    iron::record(arc, balance, record)
 }
 
 /// What the base metal takes up in all, drops included, and the part of the power that it is (Komen

@@ -11,6 +11,7 @@ pub mod fields;
 pub mod frames;
 pub mod grid;
 pub mod heat;
+mod iron;
 mod limits;
 pub mod march;
 pub mod material;
@@ -26,6 +27,7 @@ pub mod settings;
 pub mod solver;
 pub mod surface;
 pub mod transport;
+pub mod vaporising;
 
 use std::time::{Duration, Instant};
 

@@ -9,6 +9,7 @@ use crate::scene::Scene;
 const COLUMNS_CURRENT: usize = 30;
 const COLUMNS_FLOW: usize = 60;
 const COLUMNS_HEAT: usize = 32;
+const COLUMNS_VAPOUR: usize = 36;
 
 /// Columns of the artefact's `/plasma` where heat, flow and current are solved.
 const HEAT: [(&str, &str); 1] = [("temperature_k", "K")];
@@ -26,6 +27,8 @@ const CURRENT: [(&str, &str); 6] = [
     ("lorentz_axial_n_m3", "N/m3"),
 ];
 
+const VAPOUR: [(&str, &str); 1] = [("iron_mass_fraction", "1")];
+
 /// The plan of an assembled scene.
 #[must_use]
 pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
@@ -41,6 +44,7 @@ pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
         ("current", scene.current.is_some(), COLUMNS_CURRENT),
         ("flow", scene.flow.is_some(), COLUMNS_FLOW),
         ("heat", scene.heat.is_some(), COLUMNS_HEAT),
+        ("vapour", scene.vapour.is_some(), COLUMNS_VAPOUR),
     ];
     for (name, active, columns) in parts {
         plan = if active {
@@ -53,6 +57,7 @@ pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
         (scene.heat.is_some(), &HEAT[..]),
         (scene.flow.is_some(), &FLOW[..]),
         (scene.current.is_some(), &CURRENT[..]),
+        (scene.vapour.is_some(), &VAPOUR[..]),
     ] {
         for (name, unit) in columns.iter().filter(|_| active) {
             plan = plan.column(name, unit);

@@ -11,6 +11,8 @@ pub struct Residuals {
     pub mass: Option<f64>,
     /// Heat: unbalanced over the power put in and taken out.
     pub heat: Option<f64>,
+    /// Iron: unbalanced over what metal gives off and edges exchange.
+    pub iron: Option<f64>,
     /// Change that the speed of the wire still wants.
     pub feed: Option<f64>,
     /// Part of the bed of flux that still boils or comes back.
@@ -27,6 +29,7 @@ impl Residuals {
             ("residual_force", self.force),
             ("residual_mass", self.mass),
             ("residual_heat", self.heat),
+            ("residual_iron", self.iron),
             ("residual_feed", self.feed),
             ("residual_cavity", self.cavity),
         ];

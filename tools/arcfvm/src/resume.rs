@@ -27,6 +27,12 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_f64("pressure", &flow.pressure);
         c.put_f64("mass_radial", &flow.mass_radial);
         c.put_f64("mass_axial", &flow.mass_axial);
+        if !flow.mass_source.is_empty() {
+            c.put_f64("mass_source", &flow.mass_source);
+        }
+    }
+    if let Some(vaporising) = &arc.vaporising {
+        c.put_f64("iron", &vaporising.vapour.iron);
     }
     if let Some(heating) = &arc.heating {
         c.put_f64("temperature", &heating.energy.temperature);
@@ -61,6 +67,12 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         flow.pressure = c.f64("pressure")?;
         flow.mass_radial = c.f64("mass_radial")?;
         flow.mass_axial = c.f64("mass_axial")?;
+        if !flow.mass_source.is_empty() {
+            flow.mass_source = c.f64("mass_source")?;
+        }
+    }
+    if let Some(vaporising) = &mut arc.vaporising {
+        vaporising.vapour.iron = c.f64("iron")?;
     }
     if let Some(heating) = &mut arc.heating {
         heating.energy.temperature = c.f64("temperature")?;

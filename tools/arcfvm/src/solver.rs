@@ -7,12 +7,14 @@ use crate::fields::flow::Flow;
 use crate::fields::magnetic::Magnetic;
 use crate::fields::potential::Potential;
 use crate::fields::pressure::{FlowProperties, FlowResidual, FlowSolver};
+use crate::fields::vapour::Vapour;
 use crate::heat::balance::Balance;
 use crate::heat::sources::{Reads, Sources};
 use crate::limits::check;
 use crate::properties::Properties;
 use crate::residual::{Residuals, part};
 use crate::settings::Settings;
+use crate::vaporising::Vaporising;
 
 /// Iterations between two looks at which surface sees which gas shine.
 const VIEW_EVERY: usize = 20;
@@ -70,7 +72,7 @@ pub struct Heating {
 pub struct Arc {
     /// The problem.
     pub case: Case,
-    settings: Settings,
+    pub(crate) settings: Settings,
     /// Iterations done.
     pub iteration: usize,
     /// Properties of every cell.
@@ -81,6 +83,8 @@ pub struct Arc {
     pub flowing: Option<Flowing>,
     /// Heat, where solved.
     pub heating: Option<Heating>,
+    /// Iron vapour, where solved.
+    pub vaporising: Option<Vaporising>,
     /// Speed of the wire \[m/s\].
     pub feed: f64,
     /// Part of the bed of flux that changed when it was last looked at.
@@ -111,6 +115,10 @@ impl Arc {
             energy: Energy::new(&case, settings.energy.clone()),
             sources: Sources::default(),
         });
+        let vaporising = case.vapour.clone().map(|setup| Vaporising {
+            vapour: Vapour::new(&case, &setup, settings.energy.clone()),
+            setup,
+        });
         let properties = Properties::new(&case);
         let mut arc = Self {
             case,
@@ -120,6 +128,7 @@ impl Arc {
             electric,
             flowing,
             heating,
+            vaporising,
             feed: 0.0,
             boiled: None,
         };
@@ -161,6 +170,9 @@ impl Arc {
             let found = clock.timed("flow", || self.solve_flow())?;
             (residuals.force, residuals.mass) = (Some(found[0]), Some(found[1]));
         }
+        if self.vaporising.is_some() {
+            residuals.iron = Some(clock.timed("vapour", || self.solve_vapour())?);
+        }
         if self.heating.is_some() {
             clock.timed("heat sources", || self.take_sources());
             let (heat, limited) = clock.timed("heat", || self.solve_heat())?;
@@ -177,6 +189,7 @@ impl Arc {
     /// written belongs together; returns the balance.
     pub fn settle(&mut self) -> Option<Balance> {
         self.take_properties();
+        self.settle_vapour();
         self.take_sources();
         let heating = self.heating.as_ref()?;
         let Heating {
@@ -212,12 +225,14 @@ impl Arc {
             case,
             properties,
             heating,
+            vaporising,
             ..
         } = self;
+        let iron = vaporising.as_ref().map(|v| v.vapour.iron.as_slice());
         let temperature = heating
             .as_ref()
             .map_or(&case.start, |h| &h.energy.temperature);
-        properties.update(case, temperature, None);
+        properties.update(case, temperature, iron);
     }
 
     fn solve_current(&mut self) -> Result<f64, Error> {
@@ -290,6 +305,7 @@ impl Arc {
             electric,
             flowing,
             heating,
+            vaporising,
             iteration,
             feed,
             ..
@@ -312,12 +328,16 @@ impl Arc {
             wire.carry(case, *feed, &mut energy.mass_axial);
         }
         energy.conduct(case, setup.surfaces.as_ref(), properties);
+        if let Some(v) = vaporising {
+            energy.mix(case, setup, &v.setup, &v.vapour);
+        }
         let reads = Reads {
             case,
             heat: setup,
             properties,
             potential: electric.as_ref().map(|e| &e.potential),
             temperature: &energy.temperature,
+            vapour: vaporising.as_ref().map(Vaporising::read),
         };
         let view = *iteration % VIEW_EVERY == 1 || self.settings.view_always;
         sources.update(reads, view, &mut energy.source);

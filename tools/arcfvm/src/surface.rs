@@ -3,9 +3,10 @@
 use artefact::Table;
 
 use crate::case::{Base, GAS};
+use crate::heat::Surfaces;
 use crate::heat::balance::Balance;
 use crate::heat::sources::ContactHeat;
-use crate::heat::{Role, Surfaces};
+use crate::iron;
 use crate::scene::Sample;
 use crate::solver::Arc;
 
@@ -94,14 +95,7 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
     let (surfaces, found) = surfaces(arc)?;
     let (heating, _) = (arc.heating.as_ref()?, arc.flowing.as_ref()?);
     let rows = columns(arc, surfaces);
-    let first = *rows.first()?.contacts.first()?;
-    let electrode = &surfaces.electrodes[surfaces.contacts[first].electrode];
-    let ionisation = match electrode.role {
-        Role::Cathode {
-            ionisation_voltage, ..
-        } => ionisation_voltage,
-        Role::Anode { .. } => 0.0,
-    };
+    rows.first()?;
     let ring = &arc.case.grid.ring;
     // Per area of the plane: what steep parts take up belongs to their column.
     let over = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
@@ -110,6 +104,17 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
             all => {
                 let each = all.iter().map(|n| value(*n) * surfaces.contacts[*n].area);
                 each.sum::<f64>() / ring[c.i]
+            }
+        };
+        rows.iter().map(column).collect()
+    };
+    let mean = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let area = |n: &usize| surfaces.contacts[*n].area;
+        let column = |c: &Column| match c.contacts.as_slice() {
+            [only] => value(*only),
+            all => {
+                let sum: f64 = all.iter().map(|n| value(*n) * area(n)).sum();
+                sum / all.iter().map(area).sum::<f64>()
             }
         };
         rows.iter().map(column).collect()
@@ -145,8 +150,8 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
             per(&|f| f.current - f.emitted),
         )
         .column("electron_current_density_a_m2", "A/m2", per(&|f| f.emitted))
-        .column("ionisation_voltage_v", "V", rows.iter().map(|_| ionisation));
-    Some(table)
+        .column("ionisation_voltage_v", "V", mean(&|n| found[n].ionisation));
+    Some(iron::surface(arc, table, &over, &mean))
 }
 
 /// Radius, gas, pressure and temperature of the metal.

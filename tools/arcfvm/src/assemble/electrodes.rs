@@ -143,7 +143,7 @@ fn electrode(
         }
     };
     Some(Electrode {
-        name: name.to_owned(),
+        name: name.into(),
         absorbs: false,
         role,
         emissivity,

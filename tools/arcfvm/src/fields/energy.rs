@@ -8,10 +8,12 @@
 
 use relax::{Coefficients, Error, FivePoint, Outcome};
 
-use crate::case::{Case, GAS, HeatCase, HeatEdge};
+use crate::case::{Case, GAS, HeatCase, HeatEdge, VapourCase};
 use crate::fields::Solver;
 use crate::fields::energy_edges::{Beyond, FaceOf, Side, edge_of};
 use crate::fields::faces::Carriers;
+use crate::fields::mixing::{Mixed, Mixing};
+use crate::fields::vapour::Vapour;
 use crate::heat::{Contact, FaceIndex, Surfaces};
 use crate::properties::Properties;
 use crate::transport::{dirichlet, hybrid};
@@ -41,6 +43,8 @@ pub struct Energy {
     /// Heat into each cell \[W\] and its slope with the temperature \[W/K\]: Joule heat, radiation,
     /// surfaces, plate, given sources.
     pub source: Vec<[f64; 2]>,
+    /// Mixing with vapour, where there is any.
+    mixing: Option<Mixing>,
     on_electrode: Vec<bool>,
     /// Calmness of each cell, times the under-relaxation: falls where changes alternate.
     pub(crate) calm: Vec<f64>,
@@ -75,21 +79,10 @@ pub struct Step {
     pub limit: f64,
 }
 
-/// The scheme's coefficient in W/K for the neighbour at `(t_e, h_e)` of `(t_p, h_p)`.
-fn coefficient(
-    mass_out: f64,
-    conductance: f64,
-    here: (f64, f64),
-    there: (f64, f64),
-    slope: impl Fn() -> f64,
-    scheme: fn(f64, f64) -> f64,
-) -> f64 {
-    if mass_out == 0.0 {
-        return conductance;
-    }
+/// Specific heat between two states of temperature and enthalpy.
+fn capacity(here: (f64, f64), there: (f64, f64), slope: impl Fn() -> f64) -> f64 {
     let (dt, dh) = (here.0 - there.0, here.1 - there.1);
-    let heat_capacity = if dt.abs() > 1e-3 { dh / dt } else { slope() };
-    scheme(mass_out, conductance / heat_capacity) * heat_capacity
+    if dt.abs() > 1e-3 { dh / dt } else { slope() }
 }
 
 /// Gas cells that touch an electrode.
@@ -108,6 +101,7 @@ impl Energy {
     pub fn new(case: &Case, solver: Solver) -> Self {
         let grid = &case.grid;
         Self {
+            mixing: case.vapour.as_ref().map(|_| Mixing::new(case)),
             on_electrode: on_electrode(case),
             calm: vec![1.0; grid.len()],
             last: vec![0.0; grid.len()],
@@ -150,7 +144,8 @@ impl Energy {
             }
         }
         for contact in surfaces.iter().flat_map(|s| &s.contacts) {
-            let conductance = self.film(case, contact, kappa[contact.metal]);
+            let iron = properties.iron_at(contact.gas);
+            let conductance = self.film(case, contact, kappa[contact.metal], iron);
             match contact.face {
                 FaceIndex::Radial(face) => self.radial[face] = conductance,
                 FaceIndex::Axial(face) => self.axial[face] = conductance,
@@ -159,11 +154,11 @@ impl Energy {
     }
 
     /// Gas at the mean of both temperatures in series with half a metal cell (eqs 5.17, 5.18).
-    fn film(&self, case: &Case, contact: &Contact, metal: f64) -> f64 {
+    fn film(&self, case: &Case, contact: &Contact, metal: f64, iron: f64) -> f64 {
         let film = 0.5 * (self.temperature[contact.gas] + self.temperature[contact.metal]);
         let [r, z] = contact.place;
         let law = case.of(contact.gas).thermal_conductivity.as_ref();
-        let gas = law.map_or(0.0, |l| l.at(r, z, film));
+        let gas = law.map_or(0.0, |l| l.within(r, z, film, iron));
         contact.area / (contact.gas_half / gas + contact.metal_half / metal)
     }
 
@@ -202,13 +197,13 @@ impl Energy {
             match face.beyond {
                 Beyond::Cell(n) => {
                     let there = (self.temperature[n], h[n]);
-                    *side =
-                        coefficient(face.mass_out, face.conductance, here, there, slope, hybrid);
+                    *side = self.link(&face, hybrid, || capacity(here, there, slope));
+                    c.source -= self.mixed(&face, hybrid);
                 }
                 Beyond::Edge(edge) => {
                     let (a, t) = self.edge(case, heat, edge, face, here);
                     c.centre += a;
-                    c.source += a * t;
+                    c.source += a * t - self.mixed(&face, dirichlet);
                     if let HeatEdge::Flux(flux) = *edge_of(heat, edge) {
                         c.source += flux * face.area;
                     }
@@ -239,17 +234,46 @@ impl Energy {
         };
         let there = (t, enthalpy.at(t));
         let slope = || enthalpy.slope(here.0);
-        (
-            coefficient(
-                face.mass_out,
-                face.conductance,
-                here,
-                there,
-                slope,
-                dirichlet,
-            ),
-            t,
-        )
+        let a = self.link(&face, dirichlet, || capacity(here, there, slope));
+        (a, t)
+    }
+
+    /// The scheme's coefficient of a face in W/K.
+    fn link(
+        &self,
+        face: &FaceOf,
+        scheme: fn(f64, f64) -> f64,
+        capacity: impl FnOnce() -> f64,
+    ) -> f64 {
+        if face.mass_out == 0.0 {
+            return face.conductance;
+        }
+        let capacity = match &self.mixing {
+            Some(mixing) => mixing.at(face).capacity,
+            None => capacity(),
+        };
+        scheme(face.mass_out, face.conductance / capacity) * capacity
+    }
+
+    /// Heat that leaves through a face with the mixing of gas and vapour \[W\].
+    pub(crate) fn mixed(&self, face: &FaceOf, scheme: fn(f64, f64) -> f64) -> f64 {
+        self.mixing.as_ref().map_or(0.0, |mixing| {
+            let mix = mixing.at(face);
+            scheme(face.mass_out, mix.diffusion) * mix.shift
+        })
+    }
+
+    /// Takes the mixing with `vapour` at the present temperatures.
+    pub fn mix(&mut self, case: &Case, heat: &HeatCase, setup: &VapourCase, vapour: &Vapour) {
+        if let Some(mixing) = &mut self.mixing {
+            mixing.update(Mixed {
+                case,
+                heat,
+                setup,
+                vapour,
+                temperature: &self.temperature,
+            });
+        }
     }
 
     pub(crate) fn faces(&self, case: &Case, i: usize, j: usize) -> [FaceOf; 4] {

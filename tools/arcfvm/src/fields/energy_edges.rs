@@ -2,7 +2,9 @@
 
 use crate::case::{Case, HeatCase, HeatEdge};
 use crate::fields::energy::Energy;
+use crate::heat::FaceIndex;
 use crate::properties::Properties;
+use crate::transport::dirichlet;
 
 /// Heat through the edges \[W\]; what enters is positive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,7 +28,7 @@ impl Energy {
     ) {
         let here = (self.temperature[face.own], properties.enthalpy[face.own]);
         let (a, t) = self.edge(case, heat, edge, face, here);
-        let exchange = a * (t - here.0);
+        let exchange = a * (t - here.0) - self.mixed(&face, dirichlet);
         let flux = match *edge_of(heat, edge) {
             HeatEdge::Flux(flux) => flux * face.area,
             _ => 0.0,
@@ -80,6 +82,9 @@ pub(crate) enum Beyond {
 pub(crate) struct FaceOf {
     pub(crate) own: usize,
     pub(crate) beyond: Beyond,
+    pub(crate) at: FaceIndex,
+    /// Whether the face lies at the smaller radius or height of its cell.
+    pub(crate) before: bool,
     pub(crate) mass_out: f64,
     pub(crate) conductance: f64,
     pub(crate) area: f64,

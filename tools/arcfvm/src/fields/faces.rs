@@ -2,6 +2,7 @@
 
 use crate::fields::energy_edges::{Beyond, FaceOf, Side};
 use crate::grid::Grid;
+use crate::heat::FaceIndex;
 
 /// Mass fluxes and conductances at the faces of the grid.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +26,8 @@ impl Carriers<'_> {
             FaceOf {
                 own,
                 beyond,
+                at: FaceIndex::Radial(face),
+                before: sign < 0.0,
                 mass_out: sign * self.mass_radial[face],
                 conductance: self.radial[face],
                 area: grid.area(at, j),
@@ -35,6 +38,8 @@ impl Carriers<'_> {
             FaceOf {
                 own,
                 beyond,
+                at: FaceIndex::Axial(face),
+                before: sign < 0.0,
                 mass_out: sign * self.mass_axial[face],
                 conductance: self.axial[face],
                 area: grid.ring[i],

@@ -1,6 +1,6 @@
 //! Velocities, pressure and mass fluxes on the staggered grid.
 
-use crate::case::{Case, FlowCase, FlowEdge, GAS, HeatEdge};
+use crate::case::{Case, FlowCase, FlowEdge, GAS, HeatEdge, VapourEdge};
 use crate::grid::Grid;
 
 /// Whether a face velocity is solved.
@@ -25,6 +25,8 @@ pub struct Flow {
     pub mass_radial: Vec<f64>,
     /// Mass flux through axial faces, upward \[kg/s\].
     pub mass_axial: Vec<f64>,
+    /// Mass that comes into each cell with vapour \[kg/s\]; empty where none does.
+    pub mass_source: Vec<f64>,
     /// What each radial face is.
     pub radial_kind: Vec<Face>,
     /// What each axial face is.
@@ -47,6 +49,7 @@ impl Flow {
     pub fn new(case: &Case, setup: &FlowCase) -> Self {
         let grid = &case.grid;
         let [radial_kind, axial_kind] = kinds(case, setup);
+        let adds = case.vapour.as_ref().is_some_and(|v| v.adds);
         let start = |kinds: &[Face]| {
             kinds
                 .iter()
@@ -59,6 +62,7 @@ impl Flow {
             pressure: vec![0.0; grid.len()],
             mass_radial: vec![0.0; grid.radial_faces()],
             mass_axial: vec![0.0; grid.axial_faces()],
+            mass_source: vec![0.0; if adds { grid.len() } else { 0 }],
             radial_kind,
             axial_kind,
             inlet_density: inlets(case),
@@ -136,8 +140,12 @@ impl Flow {
     #[must_use]
     pub fn imbalance(&self, grid: &Grid, i: usize, j: usize) -> f64 {
         let (r, z) = (grid.radial_face(i, j), grid.axial_face(i, j));
-        self.mass_radial[r + 1] - self.mass_radial[r] + self.mass_axial[z + grid.nr]
-            - self.mass_axial[z]
+        let out = self.mass_radial[r + 1] - self.mass_radial[r] + self.mass_axial[z + grid.nr]
+            - self.mass_axial[z];
+        match self.mass_source.get(grid.cell(i, j)) {
+            Some(source) => out - source,
+            None => out,
+        }
     }
 
     /// Mean mass flow through a section \[kg/s\], for scale: that found, or that which the range of
@@ -267,18 +275,47 @@ fn kinds(case: &Case, setup: &FlowCase) -> [Vec<Face>; 2] {
 /// Densities of the gas at edges whose temperature is given.
 fn inlets(case: &Case) -> Inlets {
     let grid = &case.grid;
-    let density =
-        |edge: Option<HeatEdge>, r: f64, z: f64| match (edge, &case.materials[GAS].density) {
-            (Some(HeatEdge::Temperature(t)), Some(law)) => Some(law.at(r, z, t)),
-            _ => None,
+    let density = |edge: Option<HeatEdge>, iron: Option<VapourEdge>, r: f64, z: f64| {
+        let Some(HeatEdge::Temperature(t)) = edge else {
+            return None;
         };
+        let y = match iron {
+            None => 0.0,
+            Some(VapourEdge::Fraction(y)) => y,
+            Some(VapourEdge::Sealed) => return None,
+        };
+        let law = case.materials[GAS].density.as_ref();
+        law.map(|l| l.within(r, z, t, y))
+    };
     let edges = case.heat.as_ref().map(|h| &h.edges);
+    let iron = case.vapour.as_ref().map(|v| &v.edges);
     let (r_end, z_end) = (grid.rf[grid.nr], grid.zf[grid.nz]);
     let along_z = |f: &dyn Fn(usize) -> Option<f64>| (0..grid.nz).map(f).collect();
     let along_r = |f: &dyn Fn(usize) -> Option<f64>| (0..grid.nr).map(f).collect();
     Inlets {
-        outer: along_z(&|j| density(edges.map(|e| e.outer[j]), r_end, grid.zc[j])),
-        bottom: along_r(&|i| density(edges.map(|e| e.bottom[i]), grid.rc[i], grid.zf[0])),
-        top: along_r(&|i| density(edges.map(|e| e.top[i]), grid.rc[i], z_end)),
+        outer: along_z(&|j| {
+            density(
+                edges.map(|e| e.outer[j]),
+                iron.map(|e| e.outer[j]),
+                r_end,
+                grid.zc[j],
+            )
+        }),
+        bottom: along_r(&|i| {
+            density(
+                edges.map(|e| e.bottom[i]),
+                iron.map(|e| e.bottom[i]),
+                grid.rc[i],
+                grid.zf[0],
+            )
+        }),
+        top: along_r(&|i| {
+            density(
+                edges.map(|e| e.top[i]),
+                iron.map(|e| e.top[i]),
+                grid.rc[i],
+                z_end,
+            )
+        }),
     }
 }

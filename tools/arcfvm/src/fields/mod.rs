@@ -6,11 +6,13 @@ pub mod energy_edges;
 mod faces;
 pub mod flow;
 pub mod magnetic;
+mod mixing;
 pub mod momentum_axial;
 pub mod momentum_radial;
 pub mod potential;
 pub mod pressure;
 pub mod sheath;
+pub mod vapour;
 
 use relax::{
     Error, FivePoint, Incomplete, Krylov, Multigrid, Outcome, Precondition, Sor, Workspace,

@@ -53,6 +53,8 @@ pub struct Balance {
     pub electrodes: Vec<ElectrodeHeat>,
     /// Carried away by all moving plates.
     pub plate: f64,
+    /// With vapour off metal.
+    pub vapour: f64,
     /// Radiation taken up by granular flux and slag.
     pub granular: f64,
     /// Through the edges by conduction.
@@ -85,6 +87,7 @@ impl Balance {
             electrodes: electrodes(heat, energy, sources),
             plate: -sources.plates.iter().sum::<f64>(),
             granular: sources.granular,
+            vapour: sources.vapour,
             edges: through.conduction,
             flow: through.flow,
             drops: -drops,
@@ -98,7 +101,7 @@ impl Balance {
         let surface = |e: &ElectrodeHeat| e.sum() - e.convection - e.joule + e.into_gas;
         let surfaces: f64 = self.electrodes.iter().map(surface).sum();
         let inner = self.joule + self.given + self.radiation + surfaces;
-        inner + self.granular + self.plate + self.edges + self.flow + self.drops
+        inner + self.vapour + self.granular + self.plate + self.edges + self.flow + self.drops
     }
 }
 

@@ -23,6 +23,8 @@
 //! (eq. 4.10; eqs 5.16 and 5.19 leave out the surroundings), vapour as Hertz and Knudsen tell for
 //! evaporation into a gas free of it.
 
+use std::sync::Arc;
+
 /// Charge of the electron over Boltzmann's constant \[K/V\].
 const KELVIN_PER_VOLT: f64 = 11_604.518_12;
 /// Stefan-Boltzmann constant \[W/(m2 K4)\].
@@ -77,7 +79,7 @@ pub struct Evaporation {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Electrode {
     /// Name of the body.
-    pub name: String,
+    pub name: Arc<str>,
     /// Anode or cathode.
     pub role: Role,
     /// Emissivity.
@@ -129,6 +131,31 @@ impl Evaporation {
 }
 
 impl Electrode {
+    /// The same beside gas with the mole fraction `fraction` of iron, whose ionisation voltage is `iron`
+    /// \[V\]: a cathode's goes linearly from its own to that one.
+    #[must_use]
+    pub fn beside(&self, fraction: f64, iron: f64) -> Self {
+        let mut electrode = self.clone();
+        if let Role::Cathode {
+            ionisation_voltage, ..
+        } = &mut electrode.role
+        {
+            *ionisation_voltage += fraction * (iron - *ionisation_voltage);
+        }
+        electrode
+    }
+
+    /// Ionisation voltage of the gas beside a cathode \[V\]; 0 at an anode.
+    #[must_use]
+    pub fn ionisation(&self) -> f64 {
+        match self.role {
+            Role::Anode { .. } => 0.0,
+            Role::Cathode {
+                ionisation_voltage, ..
+            } => ionisation_voltage,
+        }
+    }
+
     /// Current density of emitted electrons \[A/m2\] where the whole is `current`, the surface at `t`
     /// and the gas beside it at `gas` \[K\] (eq. 5.20, or the energy of the layer).
     #[must_use]
@@ -247,6 +274,15 @@ mod tests {
         let hot = e.heat(1e7, 5000.0, 300.0);
         assert!(hot.ion.abs() < 1e-9);
         assert!((hot.electron + 1e7 * 3.85).abs() < 1e-3);
+    }
+
+    #[test]
+    fn iron_in_the_gas_lowers_the_ionisation_voltage_linearly() {
+        let quarter = cathode().beside(0.25, 7.9);
+        assert!((quarter.ionisation() - (0.75 * 15.68 + 0.25 * 7.9)).abs() < 1e-12);
+        let cold = quarter.heat(1e7, 300.0, 300.0);
+        assert!((cold.ion - 1e7 * quarter.ionisation()).abs() < 1e-3);
+        assert!((cathode().beside(0.0, 7.9).ionisation() - 15.68).abs() < 1e-15);
     }
 
     #[test]

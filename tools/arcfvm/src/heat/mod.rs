@@ -7,6 +7,7 @@ pub mod granular;
 pub mod motion;
 pub mod radiation;
 pub mod sources;
+pub mod vapour;
 
 pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
 

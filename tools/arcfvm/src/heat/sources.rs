@@ -2,6 +2,7 @@
 
 use crate::case::{Case, HeatCase};
 use crate::fields::potential::Potential;
+use crate::heat::vapour::Vapours;
 use crate::heat::{Contact, FaceIndex, SurfaceHeat, Surfaces, radiation};
 use crate::properties::Properties;
 
@@ -20,6 +21,8 @@ pub struct ContactHeat {
     pub into_gas: f64,
     /// Power of the layer in front of a cathode.
     pub layer: f64,
+    /// Ionisation voltage beside a cathode \[V\].
+    pub ionisation: f64,
 }
 
 /// The heat sources of one iteration.
@@ -42,6 +45,8 @@ pub struct Sources {
     given_size: f64,
     /// Joule heat \[W\].
     pub joule: f64,
+    /// Heat that vapour brings into the gas \[W\].
+    pub vapour: f64,
 }
 
 /// What the sources read.
@@ -57,6 +62,8 @@ pub struct Reads<'a> {
     pub potential: Option<&'a Potential>,
     /// Temperature \[K\].
     pub temperature: &'a [f64],
+    /// Iron vapour, where there is any.
+    pub vapour: Option<Vapours<'a>>,
 }
 
 /// Current density through a contact \[A/m2\].
@@ -92,6 +99,9 @@ impl Sources {
         self.warm_bed(reads, out);
         if let Some(surfaces) = &reads.heat.surfaces {
             self.surfaces(reads, surfaces, view, out);
+            if let Some(vapours) = reads.vapour {
+                self.vapour = self.take_vapour(reads, surfaces, vapours, out);
+            }
         }
         self.carry_away(reads, out);
     }
@@ -125,7 +135,8 @@ impl Sources {
                 continue;
             };
             let (r, z, t) = (case.grid.rc[i], case.grid.zc[j], reads.temperature[k]);
-            let slope = (law.at(r, z, 1.001 * t) - value) / (0.001 * t);
+            let y = reads.properties.iron_at(k);
+            let slope = (law.within(r, z, 1.001 * t, y) - value) / (0.001 * t);
             out[k][0] -= value * volume;
             out[k][1] -= slope.max(0.0) * volume;
         }
@@ -146,7 +157,7 @@ impl Sources {
             self.stale = false;
         }
         for (n, contact) in surfaces.contacts.iter().enumerate() {
-            let electrode = &surfaces.electrodes[contact.electrode];
+            let electrode = reads.electrode(surfaces, contact);
             let current = reads.potential.map_or(0.0, |p| current(p, contact));
             let t = reads.temperature[contact.metal];
             let gas = reads.temperature[contact.gas];
@@ -159,6 +170,7 @@ impl Sources {
                 absorbed: self.absorbed[n],
                 into_gas,
                 layer: electrode.layer(current, parts),
+                ionisation: electrode.ionisation(),
             };
             out[contact.gas][0] += contact.area * into_gas;
             let cell = &mut out[contact.metal];

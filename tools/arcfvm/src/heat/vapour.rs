@@ -1,0 +1,109 @@
+//! Heat that vapour takes off metal and into the gas (Komen 2019, the last term of eqs 5.16 and 5.19).
+//!
+//! Metal that evaporates gives off the latent heat, `q = J L`, and its vapour enters the gas as warm as the
+//! metal, with the enthalpy `h(T_metal, Y = 1)`. Vapour that condenses leaves as warm as the gas and brings
+//! the metal what it is warmer, beside the latent heat. What the vapour displaces leaves with the
+//! enthalpy of the gas where vapour adds to its mass, else with that of the gas without iron: so the balance
+//! of the energy goes with that of the iron.
+
+use std::borrow::Cow;
+
+use crate::case::VapourCase;
+use crate::fields::vapour::Vapour;
+use crate::heat::sources::{Reads, Sources};
+use crate::heat::{Contact, Electrode, Surfaces};
+
+/// The vapour that surfaces meet.
+#[derive(Debug, Clone, Copy)]
+pub struct Vapours<'a> {
+    /// The problem.
+    pub setup: &'a VapourCase,
+    /// Its state.
+    pub vapour: &'a Vapour,
+}
+
+/// Heat with the vapour of one contact.
+struct Carried {
+    /// Into the metal \[W/m2\].
+    metal: f64,
+    /// Into the gas, less what is displaced \[W/m2\].
+    gas: f64,
+    /// Slope of the latter with the temperature of the gas \[W/(m2 K)\], never positive.
+    slope: f64,
+    /// Into the domain with the vapour \[W/m2\].
+    enters: f64,
+}
+
+impl Reads<'_> {
+    /// The electrode of a contact: one whose ionisation voltage is that of the gas beside it, linear in the
+    /// mole fraction of iron (Komen 2019, text under eq. 5.21).
+    pub(crate) fn electrode<'s>(
+        &self,
+        surfaces: &'s Surfaces,
+        contact: &Contact,
+    ) -> Cow<'s, Electrode> {
+        let electrode = &surfaces.electrodes[contact.electrode];
+        let Some(Vapours { setup, vapour }) = self.vapour else {
+            return Cow::Borrowed(electrode);
+        };
+        let Some(iron) = setup.ionisation else {
+            return Cow::Borrowed(electrode);
+        };
+        let fraction = setup.molar.mole(vapour.iron[contact.gas]);
+        Cow::Owned(electrode.beside(fraction, iron))
+    }
+
+    fn carried(&self, of: Vapours<'_>, contact: &Contact, n: usize) -> Option<Carried> {
+        let Vapours { setup, vapour } = of;
+        let metal = setup.metals[contact.electrode].as_ref()?;
+        let law = self.case.of(contact.gas).enthalpy.as_ref()?;
+        let (surface, gas) = (
+            self.temperature[contact.metal],
+            self.temperature[contact.gas],
+        );
+        let (flux, iron) = (vapour.passed[n].flux, vapour.iron[contact.gas]);
+        let held = if setup.adds { iron } else { 0.0 };
+        let displaced = law.within(gas, held);
+        let (vapour_k, warmer, slope) = if flux > 0.0 {
+            (surface, 0.0, -flux * law.slope_within(gas, held))
+        } else {
+            (gas, law.within(gas, 1.0) - law.within(surface, 1.0), 0.0)
+        };
+        let brought = law.within(vapour_k, 1.0);
+        let leaves = if setup.adds { 0.0 } else { displaced };
+        Some(Carried {
+            metal: -flux * (metal.latent_heat + warmer),
+            gas: flux * (brought - displaced),
+            slope,
+            enters: flux * (brought - leaves),
+        })
+    }
+}
+
+impl Sources {
+    /// Adds the heat of the vapour of every contact; returns what enters the gas with it \[W\].
+    pub(crate) fn take_vapour(
+        &mut self,
+        reads: Reads<'_>,
+        surfaces: &Surfaces,
+        of: Vapours<'_>,
+        out: &mut [[f64; 2]],
+    ) -> f64 {
+        let mut enters = 0.0;
+        for (n, contact) in surfaces.contacts.iter().enumerate() {
+            let Some(carried) = reads.carried(of, contact, n) else {
+                continue;
+            };
+            let slope = of
+                .vapour
+                .slope(reads.case, of.setup, contact, reads.temperature);
+            self.contacts[n].parts.vapour += carried.metal;
+            out[contact.metal][0] += contact.area * carried.metal;
+            out[contact.metal][1] -= contact.area * slope;
+            out[contact.gas][0] += contact.area * carried.gas;
+            out[contact.gas][1] += contact.area * carried.slope;
+            enters += contact.area * carried.enters;
+        }
+        enters
+    }
+}
