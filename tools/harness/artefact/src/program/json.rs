@@ -11,7 +11,7 @@ use super::trouble::{Trouble, file_error};
 use super::validate::schema_faults;
 
 /// Schemas of our JSON files by kind.
-const SCHEMAS: [(&str, &str); 7] = [
+const SCHEMAS: [(&str, &str); 8] = [
     (
         "run-record",
         include_str!("../../../../../schemas/run-record.v1.json"),
@@ -19,6 +19,10 @@ const SCHEMAS: [(&str, &str); 7] = [
     (
         "gas-table",
         include_str!("../../../../../schemas/gas-table.v1.json"),
+    ),
+    (
+        "gas-reference",
+        include_str!("../../../../../schemas/gas-reference.v1.json"),
     ),
     (
         "verification",
