@@ -19,6 +19,9 @@ pub(crate) struct Groups {
     of: Vec<u32>,
     starts: Vec<u32>,
     members: Vec<u32>,
+    /// For [`Self::sum`]: where the entry of each group stands, and the entries of a row.
+    slot: Vec<u32>,
+    entries: Vec<(u32, f64)>,
 }
 
 impl Groups {
@@ -40,6 +43,8 @@ impl Groups {
             of,
             starts,
             members,
+            slot: vec![NONE; count],
+            entries: Vec::new(),
         }
     }
 
@@ -49,6 +54,7 @@ impl Groups {
 
     pub(crate) fn bytes(&self) -> usize {
         4 * (self.of.capacity() + self.starts.capacity() + self.members.capacity())
+            + 4 * self.slot.capacity()
     }
 
     fn group(&self, g: usize) -> &[u32] {
@@ -86,15 +92,15 @@ impl Groups {
     /// Sums the rows of each group into `coarse`. Couplings to rows in no group stay in the
     /// diagonal, as those to fixed values do.
     pub(crate) fn sum(
-        &self,
+        &mut self,
         (rows, balance): (&Rows, &Balance),
         coarse: &mut Rows,
         sums: &mut Balance,
     ) -> Result<(), Error> {
         coarse.clear();
         sums.clear();
-        let mut slot = vec![NONE; self.len()];
-        let mut entries: Vec<(u32, f64)> = Vec::new();
+        let mut slot = std::mem::take(&mut self.slot);
+        let mut entries = std::mem::take(&mut self.entries);
         for g in 0..self.len() {
             entries.clear();
             let mut excess = 0.0;
@@ -122,11 +128,13 @@ impl Groups {
             let diagonal = excess + coarse.push(entries.iter().copied());
             if diagonal.is_nan() || diagonal <= 0.0 {
                 let index = leader as usize;
+                (self.slot, self.entries) = (slot, entries);
                 return Err(Error::Singular { index });
             }
             coarse.close(diagonal);
             sums.push(diagonal, excess, leader);
         }
+        (self.slot, self.entries) = (slot, entries);
         Ok(())
     }
 }

@@ -11,6 +11,8 @@ pub(crate) struct Dense {
     n: usize,
     /// Below the diagonal the multipliers, on it the inverse pivots, above it the couplings.
     factors: Vec<f64>,
+    /// What is left of the excess of each row while factorising.
+    excess: Vec<f64>,
 }
 
 impl Dense {
@@ -28,9 +30,12 @@ impl Dense {
                 self.factors[i * n + j as usize] += f64::from(w);
             }
         }
-        let mut excess = balance.excess.clone();
+        let Self {
+            factors, excess, ..
+        } = self;
+        excess.clone_from(&balance.excess);
         for k in 0..n {
-            let (upper, lower) = self.factors.split_at_mut((k + 1) * n);
+            let (upper, lower) = factors.split_at_mut((k + 1) * n);
             let row = &mut upper[k * n..];
             let pivot = excess[k] + row[k + 1..].iter().sum::<f64>();
             if pivot.is_nan() || pivot <= 0.0 {

@@ -48,6 +48,8 @@ pub struct Aggregation {
     scale: f64,
     levels: Vec<Level>,
     bottom: Dense,
+    /// Balances of a fine and of a coarse matrix, for [`Self::renew`].
+    balances: [Balance; 2],
 }
 
 impl Aggregation {
@@ -72,7 +74,7 @@ impl Aggregation {
                 let graph = Graph::of(&rows, &balance);
                 groups::form(View::Part(&graph, &balance))
             };
-            let groups = Groups::new(of, count);
+            let mut groups = Groups::new(of, count);
             let (mut coarse, mut sums) = (Rows::default(), Balance::default());
             groups.sum((&rows, &balance), &mut coarse, &mut sums)?;
             let zeros = || vec![0.0; count];
@@ -93,19 +95,21 @@ impl Aggregation {
 
     /// Takes new coefficients of a matrix of the same size; groups stay as they are, unless many
     /// rows have lost the strong diagonal that kept them out of all groups (a time step that grew):
-    /// then all is built anew. After other great changes, [`Self::new`] may save iterations.
+    /// then all is built anew, and the answer is true. After other great changes, [`Self::new`] may
+    /// save iterations.
     ///
     /// # Errors
     /// As for [`Self::new`], and when the number of rows differs. The hierarchy is then not fit for
     /// use until it has been renewed.
-    pub fn renew(&mut self, a: &Sparse) -> Result<(), Error> {
+    pub fn renew(&mut self, a: &Sparse) -> Result<bool, Error> {
         if a.len() != self.n {
             return Err(Error::Size {
                 expected: self.n,
                 found: a.len(),
             });
         }
-        let (mut rows, mut balance) = (Rows::default(), Balance::default());
+        let mut rows = Rows::default();
+        let [mut balance, mut sums] = std::mem::take(&mut self.balances);
         if let Some(top) = self.levels.first_mut() {
             std::mem::swap(&mut rows, &mut top.rows);
         }
@@ -115,20 +119,22 @@ impl Aggregation {
             let level = &mut fine[k];
             if level.groups.outgrown(&balance) {
                 *self = Self::new(a, self.symmetric)?;
-                return Ok(());
+                return Ok(true);
             }
             let mut coarse = match rest.first_mut() {
                 Some(next) => std::mem::take(&mut next.rows),
                 None => Rows::default(),
             };
-            let mut sums = Balance::default();
             level
                 .groups
                 .sum((&rows, &balance), &mut coarse, &mut sums)?;
             level.rows = rows;
-            (rows, balance) = (coarse, sums);
+            rows = coarse;
+            std::mem::swap(&mut balance, &mut sums);
         }
-        self.bottom.factorise(&rows, &balance)
+        self.bottom.factorise(&rows, &balance)?;
+        self.balances = [balance, sums];
+        Ok(false)
     }
 
     /// The finest matrix.
