@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::case::Case;
+use crate::fields::Unsolved;
 
 /// Everything that stops `arcfvm`, with the values and units on both sides.
 #[derive(Debug, Error)]
@@ -79,21 +80,13 @@ impl Error {
     }
 
     /// A solver's error, with the cell's position.
-    pub fn solver(
-        equation: &'static str,
-        iteration: usize,
-        case: &Case,
-        error: &relax::Error,
-    ) -> Self {
-        let (column, row) = match error {
-            relax::Error::NotFinite { column, row, .. }
-            | relax::Error::NotPositive { column, row, .. } => (*column, *row),
-        };
+    pub fn solver(equation: &'static str, iteration: usize, case: &Case, error: &Unsolved) -> Self {
+        let (column, row) = (error.column, error.row);
         // Staggered cells reach one beyond the grid.
         let cell = case
             .grid
             .cell(column.min(case.grid.nr - 1), row.min(case.grid.nz - 1));
-        Self::diverged(equation, iteration, case.place(cell), error.to_string())
+        Self::diverged(equation, iteration, case.place(cell), error.what.clone())
     }
 
     /// A scene error at `path`.

@@ -94,7 +94,7 @@ const PARTS: [Part; 5] = [
 ];
 
 /// 0 gas, 1 wire, 2 base metal, 3 and above any other body in the order of names.
-fn role(arc: &Arc, material: f64) -> f64 {
+pub(crate) fn role(arc: &Arc, material: f64) -> f64 {
     let index = material as usize;
     let wire = arc.case.wire.map(|w| w.material);
     let base = surface::base(arc);

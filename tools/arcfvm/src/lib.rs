@@ -5,6 +5,7 @@ pub mod assemble;
 pub mod bed;
 pub mod case;
 mod cavity;
+pub mod continuation;
 pub mod error;
 mod feed;
 pub mod fields;
@@ -25,13 +26,15 @@ pub mod resume;
 pub mod scene;
 pub mod settings;
 pub mod solver;
+pub mod stagnation;
+pub mod start;
 pub mod surface;
 pub mod transport;
 pub mod vaporising;
 
 use std::time::{Duration, Instant};
 
-use run::{Estimate, Failure, Input, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Fault, Input, Inputs, Plan, Session, Tool};
 
 use assemble::{GasFile, assemble};
 use case::Case;
@@ -73,6 +76,11 @@ impl Tool for ArcFvm {
             what: "surface of a body with a profile (surface-profile 1.x)",
             required: false,
         },
+        Input {
+            name: "start",
+            what: "a solution to start from (arc-source 1.x), on any grid",
+            required: false,
+        },
     ];
     type Scene = Scene;
 
@@ -102,6 +110,9 @@ impl Tool for ArcFvm {
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
         let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
+        if let Some(path) = inputs.get("start") {
+            start::take(&mut arc, path)?;
+        }
         march::march(&mut arc, &scene.iterate, session)?;
         let balance = arc.settle();
         if let Some(told) = arc.beyond_table()? {
@@ -118,8 +129,17 @@ fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
         (Gas::Table(_), Some(path)) => Some(GasFile::read(path)?),
         _ => None,
     };
-    match inputs.get("surface") {
+    let case = match inputs.get("surface") {
         Some(path) => assemble(&pool::deform(scene, path)?, gas.as_ref()),
         None => assemble(scene, gas.as_ref()),
+    }?;
+    let driven = case.potential.as_ref().and_then(|p| p.driven);
+    if scene.iterate.continuation.is_some() && driven.is_none() {
+        let what = "wants a total_current_a at one of the edges: there is no current to follow";
+        return Err(Failure::Scene(vec![Fault::at(
+            "/iterate/continuation",
+            what,
+        )]));
     }
+    Ok(case)
 }

@@ -1,37 +1,94 @@
 //! From the first iteration to the steady state, with everything that the record keeps.
 
+use artefact::Checkpoint;
 use run::{Failure, Session};
 
+use crate::continuation::Steps;
 use crate::heat::balance::Balance;
 use crate::pace::Pace;
-use crate::residual::{Residuals, part};
+use crate::residual::{EQUATIONS, Residuals, part};
 use crate::resume;
 use crate::scene::Iterate;
 use crate::solver::Arc;
+use crate::stagnation::{self, Trail};
 use crate::surface;
 
 /// Iterations between two points of the recorded history.
 const HISTORY_EVERY: usize = 10;
 
-/// Iterates until every residual is within the tolerance or the iterations are spent.
+/// What the iteration keeps beside the fields.
+struct Course<'a> {
+    rule: &'a Iterate,
+    pace: Pace,
+    trail: Trail,
+    steps: Steps,
+}
+
+impl<'a> Course<'a> {
+    /// The course from the start, or on from a checkpoint.
+    fn new(arc: &mut Arc, rule: &'a Iterate, session: &mut Session) -> Result<Self, Failure> {
+        let driven = arc.case.potential.as_ref().and_then(|p| p.driven);
+        let mut course = Self {
+            rule,
+            pace: Pace::new(rule.velocity_relaxation, rule.temperature_relaxation),
+            trail: Trail::default(),
+            steps: Steps::new(rule.continuation.as_ref(), driven.unwrap_or(0.0)),
+        };
+        let Some(mut checkpoint) = session.restored() else {
+            course.steps.begin(arc);
+            return Ok(course);
+        };
+        resume::restore(arc, &mut checkpoint)?;
+        let all = std::mem::replace(&mut course.steps, checkpoint.json("steps")?);
+        course.steps.resume(arc, &all);
+        course.pace = checkpoint.json("pace")?;
+        course.pace.set(arc);
+        course.trail = checkpoint.json("trail")?;
+        Ok(course)
+    }
+
+    fn keep(&self, c: &mut Checkpoint) -> artefact::Result<()> {
+        c.put_json("pace", &self.pace)?;
+        c.put_json("trail", &self.trail)?;
+        c.put_json("steps", &self.steps)
+    }
+
+    /// Whether the residuals end the iteration.
+    fn done(&self, arc: &Arc, residuals: &Residuals) -> bool {
+        let met = residuals.met(self.rule.tolerance, &self.rule.stop);
+        met && arc.iteration > 2 && self.steps.over()
+    }
+
+    /// Acts on the residuals of an iteration: next current, pace.
+    fn act(&mut self, arc: &mut Arc, residuals: &Residuals, session: &mut Session) {
+        self.trail.push(residuals.worst());
+        let at = arc.iteration as f64;
+        if let Some(current) = self.steps.watch(arc, residuals) {
+            session.history("current", "A", at, current);
+            self.pace = Pace::new(
+                self.rule.velocity_relaxation,
+                self.rule.temperature_relaxation,
+            );
+            self.pace.set(arc);
+        } else if self.pace.watch(residuals.worst()) {
+            self.pace.set(arc);
+            session.history("temperature_relaxation", "1", at, self.pace.temperature);
+        }
+    }
+}
+
+/// Iterates until every equation holds as the scene asks, or the iterations are spent.
 ///
 /// # Errors
 /// When a field diverges or the user interrupts.
 pub fn march(arc: &mut Arc, rule: &Iterate, session: &mut Session) -> Result<(), Failure> {
-    let mut pace = Pace::new(rule.velocity_relaxation, rule.temperature_relaxation);
-    if let Some(mut checkpoint) = session.restored() {
-        resume::restore(arc, &mut checkpoint)?;
-        pace = checkpoint.json("pace")?;
-        pace.set(arc);
-    }
+    let mut course = Course::new(arc, rule, session)?;
     let mut last = Residuals::default();
     while arc.iteration < rule.most {
         last = arc.iterate(session)?;
-        let done = last.within(rule.tolerance) && arc.iteration > 2;
+        let done = course.done(arc, &last);
         if done || arc.iteration.is_multiple_of(HISTORY_EVERY) {
-            for (name, value) in last.named() {
-                session.history(name, "1", arc.iteration as f64, value);
-            }
+            record(arc, &last, session);
         }
         session.progress(arc.iteration as u64, rule.most as u64, || {
             status(arc, &last)
@@ -40,27 +97,31 @@ pub fn march(arc: &mut Arc, rule: &Iterate, session: &mut Session) -> Result<(),
             session.steps(arc.iteration as u64);
             return Ok(());
         }
-        if pace.watch(last.worst()) {
-            pace.set(arc);
-            session.history(
-                "temperature_relaxation",
-                "1",
-                arc.iteration as f64,
-                pace.temperature,
-            );
-        }
+        course.act(arc, &last, session);
         session.keep(|c| {
-            c.put_json("pace", &pace)?;
+            course.keep(c)?;
             resume::keep(arc, c)
         })?;
     }
     session.warn(format!(
-        "not converged after {} iterations: greatest residual {:.1e}, wanted {:.1e}",
+        "not converged after {} iterations: {}",
         arc.iteration,
-        last.worst(),
-        rule.tolerance
+        stagnation::told(arc, &last, (rule.tolerance, &rule.stop), &course.trail)
     ));
     Ok(())
+}
+
+/// Residuals as parts of their scales and as amounts.
+fn record(arc: &Arc, residuals: &Residuals, session: &mut Session) {
+    let at = arc.iteration as f64;
+    for (name, value) in residuals.named() {
+        session.history(name, "1", at, value);
+    }
+    for ((name, unit), found) in EQUATIONS.iter().zip(&residuals.unbalanced) {
+        if let Some(found) = found {
+            session.history(&format!("unbalanced_{name}"), unit, at, found.amount);
+        }
+    }
 }
 
 fn status(arc: &Arc, residuals: &Residuals) -> Vec<(&'static str, f64, &'static str)> {

@@ -2,6 +2,7 @@
 
 use artefact::Checkpoint;
 
+use crate::fields::Solver;
 use crate::solver::Arc;
 
 /// Puts the state into a checkpoint.
@@ -19,6 +20,7 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
     if let Some(electric) = &arc.electric {
         c.put_f64("potential", &electric.potential.value);
         c.put_f64("drive", &[electric.potential.drive]);
+        groups(c, "potential", &electric.potential.solver)?;
     }
     if let Some(flowing) = &arc.flowing {
         let flow = &flowing.flow;
@@ -30,6 +32,7 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         if !flow.mass_source.is_empty() {
             c.put_f64("mass_source", &flow.mass_source);
         }
+        groups(c, "pressure", &flowing.solver.pressure_solver)?;
     }
     if let Some(vaporising) = &arc.vaporising {
         c.put_f64("iron", &vaporising.vapour.iron);
@@ -40,6 +43,7 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_f64("last_change", &heating.energy.last);
         c.put_u8("alternations", &heating.energy.alternations);
         c.put_f64("absorbed", heating.sources.absorbed());
+        groups(c, "energy", &heating.energy.solver)?;
     }
     Ok(())
 }
@@ -49,6 +53,7 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
 /// # Errors
 /// When a column is missing or damaged.
 pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
+    let nr = arc.case.grid.nr;
     arc.iteration = c.json("iteration")?;
     arc.feed = one(c, "feed")?;
     if arc.bed().is_some() {
@@ -59,6 +64,7 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
     if let Some(electric) = &mut arc.electric {
         electric.potential.value = c.f64("potential")?;
         electric.potential.drive = one(c, "drive")?;
+        regroup(c, "potential", nr, &mut electric.potential.solver)?;
     }
     if let Some(flowing) = &mut arc.flowing {
         let flow = &mut flowing.flow;
@@ -70,6 +76,7 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         if !flow.mass_source.is_empty() {
             flow.mass_source = c.f64("mass_source")?;
         }
+        regroup(c, "pressure", nr, &mut flowing.solver.pressure_solver)?;
     }
     if let Some(vaporising) = &mut arc.vaporising {
         vaporising.vapour.iron = c.f64("iron")?;
@@ -80,7 +87,27 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         heating.energy.last = c.f64("last_change")?;
         heating.energy.alternations = c.u8("alternations")?;
         heating.sources.restore(c.f64("absorbed")?);
+        regroup(c, "energy", nr, &mut heating.energy.solver)?;
     }
+    Ok(())
+}
+
+/// Puts what a solver remembers.
+fn groups(c: &mut Checkpoint, name: &str, solver: &Solver) -> artefact::Result<()> {
+    let (formed, fresh) = solver.memory();
+    c.put_f64(&format!("{name}_groups"), &formed);
+    c.put_json(&format!("{name}_fresh"), &fresh)
+}
+
+/// Takes what a solver remembers.
+fn regroup(
+    c: &mut Checkpoint,
+    name: &str,
+    columns: usize,
+    solver: &mut Solver,
+) -> artefact::Result<()> {
+    let fresh = c.json(&format!("{name}_fresh"))?;
+    solver.restore(columns, (&c.f64(&format!("{name}_groups"))?, fresh));
     Ok(())
 }
 

@@ -34,6 +34,13 @@ impl From<&Iterate> for Settings {
             floor: 0.0,
             iterations,
         };
+        let multigrid = |reduction, iterations| {
+            Method::Multigrid(krylov::Krylov {
+                reduction,
+                floor: 0.0,
+                iterations,
+            })
+        };
         let sor = |relaxation, sweeps, reduction| {
             Method::Sor(Sor {
                 relaxation,
@@ -41,22 +48,31 @@ impl From<&Iterate> for Settings {
                 reduction,
             })
         };
-        let (potential, pressure, energy) = match scene.solver {
+        let (potential, momentum, pressure, energy) = match scene.solver {
             LinearSolver::Incomplete => (
                 Method::Incomplete(rule(1e-2, 300)),
+                Method::Incomplete(rule(1e-2, 20)),
                 Method::Incomplete(rule(1e-2, 100)),
-                Method::Incomplete(rule(1e-3, 50)),
+                Method::Incomplete(rule(1e-2, 50)),
             ),
+            // Where gas is carried, incomplete factors follow the stream and multigrid does not.
             LinearSolver::Multigrid => (
-                Method::Multigrid(rule(1e-3, 60)),
-                Method::Multigrid(rule(1e-2, 30)),
-                Method::Multigrid(rule(1e-2, 20)),
+                multigrid(1e-2, 60),
+                Method::Incomplete(rule(1e-2, 20)),
+                multigrid(1e-2, 60),
+                Method::Incomplete(rule(1e-2, 50)),
             ),
-            LinearSolver::Sor => (sor(1.8, 200, 1e-2), sor(1.7, 100, 3e-2), sor(1.0, 60, 1e-2)),
+            // Enough sweeps that what an iteration changes travels as far as its relaxation lets it.
+            LinearSolver::Sor => (
+                sor(1.8, 200, 1e-2),
+                sor(1.0, 16, 1e-2),
+                sor(1.7, 100, 3e-2),
+                sor(1.0, 60, 1e-2),
+            ),
         };
         Self {
             potential: Solver::new(potential, true),
-            momentum: Solver::new(sor(1.0, 4, 1e-3), false),
+            momentum: Solver::new(momentum, false),
             pressure: Solver::new(pressure, true),
             energy: Solver::new(energy, false),
             flow: Relaxation {

@@ -12,7 +12,7 @@ use crate::heat::balance::Balance;
 use crate::heat::sources::{Reads, Sources};
 use crate::limits::check;
 use crate::properties::Properties;
-use crate::residual::{Residuals, part};
+use crate::residual::{Residuals, Unbalanced, part};
 use crate::settings::Settings;
 use crate::vaporising::Vaporising;
 
@@ -54,7 +54,7 @@ pub struct Flowing {
     pub(crate) setup: FlowCase,
     /// Velocities and pressure.
     pub flow: Flow,
-    solver: FlowSolver,
+    pub(crate) solver: FlowSolver,
 }
 
 /// Temperatures and heat sources.
@@ -164,19 +164,22 @@ impl Arc {
         };
         clock.timed("properties", || self.take_properties());
         if self.electric.is_some() {
-            residuals.charge = Some(clock.timed("current", || self.solve_current())?);
+            let (part, found) = clock.timed("current", || self.solve_current())?;
+            (residuals.charge, residuals.unbalanced[0]) = (Some(part), Some(found));
         }
         if self.flowing.is_some() {
-            let found = clock.timed("flow", || self.solve_flow())?;
-            (residuals.force, residuals.mass) = (Some(found[0]), Some(found[1]));
+            let [force, mass] = clock.timed("flow", || self.solve_flow())?;
+            (residuals.force, residuals.unbalanced[1]) = (Some(force.0), Some(force.1));
+            (residuals.mass, residuals.unbalanced[2]) = (Some(mass.0), Some(mass.1));
         }
         if self.vaporising.is_some() {
             residuals.iron = Some(clock.timed("vapour", || self.solve_vapour())?);
         }
         if self.heating.is_some() {
             clock.timed("heat sources", || self.take_sources());
-            let (heat, limited) = clock.timed("heat", || self.solve_heat())?;
-            (residuals.heat, residuals.limited) = (Some(heat), limited);
+            let (part, found, limited) = clock.timed("heat", || self.solve_heat())?;
+            (residuals.heat, residuals.limited) = (Some(part), limited);
+            residuals.unbalanced[3] = Some(found);
         }
         if let Some(feed) = self.next_feed() {
             residuals.feed = Some((feed / self.feed - 1.0).abs());
@@ -220,7 +223,7 @@ impl Arc {
         Some(balance)
     }
 
-    fn take_properties(&mut self) {
+    pub(crate) fn take_properties(&mut self) {
         let Self {
             case,
             properties,
@@ -235,7 +238,7 @@ impl Arc {
         properties.update(case, temperature, iron);
     }
 
-    fn solve_current(&mut self) -> Result<f64, Error> {
+    fn solve_current(&mut self) -> Result<(f64, Unbalanced), Error> {
         let Self {
             case,
             properties,
@@ -249,16 +252,17 @@ impl Arc {
             magnetic,
         }) = electric
         else {
-            return Ok(0.0);
+            return Ok((0.0, Unbalanced::default()));
         };
-        let outcome = potential
+        potential
             .solve(case, setup, &properties.electric)
             .map_err(|e| Error::solver("potential", *iteration, case, &e))?;
         magnetic.update(&case.grid, potential);
-        Ok(part(outcome.first, potential.throughput(&case.grid)))
+        let found = potential.unbalanced;
+        Ok((part(found.amount, potential.throughput(&case.grid)), found))
     }
 
-    fn solve_flow(&mut self) -> Result<[f64; 2], Error> {
+    fn solve_flow(&mut self) -> Result<[(f64, Unbalanced); 2], Error> {
         let Self {
             case,
             properties,
@@ -273,7 +277,7 @@ impl Arc {
             solver,
         }) = flowing
         else {
-            return Ok([0.0; 2]);
+            return Ok([(0.0, Unbalanced::default()); 2]);
         };
         let magnetic = electric.as_ref().map(|e| &e.magnetic);
         let lorentz = magnetic.map(|m| [m.force_radial.as_slice(), m.force_axial.as_slice()]);
@@ -287,15 +291,17 @@ impl Arc {
             .map_err(|(name, e)| Error::solver(name, *iteration, case, &e))?;
         check(case, "velocity", "m/s", *iteration, &flow.axial, ABSURD_M_S)?;
         let FlowResidual {
-            radial,
-            axial,
+            force,
             inertia,
             mass,
             ..
         } = found;
         let forces = inertia + flow.forces(case, setup, lorentz, &properties.density);
         let throughput = flow.throughput(case, &properties.density);
-        Ok([part(radial + axial, forces), part(mass, throughput)])
+        Ok([
+            (part(force.amount, forces), force),
+            (part(mass.amount, throughput), mass),
+        ])
     }
 
     fn take_sources(&mut self) {
@@ -343,7 +349,7 @@ impl Arc {
         sources.update(reads, view, &mut energy.source);
     }
 
-    fn solve_heat(&mut self) -> Result<(f64, usize), Error> {
+    fn solve_heat(&mut self) -> Result<(f64, Unbalanced, usize), Error> {
         let Self {
             case,
             properties,
@@ -358,7 +364,7 @@ impl Arc {
             sources,
         }) = heating
         else {
-            return Ok((0.0, 0));
+            return Ok((0.0, Unbalanced::default(), 0));
         };
         let scale = sources.size() + energy.edges(case, setup, properties).size;
         let step = Step {
@@ -380,6 +386,6 @@ impl Arc {
             let what = format!("temperature {} K", energy.temperature[k]);
             return Err(Error::diverged("energy", *iteration, case.place(k), what));
         }
-        Ok((part(found.heat, scale), found.limited))
+        Ok((part(found.heat.amount, scale), found.heat, found.limited))
     }
 }

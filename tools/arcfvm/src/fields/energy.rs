@@ -6,16 +6,17 @@
 //! the edges: no heat is lost between cells. At the surface of an electrode the gas conducts at film
 //! temperature (eqs 5.17, 5.18).
 
-use relax::{Coefficients, Error, FivePoint, Outcome};
+use relax::{Coefficients, FivePoint, Outcome};
 
 use crate::case::{Case, GAS, HeatCase, HeatEdge, VapourCase};
-use crate::fields::Solver;
 use crate::fields::energy_edges::{Beyond, FaceOf, Side, edge_of};
 use crate::fields::faces::Carriers;
 use crate::fields::mixing::{Mixed, Mixing};
 use crate::fields::vapour::Vapour;
+use crate::fields::{Solver, Unsolved};
 use crate::heat::{Contact, FaceIndex, Surfaces};
 use crate::properties::Properties;
+use crate::residual::Unbalanced;
 use crate::transport::{dirichlet, hybrid};
 
 /// Factor on the relaxation of a cell whose changes alternate.
@@ -54,14 +55,14 @@ pub struct Energy {
     pub(crate) alternations: Vec<u8>,
     equation: FivePoint,
     scratch: Vec<f64>,
-    solver: Solver,
+    pub(crate) solver: Solver,
 }
 
 /// How one solve of the energy went.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergyResidual {
-    /// Sum of the unbalanced heat of all cells before the solve \[W\].
-    pub heat: f64,
+    /// Unbalanced heat before the solve \[W\].
+    pub heat: Unbalanced,
     /// Largest change of temperature \[K\].
     pub change: f64,
     /// Cells whose change was limited.
@@ -326,12 +327,12 @@ impl Energy {
         heat: &HeatCase,
         properties: &Properties,
         step: Step,
-    ) -> Result<EnergyResidual, Error> {
+    ) -> Result<EnergyResidual, Unsolved> {
         let mut equation = std::mem::replace(&mut self.equation, FivePoint::new(0, 0));
         equation.fill(|i, j| self.equation(case, heat, properties, i, j));
         self.equation = equation;
         self.equation.residual(&self.temperature, &mut self.scratch);
-        let unbalanced = self.scratch.iter().map(|r| r.abs()).sum();
+        let unbalanced = Unbalanced::of(&self.scratch, case.grid.nr);
         let mut relaxation = std::mem::take(&mut self.scratch);
         for (k, factor) in relaxation.iter_mut().enumerate() {
             *factor = self.relaxation(case, k, step.relaxation);

@@ -205,6 +205,30 @@ impl Flow {
         sum
     }
 
+    /// Takes what is solved from a function of which (radial, axial velocity, pressure) and place.
+    pub(crate) fn take(
+        &mut self,
+        grid: &Grid,
+        density: &[f64],
+        value: &dyn Fn(usize, f64, f64) -> f64,
+    ) {
+        for (face, u) in self.radial.iter_mut().enumerate() {
+            if self.radial_kind[face] == Face::Solved {
+                let (i, j) = (face % (grid.nr + 1), face / (grid.nr + 1));
+                *u = value(0, grid.rf[i], grid.zc[j]);
+            }
+        }
+        for (face, w) in self.axial.iter_mut().enumerate() {
+            if self.axial_kind[face] == Face::Solved {
+                *w = value(1, grid.rc[face % grid.nr], grid.zf[face / grid.nr]);
+            }
+        }
+        for (k, p) in self.pressure.iter_mut().enumerate() {
+            *p = value(2, grid.rc[k % grid.nr], grid.zc[k / grid.nr]);
+        }
+        self.carry(grid, density);
+    }
+
     /// Face mass fluxes from velocities and density.
     pub(crate) fn carry(&mut self, grid: &Grid, density: &[f64]) {
         for j in 0..grid.nz {

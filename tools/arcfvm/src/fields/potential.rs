@@ -5,11 +5,12 @@
 //! conductivities. Each half resistance heats its own cell with I^2 R: the sum over all cells is the
 //! power of the source exactly, as the sum of current times voltage over any closed network is zero.
 
-use relax::{Coefficients, Error, FivePoint, Outcome};
+use relax::{Coefficients, FivePoint, Outcome};
 
 use crate::case::{Case, PotentialCase, PotentialEdge};
-use crate::fields::Solver;
+use crate::fields::{Solver, Unsolved};
 use crate::grid::Grid;
+use crate::residual::Unbalanced;
 
 /// Potential and currents.
 #[derive(Debug, Clone)]
@@ -24,8 +25,11 @@ pub struct Potential {
     pub joule: Vec<f64>,
     /// Potential of the driven faces \[V\].
     pub drive: f64,
+    /// What the last solve found out of balance before it \[A\].
+    pub unbalanced: Unbalanced,
     equation: FivePoint,
-    solver: Solver,
+    scratch: Vec<f64>,
+    pub(crate) solver: Solver,
 }
 
 /// Half-cell resistances of the conductivity field.
@@ -77,7 +81,9 @@ impl Potential {
             axial: vec![0.0; grid.axial_faces()],
             joule: vec![0.0; grid.len()],
             drive: 1.0,
+            unbalanced: Unbalanced::default(),
             equation: FivePoint::new(grid.nr, grid.nz),
+            scratch: vec![0.0; grid.len()],
             solver,
         }
     }
@@ -91,7 +97,7 @@ impl Potential {
         case: &Case,
         setup: &PotentialCase,
         sigma: &[f64],
-    ) -> Result<Outcome, Error> {
+    ) -> Result<Outcome, Unsolved> {
         let network = Network {
             grid: &case.grid,
             sigma,
@@ -99,6 +105,8 @@ impl Potential {
         let drive = self.drive;
         self.equation
             .fill(|i, j| cell_equation(&network, setup, drive, (i, j)));
+        self.equation.residual(&self.value, &mut self.scratch);
+        self.unbalanced = Unbalanced::of(&self.scratch, case.grid.nr);
         let outcome = self.solver.solve(&self.equation, &mut self.value)?;
         self.currents(&network, setup);
         if let Some(current) = setup.driven {

@@ -5,14 +5,15 @@
 //! one r too many in both). Face mass fluxes are kept and corrected, so the other fields are carried
 //! by fluxes that balance to the solver's tolerance.
 
-use relax::{Coefficients, Error, FivePoint, Outcome};
+use relax::{Coefficients, FivePoint, Outcome};
 
 use crate::case::{Case, FlowCase, GAS};
-use crate::fields::Solver;
 use crate::fields::flow::{Face, Flow};
 use crate::fields::momentum_axial::AxialMomentum;
 use crate::fields::momentum_radial::RadialMomentum;
+use crate::fields::{Solver, Unsolved};
 use crate::grid::Grid;
+use crate::residual::Unbalanced;
 
 /// How velocity corrections follow the pressure correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +46,7 @@ pub struct FlowSolver {
     change: Vec<f64>,
     scratch: [Vec<f64>; 2],
     momentum_solver: [Solver; 2],
-    pressure_solver: Solver,
+    pub(crate) pressure_solver: Solver,
     /// Relaxation.
     pub relaxation: Relaxation,
 }
@@ -53,14 +54,12 @@ pub struct FlowSolver {
 /// Residuals of one pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowResidual {
-    /// Sum of the unbalanced radial forces \[N\].
-    pub radial: f64,
-    /// Sum of the unbalanced axial forces \[N\].
-    pub axial: f64,
+    /// Unbalanced forces, radial and axial \[N\].
+    pub force: Unbalanced,
     /// Sum of the forces that the velocities of both equations amount to \[N\], for scale.
     pub inertia: f64,
-    /// Sum of the unbalanced mass fluxes before correction \[kg/s\].
-    pub mass: f64,
+    /// Unbalanced mass fluxes before correction \[kg/s\].
+    pub mass: Unbalanced,
     /// How the pressure correction was solved.
     pub correction: Outcome,
 }
@@ -107,7 +106,7 @@ impl FlowSolver {
         setup: &FlowCase,
         flow: &mut Flow,
         properties: FlowProperties,
-    ) -> Result<FlowResidual, (&'static str, Error)> {
+    ) -> Result<FlowResidual, (&'static str, Unsolved)> {
         let FlowProperties {
             density,
             viscosity,
@@ -130,20 +129,11 @@ impl FlowSolver {
             lorentz: lorentz.map(|f| f[1]),
         };
         self.axial.fill(|i, j| axial.equation(i, j));
-        let unbalanced = |equation: &FivePoint, x: &[f64], scratch: &mut [f64]| {
-            equation.residual(x, scratch);
-            scratch.iter().map(|r| r.abs()).sum::<f64>()
-        };
-        let residual_radial = unbalanced(&self.radial, &flow.radial, &mut self.scratch[0]);
-        let residual_axial = unbalanced(&self.axial, &flow.axial, &mut self.scratch[1]);
-        let amount = |equation: &FivePoint, x: &[f64]| {
-            equation
-                .centre
-                .iter()
-                .zip(x)
-                .map(|(c, x)| (c * x).abs())
-                .sum::<f64>()
-        };
+        let force = unbalanced(&self.radial, &flow.radial, &mut self.scratch[0]).and(unbalanced(
+            &self.axial,
+            &flow.axial,
+            &mut self.scratch[1],
+        ));
         let inertia = amount(&self.radial, &flow.radial) + amount(&self.axial, &flow.axial);
         self.radial
             .under_relax(&flow.radial, self.relaxation.velocity);
@@ -162,8 +152,7 @@ impl FlowSolver {
             .correct(case, setup, flow, density)
             .map_err(named("pressure correction"))?;
         Ok(FlowResidual {
-            radial: residual_radial,
-            axial: residual_axial,
+            force,
             inertia,
             mass,
             correction,
@@ -209,7 +198,7 @@ impl FlowSolver {
         setup: &FlowCase,
         flow: &mut Flow,
         density: &[f64],
-    ) -> Result<(f64, Outcome), Error> {
+    ) -> Result<(Unbalanced, Outcome), Unsolved> {
         let grid = &case.grid;
         let east = |i: usize, j: usize| {
             let slope = self.radial_slope[grid.radial_face(i, j)];
@@ -241,7 +230,7 @@ impl FlowSolver {
         if setup.closed {
             balance(case, &mut self.correction);
         }
-        let mass = self.correction.source.iter().map(|s| s.abs()).sum();
+        let mass = Unbalanced::of(&self.correction.source, grid.nr);
         self.change.fill(0.0);
         let outcome = self
             .pressure_solver
@@ -316,4 +305,16 @@ fn centre_pressure(case: &Case, pressure: &mut [f64]) {
             *p -= sum / volume;
         }
     }
+}
+
+/// What an equation lacks before it is solved.
+fn unbalanced(equation: &FivePoint, x: &[f64], scratch: &mut [f64]) -> Unbalanced {
+    equation.residual(x, scratch);
+    Unbalanced::of(scratch, equation.columns)
+}
+
+/// Sum of the central parts of an equation, for scale.
+fn amount(equation: &FivePoint, x: &[f64]) -> f64 {
+    let parts = equation.centre.iter().zip(x);
+    parts.map(|(c, x)| (c * x).abs()).sum()
 }

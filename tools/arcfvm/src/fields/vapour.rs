@@ -12,13 +12,13 @@
 //! J being the flux of [`Evaporating::pass`] (eq. 5.24). What J brings in is written as
 //! `c (Y_eq - Y_P)` with `c >= 0` and `Y_eq` saturation: values stay between those of edges, metals and 1.
 
-use relax::{Coefficients, Error, FivePoint};
+use relax::{Coefficients, FivePoint};
 
 use crate::case::{Case, GAS, VapourCase, VapourEdge};
-use crate::fields::Solver;
 use crate::fields::energy_edges::{Beyond, FaceOf, Side};
 use crate::fields::faces::Carriers;
 use crate::fields::flow::Flow;
+use crate::fields::{Solver, Unsolved};
 use crate::heat::Contact;
 use crate::heat::evaporation::{Evaporated, Evaporating, Film};
 use crate::properties::Properties;
@@ -232,7 +232,7 @@ impl Vapour {
         case: &Case,
         setup: &VapourCase,
         relaxation: f64,
-    ) -> Result<f64, Error> {
+    ) -> Result<f64, Unsolved> {
         let mut equation = std::mem::replace(&mut self.equation, FivePoint::new(0, 0));
         equation.fill(|i, j| self.equation(case, setup, i, j));
         self.equation = equation;

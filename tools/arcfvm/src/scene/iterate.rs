@@ -1,5 +1,6 @@
 //! How the equations are iterated.
 
+use crate::residual::Stop;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +14,10 @@ pub struct Iterate {
     /// Every residual is below this part of its scale at the end: force, mass flow, power, current.
     #[schemars(range(min = 1e-14, max = 0.1))]
     pub tolerance: f64,
+    /// Limits of single equations in their own units, in place of the tolerance.
+    pub stop: Stop,
+    /// Currents that are followed first; absent: that of the scene from the start.
+    pub continuation: Option<Continuation>,
     /// Under-relaxation of the velocities.
     #[schemars(range(min = 0.01, max = 0.99))]
     pub velocity_relaxation: f64,
@@ -36,14 +41,27 @@ impl Default for Iterate {
         Self {
             most: 5000,
             tolerance: 1e-6,
-            velocity_relaxation: 0.9,
+            stop: Stop::default(),
+            continuation: None,
+            velocity_relaxation: 0.95,
             pressure_relaxation: 1.0,
             temperature_relaxation: 0.99,
             temperature_step_k: 2000.0,
             coupling: Coupling::Simplec,
-            solver: LinearSolver::Incomplete,
+            solver: LinearSolver::Multigrid,
         }
     }
+}
+
+/// Currents on the way to that of the scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Continuation {
+    /// From 200 A by factors of 1.5 at most.
+    Automatic,
+    /// These, in order \[A\].
+    #[serde(rename = "currents_a")]
+    Currents(Vec<f64>),
 }
 
 /// How velocity corrections follow the pressure correction.
@@ -64,6 +82,6 @@ pub enum LinearSolver {
     Sor,
     /// Krylov methods preconditioned by incomplete factors.
     Incomplete,
-    /// Krylov methods preconditioned by a multigrid cycle.
+    /// Krylov methods preconditioned by algebraic multigrid.
     Multigrid,
 }

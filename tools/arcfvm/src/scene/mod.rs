@@ -11,7 +11,7 @@ mod vapour;
 pub use edges::{CurrentEdge, FlowEdge, HeatEdge, Sides};
 pub use electrode::{Anode, Cathode, Electrode, Evaporation, Saturation};
 pub use granular::Granular;
-pub use iterate::{Coupling, Iterate, LinearSolver};
+pub use iterate::{Continuation, Coupling, Iterate, LinearSolver};
 pub use matter::{
     BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, SpecificHeat,
 };

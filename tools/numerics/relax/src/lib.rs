@@ -12,7 +12,6 @@
 //!   `(i + j) mod 2`; the printed `i * NJ + j` (eq. 3.61) is a checkerboard only for odd `NJ`.
 //! - [`Incomplete`]: an incomplete factorisation; a preconditioner that any contrast of coefficients
 //!   leaves calm.
-//! - [`Multigrid`]: an aggregation hierarchy with red-black smoothing; a preconditioner.
 //! - [`conjugate_gradient`] for symmetric and [`bicgstab`] for other equations, both preconditioned.
 //!
 //! Every cell gathers from its neighbours and every sum is serial, so results are bitwise
@@ -20,13 +19,11 @@
 
 mod incomplete;
 mod krylov;
-mod multigrid;
 pub mod sor;
 mod stencil;
 
 pub use incomplete::Incomplete;
 pub use krylov::{Krylov, Workspace, bicgstab, conjugate_gradient};
-pub use multigrid::Multigrid;
 pub use sor::Sor;
 pub use stencil::{Coefficients, FivePoint};
 
