@@ -1,10 +1,12 @@
 //! One file per exact solution.
 
 mod arc_elenbaas;
+mod arc_evaporation;
 mod arc_mms;
 mod arc_pinch;
 mod arc_poiseuille;
 mod arc_potential;
+mod arc_vapour;
 mod gas_argon;
 mod heat_block_3d;
 mod heat_cylinder_flux;
@@ -31,10 +33,12 @@ use crate::case::Case;
 pub fn all() -> Vec<Box<dyn Case>> {
     vec![
         Box::new(arc_elenbaas::ArcElenbaas),
+        Box::new(arc_evaporation::ArcEvaporation),
         Box::new(arc_mms::ArcMms),
         Box::new(arc_pinch::ArcPinch),
         Box::new(arc_poiseuille::ArcPoiseuille),
         Box::new(arc_potential::ArcPotential),
+        Box::new(arc_vapour::ArcVapour),
         Box::new(gas_argon::GasArgon),
         Box::new(heat_patch::HeatPatch),
         Box::new(heat_exp_x::HeatExpX),

@@ -22,7 +22,8 @@ const HEAT_SLACK: f64 = 0.05;
 const ATMOSPHERE: f64 = 101_325.0;
 
 /// A gas table: each column holds a row over temperature for every fraction of iron.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Deserialize)]
+#[serde(from = "Listed")]
 pub struct GasFile {
     /// Pressure \[Pa\].
     pub pressure: f64,
