@@ -37,19 +37,34 @@ impl Case for ArcPinch {
         "Bennett (1934): p(0) - p(R) = mu0 j^2 R^2 / 4 for an even current density"
     }
 
+    fn methods(&self) -> &'static [&'static str] {
+        &["multigrid", "sor", "incomplete"]
+    }
+
     fn targets(&self) -> Vec<Target> {
         let mut targets = plasma::targets(&["pressure_linf"], 5e-3, 1.9);
         targets.push(Target::error("even_pressure_linf", 1e-6));
         targets
     }
 
-    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let spacing = 5e-4 / f64::from(1 << (level - 1));
-        let even = json!({"grid": {"r": spacing}});
-        let even = lab.run("arcfvm", self.name(), &format!("even{level}"), &even)?;
-        let growing = json!({"grid": {"r": spacing}, "gas": {"given": {"electric_conductivity_s_m":
+        let iterate = json!({"solver": method});
+        let even = json!({"grid": {"r": spacing}, "iterate": iterate});
+        let even = lab.run(
+            "arcfvm",
+            self.name(),
+            &format!("even-{method}{level}"),
+            &even,
+        )?;
+        let growing = json!({"grid": {"r": spacing}, "iterate": iterate, "gas": {"given": {"electric_conductivity_s_m":
             {"expr": format!("1000*(1 + {GROWTH}*(r/0.005)^2)")}}}});
-        let run = lab.run("arcfvm", self.name(), &format!("growing{level}"), &growing)?;
+        let run = lab.run(
+            "arcfvm",
+            self.name(),
+            &format!("growing-{method}{level}"),
+            &growing,
+        )?;
         let mut errors = Errors::new();
         for (name, run, growth) in [("even_", &even, 0.0), ("", &run, GROWTH)] {
             let current = plasma::number(run, "/current/edges/top/0/total_current_a")?;

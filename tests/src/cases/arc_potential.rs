@@ -104,14 +104,20 @@ impl Case for ArcPotential {
         "two layers: piecewise linear mode plus J0(kr) sinh mode, and Ampere's law"
     }
 
+    fn methods(&self) -> &'static [&'static str] {
+        &["multigrid", "sor", "incomplete"]
+    }
+
     fn targets(&self) -> Vec<Target> {
         plasma::targets(&["potential_linf", "magnetic_linf"], 5e-3, 1.9)
     }
 
-    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let spacing = 1e-3 / f64::from(1 << (level - 1));
-        let grid = serde_json::json!({"grid": {"r": spacing, "z": spacing}});
-        let run = lab.run("arcfvm", self.name(), &format!("level{level}"), &grid)?;
+        let patch = serde_json::json!({"grid": {"r": spacing, "z": spacing},
+            "iterate": {"solver": method}});
+        let label = format!("{method}{level}");
+        let run = lab.run("arcfvm", self.name(), &label, &patch)?;
         let exact = Layers::of(&run)?;
         let fields = Plasma::read(&run)?;
         let potential = fields.compare("potential_v", |r, z| exact.potential(r, z))?;

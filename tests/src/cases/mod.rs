@@ -1,5 +1,6 @@
 //! One file per exact solution.
 
+mod arc_column;
 mod arc_elenbaas;
 mod arc_evaporation;
 mod arc_mms;
@@ -7,6 +8,7 @@ mod arc_pinch;
 mod arc_poiseuille;
 mod arc_potential;
 mod arc_vapour;
+mod arc_wire_joule;
 mod gas_argon;
 mod heat_block_3d;
 mod heat_cylinder_flux;
@@ -32,6 +34,7 @@ use crate::case::Case;
 #[must_use]
 pub fn all() -> Vec<Box<dyn Case>> {
     vec![
+        Box::new(arc_column::ArcColumn),
         Box::new(arc_elenbaas::ArcElenbaas),
         Box::new(arc_evaporation::ArcEvaporation),
         Box::new(arc_mms::ArcMms),
@@ -39,6 +42,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_poiseuille::ArcPoiseuille),
         Box::new(arc_potential::ArcPotential),
         Box::new(arc_vapour::ArcVapour),
+        Box::new(arc_wire_joule::ArcWireJoule),
         Box::new(gas_argon::GasArgon),
         Box::new(heat_patch::HeatPatch),
         Box::new(heat_exp_x::HeatExpX),
