@@ -206,6 +206,19 @@ pub struct VapourCase {
     pub pressure: f64,
     /// Ionisation voltage of iron \[V\], where it counts.
     pub ionisation: Option<f64>,
+    /// The wall that takes iron up: its material, and the mass fraction at it.
+    pub wall: Option<(usize, f64)>,
+}
+
+impl VapourCase {
+    /// Mass fraction at a face to `material`, if that takes iron up.
+    #[must_use]
+    #[inline]
+    pub fn at_wall(&self, material: usize) -> Option<f64> {
+        self.wall
+            .filter(|(own, _)| *own == material)
+            .map(|(_, y)| y)
+    }
 }
 
 /// The base metal: the lowest electrode.

@@ -57,6 +57,10 @@ pub(crate) fn record(arc: &Arc, balance: Option<&Balance>, mut record: Record) -
     if let Some(balance) = balance {
         record = record.with("heat_vapour_w", "W", balance.vapour);
     }
+    let wall = arc.vaporising.as_ref().and_then(|v| v.setup.wall);
+    if wall.is_some() {
+        record = record.with("iron_wall_kg_s", "kg/s", iron.wall);
+    }
     record
         .with("iron_surfaces_kg_s", "kg/s", iron.surfaces)
         .with("iron_given_kg_s", "kg/s", iron.given)

@@ -37,7 +37,8 @@ impl Arc {
     pub(crate) fn settle_vapour(&mut self) {
         if let Some(vaporising) = &mut self.vaporising {
             let flow = self.flowing.as_ref().map(|f| &f.flow);
-            vaporising.vapour.carry(&self.case, &self.properties, flow);
+            let Vaporising { setup, vapour } = vaporising;
+            vapour.carry(&self.case, setup, &self.properties, flow);
         }
         self.evaporate();
     }

@@ -191,6 +191,33 @@ fn flux_that_never_boils_stays_and_costs_nothing_else() {
 }
 
 #[test]
+fn slag_takes_up_what_iron_diffuses_to_it() {
+    let mut scene = bed();
+    scene["heat"]["edges"]["top"][0] = json!({"temperature_k": 900});
+    let gas = scene["gas"]["given"].as_object_mut().unwrap();
+    gas.insert("density_kg_m3".to_owned(), json!(0.2));
+    gas.insert("iron_diffusion_m2_s".to_owned(), json!(1e-3));
+    gas.insert("molar_mass_kg_mol".to_owned(), json!(0.028));
+    scene["vapour"] = json!({"edges": {"top": [{"iron_mass_fraction": 0.3}]}});
+    scene["bodies"]["flux"]["granular"]["iron_mass_fraction"] = json!(0.1);
+    let mut arc = solve(&scene);
+    // Half a millimetre of gas between both: rho Gamma area (0.3 - 0.1) / distance.
+    let want = 0.2 * 1e-3 * std::f64::consts::PI * 4e-6 * 0.2 / 5e-4;
+    let iron = arc.iron_balance().unwrap();
+    assert!((iron.edges - want).abs() < 1e-6 * want, "{iron:?}");
+    assert!((iron.wall + want).abs() < 1e-6 * want);
+    let balance = arc.settle().unwrap();
+    assert!(
+        balance.closure().abs() < 1e-6 * balance.edges.abs().max(1e-3),
+        "{balance:?}"
+    );
+    // Without the key the wall takes none.
+    let granular = scene["bodies"]["flux"]["granular"].as_object_mut().unwrap();
+    granular.remove("iron_mass_fraction");
+    assert_eq!(case(&scene).unwrap().vapour.unwrap().wall, None);
+}
+
+#[test]
 fn a_bed_that_cannot_melt_is_refused() {
     let mut scene = bed();
     let material = scene["bodies"]["flux"]["material"].as_object_mut().unwrap();

@@ -42,6 +42,12 @@ pub(crate) fn granular(
         let what = format!("{taken} and the base metal's part are more than all radiation");
         faults.add(&format!("{at}/absorbed_radiation"), what);
     }
+    if given.iron_mass_fraction.is_some() && scene.vapour.is_none() {
+        faults.add(
+            &format!("{at}/iron_mass_fraction"),
+            "is for a scene with vapour",
+        );
+    }
     let cells = (0..layout.grid.len()).filter(|k| layout.material[*k] == n + 1);
     let cells: Vec<usize> = cells.collect();
     if layout.material.iter().all(|m| *m != GAS) {
@@ -77,6 +83,7 @@ mod tests {
             slag_conductivity_ratio: 3.0,
             boiling_k: 3123.0,
             absorbed_radiation: None,
+            iron_mass_fraction: None,
         };
         let melting = Melting {
             point: 2845.0,

@@ -57,7 +57,14 @@ pub(crate) fn vapour(
         molar,
         pressure,
         ionisation: given.ionisation_voltage_v,
+        wall: wall(&bodies),
     })
+}
+
+/// The granular body, where slag takes iron up.
+fn wall(bodies: &[(&String, &Body)]) -> Option<(usize, f64)> {
+    let mut all = bodies.iter().enumerate();
+    all.find_map(|(n, (_, body))| Some((n + 1, body.granular.as_ref()?.iron_mass_fraction?)))
 }
 
 /// Molar masses and pressure, of the table or given.

@@ -54,6 +54,8 @@ pub struct IronBalance {
     pub edges: f64,
     /// Given.
     pub given: f64,
+    /// Given off by the wall of the cavity: what it takes up is negative.
+    pub wall: f64,
     /// Sum of the amounts exchanged, for scale.
     pub size: f64,
 }
@@ -62,7 +64,7 @@ impl IronBalance {
     /// What enters more than leaves.
     #[must_use]
     pub fn closure(&self) -> f64 {
-        self.surfaces + self.edges + self.given
+        self.surfaces + self.edges + self.given + self.wall
     }
 }
 
@@ -86,7 +88,13 @@ impl Vapour {
     }
 
     /// Conductances at the present state, and the mass fluxes of the gas.
-    pub fn carry(&mut self, case: &Case, properties: &Properties, flow: Option<&Flow>) {
+    pub fn carry(
+        &mut self,
+        case: &Case,
+        setup: &VapourCase,
+        properties: &Properties,
+        flow: Option<&Flow>,
+    ) {
         if let Some(flow) = flow {
             self.mass_radial.copy_from_slice(&flow.mass_radial);
             self.mass_axial.copy_from_slice(&flow.mass_axial);
@@ -94,6 +102,8 @@ impl Vapour {
         let (grid, product) = (&case.grid, &properties.iron_diffusion);
         let half = |width: f64, k: usize| match case.material[k] {
             GAS => 0.5 * width / product[k],
+            // Gas meets a wall that takes iron up at its own surface.
+            other if setup.at_wall(other).is_some() => 0.0,
             _ => f64::INFINITY,
         };
         for j in 0..grid.nz {
@@ -201,7 +211,12 @@ impl Vapour {
                 Beyond::Cell(n) if case.material[n] == GAS => {
                     *side = hybrid(face.mass_out, face.conductance);
                 }
-                Beyond::Cell(_) => {}
+                Beyond::Cell(n) => {
+                    if let Some(y) = setup.at_wall(case.material[n]) {
+                        c.centre += face.conductance;
+                        c.source += face.conductance * y;
+                    }
+                }
                 Beyond::Edge(edge) => {
                     if let VapourEdge::Fraction(y) = *edge_of(setup, edge) {
                         let a = dirichlet(face.mass_out, face.conductance);
@@ -262,6 +277,10 @@ impl Vapour {
             all.given += given;
             all.size += given.abs();
         }
+        self.walls(case, setup, |_, rate| {
+            all.wall += rate;
+            all.size += rate.abs();
+        });
         let grid = &case.grid;
         for j in 0..grid.nz {
             let whole = j == 0 || j + 1 == grid.nz;
@@ -276,6 +295,23 @@ impl Vapour {
             }
         }
         all
+    }
+
+    /// Every gas cell at the wall of the cavity, with the iron that the wall gives it \[kg/s\].
+    pub(crate) fn walls(&self, case: &Case, setup: &VapourCase, mut visit: impl FnMut(usize, f64)) {
+        if setup.wall.is_none() {
+            return;
+        }
+        let grid = &case.grid;
+        for k in (0..grid.len()).filter(|k| case.material[*k] == GAS) {
+            for face in self.faces(case, k % grid.nr, k / grid.nr) {
+                if let Beyond::Cell(n) = face.beyond
+                    && let Some(y) = setup.at_wall(case.material[n])
+                {
+                    visit(k, face.conductance * (y - self.iron[k]));
+                }
+            }
+        }
     }
 
     /// Iron that enters through an edge face \[kg/s\].

@@ -4,7 +4,7 @@
 //! metal, with the enthalpy `h(T_metal, Y = 1)`. Vapour that condenses leaves as warm as the gas and brings
 //! the metal what it is warmer, beside the latent heat. What the vapour displaces leaves with the
 //! enthalpy of the gas where vapour adds to its mass, else with that of the gas without iron: so the balance
-//! of the energy goes with that of the iron.
+//! of the energy goes with that of the iron. At the wall of a cavity in flux iron changes places with gas as warm.
 
 use std::borrow::Cow;
 
@@ -104,6 +104,21 @@ impl Sources {
             out[contact.gas][1] += contact.area * carried.slope;
             enters += contact.area * carried.enters;
         }
+        enters + self.take_up_at_wall(reads, of, out)
+    }
+
+    /// Slag takes up iron as warm as the gas beside it and gives off as much gas, as warm; returns what
+    /// enters the gas with both \[W\].
+    fn take_up_at_wall(&self, reads: Reads<'_>, of: Vapours<'_>, out: &mut [[f64; 2]]) -> f64 {
+        let mut enters = 0.0;
+        of.vapour.walls(reads.case, of.setup, |k, rate| {
+            if let Some(law) = &reads.case.of(k).enthalpy {
+                let t = reads.temperature[k];
+                let heat = rate * (law.within(t, 1.0) - law.within(t, 0.0));
+                out[k][0] += heat;
+                enters += heat;
+            }
+        });
         enters
     }
 }

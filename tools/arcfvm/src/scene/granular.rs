@@ -18,4 +18,8 @@ pub struct Granular {
     /// none.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub absorbed_radiation: Option<f64>,
+    /// Mass fraction of iron in the gas at the wall of the cavity, where slag takes up iron and gives off
+    /// as much gas; absent: neither.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub iron_mass_fraction: Option<f64>,
 }
