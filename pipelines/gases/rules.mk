@@ -10,12 +10,18 @@ build/gases/%.mcap: pipelines/gases/%.json $(BIN)/gasprop
 build/gases/argon-iron-%.mcap: pipelines/gases/argon-iron.json pipelines/gases/%.patch.json $(BIN)/gasprop
 	$(RERUN) $@ $^ -- $(BIN)/gasprop run $< --patch pipelines/gases/$*.patch.json --out $@ $(MACHINE)
 
+# Argon at the pressure at which the published table stands.
+build/gases/argon-reference-pressure.mcap: pipelines/gases/argon.json \
+  pipelines/gases/reference-pressure.patch.json $(BIN)/gasprop
+	$(RERUN) $@ $^ -- $(BIN)/gasprop run $< --patch pipelines/gases/reference-pressure.patch.json --out $@ $(MACHINE)
+
 GASES := argon argon-iron co-iron argon-co2-iron
 GAS_VARIANTS := electron-iron-20 electron-iron-80 iron-exchange-2 thin five-millimetres
 
 build/gases/report.html: $(GASES:%=build/gases/%.mcap) $(GAS_VARIANTS:%=build/gases/argon-iron-%.mcap) \
-  pipelines/gases/reference-argon.json $(BIN)/report
+  build/gases/argon-reference-pressure.mcap pipelines/gases/reference-argon.json $(BIN)/report
 	$(RERUN) $@ $^ -- $(BIN)/report gas --study gases --out $@ \
 	  $(foreach gas,$(GASES),--table $(gas)=build/gases/$(gas).mcap) \
-	  --reference argon=pipelines/gases/reference-argon.json \
+	  --variant argon/reference-pressure=build/gases/argon-reference-pressure.mcap \
+	  --reference argon/reference-pressure=pipelines/gases/reference-argon.json \
 	  $(foreach variant,$(GAS_VARIANTS),--variant argon-iron/$(variant)=build/gases/argon-iron-$(variant).mcap)

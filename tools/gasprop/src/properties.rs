@@ -77,7 +77,7 @@ pub struct Gas {
 pub struct Point {
     /// Values of [`Gas::columns`].
     pub values: Vec<f64>,
-    /// Values of [`Gas::parts`].
+    /// Parts of thermal conductivity, as [`PARTS`] names them, W/(m K).
     pub parts: Vec<f64>,
     /// Mole fraction of each species.
     pub fractions: Vec<f64>,
@@ -300,7 +300,7 @@ fn enthalpy(species: &Species) -> f64 {
     2.5 * BOLTZMANN * ZERO + species.internal(ZERO).energy + species.formation
 }
 
-/// Names and units of the parts of thermal conductivity, as [`Point::parts`].
+/// Names of the parts of thermal conductivity, as [`Point::parts`].
 pub const PARTS: [&str; 4] = ["heavy", "electron", "internal", "reactive"];
 
 fn parts(transport: &Coefficients) -> Vec<f64> {

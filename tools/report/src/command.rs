@@ -105,7 +105,7 @@ pub(crate) struct GasFiles {
     /// A gas table, and what the page calls it; once for each gas.
     #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
     pub(crate) table: Vec<(String, PathBuf)>,
-    /// Published properties of the gas of that name.
+    /// Published properties of the gas, or of the NAME/VARIANT, of that name.
     #[arg(long, value_name = "NAME=FILE", value_parser = named)]
     pub(crate) reference: Vec<(String, PathBuf)>,
     /// The gas of that name with another value of an uncertain input, and what the page calls it.

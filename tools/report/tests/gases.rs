@@ -146,6 +146,30 @@ fn a_page_of_gases_compares_and_judges() {
 }
 
 #[test]
+fn a_variant_that_is_compared_with_published_tables_is_no_uncertain_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let (base, other) = (folder.join("base.mcap"), folder.join("other.mcap"));
+    table(&base, 2.0, &[0.0]);
+    table(&other, 1.0, &[0.0]);
+    let words = [
+        word("--table", "pure", &base),
+        word("--variant", "pure/warm", &other),
+        word("--reference", "pure/warm", &reference(folder)),
+    ];
+    let (output, html) = report(folder, &words.concat());
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(html.contains(">pure/warm against published tables</h2>"));
+    assert!(!html.contains("What uncertain inputs change"));
+    // The variant agrees as the gas of the other test does; the gas itself is twice as conductive.
+    assert!(html.contains("\u{2212}10.0 %"));
+}
+
+#[test]
 fn a_gas_without_iron_has_one_line_and_no_word_of_it() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

@@ -32,20 +32,34 @@ pub(crate) fn write(files: &GasFiles) -> Result<(), Failure> {
         let table = tables.iter().find(|table| table.name == name);
         table.ok_or_else(|| Failure::Usage(format!("'{name}' is not the name of a --table")))
     };
-    let mut page = Page::new(&files.study, &lead(&records));
-    for (name, path) in &files.reference {
-        let body = compare::section(find(name)?, &Reference::read(path)?);
-        page.section(&format!("{name} against published tables"), body);
-    }
-    for table in &tables {
-        page.section(&table.name, curves::section(&table.gas));
-    }
     let mut variants = Vec::new();
     for (name, path) in &files.variant {
         let wanted = || Failure::Usage(format!("--variant {name}: wanted is NAME/VARIANT=FILE"));
         let (base, variant) = name.split_once('/').ok_or_else(wanted)?;
         variants.push((find(base)?, read(variant, path)?));
     }
+    let mut page = Page::new(&files.study, &lead(&records));
+    for (name, path) in &files.reference {
+        let varied =
+            |(base, variant): &&(&Table, Table)| format!("{}/{}", base.name, variant.name) == *name;
+        let table = match variants.iter().find(varied) {
+            Some((_, variant)) => variant,
+            None => find(name)?,
+        };
+        let body = compare::section(table, &Reference::read(path)?);
+        page.section(&format!("{name} against published tables"), body);
+    }
+    for table in &tables {
+        page.section(&table.name, curves::section(&table.gas));
+    }
+    let compared = |base: &Table, variant: &Table| {
+        let name = format!("{}/{}", base.name, variant.name);
+        files
+            .reference
+            .iter()
+            .any(|(reference, _)| *reference == name)
+    };
+    variants.retain(|(base, variant)| !compared(base, variant));
     page.section("What uncertain inputs change", inputs::section(&variants));
     page.section("Where the columns come from", curves::sources(&tables));
     page.section("How it was computed", runs::section(&records));
