@@ -6,10 +6,10 @@ arc-currents: build/arc-currents/report.html ## a gas metal arc in argon from 10
 ARC_CURRENTS := 100 200 300 400 500
 
 build/arc-currents/%.mcap: pipelines/gmaw-300a/arc.json pipelines/arc-currents/coarse.patch.json \
-  pipelines/arc-currents/%.patch.json pipelines/gases/argon-1atm.json $(BIN)/arcfvm
+  pipelines/arc-currents/%.patch.json build/gases/argon.mcap $(BIN)/arcfvm
 	$(RERUN) $@ $^ -- $(BIN)/arcfvm run pipelines/gmaw-300a/arc.json \
 	  --patch pipelines/arc-currents/coarse.patch.json --patch pipelines/arc-currents/$*.patch.json \
-	  --input gas=pipelines/gases/argon-1atm.json --out $@ $(MACHINE)
+	  --input gas=build/gases/argon.mcap --out $@ $(MACHINE)
 
 build/arc-currents/report.html: $(ARC_CURRENTS:%=build/arc-currents/%.mcap) $(BIN)/report
 	$(RERUN) $@ $^ -- $(BIN)/report page --study arc-currents --out $@ \

@@ -3,9 +3,9 @@
 .PHONY: gmaw-300a
 gmaw-300a: build/gmaw-300a/report.html ## the full weld: arc, pool, averages, report (three quarters of an hour)
 
-build/gmaw-300a/arc.mcap: pipelines/gmaw-300a/arc.json pipelines/gases/argon-1atm.json $(BIN)/arcfvm
+build/gmaw-300a/arc.mcap: pipelines/gmaw-300a/arc.json build/gases/argon.mcap $(BIN)/arcfvm
 	$(RERUN) $@ $^ -- $(BIN)/arcfvm run pipelines/gmaw-300a/arc.json \
-	  --input gas=pipelines/gases/argon-1atm.json --out $@ $(MACHINE)
+	  --input gas=build/gases/argon.mcap --out $@ $(MACHINE)
 
 build/gmaw-300a/pool.mcap: pipelines/gmaw-300a/pool.json build/gmaw-300a/arc.mcap $(BIN)/poolsph
 	$(RERUN) $@ $^ -- $(BIN)/poolsph run pipelines/gmaw-300a/pool.json \
