@@ -81,7 +81,7 @@ impl Other {
     }
 }
 
-/// Takes temperature, flow, potential and the speed of the wire from the artefact at `path`; what it
+/// Takes temperature, flow, potential, iron vapour and the speed of the wire from the artefact at `path`; what it
 /// does not hold stays as it is.
 ///
 /// # Errors
@@ -101,6 +101,13 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<(), Failure> {
         }
         if let Some(heating) = &mut arc.heating {
             heating.energy.temperature.clone_from(start);
+        }
+    }
+    if let (Some(vaporising), Some(column)) =
+        (&mut arc.vaporising, other.column("iron_mass_fraction"))
+    {
+        for (k, y) in vaporising.vapour.iron.iter_mut().enumerate() {
+            *y = other.value_within(column, centre(k), kinds[k]);
         }
     }
     if let (Some(electric), Some(column)) = (&mut arc.electric, other.column("potential_v")) {

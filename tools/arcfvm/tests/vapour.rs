@@ -261,3 +261,18 @@ fn what_vapour_lacks_is_told_with_its_place() {
     );
     assert!(told(&metal).contains("evaporation/saturation wants vapour"));
 }
+
+#[test]
+fn a_scene_without_vapour_holds_nothing_of_it() {
+    let gas = r#""gas": {"given": {"density_kg_m3": 1, "viscosity_pa_s": 1e-3, "thermal_conductivity_w_m_k": 1,
+        "specific_heat_j_kg_k": 1000}}"#;
+    let scene = scene(&format!(r#"{BOX}, {gas}, "flow": {{}}, "heat": {{}}"#));
+    let case = assemble(&scene, None).unwrap();
+    let mut arc = Arc::new(case, Settings::from(&scene.iterate));
+    let residuals = arc.iterate(&mut ()).unwrap();
+    assert!(arc.vaporising.is_none() && arc.iron_balance().is_none());
+    assert!(residuals.named().all(|(name, _)| name != "residual_iron"));
+    let properties = &arc.properties;
+    assert!(properties.iron.is_empty() && properties.iron_diffusion.is_empty());
+    assert!(arc.flowing.as_ref().unwrap().flow.mass_source.is_empty());
+}
