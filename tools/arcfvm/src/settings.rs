@@ -53,14 +53,14 @@ impl From<&Iterate> for Settings {
                 Method::Incomplete(rule(1e-2, 300)),
                 Method::Incomplete(rule(1e-2, 20)),
                 Method::Incomplete(rule(1e-2, 100)),
-                Method::Incomplete(rule(1e-2, 50)),
+                Method::Incomplete(rule(1e-3, 50)),
             ),
             // Where gas is carried, incomplete factors follow the stream and multigrid does not.
             LinearSolver::Multigrid => (
                 multigrid(1e-2, 60),
                 Method::Incomplete(rule(1e-2, 20)),
                 multigrid(1e-2, 60),
-                Method::Incomplete(rule(1e-2, 50)),
+                Method::Incomplete(rule(1e-3, 50)),
             ),
             // Enough sweeps that what an iteration changes travels as far as its relaxation lets it.
             LinearSolver::Sor => (

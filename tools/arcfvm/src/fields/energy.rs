@@ -27,6 +27,8 @@ const IN_CIRCLES: u8 = 3;
 const BOLDER: f64 = 1.02;
 /// Least factor.
 const CALMEST: f64 = 0.1;
+/// Part of its temperature that a cell may lose in one iteration.
+const MOST_FALL: f64 = 0.8;
 
 /// Temperatures and everything that the balance is made of.
 #[derive(Debug, Clone)]
@@ -346,9 +348,15 @@ impl Energy {
         for k in 0..self.temperature.len() {
             let old = self.scratch[k];
             let wanted = self.temperature[k] - old;
-            if wanted.abs() > step.limit {
+            // An unfinished linear solve can reach below zero in the first iterations.
+            let limit = if wanted < 0.0 {
+                step.limit.min(MOST_FALL * old)
+            } else {
+                step.limit
+            };
+            if wanted.abs() > limit {
                 limited += 1;
-                self.temperature[k] = old + step.limit.copysign(wanted);
+                self.temperature[k] = old + limit.copysign(wanted);
             }
             let taken = self.temperature[k] - old;
             change = change.max(taken.abs());
