@@ -1,0 +1,27 @@
+# saw-600a-arc: the heat source of submerged arc welding, 600 A, and what polarity, current and cathode change.
+
+.PHONY: saw-600a-arc
+saw-600a-arc: build/saw-600a-arc/report.html ## submerged arc in flux: both polarities, 400 and 600 A, two cathodes, with their report
+
+SAW := pipelines/saw-600a-arc
+SAW_VARIANTS := dcep-400 dcen-600 fall
+
+build/saw-600a-arc/dcep.mcap: $(SAW)/arc.json build/gases/co-iron.mcap $(BIN)/arcfvm
+	$(RERUN) $@ $^ -- $(BIN)/arcfvm run $(SAW)/arc.json --input gas=build/gases/co-iron.mcap --out $@ $(MACHINE)
+
+$(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap): build/saw-600a-arc/%.mcap: $(SAW)/arc.json $(SAW)/%.patch.json \
+  build/gases/co-iron.mcap $(BIN)/arcfvm
+	$(RERUN) $@ $^ -- $(BIN)/arcfvm run $(SAW)/arc.json --patch $(SAW)/$*.patch.json \
+	  --input gas=build/gases/co-iron.mcap --out $@ $(MACHINE)
+
+SAW_ARCS := dcep=build/saw-600a-arc/dcep.mcap dcep-400=build/saw-600a-arc/dcep-400.mcap \
+  dcen=build/saw-600a-arc/dcen-600.mcap fall=build/saw-600a-arc/fall.mcap
+
+build/saw-600a-arc/report.html: build/saw-600a-arc/dcep.mcap $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap) \
+  $(SAW)/targets.json $(BIN)/report
+	$(RERUN) $@ $^ -- $(BIN)/report page --study saw-600a-arc --out $@ \
+	  $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json
+
+.PHONY: validate-saw-600a-arc
+validate-saw-600a-arc: build/saw-600a-arc/report.html ## the submerged arc against published values, row by row
+	$(BIN)/report validate $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json
