@@ -47,7 +47,7 @@ pub(super) fn section(reader: &Reader) -> Result<String, Failure> {
     if let Some(canvas) = plasma.as_ref().and_then(Plasma::picture) {
         let caption = "The arc in a plane through its axis. Right of the axis the temperature of the gas, with \
                        lines at 5, 10, 15, 20 and 25 thousand kelvin; left its speed, with arrows along the flow. \
-                       Brown is the wire, grey the base metal.";
+                       Brown is the wire, grey the base metal, sand what else there is, such as flux.";
         let image = picture(&canvas, caption).map_err(|e| encoding(&e))?;
         out += &figure(&image, caption);
     }

@@ -9,6 +9,8 @@ use crate::draw::colour::{Map, PLATE, Rgb, WHITE, hex};
 use crate::draw::contour::Grid;
 
 const WIRE: Rgb = hex(0xb0_8d5b);
+/// Any other body, such as flux.
+const BED: Rgb = hex(0xd9_d2c3);
 /// Isotherms \[K\].
 const ISOTHERMS: [f64; 5] = [5_000.0, 10_000.0, 15_000.0, 20_000.0, 25_000.0];
 /// Gas hotter than this is worth seeing \[K\].
@@ -172,7 +174,11 @@ impl Plasma {
             let [r, z] = self.place(p);
             let material = self.material[self.nearest([r, z])];
             if material > 0.5 {
-                return Some(if material < 1.5 { WIRE } else { PLATE });
+                return Some(match material {
+                    m if m < 1.5 => WIRE,
+                    m if m < 2.5 => PLATE,
+                    _ => BED,
+                });
             }
             let right = p[0] >= 0.0;
             let both = (
