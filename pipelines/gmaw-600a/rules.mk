@@ -1,0 +1,16 @@
+# gmaw-600a: the heat source of gas metal arc welding with the wire and current of the submerged arc.
+
+.PHONY: gmaw-600a
+gmaw-600a: build/gmaw-600a/report.html ## gas metal arc of 600 A in carbon monoxide, with its report
+
+build/gmaw-600a/arc.mcap: pipelines/gmaw-600a/arc.json build/gases/co-iron.mcap $(BIN)/arcfvm
+	$(RERUN) $@ $^ -- $(BIN)/arcfvm run pipelines/gmaw-600a/arc.json \
+	  --input gas=build/gases/co-iron.mcap --out $@ $(MACHINE)
+
+build/gmaw-600a/report.html: build/gmaw-600a/arc.mcap pipelines/gmaw-600a/targets.json $(BIN)/report
+	$(RERUN) $@ $^ -- $(BIN)/report page --study gmaw-600a --out $@ \
+	  --arc gmaw=build/gmaw-600a/arc.mcap --targets pipelines/gmaw-600a/targets.json
+
+.PHONY: validate-gmaw-600a
+validate-gmaw-600a: build/gmaw-600a/report.html ## the gas metal arc of 600 A against published values
+	$(BIN)/report validate --arc gmaw=build/gmaw-600a/arc.mcap --targets pipelines/gmaw-600a/targets.json
