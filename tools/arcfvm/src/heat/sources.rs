@@ -115,6 +115,7 @@ impl Sources {
     /// Takes up what each contact took up before.
     pub fn restore(&mut self, absorbed: Vec<f64>) {
         self.absorbed = absorbed;
+        self.stale = false;
     }
 
     /// Sum of the amounts \[W\], for scale.
