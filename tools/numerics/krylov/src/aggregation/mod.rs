@@ -47,6 +47,8 @@ pub struct Aggregation {
     /// Power of two that brings the largest diagonal near one, in reach of single precision.
     scale: f64,
     levels: Vec<Level>,
+    /// The coarsest matrix, as it is factorised.
+    last: Rows,
     bottom: Dense,
     /// Balances of a fine and of a coarse matrix, for [`Self::renew`].
     balances: [Balance; 2],
@@ -90,6 +92,7 @@ impl Aggregation {
             (rows, balance) = (coarse, sums);
         }
         new.bottom.factorise(&rows, &balance)?;
+        new.last = rows;
         Ok(new)
     }
 
@@ -108,11 +111,9 @@ impl Aggregation {
                 found: a.len(),
             });
         }
-        let mut rows = Rows::default();
         let [mut balance, mut sums] = std::mem::take(&mut self.balances);
-        if let Some(top) = self.levels.first_mut() {
-            std::mem::swap(&mut rows, &mut top.rows);
-        }
+        let top = self.levels.first_mut().map(|level| &mut level.rows);
+        let mut rows = std::mem::take(top.unwrap_or(&mut self.last));
         self.take(a, &mut rows, &mut balance)?;
         for k in 0..self.levels.len() {
             let (fine, rest) = self.levels.split_at_mut(k + 1);
@@ -121,10 +122,8 @@ impl Aggregation {
                 *self = Self::new(a, self.symmetric)?;
                 return Ok(true);
             }
-            let mut coarse = match rest.first_mut() {
-                Some(next) => std::mem::take(&mut next.rows),
-                None => Rows::default(),
-            };
+            let next = rest.first_mut().map(|level| &mut level.rows);
+            let mut coarse = std::mem::take(next.unwrap_or(&mut self.last));
             level
                 .groups
                 .sum((&rows, &balance), &mut coarse, &mut sums)?;
@@ -133,6 +132,7 @@ impl Aggregation {
             std::mem::swap(&mut balance, &mut sums);
         }
         self.bottom.factorise(&rows, &balance)?;
+        self.last = rows;
         self.balances = [balance, sums];
         Ok(false)
     }
@@ -168,7 +168,7 @@ impl Aggregation {
             let numbers = numbers + level.x.capacity() + level.rhs.capacity();
             8 * numbers + level.rows.bytes() + level.groups.bytes()
         };
-        self.levels.iter().map(of).sum::<usize>() + self.bottom.bytes()
+        self.levels.iter().map(of).sum::<usize>() + self.last.bytes() + self.bottom.bytes()
     }
 }
 
