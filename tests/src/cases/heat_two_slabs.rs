@@ -65,19 +65,11 @@ impl Case for HeatTwoSlabs {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let mut targets = Vec::new();
-        for pair in &PAIRS {
-            for quantity in ["interface", "flux"] {
-                let quantity = format!("{quantity}_{}", pair.name);
-                targets.push(Target::error(&quantity, 1e-3));
-                // Regular points mirror each other in the interface and their errors cancel there to
-                // 6e-6: three times the bound is asked of shifted ones, not three times that.
-                for method in TRANSIENT.iter().filter(|m| methods::is_jittered(m)) {
-                    targets.push(Target::error(&quantity, 3e-3).of(*method));
-                }
-            }
-        }
-        targets
+        let pair = |pair: &Pair| {
+            let target = |of| Target::error(format!("{of}_{}", pair.name), 1e-3);
+            ["interface", "flux"].map(target)
+        };
+        methods::also_jittered(PAIRS.iter().flat_map(pair).collect(), TRANSIENT)
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
