@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 5] = ["neighbours", "kernels", "props", "krylov", "relax"];
+const NUMERICS: [&str; 6] = ["neighbours", "kernels", "props", "krylov", "relax", "wls"];
 const HARNESS: [&str; 2] = ["artefact", "run"];
 
 fn root() -> PathBuf {
@@ -21,6 +21,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
         "neighbours" | "props" | "krylov" | "relax" | "artefact" => &[],
         "kernels" => &["neighbours"],
+        "wls" => &["neighbours", "krylov"],
         "run" => &["artefact"],
         "report" => &["artefact", "run"],
         "verification" => &["artefact", "kernels", "neighbours", "relax"],

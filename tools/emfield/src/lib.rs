@@ -1,0 +1,1 @@
+//! Weighted least squares meshfree electrostatic and eddy-current fields.

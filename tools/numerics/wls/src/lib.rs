@@ -1,0 +1,1 @@
+//! Weighted least squares stencils on scattered points.
