@@ -6,6 +6,8 @@
 //! so a sum over a row is bitwise reproducible. A point at exactly the radius is no neighbour
 //! (every kernel is zero there), nor is a point its own.
 //!
+//! [`Tree`] serves clouds whose spacing varies, where no one size of cells fits.
+//!
 //! Lists are kept in chunks of [`ROWS`] rows. A chunk is the unit of parallel work and of
 //! memory: buffers keep their capacity from build to build, so that a settled cloud is searched
 //! without allocation. Pair data of a caller can use the same offsets ([`Chunk::offsets`]).
@@ -24,7 +26,9 @@ mod grid;
 mod halo;
 mod lists;
 pub mod naive;
+mod tree;
 
 pub use grid::Grid;
 pub use halo::Halo;
 pub use lists::{Chunk, Lists, ROWS};
+pub use tree::Tree;
