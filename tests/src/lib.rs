@@ -7,12 +7,14 @@
 //!
 //! - [`case`] says what a case is, [`lab`] runs tools, [`norms`] measures, [`study`] turns three
 //!   resolutions into a record of error against run time.
-//! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction.
+//! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction,
+//!   [`em`] those for electric and magnetic fields.
 
 pub mod bell;
 pub mod bench;
 pub mod case;
 pub mod cases;
+pub mod em;
 pub mod extreme;
 pub mod heat;
 pub mod lab;

@@ -1,0 +1,25 @@
+//! References for electric and magnetic fields that share nothing with a solver.
+//!
+//! - [`dielectric`]: a dielectric sphere in a uniform field, Matsuzawa (2017), eqs 3.3 to 3.11.
+//! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
+//! - [`cylinder`]: a conducting cylinder in an axial alternating field, eqs 3.12 and 3.13;
+//!   [`diffusion`]: the same after its field is switched on.
+//! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field.
+
+pub mod bessel;
+pub mod cylinder;
+pub mod dielectric;
+pub mod diffusion;
+pub mod sphere;
+
+use num_complex::Complex;
+
+/// A complex number.
+pub type C = Complex<f64>;
+
+/// Permeability of vacuum \[H/m\], `4 pi 1e-7` as the classic ampere had it (CODATA 2018 differs by
+/// 5e-10).
+pub const MU0: f64 = 4e-7 * std::f64::consts::PI;
+
+/// Permittivity of vacuum \[F/m\].
+pub const EPS0: f64 = 8.854_187_812_8e-12;
