@@ -20,17 +20,32 @@
 )]
 
 mod aggregation;
+mod columns;
 mod conjugate;
+mod ending;
 mod gmres;
+mod incomplete;
 mod jacobi;
+mod operator;
+mod order;
+mod rows;
+mod scalar;
 mod sparse;
+mod stabilised;
 mod sums;
 
 pub use aggregation::Aggregation;
 pub use conjugate::conjugate_gradient;
+pub use ending::{Breakdown, Ending, Rule, Solved, Stagnation};
 pub use gmres::gmres;
+pub use incomplete::{Incomplete, Keep};
 pub use jacobi::{Jacobi, Scaled};
+pub use operator::{Identity, Inverse, LowRank, Operator, Shifted};
+pub use order::Order;
+pub use rows::Rows;
+pub use scalar::{Coefficient, Scalar};
 pub use sparse::{Pattern, Sparse};
+pub use stabilised::{Scratch, bicgstab2};
 
 use thiserror::Error;
 
