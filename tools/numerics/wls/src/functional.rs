@@ -1,0 +1,227 @@
+//! What is asked of a fit, and what it must obey, as rows over the monomials.
+
+use crate::basis::{Basis, TERMS};
+use crate::metric::Metric;
+use crate::moments::Coefficients;
+
+/// The operators whose weights are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Wants {
+    /// The value of the fit at the point itself (it smooths: a fit does not pass through its points).
+    pub value: bool,
+    /// First derivatives.
+    pub gradient: bool,
+    /// Second derivatives, each.
+    pub hessian: bool,
+    /// The sum of the unmixed second derivatives.
+    pub laplacian: bool,
+}
+
+/// A condition that a fit obeys exactly, whatever its points say.
+///
+/// The datum g of each enters with weights of its own ([`crate::Row::conditions`]), in the order in
+/// which the conditions are given; where g = 0 they do not matter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Condition<const D: usize> {
+    /// The value g at a place.
+    Value {
+        /// Place \[m\].
+        at: [f64; D],
+    },
+    /// The derivative g along a normal at a place: a Neumann row.
+    Flux {
+        /// Place \[m\].
+        at: [f64; D],
+        /// Direction; g is the gradient times it.
+        normal: [f64; D],
+    },
+    /// The Laplacian g at a place.
+    Laplacian {
+        /// Place \[m\].
+        at: [f64; D],
+    },
+    /// The polynomial is harmonic: its Laplacian is zero everywhere. It has no datum.
+    Harmonic,
+}
+
+/// Where the rows of each operator stand among those of a fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Columns {
+    pub(crate) value: Option<usize>,
+    pub(crate) gradient: Option<usize>,
+    pub(crate) hessian: Option<usize>,
+    pub(crate) laplacian: Option<usize>,
+    pub(crate) count: usize,
+}
+
+impl Columns {
+    pub(crate) fn new<const D: usize>(wants: Wants) -> Self {
+        let mut count = 0;
+        let mut take = |wanted: bool, rows: usize| {
+            let start = count;
+            count += if wanted { rows } else { 0 };
+            wanted.then_some(start)
+        };
+        let value = take(wants.value, 1);
+        let gradient = take(wants.gradient, D);
+        let hessian = take(wants.hessian, D * (D + 1) / 2);
+        let laplacian = take(wants.laplacian, 1);
+        Self {
+            value,
+            gradient,
+            hessian,
+            laplacian,
+            count,
+        }
+    }
+
+    /// Place of d2/dx_a dx_b among the second derivatives: xx, xy, xz, yy, yz, zz.
+    pub(crate) fn pair<const D: usize>(a: usize, b: usize) -> usize {
+        let (a, b) = (a.min(b), a.max(b));
+        a * D - a * (a + 1) / 2 + b
+    }
+}
+
+/// Rows over the monomials of `basis` in coordinates that `metric` and the radius of a support
+/// scale: s = M dx / (L radius). Derivatives are taken with respect to x / L.
+pub(crate) struct Rows<'a, const D: usize> {
+    pub(crate) basis: &'a Basis<D>,
+    pub(crate) metric: &'a Metric<D>,
+    pub(crate) radius: f64,
+}
+
+impl<const D: usize> Rows<'_, D> {
+    fn value(&self, s: [f64; D]) -> Coefficients {
+        self.sum(|k| self.basis.derivative(k, &[], s))
+    }
+
+    fn first(&self, along: [f64; D], s: [f64; D]) -> Coefficients {
+        let mut scaled = [0.0; D];
+        for a in 0..D {
+            let row = self.metric.row(a);
+            for b in 0..D {
+                scaled[b] += along[a] * row[b] / self.radius;
+            }
+        }
+        self.sum(|k| {
+            (0..D)
+                .map(|b| scaled[b] * self.basis.derivative(k, &[b], s))
+                .sum()
+        })
+    }
+
+    /// sum over (a, b) of `pairs` of d2/dx_a dx_b.
+    fn second(&self, pairs: &[(usize, usize)], s: [f64; D]) -> Coefficients {
+        let mut product = [[0.0; D]; D];
+        for &(a, b) in pairs {
+            let (first, second) = (self.metric.row(a), self.metric.row(b));
+            for c in 0..D {
+                for d in 0..D {
+                    product[c][d] += first[c] * second[d] / (self.radius * self.radius);
+                }
+            }
+        }
+        self.sum(|k| {
+            let mut value = 0.0;
+            for c in 0..D {
+                for d in 0..D {
+                    value += product[c][d] * self.basis.derivative(k, &[c, d], s);
+                }
+            }
+            value
+        })
+    }
+
+    fn laplacian(&self, s: [f64; D]) -> Coefficients {
+        let pairs: [(usize, usize); D] = std::array::from_fn(|a| (a, a));
+        self.second(&pairs, s)
+    }
+
+    fn sum(&self, value: impl Fn(usize) -> f64) -> Coefficients {
+        let mut row = [0.0; TERMS];
+        for (k, entry) in row.iter_mut().enumerate().take(self.basis.len()) {
+            *entry = value(k);
+        }
+        row
+    }
+
+    /// Rows of all wanted operators at the point itself.
+    pub(crate) fn functionals(&self, columns: &Columns, rows: &mut Vec<Coefficients>) {
+        let own = [0.0; D];
+        rows.clear();
+        if columns.value.is_some() {
+            rows.push(self.value(own));
+        }
+        if columns.gradient.is_some() {
+            for a in 0..D {
+                let along = std::array::from_fn(|b| f64::from(u8::from(a == b)));
+                rows.push(self.first(along, own));
+            }
+        }
+        if columns.hessian.is_some() {
+            for a in 0..D {
+                for b in a..D {
+                    rows.push(self.second(&[(a, b)], own));
+                }
+            }
+        }
+        if columns.laplacian.is_some() {
+            rows.push(self.laplacian(own));
+        }
+    }
+
+    /// Rows of a condition seen from `place`; each with the power of the spacing by which its datum
+    /// must be multiplied, none where it has no datum.
+    pub(crate) fn condition(
+        &self,
+        condition: &Condition<D>,
+        place: [f64; D],
+        mut push: impl FnMut(Coefficients, Option<i32>),
+    ) {
+        let offset = |at: [f64; D]| {
+            let s = self
+                .metric
+                .scaled(std::array::from_fn(|a| at[a] - place[a]));
+            s.map(|x| x / self.radius)
+        };
+        match *condition {
+            Condition::Value { at } => push(self.value(offset(at)), Some(0)),
+            Condition::Flux { at, normal } => push(self.first(normal, offset(at)), Some(1)),
+            Condition::Laplacian { at } => push(self.laplacian(offset(at)), Some(2)),
+            Condition::Harmonic => self.harmonic(push),
+        }
+    }
+
+    /// All coefficients of the Laplacian of the polynomial.
+    fn harmonic(&self, mut push: impl FnMut(Coefficients, Option<i32>)) {
+        let mut product = [[0.0; D]; D];
+        for a in 0..D {
+            let row = self.metric.row(a);
+            for c in 0..D {
+                for d in 0..D {
+                    product[c][d] += row[c] * row[d];
+                }
+            }
+        }
+        let exponents = self.basis.exponents();
+        let degree = |e: &[u8; D]| e.iter().sum::<u8>();
+        for low in exponents
+            .iter()
+            .filter(|e| degree(e) + 2 <= self.basis.order())
+        {
+            let mut row = [0.0; TERMS];
+            for c in 0..D {
+                for d in 0..D {
+                    let mut high = *low;
+                    high[c] += 1;
+                    let first = f64::from(high[c]);
+                    high[d] += 1;
+                    if let Some(k) = self.basis.number(high) {
+                        row[k] += product[c][d] * first * f64::from(high[d]);
+                    }
+                }
+            }
+            push(row, None);
+        }
+    }
+}

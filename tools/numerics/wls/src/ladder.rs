@@ -1,0 +1,228 @@
+//! One row, whatever its support is like: enlarge it, take it by singular values, lower the order.
+
+use crate::basis::{Basis, terms};
+use crate::error::Error;
+use crate::fit::{Fit, Way};
+use crate::functional::{Columns, Condition, Rows};
+use crate::moments::Coefficients;
+use crate::plan::{Plan, Rules};
+use crate::positive;
+use crate::search::{Search, Support, Target};
+
+/// Condition number up to which a support is good.
+const GOOD: f64 = 1e5;
+/// A support is enlarged so many times.
+const ENLARGEMENTS: u32 = 3;
+/// Weights of a fit by singular values, in units of the spacing, sum up to this at most.
+const TAME: f64 = 1e4;
+
+/// How a row came about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Made {
+    pub(crate) order: u8,
+    pub(crate) way: Way,
+    pub(crate) enlarged: bool,
+    pub(crate) condition: f64,
+    pub(crate) positive: Option<bool>,
+}
+
+/// Everything that rows of one plan share.
+pub(crate) struct Bench<'a, const D: usize, R> {
+    pub(crate) search: &'a Search<'a, D>,
+    pub(crate) plan: &'a Plan,
+    pub(crate) rules: &'a R,
+    pub(crate) columns: Columns,
+    /// By order, from 1.
+    pub(crate) bases: Vec<Basis<D>>,
+}
+
+/// Memory of one worker.
+pub(crate) struct Work<const D: usize> {
+    pub(crate) support: Support<D>,
+    pub(crate) fit: Fit<D>,
+    conditions: Vec<Condition<D>>,
+    /// For each row of a condition: the power of the spacing that its datum bears, if it has one.
+    powers: Vec<Option<i32>>,
+    condition_rows: Vec<Coefficients>,
+    functionals: Vec<Coefficients>,
+    /// Weights of the data of conditions, functional after functional.
+    pub(crate) shares: Vec<f64>,
+}
+
+impl<const D: usize> Work<D> {
+    pub(crate) fn new() -> Self {
+        Self {
+            support: Support::new(),
+            fit: Fit::new(),
+            conditions: Vec::new(),
+            powers: Vec::new(),
+            condition_rows: Vec::new(),
+            functionals: Vec::new(),
+            shares: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
+    /// Weights of `target`, whose support stands in `work`, into `work.fit` and `work.shares`.
+    pub(crate) fn solve(&self, target: &Target<D>, work: &mut Work<D>) -> Result<Made, Error> {
+        work.conditions.clear();
+        if self.plan.interpolating && target.own {
+            work.conditions.push(Condition::Value { at: target.place });
+        }
+        self.rules.conditions(target.row, &mut work.conditions);
+        let mut worst = f64::INFINITY;
+        for order in (self.plan.lowest()..=self.plan.order).rev() {
+            for times in 0..=ENLARGEMENTS {
+                if times > 0 || order < self.plan.order {
+                    let before = work.support.neighbours.len();
+                    self.enlarge(target, times, &mut work.support)?;
+                    if times > 0 && work.support.neighbours.len() == before {
+                        continue;
+                    }
+                }
+                if let Some(made) = self.attempt(target, (order, times), work) {
+                    return Ok(made);
+                }
+                worst = work.fit.condition;
+            }
+            self.enlarge(target, 0, &mut work.support)?;
+            if let Some(made) = self.by_spectrum(target, order, work) {
+                return Ok(made);
+            }
+        }
+        Err(self.refusal(target, work, worst))
+    }
+
+    fn enlarge(
+        &self,
+        target: &Target<D>,
+        times: u32,
+        support: &mut Support<D>,
+    ) -> Result<(), Error> {
+        let reach = self.plan.reach.enlarged(times);
+        let allowed = |j| self.rules.allowed(target.row, j);
+        self.search.lone_support(target, reach, allowed, support)
+    }
+
+    fn attempt(
+        &self,
+        target: &Target<D>,
+        (order, times): (u8, u32),
+        work: &mut Work<D>,
+    ) -> Option<Made> {
+        let basis = &self.bases[usize::from(order) - 1];
+        self.prepare(target, basis, work);
+        let known = work.support.offsets.len() + work.condition_rows.len();
+        if known < basis.len() || !work.fit.factor(basis, GOOD) {
+            return None;
+        }
+        if !work.fit.solve(basis, &work.functionals) {
+            return None;
+        }
+        let positive = self.make_positive(basis, work);
+        Some(self.made(target, (order, times > 0), positive, work))
+    }
+
+    fn by_spectrum(&self, target: &Target<D>, order: u8, work: &mut Work<D>) -> Option<Made> {
+        let basis = &self.bases[usize::from(order) - 1];
+        if work.support.offsets.len() <= D {
+            return None;
+        }
+        self.prepare(target, basis, work);
+        if !work.fit.factor_spectrum(basis) || !work.fit.solve(basis, &work.functionals) {
+            return None;
+        }
+        let points = work.support.offsets.len();
+        let tame = work
+            .fit
+            .weights
+            .chunks(points)
+            .all(|row| row.iter().map(|w| w.abs()).sum::<f64>() < TAME);
+        tame.then(|| self.made(target, (order, false), None, work))
+    }
+
+    /// Loads the fit with the support, the conditions and the functionals.
+    fn prepare(&self, target: &Target<D>, basis: &Basis<D>, work: &mut Work<D>) {
+        let rows = Rows {
+            basis,
+            metric: &target.metric,
+            radius: work.support.radius,
+        };
+        rows.functionals(&self.columns, &mut work.functionals);
+        work.condition_rows.clear();
+        work.powers.clear();
+        for condition in &work.conditions {
+            rows.condition(condition, target.place, |row, power| {
+                work.condition_rows.push(row);
+                work.powers.push(power);
+            });
+        }
+        let support = (work.support.offsets.as_slice(), work.support.radius);
+        work.fit.load(basis, support, &work.condition_rows);
+    }
+
+    fn make_positive(&self, basis: &Basis<D>, work: &mut Work<D>) -> Option<bool> {
+        let row = self.columns.laplacian.filter(|_| self.plan.positive)?;
+        let (own, first) = (work.support.own?, work.condition_rows.is_empty());
+        if !first {
+            return None;
+        }
+        positive::improve(&mut work.fit, basis, &work.functionals[row], (row, own))
+    }
+
+    /// Gives the own point what an interpolating fit takes from its condition, and the data of the
+    /// others their weights in units of 1 / L per derivative.
+    fn made(
+        &self,
+        target: &Target<D>,
+        (order, enlarged): (u8, bool),
+        positive: Option<bool>,
+        work: &mut Work<D>,
+    ) -> Made {
+        let (points, count) = (work.support.offsets.len(), work.powers.len());
+        let skip = usize::from(self.plan.interpolating && target.own);
+        work.shares.clear();
+        for f in 0..self.columns.count * usize::from(count > 0) {
+            let own = &work.fit.shares[f * count..(f + 1) * count];
+            if let (1, Some(place)) = (skip, work.support.own) {
+                work.fit.weights[f * points + place] += own[0];
+            }
+            for (share, power) in own.iter().zip(&work.powers).skip(skip) {
+                if let Some(power) = power {
+                    work.shares
+                        .push(share * target.metric.spacing().powi(*power));
+                }
+            }
+        }
+        Made {
+            order,
+            way: work.fit.way,
+            enlarged,
+            condition: work.fit.condition,
+            positive,
+        }
+    }
+
+    fn refusal(&self, target: &Target<D>, work: &Work<D>, condition: f64) -> Error {
+        let found = work.support.neighbours.len();
+        let lowest = self.plan.lowest();
+        let needed = terms::<D>(lowest).saturating_sub(work.condition_rows.len());
+        if found < needed.max(D + 1) {
+            return Error::Lone {
+                point: target.row,
+                place: target.place.to_vec(),
+                found,
+                needed,
+                radius: work.support.radius * target.metric.widest * target.metric.spacing(),
+            };
+        }
+        Error::Flat {
+            point: target.row,
+            place: target.place.to_vec(),
+            found,
+            order: lowest,
+            condition,
+        }
+    }
+}

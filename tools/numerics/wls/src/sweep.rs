@@ -1,0 +1,338 @@
+//! From a cloud to its weights: supports, equal ones together, one solution for each.
+
+use rayon::prelude::*;
+
+use crate::basis::Basis;
+use crate::error::Error;
+use crate::functional::{Columns, Condition};
+use crate::ladder::{Bench, Made, Work};
+use crate::memo::{self, Group};
+use crate::plan::{Plan, Rules};
+use crate::report::Report;
+use crate::search::{Search, Target};
+use crate::stencils::{Spot, Stencils};
+
+/// Leaves of the tree that make a parcel of parallel work.
+const LEAVES: usize = 16;
+/// Solutions that make one.
+const SOLUTIONS: usize = 64;
+
+/// The support of one row, among those of a parcel.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Found {
+    pub(crate) row: u32,
+    pub(crate) count: u32,
+    /// First neighbour in the array of all.
+    pub(crate) start: usize,
+    pub(crate) radius: f64,
+    pub(crate) hash: u64,
+    /// It may share weights: no conditions of its own.
+    pub(crate) free: bool,
+}
+
+/// Supports of a cloud, in the order of the tree.
+#[derive(Debug, Default)]
+pub(crate) struct Supports {
+    pub(crate) found: Vec<Found>,
+    pub(crate) neighbours: Vec<u32>,
+}
+
+/// The weights of one group, and the support where it is another one than was found.
+struct Solution {
+    made: Made,
+    weights: usize,
+    shares: u32,
+    changed: Option<Vec<u32>>,
+    /// Its weights stand among the extra ones of its parcel.
+    extra: bool,
+}
+
+pub(crate) fn over_points<const D: usize, R: Rules<D>>(
+    search: &Search<'_, D>,
+    plan: &Plan,
+    rules: &R,
+) -> Result<Stencils<D>, Error> {
+    let target = |row: usize| search.target(row);
+    let leaves = search.tree().leaves();
+    let batches = leaves
+        .iter()
+        .map(|leaf| {
+            let rows = search.tree().order()[leaf.clone()].iter().copied();
+            rows.filter(|&row| rules.wanted(row as usize)).collect()
+        })
+        .collect::<Vec<Vec<u32>>>();
+    let bench = bench(search, plan, rules)?;
+    bench.sweep(&batches, search.cloud().points.len(), target)
+}
+
+pub(crate) fn over_places<const D: usize, R: Rules<D>>(
+    search: &Search<'_, D>,
+    plan: &Plan,
+    places: &[[f64; D]],
+    rules: &R,
+) -> Result<Stencils<D>, Error> {
+    if let Some(point) = places.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        return Err(Error::NotFinite {
+            point,
+            place: places[point].to_vec(),
+        });
+    }
+    let target = |row: usize| Target {
+        row,
+        place: places[row],
+        metric: search.cloud().metrics[search.nearest(places[row])],
+        own: false,
+    };
+    let batches = (0..places.len() as u32)
+        .filter(|&row| rules.wanted(row as usize))
+        .map(|row| vec![row])
+        .collect::<Vec<_>>();
+    let bench = bench(search, plan, rules)?;
+    bench.sweep(&batches, places.len(), target)
+}
+
+fn bench<'a, const D: usize, R: Rules<D>>(
+    search: &'a Search<'a, D>,
+    plan: &'a Plan,
+    rules: &'a R,
+) -> Result<Bench<'a, D, R>, Error> {
+    plan.check::<D>()?;
+    Ok(Bench {
+        search,
+        plan,
+        rules,
+        columns: Columns::new::<D>(plan.wants),
+        bases: (1..=plan.order).map(Basis::new).collect(),
+    })
+}
+
+/// What one parcel of solutions has found out.
+#[derive(Default)]
+struct Parcel {
+    solutions: Vec<Solution>,
+    /// Weights of rows that do not fit where they were expected.
+    extra: Vec<f64>,
+}
+
+impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
+    fn sweep(
+        &self,
+        batches: &[Vec<u32>],
+        rows: usize,
+        target: impl Fn(usize) -> Target<D> + Sync,
+    ) -> Result<Stencils<D>, Error> {
+        let supports = self.supports(batches, &target)?;
+        let groups = memo::groups(&supports, &target, self.search.cloud().points);
+        let mut stencils = Stencils {
+            spots: vec![Spot::default(); rows],
+            neighbours: Vec::new(),
+            weights: Vec::new(),
+            columns: self.columns,
+            report: Report::default(),
+        };
+        let mut changed = Vec::new();
+        let strays = self.place(&supports, &groups, &target, (&mut stencils, &mut changed))?;
+        if !strays.is_empty() {
+            let alone = strays.into_iter().map(Group::alone).collect::<Vec<_>>();
+            self.place(&supports, &alone, &target, (&mut stencils, &mut changed))?;
+        }
+        stencils.report.rows = supports.found.len();
+        stencils.report.neighbours = stencils.spots.iter().map(|s| s.count as usize).sum();
+        stencils.neighbours = supports.neighbours;
+        stencils.neighbours.extend_from_slice(&changed);
+        Ok(stencils)
+    }
+
+    /// Supports of all rows, parcel after parcel.
+    fn supports(
+        &self,
+        batches: &[Vec<u32>],
+        target: &(impl Fn(usize) -> Target<D> + Sync),
+    ) -> Result<Supports, Error> {
+        let parcels = batches
+            .par_chunks(LEAVES)
+            .map_init(Work::<D>::new, |work, batches| {
+                let mut supports = Supports::default();
+                for batch in batches {
+                    self.batch(batch, target, work, &mut supports)?;
+                }
+                Ok(supports)
+            })
+            .collect::<Vec<Result<Supports, Error>>>();
+        let mut all = Supports::default();
+        for parcel in parcels {
+            let mut parcel = parcel?;
+            for found in &mut parcel.found {
+                found.start += all.neighbours.len();
+            }
+            all.found.append(&mut parcel.found);
+            all.neighbours.append(&mut parcel.neighbours);
+        }
+        Ok(all)
+    }
+
+    fn batch(
+        &self,
+        batch: &[u32],
+        target: &impl Fn(usize) -> Target<D>,
+        work: &mut Work<D>,
+        supports: &mut Supports,
+    ) -> Result<(), Error> {
+        let targets = batch
+            .iter()
+            .map(|&row| target(row as usize))
+            .collect::<Vec<_>>();
+        let (mut candidates, mut conditions) = (Vec::new(), Vec::<Condition<D>>::new());
+        self.search
+            .candidates(&targets, self.plan.reach, &mut candidates);
+        for target in &targets {
+            let allowed = |j| self.rules.allowed(target.row, j);
+            let support = &mut work.support;
+            self.search
+                .support(target, self.plan.reach, &candidates, allowed, support)?;
+            conditions.clear();
+            self.rules.conditions(target.row, &mut conditions);
+            supports.found.push(Found {
+                row: target.row as u32,
+                count: support.neighbours.len() as u32,
+                start: supports.neighbours.len(),
+                radius: support.radius,
+                hash: support.hash,
+                free: conditions.is_empty(),
+            });
+            supports.neighbours.extend_from_slice(&support.neighbours);
+        }
+        Ok(())
+    }
+
+    /// Solves for the `groups` and gives their rows their weights; returns the members of groups
+    /// whose first had to change its support.
+    fn place(
+        &self,
+        supports: &Supports,
+        groups: &[Group],
+        target: &(impl Fn(usize) -> Target<D> + Sync),
+        (stencils, changed): (&mut Stencils<D>, &mut Vec<u32>),
+    ) -> Result<Vec<usize>, Error> {
+        let solutions = self.solutions(supports, groups, target, &mut stencils.weights)?;
+        let mut strays = Vec::new();
+        for (group, solution) in groups.iter().zip(&solutions) {
+            stencils.report.count(&solution.made, self.plan.order);
+            let mut put = |k: usize, start: usize, count: usize| {
+                let row = supports.found[k].row as usize;
+                stencils.spots[row] = Spot {
+                    start,
+                    count: count as u32,
+                    shares: solution.shares,
+                    weights: solution.weights,
+                    inverse_spacing: target(row).metric.spacing().recip(),
+                    order: solution.made.order,
+                };
+            };
+            if let Some(other) = &solution.changed {
+                put(
+                    group.first,
+                    supports.neighbours.len() + changed.len(),
+                    other.len(),
+                );
+                changed.extend_from_slice(other);
+                strays.extend_from_slice(&group.others);
+                continue;
+            }
+            for &k in std::iter::once(&group.first).chain(&group.others) {
+                let found = &supports.found[k];
+                put(k, found.start, found.count as usize);
+            }
+            stencils.report.shared += group.others.len();
+        }
+        Ok(strays)
+    }
+
+    /// One solution per group; appends the weights to `weights`.
+    fn solutions(
+        &self,
+        supports: &Supports,
+        groups: &[Group],
+        target: &(impl Fn(usize) -> Target<D> + Sync),
+        weights: &mut Vec<f64>,
+    ) -> Result<Vec<Solution>, Error> {
+        let first = weights.len();
+        let size = |group: &Group| supports.found[group.first].count as usize * self.columns.count;
+        let sizes = groups
+            .chunks(SOLUTIONS)
+            .map(|chunk| chunk.iter().map(size).sum::<usize>())
+            .collect::<Vec<_>>();
+        // A fresh vector is zero without being touched: its pages come to the workers' hands.
+        let mut fresh = vec![0.0; sizes.iter().sum()];
+        let mut rest = fresh.as_mut_slice();
+        let mut start = first;
+        let mut parcels = Vec::with_capacity(sizes.len());
+        for (chunk, size) in groups.chunks(SOLUTIONS).zip(sizes) {
+            let (own, others) = std::mem::take(&mut rest).split_at_mut(size);
+            parcels.push((chunk, start, own));
+            (rest, start) = (others, start + size);
+        }
+        let done = parcels
+            .into_par_iter()
+            .map_init(Work::<D>::new, |work, (chunk, start, room)| {
+                self.parcel((supports, chunk), target, (start, room), work)
+            })
+            .collect::<Vec<Result<Parcel, Error>>>();
+        if first == 0 {
+            *weights = fresh;
+        } else {
+            weights.append(&mut fresh);
+        }
+        let mut solutions = Vec::with_capacity(groups.len());
+        for parcel in done {
+            let parcel = parcel?;
+            for mut solution in parcel.solutions {
+                if solution.extra {
+                    solution.weights += weights.len();
+                }
+                solutions.push(solution);
+            }
+            weights.extend_from_slice(&parcel.extra);
+        }
+        Ok(solutions)
+    }
+
+    fn parcel(
+        &self,
+        (supports, groups): (&Supports, &[Group]),
+        target: &impl Fn(usize) -> Target<D>,
+        (mut start, mut room): (usize, &mut [f64]),
+        work: &mut Work<D>,
+    ) -> Result<Parcel, Error> {
+        let mut parcel = Parcel::default();
+        for group in groups {
+            let found = &supports.found[group.first];
+            let neighbours = &supports.neighbours[found.start..][..found.count as usize];
+            let target = target(found.row as usize);
+            self.search
+                .recall(&target, neighbours, found.radius, &mut work.support);
+            let made = self.solve(&target, work)?;
+            let size = neighbours.len() * self.columns.count;
+            let (own, others) = std::mem::take(&mut room).split_at_mut(size);
+            let changed = work.support.neighbours != neighbours;
+            let extra = changed || !work.shares.is_empty();
+            let mut solution = Solution {
+                made,
+                weights: start,
+                shares: (work.shares.len() / self.columns.count) as u32,
+                changed: changed.then(|| work.support.neighbours.clone()),
+                extra,
+            };
+            if extra {
+                solution.weights = parcel.extra.len();
+                parcel.extra.extend_from_slice(&work.fit.weights);
+                parcel.extra.extend_from_slice(&work.shares);
+            } else {
+                own.copy_from_slice(&work.fit.weights);
+            }
+            parcel.solutions.push(solution);
+            (room, start) = (others, start + size);
+        }
+        Ok(parcel)
+    }
+}
