@@ -6,7 +6,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 6] = ["neighbours", "kernels", "props", "krylov", "relax", "wls"];
+const NUMERICS: [&str; 7] = [
+    "neighbours",
+    "kernels",
+    "props",
+    "krylov",
+    "relax",
+    "wls",
+    "shapes",
+];
 const HARNESS: [&str; 2] = ["artefact", "run"];
 
 fn root() -> PathBuf {
@@ -19,7 +27,7 @@ fn root() -> PathBuf {
 /// Arrows that a crate of ours may point along.
 fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
-        "neighbours" | "props" | "krylov" | "relax" | "artefact" => &[],
+        "neighbours" | "props" | "krylov" | "relax" | "shapes" | "artefact" => &[],
         "kernels" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],
         "run" => &["artefact"],

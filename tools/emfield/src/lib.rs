@@ -1,1 +1,10 @@
 //! Weighted least squares meshfree electrostatic and eddy-current fields.
+//!
+//! After Matsuzawa (2017), chapters 2.1, 2.3 and 3.2, with the errata. The way of a scene through the crate:
+//!
+//! - [`scene`] is what a person writes; [`cloud`] fills the domain with points;
+//! - [`source`] knows the exact fields of coils.
+
+pub mod cloud;
+pub mod scene;
+pub mod source;

@@ -3,7 +3,6 @@
 use run::Fault;
 use run::property::{Arguments, OutOfRange};
 
-use crate::body::Body;
 use crate::boundary::{self, Surface};
 use crate::cloud::Cloud;
 use crate::material::cells::Ground;
@@ -11,6 +10,7 @@ use crate::material::{Materials, PLACE};
 use crate::operator::Links;
 use crate::scene::Scene;
 use crate::system::{System, extent};
+use shapes::Body;
 
 /// What a source may depend on.
 const SOURCE: [&str; 6] = ["x", "y", "z", "r", "T", "t"];

@@ -3,7 +3,7 @@
 //! After Rong and Kisu (2010), with their errata: conductivity a function of place and temperature, bodies of
 //! any shape, every kind of boundary. The way of a scene through the crate:
 //!
-//! - [`body`] composes shapes, [`cloud`] fills them with points and gives each its patches of surface;
+//! - `shapes` composes bodies, [`cloud`] fills them with points and gives each its patches of surface;
 //! - [`operator`] weighs the links between points: the pair form of the paper, or weights balanced so that linear
 //!   fields are exact on any cloud while no heat is lost;
 //! - [`material`] says how links conduct and cells store, [`boundary`] what passes through the surface;
@@ -13,7 +13,6 @@
 //! - [`simulate`] leads the march, [`output`] writes.
 
 pub mod assemble;
-pub mod body;
 pub mod boundary;
 pub mod cloud;
 pub mod march;

@@ -3,8 +3,8 @@
 use kernels::CubicSpline;
 use nalgebra::{DMatrix, DVector};
 
-use crate::body::frame::{Vector, difference, length};
 use crate::cloud::Cloud;
+use shapes::frame::{Vector, difference, length};
 
 /// Smoothing length over spacing.
 const SMOOTHING: f64 = 1.2;
@@ -82,7 +82,7 @@ fn fit(x: Vector, cloud: &Cloud, spacing: f64) -> Option<Vec<(u32, f64)>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::Body;
+    use shapes::Body;
 
     #[test]
     fn a_monitor_is_exact_for_linear_fields() {

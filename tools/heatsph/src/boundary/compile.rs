@@ -4,10 +4,10 @@ use run::Fault;
 use run::property::{Curve, Property};
 
 use super::{Condition, Film, Held, Surface};
-use crate::body::Body;
-use crate::body::frame::along;
 use crate::cloud::{Cloud, Patch};
 use crate::scene::{Boundary, Scene};
+use shapes::Body;
+use shapes::frame::along;
 
 /// What a property of the surface may depend on.
 const NAMES: [&str; 5] = ["x", "y", "z", "r", "t"];

@@ -17,7 +17,7 @@ mod compile;
 
 use run::property::{Arguments, Curve, OutOfRange};
 
-use crate::body::frame::Vector;
+use shapes::frame::Vector;
 
 pub use compile::compile;
 

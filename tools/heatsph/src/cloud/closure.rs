@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Cloud;
-use crate::body::frame::{Vector, along, cross, difference, length};
+use shapes::frame::{Vector, along, cross, difference, length};
 
 /// Part of the mean of the diagonal that keeps directions out in which nothing can be changed.
 const LEAST: f64 = 1e-10;

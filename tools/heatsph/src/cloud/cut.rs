@@ -1,9 +1,9 @@
 //! A lattice along the axes, cut by a body: points well inside, none on the surface.
 
 use super::{Cloud, CloudError, shift};
-use crate::body::Body;
-use crate::body::surface;
 use crate::scene::Points;
+use shapes::Body;
+use shapes::surface;
 
 /// Points nearer to the surface than this part of the spacing are left out.
 const NEAREST: f64 = 0.25;

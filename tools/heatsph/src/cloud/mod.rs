@@ -11,10 +11,10 @@ mod rings;
 mod shells;
 mod shift;
 
-use crate::body::frame::{Vector, along, difference, dot};
-use crate::body::surface::{self, Piece};
-use crate::body::{Body, Kind};
 use crate::scene::{Arrangement, Points};
+use shapes::frame::{Vector, along, difference, dot};
+use shapes::surface::{self, Piece};
+use shapes::{Body, Kind};
 
 /// A piece of surface and the point that owns it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -189,7 +189,7 @@ impl Cloud {
             };
             let normal = sum(|p| p.normal);
             merged.push(Patch {
-                normal: crate::body::frame::direction(normal),
+                normal: shapes::frame::direction(normal),
                 place: sum(|p| p.place),
                 area,
                 ..run[0]

@@ -4,8 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::{Cloud, Patch, gaps, graded, widths};
-use crate::body::frame::Vector;
 use crate::scene::Points;
+use shapes::frame::Vector;
 
 /// One ring and what its points stand for.
 struct Ring {

@@ -1,8 +1,8 @@
 //! Random shifts of points.
 
 use super::Cloud;
-use crate::body::frame::Vector;
 use crate::scene::Points;
+use shapes::frame::Vector;
 
 /// A number in [-1, 1) from a seed and two counters (the mixing of Steele, Lea and Flood 2014, "SplitMix").
 fn random(seed: u64, point: u64, axis: u64) -> f64 {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::frame::length;
+use shapes::frame::length;
 
 fn cloud(body: &str, points: &str, dimensions: usize) -> Cloud {
     let body = Body::new(&serde_json::from_str(body).unwrap(), dimensions);

@@ -9,10 +9,10 @@
 use run::property::{Arguments, Curve, OutOfRange};
 
 use super::Materials;
-use crate::body::Body;
-use crate::body::frame::{Vector, along, difference, dot, length};
 use crate::cloud::Cloud;
 use crate::operator::Links;
+use shapes::Body;
+use shapes::frame::{Vector, along, difference, dot, length};
 
 /// Samples along an edge of a cell that an interface crosses, in a plane and in space.
 const SAMPLES: [usize; 2] = [8, 4];

@@ -7,10 +7,10 @@ pub mod path;
 use run::property::{Arguments, Curve, OutOfRange};
 use run::{Fault, property::Property};
 
-use crate::body::Body;
-use crate::body::frame::Vector;
 use crate::scene::{Material, Scene};
 use conductor::Conductor;
+use shapes::Body;
+use shapes::frame::Vector;
 
 /// What a property of place may depend on.
 pub const PLACE: [&str; 4] = ["x", "y", "z", "r"];

@@ -14,7 +14,7 @@
 use run::property::{Arguments, OutOfRange};
 
 use super::{Law, Materials, arguments};
-use crate::body::frame::{Vector, along, difference, dot, length};
+use shapes::frame::{Vector, along, difference, dot, length};
 
 /// Samples along a link in search of interfaces.
 const SEARCH: usize = 8;

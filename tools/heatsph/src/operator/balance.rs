@@ -40,8 +40,8 @@ use rayon::prelude::*;
 
 use super::net::{Blocks, Net, Springs};
 use super::{Links, OperatorError};
-use crate::body::frame::{difference, dot};
 use crate::cloud::Cloud;
+use shapes::frame::{difference, dot};
 
 /// Second moments within this part are left as they are.
 const MOMENTS: f64 = 1e-3;

@@ -4,7 +4,7 @@
 //! quadratic functions without a Laplacian, `x^2 - y^2`, `2xy` and so on. Seen from the other end of a link the
 //! linear ones change sign.
 
-use crate::body::frame::Vector;
+use shapes::frame::Vector;
 
 /// Values at displacement `d`.
 #[inline]

@@ -7,8 +7,8 @@ use krylov::Pattern;
 use neighbours::{Grid, Lists};
 
 use super::OperatorError;
-use crate::body::frame::{Vector, difference, dot, length};
 use crate::cloud::Cloud;
+use shapes::frame::{Vector, difference, dot, length};
 
 /// A link steeper than this against a face is whole; one along the face has half of its cross-section outside.
 const STEEP: f64 = 0.3;

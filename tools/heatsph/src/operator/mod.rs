@@ -22,10 +22,10 @@ use std::sync::Arc;
 
 use krylov::Pattern;
 
-use crate::body::frame::Vector;
 use crate::cloud::Cloud;
 use crate::scene::Operator;
 use crate::scene::method::Corrected;
+use shapes::frame::Vector;
 
 pub use balance::Balance;
 

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::basis::{slopes, values};
 use super::kernel::rows;
-use crate::body::frame::{Frame, Vector, cross, difference};
 use crate::cloud::Cloud;
+use shapes::frame::{Frame, Vector, cross, difference};
 
 /// Weight of the square of a multiplier of a quadratic function, in the part that the point's own links have.
 const SOFT: f64 = 0.12;

@@ -1,7 +1,7 @@
 use super::*;
-use crate::body::Body;
-use crate::body::frame::{difference, dot};
 use crate::scene::method::{Corrected, Pair};
+use shapes::Body;
+use shapes::frame::{difference, dot};
 
 fn cloud(body: &str, points: &str, dimensions: usize) -> Cloud {
     let body = Body::new(&serde_json::from_str(body).unwrap(), dimensions);

@@ -4,7 +4,7 @@ use run::property::Property;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::shape::Shape;
+use shapes::Shape;
 
 /// Heat passed to surroundings in proportion to the difference of temperature (Robin).
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

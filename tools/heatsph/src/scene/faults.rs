@@ -2,8 +2,9 @@
 
 use run::Fault;
 
-use super::shape::BoxShape;
-use super::{Scene, Shape, Time};
+use shapes::check::{Misfit, check, coordinates};
+
+use super::{Scene, Time};
 
 impl Scene {
     /// Everything that is wrong with the scene as far as it can be told without points.
@@ -11,12 +12,19 @@ impl Scene {
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = Vec::new();
         self.solution(&mut faults);
+        faults.extend(self.misfits());
+        faults
+    }
+
+    /// What is wrong with shapes and places.
+    fn misfits(&self) -> impl Iterator<Item = Fault> {
+        let mut faults = Vec::new();
         check(&self.body, "/body", self.dimensions, &mut faults);
         for (number, material) in self.materials.iter().enumerate() {
             let at = format!("/materials/{number}/region");
             match &material.region {
                 Some(region) => check(region, &at, self.dimensions, &mut faults),
-                None if number + 1 < self.materials.len() => faults.push(Fault::at(
+                None if number + 1 < self.materials.len() => faults.push(Misfit::at(
                     &at,
                     "only the last material may do without a region: those after it would be nowhere",
                 )),
@@ -37,7 +45,7 @@ impl Scene {
             let at = format!("/points/extra_m/{number}");
             coordinates(extra, &at, self.dimensions, &mut faults);
         }
-        faults
+        faults.into_iter().map(|m| Fault::at(&m.path, m.what))
     }
 
     fn solution(&self, faults: &mut Vec<Fault>) {
@@ -99,89 +107,5 @@ impl Time {
             let what = "at most one of \"explicit\", \"stabilised\" and \"implicit\" is wanted";
             faults.push(Fault::at("/time", what));
         }
-    }
-}
-
-fn coordinates(numbers: &[f64], at: &str, dimensions: usize, faults: &mut Vec<Fault>) -> bool {
-    if numbers.len() == dimensions {
-        return true;
-    }
-    let what = format!(
-        "{} numbers; a scene of {dimensions} dimensions wants {dimensions}",
-        numbers.len()
-    );
-    faults.push(Fault::at(at, what));
-    false
-}
-
-fn check(shape: &Shape, at: &str, dimensions: usize, faults: &mut Vec<Fault>) {
-    let only_in_space = |what: &str, faults: &mut Vec<Fault>| {
-        if dimensions == 2 {
-            faults.push(Fault::at(
-                at,
-                format!("a {what} has no place in a plane scene; a disc has"),
-            ));
-        }
-    };
-    match shape {
-        Shape::Box(b) => corners(b, &format!("{at}/box"), dimensions, faults),
-        Shape::Cylinder(_) => only_in_space("cylinder", faults),
-        Shape::Sphere(_) => only_in_space("sphere", faults),
-        Shape::Disc(d) => {
-            coordinates(
-                &d.centre_m,
-                &format!("{at}/disc/centre_m"),
-                dimensions,
-                faults,
-            );
-        }
-        Shape::HalfSpace(h) => {
-            let at = format!("{at}/half_space");
-            coordinates(&h.point_m, &format!("{at}/point_m"), dimensions, faults);
-            if coordinates(&h.normal, &format!("{at}/normal"), dimensions, faults)
-                && h.normal.iter().all(|n| *n == 0.0)
-            {
-                faults.push(Fault::at(
-                    &format!("{at}/normal"),
-                    "a normal has a direction: it is not zero",
-                ));
-            }
-        }
-        Shape::Turned(t) => {
-            let at = format!("{at}/turned");
-            if dimensions == 2 && t.axis.index() != 2 {
-                faults.push(Fault::at(
-                    &format!("{at}/axis"),
-                    "a plane scene turns about z alone",
-                ));
-            }
-            if let Some(about) = &t.about_m {
-                coordinates(about, &format!("{at}/about_m"), dimensions, faults);
-            }
-            check(&t.shape, &format!("{at}/shape"), dimensions, faults);
-        }
-        Shape::Union(all) => parts(all, &format!("{at}/union"), dimensions, faults),
-        Shape::Intersection(all) => parts(all, &format!("{at}/intersection"), dimensions, faults),
-        Shape::Difference(all) => parts(all, &format!("{at}/difference"), dimensions, faults),
-    }
-}
-
-fn corners(b: &BoxShape, at: &str, dimensions: usize, faults: &mut Vec<Fault>) {
-    let both = coordinates(&b.min_m, &format!("{at}/min_m"), dimensions, faults)
-        & coordinates(&b.max_m, &format!("{at}/max_m"), dimensions, faults);
-    for k in (0..dimensions).filter(|_| both) {
-        if b.max_m[k] <= b.min_m[k] {
-            let what = format!("{} m is not above min_m, {} m", b.max_m[k], b.min_m[k]);
-            faults.push(Fault::at(&format!("{at}/max_m/{k}"), what));
-        }
-    }
-}
-
-fn parts(all: &[Shape], at: &str, dimensions: usize, faults: &mut Vec<Fault>) {
-    if all.is_empty() {
-        faults.push(Fault::at(at, "at least one shape is wanted"));
-    }
-    for (number, shape) in all.iter().enumerate() {
-        check(shape, &format!("{at}/{number}"), dimensions, faults);
     }
 }

@@ -4,7 +4,7 @@ use run::property::Property;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::shape::Shape;
+use shapes::Shape;
 
 /// A constituent of a mixture.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

@@ -6,7 +6,6 @@ mod faults;
 pub mod material;
 pub mod method;
 pub mod points;
-pub mod shape;
 
 use run::property::Property;
 use schemars::JsonSchema;
@@ -16,7 +15,7 @@ pub use boundary::Boundary;
 pub use material::{Constituent, Contact, Material};
 pub use method::{Operator, Output, Steady, Time};
 pub use points::{Arrangement, Points};
-pub use shape::Shape;
+pub use shapes::Shape;
 
 /// Heat conduction in a body.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 use run::property::{Curve, OutOfRange};
 
-use crate::body::frame::Vector;
 use crate::material::{Law, Materials, arguments};
 use crate::operator::Links;
 use crate::operator::kernel::rows;
+use shapes::frame::Vector;
 
 /// Temperatures nearer than this part have the mean of their conductivities.
 const NEAR: f64 = 1e-6;

@@ -12,12 +12,12 @@ pub use rates::Rates;
 
 use run::property::{Curve, OutOfRange};
 
-use crate::body::frame::Vector;
 use crate::boundary::{Film, Passed, Surface};
 use crate::cloud::Cloud;
 use crate::material::{Law, Materials, arguments};
 use crate::operator::Links;
 use conduction::Conduction;
+use shapes::frame::Vector;
 
 /// A body ready to conduct.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,12 +4,8 @@
 //! its parts' (a lower bound of the true distance, with the right sign everywhere), which is all that the
 //! arrangement of points and the search for surfaces ask for.
 
-pub mod frame;
-pub mod surface;
-
-use frame::{Frame, Vector, direction, length};
-
-use crate::scene::shape::Shape;
+use crate::frame::{Frame, Vector, direction, length};
+use crate::shape::Shape;
 
 /// What a primitive is, in its own frame.
 #[derive(Debug, Clone, PartialEq)]

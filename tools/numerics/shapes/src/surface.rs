@@ -4,8 +4,8 @@
 //! that the surface of the composed body crosses is divided further, so that areas are right to a small part of
 //! an element.
 
-use super::frame::{Frame, Vector, along, dot};
-use super::{Body, Kind, Primitive};
+use crate::body::{Body, Kind, Primitive};
+use crate::frame::{Frame, Vector, along, dot};
 
 /// Elements of a face per spacing, in a plane and in space.
 const PER_SPACING: [f64; 2] = [8.0, 3.0];

@@ -1,0 +1,516 @@
+//! From a scene to its points, step by step.
+
+use rayon::prelude::*;
+use run::Fault;
+use shapes::Body;
+use shapes::frame::{Vector, along, difference, direction, length};
+use shapes::shape::{Disc, Shape, Sphere};
+
+use super::lattice::{self, Node};
+use super::layers::{Column, Ground, Layered, Standing, thicknesses};
+use super::occupied::Occupied;
+use super::region::{Region, Wall};
+use super::surface::{self, Seed};
+use super::{Class, Cloud, Counts, Metric, SurfacePoint, cells, jitter};
+use crate::scene::{Arrangement, Geometry, Layers, Scene};
+
+/// Most points of a cloud.
+const MOST: f64 = 5e8;
+/// Least spacing of points on a surface over that of the scene, where another body is near.
+const LEAST: f64 = 1.0 / 8.0;
+/// Spacing across over spacing along the surface from which a layer counts as round.
+const ROUND: f64 = 0.85;
+/// Nodes of lattices keep this part of the spacing away from other points.
+const APART: f64 = 0.65;
+
+/// The points of a scene; see [`Cloud::new`].
+pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
+    let faults = scene.faults();
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let mut region = Region::new(scene);
+    check_sizes(&region)?;
+    let plans = plans(scene, &mut region);
+    let mut builder = Builder::new(scene, region);
+    let nodes = lattice::nodes(&builder.region);
+    let mut columns = builder.surfaces()?;
+    let wall = builder.wall(&nodes, scene.points.wall_layers.as_ref());
+    columns.extend(wall);
+    builder.layers(scene, &mut columns, &plans);
+    builder.lattices(&nodes, &columns, scene.points.arrangement);
+    builder.shake(scene);
+    let mut cloud = builder.cloud;
+    cells::fill(scene, &builder.region, &columns, &mut cloud);
+    finish(&mut cloud);
+    Ok(cloud)
+}
+
+/// Refuses sizes at which counting would take for ever.
+fn check_sizes(region: &Region) -> Result<(), Vec<Fault>> {
+    let mut faults = Vec::new();
+    for (k, solid) in region.solids.iter().enumerate() {
+        let [low, high] = solid.body.bounds();
+        let size = (0..region.dimensions).map(|a| (high[a] - low[a]) / solid.spacing);
+        let number: f64 = size.map(|s| s.max(1.0)).product();
+        if !number.is_finite() {
+            faults.push(Fault::at(
+                &format!("/bodies/{k}/shape"),
+                "the body has no end",
+            ));
+        } else if number > MOST {
+            let what = format!(
+                "spacing {} m gives more than {number:.1e} points; at most {MOST:.0e}",
+                solid.spacing
+            );
+            faults.push(Fault::at("/points/spacing_m", what));
+        }
+    }
+    if region.solids.is_empty() && lattice::most(region) > MOST {
+        let what = format!(
+            "spacing {} m gives more than {:.1e} points; at most {MOST:.0e}",
+            region.spacing,
+            lattice::most(region)
+        );
+        faults.push(Fault::at("/points/spacing_m", what));
+    }
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(faults)
+    }
+}
+
+/// Thickness of the layers of each body, inside and outside; the region learns how far they reach.
+fn plans(scene: &Scene, region: &mut Region) -> Vec<[Vec<f64>; 2]> {
+    let layers = &scene.points.layers;
+    let plan = |solid: &mut super::region::Solid| {
+        let sides = [layers.inside, layers.outside].map(|n| thicknesses(layers, solid.spacing, n));
+        solid.reach = [0, 1].map(|side| sides[side].iter().sum());
+        sides
+    };
+    region.solids.iter_mut().map(plan).collect()
+}
+
+struct Builder {
+    region: Region,
+    /// Points on surfaces and in layers, with the spacing of each: lattices keep clear of them.
+    occupied: Occupied,
+    sizes: Vec<f64>,
+    /// Greatest spacing of points on surfaces and in layers \[m\].
+    widest: f64,
+    cloud: Cloud,
+}
+
+impl Builder {
+    fn new(scene: &Scene, region: Region) -> Self {
+        Self {
+            occupied: Occupied::new(region.spacing),
+            sizes: Vec::new(),
+            widest: 0.0,
+            cloud: Cloud {
+                geometry: scene.geometry,
+                media: scene.bodies.len() + 1,
+                position: Vec::new(),
+                spacing: Vec::new(),
+                class: Vec::new(),
+                metric: Vec::new(),
+                surface: Vec::new(),
+                volume: Vec::new(),
+                centroid: Vec::new(),
+                counts: Counts::default(),
+            },
+            region,
+        }
+    }
+
+    fn push(&mut self, x: Vector, spacing: f64, class: Class, metric: Metric) -> u32 {
+        self.cloud.position.push(x);
+        self.cloud.spacing.push(spacing);
+        self.cloud.class.push(class);
+        self.cloud.metric.push(metric);
+        self.cloud.len() as u32 - 1
+    }
+
+    /// Points on the surfaces of bodies.
+    fn surfaces(&mut self) -> Result<Vec<Column>, Vec<Fault>> {
+        let mut columns: Vec<Column> = Vec::new();
+        let mut faults = Vec::new();
+        for k in 0..self.region.solids.len() {
+            let before = columns.len();
+            for seed in self.seeds(k) {
+                if let Some(media) = self.parts(&seed, k) {
+                    let point = self.interface(&seed, media);
+                    columns.push(Column {
+                        seed,
+                        point,
+                        solid: Some(k),
+                        media,
+                        side: [Vec::new(), Vec::new()],
+                    });
+                }
+            }
+            let inside = self.region.solids[k].body.bounds();
+            let middle = std::array::from_fn(|a| 0.5 * (inside[0][a] + inside[1][a]));
+            if columns.len() == before && self.region.depth(middle) < 0.0 {
+                let what = "no part of the body's surface lies in the domain";
+                faults.push(Fault::at(&format!("/bodies/{k}/shape"), what));
+            }
+        }
+        self.cloud.counts.interface = self.cloud.len();
+        if faults.is_empty() {
+            Ok(columns)
+        } else {
+            Err(faults)
+        }
+    }
+
+    /// Points on the surface of a body, nearer to each other where another body is near.
+    fn seeds(&self, k: usize) -> Vec<Seed> {
+        let solid = &self.region.solids[k];
+        let others = || {
+            let all = self.region.solids.iter().enumerate();
+            all.filter(move |(other, _)| *other != k).map(|(_, s)| s)
+        };
+        let local = |x: Vector| {
+            let gap = others().fold(f64::INFINITY, |gap, s| gap.min(s.body.distance(x).abs()));
+            // A body that touches is no gap: its surface is the same.
+            let wanted = if gap < 1e-6 * solid.spacing {
+                f64::INFINITY
+            } else {
+                0.5 * gap
+            };
+            wanted.clamp(LEAST * solid.spacing, solid.spacing)
+        };
+        let coarse = surface::seeds(
+            &solid.body,
+            self.region.dimensions,
+            (solid.spacing, solid.spacing),
+            &|_| solid.spacing,
+        );
+        let least = coarse
+            .iter()
+            .fold(solid.spacing, |least, seed| least.min(local(seed.place)));
+        if least < 0.999 * solid.spacing {
+            let limits = (solid.spacing, LEAST * solid.spacing);
+            surface::seeds(&solid.body, self.region.dimensions, limits, &local)
+        } else {
+            coarse
+        }
+    }
+
+    /// The media that a surface point parts, if it parts any and lies in the domain.
+    fn parts(&self, seed: &Seed, k: usize) -> Option<[u8; 2]> {
+        let step = 1e-4 * seed.spacing;
+        let sides = [-step, step].map(|s| self.region.medium(along(seed.place, s, seed.normal)));
+        let own = k as u8 + 1;
+        let shared = sides[0] == sides[1] || sides[0] != own;
+        let outside = self.region.depth(seed.place) < 0.3 * seed.spacing
+            || self.region.axisymmetric && seed.place[0] < 0.0;
+        let taken = self
+            .occupied
+            .any(seed.place, 0.5 * seed.spacing, |other, _, square| {
+                let other = self.cloud.class[other as usize];
+                other
+                    == Class::Interface {
+                        inner: sides[1],
+                        outer: sides[0],
+                    }
+                    || square < 0.01 * seed.spacing * seed.spacing
+            });
+        (!shared && !outside && !taken).then_some(sides)
+    }
+
+    fn interface(&mut self, seed: &Seed, [inner, outer]: [u8; 2]) -> u32 {
+        self.occupied.push(seed.place);
+        self.sizes.push(seed.spacing);
+        let class = Class::Interface { inner, outer };
+        let point = self.push(seed.place, seed.spacing, class, Metric::Round);
+        self.cloud.surface.push(SurfacePoint {
+            point,
+            inner,
+            outer,
+            normal: seed.normal,
+            area: seed.area,
+        });
+        point
+    }
+
+    /// Points on the wall: nodes of the lattice on a box, a surface of its own on a ball.
+    fn wall(&mut self, nodes: &[Node], layers: Option<&Layers>) -> Vec<Column> {
+        let before = self.cloud.len();
+        let mut columns = Vec::new();
+        match self.region.wall.clone() {
+            Wall::Box { .. } => {
+                for node in nodes {
+                    if let Some(face) = node.face {
+                        self.outer(node.place, node.spacing, face);
+                    }
+                }
+            }
+            Wall::Ball { centre, radius } => {
+                for seed in self.ball(centre, radius, layers.is_some()) {
+                    if self.region.axisymmetric && seed.place[0] < 0.0 {
+                        continue;
+                    }
+                    if let Some(point) = self.outer(seed.place, seed.spacing, 0) {
+                        let media = [self.medium_at_wall(&seed), 0];
+                        columns.push(Column {
+                            seed,
+                            point,
+                            solid: None,
+                            media,
+                            side: [Vec::new(), Vec::new()],
+                        });
+                    }
+                }
+            }
+        }
+        self.cloud.counts.outer = self.cloud.len() - before;
+        columns
+    }
+
+    fn medium_at_wall(&self, seed: &Seed) -> u8 {
+        self.region
+            .medium(along(seed.place, -1e-4 * seed.spacing, seed.normal))
+    }
+
+    fn ball(&self, centre: Vector, radius: f64, layered: bool) -> Vec<Seed> {
+        let name = None;
+        let shape = if self.region.dimensions == 3 {
+            let centre_m = centre.to_vec();
+            Shape::Sphere(Sphere {
+                name,
+                centre_m,
+                radius_m: radius,
+            })
+        } else {
+            let centre_m = centre[..2].to_vec();
+            Shape::Disc(Disc {
+                name,
+                centre_m,
+                radius_m: radius,
+            })
+        };
+        let body = Body::new(&shape, self.region.dimensions);
+        let mut spacing = self.region.largest;
+        for k in 0..2 * self.region.dimensions {
+            let mut x = centre;
+            x[k / 2] += if k % 2 == 0 { -radius } else { radius };
+            spacing = spacing.min(self.region.wanted(x, 0.0));
+        }
+        if layered {
+            spacing = spacing.min(self.region.spacing);
+        }
+        surface::seeds(&body, self.region.dimensions, (spacing, spacing), &|_| {
+            spacing
+        })
+    }
+
+    fn outer(&mut self, x: Vector, spacing: f64, face: u8) -> Option<u32> {
+        if self.occupied.any(x, 0.3 * spacing, |_, _, _| true) {
+            return None;
+        }
+        let inward = match &self.region.wall {
+            Wall::Ball { centre, .. } => direction(difference(*centre, x)),
+            Wall::Box { low, high, .. } => std::array::from_fn(|k| {
+                if k < self.region.dimensions {
+                    (0.5 * (low[k] + high[k]) - x[k]).signum()
+                } else {
+                    0.0
+                }
+            }),
+        };
+        let medium = self.region.medium(along(x, 1e-6 * spacing, inward));
+        Some(self.push(x, spacing, Class::Outer { medium, face }, Metric::Round))
+    }
+
+    /// Layers along all surfaces.
+    fn layers(&mut self, scene: &Scene, columns: &mut [Column], plans: &[[Vec<f64>; 2]]) {
+        let before = self.cloud.len();
+        for group in columns.chunk_by_mut(|a, b| a.solid == b.solid) {
+            let (spacing, plan) = match group[0].solid {
+                Some(k) => (self.region.solids[k].spacing, plans[k].clone()),
+                None => {
+                    let spacing = group[0].seed.spacing;
+                    let walls = scene.points.wall_layers.as_ref();
+                    let inside = walls.map(|l| thicknesses(l, spacing, l.inside));
+                    (spacing, [inside.unwrap_or_default(), Vec::new()])
+                }
+            };
+            for (side, thicknesses) in plan.iter().enumerate() {
+                let mut ground = Ground {
+                    region: &self.region,
+                    dimensions: self.region.dimensions,
+                    occupied: &mut self.occupied,
+                    first: self.cloud.len() as u32,
+                };
+                for point in ground.grow(group, side, thicknesses, spacing) {
+                    self.layered(&point);
+                }
+            }
+            for column in group.iter() {
+                let first = plan[0].first().or(plan[1].first()).copied();
+                let scale = column.seed.spacing / spacing;
+                let across = first.map_or(column.seed.spacing, |t| t * scale.min(1.0));
+                self.cloud.metric[column.point as usize] =
+                    metric(column.seed.normal, across, column.seed.spacing);
+            }
+        }
+        self.cloud.counts.layers = self.cloud.len() - before;
+        self.widest = self.sizes.iter().copied().fold(0.0, f64::max);
+    }
+
+    fn layered(&mut self, point: &Layered) {
+        let metric = metric(point.normal, point.across, point.along);
+        let spacing = if metric == Metric::Round {
+            (point.across * point.along).sqrt()
+        } else {
+            point.along
+        };
+        self.sizes.push(spacing);
+        self.push(point.place, spacing, Class::Inside(point.medium), metric);
+    }
+
+    /// Nodes of the lattices where there is room for them.
+    fn lattices(&mut self, nodes: &[Node], columns: &[Column], arrangement: Arrangement) {
+        let standing: Vec<(Option<usize>, Standing<'_>)> = columns
+            .chunk_by(|a, b| a.solid == b.solid)
+            .map(|group| {
+                let spacing = group.iter().fold(0.0, |s: f64, c| s.max(c.seed.spacing));
+                (group[0].solid, Standing::new(group, spacing))
+            })
+            .collect();
+        let packed = arrangement == Arrangement::Hexagonal;
+        let mut kept: Vec<(Node, u8)> = nodes
+            .par_iter()
+            .filter(|node| node.face.is_none())
+            .filter_map(|node| Some((*node, self.room(node, &standing)?)))
+            .filter(|(_, medium)| !packed || *medium == 0)
+            .collect();
+        for (k, solid) in self.region.solids.iter().enumerate().filter(|_| packed) {
+            let inside =
+                lattice::packed(solid.body.bounds(), self.region.dimensions, solid.spacing);
+            kept.par_extend(inside.par_iter().filter_map(|node| {
+                let within = self.region.depth(node.place) > 0.5 * node.spacing
+                    && solid.body.distance(node.place) < 0.0
+                    && !(self.region.axisymmetric && node.place[0] < 0.3 * node.spacing);
+                let medium = within.then(|| self.room(node, &standing)).flatten()?;
+                (medium == k as u8 + 1).then_some((*node, medium))
+            }));
+        }
+        self.cloud.counts.lattice = kept.len();
+        for (node, medium) in kept {
+            self.push(
+                node.place,
+                node.spacing,
+                Class::Inside(medium),
+                Metric::Round,
+            );
+        }
+    }
+
+    /// The medium of a node that neither lies within layers nor comes too close to a point placed before.
+    fn room(&self, node: &Node, standing: &[(Option<usize>, Standing<'_>)]) -> Option<u8> {
+        let x = node.place;
+        for (solid, columns) in standing {
+            let (d, normal) = match (solid, &self.region.wall) {
+                (Some(k), _) => {
+                    let solid = &self.region.solids[*k];
+                    let d = solid.body.distance(x);
+                    let reach = solid.reach[usize::from(d > 0.0)];
+                    if d.abs() > reach + 2.0 * solid.spacing {
+                        continue;
+                    }
+                    (d, solid.body.normal(x, 1e-4 * solid.spacing))
+                }
+                (None, Wall::Ball { centre, radius }) => {
+                    let away = difference(x, *centre);
+                    if length(away) < 1e-9 * radius {
+                        continue;
+                    }
+                    (length(away) - radius, direction(away))
+                }
+                (None, Wall::Box { .. }) => continue,
+            };
+            if columns.holds(x, d, normal) {
+                return None;
+            }
+        }
+        let near = APART * node.spacing.min(self.widest);
+        let crowded = self.occupied.any(x, near, |other, _, square| {
+            let own = APART * self.sizes[other as usize].min(node.spacing);
+            square < own * own
+        });
+        (!crowded).then(|| self.region.medium(x))
+    }
+
+    /// Shifts points that lie neither on interfaces nor on walls at random.
+    fn shake(&mut self, scene: &Scene) {
+        let jitter = scene.points.jitter;
+        if jitter == 0.0 {
+            return;
+        }
+        for i in 0..self.cloud.len() {
+            let (Class::Inside(medium), x) = (self.cloud.class[i], self.cloud.position[i]) else {
+                continue;
+            };
+            let draw = |k: u64| jitter * jitter::signed(scene.points.seed, i as u64, k);
+            let mut moved = x;
+            for k in 0..self.region.dimensions {
+                moved[k] += self.cloud.spacing[i] * draw(k as u64);
+            }
+            if let Metric::Layered {
+                normal,
+                across,
+                along: flat,
+            } = self.cloud.metric[i]
+            {
+                let shift = difference(moved, x);
+                let up = shapes::frame::dot(shift, normal);
+                moved = along(moved, up * (across / flat - 1.0), normal);
+            }
+            let on_axis = self.region.axisymmetric && x[0] == 0.0;
+            if on_axis {
+                moved[0] = 0.0;
+            }
+            let far = |x: Vector| self.region.nearest(x).0.abs().min(self.region.depth(x));
+            let kept = self.region.medium(moved) == medium && far(moved) > 0.5 * far(x);
+            if kept && !(self.region.axisymmetric && moved[0] < 0.5 * x[0]) {
+                self.cloud.position[i] = moved;
+            }
+        }
+    }
+}
+
+fn metric(normal: Vector, across: f64, along: f64) -> Metric {
+    if across >= ROUND * along {
+        Metric::Round
+    } else {
+        Metric::Layered {
+            normal,
+            across,
+            along,
+        }
+    }
+}
+
+/// Turns coordinates of the scene into places in space.
+fn finish(cloud: &mut Cloud) {
+    let geometry = cloud.geometry;
+    if geometry != Geometry::Axisymmetric {
+        return;
+    }
+    for (surface, x) in cloud.surface.iter_mut().zip(&cloud.position) {
+        surface.area *= std::f64::consts::TAU * x[0];
+        surface.normal = geometry.place(surface.normal);
+    }
+    for x in cloud.position.iter_mut().chain(&mut cloud.centroid) {
+        *x = geometry.place(*x);
+    }
+    for metric in &mut cloud.metric {
+        if let Metric::Layered { normal, .. } = metric {
+            *normal = geometry.place(*normal);
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! How much of a conductor each point stands for.
+//!
+//! Beside a surface that has layers, cells are columns between the middles of layers; their volume follows from area
+//! and curvature of the surface. Elsewhere a fine lattice of samples is shared out to the nearest points.
+
+use rayon::prelude::*;
+use shapes::frame::{Vector, along, difference, direction, length};
+
+use super::layers::{Column, Standing};
+use super::occupied::Occupied;
+use super::region::{Region, Wall};
+use super::{Class, Cloud};
+use crate::scene::Scene;
+
+/// Samples per spacing along an axis, in two and three dimensions.
+const SAMPLES: [f64; 2] = [8.0, 4.0];
+
+/// Volume with its first moment.
+#[derive(Debug, Clone, Copy, Default)]
+struct Share {
+    volume: f64,
+    moment: Vector,
+}
+
+impl Share {
+    fn add(&mut self, volume: f64, place: Vector) {
+        self.volume += volume;
+        self.moment = along(self.moment, volume, place);
+    }
+}
+
+/// Fills volumes and their middles for conductors of a scene with eddy currents.
+pub(super) fn fill(scene: &Scene, region: &Region, columns: &[Column], cloud: &mut Cloud) {
+    cloud.volume = vec![0.0; cloud.len()];
+    cloud.centroid.clone_from(&cloud.position);
+    if scene.eddy_currents.is_none() {
+        return;
+    }
+    let mut shares = vec![Share::default(); cloud.len()];
+    for medium in 0..cloud.media {
+        if scene.medium(medium).conductivity_s_m > 0.0 {
+            Conductor::new(region, columns, medium as u8).share_out(cloud, &mut shares);
+        }
+    }
+    for (i, share) in shares.iter().enumerate().filter(|(_, s)| s.volume > 0.0) {
+        cloud.volume[i] = share.volume;
+        cloud.centroid[i] = share.moment.map(|m| m / share.volume);
+    }
+}
+
+/// A medium that conducts.
+struct Conductor<'a> {
+    region: &'a Region,
+    medium: u8,
+    columns: &'a [Column],
+    standing: Vec<(Option<usize>, Standing<'a>)>,
+}
+
+impl<'a> Conductor<'a> {
+    fn new(region: &'a Region, columns: &'a [Column], medium: u8) -> Self {
+        let standing = columns
+            .chunk_by(|a, b| a.solid == b.solid)
+            .map(|group| {
+                let spacing = group.iter().fold(0.0, |s: f64, c| s.max(c.seed.spacing));
+                (group[0].solid, Standing::new(group, spacing))
+            })
+            .collect();
+        Self {
+            region,
+            medium,
+            columns,
+            standing,
+        }
+    }
+
+    fn share_out(&self, cloud: &Cloud, shares: &mut [Share]) {
+        for column in self.columns {
+            for side in 0..2 {
+                if column.media[side] == self.medium && !column.side[side].is_empty() {
+                    self.column(column, side, shares);
+                }
+            }
+        }
+        let (mut set, mut owners, mut spacing) =
+            (Occupied::new(self.step() * 4.0), Vec::new(), 0.0);
+        for i in 0..cloud.len() {
+            if owns(cloud.class[i], self.medium) {
+                set.push(cloud.position[i]);
+                owners.push(i);
+                spacing = cloud.spacing[i].max(spacing);
+            }
+        }
+        if owners.is_empty() {
+            return;
+        }
+        let step = self.step();
+        let (origin, counts) = self.samples(step);
+        let planes: Vec<Vec<(u32, f64, Vector)>> = (0..counts[1] * counts[2])
+            .into_par_iter()
+            .map(|row| {
+                let (j, k) = (row % counts[1], row / counts[1]);
+                let place = |i: usize| -> Vector {
+                    let n = [i, j, k];
+                    std::array::from_fn(|a| {
+                        if a < self.region.dimensions {
+                            origin[a] + (n[a] as f64 + 0.5) * step
+                        } else {
+                            0.0
+                        }
+                    })
+                };
+                let found = (0..counts[0]).filter_map(|i| {
+                    let x = place(i);
+                    let volume = self.weight(x, step);
+                    if volume <= 0.0 {
+                        return None;
+                    }
+                    let mut radius = spacing;
+                    loop {
+                        match set.nearest(x, radius) {
+                            Some(k) => return Some((k, volume, x)),
+                            None => radius *= 2.0,
+                        }
+                    }
+                });
+                found.collect()
+            })
+            .collect();
+        for (k, volume, x) in planes.into_iter().flatten() {
+            shares[owners[k as usize]].add(volume, x);
+        }
+    }
+
+    /// The cells of a column on one side.
+    fn column(&self, column: &Column, side: usize, shares: &mut [Share]) {
+        let points = &column.side[side];
+        let mut low = 0.0;
+        let mut owner = match side {
+            0 => Some(column.point),
+            _ => None,
+        };
+        for (k, (point, away)) in points.iter().enumerate() {
+            let before = if k == 0 { 0.0 } else { points[k - 1].1 };
+            let middle = 0.5 * (before + away);
+            if let Some(owner) = owner {
+                self.slab(column, side, [low, middle], &mut shares[owner as usize]);
+                low = middle;
+            }
+            owner = Some(*point);
+        }
+        if let Some(owner) = owner {
+            self.slab(
+                column,
+                side,
+                [low, column.height(side)],
+                &mut shares[owner as usize],
+            );
+        }
+    }
+
+    /// The part of a column between two distances from the surface, by Simpson's rule.
+    fn slab(&self, column: &Column, side: usize, [low, high]: [f64; 2], share: &mut Share) {
+        const WEIGHTS: [f64; 5] = [1.0 / 12.0, 4.0 / 12.0, 2.0 / 12.0, 4.0 / 12.0, 1.0 / 12.0];
+        let seed = &column.seed;
+        let d = self.region.dimensions;
+        // The middle of a curved patch lies below its surface point.
+        let sag = if d == 3 {
+            0.5 * seed.curvature[0] * seed.area / (4.0 * std::f64::consts::PI)
+        } else {
+            seed.curvature[0] * seed.area * seed.area / 24.0
+        };
+        for (k, weight) in WEIGHTS.iter().enumerate() {
+            let away = low + (high - low) * 0.25 * k as f64;
+            let signed = if side == 0 { -away } else { away };
+            let flat = 1.0 + signed * seed.curvature[0] / (d - 1) as f64;
+            let place = along(seed.place, signed - sag * flat, seed.normal);
+            let mut volume = weight * (high - low) * seed.area * column.widening(side, away);
+            if self.region.axisymmetric {
+                volume *= std::f64::consts::TAU * place[0].max(0.0);
+            }
+            share.add(volume, place);
+        }
+    }
+
+    fn step(&self) -> f64 {
+        let spacing = match self.medium {
+            0 => self.region.spacing,
+            m => self.region.solids[m as usize - 1].spacing,
+        };
+        spacing / SAMPLES[self.region.dimensions - 2]
+    }
+
+    /// First corner and numbers of the samples.
+    fn samples(&self, step: f64) -> (Vector, [usize; 3]) {
+        let d = self.region.dimensions;
+        let (mut low, mut high) = match &self.region.wall {
+            Wall::Box { low, high, .. } => (*low, *high),
+            Wall::Ball { centre, radius } => {
+                (centre.map(|c| c - radius), centre.map(|c| c + radius))
+            }
+        };
+        if self.region.axisymmetric {
+            low[0] = low[0].max(0.0);
+        }
+        if self.medium > 0 {
+            let bounds = self.region.solids[self.medium as usize - 1].body.bounds();
+            for k in 0..d {
+                low[k] = low[k].max(bounds[0][k]);
+                high[k] = high[k].min(bounds[1][k]);
+            }
+        }
+        let counts = std::array::from_fn(|k| {
+            if k < d {
+                ((high[k] - low[k]) / step).ceil().max(1.0) as usize
+            } else {
+                1
+            }
+        });
+        (low, counts)
+    }
+
+    /// Volume of a sample beyond the columns: the part of its cell that lies in the medium and above their last points.
+    fn weight(&self, x: Vector, step: f64) -> f64 {
+        let mut part = match self.medium {
+            0 => (0.5 + self.edge(x) / step).min(1.0),
+            _ => (0.5 + self.region.depth(x) / step).min(1.0),
+        };
+        if part <= 0.0 {
+            return 0.0;
+        }
+        // A sample that the surface cuts is judged by the distance of the surface.
+        let own = self.medium as usize;
+        if own > 0 {
+            part *= (0.5 - self.region.solids[own - 1].body.distance(x) / step).clamp(0.0, 1.0);
+            let earlier = self.region.solids[..own - 1].iter();
+            for solid in earlier {
+                part *= (0.5 + solid.body.distance(x) / step).clamp(0.0, 1.0);
+            }
+        }
+        for (solid, standing) in &self.standing {
+            if part <= 0.0 {
+                return 0.0;
+            }
+            part *= self.above(x, *solid, standing, step);
+        }
+        let mut volume = part * step.powi(self.region.dimensions as i32);
+        if self.region.axisymmetric {
+            volume *= std::f64::consts::TAU * x[0];
+        }
+        volume
+    }
+
+    /// Distance to the wall and to all bodies, positive in the surroundings \[m\].
+    fn edge(&self, x: Vector) -> f64 {
+        let solids = self.region.solids.iter().map(|s| s.body.distance(x));
+        solids.fold(self.region.depth(x), f64::min)
+    }
+
+    /// The part of a sample that is not within the columns of a surface.
+    fn above(&self, x: Vector, solid: Option<usize>, standing: &Standing<'_>, step: f64) -> f64 {
+        let (d, normal) = match (solid, &self.region.wall) {
+            (Some(k), _) => {
+                let solid = &self.region.solids[k];
+                let d = solid.body.distance(x);
+                if d.abs() > solid.reach[usize::from(d > 0.0)] + step {
+                    return 1.0;
+                }
+                (d, solid.body.normal(x, 1e-4 * solid.spacing))
+            }
+            (None, Wall::Ball { centre, radius }) => {
+                let away = difference(x, *centre);
+                if length(away) < 1e-9 * radius {
+                    return 1.0;
+                }
+                (length(away) - radius, direction(away))
+            }
+            (None, Wall::Box { .. }) => return 1.0,
+        };
+        let Some(column) = standing.below(x, d, normal) else {
+            return 1.0;
+        };
+        let side = usize::from(column.media[0] != self.medium);
+        if column.media[side] != self.medium || column.side[side].is_empty() {
+            return 1.0;
+        }
+        let away = if side == 0 { -d } else { d };
+        (0.5 + (away - column.height(side)) / step).clamp(0.0, 1.0)
+    }
+}
+
+/// Whether a point takes a share of a medium.
+fn owns(class: Class, medium: u8) -> bool {
+    match class {
+        Class::Inside(m) | Class::Outer { medium: m, .. } => m == medium,
+        Class::Interface { inner, .. } => inner == medium,
+    }
+}

@@ -1,0 +1,155 @@
+//! Points of the domain: on surfaces, on walls, in layers, on lattices.
+//!
+//! A cloud is all that the equations know of geometry: where points are, how far apart, to which medium they belong or
+//! which media they part, how much of a conductor each stands for. See [`Cloud`].
+
+mod build;
+mod cells;
+mod jitter;
+mod lattice;
+mod layers;
+mod occupied;
+pub mod region;
+mod surface;
+
+use crate::scene::{Geometry, Scene};
+use run::Fault;
+use shapes::frame::Vector;
+
+/// Where a point stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Class {
+    /// Inside a medium: 0 the surroundings, `k + 1` body `k` of the scene.
+    Inside(u8),
+    /// On the surface of a body.
+    Interface {
+        /// The body's medium.
+        inner: u8,
+        /// The medium around it.
+        outer: u8,
+    },
+    /// On the wall of the domain.
+    Outer {
+        /// The medium there.
+        medium: u8,
+        /// Number of the wall, in [`crate::scene::Domain::walls`].
+        face: u8,
+    },
+}
+
+/// How offsets from a point are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Metric {
+    /// Alike in all directions, over the point's spacing.
+    Round,
+    /// Flat beside a surface.
+    Layered {
+        /// Normal of the surface.
+        normal: Vector,
+        /// Spacing along it \[m\].
+        across: f64,
+        /// Spacing along the surface \[m\].
+        along: f64,
+    },
+}
+
+/// What a surface point knows of its surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// The point.
+    pub point: u32,
+    /// Medium of the body.
+    pub inner: u8,
+    /// Medium around it.
+    pub outer: u8,
+    /// From the inner medium to the outer one.
+    pub normal: Vector,
+    /// Area \[m2\]; length per metre of depth in a plane; of the full turn where the scene is axisymmetric.
+    pub area: f64,
+}
+
+/// Points by kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// On surfaces of bodies.
+    pub interface: usize,
+    /// On walls.
+    pub outer: usize,
+    /// In layers.
+    pub layers: usize,
+    /// On lattices.
+    pub lattice: usize,
+}
+
+/// Points of a domain, in this order: on interfaces, on walls, in layers, on lattices.
+///
+/// Places are those in space: (x, y, 0) in a plane, (r, 0, z) where the scene is axisymmetric; see
+/// [`Geometry::flat`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cloud {
+    /// Geometry of the scene.
+    pub geometry: Geometry,
+    /// Number of media, the surroundings among them.
+    pub media: usize,
+    /// Places \[m\].
+    pub position: Vec<Vector>,
+    /// Distance to the neighbours, along the surface where points are layered \[m\].
+    pub spacing: Vec<f64>,
+    /// Where points stand.
+    pub class: Vec<Class>,
+    /// How offsets are measured.
+    pub metric: Vec<Metric>,
+    /// One entry for each interface point, in their order.
+    pub surface: Vec<SurfacePoint>,
+    /// Volume for which a point in or on a body, or in conducting surroundings, stands \[m3; m2 in a plane; full turn
+    /// where axisymmetric\]; 0 elsewhere. A point on an interface stands for its inner medium.
+    pub volume: Vec<f64>,
+    /// Middle of that volume \[m\]; the point's own place elsewhere.
+    pub centroid: Vec<Vector>,
+    /// Points by kind.
+    pub counts: Counts,
+}
+
+impl Cloud {
+    /// The points of a scene.
+    ///
+    /// # Errors
+    /// Faults of the scene: too many points, a body without points.
+    pub fn new(scene: &Scene) -> Result<Self, Vec<Fault>> {
+        build::cloud(scene)
+    }
+
+    /// Number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// Whether a point lies in a medium or on its edge: whether a stencil of that medium may use it.
+    #[must_use]
+    pub fn touches(&self, point: usize, medium: u8) -> bool {
+        match self.class[point] {
+            Class::Inside(m) | Class::Outer { medium: m, .. } => m == medium,
+            Class::Interface { inner, outer } => inner == medium || outer == medium,
+        }
+    }
+
+    /// Memory \[byte\].
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        let each = 2 * size_of::<Vector>()
+            + 2 * size_of::<f64>()
+            + size_of::<Class>()
+            + size_of::<Metric>();
+        (self.len() * each + self.surface.len() * size_of::<SurfacePoint>()) as u64
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,193 @@
+//! Which medium is where, how far the surfaces are, and how fine points should be.
+//!
+//! All places here are coordinates of the scene: (x, y, 0), (r, z, 0) or (x, y, z).
+
+use shapes::Body;
+use shapes::frame::{Vector, difference, length};
+
+use crate::scene::points::Steps;
+use crate::scene::{Domain, Scene};
+
+/// The wall of the domain.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Wall {
+    /// Corners \[m\]; `open` tells that the first coordinate begins on the axis, where there is no wall.
+    Box {
+        /// Lower corner.
+        low: Vector,
+        /// Upper corner.
+        high: Vector,
+        /// Whether `low[0]` is the axis.
+        axis: bool,
+    },
+    /// Centre and radius \[m\].
+    Ball {
+        /// Centre.
+        centre: Vector,
+        /// Radius.
+        radius: f64,
+    },
+}
+
+/// A body with its points' spacing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// Shape.
+    pub body: Body,
+    /// Distance of points along the surface \[m\].
+    pub spacing: f64,
+    /// How far its layers reach inside and outside \[m\].
+    pub reach: [f64; 2],
+}
+
+/// Domain, bodies and wanted spacing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// 2 or 3.
+    pub dimensions: usize,
+    /// The wall.
+    pub wall: Wall,
+    /// Bodies in the order of the scene.
+    pub solids: Vec<Solid>,
+    /// Regions with finer points.
+    finer: Vec<(Body, f64)>,
+    /// Whether r = x is a distance from the axis.
+    pub axisymmetric: bool,
+    /// Finest spacing of the lattice \[m\].
+    pub spacing: f64,
+    /// Spacing where there is neither body nor refinement \[m\].
+    plain: f64,
+    /// Greatest spacing \[m\].
+    pub largest: f64,
+    growth: [f64; 2],
+    /// Whether there are lattices between those of single and of double spacing.
+    pub smooth: bool,
+}
+
+/// Coordinates, filled up with zeros.
+#[must_use]
+pub fn vector(coordinates: &[f64]) -> Vector {
+    std::array::from_fn(|k| coordinates.get(k).copied().unwrap_or(0.0))
+}
+
+impl Region {
+    /// The region of a scene without faults.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let dimensions = scene.geometry.dimensions();
+        let axisymmetric = scene.geometry == crate::scene::Geometry::Axisymmetric;
+        let points = &scene.points;
+        let (wall, size) = match &scene.domain {
+            Domain::Box(b) => {
+                let (low, high) = (vector(&b.min_m), vector(&b.max_m));
+                let least = (0..dimensions).map(|k| high[k] - low[k]);
+                let axis = axisymmetric && low[0] <= 0.0;
+                let size = least.fold(f64::INFINITY, f64::min);
+                (Wall::Box { low, high, axis }, size)
+            }
+            Domain::Sphere(s) => {
+                let (centre, radius) = (vector(&s.centre_m), s.radius_m);
+                (Wall::Ball { centre, radius }, 2.0 * radius)
+            }
+        };
+        let solids: Vec<Solid> = scene
+            .bodies
+            .iter()
+            .map(|body| Solid {
+                body: Body::new(&body.shape, dimensions),
+                spacing: body.spacing_m.unwrap_or(points.spacing_m),
+                reach: [0.0; 2],
+            })
+            .collect();
+        let finer: Vec<(Body, f64)> = points
+            .refinements
+            .iter()
+            .map(|r| (Body::new(&r.shape, dimensions), r.spacing_m))
+            .collect();
+        let largest = points.largest_m.unwrap_or(size / 8.0).max(points.spacing_m);
+        let all = solids.iter().map(|s| s.spacing);
+        let finest = all
+            .chain(finer.iter().map(|f| f.1))
+            .fold(points.spacing_m, f64::min);
+        Self {
+            dimensions,
+            wall,
+            finer,
+            axisymmetric,
+            spacing: finest,
+            plain: if solids.is_empty() {
+                points.spacing_m
+            } else {
+                largest
+            },
+            largest,
+            growth: [points.inward, points.outward],
+            smooth: points.steps == Steps::Smooth,
+            solids,
+        }
+    }
+
+    /// Distance to the wall \[m\], positive within the domain.
+    #[must_use]
+    pub fn depth(&self, x: Vector) -> f64 {
+        match &self.wall {
+            Wall::Box { low, high, axis } => (0..self.dimensions)
+                .map(|k| {
+                    let left = if k == 0 && *axis {
+                        f64::INFINITY
+                    } else {
+                        x[k] - low[k]
+                    };
+                    left.min(high[k] - x[k])
+                })
+                .fold(f64::INFINITY, f64::min),
+            Wall::Ball { centre, radius } => radius - length(difference(x, *centre)),
+        }
+    }
+
+    /// The medium at a place: 0 the surroundings, `k + 1` body `k`; the first body that holds it counts.
+    #[must_use]
+    pub fn medium(&self, x: Vector) -> u8 {
+        let inside = self.solids.iter().position(|s| s.body.distance(x) < 0.0);
+        inside.map_or(0, |k| k as u8 + 1)
+    }
+
+    /// Distance of the nearest surface of a body \[m\], and its number; infinite without bodies.
+    #[must_use]
+    pub fn nearest(&self, x: Vector) -> (f64, usize) {
+        let mut best = (f64::INFINITY, 0);
+        for (k, solid) in self.solids.iter().enumerate() {
+            let d = solid.body.distance(x);
+            if d.abs() < best.0.abs() {
+                best = (d, k);
+            }
+        }
+        best
+    }
+
+    /// Wanted spacing of the lattice at a place \[m\]; `nearer` is how much nearer to everything a place within a
+    /// cell may be.
+    #[must_use]
+    pub fn wanted(&self, x: Vector, nearer: f64) -> f64 {
+        let mut spacing = self.plain;
+        let mut widen = |from: f64, growth: f64, away: f64| {
+            spacing = spacing.min(from + growth * (away - nearer).max(0.0));
+        };
+        for solid in &self.solids {
+            let d = solid.body.distance(x);
+            let side = usize::from(d > 0.0);
+            // A cell that the surface may cross has the finest points of both sides.
+            let away = d.abs()
+                - if d.abs() > nearer {
+                    solid.reach[side]
+                } else {
+                    0.0
+                };
+            widen(solid.spacing, self.growth[side], away);
+        }
+        for (body, finest) in &self.finer {
+            widen(*finest, self.growth[1], body.distance(x));
+        }
+        spacing
+    }
+}

@@ -1,0 +1,192 @@
+//! Points on surfaces, about evenly, with normal, area and curvature.
+
+use std::f64::consts::PI;
+
+use shapes::frame::{Vector, along, cross, difference, direction, dot, length};
+use shapes::surface::{Piece, pieces};
+use shapes::{Body, Kind};
+
+use super::occupied::Occupied;
+
+/// A point on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Seed {
+    pub(crate) place: Vector,
+    /// Out of the body.
+    pub(crate) normal: Vector,
+    /// Area \[m2\]; length \[m\] in two dimensions.
+    pub(crate) area: f64,
+    /// Distance of its neighbours, about \[m\].
+    pub(crate) spacing: f64,
+    /// Sum and product of the principal curvatures \[1/m, 1/m2\], positive where the body is convex.
+    pub(crate) curvature: [f64; 2],
+}
+
+/// Pieces per spacing from which points are chosen, over those that shapes make by themselves.
+const FINER: f64 = 2.0;
+/// Distance over spacing at which points chosen at random stand as close as an even arrangement.
+const PACKING: f64 = 0.8;
+
+/// Points on the surface of a body; `local` is the wanted distance of points at a place, at most `spacing` and at
+/// least `least` \[m\].
+pub(crate) fn seeds(
+    body: &Body,
+    dimensions: usize,
+    (spacing, least): (f64, f64),
+    local: &dyn Fn(Vector) -> f64,
+) -> Vec<Seed> {
+    let even = least >= spacing;
+    let ball = body.single().and_then(|p| match p.kind {
+        Kind::Ball(radius) => Some((p.frame.origin, radius)),
+        _ => None,
+    });
+    let mut found = match ball {
+        Some((centre, radius)) if even && dimensions == 3 => {
+            return spiral(centre, radius, spacing);
+        }
+        _ if dimensions == 2 => along_curves(&pieces(body, 2, least / FINER / 2.0), local),
+        _ => spread(&pieces(body, 3, least / FINER), spacing, local),
+    };
+    for seed in &mut found {
+        seed.curvature = curvature(body, seed, dimensions);
+    }
+    found
+}
+
+/// A spiral of golden angles: equal areas, nearly even (Gonzalez 2010).
+fn spiral(centre: Vector, radius: f64, spacing: f64) -> Vec<Seed> {
+    let area = 4.0 * PI * radius * radius;
+    let number = (area / (spacing * spacing)).round().max(12.0);
+    let turn = PI * (3.0 - 5.0_f64.sqrt());
+    (0..number as usize)
+        .map(|k| {
+            let z = 1.0 - (2.0 * k as f64 + 1.0) / number;
+            let ring = (1.0 - z * z).sqrt();
+            let (sine, cosine) = (turn * k as f64).sin_cos();
+            let normal = direction([ring * cosine, ring * sine, z]);
+            Seed {
+                place: along(centre, radius, normal),
+                normal,
+                area: area / number,
+                spacing: (area / number).sqrt(),
+                curvature: [2.0 / radius, 1.0 / (radius * radius)],
+            }
+        })
+        .collect()
+}
+
+/// Even steps along the curves that pieces form.
+fn along_curves(pieces: &[Piece], local: &dyn Fn(Vector) -> f64) -> Vec<Seed> {
+    let joined = |a: &Piece, b: &Piece| {
+        let gap = length(difference(a.place, b.place));
+        a.face == b.face && gap < 0.75 * (a.area + b.area)
+    };
+    let mut seeds = Vec::new();
+    for curve in pieces.chunk_by(joined) {
+        let steps: Vec<f64> = curve.iter().map(|p| p.area / local(p.place)).collect();
+        let whole: f64 = steps.iter().sum();
+        // An even number keeps the points of a full circle off its axis of symmetry.
+        let number = (2.0 * (0.5 * whole).round()).max(if whole < 1.0 { 1.0 } else { 2.0 });
+        let (mut passed, mut area, mut next) = (0.0, 0.0, 0.5);
+        let mut middle: Option<Piece> = None;
+        for (piece, step) in curve.iter().zip(&steps) {
+            passed += step * number / whole;
+            area += piece.area;
+            if passed >= next && middle.is_none() {
+                middle = Some(*piece);
+            }
+            if passed >= next + 0.5 - 1e-9 {
+                if let Some(p) = middle.take() {
+                    seeds.push(seed(&p, area, area));
+                }
+                area = 0.0;
+                next += 1.0;
+            }
+        }
+    }
+    seeds
+}
+
+fn seed(piece: &Piece, area: f64, spacing: f64) -> Seed {
+    Seed {
+        place: piece.place,
+        normal: direction(piece.normal),
+        area,
+        spacing,
+        curvature: [0.0; 2],
+    }
+}
+
+/// Points chosen among pieces in a scattered order, none nearer to another than the packing allows; each takes the
+/// area of the pieces nearest to it.
+fn spread(pieces: &[Piece], spacing: f64, local: &dyn Fn(Vector) -> f64) -> Vec<Seed> {
+    let mut order: Vec<(u64, usize)> = (0..pieces.len())
+        .map(|k| (super::jitter::mix(k as u64), k))
+        .collect();
+    order.sort_unstable();
+    let mut set = Occupied::new(spacing);
+    let mut seeds: Vec<Seed> = Vec::new();
+    for (_, k) in order {
+        let piece = &pieces[k];
+        let own = local(piece.place);
+        let taken = set.any(piece.place, PACKING * own, |other, _, _| {
+            // Two faces that meet at an edge do not crowd each other out of it.
+            dot(seeds[other as usize].normal, piece.normal) > 0.0
+        });
+        if !taken {
+            set.push(piece.place);
+            seeds.push(seed(piece, 0.0, own));
+        }
+    }
+    for piece in pieces {
+        let mut best: Option<(f64, u32)> = None;
+        set.any(piece.place, 2.0 * spacing, |k, _, square| {
+            let same = dot(seeds[k as usize].normal, piece.normal) > 0.5;
+            if same && best.is_none_or(|b| (square, k) < b) {
+                best = Some((square, k));
+            }
+            false
+        });
+        if let Some((_, k)) = best {
+            seeds[k as usize].area += piece.area;
+        }
+    }
+    seeds.retain(|s| s.area > 0.0);
+    seeds
+}
+
+/// Sum and product of the principal curvatures: from the turning of the normal.
+fn curvature(body: &Body, seed: &Seed, dimensions: usize) -> [f64; 2] {
+    if let Some(primitive) = body.single()
+        && let Kind::Cylinder { radius, half } = primitive.kind
+        && half.is_infinite()
+    {
+        let sign = if primitive.cut { -1.0 } else { 1.0 };
+        return [sign / radius, 0.0];
+    }
+    let step = 0.02 * seed.spacing;
+    let least = (0..3).fold(0, |m, k| {
+        if seed.normal[k].abs() < seed.normal[m].abs() {
+            k
+        } else {
+            m
+        }
+    });
+    let mut axis = [0.0; 3];
+    axis[if dimensions == 2 { 2 } else { least }] = 1.0;
+    let u = direction(cross(axis, seed.normal));
+    let v = cross(seed.normal, u);
+    let slope = |d: Vector| {
+        let normal = |s: f64| body.normal(along(seed.place, s, d), 0.1 * step);
+        let change = difference(normal(step), normal(-step));
+        [dot(change, u), dot(change, v)].map(|c| c / (2.0 * step))
+    };
+    let (a, b) = (slope(u), if dimensions == 2 { [0.0; 2] } else { slope(v) });
+    // Where a sharp edge is within reach there is no curvature to speak of.
+    let limit = 1.0 / seed.spacing;
+    let [sum, product] = [a[0] + b[1], a[0] * b[1] - a[1] * b[0]];
+    if sum.abs() > limit {
+        return [0.0; 2];
+    }
+    [sum, product]
+}

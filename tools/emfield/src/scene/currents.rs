@@ -1,0 +1,174 @@
+//! Eddy currents in a scene: what drives them, and how they change in time.
+
+use run::property::Property;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What the currents and fields of a scene mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Amplitude {
+    /// Root mean square.
+    #[default]
+    Rms,
+    /// Greatest value of a period.
+    Peak,
+}
+
+/// A sinusoidal steady state.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Harmonic {
+    /// Frequency.
+    #[schemars(range(max = 1e12), extend("x-unit" = "Hz", "exclusiveMinimum" = 0.0))]
+    pub frequency_hz: f64,
+}
+
+/// A march in time of second order, from rest.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Transient {
+    /// End.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub end_s: f64,
+    /// Step.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub step_s: f64,
+    /// What coils and applied fields are multiplied by, a function of t; 1 when it is absent: switched on at the
+    /// start.
+    #[schemars(extend("x-unit" = "1"))]
+    pub wave: Option<Property>,
+}
+
+/// A circular loop.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Loop {
+    /// Centre; (r, z) = (0, z) in an axisymmetric scene.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub centre_m: Vec<f64>,
+    /// Axis, right-handed with the current; z when it is absent.
+    #[schemars(extend("x-unit" = "1"), length(min = 3, max = 3))]
+    pub normal: Option<[f64; 3]>,
+    /// Radius.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+    /// Radius of the wire, for what lies within it; a thin wire when it is absent.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub wire_radius_m: Option<f64>,
+    /// Current.
+    #[schemars(extend("x-unit" = "A"))]
+    pub current_a: f64,
+    /// Lead of the current.
+    #[serde(default)]
+    pub phase_deg: f64,
+    /// Turns.
+    #[serde(default = "one")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub turns: f64,
+}
+
+/// A chain of straight segments.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Segments {
+    /// Ends of the segments, in the direction of the current.
+    #[schemars(extend("x-unit" = "m"), length(min = 2))]
+    pub points_m: Vec<[f64; 3]>,
+    /// Whether the last point is joined to the first.
+    #[serde(default = "yes")]
+    pub closed: bool,
+    /// Current.
+    #[schemars(extend("x-unit" = "A"))]
+    pub current_a: f64,
+    /// Lead of the current.
+    #[serde(default)]
+    pub phase_deg: f64,
+}
+
+/// An endless straight wire along z, in a plane scene.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wire {
+    /// Place.
+    #[schemars(extend("x-unit" = "m"))]
+    pub place_m: [f64; 2],
+    /// Current along z.
+    #[schemars(extend("x-unit" = "A"))]
+    pub current_a: f64,
+    /// Lead of the current.
+    #[serde(default)]
+    pub phase_deg: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// A coil whose own field is known exactly.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Coil {
+    /// A circular loop, by elliptic integrals.
+    Loop(Loop),
+    /// Straight segments, by Biot and Savart's law.
+    Segments(Segments),
+    /// An endless wire along z.
+    Wire(Wire),
+}
+
+/// What holds for the field of the eddy currents at the walls of the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum OuterReaction {
+    /// It is zero there: a box far away.
+    #[default]
+    Zero,
+    /// It is that of the multipoles of the currents found inside: no error of truncation beyond them.
+    Multipole,
+}
+
+/// Currents that a changing magnetic field drives (Matsuzawa 2017, eqs 2.64-2.69).
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EddyCurrents {
+    /// A sinusoidal steady state; this or `transient`.
+    pub harmonic: Option<Harmonic>,
+    /// A march in time; this or `harmonic`.
+    pub transient: Option<Transient>,
+    /// Coils.
+    #[serde(default)]
+    pub coils: Vec<Coil>,
+    /// A uniform field that acts from far away. In a plane scene a field along z (0, 0, B) drives currents in the
+    /// plane, one in the plane drives them along z; axisymmetric: along z (0, B).
+    #[schemars(extend("x-unit" = "T"), length(min = 2, max = 3))]
+    pub applied_flux_density_t: Option<Vec<f64>>,
+    /// What currents and applied field mean in a sinusoidal steady state.
+    #[serde(default)]
+    pub amplitude: Amplitude,
+    /// What holds at the walls.
+    #[serde(default)]
+    pub outer: OuterReaction,
+}
+
+impl EddyCurrents {
+    /// What a current or field of the scene is as root mean square; unchanged in a march in time.
+    #[must_use]
+    pub fn rms(&self, value: f64) -> f64 {
+        match (self.amplitude, &self.harmonic) {
+            (Amplitude::Peak, Some(_)) => value * std::f64::consts::FRAC_1_SQRT_2,
+            _ => value,
+        }
+    }
+
+    /// Angular frequency of a sinusoidal steady state \[rad/s\].
+    #[must_use]
+    pub fn angular_frequency(&self) -> Option<f64> {
+        self.harmonic
+            .map(|h| std::f64::consts::TAU * h.frequency_hz)
+    }
+}

@@ -1,0 +1,161 @@
+//! Where fields are sought, and the bodies there.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use shapes::Shape;
+
+/// Kinds of geometry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Geometry {
+    /// Nothing changes along z; places have x and y.
+    Plane,
+    /// Nothing changes about the z axis; places have r and z, shapes are their sections with r >= 0.
+    Axisymmetric,
+    /// Places have x, y and z.
+    Space,
+}
+
+impl Geometry {
+    /// Coordinates of a place: 2 or 3.
+    #[must_use]
+    pub fn dimensions(self) -> usize {
+        match self {
+            Self::Plane | Self::Axisymmetric => 2,
+            Self::Space => 3,
+        }
+    }
+
+    /// The two coordinates of a place of a plane (x, y) or axisymmetric (r, z) cloud \[m\].
+    #[must_use]
+    pub fn flat(self, x: [f64; 3]) -> [f64; 2] {
+        match self {
+            Self::Axisymmetric => [x[0], x[2]],
+            Self::Plane | Self::Space => [x[0], x[1]],
+        }
+    }
+
+    /// The place in space of coordinates of the scene: (r, z) stands in the half plane y = 0 \[m\].
+    #[must_use]
+    pub fn place(self, x: [f64; 3]) -> [f64; 3] {
+        match self {
+            Self::Axisymmetric => [x[0], 0.0, x[1]],
+            Self::Plane | Self::Space => x,
+        }
+    }
+
+    /// Coordinates of the scene of a place in space; the inverse of [`Geometry::place`] \[m\].
+    #[must_use]
+    pub fn coordinates(self, x: [f64; 3]) -> [f64; 3] {
+        match self {
+            Self::Axisymmetric => [x[0], x[2], 0.0],
+            Self::Plane | Self::Space => x,
+        }
+    }
+}
+
+/// A box along the axes.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxDomain {
+    /// Lower corner; two numbers unless in space. An axisymmetric box that begins at r = 0 has no wall there.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub min_m: Vec<f64>,
+    /// Upper corner.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub max_m: Vec<f64>,
+}
+
+/// A ball; a disc in a plane, a half disc about the axis.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SphereDomain {
+    /// Centre; on the axis where the scene is axisymmetric.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub centre_m: Vec<f64>,
+    /// Radius.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+}
+
+/// The domain.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Domain {
+    /// A box; its walls are `x-`, `x+`, `y-`, `y+`, `z-`, `z+` (axisymmetric: `r+`, `z-`, `z+`).
+    Box(BoxDomain),
+    /// A ball; its wall is `sphere`.
+    Sphere(SphereDomain),
+}
+
+/// Properties of a medium, constant within it.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Medium {
+    /// Permittivity over that of vacuum.
+    #[serde(default = "one")]
+    #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub relative_permittivity: f64,
+    /// Permeability over that of vacuum.
+    #[serde(default = "one")]
+    #[schemars(range(max = 1e7), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub relative_permeability: f64,
+    /// Conductivity.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e12), extend("x-unit" = "S/m"))]
+    pub conductivity_s_m: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Default for Medium {
+    fn default() -> Self {
+        Self {
+            relative_permittivity: 1.0,
+            relative_permeability: 1.0,
+            conductivity_s_m: 0.0,
+        }
+    }
+}
+
+/// A body.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodyScene {
+    /// Name.
+    pub name: String,
+    /// Its shape; in an axisymmetric scene the section in r and z: a disc on the axis is a ball.
+    pub shape: Shape,
+    /// Permittivity over that of vacuum.
+    #[serde(default = "one")]
+    #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub relative_permittivity: f64,
+    /// Permeability over that of vacuum.
+    #[serde(default = "one")]
+    #[schemars(range(max = 1e7), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub relative_permeability: f64,
+    /// Conductivity.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e12), extend("x-unit" = "S/m"))]
+    pub conductivity_s_m: f64,
+    /// Potential at which electrostatics holds the body: an electrode.
+    #[schemars(extend("x-unit" = "V"))]
+    pub potential_v: Option<f64>,
+    /// Distance of points along its surface; that of `points` when it is absent.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub spacing_m: Option<f64>,
+}
+
+impl BodyScene {
+    /// Its properties.
+    #[must_use]
+    pub fn medium(&self) -> Medium {
+        Medium {
+            relative_permittivity: self.relative_permittivity,
+            relative_permeability: self.relative_permeability,
+            conductivity_s_m: self.conductivity_s_m,
+        }
+    }
+}

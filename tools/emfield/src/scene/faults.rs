@@ -1,0 +1,249 @@
+//! What a schema cannot tell of a scene.
+
+use std::collections::BTreeSet;
+
+use run::Fault;
+use shapes::check::{self, Misfit};
+
+use super::{BodyScene, Coil, Domain, EddyCurrents, Electrostatics, Geometry, Scene};
+
+/// What a potential may depend on.
+pub(crate) const PLACE: [&str; 4] = ["x", "y", "z", "r"];
+
+impl Scene {
+    /// Everything that is wrong with the scene as far as it can be told without points.
+    #[must_use]
+    pub fn faults(&self) -> Vec<Fault> {
+        let mut misfits = Vec::new();
+        let dimensions = self.geometry.dimensions();
+        self.domain.check(self.geometry, &mut misfits);
+        for (number, refinement) in self.points.refinements.iter().enumerate() {
+            let at = format!("/points/refinements/{number}/shape");
+            check::check(&refinement.shape, &at, dimensions, &mut misfits);
+        }
+        for (number, probe) in self.output.probes.iter().enumerate() {
+            let at = format!("/output/probes/{number}/place_m");
+            check::coordinates(&probe.place_m, &at, dimensions, &mut misfits);
+        }
+        for (number, line) in self.output.lines.iter().enumerate() {
+            for (key, place) in [("from_m", &line.from_m), ("to_m", &line.to_m)] {
+                let at = format!("/output/lines/{number}/{key}");
+                check::coordinates(place, &at, dimensions, &mut misfits);
+            }
+        }
+        check_bodies(&self.bodies, dimensions, &mut misfits);
+        if self.electrostatics.is_none() && self.eddy_currents.is_none() {
+            misfits.push(Misfit::at(
+                "",
+                "at least one of \"electrostatics\" and \"eddy_currents\" is wanted",
+            ));
+        }
+        if let Some(electrostatics) = &self.electrostatics {
+            electrostatics.check(self, &mut misfits);
+        }
+        if let Some(currents) = &self.eddy_currents {
+            currents.check(self, &mut misfits);
+        }
+        let mut faults: Vec<Fault> = misfits
+            .into_iter()
+            .map(|m| Fault::at(&m.path, m.what))
+            .collect();
+        faults.extend(self.formulas());
+        faults
+    }
+
+    /// Faults of formulas.
+    fn formulas(&self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for (number, entry) in self
+            .electrostatics
+            .iter()
+            .flat_map(|e| &e.outer)
+            .enumerate()
+        {
+            if let Some(potential) = &entry.potential_v {
+                let at = format!("/electrostatics/outer/{number}/potential_v");
+                faults.extend(potential.compile(&at, &PLACE).err());
+            }
+        }
+        let transient = self
+            .eddy_currents
+            .as_ref()
+            .and_then(|e| e.transient.as_ref());
+        if let Some(wave) = transient.and_then(|t| t.wave.as_ref()) {
+            faults.extend(wave.compile("/eddy_currents/transient/wave", &["t"]).err());
+        }
+        faults
+    }
+}
+
+fn check_bodies(bodies: &[BodyScene], dimensions: usize, misfits: &mut Vec<Misfit>) {
+    let mut names = BTreeSet::from(["surroundings"]);
+    for (number, body) in bodies.iter().enumerate() {
+        let at = format!("/bodies/{number}");
+        check::check(&body.shape, &format!("{at}/shape"), dimensions, misfits);
+        if !names.insert(&body.name) {
+            let what = format!("the name \"{}\" is taken", body.name);
+            misfits.push(Misfit::at(&format!("{at}/name"), what));
+        }
+    }
+}
+
+impl Domain {
+    fn check(&self, geometry: Geometry, misfits: &mut Vec<Misfit>) {
+        let axisymmetric = geometry == Geometry::Axisymmetric;
+        let dimensions = geometry.dimensions();
+        match self {
+            Self::Box(b) => {
+                let both = check::coordinates(&b.min_m, "/domain/box/min_m", dimensions, misfits)
+                    & check::coordinates(&b.max_m, "/domain/box/max_m", dimensions, misfits);
+                for k in (0..dimensions).filter(|_| both) {
+                    if b.max_m[k] <= b.min_m[k] {
+                        let what = format!("{} m is not above min_m, {} m", b.max_m[k], b.min_m[k]);
+                        misfits.push(Misfit::at(&format!("/domain/box/max_m/{k}"), what));
+                    }
+                }
+                if axisymmetric && both && b.min_m[0] < 0.0 {
+                    let what = format!("r = {} m is out of range: at least 0", b.min_m[0]);
+                    misfits.push(Misfit::at("/domain/box/min_m/0", what));
+                }
+            }
+            Self::Sphere(s) => {
+                let at = "/domain/sphere/centre_m";
+                let fits = check::coordinates(&s.centre_m, at, dimensions, misfits);
+                if fits && axisymmetric && s.centre_m[0] != 0.0 {
+                    let what = format!("r = {} m: the centre lies on the axis", s.centre_m[0]);
+                    misfits.push(Misfit::at("/domain/sphere/centre_m/0", what));
+                }
+            }
+        }
+    }
+
+    /// Names of the walls, by number.
+    #[must_use]
+    pub fn walls(&self, geometry: Geometry) -> Vec<&'static str> {
+        match (self, geometry) {
+            (Self::Sphere(_), _) => vec!["sphere"],
+            (Self::Box(_), Geometry::Axisymmetric) => vec!["r-", "r+", "z-", "z+"],
+            (Self::Box(_), Geometry::Plane) => vec!["x-", "x+", "y-", "y+"],
+            (Self::Box(_), Geometry::Space) => vec!["x-", "x+", "y-", "y+", "z-", "z+"],
+        }
+    }
+}
+
+impl Electrostatics {
+    fn check(&self, scene: &Scene, misfits: &mut Vec<Misfit>) {
+        let walls = scene.domain.walls(scene.geometry);
+        let dimensions = scene.geometry.dimensions();
+        for (number, entry) in self.outer.iter().enumerate() {
+            for (k, face) in entry.faces.iter().flatten().enumerate() {
+                if !walls.contains(&face.as_str()) {
+                    let at = format!("/electrostatics/outer/{number}/faces/{k}");
+                    let what = format!("\"{face}\" is no wall; walls are {}", walls.join(", "));
+                    misfits.push(Misfit::at(&at, what));
+                }
+            }
+        }
+        let at = "/electrostatics/applied_field_v_m";
+        if let Some(field) = &self.applied_field_v_m
+            && check::coordinates(field, at, dimensions, misfits)
+            && scene.geometry == Geometry::Axisymmetric
+            && field[0] != 0.0
+        {
+            misfits.push(Misfit::at(
+                &format!("{at}/0"),
+                "a uniform field has no radial part in an axisymmetric scene",
+            ));
+        }
+        let held = self.outer.iter().any(|o| o.potential_v.is_some())
+            || scene.bodies.iter().any(|b| b.potential_v.is_some())
+            || self.applied_field_v_m.is_some();
+        if !held {
+            misfits.push(Misfit::at(
+                "/electrostatics",
+                "no wall and no body has a potential: it would be known up to a constant only",
+            ));
+        }
+    }
+}
+
+impl EddyCurrents {
+    fn check(&self, scene: &Scene, misfits: &mut Vec<Misfit>) {
+        let at = "/eddy_currents";
+        match (&self.harmonic, &self.transient) {
+            (None, None) => misfits.push(Misfit::at(
+                at,
+                "either \"harmonic\" or \"transient\" is wanted",
+            )),
+            (Some(_), Some(_)) => misfits.push(Misfit::at(
+                &format!("{at}/transient"),
+                "\"harmonic\" and \"transient\" exclude each other",
+            )),
+            (None, Some(t)) if t.step_s > t.end_s => {
+                let what = format!("{} s is beyond the end at {} s", t.step_s, t.end_s);
+                misfits.push(Misfit::at(&format!("{at}/transient/step_s"), what));
+            }
+            _ => {}
+        }
+        if self.coils.is_empty() && self.applied_flux_density_t.is_none() {
+            let what = "neither \"coils\" nor \"applied_flux_density_t\" drives currents";
+            misfits.push(Misfit::at(at, what));
+        }
+        if let Some(field) = &self.applied_flux_density_t {
+            let at = format!("{at}/applied_flux_density_t");
+            let wanted = match scene.geometry {
+                Geometry::Axisymmetric => 2,
+                Geometry::Plane | Geometry::Space => 3,
+            };
+            if field.len() != wanted {
+                let what = format!("{} numbers; {wanted} are wanted", field.len());
+                misfits.push(Misfit::at(&at, what));
+            } else if wanted == 2 && field[0] != 0.0 {
+                let what = "a uniform field has no radial part in an axisymmetric scene";
+                misfits.push(Misfit::at(&format!("{at}/0"), what));
+            }
+        }
+        for (number, coil) in self.coils.iter().enumerate() {
+            coil.check(&format!("{at}/coils/{number}"), scene.geometry, misfits);
+        }
+    }
+}
+
+impl Coil {
+    fn check(&self, at: &str, geometry: Geometry, misfits: &mut Vec<Misfit>) {
+        match (self, geometry) {
+            (Self::Loop(l), Geometry::Space | Geometry::Axisymmetric) => {
+                let at = format!("{at}/loop");
+                let dimensions = geometry.dimensions();
+                let place = format!("{at}/centre_m");
+                let fits = check::coordinates(&l.centre_m, &place, dimensions, misfits);
+                let axisymmetric = geometry == Geometry::Axisymmetric;
+                if fits && axisymmetric && l.centre_m[0] != 0.0 {
+                    let what = format!("r = {} m: the centre lies on the axis", l.centre_m[0]);
+                    misfits.push(Misfit::at(&format!("{place}/0"), what));
+                }
+                if let Some(n) = l.normal {
+                    let zero = n.iter().all(|c| *c == 0.0);
+                    if zero || axisymmetric && (n[0] != 0.0 || n[1] != 0.0) {
+                        let what = "not zero, and along z in an axisymmetric scene";
+                        misfits.push(Misfit::at(&format!("{at}/normal"), what));
+                    }
+                }
+            }
+            (Self::Segments(_), Geometry::Space) | (Self::Wire(_), Geometry::Plane) => {}
+            (Self::Loop(_), Geometry::Plane) => {
+                misfits.push(Misfit::at(
+                    at,
+                    "a loop has no place in a plane scene; wires have",
+                ));
+            }
+            (Self::Segments(_), _) => {
+                misfits.push(Misfit::at(at, "segments have a place in space alone"))
+            }
+            (Self::Wire(_), _) => misfits.push(Misfit::at(
+                at,
+                "a wire along z has a place in a plane scene alone",
+            )),
+        }
+    }
+}

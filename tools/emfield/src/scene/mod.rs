@@ -1,0 +1,75 @@
+//! The scene: a domain, bodies in it, points, and what acts: electrostatics, eddy currents or both.
+
+mod faults;
+
+pub mod currents;
+pub mod domain;
+pub mod method;
+pub mod output;
+pub mod points;
+pub mod potential;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use currents::{Amplitude, Coil, EddyCurrents};
+pub use domain::{BodyScene, Domain, Geometry, Medium};
+pub use method::{Interfaces, Method, Solver};
+pub use output::Output;
+pub use points::{Arrangement, Layers, Points};
+pub use potential::Electrostatics;
+
+/// Electric and magnetic fields of bodies.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Title of reports.
+    pub title: Option<String>,
+    /// Plane (x, y; per metre of depth), axisymmetric (r, z) or in space (x, y, z): the coordinates of all places
+    /// and shapes of the scene.
+    pub geometry: Geometry,
+    /// Where fields are sought.
+    pub domain: Domain,
+    /// What fills the domain outside the bodies; vacuum when it is absent.
+    #[serde(default)]
+    pub surroundings: Medium,
+    /// Bodies; where two overlap, the first counts.
+    #[serde(default)]
+    #[schemars(length(max = 200))]
+    pub bodies: Vec<BodyScene>,
+    /// The electric field of charges and electrodes; left out when it is absent.
+    pub electrostatics: Option<Electrostatics>,
+    /// Currents that a changing magnetic field drives; left out when it is absent.
+    pub eddy_currents: Option<EddyCurrents>,
+    /// How points fill the domain.
+    pub points: Points,
+    /// How derivatives are formed.
+    #[serde(default)]
+    pub method: Method,
+    /// How equations are solved.
+    #[serde(default)]
+    pub solver: Solver,
+    /// What is written.
+    #[serde(default)]
+    pub output: Output,
+}
+
+impl Scene {
+    /// Properties of a medium: 0 the surroundings, `k + 1` body `k`.
+    #[must_use]
+    pub fn medium(&self, number: usize) -> Medium {
+        match number.checked_sub(1) {
+            None => self.surroundings,
+            Some(body) => self.bodies[body].medium(),
+        }
+    }
+
+    /// Name of a medium.
+    #[must_use]
+    pub fn medium_name(&self, number: usize) -> &str {
+        match number.checked_sub(1) {
+            None => "surroundings",
+            Some(body) => &self.bodies[body].name,
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! What is written.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A place whose fields are written.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Probe {
+    /// Name.
+    pub name: String,
+    /// Place.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub place_m: Vec<f64>,
+}
+
+/// A straight line along which fields are written.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Line {
+    /// Name.
+    pub name: String,
+    /// First place.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub from_m: Vec<f64>,
+    /// Last place.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub to_m: Vec<f64>,
+    /// Places in all.
+    #[schemars(range(min = 2, max = 1_000_000))]
+    pub points: usize,
+}
+
+/// Precision of the floats in frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// Four bytes.
+    #[default]
+    F32,
+    /// Eight bytes.
+    F64,
+}
+
+/// What is written: the fields of all points at the end, and what is asked for here.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Precision of the frames.
+    #[serde(default)]
+    pub precision: Precision,
+    /// Whether the points on interfaces are written as a frame of their own, with normal, area and traction.
+    #[serde(default = "yes")]
+    pub surface: bool,
+    /// Places whose fields are written.
+    #[serde(default)]
+    pub probes: Vec<Probe>,
+    /// Lines along which fields are written.
+    #[serde(default)]
+    pub lines: Vec<Line>,
+    /// Interval of frames and probes of a march in time; the end alone when it is absent.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub every_s: Option<f64>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            precision: Precision::default(),
+            surface: true,
+            probes: Vec::new(),
+            lines: Vec::new(),
+            every_s: None,
+        }
+    }
+}

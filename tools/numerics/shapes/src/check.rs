@@ -1,0 +1,109 @@
+//! What the schema of a shape cannot tell.
+
+use crate::shape::{BoxShape, Shape};
+
+/// Something that is wrong with a shape, and where in the scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Misfit {
+    /// JSON pointer.
+    pub path: String,
+    /// What is wrong.
+    pub what: String,
+}
+
+impl Misfit {
+    /// What is wrong at a JSON pointer.
+    #[must_use]
+    pub fn at(path: &str, what: impl Into<String>) -> Self {
+        Self {
+            path: path.to_owned(),
+            what: what.into(),
+        }
+    }
+}
+
+/// Whether there are as many coordinates as dimensions; says so where not.
+pub fn coordinates(numbers: &[f64], at: &str, dimensions: usize, faults: &mut Vec<Misfit>) -> bool {
+    if numbers.len() == dimensions {
+        return true;
+    }
+    let what = format!(
+        "{} numbers; a scene of {dimensions} dimensions wants {dimensions}",
+        numbers.len()
+    );
+    faults.push(Misfit::at(at, what));
+    false
+}
+
+/// Finds what the types of a scene cannot tell: numbers of coordinates, corners, shapes of the other kind of scene.
+pub fn check(shape: &Shape, at: &str, dimensions: usize, faults: &mut Vec<Misfit>) {
+    let only_in_space = |what: &str, faults: &mut Vec<Misfit>| {
+        if dimensions == 2 {
+            faults.push(Misfit::at(
+                at,
+                format!("a {what} has no place in a plane scene; a disc has"),
+            ));
+        }
+    };
+    match shape {
+        Shape::Box(b) => corners(b, &format!("{at}/box"), dimensions, faults),
+        Shape::Cylinder(_) => only_in_space("cylinder", faults),
+        Shape::Sphere(_) => only_in_space("sphere", faults),
+        Shape::Disc(d) => {
+            coordinates(
+                &d.centre_m,
+                &format!("{at}/disc/centre_m"),
+                dimensions,
+                faults,
+            );
+        }
+        Shape::HalfSpace(h) => {
+            let at = format!("{at}/half_space");
+            coordinates(&h.point_m, &format!("{at}/point_m"), dimensions, faults);
+            if coordinates(&h.normal, &format!("{at}/normal"), dimensions, faults)
+                && h.normal.iter().all(|n| *n == 0.0)
+            {
+                faults.push(Misfit::at(
+                    &format!("{at}/normal"),
+                    "a normal has a direction: it is not zero",
+                ));
+            }
+        }
+        Shape::Turned(t) => {
+            let at = format!("{at}/turned");
+            if dimensions == 2 && t.axis.index() != 2 {
+                faults.push(Misfit::at(
+                    &format!("{at}/axis"),
+                    "a plane scene turns about z alone",
+                ));
+            }
+            if let Some(about) = &t.about_m {
+                coordinates(about, &format!("{at}/about_m"), dimensions, faults);
+            }
+            check(&t.shape, &format!("{at}/shape"), dimensions, faults);
+        }
+        Shape::Union(all) => parts(all, &format!("{at}/union"), dimensions, faults),
+        Shape::Intersection(all) => parts(all, &format!("{at}/intersection"), dimensions, faults),
+        Shape::Difference(all) => parts(all, &format!("{at}/difference"), dimensions, faults),
+    }
+}
+
+fn corners(b: &BoxShape, at: &str, dimensions: usize, faults: &mut Vec<Misfit>) {
+    let both = coordinates(&b.min_m, &format!("{at}/min_m"), dimensions, faults)
+        & coordinates(&b.max_m, &format!("{at}/max_m"), dimensions, faults);
+    for k in (0..dimensions).filter(|_| both) {
+        if b.max_m[k] <= b.min_m[k] {
+            let what = format!("{} m is not above min_m, {} m", b.max_m[k], b.min_m[k]);
+            faults.push(Misfit::at(&format!("{at}/max_m/{k}"), what));
+        }
+    }
+}
+
+fn parts(all: &[Shape], at: &str, dimensions: usize, faults: &mut Vec<Misfit>) {
+    if all.is_empty() {
+        faults.push(Misfit::at(at, "at least one shape is wanted"));
+    }
+    for (number, shape) in all.iter().enumerate() {
+        check(shape, &format!("{at}/{number}"), dimensions, faults);
+    }
+}

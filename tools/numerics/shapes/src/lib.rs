@@ -1,0 +1,15 @@
+//! Shapes: boxes, cylinders, balls and what is composed of them.
+//!
+//! - [`shape`] is how a scene writes them, [`check`] what its types cannot tell;
+//! - [`body`] knows how far a place is from the surface, with sign, and which way the surface looks;
+//! - [`surface`] divides the surface into pieces with area and normal;
+//! - [`frame`] holds the little vector algebra that all of them need.
+
+pub mod body;
+pub mod check;
+pub mod frame;
+pub mod shape;
+pub mod surface;
+
+pub use body::{Body, Kind, Primitive};
+pub use shape::Shape;
