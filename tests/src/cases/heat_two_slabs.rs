@@ -15,27 +15,31 @@ struct Pair {
     name: &'static str,
     /// Conductivity of the left over that of the right; both have the same diffusivity.
     ratio: f64,
-    /// Where the interface lies between two columns of points, as a part of the spacing.
-    shift: f64,
     /// \[m2 K/W\].
     resistance: f64,
+    /// Where the interface lies after a column of points of the lattice, as a part of the spacing. An error is
+    /// the worst of all: points shifted at random know no interface on the lattice, where errors cancel.
+    shifts: &'static [f64],
 }
 
-const PAIRS: [Pair; 6] = [
-    pair("10-on", 10.0, 0.0, 0.0),
-    pair("10-off", 10.0, 0.37, 0.0),
-    pair("1e3-on", 1e3, 0.0, 0.0),
-    pair("1e6-on", 1e6, 0.0, 0.0),
-    pair("1e6-off", 1e6, 0.37, 0.0),
-    pair("10-contact", 10.0, 0.5, 0.3),
+const PAIRS: [Pair; 5] = [
+    pair("10", 10.0, 0.0, &[0.0, 0.37]),
+    pair("1e3", 1e3, 0.0, &[0.0, 0.37]),
+    pair("1e6", 1e6, 0.0, &[0.0, 0.37]),
+    pair("10-contact", 10.0, 0.3, &[0.5]),
+    pair(UNEVEN, 10.0, 0.3, &[0.2]),
 ];
 
-const fn pair(name: &'static str, ratio: f64, shift: f64, resistance: f64) -> Pair {
+/// A contact that is not midway between columns: what the cell before it has behind it hangs on the next point,
+/// whose own cell it lengthens on one side.
+const UNEVEN: &str = "10-contact-uneven";
+
+const fn pair(name: &'static str, ratio: f64, resistance: f64, shifts: &'static [f64]) -> Pair {
     Pair {
         name,
         ratio,
-        shift,
         resistance,
+        shifts,
     }
 }
 
@@ -66,7 +70,8 @@ impl Case for HeatTwoSlabs {
 
     fn targets(&self) -> Vec<Target> {
         let pair = |pair: &Pair| {
-            let target = |of| Target::error(format!("{of}_{}", pair.name), 1e-3);
+            let most = if pair.name == UNEVEN { 2e-3 } else { 1e-3 };
+            let target = |of| Target::error(format!("{of}_{}", pair.name), most);
             ["interface", "flux"].map(target)
         };
         methods::also_jittered(PAIRS.iter().flat_map(pair).collect(), TRANSIENT)
@@ -77,13 +82,18 @@ impl Case for HeatTwoSlabs {
         let mut all = Vec::new();
         let mut errors = Errors::new();
         let mut points = 0;
-        for pair in &PAIRS {
-            let patch = over(pair.patch(spacing), &methods::patch(method));
-            let label = format!("level{level}-{method}-{}", pair.name);
+        for (pair, shift) in PAIRS
+            .iter()
+            .flat_map(|p| p.shifts.iter().map(move |s| (p, *s)))
+        {
+            let patch = over(pair.patch(spacing, shift), &methods::patch(method));
+            let label = format!("level{level}-{method}-{}-{shift}", pair.name);
             let run = lab.run(self.tool(), self.name(), &label, &patch)?;
             let frames = Frames::read(&run)?;
             for (quantity, error) in pair_errors(&run, &frames, spacing)? {
-                errors.insert(format!("{quantity}_{}", pair.name), error);
+                let worst = errors.entry(format!("{quantity}_{}", pair.name));
+                let worst = worst.or_insert(0.0);
+                *worst = greater(*worst, error);
             }
             points = frames.points();
             all.push(run);
@@ -100,8 +110,8 @@ impl Case for HeatTwoSlabs {
 impl Pair {
     /// The left slab is the good conductor and stores as much more heat, so that both slabs warm to
     /// the same depth.
-    fn patch(&self, spacing: f64) -> Value {
-        let interface = self.shift * spacing;
+    fn patch(&self, spacing: f64, shift: f64) -> Value {
+        let interface = shift * spacing;
         let contacts = if self.resistance > 0.0 {
             json!([{"between": ["left", "right"], "resistance_m2_k_w": self.resistance}])
         } else {
@@ -117,16 +127,8 @@ impl Pair {
                  "conductivity_w_m_k": 1}
             ],
             "contacts": contacts,
-            "initial_temperature_k": {"expr": self.start(spacing)}
+            "initial_temperature_k": {"expr": format!("if({interface} - x, 1, 0)")}
         })
-    }
-}
-
-impl Pair {
-    /// 1 on the left and 0 on the right.
-    fn start(&self, spacing: f64) -> String {
-        let interface = self.shift * spacing;
-        format!("if({interface} - x, 1, 0)")
     }
 }
 

@@ -71,6 +71,48 @@ fn middle(near: f64, k: [f64; 2], contact: f64) -> f64 {
     }
 }
 
+/// The places nearer to a point than to any other.
+#[derive(Debug, Clone, PartialEq)]
+struct Cell {
+    centre: Vector,
+    /// Edge of the cell on a plain lattice \[m\].
+    edge: f64,
+    /// Edges of the cube about the centre that holds the cell.
+    edges: usize,
+    /// Middles of the ways to its neighbours and unit vectors that lead there; none where the cube itself is the
+    /// cell.
+    walls: Vec<(Vector, Vector)>,
+}
+
+impl Cell {
+    fn about(ground: Ground<'_>, i: usize) -> Self {
+        let (cloud, pattern) = (ground.cloud, &ground.links.pattern);
+        let centre = cloud.position[i];
+        let wall = |link: usize| {
+            let d = difference(cloud.position[pattern.columns()[link] as usize], centre);
+            (along(centre, 0.5, d), d.map(|x| x / length(d)))
+        };
+        Self {
+            centre,
+            edge: cloud.spacing[i],
+            edges: if cloud.lattice { 1 } else { 2 },
+            walls: if cloud.lattice {
+                Vec::new()
+            } else {
+                pattern.row(i).map(wall).collect()
+            },
+        }
+    }
+
+    /// Distance of a place from the cell, negative inside, exact next to a wall.
+    fn distance(&self, place: Vector) -> f64 {
+        self.walls
+            .iter()
+            .map(|(middle, normal)| dot(*normal, difference(place, *middle)))
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
 impl Materials {
     /// The cells of a cloud at the temperature `initial`.
     ///
@@ -93,7 +135,8 @@ impl Materials {
                 capacity[i] += self.stored(own, x)? * volume[i];
                 continue;
             }
-            let parts = self.parts((x, edge), ground.body, start)?;
+            let cell = Cell::about(ground, i);
+            let parts = self.parts(&cell, ground.body, start)?;
             let ways = self.ways(ground, (i, own), temperature[i])?;
             for (material, (stored, heat)) in parts.into_iter().enumerate() {
                 let mut give = |j: usize, stored: f64, heat: f64| {
@@ -178,16 +221,17 @@ impl Materials {
         Ok(ways)
     }
 
-    /// The part of each material in a cube about `x`, as far as that is inside the body.
+    /// The part of each material in a cell, as far as that is inside the body.
     fn parts(
         &self,
-        (x, edge): (Vector, f64),
+        cell: &Cell,
         body: &Body,
         value: impl Fn(Vector) -> Result<f64, OutOfRange>,
     ) -> Result<Vec<Part>, OutOfRange> {
-        let each = SAMPLES[self.dimensions - 2];
-        let size = edge / each as f64;
-        let offset = |i: usize| (i as f64 + 0.5) * size - 0.5 * edge;
+        let x = cell.centre;
+        let each = cell.edges * SAMPLES[self.dimensions - 2];
+        let size = cell.edges as f64 * cell.edge / each as f64;
+        let offset = |i: usize| (i as f64 + 0.5) * size - 0.5 * each as f64 * size;
         let covered = |distance: f64| (0.5 - distance / size).clamp(0.0, 1.0);
         let deep = if self.dimensions == 3 { each } else { 1 };
         let mut parts = vec![(0.0, 0.0); self.len()];
@@ -196,7 +240,7 @@ impl Materials {
             let (i, j, k) = (number % each, number / each % each, number / (each * each));
             let z = if deep > 1 { offset(k) } else { 0.0 };
             let place = [x[0] + offset(i), x[1] + offset(j), x[2] + z];
-            let mut left = covered(body.distance(place));
+            let mut left = covered(body.distance(place)) * covered(cell.distance(place));
             whole += left;
             for (material, sum) in parts.iter_mut().enumerate() {
                 let (part, own) = match self.region(material) {
