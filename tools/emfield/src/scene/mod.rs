@@ -1,6 +1,6 @@
 //! The scene: a domain, bodies in it, points, and what acts: electrostatics, eddy currents or both.
 
-mod faults;
+pub(crate) mod faults;
 
 pub mod currents;
 pub mod domain;

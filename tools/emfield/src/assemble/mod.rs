@@ -1,0 +1,31 @@
+//! From a scene and its points to equations, and from their solution to columns.
+
+mod potential;
+mod region;
+
+use krylov::{Ending, Solved};
+use run::{Failure, Session};
+
+pub use potential::electrostatics;
+pub(crate) use region::region;
+
+/// Keeps what a solve says of itself.
+///
+/// # Errors
+/// Where it broke down.
+fn report(name: &str, solved: &Solved, session: &mut Session) -> Result<(), Failure> {
+    for (k, value) in solved.history.iter().enumerate() {
+        session.history(&format!("residual_{name}"), "1", k as f64, *value);
+    }
+    session.closing(&format!("products_{name}"), "1", solved.products as f64);
+    let residual = solved.residuals.iter().copied().fold(0.0, f64::max);
+    session.closing(&format!("residual_{name}"), "1", residual);
+    match &solved.ending {
+        Ending::Converged => Ok(()),
+        Ending::BrokenDown(why) => Err(Failure::Other(format!("{name}: {why}"))),
+        other => {
+            session.warn(format!("{name}: {other}; residual {residual:.2e}"));
+            Ok(())
+        }
+    }
+}

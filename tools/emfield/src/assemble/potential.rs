@@ -1,0 +1,208 @@
+//! Electrostatics of a scene: its equations, their solution, potential, field and traction.
+
+use krylov::Rule;
+use run::property::{Arguments, Curve};
+use run::{Failure, Fault, Session};
+use shapes::frame::{Vector, dot};
+
+use super::region::{raise, region, walls};
+use crate::cloud::{Class, Cloud};
+use crate::output::{Column, Found};
+use crate::scene::faults::PLACE;
+use crate::scene::{Electrostatics, Interfaces, Scene};
+use crate::solve::electrostatic::{Held, Problem, Smeared};
+use crate::solve::linear::Linear;
+use crate::solve::region::Region;
+use crate::solve::sides::{Form, Sides};
+
+/// Permittivity of vacuum \[F/m\].
+const VACUUM: f64 = 8.854_187_812_8e-12;
+
+/// An entry of the walls, ready to be evaluated.
+struct Entry {
+    faces: Option<Vec<usize>>,
+    potential: Option<Curve>,
+}
+
+/// What a scene says of its walls.
+struct Walls<'a> {
+    scene: &'a Scene,
+    entries: Vec<Entry>,
+    applied: Option<Vector>,
+}
+
+impl<'a> Walls<'a> {
+    fn new(scene: &'a Scene, electrostatics: &Electrostatics) -> Result<Self, Failure> {
+        let names = scene.domain.walls(scene.geometry);
+        let mut entries = Vec::new();
+        for (number, outer) in electrostatics.outer.iter().enumerate() {
+            let at = format!("/electrostatics/outer/{number}/potential_v");
+            let curve = outer.potential_v.as_ref().map(|p| p.compile(&at, &PLACE));
+            let number = |name: &String| names.iter().position(|n| n == name);
+            entries.push(Entry {
+                faces: outer.faces.as_ref().map(|f| f.iter().filter_map(number).collect()),
+                potential: curve.transpose()?,
+            });
+        }
+        let applied = electrostatics.applied_field_v_m.as_ref();
+        let applied = applied.map(|e| crate::cloud::region::vector(e));
+        if entries.is_empty() && applied.is_some() {
+            entries.push(Entry {
+                faces: None,
+                potential: Some(Curve::Constant(0.0)),
+            });
+        }
+        Ok(Self {
+            scene,
+            entries,
+            applied,
+        })
+    }
+
+    fn names(entry: &Entry, wall: usize) -> bool {
+        entry.faces.as_ref().is_none_or(|faces| faces.contains(&wall))
+    }
+
+    /// Whether a wall lets no field through.
+    fn insulated(&self, wall: usize) -> bool {
+        let entry = self.entries.iter().find(|e| Self::names(e, wall));
+        entry.is_none_or(|e| e.potential.is_none())
+    }
+
+    /// What holds at a place in space on the walls: where several meet, a potential counts more than none.
+    fn held(&self, x: Vector) -> Result<Held, Failure> {
+        let own = self.scene.geometry.coordinates(x);
+        for wall in walls(self.scene, own) {
+            let entry = self.entries.iter().position(|e| Self::names(e, wall));
+            let Some((number, curve)) = entry.and_then(|n| Some((n, self.entries[n].potential.as_ref()?))) else {
+                continue;
+            };
+            let value = curve.value(&Arguments::at(x, 0.0)).map_err(|error| {
+                let at = format!("/electrostatics/outer/{number}/potential_v");
+                Fault::at(&at, error.to_string())
+            })?;
+            return Ok(Held::Potential(value - self.applied.map_or(0.0, |e| dot(e, own))));
+        }
+        Ok(Held::Insulated)
+    }
+}
+
+/// Solves the electrostatics of a scene in `D` coordinates.
+///
+/// # Errors
+/// Where a stencil cannot be made, a formula has no value, or the solve breaks down.
+pub fn electrostatics<const D: usize>(
+    scene: &Scene,
+    electrostatics: &Electrostatics,
+    cloud: &Cloud,
+    session: &mut Session,
+) -> Result<Found, Failure> {
+    let outer = Walls::new(scene, electrostatics)?;
+    let region: Region<D> = region(scene, cloud, &|wall| outer.insulated(wall));
+    let mut held = vec![None; cloud.len()];
+    for (i, held) in held.iter_mut().enumerate() {
+        if let Class::Outer { .. } = cloud.class[i] {
+            *held = Some(outer.held(cloud.position[i])?);
+        }
+    }
+    let problem = Problem {
+        permittivity: (0..cloud.media).map(|m| scene.medium(m).relative_permittivity).collect(),
+        electrodes: std::iter::once(None)
+            .chain(scene.bodies.iter().map(|b| b.potential_v))
+            .collect(),
+        held,
+    };
+    let form = Form {
+        order: scene.method.order as u8,
+        support: scene.method.support,
+        positive: scene.method.positive,
+    };
+    let stencil = |error: wls::Error| Failure::Other(format!("electrostatics: {error}"));
+    let (value, inner, beyond) = match scene.method.interfaces {
+        Interfaces::OneSided(_) => {
+            let sides = session.timed("weights", || Sides::new(&region, &form)).map_err(stencil)?;
+            let equations = session.timed("assemble", || problem.rows(&region, &sides));
+            let v = solve(scene, equations, session)?;
+            let field = |inner| Problem::field(&region, &sides, &v, inner);
+            let (a, b) = session.timed("fields", || (field(true), field(false)));
+            (v, a, b)
+        }
+        Interfaces::Smeared(_) => {
+            let made = session.timed("weights", || Smeared::new(&region, &form));
+            let stencils = made.map_err(stencil)?;
+            let equations = session.timed("assemble", || stencils.rows(&problem, &region));
+            let v = solve(scene, equations, session)?;
+            let a = session.timed("fields", || stencils.field(&v));
+            (v, a.clone(), a)
+        }
+    };
+    let [inner, beyond] = [inner, beyond].map(|field| {
+        let up = field.into_iter().map(|e| raise(cloud.geometry, e));
+        up.collect::<Vec<Vector>>()
+    });
+    Ok(columns(scene, cloud, value, &inner, &beyond))
+}
+
+fn solve(
+    scene: &Scene,
+    (rows, right): (krylov::Rows<f64>, Vec<[f64; 1]>),
+    session: &mut Session,
+) -> Result<Vec<f64>, Failure> {
+    let mut x = vec![[0.0]; right.len()];
+    let mut linear = session.timed("factorise", || Linear::new(&rows, &vec![0.0; rows.len()]));
+    let rule = Rule {
+        reduction: scene.solver.tolerance,
+        products: 2 * scene.solver.iterations,
+        ..Rule::default()
+    };
+    let solved = session.timed("solve", || linear.solve(&right, &mut x, &[], rule));
+    super::report("potential", &solved, session)?;
+    Ok(x.into_iter().map(|x| x[0]).collect())
+}
+
+/// Potential and field of all points, traction and fields of both sides on interfaces.
+fn columns(scene: &Scene, cloud: &Cloud, value: Vec<f64>, inner: &[Vector], beyond: &[Vector]) -> Found {
+    let mut found = Found::default();
+    let on_surface = |field: &[Vector]| -> Vec<Vector> {
+        cloud.surface.iter().map(|s| field[s.point as usize]).collect()
+    };
+    found.columns.push(Column::new("potential", "V", value));
+    found.columns.extend(Column::vector("electric_field", "V/m", inner, &on_surface(beyond)));
+    found.surface.extend(Column::vector("electric_field_inner", "V/m", &on_surface(inner), &[]));
+    found.surface.extend(Column::vector("electric_field_outer", "V/m", &on_surface(beyond), &[]));
+    let mut force = vec![[0.0; 3]; scene.bodies.len()];
+    let mut tractions = Vec::with_capacity(cloud.surface.len());
+    for s in &cloud.surface {
+        let eps = [s.inner, s.outer].map(|m| scene.medium(m as usize).relative_permittivity);
+        let electrode = s.inner > 0 && scene.bodies[s.inner as usize - 1].potential_v.is_some();
+        let e = if electrode { beyond } else { inner }[s.point as usize];
+        let up = dot(e, s.normal);
+        let level = (dot(e, e) - up * up).max(0.0);
+        // Matsuzawa (2017), eq. 2.62 with its errata: eps0 (S - 1)/2 (S En^2 + Et^2) with the inner field and S the
+        // ratio of permittivities; on an electrode eps E^2 / 2 of the outer one.
+        let pull = if electrode {
+            0.5 * VACUUM * eps[1] * up * up
+        } else {
+            let ratio = eps[0] / eps[1];
+            0.5 * VACUUM * eps[1] * (ratio - 1.0) * (ratio * up * up + level)
+        };
+        tractions.push(s.normal.map(|n| n * pull));
+        if s.inner > 0 {
+            let total = &mut force[s.inner as usize - 1];
+            *total = std::array::from_fn(|k| total[k] + s.area * pull * s.normal[k]);
+        }
+    }
+    found.surface.extend(Column::vector("traction", "N/m2", &tractions, &[]));
+    for (body, force) in scene.bodies.iter().zip(force) {
+        for (k, axis) in ['x', 'y', 'z'].iter().enumerate() {
+            let unit = if scene.geometry == crate::scene::Geometry::Plane { "N/m" } else { "N" };
+            // The radial forces of a full turn cancel.
+            let lost = scene.geometry == crate::scene::Geometry::Axisymmetric && k < 2;
+            if !lost {
+                let name = format!("electric_force_{}_{axis}", body.name);
+                found.totals.push((name, unit, force[k]));
+            }
+        }
+    }
+    found
+}

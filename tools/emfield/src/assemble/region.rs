@@ -1,0 +1,104 @@
+//! The points of a cloud in as many coordinates as the equations have.
+
+use shapes::frame::Vector;
+use wls::Metric;
+
+use crate::cloud::region::vector;
+use crate::cloud::{self, Class, Cloud};
+use crate::scene::{Domain, Geometry, Scene};
+use crate::solve::region::{Face, Kind, Region};
+
+/// The first `D` coordinates of the scene of a place or direction in space.
+pub(super) fn reduce<const D: usize>(geometry: Geometry, x: Vector) -> [f64; D] {
+    let own = geometry.coordinates(x);
+    std::array::from_fn(|k| own[k])
+}
+
+/// A direction of the scene in space.
+pub(super) fn raise<const D: usize>(geometry: Geometry, x: [f64; D]) -> Vector {
+    geometry.place(std::array::from_fn(|k| if k < D { x[k] } else { 0.0 }))
+}
+
+/// Numbers of the walls on which a place of the scene lies.
+pub(super) fn walls(scene: &Scene, x: Vector) -> Vec<usize> {
+    match &scene.domain {
+        Domain::Sphere(_) => vec![0],
+        Domain::Box(b) => {
+            let (low, high) = (vector(&b.min_m), vector(&b.max_m));
+            let near = |a: f64, b: f64, k: usize| (a - b).abs() <= 1e-9 * (high[k] - low[k]);
+            (0..2 * scene.geometry.dimensions())
+                .filter(|f| {
+                    let (k, end) = (f / 2, if f % 2 == 0 { low } else { high });
+                    near(x[k], end[k], k)
+                })
+                .collect()
+        }
+    }
+}
+
+/// Outward direction at a place of the given walls.
+fn outward(scene: &Scene, x: Vector, walls: &[usize]) -> Vector {
+    let sum = match &scene.domain {
+        Domain::Sphere(s) => shapes::frame::difference(x, vector(&s.centre_m)),
+        Domain::Box(_) => {
+            let mut sum = [0.0; 3];
+            for f in walls {
+                sum[f / 2] += if f % 2 == 0 { -1.0 } else { 1.0 };
+            }
+            sum
+        }
+    };
+    shapes::frame::direction(sum)
+}
+
+/// The points of a cloud in `D` coordinates; `open` tells whether a wall lets no field through, so that its normal is
+/// asked for.
+pub(crate) fn region<const D: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    open: &dyn Fn(usize) -> bool,
+) -> Region<D> {
+    let geometry = cloud.geometry;
+    let mut region = Region {
+        axial: geometry == Geometry::Axisymmetric,
+        faces: cloud
+            .surface
+            .iter()
+            .map(|s| Face {
+                point: s.point,
+                inner: s.inner,
+                outer: s.outer,
+                normal: reduce(geometry, s.normal),
+                area: s.area,
+            })
+            .collect(),
+        ..Region::default()
+    };
+    let mut faces = 0;
+    for i in 0..cloud.len() {
+        let x = geometry.coordinates(cloud.position[i]);
+        region.places.push(reduce(geometry, cloud.position[i]));
+        region.metrics.push(match cloud.metric[i] {
+            cloud::Metric::Round => Metric::round(cloud.spacing[i]),
+            cloud::Metric::Layered { normal, across, along } => {
+                Metric::layered(reduce(geometry, normal), across, along)
+            }
+        });
+        let mut normal = [0.0; 3];
+        region.kinds.push(match cloud.class[i] {
+            Class::Inside(medium) => Kind::Inside(medium),
+            Class::Interface { .. } => {
+                faces += 1;
+                Kind::Interface(faces - 1)
+            }
+            Class::Outer { medium, face } => {
+                let all = walls(scene, x);
+                let free: Vec<usize> = all.iter().copied().filter(|f| open(*f)).collect();
+                normal = outward(scene, x, if free.is_empty() { &all } else { &free });
+                Kind::Wall { medium, wall: face }
+            }
+        });
+        region.wall_normals.push(std::array::from_fn(|k| normal[k]));
+    }
+    region
+}

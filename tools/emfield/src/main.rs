@@ -1,0 +1,7 @@
+//! `emfield`: electric and magnetic fields on points.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    run::main::<emfield::stage::EmField>()
+}

@@ -1,0 +1,94 @@
+//! The program: plan, run, record.
+
+use std::sync::Mutex;
+
+use artefact::Version;
+use run::{Failure, Inputs, Plan, Session, Tool};
+
+use crate::assemble;
+use crate::cloud::Cloud;
+use crate::output::{self, Found, Samples};
+use crate::scene::{Geometry, Scene};
+
+/// Electric and magnetic fields on points.
+#[derive(Debug)]
+pub struct EmField;
+
+/// The points that the plan of a scene has made, for the run that follows it.
+static READY: Mutex<Option<(Scene, Cloud)>> = Mutex::new(None);
+
+/// The points of a scene: those of its plan, if there was one.
+fn ready(scene: &Scene) -> Result<Cloud, Failure> {
+    let kept = READY.lock().ok().and_then(|mut ready| ready.take());
+    match kept {
+        Some((planned, cloud)) if planned == *scene => Ok(cloud),
+        _ => Ok(Cloud::new(scene)?),
+    }
+}
+
+impl Tool for EmField {
+    const NAME: &'static str = "emfield";
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+    const ABOUT: &'static str =
+        "Electrostatic and eddy-current fields of bodies, by weighted least squares on points.";
+    const EXAMPLE: &'static str = "target/release/emfield run pipelines/verify/em-dielectric-sphere/scene.json --out build/em.mcap";
+    const SCENE_KIND: &'static str = "emfield.scene";
+    const ARTEFACT_KIND: &'static str = "point-fields";
+    const ARTEFACT_VERSION: Version = Version::new(1, 0);
+
+    type Scene = Scene;
+
+    fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
+        let cloud = Cloud::new(scene)?;
+        let plan = shown(scene, &cloud);
+        if let Ok(mut ready) = READY.lock() {
+            *ready = Some((scene.clone(), cloud));
+        }
+        Ok(plan)
+    }
+
+    fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
+        let cloud = session.timed("points", || ready(scene))?;
+        match scene.geometry {
+            Geometry::Space => solve::<3>(scene, &cloud, session),
+            Geometry::Plane | Geometry::Axisymmetric => solve::<2>(scene, &cloud, session),
+        }
+    }
+}
+
+fn solve<const D: usize>(scene: &Scene, cloud: &Cloud, session: &mut Session) -> Result<(), Failure> {
+    let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
+    let mut found = Found::default();
+    if let Some(electrostatics) = &scene.electrostatics {
+        found.join(assemble::electrostatics::<D>(scene, electrostatics, cloud, session)?);
+    }
+    session.stopped()?;
+    output::write(scene, cloud, &samples, (0.0, &found), session)
+}
+
+fn shown(scene: &Scene, cloud: &Cloud) -> Plan {
+    let counts = cloud.counts;
+    let mut plan = Plan::new()
+        .stage("points")
+        .count("points", cloud.len() as u64)
+        .count("on interfaces", counts.interface as u64)
+        .count("on walls", counts.outer as u64)
+        .count("in layers", counts.layers as u64)
+        .count("on lattices", counts.lattice as u64)
+        .memory("points", cloud.bytes());
+    if scene.electrostatics.is_some() {
+        plan = plan
+            .stage("electrostatics")
+            .column("potential", "V")
+            .column("electric_field", "V/m");
+    } else {
+        plan = plan.left_out("electrostatics", "no key 'electrostatics'");
+    }
+    if scene.eddy_currents.is_none() {
+        plan = plan.left_out("eddy currents", "no key 'eddy_currents'");
+    }
+    if scene.bodies.is_empty() {
+        plan = plan.left_out("interfaces", "no bodies");
+    }
+    plan
+}
