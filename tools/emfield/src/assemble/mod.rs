@@ -3,11 +3,26 @@
 mod potential;
 mod region;
 
-use krylov::{Ending, Solved};
+use krylov::{Ending, Keep, Method, Options, Solved};
 use run::{Failure, Session};
+
+use crate::scene::Scene;
+use crate::scene::method::Way;
 
 pub use potential::electrostatics;
 pub(crate) use region::region;
+
+/// How the systems of a scene are solved.
+fn options(scene: &Scene) -> Options {
+    Options {
+        method: match scene.solver.way {
+            Way::Auto => Method::Chosen,
+            Way::Direct => Method::Direct,
+            Way::Iterative => Method::Incomplete(Keep::PATTERN),
+        },
+        ..Options::default()
+    }
+}
 
 /// Keeps what a solve says of itself.
 ///

@@ -1,6 +1,6 @@
 //! Electrostatics of a scene: its equations, their solution, potential, field and traction.
 
-use krylov::Rule;
+use krylov::{Rule, System};
 use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
@@ -11,7 +11,6 @@ use crate::output::{Column, Found};
 use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Interfaces, Scene};
 use crate::solve::electrostatic::{Held, Problem, Smeared};
-use crate::solve::linear::Linear;
 use crate::solve::region::Region;
 use crate::solve::sides::{Form, Sides};
 
@@ -40,7 +39,10 @@ impl<'a> Walls<'a> {
             let curve = outer.potential_v.as_ref().map(|p| p.compile(&at, &PLACE));
             let number = |name: &String| names.iter().position(|n| n == name);
             entries.push(Entry {
-                faces: outer.faces.as_ref().map(|f| f.iter().filter_map(number).collect()),
+                faces: outer
+                    .faces
+                    .as_ref()
+                    .map(|f| f.iter().filter_map(number).collect()),
                 potential: curve.transpose()?,
             });
         }
@@ -60,7 +62,10 @@ impl<'a> Walls<'a> {
     }
 
     fn names(entry: &Entry, wall: usize) -> bool {
-        entry.faces.as_ref().is_none_or(|faces| faces.contains(&wall))
+        entry
+            .faces
+            .as_ref()
+            .is_none_or(|faces| faces.contains(&wall))
     }
 
     /// Whether a wall lets no field through.
@@ -74,14 +79,18 @@ impl<'a> Walls<'a> {
         let own = self.scene.geometry.coordinates(x);
         for wall in walls(self.scene, own) {
             let entry = self.entries.iter().position(|e| Self::names(e, wall));
-            let Some((number, curve)) = entry.and_then(|n| Some((n, self.entries[n].potential.as_ref()?))) else {
+            let Some((number, curve)) =
+                entry.and_then(|n| Some((n, self.entries[n].potential.as_ref()?)))
+            else {
                 continue;
             };
             let value = curve.value(&Arguments::at(x, 0.0)).map_err(|error| {
                 let at = format!("/electrostatics/outer/{number}/potential_v");
                 Fault::at(&at, error.to_string())
             })?;
-            return Ok(Held::Potential(value - self.applied.map_or(0.0, |e| dot(e, own))));
+            return Ok(Held::Potential(
+                value - self.applied.map_or(0.0, |e| dot(e, own)),
+            ));
         }
         Ok(Held::Insulated)
     }
@@ -106,7 +115,9 @@ pub fn electrostatics<const D: usize>(
         }
     }
     let problem = Problem {
-        permittivity: (0..cloud.media).map(|m| scene.medium(m).relative_permittivity).collect(),
+        permittivity: (0..cloud.media)
+            .map(|m| scene.medium(m).relative_permittivity)
+            .collect(),
         electrodes: std::iter::once(None)
             .chain(scene.bodies.iter().map(|b| b.potential_v))
             .collect(),
@@ -120,7 +131,9 @@ pub fn electrostatics<const D: usize>(
     let stencil = |error: wls::Error| Failure::Other(format!("electrostatics: {error}"));
     let (value, inner, beyond) = match scene.method.interfaces {
         Interfaces::OneSided(_) => {
-            let sides = session.timed("weights", || Sides::new(&region, &form)).map_err(stencil)?;
+            let sides = session
+                .timed("weights", || Sides::new(&region, &form))
+                .map_err(stencil)?;
             let equations = session.timed("assemble", || problem.rows(&region, &sides));
             let v = solve(scene, equations, session)?;
             let field = |inner| Problem::field(&region, &sides, &v, inner);
@@ -149,27 +162,54 @@ fn solve(
     session: &mut Session,
 ) -> Result<Vec<f64>, Failure> {
     let mut x = vec![[0.0]; right.len()];
-    let mut linear = session.timed("factorise", || Linear::new(&rows, &vec![0.0; rows.len()]));
+    let options = super::options(scene);
+    let made = session.timed("factorise", || System::new(rows, Vec::new(), options));
+    let mut system = made.map_err(|error| Failure::Other(format!("potential: {error}")))?;
     let rule = Rule {
         reduction: scene.solver.tolerance,
         products: 2 * scene.solver.iterations,
         ..Rule::default()
     };
-    let solved = session.timed("solve", || linear.solve(&right, &mut x, &[], rule));
+    let solved = session.timed("solve", || system.solve(&right, &mut x, rule));
     super::report("potential", &solved, session)?;
     Ok(x.into_iter().map(|x| x[0]).collect())
 }
 
 /// Potential and field of all points, traction and fields of both sides on interfaces.
-fn columns(scene: &Scene, cloud: &Cloud, value: Vec<f64>, inner: &[Vector], beyond: &[Vector]) -> Found {
+fn columns(
+    scene: &Scene,
+    cloud: &Cloud,
+    value: Vec<f64>,
+    inner: &[Vector],
+    beyond: &[Vector],
+) -> Found {
     let mut found = Found::default();
     let on_surface = |field: &[Vector]| -> Vec<Vector> {
-        cloud.surface.iter().map(|s| field[s.point as usize]).collect()
+        cloud
+            .surface
+            .iter()
+            .map(|s| field[s.point as usize])
+            .collect()
     };
     found.columns.push(Column::new("potential", "V", value));
-    found.columns.extend(Column::vector("electric_field", "V/m", inner, &on_surface(beyond)));
-    found.surface.extend(Column::vector("electric_field_inner", "V/m", &on_surface(inner), &[]));
-    found.surface.extend(Column::vector("electric_field_outer", "V/m", &on_surface(beyond), &[]));
+    found.columns.extend(Column::vector(
+        "electric_field",
+        "V/m",
+        inner,
+        &on_surface(beyond),
+    ));
+    found.surface.extend(Column::vector(
+        "electric_field_inner",
+        "V/m",
+        &on_surface(inner),
+        &[],
+    ));
+    found.surface.extend(Column::vector(
+        "electric_field_outer",
+        "V/m",
+        &on_surface(beyond),
+        &[],
+    ));
     let mut force = vec![[0.0; 3]; scene.bodies.len()];
     let mut tractions = Vec::with_capacity(cloud.surface.len());
     for s in &cloud.surface {
@@ -192,10 +232,16 @@ fn columns(scene: &Scene, cloud: &Cloud, value: Vec<f64>, inner: &[Vector], beyo
             *total = std::array::from_fn(|k| total[k] + s.area * pull * s.normal[k]);
         }
     }
-    found.surface.extend(Column::vector("traction", "N/m2", &tractions, &[]));
+    found
+        .surface
+        .extend(Column::vector("traction", "N/m2", &tractions, &[]));
     for (body, force) in scene.bodies.iter().zip(force) {
         for (k, axis) in ['x', 'y', 'z'].iter().enumerate() {
-            let unit = if scene.geometry == crate::scene::Geometry::Plane { "N/m" } else { "N" };
+            let unit = if scene.geometry == crate::scene::Geometry::Plane {
+                "N/m"
+            } else {
+                "N"
+            };
             // The radial forces of a full turn cancel.
             let lost = scene.geometry == crate::scene::Geometry::Axisymmetric && k < 2;
             if !lost {

@@ -80,9 +80,11 @@ pub(crate) fn region<const D: usize>(
         region.places.push(reduce(geometry, cloud.position[i]));
         region.metrics.push(match cloud.metric[i] {
             cloud::Metric::Round => Metric::round(cloud.spacing[i]),
-            cloud::Metric::Layered { normal, across, along } => {
-                Metric::layered(reduce(geometry, normal), across, along)
-            }
+            cloud::Metric::Layered {
+                normal,
+                across,
+                along,
+            } => Metric::layered(reduce(geometry, normal), across, along),
         });
         let mut normal = [0.0; 3];
         region.kinds.push(match cloud.class[i] {
