@@ -34,7 +34,7 @@ pub(crate) fn cholesky(
     }
     for k in 0..many {
         let pivot = upper[k][k];
-        if !(pivot > LEAST_PIVOT) {
+        if pivot.is_nan() || pivot <= LEAST_PIVOT {
             return false;
         }
         let inverse = pivot.sqrt().recip();
@@ -62,7 +62,7 @@ pub(crate) fn triangular(a: DMatrix<f64>, upper: &mut [Coefficients; TERMS]) -> 
         return false;
     }
     for i in 0..many {
-        if !(r[(i, i)].abs() > ZERO) {
+        if r[(i, i)].is_nan() || r[(i, i)].abs() <= ZERO {
             return false;
         }
         for j in i..many {

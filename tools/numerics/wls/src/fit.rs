@@ -12,8 +12,9 @@ pub(crate) const ROWS: usize = 11;
 const NORMAL: f64 = 3e3;
 /// Corrections at most.
 const CORRECTIONS: usize = 4;
-/// What may be missing of a moment condition, as a part of the functional.
-const EXACT: f64 = 1e-12;
+/// What may be missing of a moment condition, as a part of the functional; monomials are at most 1
+/// on a support.
+const EXACT: f64 = 1e-13;
 /// With this much missing after all corrections the points do not determine the functional.
 const DETERMINED: f64 = 1e-10;
 /// Singular values of the conditions' matrix below this part of the greatest belong to conditions
@@ -152,7 +153,7 @@ impl<const D: usize> Fit<D> {
             }
             self.condition = factor::condition(&self.spare, many);
         }
-        if !(self.condition <= limit) {
+        if self.condition.is_nan() || self.condition > limit {
             return false;
         }
         if let Factor::Triangle(upper) = &mut self.factor {
@@ -238,25 +239,26 @@ impl<const D: usize> Fit<D> {
         self.shares.clear();
         self.shares.resize(rows * count, 0.0);
         let mut rest = [[0.0; TERMS]; ROWS];
-        let mut least = [0.0; ROWS];
+        let mut sizes = [0.0; ROWS];
         rest[..rows].copy_from_slice(functionals);
-        for (least, e) in least.iter_mut().zip(functionals) {
-            for k in 0..many {
-                *least = f64::max(*least, (e[k] * self.scale[k]).abs());
-            }
+        for (size, e) in sizes.iter_mut().zip(functionals) {
+            *size = e[..many]
+                .iter()
+                .fold(0.0, |most, x| f64::max(most, x.abs()));
         }
         let mut missing = f64::INFINITY;
         for _ in 0..=CORRECTIONS {
             let before = missing;
             let mut change = [[0.0; TERMS]; ROWS];
             for f in 0..rows {
-                for k in 0..many {
-                    change[f][k] = rest[f][k] * self.scale[k];
+                let change = &mut change[f];
+                for (x, (r, scale)) in change.iter_mut().zip(rest[f].iter().zip(&self.scale)) {
+                    *x = r * scale;
                 }
                 let mut shares = std::mem::take(&mut self.shares);
                 let own = &mut shares[f * count..(f + 1) * count];
                 let known = own.to_vec();
-                self.answer(many, &mut change[f], own);
+                self.answer(many, change, own);
                 for (k, condition) in self.conditions.iter().enumerate() {
                     let share = own[k] - known[k];
                     for l in 0..many {
@@ -264,19 +266,19 @@ impl<const D: usize> Fit<D> {
                     }
                 }
                 self.shares = shares;
-                for k in 0..many {
-                    change[f][k] *= self.scale[k];
+                for (x, scale) in change.iter_mut().zip(&self.scale) {
+                    *x *= scale;
                 }
             }
             self.points
                 .spread(basis, &change[..rows], &mut self.weights, &mut rest[..rows]);
             missing = 0.0;
             for f in 0..rows {
-                for k in 0..many {
-                    missing = f64::max(missing, (rest[f][k] * self.scale[k]).abs() / least[f]);
+                for r in &rest[f][..many] {
+                    missing = f64::max(missing, r.abs() / sizes[f]);
                 }
             }
-            if !(missing > EXACT && missing < 0.5 * before) {
+            if missing <= EXACT || missing >= 0.5 * before {
                 break;
             }
         }

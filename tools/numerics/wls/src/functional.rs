@@ -97,10 +97,10 @@ impl<const D: usize> Rows<'_, D> {
 
     fn first(&self, along: [f64; D], s: [f64; D]) -> Coefficients {
         let mut scaled = [0.0; D];
-        for a in 0..D {
+        for (a, part) in along.iter().enumerate() {
             let row = self.metric.row(a);
-            for b in 0..D {
-                scaled[b] += along[a] * row[b] / self.radius;
+            for (sum, entry) in scaled.iter_mut().zip(row) {
+                *sum += part * entry / self.radius;
             }
         }
         self.sum(|k| {
@@ -115,17 +115,17 @@ impl<const D: usize> Rows<'_, D> {
         let mut product = [[0.0; D]; D];
         for &(a, b) in pairs {
             let (first, second) = (self.metric.row(a), self.metric.row(b));
-            for c in 0..D {
-                for d in 0..D {
-                    product[c][d] += first[c] * second[d] / (self.radius * self.radius);
+            for (sums, x) in product.iter_mut().zip(first) {
+                for (sum, y) in sums.iter_mut().zip(second) {
+                    *sum += x * y / (self.radius * self.radius);
                 }
             }
         }
         self.sum(|k| {
             let mut value = 0.0;
-            for c in 0..D {
-                for d in 0..D {
-                    value += product[c][d] * self.basis.derivative(k, &[c, d], s);
+            for (c, row) in product.iter().enumerate() {
+                for (d, factor) in row.iter().enumerate() {
+                    value += factor * self.basis.derivative(k, &[c, d], s);
                 }
             }
             value
@@ -197,9 +197,9 @@ impl<const D: usize> Rows<'_, D> {
         let mut product = [[0.0; D]; D];
         for a in 0..D {
             let row = self.metric.row(a);
-            for c in 0..D {
-                for d in 0..D {
-                    product[c][d] += row[c] * row[d];
+            for (sums, x) in product.iter_mut().zip(row) {
+                for (sum, y) in sums.iter_mut().zip(row) {
+                    *sum += x * y;
                 }
             }
         }
@@ -210,14 +210,14 @@ impl<const D: usize> Rows<'_, D> {
             .filter(|e| degree(e) + 2 <= self.basis.order())
         {
             let mut row = [0.0; TERMS];
-            for c in 0..D {
-                for d in 0..D {
+            for (c, factors) in product.iter().enumerate() {
+                for (d, factor) in factors.iter().enumerate() {
                     let mut high = *low;
                     high[c] += 1;
                     let first = f64::from(high[c]);
                     high[d] += 1;
                     if let Some(k) = self.basis.number(high) {
-                        row[k] += product[c][d] * first * f64::from(high[d]);
+                        row[k] += factor * first * f64::from(high[d]);
                     }
                 }
             }

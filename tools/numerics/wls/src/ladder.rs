@@ -9,19 +9,24 @@ use crate::plan::{Plan, Rules};
 use crate::positive;
 use crate::search::{Search, Support, Target};
 
-/// Condition number up to which a support is good.
-const GOOD: f64 = 1e5;
+/// Condition number up to which a support is good, by order from 1, in two and three dimensions:
+/// about twice that of a corner of a lattice.
+const GOOD: [[f64; 4]; 2] = [[20.0, 40.0, 100.0, 400.0], [20.0, 60.0, 250.0, 1000.0]];
+/// Condition number up to which a support will do, where none is good.
+const FAIR: f64 = 1e5;
 /// A support is enlarged so many times.
 const ENLARGEMENTS: u32 = 3;
-/// Weights of a fit by singular values, in units of the spacing, sum up to this at most.
-const TAME: f64 = 1e4;
+/// Weights of an operator, in units of the least spacing, sum up to this at most: some tens are
+/// usual, and more come from points that tell little.
+const TAME: f64 = 1e3;
 
 /// How a row came about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Made {
     pub(crate) order: u8,
     pub(crate) way: Way,
-    pub(crate) enlarged: bool,
+    /// How often the support was enlarged.
+    pub(crate) times: u32,
     pub(crate) condition: f64,
     pub(crate) positive: Option<bool>,
 }
@@ -64,30 +69,50 @@ impl<const D: usize> Work<D> {
 }
 
 impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
-    /// Weights of `target`, whose support stands in `work`, into `work.fit` and `work.shares`.
-    pub(crate) fn solve(&self, target: &Target<D>, work: &mut Work<D>) -> Result<Made, Error> {
+    /// Weights of `target`, whose support stands in `work`, enlarged `from` times, into `work.fit`
+    /// and `work.shares`.
+    pub(crate) fn solve(
+        &self,
+        target: &Target<D>,
+        from: u32,
+        work: &mut Work<D>,
+    ) -> Result<Made, Error> {
         work.conditions.clear();
         if self.plan.interpolating && target.own {
             work.conditions.push(Condition::Value { at: target.place });
         }
         self.rules.conditions(target.row, &mut work.conditions);
+        let mut ready = true;
         let mut worst = f64::INFINITY;
         for order in (self.plan.lowest()..=self.plan.order).rev() {
-            for times in 0..=ENLARGEMENTS {
-                if times > 0 || order < self.plan.order {
-                    let before = work.support.neighbours.len();
+            let good = GOOD[D - 2][usize::from(order) - 1];
+            let (mut best, mut size) = ((f64::INFINITY, from), 0);
+            for times in from..=ENLARGEMENTS {
+                if !std::mem::take(&mut ready) {
                     self.enlarge(target, times, &mut work.support)?;
-                    if times > 0 && work.support.neighbours.len() == before {
-                        continue;
-                    }
                 }
-                if let Some(made) = self.attempt(target, (order, times), work) {
+                let before = std::mem::replace(&mut size, work.support.neighbours.len());
+                if size == before {
+                    continue;
+                }
+                if let Some(made) = self.attempt(target, (order, times, good), work) {
                     return Ok(made);
                 }
-                worst = work.fit.condition;
+                best = if work.fit.condition < best.0 {
+                    (work.fit.condition, times)
+                } else {
+                    best
+                };
             }
-            self.enlarge(target, 0, &mut work.support)?;
-            if let Some(made) = self.by_spectrum(target, order, work) {
+            if best.0 <= FAIR {
+                self.enlarge(target, best.1, &mut work.support)?;
+                if let Some(made) = self.attempt(target, (order, best.1, FAIR), work) {
+                    return Ok(made);
+                }
+            }
+            worst = best.0;
+            self.enlarge(target, from, &mut work.support)?;
+            if let Some(made) = self.by_spectrum(target, (order, from), work) {
                 return Ok(made);
             }
         }
@@ -108,23 +133,33 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
     fn attempt(
         &self,
         target: &Target<D>,
-        (order, times): (u8, u32),
+        (order, times, limit): (u8, u32, f64),
         work: &mut Work<D>,
     ) -> Option<Made> {
         let basis = &self.bases[usize::from(order) - 1];
         self.prepare(target, basis, work);
         let known = work.support.offsets.len() + work.condition_rows.len();
-        if known < basis.len() || !work.fit.factor(basis, GOOD) {
+        if known < basis.len() {
+            work.fit.condition = f64::INFINITY;
             return None;
         }
-        if !work.fit.solve(basis, &work.functionals) {
+        if !work.fit.factor(basis, limit) {
+            return None;
+        }
+        if !work.fit.solve(basis, &work.functionals) || !tame(target, work) {
+            work.fit.condition = f64::INFINITY;
             return None;
         }
         let positive = self.make_positive(basis, work);
-        Some(self.made(target, (order, times > 0), positive, work))
+        Some(self.made(target, (order, times), positive, work))
     }
 
-    fn by_spectrum(&self, target: &Target<D>, order: u8, work: &mut Work<D>) -> Option<Made> {
+    fn by_spectrum(
+        &self,
+        target: &Target<D>,
+        (order, times): (u8, u32),
+        work: &mut Work<D>,
+    ) -> Option<Made> {
         let basis = &self.bases[usize::from(order) - 1];
         if work.support.offsets.len() <= D {
             return None;
@@ -133,13 +168,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
         if !work.fit.factor_spectrum(basis) || !work.fit.solve(basis, &work.functionals) {
             return None;
         }
-        let points = work.support.offsets.len();
-        let tame = work
-            .fit
-            .weights
-            .chunks(points)
-            .all(|row| row.iter().map(|w| w.abs()).sum::<f64>() < TAME);
-        tame.then(|| self.made(target, (order, false), None, work))
+        tame(target, work).then(|| self.made(target, (order, times), None, work))
     }
 
     /// Loads the fit with the support, the conditions and the functionals.
@@ -176,7 +205,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
     fn made(
         &self,
         target: &Target<D>,
-        (order, enlarged): (u8, bool),
+        (order, times): (u8, u32),
         positive: Option<bool>,
         work: &mut Work<D>,
     ) -> Made {
@@ -198,7 +227,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
         Made {
             order,
             way: work.fit.way,
-            enlarged,
+            times,
             condition: work.fit.condition,
             positive,
         }
@@ -225,4 +254,11 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
             condition,
         }
     }
+}
+
+/// Whether no operator of the fit has wild weights.
+fn tame<const D: usize>(target: &Target<D>, work: &Work<D>) -> bool {
+    let most = TAME / (target.metric.narrowest * target.metric.narrowest);
+    let mut rows = work.fit.weights.chunks(work.support.offsets.len());
+    rows.all(|row| row.iter().map(|w| w.abs()).sum::<f64>() < most)
 }

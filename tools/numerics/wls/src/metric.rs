@@ -13,6 +13,8 @@ pub struct Metric<const D: usize> {
     pub(crate) stretch: Option<[[f64; D]; D]>,
     /// Greatest distance of a point at |s| = 1, in spacings.
     pub(crate) widest: f64,
+    /// Least one.
+    pub(crate) narrowest: f64,
 }
 
 impl<const D: usize> Metric<D> {
@@ -23,6 +25,7 @@ impl<const D: usize> Metric<D> {
             spacing,
             stretch: None,
             widest: 1.0,
+            narrowest: 1.0,
         }
     }
 
@@ -40,6 +43,7 @@ impl<const D: usize> Metric<D> {
             spacing: along_surface,
             stretch: Some(stretch),
             widest: 1.0_f64.max(ratio.recip()),
+            narrowest: 1.0_f64.min(ratio.recip()),
         }
     }
 

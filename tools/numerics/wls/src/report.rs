@@ -35,7 +35,7 @@ impl Report {
         self.solved += 1;
         self.by_qr += usize::from(made.way == Way::Orthogonal);
         self.by_svd += usize::from(made.way == Way::Spectrum);
-        self.enlarged += usize::from(made.enlarged);
+        self.enlarged += usize::from(made.times > 0);
         self.lowered += usize::from(made.order < order);
         self.positive_made += usize::from(made.positive == Some(true));
         self.positive_failed += usize::from(made.positive == Some(false));

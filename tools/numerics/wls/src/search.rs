@@ -17,8 +17,10 @@ const GROWTHS: usize = 14;
 const BEYOND: f64 = 1.1;
 /// Points at the same distance to this accuracy go together.
 const TIE: f64 = 1e-9;
-/// Offsets are sorted after rounding to this part of a spacing.
-const QUANTUM: f64 = 1.0 / 65536.0;
+/// Offsets are sorted after rounding to so many parts of a spacing.
+const QUANTA: f64 = 65536.0;
+/// Half the range of a rounded offset; a cast cuts, so that the half rounds.
+const MIDDLE: f64 = 1_048_576.5;
 
 /// A cloud: points \[m\] and how offsets are measured at each.
 #[derive(Debug, Clone, Copy)]
@@ -118,14 +120,13 @@ impl<const D: usize> Support<D> {
             .extend(self.found.iter().enumerate().map(|(k, found)| {
                 let mut key = 0;
                 for x in found.s.iter().rev() {
-                    let cell = (x / QUANTUM).round() as i64 + (1 << 20);
+                    let cell = (x * QUANTA + MIDDLE) as i64;
                     key = (key << 21) | (cell.clamp(0, (1 << 21) - 1) as u64);
                 }
                 (key, k as u32)
             }));
-        let found = &self.found;
-        self.keys
-            .sort_unstable_by_key(|&(key, k)| (key, found[k as usize].index));
+        // What is found comes in the order of the tree, which depends on the points alone.
+        self.keys.sort_unstable();
         self.neighbours.clear();
         self.offsets.clear();
         self.own = None;
@@ -328,15 +329,20 @@ impl<'a, const D: usize> Search<'a, D> {
         allowed: &impl Fn(usize) -> bool,
         support: &mut Support<D>,
     ) {
-        let limit = radius * radius;
+        let limit = (radius * target.metric.widest * target.metric.spacing).powi(2);
+        let within = radius * radius;
         support.found.clear();
         for run in candidates {
             let (places, order) = (&self.tree.sorted()[run.clone()], self.tree.order());
             for (place, &index) in places.iter().zip(&order[run.clone()]) {
-                let dx = std::array::from_fn(|a| place[a] - target.place[a]);
+                let dx: [f64; D] = std::array::from_fn(|a| place[a] - target.place[a]);
+                // Far points are told without the metric; a little farther ones are kept for it.
+                if dx.iter().map(|x| x * x).sum::<f64>() > limit * (1.0 + TIE) {
+                    continue;
+                }
                 let s = target.metric.scaled(dx);
                 let square = s.iter().map(|x| x * x).sum::<f64>();
-                if square < limit && (allowed(index as usize) || self.is_own(target, index)) {
+                if square < within && (self.is_own(target, index) || allowed(index as usize)) {
                     support.found.push(Found { index, square, s });
                 }
             }

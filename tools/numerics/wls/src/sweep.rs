@@ -28,6 +28,23 @@ pub(crate) struct Found {
     pub(crate) hash: u64,
     /// It may share weights: no conditions of its own.
     pub(crate) free: bool,
+    /// How often the support was enlarged.
+    pub(crate) times: u32,
+}
+
+/// Rows close to each other, and how often their supports are enlarged.
+struct Batch {
+    rows: Vec<u32>,
+    times: u32,
+}
+
+/// Rows whose group's first had to take another support.
+#[derive(Default)]
+struct Strays {
+    /// They may still be alike in a larger support: number of the row, and how large.
+    alike: Vec<(u32, u32)>,
+    /// Their numbers among the supports.
+    alone: Vec<usize>,
 }
 
 /// Supports of a cloud, in the order of the tree.
@@ -58,11 +75,14 @@ pub(crate) fn over_points<const D: usize, R: Rules<D>>(
         .iter()
         .map(|leaf| {
             let rows = search.tree().order()[leaf.clone()].iter().copied();
-            rows.filter(|&row| rules.wanted(row as usize)).collect()
+            Batch {
+                rows: rows.filter(|&row| rules.wanted(row as usize)).collect(),
+                times: 0,
+            }
         })
-        .collect::<Vec<Vec<u32>>>();
+        .collect::<Vec<_>>();
     let bench = bench(search, plan, rules)?;
-    bench.sweep(&batches, search.cloud().points.len(), target)
+    bench.sweep(batches, search.cloud().points.len(), target)
 }
 
 pub(crate) fn over_places<const D: usize, R: Rules<D>>(
@@ -85,10 +105,13 @@ pub(crate) fn over_places<const D: usize, R: Rules<D>>(
     };
     let batches = (0..places.len() as u32)
         .filter(|&row| rules.wanted(row as usize))
-        .map(|row| vec![row])
+        .map(|row| Batch {
+            rows: vec![row],
+            times: 0,
+        })
         .collect::<Vec<_>>();
     let bench = bench(search, plan, rules)?;
-    bench.sweep(&batches, places.len(), target)
+    bench.sweep(batches, places.len(), target)
 }
 
 fn bench<'a, const D: usize, R: Rules<D>>(
@@ -106,6 +129,19 @@ fn bench<'a, const D: usize, R: Rules<D>>(
     })
 }
 
+impl Strays {
+    fn take(&mut self, supports: &Supports, group: &Group, made: &Made, order: u8) {
+        let larger = made.times > supports.found[group.first].times && made.order == order;
+        for &k in &group.others {
+            if larger {
+                self.alike.push((supports.found[k].row, made.times));
+            } else {
+                self.alone.push(k);
+            }
+        }
+    }
+}
+
 /// What one parcel of solutions has found out.
 #[derive(Default)]
 struct Parcel {
@@ -117,12 +153,10 @@ struct Parcel {
 impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
     fn sweep(
         &self,
-        batches: &[Vec<u32>],
+        mut batches: Vec<Batch>,
         rows: usize,
         target: impl Fn(usize) -> Target<D> + Sync,
     ) -> Result<Stencils<D>, Error> {
-        let supports = self.supports(batches, &target)?;
-        let groups = memo::groups(&supports, &target, self.search.cloud().points);
         let mut stencils = Stencils {
             spots: vec![Spot::default(); rows],
             neighbours: Vec::new(),
@@ -131,22 +165,33 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
             report: Report::default(),
         };
         let mut changed = Vec::new();
-        let strays = self.place(&supports, &groups, &target, (&mut stencils, &mut changed))?;
-        if !strays.is_empty() {
-            let alone = strays.into_iter().map(Group::alone).collect::<Vec<_>>();
+        while !batches.is_empty() {
+            let mut supports = self.supports(&batches, &target)?;
+            let groups = memo::groups(&supports, &target, self.search.cloud().points);
+            let strays = self.place(&supports, &groups, &target, (&mut stencils, &mut changed))?;
+            let alone = strays.alone.into_iter().map(Group::alone);
+            let alone = alone.collect::<Vec<_>>();
             self.place(&supports, &alone, &target, (&mut stencils, &mut changed))?;
+            stencils.neighbours.append(&mut supports.neighbours);
+            let again = strays.alike.into_iter().map(|(row, times)| Batch {
+                rows: vec![row],
+                times,
+            });
+            batches = again.collect();
         }
-        stencils.report.rows = supports.found.len();
+        for (row, neighbours) in changed {
+            stencils.spots[row].start = stencils.neighbours.len();
+            stencils.neighbours.extend_from_slice(&neighbours);
+        }
+        stencils.report.rows = stencils.spots.iter().filter(|s| s.count > 0).count();
         stencils.report.neighbours = stencils.spots.iter().map(|s| s.count as usize).sum();
-        stencils.neighbours = supports.neighbours;
-        stencils.neighbours.extend_from_slice(&changed);
         Ok(stencils)
     }
 
     /// Supports of all rows, parcel after parcel.
     fn supports(
         &self,
-        batches: &[Vec<u32>],
+        batches: &[Batch],
         target: &(impl Fn(usize) -> Target<D> + Sync),
     ) -> Result<Supports, Error> {
         let parcels = batches
@@ -173,23 +218,21 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
 
     fn batch(
         &self,
-        batch: &[u32],
+        batch: &Batch,
         target: &impl Fn(usize) -> Target<D>,
         work: &mut Work<D>,
         supports: &mut Supports,
     ) -> Result<(), Error> {
-        let targets = batch
-            .iter()
-            .map(|&row| target(row as usize))
-            .collect::<Vec<_>>();
+        let rows = batch.rows.iter();
+        let targets = rows.map(|&row| target(row as usize)).collect::<Vec<_>>();
+        let reach = self.plan.reach.enlarged(batch.times);
         let (mut candidates, mut conditions) = (Vec::new(), Vec::<Condition<D>>::new());
-        self.search
-            .candidates(&targets, self.plan.reach, &mut candidates);
+        self.search.candidates(&targets, reach, &mut candidates);
         for target in &targets {
             let allowed = |j| self.rules.allowed(target.row, j);
             let support = &mut work.support;
             self.search
-                .support(target, self.plan.reach, &candidates, allowed, support)?;
+                .support(target, reach, &candidates, allowed, support)?;
             conditions.clear();
             self.rules.conditions(target.row, &mut conditions);
             supports.found.push(Found {
@@ -199,6 +242,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
                 radius: support.radius,
                 hash: support.hash,
                 free: conditions.is_empty(),
+                times: batch.times,
             });
             supports.neighbours.extend_from_slice(&support.neighbours);
         }
@@ -212,36 +256,34 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
         supports: &Supports,
         groups: &[Group],
         target: &(impl Fn(usize) -> Target<D> + Sync),
-        (stencils, changed): (&mut Stencils<D>, &mut Vec<u32>),
-    ) -> Result<Vec<usize>, Error> {
+        (stencils, changed): (&mut Stencils<D>, &mut Vec<(usize, Vec<u32>)>),
+    ) -> Result<Strays, Error> {
         let solutions = self.solutions(supports, groups, target, &mut stencils.weights)?;
-        let mut strays = Vec::new();
-        for (group, solution) in groups.iter().zip(&solutions) {
+        let base = stencils.neighbours.len();
+        let mut strays = Strays::default();
+        for (group, solution) in groups.iter().zip(solutions) {
             stencils.report.count(&solution.made, self.plan.order);
-            let mut put = |k: usize, start: usize, count: usize| {
-                let row = supports.found[k].row as usize;
+            let mut put = |k: usize, count: usize| {
+                let found = &supports.found[k];
+                let row = found.row as usize;
                 stencils.spots[row] = Spot {
-                    start,
+                    start: base + found.start,
                     count: count as u32,
                     shares: solution.shares,
                     weights: solution.weights,
                     inverse_spacing: target(row).metric.spacing().recip(),
                     order: solution.made.order,
                 };
+                found
             };
-            if let Some(other) = &solution.changed {
-                put(
-                    group.first,
-                    supports.neighbours.len() + changed.len(),
-                    other.len(),
-                );
-                changed.extend_from_slice(other);
-                strays.extend_from_slice(&group.others);
+            if let Some(other) = solution.changed {
+                let first = put(group.first, other.len());
+                changed.push((first.row as usize, other));
+                strays.take(supports, group, &solution.made, self.plan.order);
                 continue;
             }
             for &k in std::iter::once(&group.first).chain(&group.others) {
-                let found = &supports.found[k];
-                put(k, found.start, found.count as usize);
+                put(k, supports.found[k].count as usize);
             }
             stencils.report.shared += group.others.len();
         }
@@ -311,7 +353,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
             let target = target(found.row as usize);
             self.search
                 .recall(&target, neighbours, found.radius, &mut work.support);
-            let made = self.solve(&target, work)?;
+            let made = self.solve(&target, found.times, work)?;
             let size = neighbours.len() * self.columns.count;
             let (own, others) = std::mem::take(&mut room).split_at_mut(size);
             let changed = work.support.neighbours != neighbours;

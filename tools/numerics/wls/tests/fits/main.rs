@@ -1,0 +1,15 @@
+//! Weights of whole clouds against exact answers.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "a test may fail, and some answers are exact"
+)]
+
+mod clouds;
+mod conditions;
+mod exact;
+mod invariant;
+mod orders;
+mod positive;
+mod singular;
