@@ -14,3 +14,4 @@ pub mod scene;
 pub mod solve;
 pub mod source;
 pub mod stage;
+pub mod surface;

@@ -2,16 +2,19 @@
 //!
 //! Currents and fields are complex: rms phasors of `exp(j w t)`. A source is a sum of parts:
 //! circular loops ([`Loop`], complete elliptic integrals), straight segments ([`Segment`], Biot and
-//! Savart) and a uniform field ([`Uniform`]). The vector potential of each is in Coulomb gauge.
+//! Savart), endless wires ([`Wire`]) and a uniform field ([`Uniform`]). The vector potential of each is
+//! in Coulomb gauge.
 
 mod elliptic;
 mod ring;
 mod segment;
 mod uniform;
+mod wire;
 
 pub use ring::Loop;
 pub use segment::Segment;
 pub use uniform::Uniform;
+pub use wire::Wire;
 
 use num_complex::Complex;
 use rayon::prelude::*;
@@ -35,6 +38,8 @@ pub struct Source {
     pub loops: Vec<Loop>,
     /// Straight pieces of wire; closed circuits are made of several.
     pub segments: Vec<Segment>,
+    /// Endless wires along z.
+    pub wires: Vec<Wire>,
     /// Uniform fields.
     pub uniform: Vec<Uniform>,
 }
@@ -43,7 +48,10 @@ impl Source {
     /// Nothing at all.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.loops.is_empty() && self.segments.is_empty() && self.uniform.is_empty()
+        self.loops.is_empty()
+            && self.segments.is_empty()
+            && self.wires.is_empty()
+            && self.uniform.is_empty()
     }
 
     /// Vector potential at one place \[V s/m\], rms.
@@ -54,6 +62,9 @@ impl Source {
             add(&mut sum, part.potential(p), part.current);
         }
         for part in &self.segments {
+            add(&mut sum, part.potential(p), part.current);
+        }
+        for part in &self.wires {
             add(&mut sum, part.potential(p), part.current);
         }
         for part in &self.uniform {
@@ -73,6 +84,9 @@ impl Source {
             add(&mut sum, part.flux(p), part.current);
         }
         for part in &self.segments {
+            add(&mut sum, part.flux(p), part.current);
+        }
+        for part in &self.wires {
             add(&mut sum, part.flux(p), part.current);
         }
         for part in &self.uniform {

@@ -82,6 +82,11 @@ fn flux_is_the_curl_of_the_potential_and_neither_has_sources() {
             wire_radius: 1e-3,
             current: Complex::new(0.0, 4.0),
         }],
+        wires: vec![Wire {
+            place: [-1.0, 0.3],
+            wire_radius: 1e-3,
+            current: Complex::new(1.0, 1.0),
+        }],
         uniform: vec![Uniform {
             flux: [1e-6, 2e-6, -3e-7].map(Complex::from),
             origin: [0.1, 0.0, 0.0],

@@ -1,0 +1,133 @@
+//! Eddy currents: diffusion of a potential or field where permeability is uniform.
+//!
+//! The unknown is the reaction of the bodies alone; what coils and distant magnets give is known
+//! exactly (`A_s`). In air `lap A = 0`, in a conductor `lap A - mu sigma (j w (A + A_s)) = 0`
+//! (Matsuzawa 2017, eqs 2.64, 2.65 and 2.69: with `div A = 0` and one permeability, the components do not
+//! mix and share one operator). On an interface `dA/dn` is continuous, from one-sided gradients: the
+//! second derivative jumps there.
+
+use krylov::Rows;
+use num_complex::Complex;
+
+use super::electrostatic::around;
+use super::region::{Kind, Region};
+use super::sides::{Sides, along_normal, share_along};
+
+/// A complex number.
+type C = Complex<f64>;
+
+/// What the unknown is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// Cartesian components of A: three in space, `A_z` in a plane.
+    Potential,
+    /// `A_phi / r` about an axis of symmetry, which is smooth on it.
+    Around,
+    /// `H_z` in a plane, held where nothing conducts and on interfaces with it.
+    Axial,
+}
+
+/// Conductors by medium.
+#[derive(Debug, Clone, Default)]
+pub struct Conductors {
+    /// `mu sigma` \[s/m2\]; 0 where nothing conducts.
+    pub mu_sigma: Vec<f64>,
+}
+
+impl Conductors {
+    /// What stands before the rate in the row of point `i`, `row(A) = at d(A + A_s)/dt`: inside a
+    /// medium `mu sigma`; on an interface the shares of the Laplacians on both sides in the slopes;
+    /// nothing where the unknown is held.
+    #[must_use]
+    pub fn at<const D: usize>(
+        &self,
+        (region, sides): (&Region<D>, &Sides<D>),
+        unknown: Unknown,
+        i: usize,
+    ) -> f64 {
+        if self.held(region, unknown, i) {
+            return 0.0;
+        }
+        match region.kinds[i] {
+            Kind::Inside(m) => self.mu_sigma[m as usize],
+            Kind::Wall { .. } => 0.0,
+            Kind::Interface(face) => {
+                let face = &region.faces[face as usize];
+                let side = |medium: u8, stencils| {
+                    self.mu_sigma[medium as usize] * share_along(stencils, i, face.normal)
+                };
+                side(face.outer, &sides.outer) - side(face.inner, &sides.inner)
+            }
+        }
+    }
+
+    /// [`Conductors::at`] of all points.
+    #[must_use]
+    pub fn rates<const D: usize>(
+        &self,
+        region: &Region<D>,
+        sides: &Sides<D>,
+        unknown: Unknown,
+    ) -> Vec<f64> {
+        (0..region.len())
+            .map(|i| self.at((region, sides), unknown, i))
+            .collect()
+    }
+
+    /// Is there none at all?
+    #[must_use]
+    pub fn none(&self) -> bool {
+        self.mu_sigma.iter().all(|m| *m == 0.0)
+    }
+
+    /// Real rows: the Laplacian of the unknown, jumps of its slope, values held on walls.
+    #[must_use]
+    pub fn rows<const D: usize>(
+        &self,
+        region: &Region<D>,
+        sides: &Sides<D>,
+        unknown: Unknown,
+    ) -> Rows<f64> {
+        Rows::gathered(region.len(), 0.0, |i, row| {
+            let mut push = |j: usize, w: f64| row.push((j as u32, w));
+            if self.held(region, unknown, i) {
+                push(i, 1.0);
+                return;
+            }
+            match region.kinds[i] {
+                Kind::Interface(face) => {
+                    let n = region.faces[face as usize].normal;
+                    along_normal(&sides.inner, i, n, 1.0, &mut push);
+                    along_normal(&sides.outer, i, n, -1.0, &mut push);
+                }
+                _ => {
+                    let plain = sides.own.laplacian(i);
+                    plain.iter().for_each(|(j, w)| push(j, w));
+                    if unknown == Unknown::Around {
+                        around(region, &sides.own, i, 3.0, &mut push);
+                    }
+                }
+            }
+        })
+    }
+
+    /// Is the unknown given at point `i`?
+    #[must_use]
+    pub fn held<const D: usize>(&self, region: &Region<D>, unknown: Unknown, i: usize) -> bool {
+        let conducts = |m: u8| self.mu_sigma[m as usize] > 0.0;
+        match region.kinds[i] {
+            Kind::Wall { .. } => true,
+            Kind::Inside(m) => unknown == Unknown::Axial && !conducts(m),
+            Kind::Interface(face) => {
+                let face = &region.faces[face as usize];
+                unknown == Unknown::Axial && !(conducts(face.inner) && conducts(face.outer))
+            }
+        }
+    }
+}
+
+/// What `j w` adds to the diagonal, from [`Conductors::rates`].
+#[must_use]
+pub fn shift(rates: &[f64], omega: f64) -> Vec<C> {
+    rates.iter().map(|r| C::new(0.0, -omega * r)).collect()
+}

@@ -1,0 +1,215 @@
+//! Eddy currents in a sinusoidal steady state: right sides, and the fields of a solution.
+//!
+//! Phasors are rms values of `exp(j w t)`. In a conductor `J = -j w sigma (A + A_s)` (Matsuzawa 2017,
+//! eq. 2.65, without charge on surfaces), `B = B_s + curl A` (2.67), the mean force density is
+//! `Re(J x B*)` (2.68), the heat `|J|^2 / sigma`.
+
+use num_complex::Complex;
+use rayon::prelude::*;
+
+use super::diffusion::{Conductors, Unknown};
+use super::multipole::Multipoles;
+use super::region::Region;
+use super::sides::Sides;
+
+/// A complex number.
+type C = Complex<f64>;
+
+const NONE: [C; 3] = [Complex::new(0.0, 0.0); 3];
+
+/// What drives currents in a sinusoidal steady state.
+#[derive(Debug, Clone)]
+pub struct Drive<const K: usize> {
+    /// Angular frequency \[rad/s\].
+    pub omega: f64,
+    /// What sources give of the unknown, by point: `A_s` \[V s/m\], `A_s / r`; nothing of `H_z`.
+    pub source: Vec<[C; K]>,
+    /// What the unknown is held at where it is held; zero for a reaction.
+    pub held: [C; K],
+}
+
+impl<const K: usize> Drive<K> {
+    /// Right sides: `j w mu sigma A_s` in conductors; `rates` are [`Conductors::rates`].
+    #[must_use]
+    pub fn right<const D: usize>(
+        &self,
+        conductors: &Conductors,
+        (region, unknown): (&Region<D>, Unknown),
+        rates: &[f64],
+    ) -> Vec<[C; K]> {
+        (0..region.len())
+            .map(|i| {
+                if conductors.held(region, unknown, i) {
+                    return self.held;
+                }
+                let rate = C::new(0.0, self.omega * rates[i]);
+                self.source[i].map(|a| rate * a)
+            })
+            .collect()
+    }
+
+    /// Puts the multipoles of the currents into the rows of walls: low-rank pairs, and what the
+    /// sources give through them on the right side.
+    #[must_use]
+    pub fn pairs<const D: usize>(
+        &self,
+        conductors: &Conductors,
+        (region, unknown): (&Region<D>, Unknown),
+        multipoles: &Multipoles,
+        right: &mut [[C; K]],
+    ) -> Vec<(Vec<C>, Vec<C>)> {
+        let weight = |i: usize, moment: f64| {
+            let rate = self.omega * conductors.mu_sigma[region.medium(i) as usize] * moment;
+            // The unknown is A over the distance from the axis.
+            let arm = if unknown == Unknown::Around {
+                region.places[i][0]
+            } else {
+                1.0
+            };
+            C::new(0.0, rate * arm)
+        };
+        let mut found = Vec::new();
+        for (moment, field) in multipoles.moments.iter().zip(&multipoles.fields) {
+            let v: Vec<C> = moment
+                .iter()
+                .enumerate()
+                .map(|(i, m)| weight(i, *m))
+                .collect();
+            let mut given = [C::new(0.0, 0.0); K];
+            for (v, source) in v.iter().zip(&self.source) {
+                for k in 0..K {
+                    given[k] += v * source[k];
+                }
+            }
+            for (right, f) in right.iter_mut().zip(field) {
+                for k in 0..K {
+                    right[k] -= given[k] * *f;
+                }
+            }
+            let u = field.iter().map(|f| C::from(*f)).collect();
+            found.push((u, v));
+        }
+        found
+    }
+}
+
+/// Fields of a solution, by point, in space: of an axisymmetric scene away from the axis, around it
+/// and along it.
+#[derive(Debug, Clone, Default)]
+pub struct Fields {
+    /// Vector potential, sources and reaction \[V s/m\]; nothing where the unknown is `H_z`.
+    pub potential: Vec<[C; 3]>,
+    /// Flux density, sources and reaction \[T\].
+    pub flux: Vec<[C; 3]>,
+    /// That of the reaction alone \[T\].
+    pub reaction: Vec<[C; 3]>,
+    /// Current density \[A/m2\].
+    pub current: Vec<[C; 3]>,
+    /// Mean force density \[N/m3\].
+    pub force: Vec<[f64; 3]>,
+    /// Heat \[W/m3\].
+    pub heat: Vec<f64>,
+}
+
+/// What fields are made from beside the solution.
+#[derive(Debug, Clone, Copy)]
+pub struct Media<'a> {
+    /// Angular frequency \[rad/s\].
+    pub omega: f64,
+    /// Conductivity by medium \[S/m\].
+    pub conductivity: &'a [f64],
+    /// Permeability by medium \[H/m\].
+    pub permeability: &'a [f64],
+    /// Flux density of the sources by point, in space \[T\].
+    pub flux: &'a [[C; 3]],
+}
+
+impl Fields {
+    /// Fields of the reaction `found`, on interfaces from the inner side; `source` is that of the
+    /// [`Drive`].
+    #[must_use]
+    pub fn new<const D: usize, const K: usize>(
+        (region, sides): (&Region<D>, &Sides<D>),
+        unknown: Unknown,
+        (found, source): (&[[C; K]], &[[C; K]]),
+        media: &Media<'_>,
+    ) -> Self {
+        let point = |i: usize| {
+            let place = region.places[i];
+            let medium = region.medium(i) as usize;
+            let sigma = media.conductivity[medium];
+            let total: [C; K] = std::array::from_fn(|k| found[i][k] + source[i][k]);
+            let rate = C::new(0.0, media.omega * media.permeability[medium] * sigma);
+            let slope = |k: usize| -> [C; D] {
+                let on = region.on_interface(i);
+                let stencils = if on { &sides.inner } else { &sides.own };
+                std::array::from_fn(|axis| {
+                    let row = stencils.derivative(i, axis);
+                    // The Laplacian on the interface is known from the equation.
+                    let share: f64 = row.conditions().sum();
+                    row.apply_with(|j| found[j][k]) + rate * total[k] * share
+                })
+            };
+            let slopes: [[C; D]; K] = std::array::from_fn(slope);
+            let (potential, reaction) = local(unknown, &place, (&total, &found[i]), &slopes);
+            let mut flux = reaction;
+            for (b, s) in flux.iter_mut().zip(&media.flux[i]) {
+                *b += s;
+            }
+            let mut current = potential.map(|a| C::new(0.0, -media.omega * sigma) * a);
+            if unknown == Unknown::Axial {
+                flux = reaction.map(|h| h * media.permeability[medium]);
+                current = NONE;
+                if sigma > 0.0 {
+                    // J = curl H.
+                    [current[0], current[1]] = [slopes[0][1], -slopes[0][0]];
+                }
+            }
+            (potential, flux, reaction, current, sigma)
+        };
+        let points: Vec<_> = (0..region.len()).into_par_iter().map(point).collect();
+        let mut fields = Self::default();
+        for (potential, flux, reaction, current, sigma) in points {
+            fields.potential.push(potential);
+            fields.flux.push(flux);
+            fields.reaction.push(reaction);
+            fields.current.push(current);
+            fields.force.push(cross_mean(current, flux));
+            let square: f64 = current.iter().map(C::norm_sqr).sum();
+            fields
+                .heat
+                .push(if sigma > 0.0 { square / sigma } else { 0.0 });
+        }
+        fields
+    }
+}
+
+/// Potential of all, and curl of the reaction, in space; `H_z` as it is.
+fn local<const D: usize, const K: usize>(
+    unknown: Unknown,
+    place: &[f64; D],
+    (total, reaction): (&[C; K], &[C; K]),
+    slopes: &[[C; D]; K],
+) -> ([C; 3], [C; 3]) {
+    let zero = C::new(0.0, 0.0);
+    match unknown {
+        Unknown::Potential if K == 3 => {
+            let d = |of: usize, along: usize| slopes[of][along];
+            let curl = [d(2, 1) - d(1, 2), d(0, 2) - d(2, 0), d(1, 0) - d(0, 1)];
+            (std::array::from_fn(|k| total[k]), curl)
+        }
+        Unknown::Potential => ([zero, zero, total[0]], [slopes[0][1], -slopes[0][0], zero]),
+        Unknown::Around => {
+            let r = place[0];
+            let along = reaction[0] * 2.0 + slopes[0][0] * r;
+            ([zero, total[0] * r, zero], [-slopes[0][1] * r, zero, along])
+        }
+        Unknown::Axial => (NONE, [zero, zero, total[0]]),
+    }
+}
+
+/// `Re(a x b*)`.
+pub(super) fn cross_mean(a: [C; 3], b: [C; 3]) -> [f64; 3] {
+    let part = |i: usize, j: usize| (a[i] * b[j].conj() - a[j] * b[i].conj()).re;
+    [part(1, 2), part(2, 0), part(0, 1)]
+}

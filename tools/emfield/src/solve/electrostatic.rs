@@ -1,0 +1,208 @@
+//! Electrostatics: `div(eps grad V) = 0` (Matsuzawa 2017, eq. 2.60).
+//!
+//! One row for each point. Inside a medium the Laplacian is zero, from points of that medium and its
+//! interfaces alone. On an interface the displacement along the normal is continuous,
+//! `eps_a n.grad_a V - eps_b n.grad_b V = 0`, with a gradient from either side. On walls the
+//! potential is given, or nothing passes.
+
+use krylov::Rows;
+use rayon::prelude::*;
+use wls::{Cloud, Error, Search, Stencils, Wants};
+
+use super::region::{Counted, Kind, Region};
+use super::sides::{Form, Sides, along_normal};
+
+/// What holds at a point of a wall or of an electrode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Held {
+    /// The potential \[V\].
+    Potential(f64),
+    /// No field passes through the wall.
+    Insulated,
+}
+
+/// A problem of electrostatics.
+#[derive(Debug, Clone, Default)]
+pub struct Problem {
+    /// Relative permittivity by medium.
+    pub permittivity: Vec<f64>,
+    /// Potential of media that are electrodes \[V\].
+    pub electrodes: Vec<Option<f64>>,
+    /// What holds at walls, by point; `None` elsewhere.
+    pub held: Vec<Option<Held>>,
+}
+
+/// A system of equations: rows and right side.
+pub type Equations = (Rows<f64>, Vec<[f64; 1]>);
+
+impl Problem {
+    /// The potential that is given at point `i`.
+    fn given<const D: usize>(&self, region: &Region<D>, i: usize) -> Option<f64> {
+        if let Some(Held::Potential(v)) = self.held[i] {
+            return Some(v);
+        }
+        let electrode = |m: u8| self.electrodes.get(m as usize).copied().flatten();
+        match region.kinds[i] {
+            Kind::Inside(m) => electrode(m),
+            Kind::Wall { medium, .. } => electrode(medium),
+            Kind::Interface(face) => {
+                let face = &region.faces[face as usize];
+                electrode(face.inner).or(electrode(face.outer))
+            }
+        }
+    }
+
+    /// Rows with one-sided stencils.
+    #[must_use]
+    pub fn rows<const D: usize>(&self, region: &Region<D>, sides: &Sides<D>) -> Equations {
+        self.gather(region, |i, row| match region.kinds[i] {
+            Kind::Inside(_) => flow(region, &sides.own, i, row),
+            Kind::Interface(face) => {
+                let face = &region.faces[face as usize];
+                let [a, b] = [face.inner, face.outer].map(|m| self.permittivity[m as usize]);
+                let share = |eps: f64| eps / (a + b);
+                let n = face.normal;
+                along_normal(&sides.inner, i, n, share(a), |j, w| push(row, j, w));
+                along_normal(&sides.outer, i, n, -share(b), |j, w| push(row, j, w));
+            }
+            Kind::Wall { .. } => {
+                let n = region.wall_normals[i];
+                along_normal(&sides.own, i, n, 1.0, |j, w| push(row, j, w));
+            }
+        })
+    }
+
+    fn gather<const D: usize>(
+        &self,
+        region: &Region<D>,
+        each: impl Fn(usize, &mut Vec<(u32, f64)>),
+    ) -> Equations {
+        let mut right = vec![[0.0]; region.len()];
+        let rows = Rows::gathered(region.len(), 0.0, |i, row| {
+            if let Some(v) = self.given(region, i) {
+                right[i] = [v];
+                push(row, i, 1.0);
+            } else {
+                each(i, row);
+            }
+        });
+        (rows, right)
+    }
+
+    /// Field `-grad V` \[V/m\] (eq. 2.61), on interfaces that of the inner and of the outer side.
+    #[must_use]
+    pub fn field<const D: usize>(
+        region: &Region<D>,
+        sides: &Sides<D>,
+        potential: &[f64],
+        inner: bool,
+    ) -> Vec<[f64; D]> {
+        let gradients = sides.gradients(region, potential, inner);
+        gradients.into_iter().map(|g| g.map(|x| -x)).collect()
+    }
+}
+
+/// Stencils of the paper's form, which has no points on interfaces: those count as inner ones.
+#[derive(Debug, Clone)]
+pub struct Smeared<const D: usize> {
+    laplacian: Stencils<D>,
+    gradient: Stencils<D>,
+}
+
+impl<const D: usize> Smeared<D> {
+    /// Makes them.
+    ///
+    /// # Errors
+    /// Where points are alone, coincide or lie in a plane.
+    pub fn new(region: &Region<D>, form: &Form) -> Result<Self, Error> {
+        let cloud = Cloud {
+            points: &region.places,
+            metrics: &region.metrics,
+        };
+        let search = Search::new(cloud)?;
+        let laplacian = Wants {
+            laplacian: true,
+            hessian: region.axial,
+            gradient: true,
+            ..Wants::default()
+        };
+        let gradient = Wants {
+            gradient: true,
+            ..Wants::default()
+        };
+        Ok(Self {
+            laplacian: Stencils::build(&search, &form.plan::<D>(laplacian), &wls::Everything)?,
+            gradient: Stencils::build(&search, &form.plan::<D>(gradient), &Counted(region))?,
+        })
+    }
+
+    /// Rows `sum_j 2 eps_i eps_j / (eps_i + eps_j) w_ij (V_j - V_i) = 0`: stencils cross interfaces.
+    #[must_use]
+    pub fn rows(&self, problem: &Problem, region: &Region<D>) -> Equations {
+        let eps = |i: usize| problem.permittivity[region.medium(i) as usize];
+        problem.gather(region, |i, row| {
+            if let Kind::Wall { .. } = region.kinds[i] {
+                let n = region.wall_normals[i];
+                along_normal(&self.gradient, i, n, 1.0, |j, w| push(row, j, w));
+                return;
+            }
+            let mut plain = Vec::new();
+            flow(region, &self.laplacian, i, &mut plain);
+            let own = eps(i);
+            for (j, w) in plain {
+                let other = eps(j as usize);
+                let k = 2.0 * other / (own + other);
+                push(row, j as usize, k * w);
+                push(row, i, -k * w);
+            }
+        })
+    }
+
+    /// Field `-grad V` \[V/m\] from points of the same medium alone.
+    #[must_use]
+    pub fn field(&self, potential: &[f64]) -> Vec<[f64; D]> {
+        let gradient = self.gradient.apply_gradient(potential);
+        gradient.into_par_iter().map(|g| g.map(|x| -x)).collect()
+    }
+}
+
+/// Puts the Laplacian of point `i` into a row; about an axis of symmetry with `1/r d/dr`, which is
+/// `d2/dr2` on the axis.
+pub(super) fn flow<const D: usize>(
+    region: &Region<D>,
+    stencils: &Stencils<D>,
+    i: usize,
+    row: &mut Vec<(u32, f64)>,
+) {
+    stencils
+        .laplacian(i)
+        .iter()
+        .for_each(|(j, w)| push(row, j, w));
+    if region.axial {
+        around(region, stencils, i, 1.0, |j, w| push(row, j, w));
+    }
+}
+
+/// Adds `count / r d/dr` at point `i`.
+pub(super) fn around<const D: usize>(
+    region: &Region<D>,
+    stencils: &Stencils<D>,
+    i: usize,
+    count: f64,
+    mut add: impl FnMut(usize, f64),
+) {
+    let r = region.places[i][0];
+    if r == 0.0 {
+        for (j, w) in stencils.second(i, 0, 0).iter() {
+            add(j, count * w);
+        }
+    } else {
+        for (j, w) in stencils.derivative(i, 0).iter() {
+            add(j, count / r * w);
+        }
+    }
+}
+
+fn push(row: &mut Vec<(u32, f64)>, j: usize, w: f64) {
+    row.push((j as u32, w));
+}

@@ -1,0 +1,17 @@
+//! Equations at the points: one row for each unknown, their solution, and the fields of it.
+//!
+//! - [`region`]: what a point is; [`sides`]: stencils that keep to one side of an interface.
+//! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`eddy`] what drives
+//!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`totals`] forces
+//!   and heat.
+
+pub mod diffusion;
+pub mod eddy;
+pub mod electrostatic;
+pub mod multipole;
+pub mod region;
+pub mod sides;
+pub mod totals;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,149 @@
+//! The points as the equations need them: places, metrics, and which media meet where.
+
+use wls::{Condition, Metric, Rules};
+
+/// What a point is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Inside a medium.
+    Inside(u8),
+    /// On an interface; the number is that of its [`Face`].
+    Interface(u32),
+    /// On a wall of the domain, in a medium.
+    Wall {
+        /// The medium.
+        medium: u8,
+        /// Which wall.
+        wall: u8,
+    },
+}
+
+/// A piece of an interface, with its point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face<const D: usize> {
+    /// The point.
+    pub point: u32,
+    /// Medium that the normal leaves.
+    pub inner: u8,
+    /// Medium that it enters.
+    pub outer: u8,
+    /// Unit normal.
+    pub normal: [f64; D],
+    /// Area \[m2\].
+    pub area: f64,
+}
+
+/// Points in `D` coordinates.
+#[derive(Debug, Clone, Default)]
+pub struct Region<const D: usize> {
+    /// Places \[m\].
+    pub places: Vec<[f64; D]>,
+    /// How offsets are measured.
+    pub metrics: Vec<Metric<D>>,
+    /// What each point is.
+    pub kinds: Vec<Kind>,
+    /// Interfaces.
+    pub faces: Vec<Face<D>>,
+    /// Outward normals of walls, by wall and point; asked where a wall lets nothing through.
+    pub wall_normals: Vec<[f64; D]>,
+    /// The first coordinate is the distance from an axis of symmetry.
+    pub axial: bool,
+}
+
+impl<const D: usize> Region<D> {
+    /// Number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// No points at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
+    /// The medium in which point `i` is counted: on an interface the inner one.
+    #[must_use]
+    pub fn medium(&self, i: usize) -> u8 {
+        match self.kinds[i] {
+            Kind::Inside(medium) | Kind::Wall { medium, .. } => medium,
+            Kind::Interface(face) => self.faces[face as usize].inner,
+        }
+    }
+
+    /// Does point `i` lie in or on this medium?
+    #[must_use]
+    pub fn touches(&self, i: usize, medium: u8) -> bool {
+        match self.kinds[i] {
+            Kind::Inside(own) | Kind::Wall { medium: own, .. } => own == medium,
+            Kind::Interface(face) => {
+                let face = &self.faces[face as usize];
+                face.inner == medium || face.outer == medium
+            }
+        }
+    }
+
+    /// Is the point on an interface?
+    #[must_use]
+    pub fn on_interface(&self, i: usize) -> bool {
+        matches!(self.kinds[i], Kind::Interface(_))
+    }
+}
+
+/// Stencils of points inside media and on walls, from their own medium and its interfaces.
+pub(super) struct Own<'a, const D: usize>(pub(super) &'a Region<D>);
+
+impl<const D: usize> Rules<D> for Own<'_, D> {
+    fn wanted(&self, i: usize) -> bool {
+        !self.0.on_interface(i)
+    }
+
+    fn allowed(&self, i: usize, j: usize) -> bool {
+        self.0.touches(j, self.0.medium(i))
+    }
+}
+
+/// Stencils of interface points from one side, where the equation of that side holds.
+pub(super) struct Side<'a, const D: usize> {
+    pub(super) region: &'a Region<D>,
+    pub(super) inner: bool,
+}
+
+impl<const D: usize> Side<'_, D> {
+    fn medium(&self, i: usize) -> Option<u8> {
+        let Kind::Interface(face) = self.region.kinds[i] else {
+            return None;
+        };
+        let face = &self.region.faces[face as usize];
+        Some(if self.inner { face.inner } else { face.outer })
+    }
+}
+
+impl<const D: usize> Rules<D> for Side<'_, D> {
+    fn wanted(&self, i: usize) -> bool {
+        self.region.on_interface(i)
+    }
+
+    fn allowed(&self, i: usize, j: usize) -> bool {
+        self.medium(i).is_some_and(|m| self.region.touches(j, m))
+    }
+
+    /// The equation of the side holds on the interface too, with the Laplacian as its datum: a
+    /// one-sided slope gains an order from it. About an axis the equation has first derivatives.
+    fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
+        if !self.region.axial {
+            let at = self.region.places[i];
+            conditions.push(Condition::Laplacian { at });
+        }
+    }
+}
+
+/// Stencils of the paper's form: fields from points counted in the same medium alone.
+pub(super) struct Counted<'a, const D: usize>(pub(super) &'a Region<D>);
+
+impl<const D: usize> Rules<D> for Counted<'_, D> {
+    fn allowed(&self, i: usize, j: usize) -> bool {
+        self.0.medium(i) == self.0.medium(j)
+    }
+}

@@ -1,0 +1,134 @@
+//! Stencils that keep to one side of an interface.
+
+use wls::{Cloud, Error, Plan, Reach, Search, Stencils, Wants};
+
+use super::region::{Own, Region, Side};
+
+/// How stencils are made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Form {
+    /// Degree of the polynomials, 1 to 4; second derivatives need 2.
+    pub order: u8,
+    /// Radius of the support over the spacing; as the order needs it where it is absent.
+    pub support: Option<f64>,
+    /// Weights of the Laplacian of other points are not negative where that is possible.
+    pub positive: bool,
+}
+
+impl Default for Form {
+    fn default() -> Self {
+        Self {
+            order: 2,
+            support: None,
+            positive: false,
+        }
+    }
+}
+
+impl Form {
+    pub(super) fn plan<const D: usize>(&self, wants: Wants) -> Plan {
+        let order = if wants.laplacian {
+            self.order.max(2)
+        } else {
+            self.order
+        };
+        let mut plan = Plan::new::<D>(order, wants);
+        if let Some(radius) = self.support {
+            plan.reach = Reach::Radius(radius);
+        }
+        // With the own point exact the Laplacian of a lattice has no positive eigenvalue; with the own point as one among
+        // others it has.
+        plan.interpolating = true;
+        plan.positive = self.positive && wants.laplacian;
+        plan
+    }
+}
+
+/// Stencils of all points.
+#[derive(Debug, Clone)]
+pub struct Sides<const D: usize> {
+    /// Gradient and Laplacian inside media, gradient on walls.
+    pub own: Stencils<D>,
+    /// Gradient at interfaces from the side that the normal leaves.
+    pub inner: Stencils<D>,
+    /// Gradient at interfaces from the other side.
+    pub outer: Stencils<D>,
+}
+
+impl<const D: usize> Sides<D> {
+    /// Makes them.
+    ///
+    /// # Errors
+    /// Where points are alone, coincide or lie in a plane.
+    pub fn new(region: &Region<D>, form: &Form) -> Result<Self, Error> {
+        let cloud = Cloud {
+            points: &region.places,
+            metrics: &region.metrics,
+        };
+        let search = Search::new(cloud)?;
+        let gradient = Wants {
+            gradient: true,
+            ..Wants::default()
+        };
+        let both = Wants {
+            laplacian: true,
+            hessian: region.axial,
+            ..gradient
+        };
+        let own = Stencils::build(&search, &form.plan::<D>(both), &Own(region))?;
+        let side = |inner: bool| {
+            Stencils::build(&search, &form.plan::<D>(gradient), &Side { region, inner })
+        };
+        Ok(Self {
+            own,
+            inner: side(true)?,
+            outer: side(false)?,
+        })
+    }
+
+    /// Gradient of a field without a Laplacian at every point: on interfaces from the inner, or from
+    /// the outer side.
+    #[must_use]
+    pub fn gradients<T>(&self, region: &Region<D>, field: &[T], inner: bool) -> Vec<[T; D]>
+    where
+        T: wls::Field + Send + Sync,
+    {
+        use rayon::prelude::*;
+        let side = if inner { &self.inner } else { &self.outer };
+        (0..region.len())
+            .into_par_iter()
+            .map(|i| {
+                if region.on_interface(i) {
+                    side.gradient_of(field, i)
+                } else {
+                    self.own.gradient_of(field, i)
+                }
+            })
+            .collect()
+    }
+}
+
+/// Adds `factor` times the derivative along `normal` at point `i` to a row.
+pub(super) fn along_normal<const D: usize>(
+    stencils: &Stencils<D>,
+    i: usize,
+    normal: [f64; D],
+    factor: f64,
+    mut add: impl FnMut(usize, f64),
+) {
+    for (axis, n) in normal.iter().enumerate() {
+        for (j, w) in stencils.derivative(i, axis).iter() {
+            add(j, factor * n * w);
+        }
+    }
+}
+
+/// What a Laplacian of 1 at the interface point `i` adds to the derivative along `normal`.
+pub(super) fn share_along<const D: usize>(
+    stencils: &Stencils<D>,
+    i: usize,
+    normal: [f64; D],
+) -> f64 {
+    let share = |axis: usize| stencils.derivative(i, axis).conditions().sum::<f64>();
+    (0..D).map(|axis| normal[axis] * share(axis)).sum()
+}

@@ -1,0 +1,143 @@
+use num_complex::Complex;
+
+use krylov::{Options, Rule, System};
+
+use super::super::diffusion::{Conductors, Unknown, shift};
+use super::super::eddy::{Drive, Fields, Media};
+use super::super::multipole::{Cells, Multipoles};
+use super::super::sides::{Form, Sides};
+use super::super::totals::Totals;
+use super::shells;
+use crate::source::{Loop, MU0, Source};
+
+/// Four loops of thick wire below a ball of 2.5 mm, as in Matsuzawa (2017), section 4.2; lengths in
+/// radii of the ball.
+fn coils() -> Source {
+    let one = |k: u32| Loop {
+        centre: [0.0, 0.0, -1.4 - 0.5 * f64::from(k)],
+        axis: [0.0, 0.0, 1.0],
+        radius: 1.0 + 0.5 * f64::from(k),
+        wire_radius: 0.2,
+        current: Complex::new(200.0, 0.0),
+    };
+    Source {
+        loops: (0..4).flat_map(|k| one(k).filaments()).collect(),
+        ..Source::default()
+    }
+}
+
+fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
+    let (region, volume) = shells(across, along);
+    let form = Form {
+        order,
+        ..Form::default()
+    };
+    let sides = Sides::new(&region, &form).unwrap();
+    // In radii, sigma R^2 takes the place of sigma.
+    let sigma = 1e7 * 2.5e-3_f64.powi(2);
+    let omega = std::f64::consts::TAU * frequency;
+    let conductors = Conductors {
+        mu_sigma: vec![0.0, MU0 * sigma],
+    };
+    let source = coils();
+    let drive = Drive {
+        omega,
+        source: source.potential(&region.places),
+        held: [Complex::default(); 3],
+    };
+    let cells = Cells {
+        volume: &volume,
+        centroid: &region.places,
+    };
+    let rates = conductors.rates(&region, &sides, Unknown::Potential);
+    let mut right = drive.right(&conductors, (&region, Unknown::Potential), &rates);
+    let multipoles = Multipoles::new(&region, &cells);
+    let pairs = drive.pairs(
+        &conductors,
+        (&region, Unknown::Potential),
+        &multipoles,
+        &mut right,
+    );
+    let rows = conductors.rows(&region, &sides, Unknown::Potential);
+    let shift = shift(&rates, omega);
+    let mut system = System::new(rows, shift, Options::default()).unwrap();
+    let mut found = vec![[Complex::default(); 3]; region.len()];
+    let rule = Rule {
+        reduction: 1e-8,
+        ..Rule::default()
+    };
+    let solved = system.solve_with(&pairs, &right, &mut found, rule);
+    println!(
+        "{:?} {} {} rescued {}",
+        solved.ending,
+        solved.products,
+        solved.worst(),
+        system.rescued()
+    );
+    let flux = source.flux(&region.places);
+    let media = Media {
+        omega,
+        conductivity: &[0.0, sigma],
+        permeability: &[MU0, MU0],
+        flux: &flux,
+    };
+    let fields = Fields::new(
+        (&region, &sides),
+        Unknown::Potential,
+        (&found, &drive.source),
+        &media,
+    );
+    let conducts = [false, true];
+    let totals = Totals::in_space(
+        (&region, &sides),
+        &fields,
+        &cells,
+        (&source, omega, &conducts),
+    );
+    println!(
+        "{} points, {frequency} {across} {along} {order}: {totals:?} spread {} times {:?} {:?} {:?} {:?}",
+        region.len(),
+        totals.spread(),
+        t1 - t0,
+        t2 - t1,
+        t3 - t2,
+        t3.elapsed()
+    );
+    totals
+}
+
+#[test]
+fn a_levitated_drop_has_its_exact_lift_and_heat() {
+    // In spherical harmonics: 0.026570 N and 16.337 W; in lengths of R, heat is that over R.
+    let totals = levitated(1e5, 0.06, 0.2, 4);
+    let heat = totals.heat_volume * 2.5e-3;
+    assert!(
+        (totals.force_coil[2] / 0.026_570 - 1.0).abs() < 0.01,
+        "{totals:?}"
+    );
+    assert!(
+        (totals.force_volume[2] / 0.026_570 - 1.0).abs() < 0.02,
+        "{totals:?}"
+    );
+    assert!((heat / 16.337 - 1.0).abs() < 0.015, "{totals:?}");
+    assert!(totals.spread() < 0.06 * 0.026_570);
+}
+
+#[test]
+fn where_nothing_conducts_nothing_is_driven() {
+    let (region, _) = shells(0.2, 0.4);
+    let sides = Sides::new(&region, &Form::default()).unwrap();
+    let conductors = Conductors {
+        mu_sigma: vec![0.0, 0.0],
+    };
+    assert!(conductors.none());
+    let rates = conductors.rates(&region, &sides, Unknown::Potential);
+    assert!(rates.iter().all(|r| *r == 0.0));
+    let drive = Drive {
+        omega: 1e3,
+        source: coils().potential(&region.places),
+        held: [Complex::default(); 3],
+    };
+    let right = drive.right(&conductors, (&region, Unknown::Potential), &rates);
+    assert!(right.iter().flatten().all(|r| r.norm() == 0.0));
+}

@@ -1,0 +1,177 @@
+//! Total force and heat, each in ways that share little: their difference is an estimate of the error.
+
+use num_complex::Complex;
+use rayon::prelude::*;
+
+use super::eddy::{Fields, cross_mean};
+use super::multipole::Cells;
+use super::region::Region;
+use super::sides::Sides;
+use crate::source::{MU0, Source, cross, minus};
+
+/// A complex number.
+type C = Complex<f64>;
+
+/// Totals of all conductors.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Totals {
+    /// Force by the volume integral of `J x B` \[N\].
+    pub force_volume: [f64; 3],
+    /// Force by Maxwell's stress on the surfaces of the conductors \[N\].
+    pub force_stress: [f64; 3],
+    /// Opposite of the force on the coils in the field of the currents (Biot and Savart) \[N\].
+    pub force_coil: [f64; 3],
+    /// Heat by the volume integral of `|J|^2 / sigma` \[W\].
+    pub heat_volume: f64,
+    /// Heat by what Poynting's vector carries through the surfaces \[W\].
+    pub heat_surface: f64,
+}
+
+/// Pieces of which a loop is made where its force is summed.
+const PIECES: usize = 48;
+
+impl Totals {
+    /// Totals of the fields of a scene in space.
+    #[must_use]
+    pub fn in_space(
+        (region, sides): (&Region<3>, &Sides<3>),
+        fields: &Fields,
+        cells: &Cells<'_, 3>,
+        (source, omega, conducts): (&Source, f64, &[bool]),
+    ) -> Self {
+        let (force_volume, heat_volume) = volume(region, sides, fields, cells);
+        let mut found = Self {
+            force_volume,
+            heat_volume,
+            ..Self::default()
+        };
+        for face in &region.faces {
+            let [a, b] = [face.inner, face.outer].map(|m| conducts[m as usize]);
+            if a == b {
+                continue;
+            }
+            let sign = if a { face.area } else { -face.area };
+            let i = face.point as usize;
+            let n = face.normal;
+            let b = fields.flux[i];
+            let square: f64 = b.iter().map(C::norm_sqr).sum();
+            let normal: C = (0..3).map(|k| b[k].conj() * n[k]).sum();
+            for k in 0..3 {
+                // T n = (B (B* n) - |B|^2 n / 2) / mu.
+                let pull = (b[k] * normal).re - 0.5 * square * n[k];
+                found.force_stress[k] += sign * pull / MU0;
+            }
+            // Tangential E is -j w A; E x H* through the surface.
+            let e = fields.potential[i].map(|a| C::new(0.0, -omega) * a);
+            let inward = cross_mean(e, b);
+            let flow: f64 = (0..3).map(|k| inward[k] * n[k]).sum();
+            found.heat_surface -= sign * flow / MU0;
+        }
+        found.force_coil = coils(fields, cells, source);
+        found
+    }
+
+    /// The largest difference between two of the forces \[N\].
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        let all = [self.force_volume, self.force_stress, self.force_coil];
+        let apart = |a: [f64; 3], b: [f64; 3]| {
+            let d = minus(a, b);
+            d.iter().map(|x| x * x).sum::<f64>().sqrt()
+        };
+        let pairs = [(0, 1), (0, 2), (1, 2)];
+        pairs
+            .into_iter()
+            .map(|(i, j)| apart(all[i], all[j]))
+            .fold(0.0, f64::max)
+    }
+}
+
+/// Force and heat of all volumes, with densities carried to their middles by the gradient.
+#[must_use]
+pub fn volume<const D: usize>(
+    region: &Region<D>,
+    sides: &Sides<D>,
+    fields: &Fields,
+    cells: &Cells<'_, D>,
+) -> ([f64; 3], f64) {
+    let at = |i: usize| -> [f64; 4] {
+        let volume = cells.volume[i];
+        if volume == 0.0 || fields.heat[i] == 0.0 && region.on_interface(i) {
+            return [0.0; 4];
+        }
+        let value = |j: usize, k: usize| {
+            if k < 3 {
+                fields.force[j][k]
+            } else {
+                fields.heat[j]
+            }
+        };
+        std::array::from_fn(|k| {
+            let mut sum = value(i, k);
+            // On interfaces gradients need a Laplacian, which these densities have not.
+            let axes = if region.on_interface(i) { 0 } else { D };
+            for axis in 0..axes {
+                let off = cells.centroid[i][axis] - region.places[i][axis];
+                sum += off * sides.own.derivative(i, axis).apply_with(|j| value(j, k));
+            }
+            volume * sum
+        })
+    };
+    let parts: Vec<[f64; 4]> = (0..region.len()).into_par_iter().map(at).collect();
+    let mut total = [0.0; 4];
+    for part in &parts {
+        for k in 0..4 {
+            total[k] += part[k];
+        }
+    }
+    ([total[0], total[1], total[2]], total[3])
+}
+
+/// Opposite of the force on the coils: `-Re sum I* dl x B` with the field of the currents.
+fn coils(fields: &Fields, cells: &Cells<'_, 3>, source: &Source) -> [f64; 3] {
+    let currents: Vec<([f64; 3], [C; 3])> = (0..cells.volume.len())
+        .filter(|i| cells.volume[*i] > 0.0)
+        .map(|i| {
+            let moment = fields.current[i].map(|j| j * (cells.volume[i] * 1e-7));
+            (cells.centroid[i], moment)
+        })
+        .collect();
+    let loops = source.loops.iter().map(|l| (l.pieces(PIECES), l.current));
+    let segments = source
+        .segments
+        .iter()
+        .map(|s| (s.pieces(PIECES), s.current));
+    let mut force = [0.0; 3];
+    for (pieces, current) in loops.chain(segments) {
+        let on: Vec<[f64; 3]> = pieces
+            .par_iter()
+            .map(|(place, along)| {
+                let b = biot_savart(&currents, *place);
+                cross_mean(along.map(|x| current * x), b)
+            })
+            .collect();
+        for f in on {
+            for k in 0..3 {
+                force[k] -= f[k];
+            }
+        }
+    }
+    force
+}
+
+/// `mu0/(4 pi) sum J dV x d / d^3`; `mu0 / 4 pi` is in the moments.
+fn biot_savart(currents: &[([f64; 3], [C; 3])], p: [f64; 3]) -> [C; 3] {
+    let mut sum = [C::new(0.0, 0.0); 3];
+    for (place, moment) in currents {
+        let d = minus(p, *place);
+        let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        let inverse = (square * square.sqrt()).recip();
+        let re = cross(moment.map(|m| m.re), d);
+        let im = cross(moment.map(|m| m.im), d);
+        for k in 0..3 {
+            sum[k] += C::new(re[k], im[k]) * inverse;
+        }
+    }
+    sum
+}

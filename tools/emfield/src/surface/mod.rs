@@ -1,0 +1,3 @@
+//! What fields do to surfaces.
+
+pub mod traction;

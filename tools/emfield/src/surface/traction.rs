@@ -1,0 +1,60 @@
+//! Traction of an electrostatic field on a surface: the jump of Maxwell's stress.
+
+/// Permittivity of vacuum \[F/m\] (CODATA 2018).
+pub const EPS0: f64 = 8.854_187_812_8e-12;
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Traction \[Pa\] on a surface without free charge between the permittivities `[inner, outer]`
+/// (relative), from the field on the inner side and the unit normal outward:
+/// `eps0 eps_o (S - 1)/2 (S En^2 + Et^2)` along the normal with `S = eps_i / eps_o`. Matsuzawa (2017),
+/// eq. 2.62, has the part of a conductor alone.
+#[must_use]
+pub fn dielectric([inner, outer]: [f64; 2], field: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
+    let ratio = inner / outer;
+    let along = dot(field, normal);
+    let tangential = dot(field, field) - along * along;
+    let size = 0.5 * EPS0 * outer * (ratio - 1.0) * (ratio * along * along + tangential);
+    normal.map(|n| n * size)
+}
+
+/// Traction \[Pa\] on an electrode from the field outside: `eps E_n^2 / 2` (eq. 2.62).
+#[must_use]
+pub fn electrode(outer: f64, field: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
+    let along = dot(field, normal);
+    normal.map(|n| n * 0.5 * EPS0 * outer * along * along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dielectric_of_high_permittivity_is_pulled_like_an_electrode() {
+        let normal = [0.6, 0.0, 0.8];
+        // Inside, the normal field is that outside over S.
+        let outside = normal.map(|n| 3e5 * n);
+        let inside = outside.map(|e| e / 1e9);
+        let [a, b] = [
+            dielectric([1e9, 1.0], inside, normal),
+            electrode(1.0, outside, normal),
+        ];
+        for k in [0, 2] {
+            assert!((a[k] / b[k] - 1.0).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn traction_is_the_jump_of_the_stress_of_maxwell() {
+        let (inner, outer) = (5.0, 2.0);
+        let field = [3.0, -1.0, 2.0];
+        let beyond = [3.0, -1.0, 2.0 * inner / outer];
+        let normal = [0.0, 0.0, 1.0];
+        let stress = |eps: f64, e: [f64; 3]| EPS0 * eps * (e[2] * e[2] - 0.5 * dot(e, e));
+        let jump = stress(outer, beyond) - stress(inner, field);
+        let found = dielectric([inner, outer], field, normal)[2];
+        assert!((found / jump - 1.0).abs() < 1e-12);
+    }
+}
