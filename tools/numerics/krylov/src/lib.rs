@@ -22,10 +22,12 @@
 mod aggregation;
 mod columns;
 mod conjugate;
+mod direct;
 mod ending;
 mod gmres;
 mod incomplete;
 mod jacobi;
+mod multigrid;
 mod operator;
 mod order;
 mod rows;
@@ -33,19 +35,23 @@ mod scalar;
 mod sparse;
 mod stabilised;
 mod sums;
+mod system;
 
 pub use aggregation::Aggregation;
 pub use conjugate::conjugate_gradient;
+pub use direct::Direct;
 pub use ending::{Breakdown, Ending, Rule, Solved, Stagnation};
 pub use gmres::gmres;
 pub use incomplete::{Incomplete, Keep};
 pub use jacobi::{Jacobi, Scaled};
+pub use multigrid::{Grids, Multigrid};
 pub use operator::{Identity, Inverse, LowRank, Operator, Shifted};
 pub use order::Order;
 pub use rows::Rows;
 pub use scalar::{Coefficient, Scalar};
 pub use sparse::{Pattern, Sparse};
 pub use stabilised::{Scratch, bicgstab2};
+pub use system::{Method, Options, System};
 
 use thiserror::Error;
 
@@ -168,6 +174,9 @@ pub enum Error {
         /// The curvature.
         value: f64,
     },
+    /// Memory does not suffice for the factors.
+    #[error("memory does not suffice for sparse factors")]
+    Memory,
     /// Vectors and matrix do not fit.
     #[error("a vector or matrix of {found} rows where {expected} are expected")]
     Size {

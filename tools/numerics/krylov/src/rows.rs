@@ -6,6 +6,8 @@ use std::ops::Range;
 
 /// Rows that one task gathers.
 const ROWS: usize = 1024;
+/// Rows that one task makes.
+const TASK: usize = 4096;
 /// A product of fewer coefficients is not worth waking a thread.
 const WORTH: usize = 50_000;
 
@@ -90,6 +92,44 @@ impl<T: Copy> Rows<T> {
             rows.offsets.push(rows.columns.len());
         }
         rows
+    }
+
+    /// Rows made side by side: `each(i, scratch, columns, values)` appends those of row `i`. There
+    /// may be other columns than rows.
+    pub(crate) fn made<W>(
+        n: usize,
+        scratch: impl Fn() -> W + Sync,
+        each: impl Fn(usize, &mut W, &mut Vec<u32>, &mut Vec<T>) + Sync,
+    ) -> Self
+    where
+        T: Send,
+    {
+        let part = |m: usize| {
+            let (mut ends, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
+            let mut scratch = scratch();
+            for i in m * TASK..((m + 1) * TASK).min(n) {
+                each(i, &mut scratch, &mut columns, &mut values);
+                ends.push(columns.len());
+            }
+            (ends, columns, values)
+        };
+        let parts: Vec<_> = (0..n.div_ceil(TASK)).into_par_iter().map(part).collect();
+        let entries = parts.iter().map(|p| p.1.len()).sum();
+        let mut offsets = Vec::with_capacity(n + 1);
+        offsets.push(0);
+        let mut columns = Vec::with_capacity(entries);
+        let mut values = Vec::with_capacity(entries);
+        for (ends, c, v) in parts {
+            let begin = columns.len();
+            offsets.extend(ends.iter().map(|end| begin + end));
+            columns.extend(c);
+            values.extend(v);
+        }
+        Self {
+            offsets,
+            columns,
+            values,
+        }
     }
 
     /// Number of rows.
@@ -199,6 +239,34 @@ impl<T: Copy> Rows<T> {
             columns,
             values,
         }
+    }
+
+    /// Without the entries below `least` times the largest of their row, and, if `wrong`, without
+    /// those of the sign of the diagonal; what is left out goes to the diagonal, so that row sums
+    /// stay.
+    pub(crate) fn thinned(&self, least: f64, wrong: bool) -> Self
+    where
+        T: crate::Scalar,
+    {
+        let scratch = || ();
+        Self::made(self.len(), scratch, |i, (), columns, values| {
+            let diagonal = self.diagonal(i);
+            let off = self.pairs(i).filter(|(j, _)| *j != i);
+            let least = least * off.map(|(_, v)| v.modulus()).fold(0.0, f64::max);
+            let (mut dropped, mut place) = (T::ZERO, 0);
+            for (j, v) in self.pairs(i) {
+                let same = v.real_part() * diagonal.real_part() > 0.0;
+                if j == i {
+                    place = values.len();
+                } else if v.modulus() < least || (wrong && same) {
+                    dropped += v;
+                    continue;
+                }
+                columns.push(j as u32);
+                values.push(v);
+            }
+            values[place] += dropped;
+        })
     }
 
     /// `each(i, A x of row i, out[i])` for all rows, on all threads.

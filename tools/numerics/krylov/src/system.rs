@@ -1,0 +1,407 @@
+//! A system of equations made ready for solving: rows scaled and reordered, a method chosen.
+
+use crate::operator::residual;
+use crate::{
+    Breakdown, Coefficient, Direct, Ending, Error, Grids, Incomplete, Inverse, Keep, LowRank,
+    Multigrid, Operator, Order, Rows, Rule, Scalar, Scratch, Shifted, Solved, Stagnation,
+    bicgstab2,
+};
+
+/// How a system is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Method {
+    /// Directly up to [`Options::direct`] unknowns, by multigrid beyond; directly also where the
+    /// iteration stagnates and there are not more than [`Options::rescue`] unknowns.
+    #[default]
+    Chosen,
+    /// BiCGStab(2) and algebraic multigrid.
+    Multigrid(Grids),
+    /// Sparse triangular factors.
+    Direct,
+    /// BiCGStab(2) and incomplete factors of real coefficients in single precision.
+    Incomplete(Keep),
+    /// The same with complex factors, where the diagonal is complex and large.
+    IncompleteComplex(Keep),
+}
+
+/// What is asked of a [`System`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// The method.
+    pub method: Method,
+    /// Most unknowns that are solved directly at once.
+    pub direct: usize,
+    /// Most unknowns that are solved directly where an iteration fails.
+    pub rescue: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            method: Method::Chosen,
+            direct: 2000,
+            rescue: 20_000,
+        }
+    }
+}
+
+/// Factors in use.
+enum Factors<T, S: Scalar> {
+    Multigrid(Box<Multigrid<T, S>>),
+    Direct(Box<Direct<S>>),
+    Real(Incomplete<f32>),
+    Complex(Incomplete<S::Single>),
+}
+
+/// `(rows + diag(shift)) x = rhs`, made ready. Each row is divided by its largest coefficient, and
+/// residuals are those of the divided rows; rows that hold nothing but their diagonal (given
+/// values) are met exactly from the start.
+pub struct System<T, S: Scalar> {
+    options: Options,
+    order: Order,
+    rows: Rows<T>,
+    shift: Vec<S>,
+    /// Factors of the rows, in the new order.
+    scale: Vec<f64>,
+    factors: Factors<T, S>,
+    scratch: Scratch<S>,
+    vectors: Scratch<S>,
+    rescued: bool,
+}
+
+impl<S: Scalar, T> System<T, S>
+where
+    T: Coefficient<S> + Scalar,
+    f32: Coefficient<S> + Coefficient<T>,
+{
+    /// Scales, reorders and factorises `rows + diag(shift)`; an empty shift is none.
+    ///
+    /// # Errors
+    /// When a coefficient is not finite, a row has none but zeros, or lengths differ.
+    pub fn new(rows: Rows<T>, mut shift: Vec<S>, options: Options) -> Result<Self, Error> {
+        let n = rows.len();
+        if shift.is_empty() {
+            shift.resize(n, S::ZERO);
+        }
+        if shift.len() != n {
+            return Err(Error::Size {
+                expected: n,
+                found: shift.len(),
+            });
+        }
+        let direct = match options.method {
+            Method::Direct => true,
+            Method::Chosen => n <= options.direct,
+            _ => false,
+        };
+        let order = if direct {
+            Order::natural(n)
+        } else {
+            Order::cuthill_mckee(&rows)
+        };
+        let mut rows = if direct { rows } else { rows.permuted(&order) };
+        let mut mixed = vec![S::ZERO; n];
+        order.forth(&shift, &mut mixed);
+        let scale = equilibrate(&mut rows, &mut mixed).map_err(|e| located(e, &order))?;
+        let factors = match options.method {
+            _ if direct => Factors::Direct(Box::new(Direct::new(&rows, &mixed)?)),
+            Method::Incomplete(keep) => real(&rows, &mixed, &order, keep),
+            Method::IncompleteComplex(keep) => {
+                Factors::Complex(Incomplete::new(&rows, &mixed, &order, keep))
+            }
+            Method::Multigrid(grids) => {
+                Factors::Multigrid(Box::new(Multigrid::new(&rows, &mixed, &order, grids)?))
+            }
+            Method::Chosen | Method::Direct => {
+                match Multigrid::new(&rows, &mixed, &order, Grids::default()) {
+                    Ok(grids) => Factors::Multigrid(Box::new(grids)),
+                    Err(_) => real(&rows, &mixed, &order, Keep::PATTERN),
+                }
+            }
+        };
+        Ok(Self {
+            options,
+            order,
+            rows,
+            shift: mixed,
+            scale,
+            factors,
+            scratch: Scratch::default(),
+            vectors: Scratch::default(),
+            rescued: false,
+        })
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// No unknowns.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Has an iteration failed, so that sparse factors took its place?
+    #[must_use]
+    pub fn rescued(&self) -> bool {
+        self.rescued
+    }
+
+    /// Solves for all columns of `rhs`; `x` is the first guess and becomes the solution.
+    ///
+    /// # Panics
+    /// When lengths differ.
+    pub fn solve<const C: usize>(
+        &mut self,
+        rhs: &[[S; C]],
+        x: &mut [[S; C]],
+        rule: Rule,
+    ) -> Solved {
+        self.solve_with(&[], rhs, x, rule)
+    }
+
+    /// Solves with `sum u v^T` added to the matrix, for each pair `(u, v)` of columns: a condition
+    /// that ties few rows to many. The factors are those without.
+    ///
+    /// # Panics
+    /// When lengths differ.
+    pub fn solve_with<const C: usize>(
+        &mut self,
+        pairs: &[(Vec<S>, Vec<S>)],
+        rhs: &[[S; C]],
+        x: &mut [[S; C]],
+        rule: Rule,
+    ) -> Solved {
+        let n = self.len();
+        assert!(
+            rhs.len() == n && x.len() == n,
+            "{n} rows, {} given",
+            rhs.len()
+        );
+        let mut vectors = std::mem::take(&mut self.vectors);
+        let mut parts = vectors.vectors::<C>(2, n).into_iter();
+        let (b, y) = (
+            parts.next().unwrap_or_default(),
+            parts.next().unwrap_or_default(),
+        );
+        self.order.forth(rhs, b);
+        self.order.forth(x, y);
+        for (b, scale) in b.iter_mut().zip(&self.scale) {
+            *b = b.map(|b| b.times_real(*scale));
+        }
+        let pairs = self.mixed(pairs);
+        self.given(&pairs, b, y);
+        let mut solved = self.run(&pairs, b, y, rule);
+        let failed = !matches!(solved.ending, Ending::Converged | Ending::Spent);
+        let direct = matches!(self.factors, Factors::Direct(_));
+        let rounding = matches!(
+            solved.ending,
+            Ending::Stagnated(Stagnation::Rounding { .. })
+        );
+        let chosen = self.options.method == Method::Chosen && n <= self.options.rescue;
+        if failed
+            && !direct
+            && !rounding
+            && chosen
+            && let Ok(factors) = Direct::new(&self.rows, &self.shift)
+        {
+            self.factors = Factors::Direct(Box::new(factors));
+            self.rescued = true;
+            y.fill([S::ZERO; C]);
+            let first = solved;
+            solved = self.run(&pairs, b, y, rule);
+            solved.products += first.products;
+            let mut history = first.history;
+            history.append(&mut solved.history);
+            solved.history = history;
+        }
+        self.order.back(y, x);
+        self.vectors = vectors;
+        solved
+    }
+
+    /// Low-rank pairs in the order and scale of the rows.
+    fn mixed(&self, pairs: &[(Vec<S>, Vec<S>)]) -> Vec<(Vec<S>, Vec<S>)> {
+        let mixed = |column: &[S]| {
+            let mut new = vec![S::ZERO; column.len()];
+            self.order.forth(column, &mut new);
+            new
+        };
+        let pair = |(u, v): &(Vec<S>, Vec<S>)| {
+            let mut u = mixed(u);
+            for (u, scale) in u.iter_mut().zip(&self.scale) {
+                *u = u.times_real(*scale);
+            }
+            (u, mixed(v))
+        };
+        pairs.iter().map(pair).collect()
+    }
+
+    /// Puts given values where a row holds nothing but its diagonal.
+    fn given<const C: usize>(&self, pairs: &[(Vec<S>, Vec<S>)], b: &[[S; C]], y: &mut [[S; C]]) {
+        for (i, y) in y.iter_mut().enumerate() {
+            let alone = self.rows.pairs(i).all(|(j, v)| j == i || v == T::ZERO);
+            if alone && pairs.iter().all(|(u, _)| u[i] == S::ZERO) {
+                let diagonal = Coefficient::<S>::widened(self.rows.diagonal(i)) + self.shift[i];
+                *y = b[i].map(|b| b / diagonal);
+            }
+        }
+    }
+
+    fn run<const C: usize>(
+        &mut self,
+        pairs: &[(Vec<S>, Vec<S>)],
+        b: &[[S; C]],
+        y: &mut [[S; C]],
+        rule: Rule,
+    ) -> Solved {
+        let sparse = Shifted {
+            rows: &self.rows,
+            shift: &self.shift,
+        };
+        let scratch = &mut self.scratch;
+        let mut solved = if pairs.is_empty() {
+            self.factors.solve(&sparse, b, y, rule, scratch)
+        } else {
+            let whole = LowRank {
+                sparse: &sparse,
+                pairs: pairs.to_vec(),
+            };
+            self.factors.solve(&whole, b, y, rule, scratch)
+        };
+        if matches!(solved.ending, Ending::Stagnated(Stagnation::Plateau { .. })) {
+            solved.ending = self.explained(solved.ending);
+        }
+        solved
+    }
+
+    /// Why a residual does not fall.
+    fn explained(&self, ending: Ending) -> Ending {
+        let growth = match &self.factors {
+            Factors::Direct(_) | Factors::Multigrid(_) => return ending,
+            Factors::Real(factors) => factors.growth::<S>(),
+            Factors::Complex(factors) => factors.growth::<S>(),
+        };
+        // Of a Laplacian with rows of largest entry one, the inverse grows with the points across.
+        let usual = (self.len() as f64).max(10.0);
+        if growth > usual {
+            Ending::Stagnated(Stagnation::Preconditioner { growth })
+        } else {
+            ending
+        }
+    }
+}
+
+/// Factors of real coefficients.
+fn real<T, S>(rows: &Rows<T>, shift: &[S], order: &Order, keep: Keep) -> Factors<T, S>
+where
+    T: Coefficient<S>,
+    S: Scalar,
+    f32: Coefficient<S>,
+{
+    Factors::Real(Incomplete::new(rows, shift, order, keep))
+}
+
+impl<T: Coefficient<S> + Scalar, S: Scalar> Factors<T, S>
+where
+    f32: Coefficient<S>,
+{
+    fn solve<const C: usize>(
+        &mut self,
+        a: &impl Operator<S>,
+        b: &[[S; C]],
+        y: &mut [[S; C]],
+        rule: Rule,
+        scratch: &mut Scratch<S>,
+    ) -> Solved {
+        match self {
+            Self::Direct(factors) => {
+                let mut first = Rule {
+                    products: 9,
+                    ..rule
+                };
+                first.products = first.products.min(rule.products);
+                factors.invert(b, y);
+                let mut solved = bicgstab2(a, b, y, factors.as_mut(), first, scratch);
+                if solved.ending == Ending::Spent {
+                    solved.ending = refused(a, b, y, rule);
+                }
+                solved
+            }
+            Self::Multigrid(grids) => bicgstab2(a, b, y, grids.as_mut(), rule, scratch),
+            Self::Real(factors) => bicgstab2(a, b, y, factors, rule, scratch),
+            Self::Complex(factors) => bicgstab2(a, b, y, factors, rule, scratch),
+        }
+    }
+}
+
+/// Why sparse factors do not solve a system: what they make is no solution.
+fn refused<S: Scalar, const C: usize>(
+    a: &impl Operator<S>,
+    b: &[[S; C]],
+    y: &[[S; C]],
+    rule: Rule,
+) -> Ending {
+    let mut r = b.to_vec();
+    let left = residual(a, b, y, &mut r);
+    if left.iter().any(|r| !r.is_finite()) {
+        return Ending::BrokenDown(Breakdown::Pivot);
+    }
+    let _ = rule;
+    let size = |v: &[[S; C]]| {
+        let squares = v.iter().flatten().map(|v| v.square());
+        squares.sum::<f64>().sqrt()
+    };
+    Ending::Stagnated(Stagnation::Singular {
+        correction: size(y) / size(b).max(f64::MIN_POSITIVE),
+    })
+}
+
+/// Divides each row by its largest coefficient; the factors.
+fn equilibrate<S: Scalar, T: Coefficient<S> + Scalar>(
+    rows: &mut Rows<T>,
+    shift: &mut [S],
+) -> Result<Vec<f64>, Error> {
+    let mut factors = Vec::with_capacity(shift.len());
+    for (i, shift) in shift.iter_mut().enumerate() {
+        let largest = rows.values(i).iter().map(|v| v.modulus());
+        let diagonal: S = Coefficient::<S>::widened(rows.diagonal(i)) + *shift;
+        let largest = largest.fold(
+            diagonal.modulus(),
+            |m, v| if v > m || v.is_nan() { v } else { m },
+        );
+        if !largest.is_finite() {
+            return Err(Error::NotFinite {
+                index: i,
+                what: "a coefficient",
+            });
+        }
+        if largest == 0.0 {
+            return Err(Error::Singular { index: i });
+        }
+        let factor = 1.0 / largest;
+        for v in rows.values_mut(i) {
+            *v = v.times_real(factor);
+        }
+        *shift = shift.times_real(factor);
+        factors.push(factor);
+    }
+    Ok(factors)
+}
+
+/// The same error with the row as the caller knows it.
+fn located(error: Error, order: &Order) -> Error {
+    match error {
+        Error::NotFinite { index, what } => Error::NotFinite {
+            index: order.old_of(index),
+            what,
+        },
+        Error::Singular { index } => Error::Singular {
+            index: order.old_of(index),
+        },
+        other => other,
+    }
+}
