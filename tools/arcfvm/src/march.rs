@@ -59,6 +59,11 @@ impl<'a> Course<'a> {
         met && arc.iteration > 2 && self.steps.over()
     }
 
+    /// Whether no more is gained at the last current, however slow.
+    fn stagnates(&self) -> bool {
+        self.steps.over() && self.pace.stagnates()
+    }
+
     /// Acts on the residuals of an iteration: next current, pace.
     fn act(&mut self, arc: &mut Arc, residuals: &Residuals, session: &mut Session) {
         self.trail.push(residuals.worst());
@@ -98,13 +103,20 @@ pub fn march(arc: &mut Arc, rule: &Iterate, session: &mut Session) -> Result<(),
             return Ok(());
         }
         course.act(arc, &last, session);
+        if course.stagnates() {
+            break;
+        }
         session.keep(|c| {
             course.keep(c)?;
             resume::keep(arc, c)
         })?;
     }
+    let early = match arc.iteration < rule.most {
+        true => format!(" and stopped early, of {} iterations", rule.most),
+        false => String::new(),
+    };
     session.warn(format!(
-        "not converged after {} iterations: {}",
+        "not converged after {} iterations{early}: {}",
         arc.iteration,
         stagnation::told(arc, &last, (rule.tolerance, &rule.stop), &course.trail)
     ));

@@ -1,4 +1,4 @@
-//! Slows the iteration where it runs in circles.
+//! Slows the iteration where it runs in circles or away, and hurries it again where it goes well.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,15 +8,34 @@ use crate::solver::Arc;
 const PATIENCE: usize = 150;
 /// What it must fall to, as part of the smallest before.
 const FALL: f64 = 0.5;
+/// What it may grow to, over the smallest before.
+const GROWTH: f64 = 10.0;
+/// Iterations in a row beyond that which are no detour.
+const DETOUR: usize = 40;
+/// Falls in a row after which a slowed iteration is hurried.
+const FALLS: usize = 4;
 /// Smallest under-relaxation that slowing leads to.
-const LEAST: f64 = 0.5;
+const LEAST: f64 = 0.3;
+/// Iterations without a fall, at the slowest, after which it is given up.
+const GIVE_UP: usize = 800;
 
 /// Watches the greatest residual. What is not taken from the new solution doubles each time it has
-/// not fallen for a while.
+/// not fallen for a while or has grown, and halves again, never below that of the scene, where it falls.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pace {
     best: f64,
+    /// Iterations since the best.
     since: usize,
+    /// Iterations since the pace last changed or the residual last fell.
+    waited: usize,
+    /// Iterations in a row in which it was far above the best.
+    grown: usize,
+    /// Falls in a row since it was slowed.
+    falls: usize,
+    /// Falls that it takes to be hurried: twice as many after each attempt that failed.
+    wanted: usize,
+    /// Under-relaxations of the scene.
+    first: [f64; 2],
     /// Under-relaxation of the velocities.
     pub velocity: f64,
     /// Under-relaxation of the temperature.
@@ -30,28 +49,62 @@ impl Pace {
         Self {
             best: f64::INFINITY,
             since: 0,
+            waited: 0,
+            grown: 0,
+            falls: 0,
+            wanted: FALLS,
+            first: [velocity, temperature],
             velocity,
             temperature,
         }
     }
 
-    /// Takes note of the greatest residual; true if it slowed down.
+    /// Takes note of the greatest residual; true if the pace changed.
     pub fn watch(&mut self, worst: f64) -> bool {
         if worst <= FALL * self.best {
             self.best = worst;
-            self.since = 0;
-            return false;
+            (self.since, self.waited, self.grown) = (0, 0, 0);
+            self.falls += 1;
+            return self.hurry();
         }
         self.since += 1;
-        if self.since < PATIENCE || self.temperature <= LEAST {
+        self.waited += 1;
+        let far = worst > GROWTH * self.best;
+        self.grown = if far { self.grown + 1 } else { 0 };
+        (self.waited >= PATIENCE || self.grown >= DETOUR) && self.slow()
+    }
+
+    fn slow(&mut self) -> bool {
+        (self.waited, self.grown, self.falls) = (0, 0, 0);
+        if self.slowest() {
             return false;
         }
-        self.since = 0;
-        let slower = |r: f64| (1.0 - 2.0 * (1.0 - r)).max(LEAST);
+        let slower = |r: f64| (1.0 - 2.0 * (1.0 - r)).max(LEAST.min(r));
         self.velocity = slower(self.velocity);
         // A relaxation of 1 has nothing to double.
         self.temperature = slower(self.temperature.min(0.975));
         true
+    }
+
+    fn hurry(&mut self) -> bool {
+        if self.falls < self.wanted || self.temperature >= self.first[1] {
+            return false;
+        }
+        (self.falls, self.wanted) = (0, 2 * self.wanted);
+        let faster = |r: f64, most: f64| (1.0 - 0.5 * (1.0 - r)).min(most);
+        self.velocity = faster(self.velocity, self.first[0]);
+        self.temperature = faster(self.temperature, self.first[1]);
+        true
+    }
+
+    fn slowest(&self) -> bool {
+        self.temperature <= LEAST
+    }
+
+    /// Whether nothing is gained any more, however slow.
+    #[must_use]
+    pub fn stagnates(&self) -> bool {
+        self.slowest() && self.since >= GIVE_UP
     }
 
     /// Gives the relaxations to the solver.
@@ -71,9 +124,35 @@ mod tests {
             assert!(!pace.watch(0.99_f64.powi(k)));
         }
         let mut slowed = 0;
-        for _ in 0..2000 {
+        for _ in 0..3000 {
             slowed += usize::from(pace.watch(0.99_f64.powi(2000)));
         }
         assert!(slowed >= 3 && pace.temperature <= LEAST + 1e-12 && pace.velocity >= LEAST);
+        assert!(pace.stagnates());
+    }
+
+    #[test]
+    fn slows_at_once_where_residuals_grow() {
+        let mut pace = Pace::new(0.9, 0.99);
+        pace.watch(1e-3);
+        let at = (1..PATIENCE).find(|k| pace.watch(1e-3 * 1.1_f64.powi(*k as i32)));
+        assert!(at.is_some_and(|k| k > DETOUR && k < 2 * DETOUR), "{at:?}");
+        assert!(pace.temperature < 0.99);
+    }
+
+    #[test]
+    fn hurries_again_where_they_fall_up_to_the_pace_of_the_scene() {
+        let mut pace = Pace::new(0.9, 0.96);
+        for _ in 0..2 * PATIENCE + 2 {
+            pace.watch(1.0);
+        }
+        assert!(pace.temperature < 0.9);
+        let mut residual = 1.0;
+        for _ in 0..3000 {
+            residual *= 0.98;
+            pace.watch(residual);
+        }
+        assert!((pace.temperature - 0.96).abs() < 1e-12 && (pace.velocity - 0.9).abs() < 1e-12);
+        assert!(!pace.stagnates());
     }
 }
