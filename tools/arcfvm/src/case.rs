@@ -115,6 +115,8 @@ pub struct MovingPlate {
     pub speed: f64,
     /// Distance ahead at which the plate is compared \[m\].
     pub ahead: f64,
+    /// Widths of a ring that sweep the plate.
+    pub swept: f64,
     /// Material of the plate.
     pub material: usize,
     /// Temperature beyond the edge of the domain, by row \[K\].

@@ -3,7 +3,7 @@
 use artefact::{Record, Table};
 use run::{Failure, Session};
 
-use crate::case::{HeatCase, PotentialCase};
+use crate::case::{GAS, HeatCase, PotentialCase};
 use crate::fields::magnetic::AtCentre;
 use crate::heat::balance::Balance;
 use crate::scene::Sample;
@@ -157,7 +157,30 @@ fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
             arc.feed * wire.section,
         );
     }
-    iron::record(arc, balance, record)
+    iron::record(arc, balance, extremes(arc, record))
+}
+
+/// Where the gas is hottest, and how fast it flows along the axis at most.
+fn extremes(arc: &Arc, mut record: Record) -> Record {
+    let (grid, t) = (&arc.case.grid, arc.temperature());
+    let gas = (0..grid.len()).filter(|k| arc.case.material[*k] == GAS);
+    let hottest = gas.max_by(|a, b| t[*a].total_cmp(&t[*b]));
+    if let Some(k) = hottest.filter(|_| arc.heating.is_some()) {
+        let (i, j) = (k % grid.nr, k / grid.nr);
+        record = record
+            .with("hottest_k", "K", t[k])
+            .with("hottest_radius_m", "m", grid.rc[i])
+            .with("hottest_height_m", "m", grid.zc[j]);
+    }
+    if let Some(flowing) = &arc.flowing {
+        let fastest = flowing
+            .flow
+            .axial
+            .iter()
+            .fold(0.0_f64, |m, u| m.max(u.abs()));
+        record = record.with("fastest_m_s", "m/s", fastest);
+    }
+    record
 }
 
 /// What the base metal takes up in all, drops included, and the part of the power that it is (Komen

@@ -105,19 +105,20 @@ impl Properties {
             let law = case.of(k).enthalpy.as_ref();
             law.map_or(0.0, |h| h.within(p.t, p.y))
         });
-        self.sheath(case);
+        self.sheath(case, temperature, iron);
     }
 
-    /// Gas in the sheath of an electrode conducts as the gas beyond it does (Komen 2019, section
-    /// 5.2.3: equal electron density).
-    fn sheath(&mut self, case: &Case) {
+    /// Gas in the sheath of an electrode conducts as the gas beyond it does, or as gas with as many electrons
+    /// (Komen 2019, section 5.2.3).
+    fn sheath(&mut self, case: &Case, temperature: &[f64], iron: Option<&[f64]>) {
         let Some(sheath) = case.potential.as_ref().and_then(|p| p.sheath.as_ref()) else {
             return;
         };
         let (electric, before) = (&mut self.electric, &mut self.before);
         before.clone_from(electric);
-        for (k, from) in sheath.from.iter().enumerate() {
-            electric[k] = before[*from].max(before[k]);
+        let state = |k: usize| [temperature[k], iron.map_or(0.0, |iron| iron[k])];
+        for (k, value) in electric.iter_mut().enumerate() {
+            *value = sheath.conductivity(&case.materials[GAS], before, state, k);
         }
     }
 }

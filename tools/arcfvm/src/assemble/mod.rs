@@ -12,13 +12,14 @@ use run::property::{Arguments, Curve, Property};
 use run::{Failure, Fault};
 
 use crate::case::{
-    Case, Edges, FeedRule, FlowCase, Gravity, HeatCase, HeatEdge, MovingPlate, PotentialCase, Wire,
+    Case, Edges, FeedRule, FlowCase, GAS, Gravity, HeatCase, HeatEdge, MovingPlate, PotentialCase,
+    Wire,
 };
 use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::{Surfaces, contacts};
-use crate::material::REFERENCE_K;
-use crate::scene::{Body, Moving, Scene, SheathAt};
+use crate::material::{Material, REFERENCE_K};
+use crate::scene::{Body, Current, Film, Heat, Moving, Scene, SheathAt, SheathKeeps};
 use electrodes::Electrodes;
 pub use gas::GasFile;
 use layout::Layout;
@@ -81,9 +82,8 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     });
     let electrodes = Electrodes::new(&layout, &bodies, potential.as_ref(), &mut faults);
     if let (Some(potential), Some(current)) = (&mut potential, &scene.current) {
-        potential.sheath = current
-            .sheath_m
-            .map(|depth| sheath(&layout, &electrodes, current.sheath_at, depth));
+        potential.sheath = sheath(current, &layout, &electrodes);
+        electrons(current, &materials[GAS], &mut faults);
     }
     let flow = scene
         .flow
@@ -100,7 +100,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
             "/heat/source_w_m3",
             &mut faults,
         ),
-        surfaces: surfaces(&layout, &electrodes, heat.absorbed_radiation),
+        surfaces: surfaces(&layout, &electrodes, Some(heat)),
     });
     let parts = (&layout, &electrodes, flow.as_ref());
     let vapour = vapour::vapour(scene, gas, parts, &mut faults);
@@ -260,16 +260,29 @@ fn start(scene: &Scene, layout: &Layout, wire: Option<&Wire>, faults: &mut Fault
     all
 }
 
-fn sheath(layout: &Layout, electrodes: &Electrodes, at: SheathAt, depth: f64) -> Sheath {
-    let has = |m: usize| match at {
+fn sheath(current: &Current, layout: &Layout, electrodes: &Electrodes) -> Option<Sheath> {
+    let has = |m: usize| match current.sheath_at {
         SheathAt::Electrodes => electrodes.of[m].is_some(),
         SheathAt::Cathode => electrodes.is_cathode(m),
     };
     let has = (0..electrodes.of.len()).map(has).collect();
-    Sheath::new(&layout.grid, &layout.material, has, depth)
+    let sheath = Sheath::new(&layout.grid, &layout.material, has, current.sheath_m?);
+    Some(match current.sheath_keeps {
+        SheathKeeps::Conductivity => sheath,
+        SheathKeeps::ElectronDensity => sheath.keeping_electrons(),
+    })
 }
 
-fn surfaces(layout: &Layout, all: &Electrodes, absorbed: Option<f64>) -> Option<Surfaces> {
+/// Whether the gas tells the electrons that its sheath is to keep.
+fn electrons(current: &Current, gas: &Material, faults: &mut Faults) {
+    let wants = current.sheath_keeps == SheathKeeps::ElectronDensity;
+    if wants && gas.electron_density.is_none() {
+        let what = "electron_density wants a gas table with the column electron_density_1_m3";
+        faults.add("/current/sheath_keeps", what);
+    }
+}
+
+fn surfaces(layout: &Layout, all: &Electrodes, heat: Option<&Heat>) -> Option<Surfaces> {
     let mut electrodes = Vec::new();
     let mut index = vec![None; all.of.len()];
     for (material, electrode) in all.of.iter().enumerate() {
@@ -282,8 +295,9 @@ fn surfaces(layout: &Layout, all: &Electrodes, absorbed: Option<f64>) -> Option<
     (!electrodes.is_empty()).then_some(Surfaces {
         electrodes,
         contacts,
-        absorbed,
+        absorbed: heat.and_then(|h| h.absorbed_radiation),
         electrode_of: index,
+        film: heat.map_or(Film::default(), |h| h.film),
     })
 }
 
@@ -299,6 +313,7 @@ fn plates(bodies: &[(&String, &Body)], edges: &Edges<HeatEdge>) -> Vec<MovingPla
     let plate = |(n, moving): (usize, &Moving)| MovingPlate {
         speed: moving.speed_m_s,
         ahead: moving.ahead_m,
+        swept: moving.swept.widths(),
         material: n + 1,
         beyond: beyond.clone(),
     };

@@ -3,6 +3,7 @@
 
 use crate::case::GAS;
 use crate::grid::Grid;
+use crate::material::{Law, Material};
 
 /// Gas close to electrodes, and where each of its cells takes its conductivity from.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +14,43 @@ pub struct Sheath {
     depth: f64,
     /// For each cell the cell whose conductivity it takes; itself mostly, `[nr nz]`.
     pub from: Vec<usize>,
+    /// Whether it keeps the electrons of that cell in place of its conductivity.
+    keeps_electrons: bool,
+}
+
+/// Temperature \[K\] at which gas with the mass fraction `iron` of iron holds `wanted` electrons \[1/m3\]:
+/// the lowest such, linear between the nodes of the table, or that of the most electrons.
+fn temperature_of(density: &Law, wanted: f64, iron: f64) -> Option<f64> {
+    let nodes = match density {
+        Law::Table(table) => table.nodes(),
+        Law::Mixed(mixed) => mixed.table.rows()[0].nodes(),
+        Law::Constant(_) | Law::Formula(_) => return None,
+    };
+    let at = |t: f64| density.within(0.0, 0.0, t, iron);
+    let mut most = (nodes[0], at(nodes[0]));
+    let mut low = most.1;
+    for pair in nodes.windows(2) {
+        let high = at(pair[1]);
+        if high >= wanted && high > low {
+            let part = ((wanted - low) / (high - low)).clamp(0.0, 1.0);
+            return Some(pair[0] + part * (pair[1] - pair[0]));
+        }
+        if high > most.1 {
+            most = (pair[1], high);
+        }
+        low = high;
+    }
+    Some(most.0)
+}
+
+/// Conductivity \[S/m\] of `gas` with the mass fraction `iron` that holds as many electrons as it does at
+/// `beyond`, a temperature \[K\] and a mass fraction (Komen 2019, fig. 5.12).
+fn of_equal_electrons(gas: &Material, beyond: [f64; 2], iron: f64) -> Option<f64> {
+    let density = gas.electron_density.as_ref()?;
+    let electrons = density.within(0.0, 0.0, beyond[0], beyond[1]);
+    let t = temperature_of(density, electrons, iron)?;
+    let conductivity = gas.electric_conductivity.as_ref()?;
+    Some(conductivity.within(0.0, 0.0, t, iron))
 }
 
 impl Sheath {
@@ -23,9 +61,37 @@ impl Sheath {
             has,
             depth,
             from: Vec::new(),
+            keeps_electrons: false,
         };
         sheath.renew(grid, material);
         sheath
+    }
+
+    /// The same sheath with the electrons of the gas beyond in place of its conductivity.
+    #[must_use]
+    pub fn keeping_electrons(mut self) -> Self {
+        self.keeps_electrons = true;
+        self
+    }
+
+    /// Conductivity of cell `k`, where `before` is that of all cells by their own temperatures
+    /// \[S/m\]; `state` tells temperature and mass fraction of iron.
+    #[must_use]
+    pub fn conductivity(
+        &self,
+        gas: &Material,
+        before: &[f64],
+        state: impl Fn(usize) -> [f64; 2],
+        k: usize,
+    ) -> f64 {
+        let from = self.from[k];
+        if from == k {
+            return before[k];
+        }
+        let kept = self
+            .keeps_electrons
+            .then(|| of_equal_electrons(gas, state(from), state(k)[1]));
+        kept.flatten().unwrap_or(before[from]).max(before[k])
     }
 
     /// Takes the cells of `material` anew: those within the depth, straight off the surface, follow
@@ -74,6 +140,63 @@ fn line(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mixture::{Mixed, Molar};
+    use props::{Surface, Table};
+    use std::sync::Arc;
+
+    /// Gas whose electrons grow with temperature and iron up to 10,000 K, and then become fewer, and that
+    /// conducts as `sigma(x, T)` says.
+    fn gas(sigma: impl Fn(f64, f64) -> f64) -> Material {
+        let t = vec![300.0, 5000.0, 10_000.0, 20_000.0];
+        let law = |value: &dyn Fn(f64, f64) -> f64| {
+            let row = |x: f64| {
+                let values = t.iter().map(|t| value(x, *t)).collect();
+                Table::new(t.clone(), values).unwrap()
+            };
+            let table = Surface::new(vec![0.0, 1.0], vec![row(0.0), row(1.0)]).unwrap();
+            Some(Law::Mixed(Mixed {
+                table: Arc::new(table),
+                molar: Molar {
+                    gas: 0.05,
+                    iron: 0.05,
+                },
+            }))
+        };
+        Material {
+            electron_density: law(&|x, t| (1.0 + 3.0 * x) * 1e19 * t.min(2e4 - t)),
+            electric_conductivity: law(&sigma),
+            ..Material::default()
+        }
+    }
+
+    #[test]
+    fn iron_reaches_the_same_electrons_at_a_lower_temperature() {
+        let gas = gas(|_, t| t);
+        // Four times the electrons at each temperature: a quarter of the temperature.
+        let found = of_equal_electrons(&gas, [8000.0, 0.0], 1.0).unwrap();
+        assert!((found - 2000.0).abs() < 1e-9, "{found}");
+        // Gas of the same composition conducts alike, on the rising side.
+        let same = of_equal_electrons(&gas, [4000.0, 0.3], 0.3).unwrap();
+        assert!((same - 4000.0).abs() < 1e-9, "{same}");
+        // More electrons than there can be: as near as it comes.
+        let most = of_equal_electrons(&gas, [10_000.0, 1.0], 0.0).unwrap();
+        assert!((most - 10_000.0).abs() < 1e-9, "{most}");
+    }
+
+    #[test]
+    fn conductivity_follows_the_iron_of_the_cell_itself() {
+        let gas = gas(|x, t| t * (1.0 + x));
+        let grid = Grid::new(vec![0.0, 1.0], (0..=4).map(f64::from).collect());
+        let material = [1, GAS, GAS, GAS];
+        let sheath = Sheath::new(&grid, &material, vec![false, true], 0.6);
+        let state = |k: usize| [[300.0, 0.0], [600.0, 1.0], [8000.0, 0.0], [9000.0, 0.0]][k];
+        let before = [1e6, 1.0, 8000.0, 9000.0];
+        let of = |sheath: &Sheath, k| sheath.conductivity(&gas, &before, state, k);
+        assert!((of(&sheath, 1) - 8000.0).abs() < 1e-9);
+        let sheath = sheath.keeping_electrons();
+        assert!((of(&sheath, 1) - 4000.0).abs() < 1e-9);
+        assert!((of(&sheath, 2) - 8000.0).abs() < 1e-9);
+    }
 
     #[test]
     fn cells_whose_centre_is_within_the_depth_follow_the_next() {

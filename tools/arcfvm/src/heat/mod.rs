@@ -13,6 +13,7 @@ pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
 
 use crate::case::GAS;
 use crate::grid::Grid;
+use crate::scene::Film;
 
 /// A face between the gas and a metal with electrode heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +58,8 @@ pub struct Surfaces {
     pub absorbed: Option<f64>,
     /// The electrode that each material is.
     pub electrode_of: Vec<Option<usize>>,
+    /// Way of the heat from the gas into them.
+    pub film: Film,
 }
 
 impl Surfaces {

@@ -42,8 +42,8 @@ impl Wire {
 
 impl MovingPlate {
     /// Heat that the plate carries away from cell `(i, j)` (Komen 2019, eq. 5.22): the metal swept
-    /// per time through the cell's cut on both sides of the arc comes in as warm as the plate is at
-    /// the distance `ahead`. Returns the loss \[W\] and its slope with the cell's temperature \[W/K\].
+    /// per time through the cell's cut, on both sides of the arc or once per radian, comes in as warm as the plate
+    /// is at the distance `ahead`. Returns the loss \[W\] and its slope with the cell's temperature \[W/K\].
     #[must_use]
     pub fn loss(&self, case: &Case, i: usize, j: usize, temperature: &[f64]) -> (f64, f64) {
         let grid = &case.grid;
@@ -59,8 +59,11 @@ impl MovingPlate {
             temperature[grid.cell(grid.column_of(far), j)]
         };
         let t = temperature[k];
-        let swept =
-            density.at(grid.rc[i], grid.zc[j], t) * self.speed * 2.0 * grid.dr[i] * grid.dz[j];
+        let swept = density.at(grid.rc[i], grid.zc[j], t)
+            * self.speed
+            * self.swept
+            * grid.dr[i]
+            * grid.dz[j];
         (
             swept * (enthalpy.at(t) - enthalpy.at(ahead)),
             swept * enthalpy.slope(t),

@@ -153,4 +153,31 @@ pub struct Moving {
     /// Distance ahead at which the plate is compared.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub ahead_m: f64,
+    /// How much of the plate a ring sweeps.
+    #[serde(default)]
+    pub swept: Swept,
+}
+
+/// How much of a moving plate a ring of the grid sweeps. A section `dr dz` that moves by D sweeps
+/// `dr dz D`; the source does not tell whether that goes with the whole ring or with one radian of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Swept {
+    /// The section of a ring on both sides of the axis.
+    #[default]
+    Sides,
+    /// One section for each radian, as control volumes in cylindrical coordinates are counted: pi times as
+    /// much.
+    Radian,
+}
+
+impl Swept {
+    /// Sections that a ring sweeps.
+    #[must_use]
+    pub fn widths(self) -> f64 {
+        match self {
+            Self::Sides => 2.0,
+            Self::Radian => std::f64::consts::TAU,
+        }
+    }
 }

@@ -13,7 +13,7 @@ pub use electrode::{Anode, Cathode, Electrode, Evaporation, Saturation};
 pub use granular::Granular;
 pub use iterate::{Continuation, Coupling, Iterate, LinearSolver};
 pub use matter::{
-    BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, SpecificHeat,
+    BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, SpecificHeat, Swept,
 };
 pub use shape::{Profile, Ring, Shape, Surface};
 
@@ -119,6 +119,21 @@ pub struct Current {
     /// At which electrodes; absent: at both.
     #[serde(default)]
     pub sheath_at: SheathAt,
+    /// What gas there has in common with the gas beyond.
+    #[serde(default)]
+    pub sheath_keeps: SheathKeeps,
+}
+
+/// What gas close to an electrode takes from the gas beyond.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SheathKeeps {
+    /// Its conductivity.
+    #[default]
+    Conductivity,
+    /// Its electron density (Komen 2019, fig. 5.12): it conducts as gas with its own iron does at the
+    /// temperature of as many electrons. Wants a gas table that tells them.
+    ElectronDensity,
 }
 
 /// Electrodes with a sheath.
@@ -161,6 +176,21 @@ pub struct Heat {
     /// none.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub absorbed_radiation: Option<f64>,
+    /// Way of the heat from the gas into an electrode.
+    #[serde(default)]
+    pub film: Film,
+}
+
+/// Way of the heat from gas into an electrode, at film temperature (Komen 2019, eq. 5.17).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Film {
+    /// Half a cell of gas, then half a cell of metal.
+    #[default]
+    HalfCells,
+    /// The distance between both centres through gas: half of the difference over half of the way (Komen
+    /// 2019, eq. 5.18).
+    Centres,
 }
 
 /// Temperatures at the start, and throughout where heat is not solved.
