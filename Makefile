@@ -73,7 +73,7 @@ stability: programs ## stiff and extreme cases: stable, refused, sub-stepped or 
 validate: build/$(STUDY)/report.html ## a study against published experiments and simulations (STUDY=name)
 	$(BIN)/report validate --pool build/$(STUDY)/pool.mcap --targets pipelines/$(STUDY)/targets.json
 
-bench: programs ## time per step, per pair, per cell, and of what is absent (CASE=name)
+bench: programs build/gases/co-iron.mcap ## time per step, per pair, per cell, and of what is absent (CASE=name)
 	$(BIN)/bench $(if $(CASE),--case $(CASE)) --threads $(THREADS) --out build/bench
 
 # Other people's programs on the problems of our cases; they are installed into build/ and nowhere else.
