@@ -8,7 +8,8 @@ use run::{Failure, Inputs, Plan, Session, Tool};
 use crate::assemble;
 use crate::cloud::Cloud;
 use crate::output::{self, Found, Samples};
-use crate::scene::{Geometry, Scene};
+use crate::scene::{EddyCurrents, Geometry, Scene};
+use crate::solve::diffusion::Unknown;
 
 /// Electric and magnetic fields on points.
 #[derive(Debug)]
@@ -39,6 +40,13 @@ impl Tool for EmField {
     type Scene = Scene;
 
     fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
+        let faults = scene.eddy_currents.iter();
+        let faults: Vec<_> = faults
+            .flat_map(|e| assemble::currents::faults(scene, e))
+            .collect();
+        if !faults.is_empty() {
+            return Err(faults.into());
+        }
         let cloud = Cloud::new(scene)?;
         let plan = shown(scene, &cloud);
         if let Ok(mut ready) = READY.lock() {
@@ -50,17 +58,32 @@ impl Tool for EmField {
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
         let cloud = session.timed("points", || ready(scene))?;
         match scene.geometry {
-            Geometry::Space => solve::<3>(scene, &cloud, session),
-            Geometry::Plane | Geometry::Axisymmetric => solve::<2>(scene, &cloud, session),
+            Geometry::Space => solve::<3, 3>(scene, &cloud, session),
+            Geometry::Plane | Geometry::Axisymmetric => solve::<2, 1>(scene, &cloud, session),
         }
     }
 }
 
-fn solve<const D: usize>(scene: &Scene, cloud: &Cloud, session: &mut Session) -> Result<(), Failure> {
+fn solve<const D: usize, const K: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    session: &mut Session,
+) -> Result<(), Failure> {
     let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
     let mut found = Found::default();
     if let Some(electrostatics) = &scene.electrostatics {
-        found.join(assemble::electrostatics::<D>(scene, electrostatics, cloud, session)?);
+        found.join(assemble::electrostatics::<D>(
+            scene,
+            electrostatics,
+            cloud,
+            session,
+        )?);
+    }
+    session.stopped()?;
+    if let Some(currents) = &scene.eddy_currents {
+        found.join(assemble::eddy_currents::<D, K>(
+            scene, currents, cloud, session,
+        )?);
     }
     session.stopped()?;
     output::write(scene, cloud, &samples, (0.0, &found), session)
@@ -84,11 +107,34 @@ fn shown(scene: &Scene, cloud: &Cloud) -> Plan {
     } else {
         plan = plan.left_out("electrostatics", "no key 'electrostatics'");
     }
-    if scene.eddy_currents.is_none() {
-        plan = plan.left_out("eddy currents", "no key 'eddy_currents'");
-    }
+    plan = match &scene.eddy_currents {
+        None => plan.left_out("eddy currents", "no key 'eddy_currents'"),
+        Some(currents) => shown_currents(scene, currents, plan),
+    };
     if scene.bodies.is_empty() {
         plan = plan.left_out("interfaces", "no bodies");
     }
     plan
+}
+
+fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
+    let plan = match assemble::currents::unknown(scene, currents) {
+        Unknown::Axial => plan.stage("eddy currents").column("magnetic_field", "A/m"),
+        Unknown::Potential | Unknown::Around => plan
+            .stage("eddy currents")
+            .column("vector_potential", "Wb/m"),
+    };
+    let plan = plan.column("magnetic_flux_density", "T");
+    let conducts = (0..=scene.bodies.len()).any(|m| scene.medium(m).conductivity_s_m > 0.0);
+    if conducts {
+        plan.column("current_density", "A/m2")
+            .column("force_density", "N/m3")
+            .column("joule_heat", "W/m3")
+            .left_out(
+                "electric potential V",
+                "currents close within conductors by div A = 0 where surfaces carry no charge",
+            )
+    } else {
+        plan.left_out("currents", "nothing conducts")
+    }
 }

@@ -1,14 +1,17 @@
 //! From a scene and its points to equations, and from their solution to columns.
 
+pub mod currents;
 mod potential;
 mod region;
 
-use krylov::{Ending, Keep, Method, Options, Solved};
+use krylov::{Ending, Keep, Method, Options, Rule, Solved};
 use run::{Failure, Session};
 
 use crate::scene::Scene;
 use crate::scene::method::Way;
+use crate::solve::sides::Form;
 
+pub use currents::eddy_currents;
 pub use potential::electrostatics;
 pub(crate) use region::region;
 
@@ -21,6 +24,24 @@ fn options(scene: &Scene) -> Options {
             Way::Iterative => Method::Incomplete(Keep::PATTERN),
         },
         ..Options::default()
+    }
+}
+
+/// When the solves of a scene stop.
+fn rule(scene: &Scene) -> Rule {
+    Rule {
+        reduction: scene.solver.tolerance,
+        products: 2 * scene.solver.iterations,
+        ..Rule::default()
+    }
+}
+
+/// How the stencils of a scene are made.
+fn form(scene: &Scene) -> Form {
+    Form {
+        order: scene.method.order as u8,
+        support: scene.method.support,
+        positive: scene.method.positive,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Electrostatics of a scene: its equations, their solution, potential, field and traction.
 
-use krylov::{Rule, System};
+use krylov::System;
 use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
@@ -12,7 +12,7 @@ use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Interfaces, Scene};
 use crate::solve::electrostatic::{Held, Problem, Smeared};
 use crate::solve::region::Region;
-use crate::solve::sides::{Form, Sides};
+use crate::solve::sides::Sides;
 
 /// Permittivity of vacuum \[F/m\].
 const VACUUM: f64 = 8.854_187_812_8e-12;
@@ -123,11 +123,7 @@ pub fn electrostatics<const D: usize>(
             .collect(),
         held,
     };
-    let form = Form {
-        order: scene.method.order as u8,
-        support: scene.method.support,
-        positive: scene.method.positive,
-    };
+    let form = super::form(scene);
     let stencil = |error: wls::Error| Failure::Other(format!("electrostatics: {error}"));
     let (value, inner, beyond) = match scene.method.interfaces {
         Interfaces::OneSided(_) => {
@@ -165,11 +161,7 @@ fn solve(
     let options = super::options(scene);
     let made = session.timed("factorise", || System::new(rows, Vec::new(), options));
     let mut system = made.map_err(|error| Failure::Other(format!("potential: {error}")))?;
-    let rule = Rule {
-        reduction: scene.solver.tolerance,
-        products: 2 * scene.solver.iterations,
-        ..Rule::default()
-    };
+    let rule = super::rule(scene);
     let solved = session.timed("solve", || system.solve(&right, &mut x, rule));
     super::report("potential", &solved, session)?;
     Ok(x.into_iter().map(|x| x[0]).collect())

@@ -433,7 +433,7 @@ impl Builder {
                 }
                 (None, Wall::Box { .. }) => continue,
             };
-            if columns.holds(x, d, normal) {
+            if columns.holds(x, d, normal, self.region.dimensions) {
                 return None;
             }
         }

@@ -4,6 +4,7 @@
 //! and curvature of the surface. Elsewhere a fine lattice of samples is shared out to the nearest points.
 
 use rayon::prelude::*;
+use shapes::Kind;
 use shapes::frame::{Vector, along, difference, direction, length};
 
 use super::layers::{Column, Standing};
@@ -95,7 +96,7 @@ impl<'a> Conductor<'a> {
         }
         let step = self.step();
         let (origin, counts) = self.samples(step);
-        let planes: Vec<Vec<(u32, f64, Vector)>> = (0..counts[1] * counts[2])
+        let planes: Vec<(f64, Vec<(u32, f64, Vector)>)> = (0..counts[1] * counts[2])
             .into_par_iter()
             .map(|row| {
                 let (j, k) = (row % counts[1], row / counts[1]);
@@ -109,9 +110,12 @@ impl<'a> Conductor<'a> {
                         }
                     })
                 };
+                let mut whole = 0.0;
                 let found = (0..counts[0]).filter_map(|i| {
                     let x = place(i);
                     let volume = self.weight(x, step);
+                    whole += volume;
+                    let volume = volume * self.beyond_columns(x, volume, step);
                     if volume <= 0.0 {
                         return None;
                     }
@@ -123,11 +127,46 @@ impl<'a> Conductor<'a> {
                         }
                     }
                 });
-                found.collect()
+                let found = found.collect();
+                (whole, found)
             })
             .collect();
-        for (k, volume, x) in planes.into_iter().flatten() {
-            shares[owners[k as usize]].add(volume, x);
+        let mut whole = 0.0;
+        for (plane, found) in planes {
+            whole += plane;
+            for (k, volume, x) in found {
+                shares[owners[k as usize]].add(volume, x);
+            }
+        }
+        if !self.smooth() {
+            self.settle(whole, &owners, shares);
+        }
+    }
+
+    /// Whether columns fit together: the surface has neither edges nor crossings.
+    fn smooth(&self) -> bool {
+        let bodies = self.region.solids.iter().map(|s| &s.body);
+        let own = (self.medium as usize).checked_sub(1);
+        let single = |body: &shapes::Body| match body.single().map(|p| &p.kind) {
+            Some(Kind::Ball(_)) => true,
+            Some(Kind::Cylinder { half, .. }) => half.is_infinite(),
+            _ => false,
+        };
+        match own {
+            Some(own) => single(&self.region.solids[own].body),
+            None => bodies.into_iter().all(single) && matches!(self.region.wall, Wall::Ball { .. }),
+        }
+    }
+
+    /// Scales all shares to the volume that the samples have together: columns overlap at edges that look inward.
+    fn settle(&self, whole: f64, owners: &[usize], shares: &mut [Share]) {
+        let found: f64 = owners.iter().map(|i| shares[*i].volume).sum();
+        if found <= 0.0 || whole <= 0.0 {
+            return;
+        }
+        for i in owners {
+            shares[*i].volume *= whole / found;
+            shares[*i].moment = shares[*i].moment.map(|m| m * whole / found);
         }
     }
 
@@ -219,7 +258,18 @@ impl<'a> Conductor<'a> {
         (low, counts)
     }
 
-    /// Volume of a sample beyond the columns: the part of its cell that lies in the medium and above their last points.
+    /// The part of a sample that lies above the last points of columns.
+    fn beyond_columns(&self, x: Vector, volume: f64, step: f64) -> f64 {
+        let mut part = 1.0;
+        if volume > 0.0 {
+            for (solid, standing) in &self.standing {
+                part *= self.above(x, *solid, standing, step);
+            }
+        }
+        part
+    }
+
+    /// Volume of a sample: the part of its cell that lies in the medium.
     fn weight(&self, x: Vector, step: f64) -> f64 {
         let mut part = match self.medium {
             0 => (0.5 + self.edge(x) / step).min(1.0),
@@ -236,12 +286,6 @@ impl<'a> Conductor<'a> {
             for solid in earlier {
                 part *= (0.5 + solid.body.distance(x) / step).clamp(0.0, 1.0);
             }
-        }
-        for (solid, standing) in &self.standing {
-            if part <= 0.0 {
-                return 0.0;
-            }
-            part *= self.above(x, *solid, standing, step);
         }
         let mut volume = part * step.powi(self.region.dimensions as i32);
         if self.region.axisymmetric {

@@ -9,6 +9,8 @@ use crate::scene::Layers;
 
 /// Points nearer than this part of the local spacing, across and along the surface, are too close.
 const TOO_CLOSE: f64 = 0.6;
+/// Reach of the patch of a surface point over its spacing.
+const PATCH: f64 = 0.9;
 
 /// Thickness of the layers of one side, from the surface outward \[m\].
 pub(crate) fn thicknesses(layers: &Layers, spacing: f64, count: Option<usize>) -> Vec<f64> {
@@ -195,18 +197,24 @@ impl<'a> Standing<'a> {
         Some(&self.columns[near as usize])
     }
 
-    /// Whether a place belongs to the layers: below the last point of the column there, or hardly above it.
-    pub(crate) fn holds(&self, x: Vector, d: f64, normal: Vector) -> bool {
+    /// Whether a place belongs to the layers: over the patch of a column, below its last point or hardly above it.
+    pub(crate) fn holds(&self, x: Vector, d: f64, normal: Vector, dimensions: usize) -> bool {
         let Some(column) = self.below(x, d, normal) else {
             return false;
         };
         let side = usize::from(d > 0.0);
+        let seed = &column.seed;
         let margin = match column.last(side) {
-            0.0 => TOO_CLOSE * column.seed.spacing,
+            0.0 => TOO_CLOSE * seed.spacing,
             last => 0.55 * last,
         };
-        let up = dot(difference(x, column.seed.place), column.seed.normal).abs();
-        d.abs().min(up.max(0.7 * d.abs())) < column.height(side) + margin
+        let away = difference(x, seed.place);
+        let up = dot(away, seed.normal);
+        let level = (dot(away, away) - up * up).max(0.0).sqrt();
+        let wide = column
+            .widening(side, d.abs())
+            .powf(1.0 / (dimensions - 1) as f64);
+        d.abs() < column.height(side) + margin && level < PATCH * seed.spacing * wide.max(TOO_CLOSE)
     }
 }
 

@@ -26,6 +26,10 @@ pub(crate) struct Seed {
 const FINER: f64 = 2.0;
 /// Distance over spacing at which points chosen at random stand as close as an even arrangement.
 const PACKING: f64 = 0.8;
+/// The same for points of two faces that meet at an edge.
+const EDGES: f64 = 0.65;
+/// Pieces among which a point is chosen, over those that the finest spacing has.
+const CHOICE: f64 = 2.0;
 
 /// Points on the surface of a body; `local` is the wanted distance of points at a place, at most `spacing` and at
 /// least `least` \[m\].
@@ -45,7 +49,7 @@ pub(crate) fn seeds(
             return spiral(centre, radius, spacing);
         }
         _ if dimensions == 2 => along_curves(&pieces(body, 2, least / FINER / 2.0), local),
-        _ => spread(&pieces(body, 3, least / FINER), spacing, local),
+        _ => spread(&pieces(body, 3, least / FINER), (spacing, least), local),
     };
     for seed in &mut found {
         seed.curvature = curvature(body, seed, dimensions);
@@ -119,36 +123,52 @@ fn seed(piece: &Piece, area: f64, spacing: f64) -> Seed {
 
 /// Points chosen among pieces in a scattered order, none nearer to another than the packing allows; each takes the
 /// area of the pieces nearest to it.
-fn spread(pieces: &[Piece], spacing: f64, local: &dyn Fn(Vector) -> f64) -> Vec<Seed> {
+fn spread(
+    pieces: &[Piece],
+    (spacing, least): (f64, f64),
+    local: &dyn Fn(Vector) -> f64,
+) -> Vec<Seed> {
+    let wanted: Vec<f64> = pieces.iter().map(|p| local(p.place)).collect();
+    // Where points stand far apart, a few of the pieces are choice enough.
+    let enough = |k: usize| {
+        let part = CHOICE * (least / wanted[k]).powi(2);
+        (super::jitter::mix(!(k as u64)) >> 11) as f64 <= part * (1_u64 << 53) as f64
+    };
     let mut order: Vec<(u64, usize)> = (0..pieces.len())
+        .filter(|k| enough(*k))
         .map(|k| (super::jitter::mix(k as u64), k))
         .collect();
     order.sort_unstable();
-    let mut set = Occupied::new(spacing);
+    let mut set = Occupied::new(0.5 * spacing);
     let mut seeds: Vec<Seed> = Vec::new();
     for (_, k) in order {
-        let piece = &pieces[k];
-        let own = local(piece.place);
-        let taken = set.any(piece.place, PACKING * own, |other, _, _| {
-            // Two faces that meet at an edge do not crowd each other out of it.
-            dot(seeds[other as usize].normal, piece.normal) > 0.0
+        let (piece, own) = (&pieces[k], wanted[k]);
+        let taken = set.any(piece.place, PACKING * own, |other, _, square| {
+            // Faces that meet at an edge do not keep each other as far from it as points of one face are apart.
+            let same = dot(seeds[other as usize].normal, piece.normal) > 0.5;
+            same || square < (EDGES * own).powi(2)
         });
         if !taken {
             set.push(piece.place);
             seeds.push(seed(piece, 0.0, own));
         }
     }
-    for piece in pieces {
-        let mut best: Option<(f64, u32)> = None;
-        set.any(piece.place, 2.0 * spacing, |k, _, square| {
-            let same = dot(seeds[k as usize].normal, piece.normal) > 0.5;
-            if same && best.is_none_or(|b| (square, k) < b) {
-                best = Some((square, k));
+    for (piece, own) in pieces.iter().zip(&wanted) {
+        let mut radius = PACKING * own;
+        while radius < 4.0 * spacing {
+            let mut best: Option<(f64, u32)> = None;
+            set.any(piece.place, radius, |k, _, square| {
+                let same = dot(seeds[k as usize].normal, piece.normal) > 0.5;
+                if same && best.is_none_or(|b| (square, k) < b) {
+                    best = Some((square, k));
+                }
+                false
+            });
+            if let Some((_, k)) = best {
+                seeds[k as usize].area += piece.area;
+                break;
             }
-            false
-        });
-        if let Some((_, k)) = best {
-            seeds[k as usize].area += piece.area;
+            radius *= 1.5;
         }
     }
     seeds.retain(|s| s.area > 0.0);

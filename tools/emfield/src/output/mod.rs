@@ -39,7 +39,12 @@ impl Column {
 
     /// The components of a vector, with its values beyond interfaces if it jumps there.
     #[must_use]
-    pub fn vector(name: &str, unit: &'static str, values: &[Vector], beyond: &[Vector]) -> [Self; 3] {
+    pub fn vector(
+        name: &str,
+        unit: &'static str,
+        values: &[Vector],
+        beyond: &[Vector],
+    ) -> [Self; 3] {
         [('x', 0), ('y', 1), ('z', 2)].map(|(axis, k)| Self {
             name: format!("{name}_{axis}"),
             unit,
@@ -165,7 +170,10 @@ fn units(scene: &Scene) -> (&'static str, &'static str) {
 
 /// Places, normals and what acts on the surfaces of bodies.
 fn surface(scene: &Scene, cloud: &Cloud, found: &Found) -> Frame {
-    let places = cloud.surface.iter().map(|s| cloud.position[s.point as usize]);
+    let places = cloud
+        .surface
+        .iter()
+        .map(|s| cloud.position[s.point as usize]);
     let mut frame = frame(scene)
         .positions(places)
         .vector("normal", "1", cloud.surface.iter().map(|s| s.normal))

@@ -85,7 +85,8 @@ impl Samples {
         }
         let share = |n: usize| {
             let shares = stencils.value(n).iter().map(|(j, weight)| {
-                let outer = matches!(cloud.class[j], Class::Interface { inner, .. } if inner != media[n]);
+                let outer =
+                    matches!(cloud.class[j], Class::Interface { inner, .. } if inner != media[n]);
                 Share {
                     point: j as u32,
                     beyond: if outer { on_surface[j] } else { None },
