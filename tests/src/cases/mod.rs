@@ -7,6 +7,7 @@ mod arc_mms;
 mod arc_pinch;
 mod arc_poiseuille;
 mod arc_potential;
+mod arc_surface;
 mod arc_vapour;
 mod arc_wire_joule;
 mod gas_argon;
@@ -41,6 +42,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_pinch::ArcPinch),
         Box::new(arc_poiseuille::ArcPoiseuille),
         Box::new(arc_potential::ArcPotential),
+        Box::new(arc_surface::ArcSurface),
         Box::new(arc_vapour::ArcVapour),
         Box::new(arc_wire_joule::ArcWireJoule),
         Box::new(gas_argon::GasArgon),
