@@ -11,11 +11,11 @@ use crate::search::{Search, Support, Target};
 
 /// Condition number up to which a support is good, by order from 1, in two and three dimensions:
 /// about twice that of a corner of a lattice.
-const GOOD: [[f64; 4]; 2] = [[20.0, 40.0, 100.0, 400.0], [20.0, 60.0, 250.0, 1000.0]];
+const GOOD: [[f64; 4]; 2] = [[20.0, 40.0, 100.0, 400.0], [20.0, 60.0, 150.0, 400.0]];
 /// Condition number up to which a support will do, where none is good.
 const FAIR: f64 = 1e5;
 /// A support is enlarged so many times.
-const ENLARGEMENTS: u32 = 3;
+const ENLARGEMENTS: u32 = 5;
 /// Weights of an operator, in units of the least spacing, sum up to this at most: some tens are
 /// usual, and more come from points that tell little.
 const TAME: f64 = 1e3;

@@ -8,7 +8,7 @@ use crate::metric::Metric;
 /// Points nearer than this many spacings coincide.
 const LEAST_DISTANCE: f64 = 1e-6;
 /// Points of a support, the nearest, where the spacing jumps and more would be within reach.
-const MOST: usize = 4096;
+const MOST: usize = 1 << NUMBER_BITS;
 /// A search for the nearest points grows by this factor until it has found enough.
 const GROWTH: f64 = 1.3;
 /// A search for the nearest points ends after this many growths.
@@ -18,9 +18,12 @@ const BEYOND: f64 = 1.1;
 /// Points at the same distance to this accuracy go together.
 const TIE: f64 = 1e-9;
 /// Offsets are sorted after rounding to so many parts of a spacing.
-const QUANTA: f64 = 65536.0;
+const QUANTA: f64 = 4096.0;
+/// Bits of a rounded offset, and of the number of a point in a support.
+const BITS: u32 = 17;
+const NUMBER_BITS: u32 = 12;
 /// Half the range of a rounded offset; a cast cuts, so that the half rounds.
-const MIDDLE: f64 = 1_048_576.5;
+const MIDDLE: f64 = 65_536.5;
 
 /// A cloud: points \[m\] and how offsets are measured at each.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +49,9 @@ impl Reach {
     pub(crate) fn enlarged(self, times: u32) -> Self {
         match self {
             Self::Radius(radius) => Self::Radius(radius * 1.25_f64.powi(times as i32)),
-            Self::Nearest(count) => Self::Nearest(count + count * times as usize / 2),
+            Self::Nearest(count) => {
+                Self::Nearest((count as f64 * 1.5_f64.powi(times as i32)) as usize)
+            }
         }
     }
 
@@ -90,7 +95,8 @@ pub(crate) struct Support<const D: usize> {
     /// Of the offsets after rounding.
     pub(crate) hash: u64,
     found: Vec<Found<D>>,
-    keys: Vec<(u64, u32)>,
+    keys: Vec<u64>,
+    hits: Vec<u32>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -110,35 +116,35 @@ impl<const D: usize> Support<D> {
             hash: 0,
             found: Vec::new(),
             keys: Vec::new(),
+            hits: Vec::new(),
         }
     }
 
     /// Sorts what was found by rounded offsets, so that equal supports are equal lists.
     fn arrange(&mut self, target: &Target<D>) {
         self.keys.clear();
-        self.keys
-            .extend(self.found.iter().enumerate().map(|(k, found)| {
-                let mut key = 0;
-                for x in found.s.iter().rev() {
-                    let cell = (x * QUANTA + MIDDLE) as i64;
-                    key = (key << 21) | (cell.clamp(0, (1 << 21) - 1) as u64);
-                }
-                (key, k as u32)
-            }));
-        // What is found comes in the order of the tree, which depends on the points alone.
+        for (k, found) in self.found.iter().enumerate() {
+            let mut key = 0;
+            for x in found.s.iter().rev() {
+                let cell = (x * QUANTA + MIDDLE) as u64;
+                key = (key << BITS) | cell.min((1 << BITS) - 1);
+            }
+            // What is found comes in the order of the tree, which depends on the points alone.
+            self.keys.push((key << NUMBER_BITS) | k as u64);
+        }
         self.keys.sort_unstable();
         self.neighbours.clear();
         self.offsets.clear();
         self.own = None;
         let mut hash = self.radius.to_bits() >> 24;
-        for (place, &(key, k)) in self.keys.iter().enumerate() {
-            let found = &self.found[k as usize];
+        for (place, &key) in self.keys.iter().enumerate() {
+            let found = &self.found[(key & ((1 << NUMBER_BITS) - 1)) as usize];
             if target.own && found.index as usize == target.row {
                 self.own = Some(place);
             }
             self.neighbours.push(found.index);
             self.offsets.push(found.s);
-            hash = (hash.rotate_left(5) ^ key).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            hash = (hash.rotate_left(5) ^ (key >> NUMBER_BITS)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         }
         self.hash = hash;
     }
@@ -266,6 +272,7 @@ impl<'a, const D: usize> Search<'a, D> {
         }
         if support.found.len() > MOST {
             support.nearest(MOST);
+            support.found.truncate(MOST);
         }
         self.refuse_coincident(target, support)?;
         support.arrange(target);
@@ -329,18 +336,28 @@ impl<'a, const D: usize> Search<'a, D> {
         allowed: &impl Fn(usize) -> bool,
         support: &mut Support<D>,
     ) {
-        let limit = (radius * target.metric.widest * target.metric.spacing).powi(2);
+        // A little more than what the metric will admit.
+        let limit = (radius * target.metric.widest * target.metric.spacing).powi(2) * (1.0 + TIE);
         let within = radius * radius;
         support.found.clear();
         for run in candidates {
             let (places, order) = (&self.tree.sorted()[run.clone()], self.tree.order());
-            for (place, &index) in places.iter().zip(&order[run.clone()]) {
-                let dx: [f64; D] = std::array::from_fn(|a| place[a] - target.place[a]);
-                // Far points are told without the metric; a little farther ones are kept for it.
-                if dx.iter().map(|x| x * x).sum::<f64>() > limit * (1.0 + TIE) {
-                    continue;
-                }
-                let s = target.metric.scaled(dx);
+            let order = &order[run.clone()];
+            // Written without a branch per candidate: the end moves on for what is near enough.
+            support.hits.resize(support.hits.len().max(places.len()), 0);
+            let mut hits = 0;
+            for (k, place) in places.iter().enumerate() {
+                let square = (0..D)
+                    .map(|a| (place[a] - target.place[a]).powi(2))
+                    .sum::<f64>();
+                support.hits[hits] = k as u32;
+                hits += usize::from(square <= limit);
+            }
+            for &k in &support.hits[..hits] {
+                let (place, index) = (&places[k as usize], order[k as usize]);
+                let s = target
+                    .metric
+                    .scaled(std::array::from_fn(|a| place[a] - target.place[a]));
                 let square = s.iter().map(|x| x * x).sum::<f64>();
                 if square < within && (self.is_own(target, index) || allowed(index as usize)) {
                     support.found.push(Found { index, square, s });

@@ -205,6 +205,8 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
             })
             .collect::<Vec<Result<Supports, Error>>>();
         let mut all = Supports::default();
+        let sizes = parcels.iter().flatten().map(|p| p.neighbours.len());
+        all.neighbours.reserve_exact(sizes.sum());
         for parcel in parcels {
             let mut parcel = parcel?;
             for found in &mut parcel.found {

@@ -23,7 +23,6 @@ fn errors<const D: usize>(points: &Points<D>, order: u8) -> [f64; 2] {
         let curved = if D == 3 { -4.0 } else { -3.0 } * field[i];
         second += (stencils.laplacian(i).apply(&field) - curved).powi(2);
     }
-    println!("{:?}", stencils.report());
     let count = points.places.len() as f64;
     [(first / count).sqrt(), (second / count).sqrt()]
 }
@@ -38,11 +37,6 @@ fn hold<const D: usize>(name: &str, cloud: impl Fn(usize) -> Points<D>, sizes: [
         );
         let observed = |k: usize| (coarse[k] / fine[k]).ln() / ratio;
         let p = f64::from(order);
-        println!(
-            "{name} {D}-D order {order}: {:.2} {:.2}",
-            observed(0),
-            observed(1)
-        );
         assert!(
             observed(0) > p - 0.2 && observed(1) > p - 1.2,
             "{name}, order {order}: gradient {:.2}, Laplacian {:.2}",
