@@ -109,6 +109,8 @@ pub struct Fields {
     pub force: Vec<[f64; 3]>,
     /// Heat \[W/m3\].
     pub heat: Vec<f64>,
+    /// Laplacian over value of squares that fall off as in a plane skin, `2 w mu sigma` \[1/m2\].
+    pub curvature: Vec<f64>,
 }
 
 /// What fields are made from beside the solution.
@@ -165,15 +167,16 @@ impl Fields {
                     [current[0], current[1]] = [slopes[0][1], -slopes[0][0]];
                 }
             }
-            (potential, flux, reaction, current, sigma)
+            (potential, flux, reaction, current, (sigma, 2.0 * rate.im))
         };
         let points: Vec<_> = (0..region.len()).into_par_iter().map(point).collect();
         let mut fields = Self::default();
-        for (potential, flux, reaction, current, sigma) in points {
+        for (potential, flux, reaction, current, (sigma, curvature)) in points {
             fields.potential.push(potential);
             fields.flux.push(flux);
             fields.reaction.push(reaction);
             fields.current.push(current);
+            fields.curvature.push(curvature);
             fields.force.push(cross_mean(current, flux));
             let square: f64 = current.iter().map(C::norm_sqr).sum();
             fields

@@ -111,3 +111,4 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<f64>) {
 }
 
 mod eddy;
+mod march;

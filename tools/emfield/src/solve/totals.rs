@@ -107,13 +107,17 @@ pub fn volume<const D: usize>(
                 fields.heat[j]
             }
         };
+        let on = region.on_interface(i);
+        let stencils = if on { &sides.inner } else { &sides.own };
         std::array::from_fn(|k| {
             let mut sum = value(i, k);
-            // On interfaces gradients need a Laplacian, which these densities have not.
-            let axes = if region.on_interface(i) { 0 } else { D };
-            for axis in 0..axes {
+            for axis in 0..D {
                 let off = cells.centroid[i][axis] - region.places[i][axis];
-                sum += off * sides.own.derivative(i, axis).apply_with(|j| value(j, k));
+                let row = stencils.derivative(i, axis);
+                // One-sided slopes ask for the Laplacian: that of a skin.
+                let share: f64 = row.conditions().sum();
+                let slope = row.apply_with(|j| value(j, k));
+                sum += off * (slope + share * fields.curvature[i] * value(i, k));
             }
             volume * sum
         })

@@ -67,13 +67,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
         ..Rule::default()
     };
     let solved = system.solve_with(&pairs, &right, &mut found, rule);
-    println!(
-        "{:?} {} {} rescued {}",
-        solved.ending,
-        solved.products,
-        solved.worst(),
-        system.rescued()
-    );
+    assert!(solved.converged(), "{}", solved.ending);
     let flux = source.flux(&region.places);
     let media = Media {
         omega,
@@ -88,22 +82,12 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
         &media,
     );
     let conducts = [false, true];
-    let totals = Totals::in_space(
+    Totals::in_space(
         (&region, &sides),
         &fields,
         &cells,
         (&source, omega, &conducts),
-    );
-    println!(
-        "{} points, {frequency} {across} {along} {order}: {totals:?} spread {} times {:?} {:?} {:?} {:?}",
-        region.len(),
-        totals.spread(),
-        t1 - t0,
-        t2 - t1,
-        t3 - t2,
-        t3.elapsed()
-    );
-    totals
+    )
 }
 
 #[test]

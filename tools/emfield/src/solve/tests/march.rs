@@ -1,0 +1,62 @@
+use krylov::Rule;
+
+use super::super::diffusion::{Conductors, Unknown};
+use super::super::march::{Forcing, March};
+use super::super::sides::{Form, Sides};
+use super::rings;
+
+/// `H_z` on the axis of a cylinder of radius 1 and `mu sigma = 1` at the time 0.1 after a field of 1 was
+/// switched on around it, in steps.
+fn switched_on(steps: u32) -> f64 {
+    let region = rings(0.1);
+    let form = Form {
+        order: 4,
+        ..Form::default()
+    };
+    let sides = Sides::new(&region, &form).unwrap();
+    let conductors = Conductors {
+        mu_sigma: vec![0.0, 1.0],
+    };
+    let held = |i| conductors.held(&region, Unknown::Axial, i).then_some([1.0]);
+    let forcing = Forcing {
+        source: vec![[0.0]; region.len()],
+        held: (0..region.len()).map(held).collect(),
+    };
+    let rows = conductors.rows(&region, &sides, Unknown::Axial);
+    let rates = conductors.rates(&region, &sides, Unknown::Axial);
+    let step = 0.1 / f64::from(steps);
+    let mut march = March::new(rows, rates, forcing, step).unwrap();
+    let rule = Rule {
+        reduction: 1e-12,
+        ..Rule::default()
+    };
+    for k in 0..steps {
+        let solved = march.advance(f64::from(k) * step, |_| 1.0, rule);
+        assert!(solved.iter().all(|s| s.worst() < 1e-10));
+    }
+    march.state()[0][0]
+}
+
+/// Carslaw and Jaeger (1959), section 7.6, with the first zeros of J0 and J1 there.
+fn exact() -> f64 {
+    let terms = [
+        (2.404_825_557_695_773, 0.519_147_497_289_466_9),
+        (5.520_078_110_286_311, -0.340_264_806_556_811_4),
+        (8.653_727_912_911_013, 0.271_452_299_383_482_7),
+        (11.791_534_439_014_28, -0.232_459_831_364_723_4),
+    ];
+    let sum: f64 = terms
+        .iter()
+        .map(|(z, j): &(f64, f64)| (-z * z * 0.1).exp() / (z * j))
+        .sum();
+    1.0 - 2.0 * sum
+}
+
+#[test]
+fn a_field_that_is_switched_on_diffuses_with_second_order_in_time() {
+    let [a, b, c] = [5, 10, 20].map(|steps| switched_on(steps) - exact());
+    assert!(c.abs() < 3e-4, "{a:e} {b:e} {c:e}");
+    // What is left of the points' error does not fall with the step.
+    let order = ((a - b) / (b - c)).abs().log2();
+    assert!((1.7..2.6).contains(&order), "{a:e} {b:e} {c:e}");
+}
