@@ -5,7 +5,7 @@ use crate::operator::residual;
 use crate::{Breakdown, Ending, Inverse, Operator, Rule, Scalar, Solved, Stagnation};
 
 /// Products without a decrease by a tenth after which a solve has stagnated.
-const PATIENCE: usize = 160;
+const PATIENCE: usize = 80;
 /// A divisor this small beside the norms it is made of counts as zero.
 const TINY: f64 = 1e-28;
 /// Most evaluations of the true residual that begin anew.

@@ -1,10 +1,9 @@
 //! A system of equations made ready for solving: rows scaled and reordered, a method chosen.
 
-use crate::operator::residual;
+use crate::factors::{Factors, joined};
 use crate::{
-    Breakdown, Coefficient, Direct, Ending, Error, Grids, Incomplete, Inverse, Keep, LowRank,
-    Multigrid, Operator, Order, Rows, Rule, Scalar, Scratch, Shifted, Solved, Stagnation,
-    bicgstab2,
+    Coefficient, Direct, Ending, Error, Grids, Incomplete, Keep, LowRank, Multigrid, Order, Rows,
+    Rule, Scalar, Scratch, Shifted, Solved, Stagnation,
 };
 
 /// How a system is solved.
@@ -43,14 +42,6 @@ impl Default for Options {
             rescue: 20_000,
         }
     }
-}
-
-/// Factors in use.
-enum Factors<T, S: Scalar> {
-    Multigrid(Box<Multigrid<T, S>>),
-    Direct(Box<Direct<S>>),
-    Real(Incomplete<f32>),
-    Complex(Incomplete<S::Single>),
 }
 
 /// `(rows + diag(shift)) x = rhs`, made ready. Each row is divided by its largest coefficient, and
@@ -211,12 +202,7 @@ where
             self.factors = Factors::Direct(Box::new(factors));
             self.rescued = true;
             y.fill([S::ZERO; C]);
-            let first = solved;
-            solved = self.run(&pairs, b, y, rule);
-            solved.products += first.products;
-            let mut history = first.history;
-            history.append(&mut solved.history);
-            solved.history = history;
+            solved = joined(solved, self.run(&pairs, b, y, rule));
         }
         self.order.back(y, x);
         self.vectors = vectors;
@@ -303,61 +289,6 @@ where
     f32: Coefficient<S>,
 {
     Factors::Real(Incomplete::new(rows, shift, order, keep))
-}
-
-impl<T: Coefficient<S> + Scalar, S: Scalar> Factors<T, S>
-where
-    f32: Coefficient<S>,
-{
-    fn solve<const C: usize>(
-        &mut self,
-        a: &impl Operator<S>,
-        b: &[[S; C]],
-        y: &mut [[S; C]],
-        rule: Rule,
-        scratch: &mut Scratch<S>,
-    ) -> Solved {
-        match self {
-            Self::Direct(factors) => {
-                let mut first = Rule {
-                    products: 9,
-                    ..rule
-                };
-                first.products = first.products.min(rule.products);
-                factors.invert(b, y);
-                let mut solved = bicgstab2(a, b, y, factors.as_mut(), first, scratch);
-                if solved.ending == Ending::Spent {
-                    solved.ending = refused(a, b, y, rule);
-                }
-                solved
-            }
-            Self::Multigrid(grids) => bicgstab2(a, b, y, grids.as_mut(), rule, scratch),
-            Self::Real(factors) => bicgstab2(a, b, y, factors, rule, scratch),
-            Self::Complex(factors) => bicgstab2(a, b, y, factors, rule, scratch),
-        }
-    }
-}
-
-/// Why sparse factors do not solve a system: what they make is no solution.
-fn refused<S: Scalar, const C: usize>(
-    a: &impl Operator<S>,
-    b: &[[S; C]],
-    y: &[[S; C]],
-    rule: Rule,
-) -> Ending {
-    let mut r = b.to_vec();
-    let left = residual(a, b, y, &mut r);
-    if left.iter().any(|r| !r.is_finite()) {
-        return Ending::BrokenDown(Breakdown::Pivot);
-    }
-    let _ = rule;
-    let size = |v: &[[S; C]]| {
-        let squares = v.iter().flatten().map(|v| v.square());
-        squares.sum::<f64>().sqrt()
-    };
-    Ending::Stagnated(Stagnation::Singular {
-        correction: size(y) / size(b).max(f64::MIN_POSITIVE),
-    })
 }
 
 /// Divides each row by its largest coefficient; the factors.

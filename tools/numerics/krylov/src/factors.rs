@@ -1,0 +1,119 @@
+//! The factors in use, and the iterations they serve.
+
+use crate::operator::residual;
+use crate::{
+    Breakdown, Coefficient, Direct, Ending, Incomplete, Inverse, Multigrid, Operator, Rule, Scalar,
+    Scratch, Solved, Stagnation, bicgstab2, minimal_residual,
+};
+
+/// Bytes of a basis of minimal residuals, about.
+const MEMORY: usize = 600 << 20;
+
+/// Factors in use.
+pub(crate) enum Factors<T, S: Scalar> {
+    Multigrid(Box<Multigrid<T, S>>),
+    Direct(Box<Direct<S>>),
+    Real(Incomplete<f32>),
+    Complex(Incomplete<S::Single>),
+}
+
+impl<T: Coefficient<S> + Scalar, S: Scalar> Factors<T, S>
+where
+    f32: Coefficient<S>,
+{
+    /// Solves with `a`, of which these are the factors, or nearly so.
+    pub(crate) fn solve<const C: usize>(
+        &mut self,
+        a: &impl Operator<S>,
+        b: &[[S; C]],
+        y: &mut [[S; C]],
+        rule: Rule,
+        scratch: &mut Scratch<S>,
+    ) -> Solved {
+        let solved = self.stabilised(a, b, y, rule, scratch);
+        let weak = matches!(
+            solved.ending,
+            Ending::Stagnated(Stagnation::Plateau { .. })
+                | Ending::BrokenDown(Breakdown::Shadow | Breakdown::Polynomial)
+        );
+        if !weak || matches!(self, Self::Direct(_)) || solved.products >= rule.products {
+            return solved;
+        }
+        // Eigenvalues about zero: short recurrences fail where minimal residuals do not.
+        if solved.worst() > 1.0 {
+            y.fill([S::ZERO; C]);
+        }
+        let vectors = MEMORY / (size_of::<[S; C]>() * b.len().max(1));
+        let rule = Rule {
+            products: rule.products - solved.products,
+            ..rule
+        };
+        let rule = (rule, vectors.clamp(20, 120));
+        let again = match self {
+            Self::Direct(_) => return solved,
+            Self::Multigrid(grids) => minimal_residual(a, b, y, grids.as_mut(), rule, scratch),
+            Self::Real(factors) => minimal_residual(a, b, y, factors, rule, scratch),
+            Self::Complex(factors) => minimal_residual(a, b, y, factors, rule, scratch),
+        };
+        joined(solved, again)
+    }
+
+    fn stabilised<const C: usize>(
+        &mut self,
+        a: &impl Operator<S>,
+        b: &[[S; C]],
+        y: &mut [[S; C]],
+        rule: Rule,
+        scratch: &mut Scratch<S>,
+    ) -> Solved {
+        match self {
+            Self::Direct(factors) => {
+                let mut first = Rule {
+                    products: 9,
+                    ..rule
+                };
+                first.products = first.products.min(rule.products);
+                factors.invert(b, y);
+                let mut solved = bicgstab2(a, b, y, factors.as_mut(), first, scratch);
+                if solved.ending == Ending::Spent {
+                    solved.ending = refused(a, b, y, rule);
+                }
+                solved
+            }
+            Self::Multigrid(grids) => bicgstab2(a, b, y, grids.as_mut(), rule, scratch),
+            Self::Real(factors) => bicgstab2(a, b, y, factors, rule, scratch),
+            Self::Complex(factors) => bicgstab2(a, b, y, factors, rule, scratch),
+        }
+    }
+}
+
+/// A second solve after a first.
+pub(crate) fn joined(first: Solved, mut second: Solved) -> Solved {
+    second.products += first.products;
+    let mut history = first.history;
+    history.append(&mut second.history);
+    second.history = history;
+    second
+}
+
+/// Why sparse factors do not solve a system: what they make is no solution.
+fn refused<S: Scalar, const C: usize>(
+    a: &impl Operator<S>,
+    b: &[[S; C]],
+    y: &[[S; C]],
+    rule: Rule,
+) -> Ending {
+    let mut r = b.to_vec();
+    let left = residual(a, b, y, &mut r);
+    if left.iter().any(|r| !r.is_finite()) {
+        return Ending::BrokenDown(Breakdown::Pivot);
+    }
+    let _ = rule;
+    let size = |v: &[[S; C]]| {
+        let squares = v.iter().flatten().map(|v| v.square());
+        squares.sum::<f64>().sqrt()
+    };
+    Ending::Stagnated(Stagnation::Singular {
+        correction: size(y) / size(b).max(f64::MIN_POSITIVE),
+    })
+}
