@@ -85,6 +85,23 @@ pub struct Finished {
 const NOT_SOLVING: [&str; 3] = ["scene", "write", "checkpoint"];
 
 impl Finished {
+    /// What a case measured itself, without a program: its time \[s\], and no artefact.
+    #[must_use]
+    pub fn here(seconds: f64) -> Self {
+        Self {
+            artefact: PathBuf::new(),
+            record: serde_json::json!({ "wall_s": seconds }),
+            scene: Value::Null,
+            process_s: seconds,
+            command: Vec::new(),
+        }
+    }
+
+    /// Whether there is a program to run again.
+    pub(crate) fn repeatable(&self) -> bool {
+        !self.command.is_empty()
+    }
+
     /// Time of the solver as the run record tells \[s\]: the wall time of the run less what it spent
     /// on reading its scene and writing its files. What the record does not name counts as solving;
     /// starting the process (some milliseconds) does not.

@@ -28,6 +28,7 @@ mod pool_hydrostatic;
 mod pool_rosenthal;
 mod pool_stefan;
 mod pool_surface_heat;
+mod wls_operators;
 
 use crate::case::Case;
 
@@ -63,5 +64,6 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(pool_rosenthal::PoolRosenthal),
         Box::new(pool_stefan::PoolStefan),
         Box::new(pool_surface_heat::PoolSurfaceHeat),
+        Box::new(wls_operators::WlsOperators),
     ]
 }

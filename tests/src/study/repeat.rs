@@ -77,6 +77,9 @@ impl Repeated {
 
     /// How often this should be run within `budget_s` seconds.
     fn wanted(&self, budget_s: f64) -> usize {
+        if !self.runs.iter().all(Finished::repeatable) {
+            return 1;
+        }
         repeats(self.process_s.first().copied().unwrap_or(0.0), budget_s)
     }
 
