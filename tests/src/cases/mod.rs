@@ -10,6 +10,11 @@ mod arc_potential;
 mod arc_surface;
 mod arc_vapour;
 mod arc_wire_joule;
+mod em_cylinder_ac;
+mod em_dielectric_sphere;
+mod em_sphere_loops;
+mod em_sphere_uniform_ac;
+mod em_transient_cylinder;
 mod gas_argon;
 mod heat_block_3d;
 mod heat_cylinder_flux;
@@ -46,6 +51,11 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_surface::ArcSurface),
         Box::new(arc_vapour::ArcVapour),
         Box::new(arc_wire_joule::ArcWireJoule),
+        Box::new(em_dielectric_sphere::EmDielectricSphere),
+        Box::new(em_cylinder_ac::EmCylinderAc),
+        Box::new(em_sphere_uniform_ac::EmSphereUniformAc),
+        Box::new(em_sphere_loops::EmSphereLoops),
+        Box::new(em_transient_cylinder::EmTransientCylinder),
         Box::new(gas_argon::GasArgon),
         Box::new(heat_patch::HeatPatch),
         Box::new(heat_exp_x::HeatExpX),

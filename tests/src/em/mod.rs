@@ -4,12 +4,14 @@
 //! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
 //! - [`cylinder`]: a conducting cylinder in an axial alternating field, eqs 3.12 and 3.13;
 //!   [`diffusion`]: the same after its field is switched on.
+//! - [`frames`] reads runs and scenes.
 //! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field.
 
 pub mod bessel;
 pub mod cylinder;
 pub mod dielectric;
 pub mod diffusion;
+pub mod frames;
 pub mod sphere;
 
 use num_complex::Complex;

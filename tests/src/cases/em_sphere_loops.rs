@@ -1,0 +1,149 @@
+//! `em-sphere-loops`: lift and heat of a sphere among coaxial loops.
+
+use serde_json::{Value, json};
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::em::frames::{Points, number, number_or, totals};
+use crate::em::sphere::{Body, Loop, Solution, Sources};
+use crate::heat::frames::greater;
+use crate::lab::{Finished, Lab, LabError};
+
+/// The case.
+pub(super) struct EmSphereLoops;
+
+/// Frequencies, and layers beside the surface over those at 100 kHz.
+const METHODS: &[&str] = &["100-khz", "30-khz", "1-mhz"];
+
+impl Case for EmSphereLoops {
+    fn name(&self) -> &'static str {
+        "em-sphere-loops"
+    }
+
+    fn tool(&self) -> &'static str {
+        "emfield"
+    }
+
+    fn reference(&self) -> &'static str {
+        "Spherical harmonics and Bessel functions, Smythe (1950), chapter XI"
+    }
+
+    fn methods(&self) -> &'static [&'static str] {
+        METHODS
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        let mut targets = Vec::new();
+        for method in METHODS {
+            for (quantity, bound) in [
+                ("points", 6e4),
+                ("seconds", 12.0),
+                ("bytes", 1.5e9),
+                ("lift_volume", 1e-2),
+                ("lift_maxwell", 1e-2),
+                ("lift_coil", 1e-2),
+                ("power_volume", 1e-2),
+                ("power_poynting", 1e-2),
+            ] {
+                targets.push(Target::error(quantity, bound).of(*method));
+            }
+        }
+        targets.push(Target::error("largest_current", 2e-2));
+        targets
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let spacing = [5e-4, 3.5e-4, 2.5e-4][level.clamp(1, 3) as usize - 1];
+        let (frequency, first) = match method {
+            "30-khz" => (3e4, 0.5),
+            "1-mhz" => (1e6, 0.1),
+            _ => (1e5, 0.3),
+        };
+        let patch = json!({
+            "points": {"spacing_m": spacing, "layers": {"first_m": first * spacing}},
+            "eddy_currents": {"harmonic": {"frequency_hz": frequency}}
+        });
+        let label = format!("level{level}-{method}");
+        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
+        let exact = Solution::of(body(&run)?, loops(&run)?);
+        let points = Points::read(&run)?;
+        let errors = errors(&run, &points, &exact)?;
+        Ok(Measurement::of(run, points.count(), spacing, errors))
+    }
+}
+
+fn errors(run: &Finished, points: &Points, exact: &Solution) -> Result<Errors, LabError> {
+    let found = totals(run)?;
+    let mut errors = Errors::new();
+    for (name, total, wanted) in [
+        ("lift_volume", "force_volume_z", exact.lift()),
+        ("lift_maxwell", "force_maxwell_z", exact.lift()),
+        ("lift_coil", "force_coil_z", exact.lift()),
+        ("power_volume", "power_volume", exact.power()),
+        ("power_poynting", "power_poynting", exact.power()),
+    ] {
+        let error = (found.get(total)? / wanted - 1.0).abs();
+        errors.insert(name.to_owned(), error);
+    }
+    let current = points.phasors("current_density")?;
+    let size = |j: &[crate::em::C; 3]| j.iter().map(|c| c.norm_sqr()).sum::<f64>().sqrt();
+    let largest = current.iter().map(size).fold(0.0, f64::max);
+    let (wanted, _) = exact.largest_current();
+    errors.insert("largest_current".to_owned(), (largest / wanted - 1.0).abs());
+    // Within 1.2 radii: no loop is nearer.
+    let radius = number(run, "/bodies/0/shape/sphere/radius_m")?;
+    let scale = exact.flux(0.0, -radius)[1].norm();
+    let flux = flux_error(points, exact, 1.2 * radius)? / scale;
+    errors.insert("flux_linf".to_owned(), flux);
+    errors.insert("points".to_owned(), points.count() as f64);
+    errors.insert("seconds".to_owned(), run.solver_s()?);
+    let bytes = run.peak_memory_bytes().unwrap_or(0);
+    errors.insert("bytes".to_owned(), bytes as f64);
+    Ok(errors)
+}
+
+/// Largest error of the flux density within a radius \[T\].
+pub(super) fn flux_error(points: &Points, exact: &Solution, within: f64) -> Result<f64, LabError> {
+    let found = points.phasors("magnetic_flux_density")?;
+    let mut worst = 0.0;
+    for (p, b) in points.position.iter().zip(&found) {
+        let rho = p[0].hypot(p[1]);
+        if rho.hypot(p[2]) > within {
+            continue;
+        }
+        let [away, along] = exact.flux(rho, p[2]);
+        let share = |k: usize| if rho > 0.0 { p[k] / rho } else { 0.0 };
+        let wanted = [away * share(0), away * share(1), along];
+        let far = (0..3).map(|k| (b[k] - wanted[k]).norm_sqr()).sum::<f64>();
+        worst = greater(worst, far.sqrt());
+    }
+    Ok(worst)
+}
+
+/// The sphere of a scene.
+pub(super) fn body(run: &Finished) -> Result<Body, LabError> {
+    Ok(Body {
+        radius: number(run, "/bodies/0/shape/sphere/radius_m")?,
+        conductivity: number(run, "/bodies/0/conductivity_s_m")?,
+        frequency: number(run, "/eddy_currents/harmonic/frequency_hz")?,
+    })
+}
+
+fn loops(run: &Finished) -> Result<Sources, LabError> {
+    let coils = run.scene.pointer("/eddy_currents/coils");
+    let count = coils.and_then(Value::as_array).map_or(0, Vec::len);
+    let mut sources = Sources::default();
+    for k in 0..count {
+        let at = |key: &str| format!("/eddy_currents/coils/{k}/loop/{key}");
+        let turns = number_or(run, &at("turns"), 1.0);
+        let one = Loop {
+            radius: number(run, &at("radius_m"))?,
+            height: number(run, &at("centre_m/2"))?,
+            current: turns * number(run, &at("current_a"))?,
+        };
+        match number_or(run, &at("wire_radius_m"), 0.0) {
+            0.0 => sources.loops.push(one),
+            thick => sources.loops.extend(one.thick(thick)),
+        }
+    }
+    Ok(sources)
+}

@@ -1,0 +1,58 @@
+//! `em-transient-cylinder`: an axial field is switched on around a conducting cylinder.
+
+use serde_json::json;
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::em::MU0;
+use crate::em::diffusion::Step;
+use crate::em::frames::{Points, number, number_or};
+use crate::heat::frames::greater;
+use crate::lab::{Lab, LabError};
+
+/// The case.
+pub(super) struct EmTransientCylinder;
+
+impl Case for EmTransientCylinder {
+    fn name(&self) -> &'static str {
+        "em-transient-cylinder"
+    }
+
+    fn tool(&self) -> &'static str {
+        "emfield"
+    }
+
+    fn reference(&self) -> &'static str {
+        "Bessel series, Carslaw and Jaeger (1959), section 7.6"
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        vec![
+            Target::error("field_linf", 2e-3),
+            Target::order("field_linf", 1.8),
+        ]
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let step = 0.004 / f64::from(1 << (level.clamp(1, 6) - 1));
+        let patch = json!({"eddy_currents": {"transient": {"step_s": step}}});
+        let label = format!("level{level}-{method}");
+        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
+        let exact = Step {
+            radius: number(&run, "/domain/sphere/radius_m")?,
+            conductivity: number(&run, "/surroundings/conductivity_s_m")?,
+            permeability: number_or(&run, "/surroundings/relative_permeability", 1.0),
+            held: number(&run, "/eddy_currents/applied_flux_density_t/2")? / MU0,
+        };
+        let points = Points::read(&run)?;
+        let field = points.frame.f64("magnetic_field")?;
+        let mut linf = 0.0;
+        for (p, h) in points.position.iter().zip(&field) {
+            let r = p[0].hypot(p[1]).min(exact.radius);
+            let far = (h - exact.value(r, points.time)).abs();
+            linf = greater(linf, far / exact.held.abs());
+        }
+        let errors = Errors::from([("field_linf".to_owned(), linf)]);
+        // The order is that in time: the step takes the place of the spacing.
+        Ok(Measurement::of(run, points.count(), step, errors))
+    }
+}

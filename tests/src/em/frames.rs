@@ -1,0 +1,103 @@
+//! What `emfield` wrote, and what its scene says.
+
+use artefact::{Frame, Reader, Record};
+use serde_json::Value;
+
+use super::C;
+use crate::heat::methods::over;
+use crate::heat::property::at;
+use crate::lab::{Finished, Lab, LabError, read_json};
+
+/// The points of a run at its end.
+#[derive(Debug)]
+pub struct Points {
+    /// Places \[m\].
+    pub position: Vec<[f64; 3]>,
+    /// All columns.
+    pub frame: Frame,
+    /// Instant \[s\].
+    pub time: f64,
+}
+
+impl Points {
+    /// Reads the last frame of `/points`.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn read(run: &Finished) -> Result<Self, LabError> {
+        Self::channel(run, "/points")
+    }
+
+    /// Reads the last frame of a channel.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn channel(run: &Finished, channel: &str) -> Result<Self, LabError> {
+        let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
+        let last = reader.count(channel).saturating_sub(1);
+        let frame = reader.frame(channel, last)?;
+        Ok(Self {
+            position: frame.position_vectors()?,
+            time: frame.time_s,
+            frame,
+        })
+    }
+
+    /// Number of points.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        self.position.len() as u64
+    }
+
+    /// Phasors of a vector.
+    ///
+    /// # Errors
+    /// When a column is missing.
+    pub fn phasors(&self, name: &str) -> Result<Vec<[C; 3]>, LabError> {
+        let real = self.frame.vectors(&format!("{name}_real"))?;
+        let imaginary = self.frame.vectors(&format!("{name}_imag"))?;
+        let pair = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|k| C::new(a[k], b[k]));
+        Ok(real.iter().zip(&imaginary).map(pair).collect())
+    }
+}
+
+/// The totals of a run at its end.
+///
+/// # Errors
+/// When there are none.
+pub fn totals(run: &Finished) -> Result<Record, LabError> {
+    let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
+    let last = reader.count("/totals").saturating_sub(1);
+    Ok(reader.record_at("/totals", last)?)
+}
+
+/// A number of the scene as it was run, or another where it is silent.
+#[must_use]
+pub fn number_or(run: &Finished, pointer: &str, other: f64) -> f64 {
+    let value = run.scene.pointer(pointer).and_then(Value::as_f64);
+    value.unwrap_or(other)
+}
+
+/// A number of the scene as it was run.
+///
+/// # Errors
+/// When it has none.
+pub fn number(run: &Finished, pointer: &str) -> Result<f64, LabError> {
+    at(run, pointer)?.as_f64().ok_or_else(|| LabError::Content {
+        path: run.artefact.clone(),
+        what: format!("{pointer} of its scene is no number"),
+    })
+}
+
+/// The scene of a case with a patch of its own and then the user's, before it is run.
+///
+/// # Errors
+/// When a file cannot be read.
+pub fn planned(lab: &Lab, case: &str, patch: &Value) -> Result<Value, LabError> {
+    let folder = lab.root.join("pipelines/verify").join(case);
+    let mut scene = over(read_json(&folder.join("scene.json"))?, patch);
+    if let Some(path) = &lab.patch {
+        scene = over(scene, &read_json(path)?);
+    }
+    Ok(scene)
+}
