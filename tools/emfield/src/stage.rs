@@ -42,7 +42,7 @@ impl Tool for EmField {
     fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
         let faults = scene.eddy_currents.iter();
         let faults: Vec<_> = faults
-            .flat_map(|e| assemble::currents::faults(scene, e))
+            .flat_map(|e| assemble::drive::faults(scene, e))
             .collect();
         if !faults.is_empty() {
             return Err(faults.into());
@@ -118,7 +118,7 @@ fn shown(scene: &Scene, cloud: &Cloud) -> Plan {
 }
 
 fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
-    let plan = match assemble::currents::unknown(scene, currents) {
+    let plan = match assemble::drive::unknown(scene, currents) {
         Unknown::Axial => plan.stage("eddy currents").column("magnetic_field", "A/m"),
         Unknown::Potential | Unknown::Around => plan
             .stage("eddy currents")

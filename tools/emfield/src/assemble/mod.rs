@@ -1,6 +1,8 @@
 //! From a scene and its points to equations, and from their solution to columns.
 
-pub mod currents;
+mod currents;
+pub mod drive;
+mod magnetic;
 mod potential;
 mod region;
 

@@ -6,7 +6,7 @@ use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
 
 use super::region::{raise, region, walls};
-use crate::cloud::{Class, Cloud};
+use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::output::{Column, Found};
 use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Interfaces, Scene};
@@ -205,19 +205,7 @@ fn columns(
     let mut force = vec![[0.0; 3]; scene.bodies.len()];
     let mut tractions = Vec::with_capacity(cloud.surface.len());
     for s in &cloud.surface {
-        let eps = [s.inner, s.outer].map(|m| scene.medium(m as usize).relative_permittivity);
-        let electrode = s.inner > 0 && scene.bodies[s.inner as usize - 1].potential_v.is_some();
-        let e = if electrode { beyond } else { inner }[s.point as usize];
-        let up = dot(e, s.normal);
-        let level = (dot(e, e) - up * up).max(0.0);
-        // Matsuzawa (2017), eq. 2.62 with its errata: eps0 (S - 1)/2 (S En^2 + Et^2) with the inner field and S the
-        // ratio of permittivities; on an electrode eps E^2 / 2 of the outer one.
-        let pull = if electrode {
-            0.5 * VACUUM * eps[1] * up * up
-        } else {
-            let ratio = eps[0] / eps[1];
-            0.5 * VACUUM * eps[1] * (ratio - 1.0) * (ratio * up * up + level)
-        };
+        let pull = pull(scene, s, inner, beyond);
         tractions.push(s.normal.map(|n| n * pull));
         if s.inner > 0 {
             let total = &mut force[s.inner as usize - 1];
@@ -243,4 +231,22 @@ fn columns(
         }
     }
     found
+}
+
+/// Outward pull on a surface \[N/m2\].
+///
+/// Matsuzawa (2017), eq. 2.62 with its errata: `eps0 (S - 1)/2 (S En^2 + Et^2)` with the inner field and S the ratio of
+/// permittivities; on an electrode `eps E^2 / 2` of the outer one.
+fn pull(scene: &Scene, s: &SurfacePoint, inner: &[Vector], beyond: &[Vector]) -> f64 {
+    let eps = [s.inner, s.outer].map(|m| scene.medium(m as usize).relative_permittivity);
+    let electrode = s.inner > 0 && scene.bodies[s.inner as usize - 1].potential_v.is_some();
+    let e = if electrode { beyond } else { inner }[s.point as usize];
+    let up = dot(e, s.normal);
+    let level = (dot(e, e) - up * up).max(0.0);
+    if electrode {
+        0.5 * VACUUM * eps[1] * up * up
+    } else {
+        let ratio = eps[0] / eps[1];
+        0.5 * VACUUM * eps[1] * (ratio - 1.0) * (ratio * up * up + level)
+    }
 }

@@ -1,27 +1,22 @@
 //! From a scene to its points, step by step.
 
-use rayon::prelude::*;
 use run::Fault;
 use shapes::Body;
-use shapes::frame::{Vector, along, difference, direction, length};
+use shapes::frame::{Vector, along, difference, direction};
 use shapes::shape::{Disc, Shape, Sphere};
 
 use super::lattice::{self, Node};
-use super::layers::{Column, Ground, Layered, Standing, thicknesses};
+use super::layers::{Column, thicknesses};
 use super::occupied::Occupied;
 use super::region::{Region, Wall};
 use super::surface::{self, Seed};
-use super::{Class, Cloud, Counts, Metric, SurfacePoint, cells, jitter};
-use crate::scene::{Arrangement, Geometry, Layers, Scene};
+use super::{Class, Cloud, Counts, Metric, SurfacePoint, cells};
+use crate::scene::{Geometry, Layers, Scene};
 
 /// Most points of a cloud.
 const MOST: f64 = 5e8;
 /// Least spacing of points on a surface over that of the scene, where another body is near.
 const LEAST: f64 = 1.0 / 8.0;
-/// Spacing across over spacing along the surface from which a layer counts as round.
-const ROUND: f64 = 0.85;
-/// Nodes of lattices keep this part of the spacing away from other points.
-const APART: f64 = 0.65;
 
 /// The points of a scene; see [`Cloud::new`].
 pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
@@ -92,14 +87,15 @@ fn plans(scene: &Scene, region: &mut Region) -> Vec<[Vec<f64>; 2]> {
     region.solids.iter_mut().map(plan).collect()
 }
 
-struct Builder {
-    region: Region,
+/// A cloud in the making.
+pub(super) struct Builder {
+    pub(super) region: Region,
     /// Points on surfaces and in layers, with the spacing of each: lattices keep clear of them.
-    occupied: Occupied,
-    sizes: Vec<f64>,
+    pub(super) occupied: Occupied,
+    pub(super) sizes: Vec<f64>,
     /// Greatest spacing of points on surfaces and in layers \[m\].
-    widest: f64,
-    cloud: Cloud,
+    pub(super) widest: f64,
+    pub(super) cloud: Cloud,
 }
 
 impl Builder {
@@ -124,7 +120,7 @@ impl Builder {
         }
     }
 
-    fn push(&mut self, x: Vector, spacing: f64, class: Class, metric: Metric) -> u32 {
+    pub(super) fn push(&mut self, x: Vector, spacing: f64, class: Class, metric: Metric) -> u32 {
         self.cloud.position.push(x);
         self.cloud.spacing.push(spacing);
         self.cloud.class.push(class);
@@ -323,175 +319,6 @@ impl Builder {
         };
         let medium = self.region.medium(along(x, 1e-6 * spacing, inward));
         Some(self.push(x, spacing, Class::Outer { medium, face }, Metric::Round))
-    }
-
-    /// Layers along all surfaces.
-    fn layers(&mut self, scene: &Scene, columns: &mut [Column], plans: &[[Vec<f64>; 2]]) {
-        let before = self.cloud.len();
-        for group in columns.chunk_by_mut(|a, b| a.solid == b.solid) {
-            let (spacing, plan) = match group[0].solid {
-                Some(k) => (self.region.solids[k].spacing, plans[k].clone()),
-                None => {
-                    let spacing = group[0].seed.spacing;
-                    let walls = scene.points.wall_layers.as_ref();
-                    let inside = walls.map(|l| thicknesses(l, spacing, l.inside));
-                    (spacing, [inside.unwrap_or_default(), Vec::new()])
-                }
-            };
-            for (side, thicknesses) in plan.iter().enumerate() {
-                let mut ground = Ground {
-                    region: &self.region,
-                    dimensions: self.region.dimensions,
-                    occupied: &mut self.occupied,
-                    first: self.cloud.len() as u32,
-                };
-                for point in ground.grow(group, side, thicknesses, spacing) {
-                    self.layered(&point);
-                }
-            }
-            for column in group.iter() {
-                let first = plan[0].first().or(plan[1].first()).copied();
-                let scale = column.seed.spacing / spacing;
-                let across = first.map_or(column.seed.spacing, |t| t * scale.min(1.0));
-                self.cloud.metric[column.point as usize] =
-                    metric(column.seed.normal, across, column.seed.spacing);
-            }
-        }
-        self.cloud.counts.layers = self.cloud.len() - before;
-        self.widest = self.sizes.iter().copied().fold(0.0, f64::max);
-    }
-
-    fn layered(&mut self, point: &Layered) {
-        let metric = metric(point.normal, point.across, point.along);
-        let spacing = if metric == Metric::Round {
-            (point.across * point.along).sqrt()
-        } else {
-            point.along
-        };
-        self.sizes.push(spacing);
-        self.push(point.place, spacing, Class::Inside(point.medium), metric);
-    }
-
-    /// Nodes of the lattices where there is room for them.
-    fn lattices(&mut self, nodes: &[Node], columns: &[Column], arrangement: Arrangement) {
-        let standing: Vec<(Option<usize>, Standing<'_>)> = columns
-            .chunk_by(|a, b| a.solid == b.solid)
-            .map(|group| {
-                let spacing = group.iter().fold(0.0, |s: f64, c| s.max(c.seed.spacing));
-                (group[0].solid, Standing::new(group, spacing))
-            })
-            .collect();
-        let packed = arrangement == Arrangement::Hexagonal;
-        let mut kept: Vec<(Node, u8)> = nodes
-            .par_iter()
-            .filter(|node| node.face.is_none())
-            .filter_map(|node| Some((*node, self.room(node, &standing)?)))
-            .filter(|(_, medium)| !packed || *medium == 0)
-            .collect();
-        for (k, solid) in self.region.solids.iter().enumerate().filter(|_| packed) {
-            let inside =
-                lattice::packed(solid.body.bounds(), self.region.dimensions, solid.spacing);
-            kept.par_extend(inside.par_iter().filter_map(|node| {
-                let within = self.region.depth(node.place) > 0.5 * node.spacing
-                    && solid.body.distance(node.place) < 0.0
-                    && !(self.region.axisymmetric && node.place[0] < 0.3 * node.spacing);
-                let medium = within.then(|| self.room(node, &standing)).flatten()?;
-                (medium == k as u8 + 1).then_some((*node, medium))
-            }));
-        }
-        self.cloud.counts.lattice = kept.len();
-        for (node, medium) in kept {
-            self.push(
-                node.place,
-                node.spacing,
-                Class::Inside(medium),
-                Metric::Round,
-            );
-        }
-    }
-
-    /// The medium of a node that neither lies within layers nor comes too close to a point placed before.
-    fn room(&self, node: &Node, standing: &[(Option<usize>, Standing<'_>)]) -> Option<u8> {
-        let x = node.place;
-        for (solid, columns) in standing {
-            let (d, normal) = match (solid, &self.region.wall) {
-                (Some(k), _) => {
-                    let solid = &self.region.solids[*k];
-                    let d = solid.body.distance(x);
-                    let reach = solid.reach[usize::from(d > 0.0)];
-                    if d.abs() > reach + 2.0 * solid.spacing {
-                        continue;
-                    }
-                    (d, solid.body.normal(x, 1e-4 * solid.spacing))
-                }
-                (None, Wall::Ball { centre, radius }) => {
-                    let away = difference(x, *centre);
-                    if length(away) < 1e-9 * radius {
-                        continue;
-                    }
-                    (length(away) - radius, direction(away))
-                }
-                (None, Wall::Box { .. }) => continue,
-            };
-            if columns.holds(x, d, normal, self.region.dimensions) {
-                return None;
-            }
-        }
-        let near = APART * node.spacing.min(self.widest);
-        let crowded = self.occupied.any(x, near, |other, _, square| {
-            let own = APART * self.sizes[other as usize].min(node.spacing);
-            square < own * own
-        });
-        (!crowded).then(|| self.region.medium(x))
-    }
-
-    /// Shifts points that lie neither on interfaces nor on walls at random.
-    fn shake(&mut self, scene: &Scene) {
-        let jitter = scene.points.jitter;
-        if jitter == 0.0 {
-            return;
-        }
-        for i in 0..self.cloud.len() {
-            let (Class::Inside(medium), x) = (self.cloud.class[i], self.cloud.position[i]) else {
-                continue;
-            };
-            let draw = |k: u64| jitter * jitter::signed(scene.points.seed, i as u64, k);
-            let mut moved = x;
-            for k in 0..self.region.dimensions {
-                moved[k] += self.cloud.spacing[i] * draw(k as u64);
-            }
-            if let Metric::Layered {
-                normal,
-                across,
-                along: flat,
-            } = self.cloud.metric[i]
-            {
-                let shift = difference(moved, x);
-                let up = shapes::frame::dot(shift, normal);
-                moved = along(moved, up * (across / flat - 1.0), normal);
-            }
-            let on_axis = self.region.axisymmetric && x[0] == 0.0;
-            if on_axis {
-                moved[0] = 0.0;
-            }
-            let far = |x: Vector| self.region.nearest(x).0.abs().min(self.region.depth(x));
-            let kept = self.region.medium(moved) == medium && far(moved) > 0.5 * far(x);
-            if kept && !(self.region.axisymmetric && moved[0] < 0.5 * x[0]) {
-                self.cloud.position[i] = moved;
-            }
-        }
-    }
-}
-
-fn metric(normal: Vector, across: f64, along: f64) -> Metric {
-    if across >= ROUND * along {
-        Metric::Round
-    } else {
-        Metric::Layered {
-            normal,
-            across,
-            along,
-        }
     }
 }
 

@@ -49,6 +49,9 @@ pub(super) fn fill(scene: &Scene, region: &Region, columns: &[Column], cloud: &m
     }
 }
 
+/// Volume of the samples of a row, and those beyond columns: nearest point, volume, place.
+type Row = (f64, Vec<(u32, f64, Vector)>);
+
 /// A medium that conducts.
 struct Conductor<'a> {
     region: &'a Region,
@@ -94,9 +97,24 @@ impl<'a> Conductor<'a> {
         if owners.is_empty() {
             return;
         }
+        let planes = self.rows(&set, spacing);
+        let mut whole = 0.0;
+        for (plane, found) in planes {
+            whole += plane;
+            for (k, volume, x) in found {
+                shares[owners[k as usize]].add(volume, x);
+            }
+        }
+        if !self.smooth() {
+            self.settle(whole, &owners, shares);
+        }
+    }
+
+    /// Samples by row: the volume of all, and number of the nearest point, volume and place of those beyond columns.
+    fn rows(&self, set: &Occupied, spacing: f64) -> Vec<Row> {
         let step = self.step();
         let (origin, counts) = self.samples(step);
-        let planes: Vec<(f64, Vec<(u32, f64, Vector)>)> = (0..counts[1] * counts[2])
+        (0..counts[1] * counts[2])
             .into_par_iter()
             .map(|row| {
                 let (j, k) = (row % counts[1], row / counts[1]);
@@ -130,17 +148,7 @@ impl<'a> Conductor<'a> {
                 let found = found.collect();
                 (whole, found)
             })
-            .collect();
-        let mut whole = 0.0;
-        for (plane, found) in planes {
-            whole += plane;
-            for (k, volume, x) in found {
-                shares[owners[k as usize]].add(volume, x);
-            }
-        }
-        if !self.smooth() {
-            self.settle(whole, &owners, shares);
-        }
+            .collect()
     }
 
     /// Whether columns fit together: the surface has neither edges nor crossings.

@@ -111,8 +111,12 @@ impl Descent<'_> {
     fn cell(&self, n: [i64; 3], level: u32, found: &mut Vec<Node>) {
         let edge = 1_i64 << level;
         let mut half = [0.0; 3];
-        for k in 0..self.region.dimensions {
-            half[k] = 0.5 * edge as f64 * self.frame.step[k];
+        for (half, step) in half
+            .iter_mut()
+            .zip(self.frame.step)
+            .take(self.region.dimensions)
+        {
+            *half = 0.5 * edge as f64 * step;
         }
         let corner = self.frame.place(n, self.region);
         let middle = std::array::from_fn(|k| corner[k] + half[k]);

@@ -5,6 +5,7 @@
 
 mod build;
 mod cells;
+mod inner;
 mod jitter;
 mod lattice;
 mod layers;

@@ -49,7 +49,10 @@ pub(crate) fn seeds(
             return spiral(centre, radius, spacing);
         }
         _ if dimensions == 2 => along_curves(&pieces(body, 2, least / FINER / 2.0), local),
-        _ => spread(&pieces(body, 3, least / FINER), (spacing, least), local),
+        _ => {
+            let finer = if even { FINER } else { 1.0 };
+            spread(&pieces(body, 3, least / finer), (spacing, least), local)
+        }
     };
     for seed in &mut found {
         seed.curvature = curvature(body, seed, dimensions);
@@ -139,7 +142,7 @@ fn spread(
         .map(|k| (super::jitter::mix(k as u64), k))
         .collect();
     order.sort_unstable();
-    let mut set = Occupied::new(0.5 * spacing);
+    let mut set = Occupied::new(spacing);
     let mut seeds: Vec<Seed> = Vec::new();
     for (_, k) in order {
         let (piece, own) = (&pieces[k], wanted[k]);

@@ -94,3 +94,158 @@ fn a_ball_in_a_cube() {
         assert!((second / (exact / 5.0) - 1.0).abs() < 5e-3);
     }
 }
+
+#[test]
+fn spacing_grows_outward_to_walls_that_are_met_exactly() {
+    let scene = ball(r#"{"spacing_m": 0.2}"#, "");
+    let cloud = Cloud::new(&scene).unwrap();
+    let counts = cloud.counts;
+    assert_eq!(
+        counts.interface + counts.outer + counts.layers + counts.lattice,
+        cloud.len()
+    );
+    assert_eq!(cloud.surface.len(), counts.interface);
+    let mut far = 0.0_f64;
+    for i in 0..cloud.len() {
+        let x = cloud.position[i];
+        let wall = x.iter().any(|c| (c.abs() - 10.0).abs() < f64::EPSILON);
+        assert_eq!(wall, matches!(cloud.class[i], Class::Outer { .. }));
+        if matches!(cloud.class[i], Class::Inside(1)) {
+            assert!(length(x) < 1.0);
+        }
+        far = far.max(cloud.spacing[i]);
+    }
+    assert!(far > 0.9 && far <= 1.25 * 1.1, "{far}");
+    assert!(cloud.bytes() < 200 * cloud.len() as u64 + 100 * cloud.surface.len() as u64);
+}
+
+#[test]
+fn doubling_lattices_need_more_points_than_smooth_ones() {
+    let smooth = Cloud::new(&ball(r#"{"spacing_m": 0.2}"#, "")).unwrap();
+    let doubling = Cloud::new(&ball(r#"{"spacing_m": 0.2, "steps": "doubling"}"#, "")).unwrap();
+    assert!(doubling.len() > smooth.len());
+    assert!(nearness(&doubling).1 <= 2.0 + 1e-9);
+}
+
+#[test]
+fn shifted_points_leave_surfaces_and_walls_alone() {
+    let plain = Cloud::new(&ball(r#"{"spacing_m": 0.2}"#, "")).unwrap();
+    let points = r#"{"spacing_m": 0.2, "jitter": 0.2, "seed": 7}"#;
+    let shaken = Cloud::new(&ball(points, "")).unwrap();
+    assert_eq!(shaken, Cloud::new(&ball(points, "")).unwrap());
+    let mut moved = 0;
+    for i in 0..plain.len() {
+        let way = length(difference(plain.position[i], shaken.position[i]));
+        match plain.class[i] {
+            Class::Inside(_) => moved += usize::from(way > 0.0),
+            _ => assert!(way == 0.0),
+        }
+        assert_eq!(plain.class[i], shaken.class[i]);
+        assert!(way <= 0.2 * 3.0_f64.sqrt() * plain.spacing[i]);
+    }
+    assert!(moved > plain.counts.lattice / 2);
+}
+
+#[test]
+fn closest_packing_fills_a_ball() {
+    let points = r#"{"spacing_m": 0.1, "arrangement": "hexagonal"}"#;
+    let cloud = Cloud::new(&ball(points, "")).unwrap();
+    let (least, grading) = nearness(&cloud);
+    assert!(least > 0.6 && grading <= 2.0, "{least} {grading}");
+    let volume: f64 = cloud.volume.iter().sum();
+    assert!((volume / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_disc_that_is_the_domain() {
+    let scene = scene(
+        r#"{"geometry": "plane", "domain": {"sphere": {"centre_m": [0.2, 0], "radius_m": 0.1}},
+        "surroundings": {"conductivity_s_m": 7.7e6}, "eddy_currents": {"harmonic": {"frequency_hz": 60},
+        "applied_flux_density_t": [0, 0, 1e-6]}, "points": {"spacing_m": 5e-3, "wall_layers": {"first_m": 2e-3}}}"#,
+    );
+    let cloud = Cloud::new(&scene).unwrap();
+    let volume: f64 = cloud.volume.iter().sum();
+    assert!((volume / (0.01 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
+    for i in 0..cloud.len() {
+        let [x, y, z] = cloud.position[i];
+        let away = (x - 0.2).hypot(y);
+        assert!(z == 0.0 && away < 0.1 + 1e-15);
+        let wall = matches!(cloud.class[i], Class::Outer { .. });
+        assert_eq!(wall, (away - 0.1).abs() < 1e-12);
+    }
+    assert!(nearness(&cloud).0 > 0.55);
+}
+
+#[test]
+fn a_ball_and_a_ring_about_an_axis() {
+    let scene = scene(
+        r#"{"geometry": "axisymmetric", "domain": {"box": {"min_m": [0, -10], "max_m": [10, 10]}}, "bodies": [
+        {"name": "ball", "shape": {"disc": {"centre_m": [0, 0], "radius_m": 1}}, "conductivity_s_m": 1e7},
+        {"name": "ring", "shape": {"box": {"min_m": [2, -1], "max_m": [3, 0]}}, "conductivity_s_m": 1e7}],
+        "eddy_currents": {"harmonic": {"frequency_hz": 1e5}, "applied_flux_density_t": [0, 1]},
+        "points": {"spacing_m": 0.08, "layers": {"first_m": 0.04}}}"#,
+    );
+    let cloud = Cloud::new(&scene).unwrap();
+    let pi = std::f64::consts::PI;
+    for (medium, exact) in [(1, 4.0 / 3.0 * pi), (2, 5.0 * pi)] {
+        let own = |i: &usize| match cloud.class[*i] {
+            Class::Inside(m) => m == medium,
+            Class::Interface { inner, .. } => inner == medium,
+            Class::Outer { .. } => false,
+        };
+        let volume: f64 = (0..cloud.len()).filter(own).map(|i| cloud.volume[i]).sum();
+        assert!(
+            (volume / exact - 1.0).abs() < 2e-3,
+            "{medium}: {volume} of {exact}"
+        );
+    }
+    let area: f64 = cloud
+        .surface
+        .iter()
+        .filter(|s| s.inner == 1)
+        .map(|s| s.area)
+        .sum();
+    assert!((area / (4.0 * pi) - 1.0).abs() < 1e-3);
+    for x in &cloud.position {
+        assert!(x[0] >= 0.0 && x[1] == 0.0);
+    }
+    // Corners of the ring are filled outside.
+    let corner = [3.3, 0.0, 0.3];
+    let near = cloud
+        .position
+        .iter()
+        .map(|x| length(difference(*x, corner)));
+    assert!(near.fold(f64::INFINITY, f64::min) < 0.1);
+}
+
+#[test]
+fn bodies_that_touch_share_one_surface() {
+    let scene = scene(
+        r#"{"geometry": "plane", "domain": {"box": {"min_m": [-2, -2], "max_m": [2, 2]}}, "bodies": [
+        {"name": "a", "shape": {"box": {"min_m": [-1, -1], "max_m": [0, 1]}}},
+        {"name": "b", "shape": {"box": {"min_m": [0, -1], "max_m": [1, 1]}}}],
+        "electrostatics": {"applied_field_v_m": [1, 0]}, "points": {"spacing_m": 0.1}}"#,
+    );
+    let cloud = Cloud::new(&scene).unwrap();
+    let shared: f64 = cloud
+        .surface
+        .iter()
+        .filter(|s| s.inner > 0 && s.outer > 0)
+        .map(|s| s.area)
+        .sum();
+    assert!((shared - 2.0).abs() < 0.11, "{shared}");
+    assert!(nearness(&cloud).0 > 0.5);
+}
+
+#[test]
+fn a_conductor_may_cross_the_wall() {
+    let scene = scene(
+        r#"{"geometry": "space", "domain": {"box": {"min_m": [-2, -2, -2], "max_m": [2, 2, 2]}}, "bodies": [
+        {"name": "bar", "shape": {"cylinder": {"centre_m": [0, 0, 0], "radius_m": 0.5, "length_m": 6}}}],
+        "electrostatics": {"applied_field_v_m": [1, 0, 0]}, "points": {"spacing_m": 0.15}}"#,
+    );
+    let cloud = Cloud::new(&scene).unwrap();
+    let inside = |c: &Class| matches!(c, Class::Outer { medium: 1, .. });
+    assert!(cloud.class.iter().any(inside));
+    assert!(cloud.position.iter().all(|x| x[2].abs() <= 2.0));
+}

@@ -73,3 +73,6 @@ impl Scene {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,122 @@
+//! What drives currents in a scene: coils and applied fields, and what is sought for them.
+
+use num_complex::Complex;
+use run::Fault;
+use shapes::frame::direction;
+
+use crate::cloud::region::vector;
+use crate::scene::currents::OuterReaction;
+use crate::scene::{Coil, EddyCurrents, Geometry, Scene};
+use crate::solve::diffusion::Unknown;
+use crate::source::{Loop, Segment, Source, Uniform, Wire};
+
+type C = Complex<f64>;
+
+/// Radius of a wire that the scene calls thin, over the size of its coil.
+const THIN: f64 = 1e-3;
+
+/// What is sought in a scene.
+#[must_use]
+pub fn unknown(scene: &Scene, currents: &EddyCurrents) -> Unknown {
+    let axial = currents.applied_flux_density_t.as_ref();
+    match scene.geometry {
+        Geometry::Space => Unknown::Potential,
+        Geometry::Axisymmetric => Unknown::Around,
+        Geometry::Plane if axial.is_some_and(|b| b[2] != 0.0) => Unknown::Axial,
+        Geometry::Plane => Unknown::Potential,
+    }
+}
+
+/// What is wrong with the currents of a scene beyond what its types and single keys can tell.
+#[must_use]
+pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let unknown = unknown(scene, currents);
+    let own = scene.surroundings.relative_permeability;
+    for (k, body) in scene.bodies.iter().enumerate() {
+        if unknown != Unknown::Axial && (body.relative_permeability - own).abs() > 1e-12 * own {
+            let what = format!(
+                "{} differs from {own} of the surroundings: only one permeability is computed",
+                body.relative_permeability
+            );
+            faults.push(Fault::at(
+                &format!("/bodies/{k}/relative_permeability"),
+                what,
+            ));
+        }
+    }
+    if let (Unknown::Axial, Some(b)) = (unknown, &currents.applied_flux_density_t) {
+        let at = "/eddy_currents/applied_flux_density_t";
+        if b[0] != 0.0 || b[1] != 0.0 {
+            faults.push(Fault::at(
+                at,
+                "either along z or in the plane: they are two scenes",
+            ));
+        }
+        if !currents.coils.is_empty() {
+            let what = "wires along z and a field along z are two scenes";
+            faults.push(Fault::at("/eddy_currents/coils", what));
+        }
+        if currents.outer == OuterReaction::Multipole {
+            let what = "a field along z is what it is at the walls: leave \"outer\" away";
+            faults.push(Fault::at("/eddy_currents/outer", what));
+        }
+    }
+    faults
+}
+
+/// The exact fields of coils and of the applied field, rms.
+#[must_use]
+pub fn source(scene: &Scene, currents: &EddyCurrents) -> Source {
+    let mut source = Source::default();
+    let phasor =
+        |current: f64, degrees: f64| C::from_polar(currents.rms(current), degrees.to_radians());
+    for coil in &currents.coils {
+        match coil {
+            Coil::Loop(l) => {
+                let one = Loop {
+                    centre: scene.geometry.place(vector(&l.centre_m)),
+                    axis: direction(l.normal.unwrap_or([0.0, 0.0, 1.0])),
+                    radius: l.radius_m,
+                    wire_radius: l.wire_radius_m.unwrap_or(THIN * l.radius_m),
+                    current: phasor(l.current_a * l.turns, l.phase_deg),
+                };
+                if l.wire_radius_m.is_some() {
+                    source.loops.extend(one.filaments());
+                } else {
+                    source.loops.push(one);
+                }
+            }
+            Coil::Segments(s) => {
+                let size =
+                    shapes::frame::length(shapes::frame::difference(s.points_m[1], s.points_m[0]));
+                let ends = s.points_m.iter().skip(1);
+                let back = s.closed.then(|| &s.points_m[0]);
+                for (from, to) in s.points_m.iter().zip(ends.chain(back)) {
+                    source.segments.push(Segment {
+                        from: *from,
+                        to: *to,
+                        wire_radius: THIN * size,
+                        current: phasor(s.current_a, s.phase_deg),
+                    });
+                }
+            }
+            Coil::Wire(w) => source.wires.push(Wire {
+                place: w.place_m,
+                wire_radius: THIN * scene.points.spacing_m,
+                current: phasor(w.current_a, w.phase_deg),
+            }),
+        }
+    }
+    if let Some(b) = &currents.applied_flux_density_t {
+        let b = match scene.geometry {
+            Geometry::Axisymmetric => [0.0, 0.0, b[1]],
+            _ => vector(b),
+        };
+        source.uniform.push(Uniform {
+            flux: b.map(|b| C::from(currents.rms(b))),
+            origin: [0.0; 3],
+        });
+    }
+    source
+}

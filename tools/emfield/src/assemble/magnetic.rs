@@ -1,0 +1,183 @@
+//! What is written of eddy currents: fields of points, forces and heat.
+
+use num_complex::Complex;
+use shapes::frame::Vector;
+
+use super::currents::{Steady, media};
+use crate::cloud::{Cloud, SurfacePoint};
+use crate::output::{Column, Found};
+use crate::scene::Geometry;
+use crate::solve::diffusion::Unknown;
+use crate::solve::eddy::{Drive, Fields, Media};
+use crate::solve::multipole::Cells;
+use crate::solve::region::Region;
+use crate::solve::sides::Sides;
+use crate::solve::totals::{self, Totals};
+use crate::source::MU0;
+
+type C = Complex<f64>;
+
+impl<const D: usize> Steady<'_, D> {
+    /// Columns and totals of a solution.
+    pub(super) fn found<const K: usize>(&self, found: &[[C; K]], drive: &Drive<K>) -> Found {
+        let flux = self.source.flux(&self.cloud.position);
+        let conductivity = media(self.scene, |m| m.conductivity_s_m);
+        let media = Media {
+            omega: self.omega,
+            permeability: &media(self.scene, |m| MU0 * m.relative_permeability),
+            conductivity: &conductivity,
+            flux: &flux,
+        };
+        let fields = Fields::new(
+            (&self.region, &self.sides),
+            self.unknown,
+            (found, &drive.source),
+            &media,
+        );
+        let mut all = Found::default();
+        let columns = &mut all.columns;
+        if self.unknown == Unknown::Axial {
+            columns.push(Column::new(
+                "magnetic_field_real",
+                "A/m",
+                found.iter().map(|h| h[0].re).collect(),
+            ));
+            columns.push(Column::new(
+                "magnetic_field_imag",
+                "A/m",
+                found.iter().map(|h| h[0].im).collect(),
+            ));
+        } else {
+            phasor(
+                columns,
+                "vector_potential",
+                "Wb/m",
+                (&fields.potential, None),
+            );
+        }
+        phasor(columns, "magnetic_flux_density", "T", (&fields.flux, None));
+        if conductivity.iter().any(|s| *s > 0.0) {
+            self.currents(&fields, &conductivity, columns);
+        }
+        self.totals(&fields, &conductivity, &mut all);
+        all
+    }
+
+    /// Currents, forces and heat of conductors.
+    fn currents(&self, fields: &Fields, conductivity: &[f64], columns: &mut Vec<Column>) {
+        // E is continuous along the surface: beyond it currents are as conductivities are.
+        let beyond: Vec<f64> = self
+            .cloud
+            .surface
+            .iter()
+            .map(|s| {
+                let [inner, outer] = [s.inner, s.outer].map(|m| conductivity[m as usize]);
+                if inner > 0.0 { outer / inner } else { 0.0 }
+            })
+            .collect();
+        phasor(
+            columns,
+            "current_density",
+            "A/m2",
+            (&fields.current, Some((self.cloud, &beyond))),
+        );
+        let scaled = |s: &SurfacePoint, k: f64| fields.force[s.point as usize].map(|f| f * k);
+        let force: Vec<Vector> = self
+            .cloud
+            .surface
+            .iter()
+            .zip(&beyond)
+            .map(|(s, k)| scaled(s, *k))
+            .collect();
+        columns.extend(Column::vector(
+            "force_density",
+            "N/m3",
+            &fields.force,
+            &force,
+        ));
+        let heat = self.cloud.surface.iter().zip(&beyond);
+        columns.push(Column {
+            beyond: heat
+                .map(|(s, k)| fields.heat[s.point as usize] * k)
+                .collect(),
+            ..Column::new("joule_heat", "W/m3", fields.heat.clone())
+        });
+    }
+
+    fn totals(&self, fields: &Fields, conductivity: &[f64], all: &mut Found) {
+        let plane = self.scene.geometry == Geometry::Plane;
+        let (newton, watt) = if plane { ("N/m", "W/m") } else { ("N", "W") };
+        let axisymmetric = self.scene.geometry == Geometry::Axisymmetric;
+        let mut force = |name: &str, value: [f64; 3]| {
+            for (k, axis) in ['x', 'y', 'z'].iter().enumerate() {
+                // Radial forces of a full turn cancel; nothing pulls along an endless bar.
+                if !(axisymmetric && k < 2 || plane && k == 2) {
+                    all.totals
+                        .push((format!("{name}_{axis}"), newton, value[k]));
+                }
+            }
+        };
+        if let (Some(region), Some(sides)) = (self.in_space(), self.sides_in_space()) {
+            let centroid: Vec<Vector> = self.cloud.centroid.clone();
+            let cells = Cells {
+                volume: &self.cloud.volume,
+                centroid: &centroid,
+            };
+            let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
+            let found = Totals::in_space(
+                (region, sides),
+                fields,
+                &cells,
+                (&self.source, self.omega, &conducts),
+            );
+            force("force_volume", found.force_volume);
+            force("force_maxwell", found.force_stress);
+            force("force_coil", found.force_coil);
+            all.totals
+                .push(("force_spread".to_owned(), newton, found.spread()));
+            all.totals
+                .push(("power_volume".to_owned(), watt, found.heat_volume));
+            all.totals
+                .push(("power_poynting".to_owned(), watt, found.heat_surface));
+        } else {
+            let (pull, heat) = totals::volume(&self.region, &self.sides, fields, &self.cells());
+            force("force_volume", pull);
+            all.totals.push(("power_volume".to_owned(), watt, heat));
+        }
+    }
+
+    /// The points, if they have three coordinates.
+    fn in_space(&self) -> Option<&Region<3>> {
+        (&self.region as &dyn std::any::Any).downcast_ref()
+    }
+
+    fn sides_in_space(&self) -> Option<&Sides<3>> {
+        (&self.sides as &dyn std::any::Any).downcast_ref()
+    }
+}
+
+/// Points, and how much of the inner value holds beyond each surface point; nothing where it is continuous.
+type Beyond<'a> = Option<(&'a Cloud, &'a [f64])>;
+
+/// Six columns of a vector of phasors; beyond interfaces it is that much of the value before them.
+fn phasor(
+    columns: &mut Vec<Column>,
+    name: &str,
+    unit: &'static str,
+    (values, beyond): (&[[C; 3]], Beyond<'_>),
+) {
+    let mut part = |name: String, of: fn(&C) -> f64| {
+        let all: Vec<Vector> = values
+            .iter()
+            .map(|v| [0, 1, 2].map(|k| of(&v[k])))
+            .collect();
+        let outer: Vec<Vector> = beyond.map_or_else(Vec::new, |(cloud, share)| {
+            let each = cloud.surface.iter().zip(share);
+            each.map(|(s, share)| all[s.point as usize].map(|v| v * share))
+                .collect()
+        });
+        columns.extend(Column::vector(&name, unit, &all, &outer));
+    };
+    part(format!("{name}_real"), |c| c.re);
+    part(format!("{name}_imag"), |c| c.im);
+}

@@ -1,0 +1,111 @@
+//! The program: fields of small scenes, and no column of what is absent.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::path::Path;
+
+use artefact::Reader;
+use serde_json::{Value, json};
+
+/// Runs a scene as the program does and gives its artefact.
+fn run(folder: &Path, scene: &Value) -> Reader {
+    let out = folder.join("fields.mcap");
+    let file = folder.join("scene.json");
+    std::fs::write(&file, scene.to_string()).unwrap();
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+        .args([
+            "run",
+            file.to_str().unwrap(),
+            "--out",
+            out.to_str().unwrap(),
+        ])
+        .args(["--threads", "2", "-q"])
+        .status()
+        .unwrap();
+    assert!(status.success(), "{status}");
+    Reader::open_kind(&out, "point-fields", 1).unwrap()
+}
+
+fn scene() -> Value {
+    json!({"kind": "emfield.scene", "version": 1, "geometry": "space",
+        "domain": {"box": {"min_m": [-4, -4, -4], "max_m": [4, 4, 4]}},
+        "bodies": [{"name": "ball", "shape": {"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}},
+            "relative_permittivity": 1, "conductivity_s_m": 1}],
+        "points": {"spacing_m": 0.25}, "output": {"precision": "f64"}})
+}
+
+#[test]
+fn a_uniform_field_is_exact() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = scene();
+    scene["electrostatics"] = json!({"applied_field_v_m": [1, 2, 3]});
+    scene["output"]["probes"] = json!([{"name": "p", "place_m": [0.5, 0.3, 1.1]}]);
+    scene["output"]["lines"] =
+        json!([{"name": "l", "from_m": [0, 0, 0], "to_m": [0, 0, 4], "points": 5}]);
+    let reader = run(folder.path(), &scene);
+    let frame = reader.frame("/points", 0).unwrap();
+    let places = frame.position_vectors().unwrap();
+    let v = frame.f64("potential").unwrap();
+    for (x, v) in places.iter().zip(v) {
+        assert!((v + x[0] + 2.0 * x[1] + 3.0 * x[2]).abs() < 1e-6);
+    }
+    for e in frame.vectors("electric_field").unwrap() {
+        assert!((e[0] - 1.0).abs() + (e[1] - 2.0).abs() + (e[2] - 3.0).abs() < 1e-5);
+    }
+    for absent in ["volume", "magnetic_flux_density_real_x", "joule_heat"] {
+        assert!(!frame.has(absent), "{absent}");
+    }
+    assert!(reader.frame("/surface", 0).unwrap().has("traction_x"));
+    let probes = reader.record("/probes").unwrap();
+    assert!((probes.get("p.potential").unwrap() + 0.5 + 0.6 + 3.3).abs() < 1e-6);
+    assert!(reader.has("/line/l"));
+}
+
+#[test]
+fn where_nothing_conducts_there_is_no_current() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = scene();
+    scene["bodies"][0]["conductivity_s_m"] = json!(0);
+    scene["eddy_currents"] =
+        json!({"harmonic": {"frequency_hz": 50}, "applied_flux_density_t": [0, 0, 1]});
+    let reader = run(folder.path(), &scene);
+    let frame = reader.frame("/points", 0).unwrap();
+    for b in frame.vectors("magnetic_flux_density_real").unwrap() {
+        assert!(b[0].abs() + b[1].abs() + (b[2] - 1.0).abs() < 1e-9);
+    }
+    for absent in [
+        "current_density_real_x",
+        "joule_heat",
+        "force_density_x",
+        "potential",
+    ] {
+        assert!(!frame.has(absent), "{absent}");
+    }
+}
+
+#[test]
+fn a_fault_names_file_line_and_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = scene();
+    scene["electrostatics"] = json!({"applied_field_v_m": [1, 2, 3]});
+    scene["output"]["probes"] = json!([{"name": "p", "place_m": [9, 0, 0]}]);
+    let file = folder.path().join("scene.json");
+    std::fs::write(&file, serde_json::to_string_pretty(&scene).unwrap()).unwrap();
+    let out = folder.path().join("fields.mcap");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+        .args([
+            "run",
+            file.to_str().unwrap(),
+            "--out",
+            out.to_str().unwrap(),
+            "-q",
+        ])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        said.contains("scene.json:") && said.contains("/output/probes/0/place_m"),
+        "{said}"
+    );
+}
