@@ -9,7 +9,7 @@ SHELL := /bin/sh
 THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 PROGRESS ?= auto
 BIN := target/release
-PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph avg report artefact verify stability bench)
+PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield avg report artefact verify stability bench)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 # Runs a stage only if the bytes of what it depends on have changed.
 RERUN := pipelines/rerun
@@ -53,7 +53,7 @@ build/python/.installed: tests/interop/requirements.txt
 	else echo "python3 with venv is not here: the tests that read our files with other programs are skipped"; fi
 
 schemas: programs ## write schemas/*.scene.v1.json from the programs
-	@for tool in gasprop arcfvm poolsph heatsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
+	@for tool in gasprop arcfvm poolsph heatsph emfield avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
 
 # Evidence.
 CASE ?=
