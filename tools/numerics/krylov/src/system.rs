@@ -69,7 +69,37 @@ where
     ///
     /// # Errors
     /// When a coefficient is not finite, a row has none but zeros, or lengths differ.
-    pub fn new(rows: Rows<T>, mut shift: Vec<S>, options: Options) -> Result<Self, Error> {
+    pub fn new(rows: Rows<T>, shift: Vec<S>, options: Options) -> Result<Self, Error> {
+        Self::made(rows, shift, None, options)
+    }
+
+    /// The same, preconditioned by the factors of other rows for the same unknowns, each about as
+    /// large as its row: stencils of low order serve those of high order, whose own incomplete
+    /// factors may be unstable.
+    ///
+    /// # Errors
+    /// As for [`Self::new`], and where the other rows are not as many.
+    pub fn with_low_order(
+        rows: Rows<T>,
+        shift: Vec<S>,
+        low: Rows<T>,
+        options: Options,
+    ) -> Result<Self, Error> {
+        if low.len() != rows.len() {
+            return Err(Error::Size {
+                expected: rows.len(),
+                found: low.len(),
+            });
+        }
+        Self::made(rows, shift, Some(low), options)
+    }
+
+    fn made(
+        rows: Rows<T>,
+        mut shift: Vec<S>,
+        low: Option<Rows<T>>,
+        options: Options,
+    ) -> Result<Self, Error> {
         let n = rows.len();
         if shift.is_empty() {
             shift.resize(n, S::ZERO);
@@ -88,27 +118,24 @@ where
         let order = if direct {
             Order::natural(n)
         } else {
-            Order::cuthill_mckee(&rows)
+            Order::cuthill_mckee(low.as_ref().unwrap_or(&rows))
         };
         let mut rows = if direct { rows } else { rows.permuted(&order) };
         let mut mixed = vec![S::ZERO; n];
         order.forth(&shift, &mut mixed);
         let scale = equilibrate(&mut rows, &mut mixed).map_err(|e| located(e, &order))?;
-        let factors = match options.method {
-            _ if direct => Factors::Direct(Box::new(Direct::new(&rows, &mixed)?)),
-            Method::Incomplete(keep) => real(&rows, &mixed, &order, keep),
-            Method::IncompleteComplex(keep) => {
-                Factors::Complex(Incomplete::new(&rows, &mixed, &order, keep))
-            }
-            Method::Multigrid(grids) => {
-                Factors::Multigrid(Box::new(Multigrid::new(&rows, &mixed, &order, grids)?))
-            }
-            Method::Chosen | Method::Direct => {
-                match Multigrid::new(&rows, &mixed, &order, Grids::default()) {
-                    Ok(grids) => Factors::Multigrid(Box::new(grids)),
-                    Err(_) => real(&rows, &mixed, &order, Keep::PATTERN),
+        let factors = if direct {
+            Factors::Direct(Box::new(Direct::new(&rows, &mixed)?))
+        } else if let Some(low) = low {
+            let mut low = low.permuted(&order);
+            for (i, scale) in scale.iter().enumerate() {
+                for v in low.values_mut(i) {
+                    *v = v.times_real(*scale);
                 }
             }
+            factors(&low, &mixed, &order, options.method)?
+        } else {
+            factors(&rows, &mixed, &order, options.method)?
         };
         Ok(Self {
             options,
@@ -279,6 +306,32 @@ where
             ending
         }
     }
+}
+
+/// Factors for a method that iterates.
+fn factors<T, S>(
+    rows: &Rows<T>,
+    shift: &[S],
+    order: &Order,
+    method: Method,
+) -> Result<Factors<T, S>, Error>
+where
+    T: Coefficient<S> + Scalar,
+    S: Scalar,
+    f32: Coefficient<S> + Coefficient<T>,
+{
+    let grids = |grids| Multigrid::new(rows, shift, order, grids).map(Box::new);
+    Ok(match method {
+        Method::Incomplete(keep) => real(rows, shift, order, keep),
+        Method::IncompleteComplex(keep) => {
+            Factors::Complex(Incomplete::new(rows, shift, order, keep))
+        }
+        Method::Multigrid(how) => Factors::Multigrid(grids(how)?),
+        Method::Chosen | Method::Direct => match grids(Grids::default()) {
+            Ok(grids) => Factors::Multigrid(grids),
+            Err(_) => real(rows, shift, order, Keep::PATTERN),
+        },
+    })
 }
 
 /// Factors of real coefficients.

@@ -155,6 +155,24 @@ fn a_low_rank_part_is_solved_with_the_factors_of_the_rest() {
 }
 
 #[test]
+fn other_rows_of_the_same_unknowns_precondition() {
+    let cloud = Cloud::ball(20, 80.0);
+    let equations = cloud.build();
+    let low = Cloud {
+        ratio: 60.0,
+        ..cloud
+    };
+    let grids = options(Method::Multigrid(Grids::default()));
+    let rows = equations.rows.clone();
+    let mut system =
+        System::<f64, C64>::with_low_order(rows, Vec::new(), low.build().rows, grids).unwrap();
+    let mut x = vec![[C64::ZERO; 3]; equations.rhs.len()];
+    let found = system.solve(&equations.rhs, &mut x, Rule::default());
+    assert!(found.converged() && found.products < 60, "{found:?}");
+    assert!(left(&equations, &x) < 1e-5);
+}
+
+#[test]
 fn a_ball_that_hardly_conducts_is_rescued() {
     // One-sided rows next to an insulator make the iteration stagnate; sparse factors do not.
     let equations = Cloud::ball(18, 1e-6).build();
