@@ -52,10 +52,10 @@ impl Case for EmSphereLoops {
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
-        let spacing = [5e-4, 3.5e-4, 2.5e-4][level.clamp(1, 3) as usize - 1];
+        let spacing = [5.6e-4, 4e-4, 2.8e-4][level.clamp(1, 3) as usize - 1];
         let (frequency, first) = match method {
-            "30-khz" => (3e4, 0.5),
-            "1-mhz" => (1e6, 0.1),
+            "30-khz" => (3e4, 0.3),
+            "1-mhz" => (1e6, 0.15),
             _ => (1e5, 0.3),
         };
         let patch = json!({
