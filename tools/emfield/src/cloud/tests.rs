@@ -115,7 +115,8 @@ fn spacing_grows_outward_to_walls_that_are_met_exactly() {
         }
         far = far.max(cloud.spacing[i]);
     }
-    assert!(far > 0.9 && far <= 1.25 * 1.1, "{far}");
+    // An eighth of the domain is the most.
+    assert!(far > 0.9 && far <= 2.5, "{far}");
     assert!(cloud.bytes() < 200 * cloud.len() as u64 + 100 * cloud.surface.len() as u64);
 }
 

@@ -27,7 +27,7 @@ fn faults_are_located() {
     assert_eq!(wrong("\"ball\"", "\"surroundings\""), ["/bodies/0/name"]);
     assert_eq!(
         wrong(r#""expr": "z""#, r#""expr": "q + 1""#),
-        ["/electrostatics/outer/0/potential_v"]
+        ["/electrostatics/outer/0/potential_v/expr"]
     );
     assert_eq!(
         wrong(
@@ -72,7 +72,7 @@ fn faults_of_eddy_currents_are_located() {
     let wave = format!(
         r#"{applied}, "transient": {{"end_s": 1, "step_s": 0.1, "wave": {{"expr": "x"}}}}"#
     );
-    assert_eq!(eddy(&wave), [format!("{at}/transient/wave")]);
+    assert_eq!(eddy(&wave), [format!("{at}/transient/wave/expr")]);
 }
 
 #[test]
