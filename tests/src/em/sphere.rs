@@ -136,12 +136,12 @@ impl Solution {
         // i_{n-1}(z) / i_{n-1}(x), from n = 1 on.
         let mut share = scaled_i0_spherical(z) / scaled_i0_spherical(x) * (z - x).exp();
         let mut found = Vec::with_capacity(inner.len());
-        for n in 0..inner.len() {
+        for (n, ratio) in inner.iter().enumerate() {
             let lower = self.within[n] * share;
-            let value = lower * inner[n];
+            let value = lower * ratio;
             // d(r i_n)/dr = z i_{n-1} - n i_n.
             found.push([value, z * lower - (n + 1) as f64 * value]);
-            share *= inner[n] / self.ratios[n];
+            share *= ratio / self.ratios[n];
         }
         found
     }

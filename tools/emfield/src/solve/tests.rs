@@ -39,9 +39,8 @@ pub(super) fn rings(spacing: f64) -> Region<2> {
 
 mod electrostatic;
 
-/// A ball of radius 1 (medium 1) in a ball of radius 4 (medium 0): points on shells, `along` apart at
-/// the surface, and `across` apart beside it, growing.
-pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<f64>) {
+/// Radii of shells and their distances: `across` apart beside the radius 1, growing, up to 4.
+fn radii(across: f64, along: f64) -> Vec<(f64, f64)> {
     let growth: f64 = 1.2;
     let mut radii = vec![(1.0, across)];
     let (mut r, mut step) = (1.0, across);
@@ -63,6 +62,13 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<f64>) {
         radii.push((r, step));
         step = (step * growth).min(along * r);
     }
+    radii
+}
+
+/// A ball of radius 1 (medium 1) in a ball of radius 4 (medium 0): points on shells, `along` apart at
+/// the surface, and `across` apart beside it, growing.
+pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<f64>) {
+    let radii = radii(across, along);
     let mut region = Region::default();
     let mut volume = Vec::new();
     for (k, &(r, step)) in radii.iter().enumerate() {

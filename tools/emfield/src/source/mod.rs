@@ -69,8 +69,8 @@ impl Source {
         }
         for part in &self.uniform {
             let a = part.potential(p);
-            for k in 0..3 {
-                sum[k] += a[k];
+            for (sum, a) in sum.iter_mut().zip(a) {
+                *sum += a;
             }
         }
         sum
@@ -90,8 +90,8 @@ impl Source {
             add(&mut sum, part.flux(p), part.current);
         }
         for part in &self.uniform {
-            for k in 0..3 {
-                sum[k] += part.flux[k];
+            for (sum, b) in sum.iter_mut().zip(part.flux) {
+                *sum += b;
             }
         }
         sum
