@@ -87,6 +87,7 @@ impl Tool for HeatSph {
             session.closing("balance_newton_steps", "1", balance.steps as f64);
             session.closing("balance_iterations", "1", balance.iterations as f64);
             session.closing("balance_linear_error", "1", balance.linear);
+            session.closing("balance_quadratic_error", "1", balance.quadratic);
         }
         match scene.steady {
             Some(rule) => steady::solve(scene, rule, (&mut system, temperature), session),

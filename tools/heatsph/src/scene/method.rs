@@ -7,7 +7,8 @@ use serde::Deserialize;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pair {
-    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices and in a plane, else 1.05.
+    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.075 in a
+    /// plane and 1.05 in space.
     #[schemars(range(min = 0.6, max = 3.0), extend("x-unit" = "1"))]
     pub smoothing: Option<f64>,
 }
@@ -16,7 +17,8 @@ pub struct Pair {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Corrected {
-    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices and in a plane, else 1.05.
+    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.075 in a
+    /// plane and 1.05 in space.
     #[schemars(range(min = 0.8, max = 3.0), extend("x-unit" = "1"))]
     pub smoothing: Option<f64>,
 }
