@@ -81,6 +81,14 @@ fn solve<const D: usize, const K: usize>(
     }
     session.stopped()?;
     if let Some(currents) = &scene.eddy_currents {
+        if let Some(transient) = &currents.transient {
+            let at = (currents, transient);
+            return assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
+                let mut all = found.clone();
+                all.join(fields);
+                output::write(scene, cloud, &samples, (time, &all), session)
+            });
+        }
         found.join(assemble::eddy_currents::<D, K>(
             scene, currents, cloud, session,
         )?);

@@ -2,7 +2,7 @@
 
 use krylov::{Rule, System};
 use num_complex::Complex;
-use run::{Failure, Fault, Session};
+use run::{Failure, Session};
 use shapes::frame::Vector;
 
 use super::drive::{source, unknown};
@@ -12,7 +12,7 @@ use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{EddyCurrents, Scene};
 use crate::solve::diffusion::{self, Conductors, Unknown};
-use crate::solve::eddy::Drive;
+use crate::solve::eddy::{Drive, Solution, steady_change};
 use crate::solve::multipole::{Cells, Multipoles};
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
@@ -20,12 +20,13 @@ use crate::source::{MU0, Source};
 
 type C = Complex<f64>;
 
-/// A sinusoidal steady state in `D` coordinates with `K` unknowns a point.
-pub(super) struct Steady<'a, const D: usize> {
+/// What currents of a scene in `D` coordinates are computed with.
+pub(super) struct Setting<'a, const D: usize> {
     pub(super) scene: &'a Scene,
     pub(super) cloud: &'a Cloud,
     pub(super) currents: &'a EddyCurrents,
-    pub(super) omega: f64,
+    /// Angular frequency \[rad/s\]; none in a march in time.
+    pub(super) omega: Option<f64>,
     pub(super) unknown: Unknown,
     pub(super) source: Source,
     pub(super) region: Region<D>,
@@ -34,7 +35,7 @@ pub(super) struct Steady<'a, const D: usize> {
     pub(super) centroid: Vec<[f64; D]>,
 }
 
-/// Solves the eddy currents of a scene in `D` coordinates with `K` unknowns a point: 3 in space, else 1.
+/// Solves the sinusoidal eddy currents of a scene in `D` coordinates with `K` unknowns a point: 3 in space, else 1.
 ///
 /// # Errors
 /// Where a stencil cannot be made or the solve breaks down.
@@ -44,36 +45,20 @@ pub fn eddy_currents<const D: usize, const K: usize>(
     cloud: &Cloud,
     session: &mut Session,
 ) -> Result<Found, Failure> {
-    let Some(omega) = currents.angular_frequency() else {
-        let what = "a march in time is not computed";
-        return Err(Fault::at("/eddy_currents/transient", what).into());
+    let setting: Setting<'_, D> = Setting::new(scene, currents, cloud, session)?;
+    setting.warn(session);
+    let drive = session.timed("source", || setting.drive::<K>());
+    let found = setting.solve(&drive, session)?;
+    let change = steady_change(drive.omega, &found, &drive.source);
+    let solution = Solution {
+        found: &found,
+        source: &drive.source,
+        change: &change,
     };
-    let region: Region<D> = region(scene, cloud, &|_| false);
-    let made = session.timed("weights", || Sides::new(&region, &super::form(scene)));
-    let steady = Steady {
-        sides: made.map_err(|error| Failure::Other(format!("eddy currents: {error}")))?,
-        unknown: unknown(scene, currents),
-        source: source(scene, currents),
-        conductors: Conductors {
-            mu_sigma: media(scene, |m| {
-                MU0 * m.relative_permeability * m.conductivity_s_m
-            }),
-        },
-        centroid: cloud
-            .centroid
-            .iter()
-            .map(|x| reduce(cloud.geometry, *x))
-            .collect(),
-        region,
-        scene,
-        cloud,
-        currents,
-        omega,
-    };
-    steady.warn(session);
-    let drive = session.timed("source", || steady.drive::<K>());
-    let found = steady.solve(&drive, session)?;
-    Ok(session.timed("fields", || steady.found(&found, &drive)))
+    Ok(session.timed("fields", || {
+        let flux = setting.source.flux(&cloud.position);
+        setting.found(solution, &flux, &setting.source)
+    }))
 }
 
 /// A property of all media.
@@ -83,9 +68,46 @@ pub(super) fn media(scene: &Scene, of: impl Fn(crate::scene::Medium) -> f64) -> 
         .collect()
 }
 
-impl<const D: usize> Steady<'_, D> {
+impl<'a, const D: usize> Setting<'a, D> {
+    /// Stencils and sources of a scene.
+    ///
+    /// # Errors
+    /// Where a stencil cannot be made.
+    pub(super) fn new(
+        scene: &'a Scene,
+        currents: &'a EddyCurrents,
+        cloud: &'a Cloud,
+        session: &mut Session,
+    ) -> Result<Self, Failure> {
+        let region: Region<D> = region(scene, cloud, &|_| false);
+        let made = session.timed("weights", || Sides::new(&region, &super::form(scene)));
+        Ok(Self {
+            sides: made.map_err(|error| Failure::Other(format!("eddy currents: {error}")))?,
+            unknown: unknown(scene, currents),
+            source: source(scene, currents),
+            conductors: Conductors {
+                mu_sigma: media(scene, |m| {
+                    MU0 * m.relative_permeability * m.conductivity_s_m
+                }),
+            },
+            centroid: cloud
+                .centroid
+                .iter()
+                .map(|x| reduce(cloud.geometry, *x))
+                .collect(),
+            region,
+            scene,
+            cloud,
+            currents,
+            omega: currents.angular_frequency(),
+        })
+    }
+
     /// Says where layers are too thick for the skin of a conductor.
     fn warn(&self, session: &mut Session) {
+        let Some(omega) = self.omega else {
+            return;
+        };
         for (m, mu_sigma) in self.conductors.mu_sigma.iter().enumerate() {
             let touches = |i: usize| {
                 self.cloud.touches(i, m as u8) && !matches!(self.cloud.class[i], Class::Inside(_))
@@ -98,7 +120,7 @@ impl<const D: usize> Steady<'_, D> {
                 .filter(|i| touches(*i))
                 .map(across)
                 .fold(0.0, f64::max);
-            let skin = (2.0 / (self.omega * mu_sigma)).sqrt();
+            let skin = (2.0 / (omega * mu_sigma)).sqrt();
             if *mu_sigma > 0.0 && skin < widest {
                 let name = self.scene.medium_name(m);
                 session.warn(format!(
@@ -109,7 +131,7 @@ impl<const D: usize> Steady<'_, D> {
     }
 
     /// What sources give of the unknowns.
-    fn drive<const K: usize>(&self) -> Drive<K> {
+    pub(super) fn drive<const K: usize>(&self) -> Drive<K> {
         let zero = C::default();
         let places = &self.cloud.position;
         let mut held = [zero; K];
@@ -150,7 +172,7 @@ impl<const D: usize> Steady<'_, D> {
             }
         };
         Drive {
-            omega: self.omega,
+            omega: self.omega.unwrap_or(0.0),
             source,
             held,
         }
@@ -174,7 +196,7 @@ impl<const D: usize> Steady<'_, D> {
         } else {
             Vec::new()
         };
-        let shift = diffusion::shift(&rates, self.omega);
+        let shift = diffusion::shift(&rates, drive.omega);
         let options = super::options(self.scene);
         let made = session.timed("factorise", || System::new(rows, shift, options));
         let failed = |error: krylov::Error| Failure::Other(format!("eddy currents: {error}"));

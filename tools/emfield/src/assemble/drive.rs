@@ -32,6 +32,24 @@ pub fn unknown(scene: &Scene, currents: &EddyCurrents) -> Unknown {
 pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
     let mut faults = Vec::new();
     let unknown = unknown(scene, currents);
+    if currents.transient.is_some() {
+        if scene.geometry == Geometry::Axisymmetric {
+            let what = "a march in time is not computed about an axis, where its rows let errors grow: take a scene in space";
+            faults.push(Fault::at("/eddy_currents/transient", what));
+        }
+        let lead = |coil: &Coil| match coil {
+            Coil::Loop(l) => ("loop", l.phase_deg),
+            Coil::Segments(s) => ("segments", s.phase_deg),
+            Coil::Wire(w) => ("wire", w.phase_deg),
+        };
+        for (k, (kind, lead)) in currents.coils.iter().map(lead).enumerate() {
+            if lead != 0.0 {
+                let at = format!("/eddy_currents/coils/{k}/{kind}/phase_deg");
+                let what = "a current in time has no phase: it follows \"wave\"";
+                faults.push(Fault::at(&at, what));
+            }
+        }
+    }
     let own = scene.surroundings.relative_permeability;
     for (k, body) in scene.bodies.iter().enumerate() {
         if unknown != Unknown::Axial && (body.relative_permeability - own).abs() > 1e-12 * own {

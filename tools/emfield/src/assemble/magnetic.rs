@@ -3,64 +3,87 @@
 use num_complex::Complex;
 use shapes::frame::Vector;
 
-use super::currents::{Steady, media};
-use crate::cloud::{Cloud, SurfacePoint};
+use super::currents::{Setting, media};
+use crate::cloud::SurfacePoint;
 use crate::output::{Column, Found};
 use crate::scene::Geometry;
 use crate::solve::diffusion::Unknown;
-use crate::solve::eddy::{Drive, Fields, Media};
+use crate::solve::eddy::{Fields, Media, Solution};
 use crate::solve::multipole::Cells;
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
 use crate::solve::totals::{self, Totals};
-use crate::source::MU0;
+use crate::source::{MU0, Source};
 
 type C = Complex<f64>;
 
-impl<const D: usize> Steady<'_, D> {
-    /// Columns and totals of a solution.
-    pub(super) fn found<const K: usize>(&self, found: &[[C; K]], drive: &Drive<K>) -> Found {
-        let flux = self.source.flux(&self.cloud.position);
+/// Ending of a column and what it holds of a phasor.
+type Part = (&'static str, fn(&C) -> f64);
+
+impl<const D: usize> Setting<'_, D> {
+    /// Columns and totals of a solution, with the flux density of its sources and these themselves.
+    pub(super) fn found<const K: usize>(
+        &self,
+        solution: Solution<'_, K>,
+        flux: &[[C; 3]],
+        source: &Source,
+    ) -> Found {
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
         let media = Media {
-            omega: self.omega,
+            omega: self.omega.unwrap_or(0.0),
             permeability: &media(self.scene, |m| MU0 * m.relative_permeability),
             conductivity: &conductivity,
-            flux: &flux,
+            flux,
         };
-        let fields = Fields::new(
-            (&self.region, &self.sides),
-            self.unknown,
-            (found, &drive.source),
-            &media,
-        );
+        let fields = Fields::new((&self.region, &self.sides), self.unknown, solution, &media);
         let mut all = Found::default();
         let columns = &mut all.columns;
         if self.unknown == Unknown::Axial {
-            columns.push(Column::new(
-                "magnetic_field_real",
-                "A/m",
-                found.iter().map(|h| h[0].re).collect(),
-            ));
-            columns.push(Column::new(
-                "magnetic_field_imag",
-                "A/m",
-                found.iter().map(|h| h[0].im).collect(),
-            ));
+            for (part, of) in self.parts() {
+                let name = format!("magnetic_field{part}");
+                let values = solution.found.iter().map(|h| of(&h[0])).collect();
+                columns.push(Column::new(&name, "A/m", values));
+            }
         } else {
-            phasor(
-                columns,
-                "vector_potential",
-                "Wb/m",
-                (&fields.potential, None),
-            );
+            let name = ("vector_potential", "Wb/m");
+            self.vector(columns, name, &fields.potential, None);
         }
-        phasor(columns, "magnetic_flux_density", "T", (&fields.flux, None));
+        self.vector(columns, ("magnetic_flux_density", "T"), &fields.flux, None);
         if conductivity.iter().any(|s| *s > 0.0) {
             self.currents(&fields, &conductivity, columns);
         }
-        self.totals(&fields, &conductivity, &mut all);
+        self.totals(&fields, &conductivity, source, &mut all);
         all
+    }
+
+    /// Endings of columns and what they hold: phasors have two parts, fields of a march are real.
+    fn parts(&self) -> &'static [Part] {
+        match self.omega {
+            Some(_) => &[("_real", |c| c.re), ("_imag", |c| c.im)],
+            None => &[("", |c| c.re)],
+        }
+    }
+
+    /// Columns of a vector by its parts; beyond interfaces it is that much of the value before them.
+    fn vector(
+        &self,
+        columns: &mut Vec<Column>,
+        (name, unit): (&str, &'static str),
+        values: &[[C; 3]],
+        beyond: Option<&[f64]>,
+    ) {
+        for (part, of) in self.parts() {
+            let all: Vec<Vector> = values
+                .iter()
+                .map(|v| [0, 1, 2].map(|k| of(&v[k])))
+                .collect();
+            let outer: Vec<Vector> = beyond.map_or_else(Vec::new, |share| {
+                let each = self.cloud.surface.iter().zip(share);
+                each.map(|(s, share)| all[s.point as usize].map(|v| v * share))
+                    .collect()
+            });
+            columns.extend(Column::vector(&format!("{name}{part}"), unit, &all, &outer));
+        }
     }
 
     /// Currents, forces and heat of conductors.
@@ -75,12 +98,8 @@ impl<const D: usize> Steady<'_, D> {
                 if inner > 0.0 { outer / inner } else { 0.0 }
             })
             .collect();
-        phasor(
-            columns,
-            "current_density",
-            "A/m2",
-            (&fields.current, Some((self.cloud, &beyond))),
-        );
+        let name = ("current_density", "A/m2");
+        self.vector(columns, name, &fields.current, Some(&beyond));
         let scaled = |s: &SurfacePoint, k: f64| fields.force[s.point as usize].map(|f| f * k);
         let force: Vec<Vector> = self
             .cloud
@@ -104,7 +123,7 @@ impl<const D: usize> Steady<'_, D> {
         });
     }
 
-    fn totals(&self, fields: &Fields, conductivity: &[f64], all: &mut Found) {
+    fn totals(&self, fields: &Fields, conductivity: &[f64], source: &Source, all: &mut Found) {
         let plane = self.scene.geometry == Geometry::Plane;
         let (newton, watt) = if plane { ("N/m", "W/m") } else { ("N", "W") };
         let axisymmetric = self.scene.geometry == Geometry::Axisymmetric;
@@ -124,12 +143,7 @@ impl<const D: usize> Steady<'_, D> {
                 centroid: &centroid,
             };
             let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
-            let found = Totals::in_space(
-                (region, sides),
-                fields,
-                &cells,
-                (&self.source, self.omega, &conducts),
-            );
+            let found = Totals::in_space((region, sides), fields, &cells, (source, &conducts));
             force("force_volume", found.force_volume);
             force("force_maxwell", found.force_stress);
             force("force_coil", found.force_coil);
@@ -154,30 +168,4 @@ impl<const D: usize> Steady<'_, D> {
     fn sides_in_space(&self) -> Option<&Sides<3>> {
         (&self.sides as &dyn std::any::Any).downcast_ref()
     }
-}
-
-/// Points, and how much of the inner value holds beyond each surface point; nothing where it is continuous.
-type Beyond<'a> = Option<(&'a Cloud, &'a [f64])>;
-
-/// Six columns of a vector of phasors; beyond interfaces it is that much of the value before them.
-fn phasor(
-    columns: &mut Vec<Column>,
-    name: &str,
-    unit: &'static str,
-    (values, beyond): (&[[C; 3]], Beyond<'_>),
-) {
-    let mut part = |name: String, of: fn(&C) -> f64| {
-        let all: Vec<Vector> = values
-            .iter()
-            .map(|v| [0, 1, 2].map(|k| of(&v[k])))
-            .collect();
-        let outer: Vec<Vector> = beyond.map_or_else(Vec::new, |(cloud, share)| {
-            let each = cloud.surface.iter().zip(share);
-            each.map(|(s, share)| all[s.point as usize].map(|v| v * share))
-                .collect()
-        });
-        columns.extend(Column::vector(&name, unit, &all, &outer));
-    };
-    part(format!("{name}_real"), |c| c.re);
-    part(format!("{name}_imag"), |c| c.im);
 }

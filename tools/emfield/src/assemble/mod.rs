@@ -3,10 +3,11 @@
 mod currents;
 pub mod drive;
 mod magnetic;
+mod march;
 mod potential;
 mod region;
 
-use krylov::{Ending, Keep, Method, Options, Rule, Solved};
+use krylov::{Ending, Grids, Method, Options, Rule, Solved};
 use run::{Failure, Session};
 
 use crate::scene::Scene;
@@ -14,6 +15,7 @@ use crate::scene::method::Way;
 use crate::solve::sides::Form;
 
 pub use currents::eddy_currents;
+pub use march::march;
 pub use potential::electrostatics;
 pub(crate) use region::region;
 
@@ -23,7 +25,7 @@ fn options(scene: &Scene) -> Options {
         method: match scene.solver.way {
             Way::Auto => Method::Chosen,
             Way::Direct => Method::Direct,
-            Way::Iterative => Method::Incomplete(Keep::PATTERN),
+            Way::Iterative => Method::Multigrid(Grids::default()),
         },
         ..Options::default()
     }
@@ -45,6 +47,21 @@ fn form(scene: &Scene) -> Form {
         support: scene.method.support,
         positive: scene.method.positive,
     }
+}
+
+/// The stencils of low order that precondition those of high order, whose own factors are unstable; none where the order
+/// is low, or `unknowns` equations are solved directly.
+fn low_order(scene: &Scene, unknowns: usize) -> Option<Form> {
+    let direct = match scene.solver.way {
+        Way::Auto => unknowns <= Options::default().direct,
+        Way::Direct => true,
+        Way::Iterative => false,
+    };
+    (scene.method.order > 2 && !direct).then_some(Form {
+        order: 2,
+        support: None,
+        positive: false,
+    })
 }
 
 /// Keeps what a solve says of itself.

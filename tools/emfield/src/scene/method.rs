@@ -73,7 +73,7 @@ pub enum Way {
     Auto,
     /// A sparse factorisation.
     Direct,
-    /// BiCGStab(2) with an incomplete factorisation.
+    /// BiCGStab(2) with algebraic multigrid.
     Iterative,
 }
 

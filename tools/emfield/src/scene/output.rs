@@ -58,7 +58,8 @@ pub struct Output {
     /// Lines along which fields are written.
     #[serde(default)]
     pub lines: Vec<Line>,
-    /// Interval of frames and probes of a march in time; the end alone when it is absent.
+    /// Interval of frames and probes of a march in time: they are written after the first step that reaches each
+    /// multiple of it, and at the end; the end alone when it is absent.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub every_s: Option<f64>,
 }

@@ -1,6 +1,6 @@
 //! Eddy currents in a sinusoidal steady state: right sides, and the fields of a solution.
 //!
-//! Phasors are rms values of `exp(j w t)`. In a conductor `J = -j w sigma (A + A_s)` (Matsuzawa 2017,
+//! Phasors are rms values of `exp(j w t)`; in a march in time fields are real. In a conductor `J = -j w sigma (A + A_s)` (Matsuzawa 2017,
 //! eq. 2.65, without charge on surfaces), `B = B_s + curl A` (2.67), the mean force density is
 //! `Re(J x B*)` (2.68), the heat `|J|^2 / sigma`.
 
@@ -58,39 +58,49 @@ impl<const K: usize> Drive<K> {
         multipoles: &Multipoles,
         right: &mut [[C; K]],
     ) -> Vec<(Vec<C>, Vec<C>)> {
-        let weight = |i: usize, moment: f64| {
-            let rate = self.omega * conductors.mu_sigma[region.medium(i) as usize] * moment;
-            // The unknown is A over the distance from the axis.
-            let arm = if unknown == Unknown::Around {
-                region.places[i][0]
-            } else {
-                1.0
-            };
-            C::new(0.0, rate * arm)
-        };
         let mut found = Vec::new();
-        for (moment, field) in multipoles.moments.iter().zip(&multipoles.fields) {
-            let v: Vec<C> = moment
-                .iter()
-                .enumerate()
-                .map(|(i, m)| weight(i, *m))
-                .collect();
+        for (u, v) in pairs(conductors, (region, unknown), multipoles) {
+            let v: Vec<C> = v.iter().map(|v| C::new(0.0, self.omega * v)).collect();
             let mut given = [C::new(0.0, 0.0); K];
             for (v, source) in v.iter().zip(&self.source) {
                 for k in 0..K {
                     given[k] += v * source[k];
                 }
             }
-            for (right, f) in right.iter_mut().zip(field) {
+            for (right, u) in right.iter_mut().zip(&u) {
                 for k in 0..K {
-                    right[k] -= given[k] * *f;
+                    right[k] -= given[k] * *u;
                 }
             }
-            let u = field.iter().map(|f| C::from(*f)).collect();
-            found.push((u, v));
+            found.push((u.into_iter().map(C::from).collect(), v));
         }
         found
     }
+}
+
+/// What the multipoles of the currents put into the rows of walls: `u` times the sum of
+/// `v d(A + A_s)/dt`, for each pair `(u, v)`.
+#[must_use]
+pub fn pairs<const D: usize>(
+    conductors: &Conductors,
+    (region, unknown): (&Region<D>, Unknown),
+    multipoles: &Multipoles,
+) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let weight = |(i, moment): (usize, &f64)| {
+        // The unknown is A over the distance from the axis.
+        let arm = if unknown == Unknown::Around {
+            region.places[i][0]
+        } else {
+            1.0
+        };
+        conductors.mu_sigma[region.medium(i) as usize] * moment * arm
+    };
+    let each = multipoles.moments.iter().zip(&multipoles.fields);
+    each.map(|(moment, field)| {
+        let v = moment.iter().enumerate().map(weight).collect();
+        (field.clone(), v)
+    })
+    .collect()
 }
 
 /// Fields of a solution, by point, in space: of an axisymmetric scene away from the axis, around it
@@ -103,6 +113,8 @@ pub struct Fields {
     pub flux: Vec<[C; 3]>,
     /// That of the reaction alone \[T\].
     pub reaction: Vec<[C; 3]>,
+    /// Electric field, `-d(A + A_s)/dt` \[V/m\]; nothing where the unknown is `H_z`.
+    pub electric: Vec<[C; 3]>,
     /// Current density \[A/m2\].
     pub current: Vec<[C; 3]>,
     /// Mean force density \[N/m3\].
@@ -116,7 +128,7 @@ pub struct Fields {
 /// What fields are made from beside the solution.
 #[derive(Debug, Clone, Copy)]
 pub struct Media<'a> {
-    /// Angular frequency \[rad/s\].
+    /// Angular frequency \[rad/s\], which says how fields fall off in a skin; 0 in a march in time.
     pub omega: f64,
     /// Conductivity by medium \[S/m\].
     pub conductivity: &'a [f64],
@@ -126,22 +138,50 @@ pub struct Media<'a> {
     pub flux: &'a [[C; 3]],
 }
 
+/// A solution, by point.
+#[derive(Debug, Clone, Copy)]
+pub struct Solution<'a, const K: usize> {
+    /// The unknown: the reaction.
+    pub found: &'a [[C; K]],
+    /// What sources give of it; nothing of `H_z`.
+    pub source: &'a [[C; K]],
+    /// Rate of both together, over a second.
+    pub change: &'a [[C; K]],
+}
+
+/// The rate of sources and reaction together in a sinusoidal steady state, `j w (A + A_s)`.
+#[must_use]
+pub fn steady_change<const K: usize>(
+    omega: f64,
+    found: &[[C; K]],
+    source: &[[C; K]],
+) -> Vec<[C; K]> {
+    let rate = C::new(0.0, omega);
+    let both = found.iter().zip(source);
+    both.map(|(a, s)| std::array::from_fn(|k| rate * (a[k] + s[k])))
+        .collect()
+}
+
 impl Fields {
-    /// Fields of the reaction `found`, on interfaces from the inner side; `source` is that of the
-    /// [`Drive`].
+    /// Fields of a solution, on interfaces from the inner side.
     #[must_use]
     pub fn new<const D: usize, const K: usize>(
         (region, sides): (&Region<D>, &Sides<D>),
         unknown: Unknown,
-        (found, source): (&[[C; K]], &[[C; K]]),
+        solution: Solution<'_, K>,
         media: &Media<'_>,
     ) -> Self {
+        let Solution {
+            found,
+            source,
+            change,
+        } = solution;
         let point = |i: usize| {
             let place = region.places[i];
             let medium = region.medium(i) as usize;
             let sigma = media.conductivity[medium];
             let total: [C; K] = std::array::from_fn(|k| found[i][k] + source[i][k]);
-            let rate = C::new(0.0, media.omega * media.permeability[medium] * sigma);
+            let mu_sigma = media.permeability[medium] * sigma;
             let slope = |k: usize| -> [C; D] {
                 let on = region.on_interface(i);
                 let stencils = if on { &sides.inner } else { &sides.own };
@@ -149,16 +189,17 @@ impl Fields {
                     let row = stencils.derivative(i, axis);
                     // The Laplacian on the interface is known from the equation.
                     let share: f64 = row.conditions().sum();
-                    row.apply_with(|j| found[j][k]) + rate * total[k] * share
+                    row.apply_with(|j| found[j][k]) + change[i][k] * (mu_sigma * share)
                 })
             };
             let slopes: [[C; D]; K] = std::array::from_fn(slope);
             let (potential, reaction) = local(unknown, &place, (&total, &found[i]), &slopes);
+            let electric = along(unknown, &place, &change[i]).map(|rate| -rate);
             let mut flux = reaction;
             for (b, s) in flux.iter_mut().zip(&media.flux[i]) {
                 *b += s;
             }
-            let mut current = potential.map(|a| C::new(0.0, -media.omega * sigma) * a);
+            let mut current = electric.map(|e| e * sigma);
             if unknown == Unknown::Axial {
                 flux = reaction.map(|h| h * media.permeability[medium]);
                 current = NONE;
@@ -167,12 +208,19 @@ impl Fields {
                     [current[0], current[1]] = [slopes[0][1], -slopes[0][0]];
                 }
             }
-            (potential, flux, reaction, current, (sigma, 2.0 * rate.im))
+            let curvature = 2.0 * media.omega * mu_sigma;
+            (
+                (potential, electric),
+                (flux, reaction),
+                current,
+                (sigma, curvature),
+            )
         };
         let points: Vec<_> = (0..region.len()).into_par_iter().map(point).collect();
         let mut fields = Self::default();
-        for (potential, flux, reaction, current, (sigma, curvature)) in points {
+        for ((potential, electric), (flux, reaction), current, (sigma, curvature)) in points {
             fields.potential.push(potential);
+            fields.electric.push(electric);
             fields.flux.push(flux);
             fields.reaction.push(reaction);
             fields.current.push(current);
@@ -187,6 +235,21 @@ impl Fields {
     }
 }
 
+/// A value of the unknown as a vector in space; nothing of `H_z`.
+fn along<const D: usize, const K: usize>(
+    unknown: Unknown,
+    place: &[f64; D],
+    value: &[C; K],
+) -> [C; 3] {
+    let zero = C::new(0.0, 0.0);
+    match unknown {
+        Unknown::Potential if K == 3 => std::array::from_fn(|k| value[k]),
+        Unknown::Potential => [zero, zero, value[0]],
+        Unknown::Around => [zero, value[0] * place[0], zero],
+        Unknown::Axial => NONE,
+    }
+}
+
 /// Potential of all, and curl of the reaction, in space; `H_z` as it is.
 fn local<const D: usize, const K: usize>(
     unknown: Unknown,
@@ -195,20 +258,20 @@ fn local<const D: usize, const K: usize>(
     slopes: &[[C; D]; K],
 ) -> ([C; 3], [C; 3]) {
     let zero = C::new(0.0, 0.0);
-    match unknown {
+    let curl = match unknown {
         Unknown::Potential if K == 3 => {
             let d = |of: usize, along: usize| slopes[of][along];
-            let curl = [d(2, 1) - d(1, 2), d(0, 2) - d(2, 0), d(1, 0) - d(0, 1)];
-            (std::array::from_fn(|k| total[k]), curl)
+            [d(2, 1) - d(1, 2), d(0, 2) - d(2, 0), d(1, 0) - d(0, 1)]
         }
-        Unknown::Potential => ([zero, zero, total[0]], [slopes[0][1], -slopes[0][0], zero]),
+        Unknown::Potential => [slopes[0][1], -slopes[0][0], zero],
         Unknown::Around => {
             let r = place[0];
-            let along = reaction[0] * 2.0 + slopes[0][0] * r;
-            ([zero, total[0] * r, zero], [-slopes[0][1] * r, zero, along])
+            let axial = reaction[0] * 2.0 + slopes[0][0] * r;
+            [-slopes[0][1] * r, zero, axial]
         }
-        Unknown::Axial => (NONE, [zero, zero, total[0]]),
-    }
+        Unknown::Axial => [zero, zero, total[0]],
+    };
+    (along(unknown, place, total), curl)
 }
 
 /// `Re(a x b*)`.

@@ -37,7 +37,7 @@ impl Totals {
         (region, sides): (&Region<3>, &Sides<3>),
         fields: &Fields,
         cells: &Cells<'_, 3>,
-        (source, omega, conducts): (&Source, f64, &[bool]),
+        (source, conducts): (&Source, &[bool]),
     ) -> Self {
         let (force_volume, heat_volume) = volume(region, sides, fields, cells);
         let mut found = Self {
@@ -61,9 +61,8 @@ impl Totals {
                 let pull = (b[k] * normal).re - 0.5 * square * n[k];
                 found.force_stress[k] += sign * pull / MU0;
             }
-            // Tangential E is -j w A; E x H* through the surface.
-            let e = fields.potential[i].map(|a| C::new(0.0, -omega) * a);
-            let inward = cross_mean(e, b);
+            // E x H* through the surface.
+            let inward = cross_mean(fields.electric[i], b);
             let flow: f64 = (0..3).map(|k| inward[k] * n[k]).sum();
             found.heat_surface -= sign * flow / MU0;
         }

@@ -54,6 +54,20 @@ impl Source {
             && self.uniform.is_empty()
     }
 
+    /// The same with all currents and fields so many times as strong.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        let mut all = self.clone();
+        let loops = all.loops.iter_mut().map(|part| &mut part.current);
+        let segments = all.segments.iter_mut().map(|part| &mut part.current);
+        let wires = all.wires.iter_mut().map(|part| &mut part.current);
+        let uniform = all.uniform.iter_mut().flat_map(|part| &mut part.flux);
+        for strength in loops.chain(segments).chain(wires).chain(uniform) {
+            *strength *= factor;
+        }
+        all
+    }
+
     /// Vector potential at one place \[V s/m\], rms.
     #[must_use]
     pub fn potential_at(&self, p: [f64; 3]) -> Phasor {

@@ -3,7 +3,7 @@ use num_complex::Complex;
 use krylov::{Options, Rule, System};
 
 use super::super::diffusion::{Conductors, Unknown, shift};
-use super::super::eddy::{Drive, Fields, Media};
+use super::super::eddy::{Drive, Fields, Media, Solution, steady_change};
 use super::super::multipole::{Cells, Multipoles};
 use super::super::sides::{Form, Sides};
 use super::super::totals::Totals;
@@ -78,16 +78,15 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
     let fields = Fields::new(
         (&region, &sides),
         Unknown::Potential,
-        (&found, &drive.source),
+        Solution {
+            found: &found,
+            source: &drive.source,
+            change: &steady_change(omega, &found, &drive.source),
+        },
         &media,
     );
     let conducts = [false, true];
-    Totals::in_space(
-        (&region, &sides),
-        &fields,
-        &cells,
-        (&source, omega, &conducts),
-    )
+    Totals::in_space((&region, &sides), &fields, &cells, (&source, &conducts))
 }
 
 #[test]

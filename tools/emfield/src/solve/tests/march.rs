@@ -1,7 +1,9 @@
-use krylov::Rule;
+use std::convert::Infallible;
+
+use krylov::{Options, Rule, System};
 
 use super::super::diffusion::{Conductors, Unknown};
-use super::super::march::{Forcing, March};
+use super::super::march::{Forcing, March, shift};
 use super::super::sides::{Form, Sides};
 use super::rings;
 
@@ -21,20 +23,23 @@ fn switched_on(steps: u32) -> f64 {
     let forcing = Forcing {
         source: vec![[0.0]; region.len()],
         held: (0..region.len()).map(held).collect(),
+        pairs: Vec::new(),
     };
     let rows = conductors.rows(&region, &sides, Unknown::Axial);
     let rates = conductors.rates(&region, &sides, Unknown::Axial);
     let step = 0.1 / f64::from(steps);
-    let mut march = March::new(rows, rates, forcing, step).unwrap();
+    let system = System::new(rows, shift(&rates, step), Options::default()).unwrap();
+    let mut march = March::new(system, rates, forcing, step);
     let rule = Rule {
         reduction: 1e-12,
         ..Rule::default()
     };
     for k in 0..steps {
-        let solved = march.advance(f64::from(k) * step, |_| 1.0, rule);
+        let on = |_| Ok::<f64, Infallible>(1.0);
+        let solved = march.advance(f64::from(k) * step, on, rule).unwrap();
         assert!(solved.iter().all(|s| s.worst() < 1e-10));
     }
-    march.state()[0][0]
+    march.state().unknown[0][0]
 }
 
 /// Carslaw and Jaeger (1959), section 7.6, with the first zeros of J0 and J1 there.
