@@ -1,6 +1,6 @@
 //! Electrostatics of a scene: its equations, their solution, potential, field and traction.
 
-use krylov::System;
+use krylov::{Rows, System};
 use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
@@ -10,7 +10,7 @@ use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::output::{Column, Found};
 use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Interfaces, Scene};
-use crate::solve::electrostatic::{Held, Problem, Smeared};
+use crate::solve::electrostatic::{Equations, Held, Problem, Smeared};
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
 
@@ -124,6 +124,7 @@ pub fn electrostatics<const D: usize>(
         held,
     };
     let form = super::form(scene);
+    let low = super::low_order(scene, region.len());
     let stencil = |error: wls::Error| Failure::Other(format!("electrostatics: {error}"));
     let (value, inner, beyond) = match scene.method.interfaces {
         Interfaces::OneSided(_) => {
@@ -131,7 +132,11 @@ pub fn electrostatics<const D: usize>(
                 .timed("weights", || Sides::new(&region, &form))
                 .map_err(stencil)?;
             let equations = session.timed("assemble", || problem.rows(&region, &sides));
-            let v = solve(scene, equations, session)?;
+            let low = low.map(|low| {
+                let sides = session.timed("weights", || Sides::new(&region, &low))?;
+                Ok(session.timed("assemble", || problem.rows(&region, &sides).0))
+            });
+            let v = solve(scene, equations, low.transpose().map_err(stencil)?, session)?;
             let field = |inner| Problem::field(&region, &sides, &v, inner);
             let (a, b) = session.timed("fields", || (field(true), field(false)));
             (v, a, b)
@@ -140,7 +145,11 @@ pub fn electrostatics<const D: usize>(
             let made = session.timed("weights", || Smeared::new(&region, &form));
             let stencils = made.map_err(stencil)?;
             let equations = session.timed("assemble", || stencils.rows(&problem, &region));
-            let v = solve(scene, equations, session)?;
+            let low = low.map(|low| {
+                let stencils = session.timed("weights", || Smeared::new(&region, &low))?;
+                Ok(session.timed("assemble", || stencils.rows(&problem, &region).0))
+            });
+            let v = solve(scene, equations, low.transpose().map_err(stencil)?, session)?;
             let a = session.timed("fields", || stencils.field(&v));
             (v, a.clone(), a)
         }
@@ -152,14 +161,19 @@ pub fn electrostatics<const D: usize>(
     Ok(columns(scene, cloud, value, &inner, &beyond))
 }
 
+/// Solves the equations; rows of low order, where there are some, precondition them.
 fn solve(
     scene: &Scene,
-    (rows, right): (krylov::Rows<f64>, Vec<[f64; 1]>),
+    (rows, right): Equations,
+    low: Option<Rows<f64>>,
     session: &mut Session,
 ) -> Result<Vec<f64>, Failure> {
     let mut x = vec![[0.0]; right.len()];
     let options = super::options(scene);
-    let made = session.timed("factorise", || System::new(rows, Vec::new(), options));
+    let made = session.timed("factorise", || match low {
+        Some(low) => System::with_low_order(rows, Vec::new(), low, options),
+        None => System::new(rows, Vec::new(), options),
+    });
     let mut system = made.map_err(|error| Failure::Other(format!("potential: {error}")))?;
     let rule = super::rule(scene);
     let solved = session.timed("solve", || system.solve(&right, &mut x, rule));
