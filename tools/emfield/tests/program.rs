@@ -83,6 +83,54 @@ fn where_nothing_conducts_there_is_no_current() {
     }
 }
 
+/// A conducting bar of 1 m in a field of 1 T across it, in which `mu sigma w R^2` is 4 at 0.5066 Hz.
+fn driven(wave: &Value) -> Value {
+    let mut scene = scene();
+    scene["geometry"] = json!("plane");
+    scene["domain"] = json!({"box": {"min_m": [-3, -3], "max_m": [3, 3]}});
+    scene["bodies"][0] = json!({"name": "bar", "conductivity_s_m": 1e6,
+        "shape": {"disc": {"centre_m": [0, 0], "radius_m": 1}}});
+    scene["eddy_currents"] = json!({"applied_flux_density_t": [0, 1, 0], "outer": "multipole"});
+    let currents = scene["eddy_currents"].as_object_mut().unwrap();
+    currents.extend(wave.as_object().unwrap().clone());
+    scene
+}
+
+#[test]
+fn a_march_comes_to_the_sinusoidal_state() {
+    let folder = tempfile::tempdir().unwrap();
+    let frequency = 0.5066;
+    let steady = run(
+        folder.path(),
+        &driven(&json!({"harmonic": {"frequency_hz": frequency}})),
+    );
+    let steady = steady.frame("/points", 0).unwrap();
+    // After two periods all that was switched on has died away: the lowest mode lasts 0.3 s.
+    let end = 2.0 / frequency;
+    let mut scene = driven(&json!({"transient": {"end_s": end, "step_s": end / 200.0,
+        "wave": {"expr": format!("cos({} * t)", std::f64::consts::TAU * frequency)}}}));
+    scene["output"]["every_s"] = json!(end / 2.0);
+    let reader = run(folder.path(), &scene);
+    assert_eq!(reader.count("/points"), 2);
+    let frame = reader.frame("/points", 1).unwrap();
+    assert!((frame.time_s / end - 1.0).abs() < 1e-9);
+    for name in [
+        "vector_potential",
+        "magnetic_flux_density",
+        "current_density",
+    ] {
+        let now = frame.vectors(name).unwrap();
+        let then = steady.vectors(&format!("{name}_real")).unwrap();
+        let most = then.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let far = now.iter().flatten().zip(then.iter().flatten());
+        let far = far.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        assert!(
+            most > 0.0 && far < 2e-3 * most,
+            "{name}: {far:e} of {most:e}"
+        );
+    }
+}
+
 #[test]
 fn a_fault_names_file_line_and_place() {
     let folder = tempfile::tempdir().unwrap();
