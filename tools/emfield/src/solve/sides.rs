@@ -4,6 +4,12 @@ use wls::{Cloud, Error, Plan, Reach, Search, Stencils, Wants};
 
 use super::region::{Own, Region, Side};
 
+/// Radius of the support of cubics over the spacing.
+const CUBIC_REACH: f64 = 3.0;
+
+/// Radius of the support of quartics over the spacing: about 180 points in space.
+const QUARTIC_REACH: f64 = 3.5;
+
 /// How stencils are made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Form {
@@ -33,7 +39,13 @@ impl Form {
             self.order
         };
         let mut plan = Plan::new::<D>(order, wants);
-        if let Some(radius) = self.support {
+        // The fewest points that cubics and quartics can do with make Laplacians with eigenvalues of the wrong sign.
+        let reach = match order {
+            ..3 => None,
+            3 => Some(CUBIC_REACH),
+            _ => Some(QUARTIC_REACH),
+        };
+        if let Some(radius) = self.support.or(reach) {
             plan.reach = Reach::Radius(radius);
         }
         // With the own point exact the Laplacian of a lattice has no positive eigenvalue; with the own point as one among
