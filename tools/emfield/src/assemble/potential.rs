@@ -123,7 +123,7 @@ pub fn electrostatics<const D: usize>(
             .collect(),
         held,
     };
-    let form = super::form(scene);
+    let form = super::form(scene).for_potentials();
     let low = super::low_order(scene, region.len());
     let stencil = |error: wls::Error| Failure::Other(format!("electrostatics: {error}"));
     let (value, inner, beyond) = match scene.method.interfaces {

@@ -4,10 +4,10 @@ use wls::{Cloud, Error, Plan, Reach, Search, Stencils, Wants};
 
 use super::region::{Own, Region, Side};
 
-/// Radius of the support of cubics over the spacing.
+/// Radius of the support of cubics over the spacing, for potentials.
 const CUBIC_REACH: f64 = 3.0;
 
-/// Radius of the support of quartics over the spacing: about 180 points in space.
+/// Radius of the support of quartics over the spacing, for potentials: about 180 points in space.
 const QUARTIC_REACH: f64 = 3.5;
 
 /// How stencils are made.
@@ -32,6 +32,21 @@ impl Default for Form {
 }
 
 impl Form {
+    /// For potentials, where a shift does not help the Laplacian: the fewest points that cubics and quartics can do with
+    /// give it eigenvalues of the wrong sign.
+    #[must_use]
+    pub fn for_potentials(self) -> Self {
+        let reach = match self.order {
+            ..3 => None,
+            3 => Some(CUBIC_REACH),
+            _ => Some(QUARTIC_REACH),
+        };
+        Self {
+            support: self.support.or(reach),
+            ..self
+        }
+    }
+
     pub(super) fn plan<const D: usize>(&self, wants: Wants) -> Plan {
         let order = if wants.laplacian {
             self.order.max(2)
@@ -39,13 +54,7 @@ impl Form {
             self.order
         };
         let mut plan = Plan::new::<D>(order, wants);
-        // The fewest points that cubics and quartics can do with make Laplacians with eigenvalues of the wrong sign.
-        let reach = match order {
-            ..3 => None,
-            3 => Some(CUBIC_REACH),
-            _ => Some(QUARTIC_REACH),
-        };
-        if let Some(radius) = self.support.or(reach) {
+        if let Some(radius) = self.support {
             plan.reach = Reach::Radius(radius);
         }
         // With the own point exact the Laplacian of a lattice has no positive eigenvalue; with the own point as one among

@@ -35,7 +35,8 @@ fn errors(spacing: f64, ratio: f64, order: u8, smeared: bool) -> [f64; 2] {
     let form = Form {
         order,
         ..Form::default()
-    };
+    }
+    .for_potentials();
     let sides = Sides::new(&region, &form).unwrap();
     let crossing = smeared.then(|| Smeared::new(&region, &form).unwrap());
     let (rows, right) = match &crossing {
