@@ -6,14 +6,15 @@ use run::{Failure, Session};
 use shapes::frame::Vector;
 
 use super::drive::{source, unknown};
-use super::region::{reduce, region};
-use crate::cloud::{Class, Cloud, Metric};
+use super::region::region;
+use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{EddyCurrents, Scene};
 use crate::solve::diffusion::{self, Conductors, Unknown};
 use crate::solve::eddy::{Drive, Solution, steady_change};
-use crate::solve::multipole::{Cells, Multipoles};
+use crate::solve::multipole::Multipoles;
+use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
 use crate::source::{MU0, Source};
@@ -32,7 +33,8 @@ pub(super) struct Setting<'a, const D: usize> {
     pub(super) region: Region<D>,
     pub(super) sides: Sides<D>,
     pub(super) conductors: Conductors,
-    pub(super) centroid: Vec<[f64; D]>,
+    /// Weights of points in integrals over conductors.
+    pub(super) weights: Vec<f64>,
 }
 
 /// Solves the sinusoidal eddy currents of a scene in `D` coordinates with `K` unknowns a point: 3 in space, else 1.
@@ -68,6 +70,15 @@ pub(super) fn media(scene: &Scene, of: impl Fn(crate::scene::Medium) -> f64) -> 
         .collect()
 }
 
+/// A cell in as many coordinates as the equations have.
+fn moments<const D: usize>(cell: &Cell) -> Moments<D> {
+    Moments {
+        volume: cell.volume,
+        first: std::array::from_fn(|a| cell.first[a]),
+        second: std::array::from_fn(|a| std::array::from_fn(|b| cell.second[a][b])),
+    }
+}
+
 impl<'a, const D: usize> Setting<'a, D> {
     /// Stencils and sources of a scene.
     ///
@@ -80,9 +91,17 @@ impl<'a, const D: usize> Setting<'a, D> {
         session: &mut Session,
     ) -> Result<Self, Failure> {
         let region: Region<D> = region(scene, cloud, &|_| false);
-        let made = session.timed("weights", || Sides::new(&region, &super::form(scene)));
+        let form = super::form(scene);
+        let made = session.timed("weights", || {
+            let cells: Vec<Moments<D>> = cloud.cells.iter().map(moments).collect();
+            let weights = quadrature::weights(&region, &cells, &form)?;
+            Ok((Sides::new(&region, &form)?, weights))
+        });
+        let failed = |error: wls::Error| Failure::Other(format!("eddy currents: {error}"));
+        let (sides, weights) = made.map_err(failed)?;
         Ok(Self {
-            sides: made.map_err(|error| Failure::Other(format!("eddy currents: {error}")))?,
+            sides,
+            weights,
             unknown: unknown(scene, currents),
             source: source(scene, currents),
             conductors: Conductors {
@@ -90,11 +109,6 @@ impl<'a, const D: usize> Setting<'a, D> {
                     MU0 * m.relative_permeability * m.conductivity_s_m
                 }),
             },
-            centroid: cloud
-                .centroid
-                .iter()
-                .map(|x| reduce(cloud.geometry, *x))
-                .collect(),
             region,
             scene,
             cloud,
@@ -191,7 +205,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         let at = (region, self.unknown);
         let mut right = drive.right(&self.conductors, at, &rates);
         let pairs = if self.currents.outer == OuterReaction::Multipole {
-            let multipoles = Multipoles::new(region, &self.cells());
+            let multipoles = Multipoles::new(region, &self.weights);
             drive.pairs(&self.conductors, at, &multipoles, &mut right)
         } else {
             Vec::new()
@@ -206,12 +220,5 @@ impl<'a, const D: usize> Setting<'a, D> {
         let solved = session.timed("solve", || system.solve_with(&pairs, &right, &mut x, rule));
         super::report("vector_potential", &solved, session)?;
         Ok(x)
-    }
-
-    pub(super) fn cells(&self) -> Cells<'_, D> {
-        Cells {
-            volume: &self.cloud.volume,
-            centroid: &self.centroid,
-        }
     }
 }

@@ -9,9 +9,7 @@ use crate::output::{Column, Found};
 use crate::scene::Geometry;
 use crate::solve::diffusion::Unknown;
 use crate::solve::eddy::{Fields, Media, Solution};
-use crate::solve::multipole::Cells;
 use crate::solve::region::Region;
-use crate::solve::sides::Sides;
 use crate::solve::totals::{self, Totals};
 use crate::source::{MU0, Source};
 
@@ -30,7 +28,6 @@ impl<const D: usize> Setting<'_, D> {
     ) -> Found {
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
         let media = Media {
-            omega: self.omega.unwrap_or(0.0),
             permeability: &media(self.scene, |m| MU0 * m.relative_permeability),
             conductivity: &conductivity,
             flux,
@@ -136,14 +133,9 @@ impl<const D: usize> Setting<'_, D> {
                 }
             }
         };
-        if let (Some(region), Some(sides)) = (self.in_space(), self.sides_in_space()) {
-            let centroid: Vec<Vector> = self.cloud.centroid.clone();
-            let cells = Cells {
-                volume: &self.cloud.volume,
-                centroid: &centroid,
-            };
+        if let Some(region) = self.in_space() {
             let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
-            let found = Totals::in_space((region, sides), fields, &cells, (source, &conducts));
+            let found = Totals::in_space(region, fields, &self.weights, (source, &conducts));
             force("force_volume", found.force_volume);
             force("force_maxwell", found.force_stress);
             force("force_coil", found.force_coil);
@@ -154,7 +146,7 @@ impl<const D: usize> Setting<'_, D> {
             all.totals
                 .push(("power_poynting".to_owned(), watt, found.heat_surface));
         } else {
-            let (pull, heat) = totals::volume(&self.region, &self.sides, fields, &self.cells());
+            let (pull, heat) = totals::volume(fields, &self.weights);
             force("force_volume", pull);
             all.totals.push(("power_volume".to_owned(), watt, heat));
         }
@@ -163,9 +155,5 @@ impl<const D: usize> Setting<'_, D> {
     /// The points, if they have three coordinates.
     fn in_space(&self) -> Option<&Region<3>> {
         (&self.region as &dyn std::any::Any).downcast_ref()
-    }
-
-    fn sides_in_space(&self) -> Option<&Sides<3>> {
-        (&self.sides as &dyn std::any::Any).downcast_ref()
     }
 }

@@ -186,7 +186,7 @@ fn begin<const D: usize, const K: usize>(
         source: drive.source.iter().map(|a| a.map(|a| a.re)).collect(),
         held: (0..region.len()).map(held).collect(),
         pairs: if setting.currents.outer == OuterReaction::Multipole {
-            let multipoles = Multipoles::new(region, &setting.cells());
+            let multipoles = Multipoles::new(region, &setting.weights);
             pairs(conductors, (region, unknown), &multipoles)
         } else {
             Vec::new()

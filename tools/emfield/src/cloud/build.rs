@@ -112,8 +112,7 @@ impl Builder {
                 class: Vec::new(),
                 metric: Vec::new(),
                 surface: Vec::new(),
-                volume: Vec::new(),
-                centroid: Vec::new(),
+                cells: Vec::new(),
                 counts: Counts::default(),
             },
             region,
@@ -332,7 +331,7 @@ fn finish(cloud: &mut Cloud) {
         surface.area *= std::f64::consts::TAU * x[0];
         surface.normal = geometry.place(surface.normal);
     }
-    for x in cloud.position.iter_mut().chain(&mut cloud.centroid) {
+    for x in &mut cloud.position {
         *x = geometry.place(*x);
     }
     for metric in &mut cloud.metric {

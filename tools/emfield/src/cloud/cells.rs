@@ -3,6 +3,8 @@
 //! Beside a surface that has layers, cells are columns between the middles of layers; their volume follows from area
 //! and curvature of the surface. Elsewhere a fine lattice of samples is shared out to the nearest points.
 
+use std::f64::consts::{PI, TAU};
+
 use rayon::prelude::*;
 use shapes::Kind;
 use shapes::frame::{Vector, along, difference, direction, length};
@@ -10,43 +12,24 @@ use shapes::frame::{Vector, along, difference, direction, length};
 use super::layers::{Column, Standing};
 use super::occupied::Occupied;
 use super::region::{Region, Wall};
-use super::{Class, Cloud};
+use super::{Cell, Class, Cloud};
 use crate::scene::Scene;
 
 /// Samples per spacing along an axis, in two and three dimensions.
 const SAMPLES: [f64; 2] = [8.0, 4.0];
 
-/// Volume with its first moment.
-#[derive(Debug, Clone, Copy, Default)]
-struct Share {
-    volume: f64,
-    moment: Vector,
-}
-
-impl Share {
-    fn add(&mut self, volume: f64, place: Vector) {
-        self.volume += volume;
-        self.moment = along(self.moment, volume, place);
-    }
-}
-
-/// Fills volumes and their middles for conductors of a scene with eddy currents.
+/// Fills the cells of conductors of a scene with eddy currents.
 pub(super) fn fill(scene: &Scene, region: &Region, columns: &[Column], cloud: &mut Cloud) {
-    cloud.volume = vec![0.0; cloud.len()];
-    cloud.centroid.clone_from(&cloud.position);
     if scene.eddy_currents.is_none() {
         return;
     }
-    let mut shares = vec![Share::default(); cloud.len()];
+    let mut cells = vec![Cell::default(); cloud.len()];
     for medium in 0..cloud.media {
         if scene.medium(medium).conductivity_s_m > 0.0 {
-            Conductor::new(region, columns, medium as u8).share_out(cloud, &mut shares);
+            Conductor::new(region, columns, medium as u8).share_out(cloud, &mut cells);
         }
     }
-    for (i, share) in shares.iter().enumerate().filter(|(_, s)| s.volume > 0.0) {
-        cloud.volume[i] = share.volume;
-        cloud.centroid[i] = share.moment.map(|m| m / share.volume);
-    }
+    cloud.cells = cells;
 }
 
 /// Volume of the samples of a row, and those beyond columns: nearest point, volume, place.
@@ -77,11 +60,11 @@ impl<'a> Conductor<'a> {
         }
     }
 
-    fn share_out(&self, cloud: &Cloud, shares: &mut [Share]) {
+    fn share_out(&self, cloud: &Cloud, cells: &mut [Cell]) {
         for column in self.columns {
             for side in 0..2 {
                 if column.media[side] == self.medium && !column.side[side].is_empty() {
-                    self.column(column, side, shares);
+                    self.column(cloud, (column, side), cells);
                 }
             }
         }
@@ -98,15 +81,18 @@ impl<'a> Conductor<'a> {
             return;
         }
         let planes = self.rows(&set, spacing);
+        let round = self.square(self.step());
         let mut whole = 0.0;
         for (plane, found) in planes {
             whole += plane;
             for (k, volume, x) in found {
-                shares[owners[k as usize]].add(volume, x);
+                let owner = owners[k as usize];
+                let middle = self.middle(x, &round);
+                cells[owner].add(volume, difference(middle, cloud.position[owner]), round);
             }
         }
         if !self.smooth() {
-            self.settle(whole, &owners, shares);
+            self.settle(whole, &owners, cells);
         }
     }
 
@@ -167,20 +153,28 @@ impl<'a> Conductor<'a> {
     }
 
     /// Scales all shares to the volume that the samples have together: columns overlap at edges that look inward.
-    fn settle(&self, whole: f64, owners: &[usize], shares: &mut [Share]) {
-        let found: f64 = owners.iter().map(|i| shares[*i].volume).sum();
+    fn settle(&self, whole: f64, owners: &[usize], cells: &mut [Cell]) {
+        let found: f64 = owners.iter().map(|i| cells[*i].volume).sum();
         if found <= 0.0 || whole <= 0.0 {
             return;
         }
         for i in owners {
-            shares[*i].volume *= whole / found;
-            shares[*i].moment = shares[*i].moment.map(|m| m * whole / found);
+            cells[*i].scale(whole / found);
         }
     }
 
     /// The cells of a column on one side.
-    fn column(&self, column: &Column, side: usize, shares: &mut [Share]) {
+    fn column(&self, cloud: &Cloud, (column, side): (&Column, usize), cells: &mut [Cell]) {
         let points = &column.side[side];
+        let mut add = |owner: u32, between: [f64; 2]| {
+            let owner = owner as usize;
+            self.slab(
+                (column, side),
+                between,
+                cloud.position[owner],
+                &mut cells[owner],
+            );
+        };
         let mut low = 0.0;
         let mut owner = match side {
             0 => Some(column.point),
@@ -190,29 +184,30 @@ impl<'a> Conductor<'a> {
             let before = if k == 0 { 0.0 } else { points[k - 1].1 };
             let middle = 0.5 * (before + away);
             if let Some(owner) = owner {
-                self.slab(column, side, [low, middle], &mut shares[owner as usize]);
+                add(owner, [low, middle]);
                 low = middle;
             }
             owner = Some(*point);
         }
         if let Some(owner) = owner {
-            self.slab(
-                column,
-                side,
-                [low, column.height(side)],
-                &mut shares[owner as usize],
-            );
+            add(owner, [low, column.height(side)]);
         }
     }
 
-    /// The part of a column between two distances from the surface, by Simpson's rule.
-    fn slab(&self, column: &Column, side: usize, [low, high]: [f64; 2], share: &mut Share) {
+    /// The part of a column between two distances from the surface, by Simpson's rule: round patches in space.
+    fn slab(
+        &self,
+        (column, side): (&Column, usize),
+        [low, high]: [f64; 2],
+        point: Vector,
+        cell: &mut Cell,
+    ) {
         const WEIGHTS: [f64; 5] = [1.0 / 12.0, 4.0 / 12.0, 2.0 / 12.0, 4.0 / 12.0, 1.0 / 12.0];
         let seed = &column.seed;
         let d = self.region.dimensions;
         // The middle of a curved patch lies below its surface point.
         let sag = if d == 3 {
-            0.5 * seed.curvature[0] * seed.area / (4.0 * std::f64::consts::PI)
+            0.5 * seed.curvature[0] * seed.area / (4.0 * PI)
         } else {
             seed.curvature[0] * seed.area * seed.area / 24.0
         };
@@ -221,12 +216,51 @@ impl<'a> Conductor<'a> {
             let signed = if side == 0 { -away } else { away };
             let flat = 1.0 + signed * seed.curvature[0] / (d - 1) as f64;
             let place = along(seed.place, signed - sag * flat, seed.normal);
-            let mut volume = weight * (high - low) * seed.area * column.widening(side, away);
+            let area = seed.area * column.widening(side, away);
+            let mut volume = weight * (high - low) * area;
             if self.region.axisymmetric {
-                volume *= std::f64::consts::TAU * place[0].max(0.0);
+                volume *= TAU * place[0].max(0.0);
             }
-            share.add(volume, place);
+            // Mean square of the distance from the middle, along the surface.
+            let square = if d == 3 {
+                area / (4.0 * PI)
+            } else {
+                area * area / 12.0
+            };
+            let own = self.flat(seed.normal, square);
+            cell.add(volume, difference(self.middle(place, &own), point), own);
         }
+    }
+
+    /// The middle of the volume of a piece: a full turn holds more of it outside than inside.
+    fn middle(&self, mut place: Vector, own: &[Vector; 3]) -> Vector {
+        if self.region.axisymmetric && place[0] > 0.0 {
+            place[0] += own[0][0] / place[0];
+        }
+        place
+    }
+
+    /// Second moments of a sample of unit volume about its middle.
+    fn square(&self, step: f64) -> [Vector; 3] {
+        std::array::from_fn(|a| {
+            std::array::from_fn(|b| {
+                if a == b && a < self.region.dimensions {
+                    step * step / 12.0
+                } else {
+                    0.0
+                }
+            })
+        })
+    }
+
+    /// Second moments of a flat patch of unit area about its middle.
+    fn flat(&self, normal: Vector, square: f64) -> [Vector; 3] {
+        std::array::from_fn(|a| {
+            std::array::from_fn(|b| {
+                let one = f64::from(u8::from(a == b && a < self.region.dimensions));
+                square * (one - normal[a] * normal[b])
+            })
+        })
     }
 
     fn step(&self) -> f64 {
@@ -297,7 +331,7 @@ impl<'a> Conductor<'a> {
         }
         let mut volume = part * step.powi(self.region.dimensions as i32);
         if self.region.axisymmetric {
-            volume *= std::f64::consts::TAU * x[0];
+            volume *= TAU * x[0];
         }
         volume
     }

@@ -69,6 +69,36 @@ pub struct SurfacePoint {
     pub area: f64,
 }
 
+/// The part of a conductor that a point stands for: volume, with moments about the point in coordinates of the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cell {
+    /// Volume \[m3; m2 in a plane; full turn where axisymmetric\].
+    pub volume: f64,
+    /// First moments \[m4\].
+    pub first: Vector,
+    /// Second moments \[m5\].
+    pub second: [Vector; 3],
+}
+
+impl Cell {
+    /// Adds a piece by its volume, the way to its middle, and its second moments about that over its volume.
+    fn add(&mut self, volume: f64, way: Vector, own: [Vector; 3]) {
+        self.volume += volume;
+        for a in 0..3 {
+            self.first[a] += volume * way[a];
+            for b in 0..3 {
+                self.second[a][b] += volume * (way[a] * way[b] + own[a][b]);
+            }
+        }
+    }
+
+    fn scale(&mut self, by: f64) {
+        self.volume *= by;
+        self.first = self.first.map(|m| m * by);
+        self.second = self.second.map(|row| row.map(|m| m * by));
+    }
+}
+
 /// Points by kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
@@ -102,11 +132,9 @@ pub struct Cloud {
     pub metric: Vec<Metric>,
     /// One entry for each interface point, in their order.
     pub surface: Vec<SurfacePoint>,
-    /// Volume for which a point in or on a body, or in conducting surroundings, stands \[m3; m2 in a plane; full turn
-    /// where axisymmetric\]; 0 elsewhere. A point on an interface stands for its inner medium.
-    pub volume: Vec<f64>,
-    /// Middle of that volume \[m\]; the point's own place elsewhere.
-    pub centroid: Vec<Vector>,
+    /// What each point in or on a conductor stands for; a point on an interface stands for its inner medium. Empty
+    /// where a scene has no eddy currents.
+    pub cells: Vec<Cell>,
     /// Points by kind.
     pub counts: Counts,
 }
@@ -144,11 +172,11 @@ impl Cloud {
     /// Memory \[byte\].
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        let each = 2 * size_of::<Vector>()
-            + 2 * size_of::<f64>()
-            + size_of::<Class>()
-            + size_of::<Metric>();
-        (self.len() * each + self.surface.len() * size_of::<SurfacePoint>()) as u64
+        let each =
+            size_of::<Vector>() + size_of::<f64>() + size_of::<Class>() + size_of::<Metric>();
+        let more =
+            self.surface.len() * size_of::<SurfacePoint>() + self.cells.len() * size_of::<Cell>();
+        (self.len() * each + more) as u64
     }
 }
 

@@ -152,7 +152,11 @@ fn points(scene: &Scene, cloud: &Cloud, found: &Found) -> Frame {
         .flag("kind", cloud.class.iter().map(kind))
         .flag("medium", cloud.class.iter().map(medium));
     if scene.eddy_currents.is_some() {
-        frame = frame.scalar("volume", units(scene).1, cloud.volume.iter().copied());
+        frame = frame.scalar(
+            "volume",
+            units(scene).1,
+            cloud.cells.iter().map(|c| c.volume),
+        );
     }
     for column in &found.columns {
         frame = frame.scalar(&column.name, column.unit, column.values.iter().copied());

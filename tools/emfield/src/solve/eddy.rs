@@ -121,15 +121,11 @@ pub struct Fields {
     pub force: Vec<[f64; 3]>,
     /// Heat \[W/m3\].
     pub heat: Vec<f64>,
-    /// Laplacian over value of squares that fall off as in a plane skin, `2 w mu sigma` \[1/m2\].
-    pub curvature: Vec<f64>,
 }
 
 /// What fields are made from beside the solution.
 #[derive(Debug, Clone, Copy)]
 pub struct Media<'a> {
-    /// Angular frequency \[rad/s\], which says how fields fall off in a skin; 0 in a march in time.
-    pub omega: f64,
     /// Conductivity by medium \[S/m\].
     pub conductivity: &'a [f64],
     /// Permeability by medium \[H/m\].
@@ -208,23 +204,16 @@ impl Fields {
                     [current[0], current[1]] = [slopes[0][1], -slopes[0][0]];
                 }
             }
-            let curvature = 2.0 * media.omega * mu_sigma;
-            (
-                (potential, electric),
-                (flux, reaction),
-                current,
-                (sigma, curvature),
-            )
+            ((potential, electric), (flux, reaction), current, sigma)
         };
         let points: Vec<_> = (0..region.len()).into_par_iter().map(point).collect();
         let mut fields = Self::default();
-        for ((potential, electric), (flux, reaction), current, (sigma, curvature)) in points {
+        for ((potential, electric), (flux, reaction), current, sigma) in points {
             fields.potential.push(potential);
             fields.electric.push(electric);
             fields.flux.push(flux);
             fields.reaction.push(reaction);
             fields.current.push(current);
-            fields.curvature.push(curvature);
             fields.force.push(cross_mean(current, flux));
             let square: f64 = current.iter().map(C::norm_sqr).sum();
             fields

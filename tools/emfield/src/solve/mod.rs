@@ -2,14 +2,15 @@
 //!
 //! - [`region`]: what a point is; [`sides`]: stencils that keep to one side of an interface.
 //! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`eddy`] what drives
-//!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`totals`] forces
-//!   and heat, [`march`] the same in time.
+//!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
+//!   integrals over conductors, [`totals`] forces and heat, [`march`] the same in time.
 
 pub mod diffusion;
 pub mod eddy;
 pub mod electrostatic;
 pub mod march;
 pub mod multipole;
+pub mod quadrature;
 pub mod region;
 pub mod sides;
 pub mod totals;

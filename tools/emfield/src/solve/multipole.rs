@@ -13,36 +13,12 @@ pub struct Multipoles {
     pub fields: Vec<Vec<f64>>,
 }
 
-/// Currents stand at the middle of the volume of each point.
-#[derive(Debug, Clone, Copy)]
-pub struct Cells<'a, const D: usize> {
-    /// Volumes of conducting points \[m3\], \[m2\] in a plane; 0 elsewhere.
-    pub volume: &'a [f64],
-    /// Their middles \[m\].
-    pub centroid: &'a [[f64; D]],
-}
-
-impl<const D: usize> Cells<'_, D> {
-    /// Middle of all volumes.
-    fn centre(&self) -> [f64; D] {
-        let total: f64 = self.volume.iter().sum();
-        std::array::from_fn(|k| {
-            let sum: f64 = self
-                .volume
-                .iter()
-                .zip(self.centroid)
-                .map(|(v, c)| v * c[k])
-                .sum();
-            sum / total.max(f64::MIN_POSITIVE)
-        })
-    }
-}
-
 impl Multipoles {
-    /// Multipoles of the degrees 0 to 3 in space and in a plane, 1 to 5 about an axis of symmetry.
+    /// Multipoles of the degrees 0 to 3 in space and in a plane, 1 to 5 about an axis of symmetry; `weights` are those
+    /// of [`super::quadrature`].
     #[must_use]
-    pub fn new<const D: usize>(region: &Region<D>, cells: &Cells<'_, D>) -> Self {
-        let mut centre = cells.centre();
+    pub fn new<const D: usize>(region: &Region<D>, weights: &[f64]) -> Self {
+        let mut centre = centre(region, weights);
         if region.axial {
             centre[0] = 0.0;
         }
@@ -55,9 +31,9 @@ impl Multipoles {
         let [mut moments, mut fields] = [(); 2].map(|()| vec![vec![0.0; region.len()]; count]);
         let off = |p: [f64; D]| -> [f64; D] { std::array::from_fn(|k| p[k] - centre[k]) };
         for i in 0..region.len() {
-            if cells.volume[i] > 0.0 {
-                for (l, pair) in kind(&off(cells.centroid[i])).iter().enumerate() {
-                    moments[l][i] = cells.volume[i] * pair[0];
+            if weights[i] != 0.0 {
+                for (l, pair) in kind(&off(region.places[i])).iter().enumerate() {
+                    moments[l][i] = weights[i] * pair[0];
                 }
             }
             if let Kind::Wall { .. } = region.kinds[i] {
@@ -68,6 +44,15 @@ impl Multipoles {
         }
         Self { moments, fields }
     }
+}
+
+/// Middle of all conductors.
+fn centre<const D: usize>(region: &Region<D>, weights: &[f64]) -> [f64; D] {
+    let total: f64 = weights.iter().sum();
+    std::array::from_fn(|k| {
+        let each = weights.iter().zip(&region.places);
+        each.map(|(w, x)| w * x[k]).sum::<f64>() / total.max(f64::MIN_POSITIVE)
+    })
 }
 
 /// Real solid harmonics in Racah's norm: `1/|x - x'| = sum R(x') R(x)/r^(2l+1)`; regular ones, and

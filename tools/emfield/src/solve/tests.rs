@@ -1,5 +1,6 @@
 //! Clouds made by hand, and the equations on them.
 
+use super::quadrature::Moments;
 use super::region::{Face, Kind, Region};
 use wls::Metric;
 
@@ -38,6 +39,7 @@ pub(super) fn rings(spacing: f64) -> Region<2> {
 }
 
 mod electrostatic;
+mod quadrature;
 
 /// Radii of shells and their distances: `across` apart beside the radius 1, growing, up to 4.
 fn radii(across: f64, along: f64) -> Vec<(f64, f64)> {
@@ -65,12 +67,30 @@ fn radii(across: f64, along: f64) -> Vec<(f64, f64)> {
     radii
 }
 
+/// A round patch of a shell, about a point at the distance `r` along `n`.
+fn patch((r, n): (f64, [f64; 3]), [low, high]: [f64; 2], volume: f64) -> Moments<3> {
+    let (middle, thick) = (0.5 * (low + high), high - low);
+    let square = volume / (thick * 4.0 * std::f64::consts::PI);
+    // Curved patches lie below their points; a shell holds more outside than inside.
+    let way = middle - square / middle + thick * thick / (6.0 * middle) - r;
+    let second = |a: usize, b: usize| {
+        let along = n[a] * n[b];
+        let across = f64::from(u8::from(a == b)) - along;
+        volume * ((way * way + thick * thick / 12.0) * along + square * across)
+    };
+    Moments {
+        volume,
+        first: n.map(|x| volume * way * x),
+        second: std::array::from_fn(|a| std::array::from_fn(|b| second(a, b))),
+    }
+}
+
 /// A ball of radius 1 (medium 1) in a ball of radius 4 (medium 0): points on shells, `along` apart at
 /// the surface, and `across` apart beside it, growing.
-pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<f64>) {
+pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<Moments<3>>) {
     let radii = radii(across, along);
     let mut region = Region::default();
-    let mut volume = Vec::new();
+    let mut cells = Vec::new();
     for (k, &(r, step)) in radii.iter().enumerate() {
         let spacing = along * r.max(0.5);
         let count = ((4.0 * std::f64::consts::PI * (r / spacing).powi(2)) as usize).max(1);
@@ -92,11 +112,12 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<f64>) {
                 Metric::round(spacing)
             });
             region.wall_normals.push(n);
-            volume.push(if r < 1.0 + 1e-12 {
+            let volume = if r < 1.0 + 1e-12 {
                 shell / count as f64
             } else {
                 0.0
-            });
+            };
+            cells.push(patch((r, n), [low, high], volume));
             region.kinds.push(if (r - 1.0).abs() < 1e-12 {
                 region.faces.push(Face {
                     point,
@@ -113,7 +134,7 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<f64>) {
             });
         }
     }
-    (region, volume)
+    (region, cells)
 }
 
 mod eddy;

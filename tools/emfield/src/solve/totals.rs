@@ -4,9 +4,7 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::eddy::{Fields, cross_mean};
-use super::multipole::Cells;
 use super::region::Region;
-use super::sides::Sides;
 use crate::source::{MU0, Source, cross, minus};
 
 /// A complex number.
@@ -31,15 +29,15 @@ pub struct Totals {
 const PIECES: usize = 48;
 
 impl Totals {
-    /// Totals of the fields of a scene in space.
+    /// Totals of the fields of a scene in space; `weights` are those of [`super::quadrature`].
     #[must_use]
     pub fn in_space(
-        (region, sides): (&Region<3>, &Sides<3>),
+        region: &Region<3>,
         fields: &Fields,
-        cells: &Cells<'_, 3>,
+        weights: &[f64],
         (source, conducts): (&Source, &[bool]),
     ) -> Self {
-        let (force_volume, heat_volume) = volume(region, sides, fields, cells);
+        let (force_volume, heat_volume) = volume(fields, weights);
         let mut found = Self {
             force_volume,
             heat_volume,
@@ -66,7 +64,7 @@ impl Totals {
             let flow: f64 = (0..3).map(|k| inward[k] * n[k]).sum();
             found.heat_surface -= sign * flow / MU0;
         }
-        found.force_coil = coils(fields, cells, source);
+        found.force_coil = coils((region, weights), fields, source);
         found
     }
 
@@ -86,58 +84,29 @@ impl Totals {
     }
 }
 
-/// Force and heat of all volumes, with densities carried to their middles by the gradient.
+/// Force and heat of all conductors.
 #[must_use]
-pub fn volume<const D: usize>(
-    region: &Region<D>,
-    sides: &Sides<D>,
-    fields: &Fields,
-    cells: &Cells<'_, D>,
-) -> ([f64; 3], f64) {
-    let at = |i: usize| -> [f64; 4] {
-        let volume = cells.volume[i];
-        if volume == 0.0 || fields.heat[i] == 0.0 && region.on_interface(i) {
-            return [0.0; 4];
+pub fn volume(fields: &Fields, weights: &[f64]) -> ([f64; 3], f64) {
+    let mut force = [0.0; 3];
+    let mut heat = 0.0;
+    for (i, w) in weights.iter().enumerate() {
+        for (sum, f) in force.iter_mut().zip(fields.force[i]) {
+            *sum += w * f;
         }
-        let value = |j: usize, k: usize| {
-            if k < 3 {
-                fields.force[j][k]
-            } else {
-                fields.heat[j]
-            }
-        };
-        let on = region.on_interface(i);
-        let stencils = if on { &sides.inner } else { &sides.own };
-        std::array::from_fn(|k| {
-            let mut sum = value(i, k);
-            for axis in 0..D {
-                let off = cells.centroid[i][axis] - region.places[i][axis];
-                let row = stencils.derivative(i, axis);
-                // One-sided slopes ask for the Laplacian: that of a skin.
-                let share: f64 = row.conditions().sum();
-                let slope = row.apply_with(|j| value(j, k));
-                sum += off * (slope + share * fields.curvature[i] * value(i, k));
-            }
-            volume * sum
-        })
-    };
-    let parts: Vec<[f64; 4]> = (0..region.len()).into_par_iter().map(at).collect();
-    let mut total = [0.0; 4];
-    for part in &parts {
-        for k in 0..4 {
-            total[k] += part[k];
-        }
+        heat += w * fields.heat[i];
     }
-    ([total[0], total[1], total[2]], total[3])
+    (force, heat)
 }
 
 /// Opposite of the force on the coils: `-Re sum I* dl x B` with the field of the currents.
-fn coils(fields: &Fields, cells: &Cells<'_, 3>, source: &Source) -> [f64; 3] {
-    let currents: Vec<([f64; 3], [C; 3])> = (0..cells.volume.len())
-        .filter(|i| cells.volume[*i] > 0.0)
+fn coils((region, weights): (&Region<3>, &[f64]), fields: &Fields, source: &Source) -> [f64; 3] {
+    let currents: Vec<([f64; 3], [C; 3])> = (0..region.len())
+        .filter(|i| weights[*i] != 0.0)
         .map(|i| {
-            let moment = fields.current[i].map(|j| j * (cells.volume[i] * 1e-7));
-            (cells.centroid[i], moment)
+            (
+                region.places[i],
+                fields.current[i].map(|j| j * (weights[i] * 1e-7)),
+            )
         })
         .collect();
     let loops = source.loops.iter().map(|l| (l.pieces(PIECES), l.current));
