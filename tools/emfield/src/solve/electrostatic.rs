@@ -75,17 +75,17 @@ impl Problem {
     fn gather<const D: usize>(
         &self,
         region: &Region<D>,
-        each: impl Fn(usize, &mut Vec<(u32, f64)>),
+        each: impl Fn(usize, &mut Vec<(u32, f64)>) + Sync,
     ) -> Equations {
-        let mut right = vec![[0.0]; region.len()];
+        let given: Vec<Option<f64>> = (0..region.len()).map(|i| self.given(region, i)).collect();
         let rows = Rows::gathered(region.len(), 0.0, |i, row| {
-            if let Some(v) = self.given(region, i) {
-                right[i] = [v];
+            if given[i].is_some() {
                 push(row, i, 1.0);
             } else {
                 each(i, row);
             }
         });
+        let right = given.iter().map(|v| [v.unwrap_or(0.0)]).collect();
         (rows, right)
     }
 

@@ -2,8 +2,9 @@
 
 use crate::operator::residual;
 use crate::{
-    Breakdown, Coefficient, Direct, Ending, Incomplete, Inverse, Multigrid, Operator, Rule, Scalar,
-    Scratch, Solved, Stagnation, bicgstab2, minimal_residual,
+    Breakdown, Coefficient, Direct, Ending, Error, Grids, Incomplete, Inverse, Keep, Method,
+    Multigrid, Operator, Order, Rows, Rule, Scalar, Scratch, Solved, Stagnation, bicgstab2,
+    minimal_residual,
 };
 
 /// Bytes of a basis of minimal residuals, about.
@@ -15,6 +16,33 @@ pub(crate) enum Factors<T, S: Scalar> {
     Direct(Box<Direct<S>>),
     Real(Incomplete<f32>),
     Complex(Incomplete<S::Single>),
+}
+
+impl<T: Coefficient<S> + Scalar, S: Scalar> Factors<T, S>
+where
+    f32: Coefficient<S> + Coefficient<T>,
+{
+    /// Factors for a method that iterates.
+    pub(crate) fn new(
+        rows: &Rows<T>,
+        shift: &[S],
+        order: &Order,
+        method: Method,
+    ) -> Result<Self, Error> {
+        let grids = |grids| Multigrid::new(rows, shift, order, grids).map(Box::new);
+        let real = |keep| Self::Real(Incomplete::new(rows, shift, order, keep));
+        Ok(match method {
+            Method::Incomplete(keep) => real(keep),
+            Method::IncompleteComplex(keep) => {
+                Self::Complex(Incomplete::new(rows, shift, order, keep))
+            }
+            Method::Multigrid(how) => Self::Multigrid(grids(how)?),
+            Method::Chosen | Method::Direct => match grids(Grids::default()) {
+                Ok(grids) => Self::Multigrid(grids),
+                Err(_) => real(Keep::PATTERN),
+            },
+        })
+    }
 }
 
 impl<T: Coefficient<S> + Scalar, S: Scalar> Factors<T, S>
@@ -49,13 +77,7 @@ where
             ..rule
         };
         let rule = (rule, vectors.clamp(20, 120));
-        let again = match self {
-            Self::Direct(_) => return solved,
-            Self::Multigrid(grids) => minimal_residual(a, b, y, grids.as_mut(), rule, scratch),
-            Self::Real(factors) => minimal_residual(a, b, y, factors, rule, scratch),
-            Self::Complex(factors) => minimal_residual(a, b, y, factors, rule, scratch),
-        };
-        joined(solved, again)
+        joined(solved, minimal_residual(a, b, y, self, rule, scratch))
     }
 
     fn stabilised<const C: usize>(
@@ -66,23 +88,33 @@ where
         rule: Rule,
         scratch: &mut Scratch<S>,
     ) -> Solved {
+        if !matches!(self, Self::Direct(_)) {
+            return bicgstab2(a, b, y, self, rule, scratch);
+        }
+        let first = Rule {
+            products: rule.products.min(9),
+            ..rule
+        };
+        self.invert(b, y);
+        let mut solved = bicgstab2(a, b, y, self, first, scratch);
+        if solved.ending == Ending::Spent {
+            solved.ending = refused(a, b, y);
+        }
+        solved
+    }
+}
+
+// One inverse for all kinds, so that each solver is compiled once for each kind of number.
+impl<T: Coefficient<S> + Scalar, S: Scalar> Inverse<S> for Factors<T, S>
+where
+    f32: Coefficient<S>,
+{
+    fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
         match self {
-            Self::Direct(factors) => {
-                let mut first = Rule {
-                    products: 9,
-                    ..rule
-                };
-                first.products = first.products.min(rule.products);
-                factors.invert(b, y);
-                let mut solved = bicgstab2(a, b, y, factors.as_mut(), first, scratch);
-                if solved.ending == Ending::Spent {
-                    solved.ending = refused(a, b, y, rule);
-                }
-                solved
-            }
-            Self::Multigrid(grids) => bicgstab2(a, b, y, grids.as_mut(), rule, scratch),
-            Self::Real(factors) => bicgstab2(a, b, y, factors, rule, scratch),
-            Self::Complex(factors) => bicgstab2(a, b, y, factors, rule, scratch),
+            Self::Multigrid(grids) => grids.invert(rhs, out),
+            Self::Direct(factors) => factors.invert(rhs, out),
+            Self::Real(factors) => factors.solve(rhs, out),
+            Self::Complex(factors) => factors.solve(rhs, out),
         }
     }
 }
@@ -97,18 +129,12 @@ pub(crate) fn joined(first: Solved, mut second: Solved) -> Solved {
 }
 
 /// Why sparse factors do not solve a system: what they make is no solution.
-fn refused<S: Scalar, const C: usize>(
-    a: &impl Operator<S>,
-    b: &[[S; C]],
-    y: &[[S; C]],
-    rule: Rule,
-) -> Ending {
+fn refused<S: Scalar, const C: usize>(a: &impl Operator<S>, b: &[[S; C]], y: &[[S; C]]) -> Ending {
     let mut r = b.to_vec();
     let left = residual(a, b, y, &mut r);
     if left.iter().any(|r| !r.is_finite()) {
         return Ending::BrokenDown(Breakdown::Pivot);
     }
-    let _ = rule;
     let size = |v: &[[S; C]]| {
         let squares = v.iter().flatten().map(|v| v.square());
         squares.sum::<f64>().sqrt()

@@ -26,6 +26,7 @@ mod direct;
 mod ending;
 mod factors;
 mod gmres;
+mod grouping;
 mod incomplete;
 mod jacobi;
 mod minimal;
@@ -38,6 +39,7 @@ mod sparse;
 mod stabilised;
 mod sums;
 mod system;
+mod unknown;
 
 pub use aggregation::Aggregation;
 pub use conjugate::conjugate_gradient;
@@ -55,6 +57,7 @@ pub use scalar::{Coefficient, Scalar};
 pub use sparse::{Pattern, Sparse};
 pub use stabilised::{Scratch, bicgstab2};
 pub use system::{Method, Options, System};
+pub use unknown::{Sides, Unknown};
 
 use thiserror::Error;
 

@@ -63,35 +63,19 @@ impl<T: Copy> Rows<T> {
     }
 
     /// Rows from a function that appends the columns and values of row `i`, in any order; those
-    /// that occur several times are added up, and a missing diagonal becomes `zero`.
+    /// that occur several times are added up, and a missing diagonal becomes `zero`. Rows are made
+    /// side by side.
     #[must_use]
-    pub fn gathered(n: usize, zero: T, mut each: impl FnMut(usize, &mut Vec<(u32, T)>)) -> Self
+    pub fn gathered(n: usize, zero: T, each: impl Fn(usize, &mut Vec<(u32, T)>) + Sync) -> Self
     where
-        T: std::ops::AddAssign,
+        T: std::ops::AddAssign + Send + Sync,
     {
-        let mut rows = Self::default();
-        rows.offsets.reserve_exact(n);
-        let mut row: Vec<(u32, T)> = Vec::new();
-        for i in 0..n {
+        Self::made(n, Vec::new, |i, row, columns, values| {
             row.clear();
             row.push((i as u32, zero));
-            each(i, &mut row);
-            row.sort_by_key(|e| e.0);
-            let begin = rows.columns.len();
-            for &(j, v) in &row {
-                if rows.columns.len() > begin && rows.columns.last() == Some(&j) {
-                    if let Some(last) = rows.values.last_mut() {
-                        *last += v;
-                    }
-                } else {
-                    assert!((j as usize) < n, "row {i} of {n} holds column {j}");
-                    rows.columns.push(j);
-                    rows.values.push(v);
-                }
-            }
-            rows.offsets.push(rows.columns.len());
-        }
-        rows
+            each(i, row);
+            append((i, n), row, columns, values);
+        })
     }
 
     /// Rows made side by side: `each(i, scratch, columns, values)` appends those of row `i`. There
@@ -289,6 +273,29 @@ impl<T: Copy> Rows<T> {
             out.chunks_mut(ROWS).enumerate().for_each(part);
         } else {
             out.par_chunks_mut(ROWS).enumerate().for_each(part);
+        }
+    }
+}
+
+/// Appends the entries of row `i` of `n`, columns rising, equal ones added up in the order they
+/// stand in.
+fn append<T: Copy + std::ops::AddAssign>(
+    (i, n): (usize, usize),
+    row: &mut [(u32, T)],
+    columns: &mut Vec<u32>,
+    values: &mut Vec<T>,
+) {
+    row.sort_by_key(|e| e.0);
+    let begin = columns.len();
+    for &(j, v) in &*row {
+        if columns.len() > begin && columns.last() == Some(&j) {
+            if let Some(last) = values.last_mut() {
+                *last += v;
+            }
+        } else {
+            assert!((j as usize) < n, "row {i} of {n} holds column {j}");
+            columns.push(j);
+            values.push(v);
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::factors::{Factors, joined};
 use crate::{
-    Coefficient, Direct, Ending, Error, Grids, Incomplete, Keep, LowRank, Multigrid, Order, Rows,
-    Rule, Scalar, Scratch, Shifted, Solved, Stagnation,
+    Coefficient, Direct, Ending, Error, Grids, Keep, LowRank, Order, Rows, Rule, Scalar, Scratch,
+    Shifted, Sides, Solved, Stagnation, Unknown,
 };
 
 /// How a system is solved.
@@ -60,17 +60,13 @@ pub struct System<T, S: Scalar> {
     rescued: bool,
 }
 
-impl<S: Scalar, T> System<T, S>
-where
-    T: Coefficient<S> + Scalar,
-    f32: Coefficient<S> + Coefficient<T>,
-{
+impl<T: Scalar, S: Unknown<T>> System<T, S> {
     /// Scales, reorders and factorises `rows + diag(shift)`; an empty shift is none.
     ///
     /// # Errors
     /// When a coefficient is not finite, a row has none but zeros, or lengths differ.
     pub fn new(rows: Rows<T>, shift: Vec<S>, options: Options) -> Result<Self, Error> {
-        Self::made(rows, shift, None, options)
+        S::made(rows, shift, None, options)
     }
 
     /// The same, preconditioned by the factors of other rows for the same unknowns, each about as
@@ -91,10 +87,93 @@ where
                 found: low.len(),
             });
         }
-        Self::made(rows, shift, Some(low), options)
+        S::made(rows, shift, Some(low), options)
     }
 
-    fn made(
+    /// Number of unknowns.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// No unknowns.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Has an iteration failed, so that sparse factors took its place?
+    #[must_use]
+    pub fn rescued(&self) -> bool {
+        self.rescued
+    }
+
+    /// Solves for all columns of `rhs`, one or three; `x` is the first guess and becomes the
+    /// solution.
+    ///
+    /// # Panics
+    /// When lengths differ.
+    pub fn solve<const C: usize>(
+        &mut self,
+        rhs: &[[S; C]],
+        x: &mut [[S; C]],
+        rule: Rule,
+    ) -> Solved {
+        self.solve_with(&[], rhs, x, rule)
+    }
+
+    /// Solves with `sum u v^T` added to the matrix, for each pair `(u, v)` of columns: a condition
+    /// that ties few rows to many. The factors are those without.
+    ///
+    /// # Panics
+    /// When lengths differ.
+    pub fn solve_with<const C: usize>(
+        &mut self,
+        pairs: &[(Vec<S>, Vec<S>)],
+        rhs: &[[S; C]],
+        x: &mut [[S; C]],
+        rule: Rule,
+    ) -> Solved {
+        let n = self.len();
+        assert!(
+            rhs.len() == n && x.len() == n,
+            "{n} rows, {} given",
+            rhs.len()
+        );
+        const {
+            assert!(
+                C == 1 || C == 3,
+                "systems are solved for one or three columns"
+            )
+        };
+        if C == 1 {
+            let right = rhs.as_flattened().as_chunks().0;
+            let solution = x.as_flattened_mut().as_chunks_mut().0;
+            let sides = Sides {
+                pairs,
+                right,
+                solution,
+            };
+            S::one(self, sides, rule)
+        } else {
+            let right = rhs.as_flattened().as_chunks().0;
+            let solution = x.as_flattened_mut().as_chunks_mut().0;
+            let sides = Sides {
+                pairs,
+                right,
+                solution,
+            };
+            S::three(self, sides, rule)
+        }
+    }
+}
+
+impl<S: Scalar, T> System<T, S>
+where
+    T: Coefficient<S> + Scalar,
+    f32: Coefficient<S> + Coefficient<T>,
+{
+    pub(crate) fn build(
         rows: Rows<T>,
         mut shift: Vec<S>,
         low: Option<Rows<T>>,
@@ -133,9 +212,9 @@ where
                     *v = v.times_real(*scale);
                 }
             }
-            factors(&low, &mixed, &order, options.method)?
+            Factors::new(&low, &mixed, &order, options.method)?
         } else {
-            factors(&rows, &mixed, &order, options.method)?
+            Factors::new(&rows, &mixed, &order, options.method)?
         };
         Ok(Self {
             options,
@@ -150,63 +229,25 @@ where
         })
     }
 
-    /// Number of unknowns.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// No unknowns.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
-    }
-
-    /// Has an iteration failed, so that sparse factors took its place?
-    #[must_use]
-    pub fn rescued(&self) -> bool {
-        self.rescued
-    }
-
-    /// Solves for all columns of `rhs`; `x` is the first guess and becomes the solution.
-    ///
-    /// # Panics
-    /// When lengths differ.
-    pub fn solve<const C: usize>(
+    pub(crate) fn solve_columns<const C: usize>(
         &mut self,
-        rhs: &[[S; C]],
-        x: &mut [[S; C]],
+        sides: Sides<S, C>,
         rule: Rule,
     ) -> Solved {
-        self.solve_with(&[], rhs, x, rule)
-    }
-
-    /// Solves with `sum u v^T` added to the matrix, for each pair `(u, v)` of columns: a condition
-    /// that ties few rows to many. The factors are those without.
-    ///
-    /// # Panics
-    /// When lengths differ.
-    pub fn solve_with<const C: usize>(
-        &mut self,
-        pairs: &[(Vec<S>, Vec<S>)],
-        rhs: &[[S; C]],
-        x: &mut [[S; C]],
-        rule: Rule,
-    ) -> Solved {
-        let n = self.len();
-        assert!(
-            rhs.len() == n && x.len() == n,
-            "{n} rows, {} given",
-            rhs.len()
-        );
+        let Sides {
+            pairs,
+            right,
+            solution,
+        } = sides;
+        let n = self.rows.len();
         let mut vectors = std::mem::take(&mut self.vectors);
         let mut parts = vectors.vectors::<C>(2, n).into_iter();
         let (b, y) = (
             parts.next().unwrap_or_default(),
             parts.next().unwrap_or_default(),
         );
-        self.order.forth(rhs, b);
-        self.order.forth(x, y);
+        self.order.forth(right, b);
+        self.order.forth(solution, y);
         for (b, scale) in b.iter_mut().zip(&self.scale) {
             *b = b.map(|b| b.times_real(*scale));
         }
@@ -231,7 +272,7 @@ where
             y.fill([S::ZERO; C]);
             solved = joined(solved, self.run(&pairs, b, y, rule));
         }
-        self.order.back(y, x);
+        self.order.back(y, solution);
         self.vectors = vectors;
         solved
     }
@@ -275,16 +316,11 @@ where
             rows: &self.rows,
             shift: &self.shift,
         };
-        let scratch = &mut self.scratch;
-        let mut solved = if pairs.is_empty() {
-            self.factors.solve(&sparse, b, y, rule, scratch)
-        } else {
-            let whole = LowRank {
-                sparse: &sparse,
-                pairs: pairs.to_vec(),
-            };
-            self.factors.solve(&whole, b, y, rule, scratch)
+        let whole = LowRank {
+            sparse: &sparse,
+            pairs: pairs.to_vec(),
         };
+        let mut solved = self.factors.solve(&whole, b, y, rule, &mut self.scratch);
         if matches!(solved.ending, Ending::Stagnated(Stagnation::Plateau { .. })) {
             solved.ending = self.explained(solved.ending);
         }
@@ -299,49 +335,13 @@ where
             Factors::Complex(factors) => factors.growth::<S>(),
         };
         // Of a Laplacian with rows of largest entry one, the inverse grows with the points across.
-        let usual = (self.len() as f64).max(10.0);
+        let usual = (self.rows.len() as f64).max(10.0);
         if growth > usual {
             Ending::Stagnated(Stagnation::Preconditioner { growth })
         } else {
             ending
         }
     }
-}
-
-/// Factors for a method that iterates.
-fn factors<T, S>(
-    rows: &Rows<T>,
-    shift: &[S],
-    order: &Order,
-    method: Method,
-) -> Result<Factors<T, S>, Error>
-where
-    T: Coefficient<S> + Scalar,
-    S: Scalar,
-    f32: Coefficient<S> + Coefficient<T>,
-{
-    let grids = |grids| Multigrid::new(rows, shift, order, grids).map(Box::new);
-    Ok(match method {
-        Method::Incomplete(keep) => real(rows, shift, order, keep),
-        Method::IncompleteComplex(keep) => {
-            Factors::Complex(Incomplete::new(rows, shift, order, keep))
-        }
-        Method::Multigrid(how) => Factors::Multigrid(grids(how)?),
-        Method::Chosen | Method::Direct => match grids(Grids::default()) {
-            Ok(grids) => Factors::Multigrid(grids),
-            Err(_) => real(rows, shift, order, Keep::PATTERN),
-        },
-    })
-}
-
-/// Factors of real coefficients.
-fn real<T, S>(rows: &Rows<T>, shift: &[S], order: &Order, keep: Keep) -> Factors<T, S>
-where
-    T: Coefficient<S>,
-    S: Scalar,
-    f32: Coefficient<S>,
-{
-    Factors::Real(Incomplete::new(rows, shift, order, keep))
 }
 
 /// Divides each row by its largest coefficient; the factors.

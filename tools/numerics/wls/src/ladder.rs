@@ -32,10 +32,10 @@ pub(crate) struct Made {
 }
 
 /// Everything that rows of one plan share.
-pub(crate) struct Bench<'a, const D: usize, R> {
+pub(crate) struct Bench<'a, const D: usize> {
     pub(crate) search: &'a Search<'a, D>,
     pub(crate) plan: &'a Plan,
-    pub(crate) rules: &'a R,
+    pub(crate) rules: &'a dyn Rules<D>,
     pub(crate) columns: Columns,
     /// By order, from 1.
     pub(crate) bases: Vec<Basis<D>>,
@@ -68,7 +68,7 @@ impl<const D: usize> Work<D> {
     }
 }
 
-impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
+impl<const D: usize> Bench<'_, D> {
     /// Weights of `target`, whose support stands in `work`, enlarged `from` times, into `work.fit`
     /// and `work.shares`.
     pub(crate) fn solve(

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use rayon::prelude::*;
 
 use crate::metric::Metric;
-use crate::search::Target;
+use crate::search::{Aim, Target};
 use crate::sweep::{Found, Supports};
 
 /// Offsets that differ by less than this part of a spacing are equal.
@@ -31,7 +31,7 @@ impl Group {
 /// that the result does not depend on the threads.
 pub(crate) fn groups<const D: usize>(
     supports: &Supports,
-    target: &(impl Fn(usize) -> Target<D> + Sync),
+    target: &Aim<'_, D>,
     points: &[[f64; D]],
 ) -> Vec<Group> {
     let mut keys = supports
@@ -74,7 +74,7 @@ struct Member<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Member<'a, D> {
-    fn new(supports: &'a Supports, k: usize, target: &impl Fn(usize) -> Target<D>) -> Self {
+    fn new(supports: &'a Supports, k: usize, target: &Aim<'_, D>) -> Self {
         let found = &supports.found[k];
         Self {
             target: target(found.row as usize),

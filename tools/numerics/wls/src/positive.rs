@@ -89,6 +89,16 @@ fn program<const D: usize>(
         right[k] = e[k] * scale[k] / size;
     }
     let conditions = CscMatrix::new(bound, points, starts, rows, values);
+    nearest(&conditions, &right, (points, many))
+}
+
+/// The shortest vector of `points` entries with `conditions` of which the first `many` are met
+/// exactly and the rest as upper bounds. Of no number of dimensions, so that it is compiled here.
+fn nearest(
+    conditions: &CscMatrix<f64>,
+    right: &[f64],
+    (points, many): (usize, usize),
+) -> Option<Vec<f64>> {
     let settings = DefaultSettings {
         verbose: false,
         max_threads: 1,
@@ -97,8 +107,8 @@ fn program<const D: usize>(
     let mut solver = DefaultSolver::new(
         &CscMatrix::identity(points),
         &vec![0.0; points],
-        &conditions,
-        &right,
+        conditions,
+        right,
         &[ZeroConeT(many), NonnegativeConeT(points - 1)],
         settings,
     )

@@ -82,6 +82,9 @@ pub(crate) struct Target<const D: usize> {
     pub(crate) own: bool,
 }
 
+/// Where the rows stand, by number. Behind a reference, so that rows at points and rows at any places share their code.
+pub(crate) type Aim<'a, const D: usize> = dyn Fn(usize) -> Target<D> + Sync + 'a;
+
 /// The points that serve a place, sorted by their offsets.
 #[derive(Debug, Clone)]
 pub(crate) struct Support<const D: usize> {

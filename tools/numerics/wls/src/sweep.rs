@@ -9,7 +9,7 @@ use crate::ladder::{Bench, Made, Work};
 use crate::memo::{self, Group};
 use crate::plan::{Plan, Rules};
 use crate::report::Report;
-use crate::search::{Search, Target};
+use crate::search::{Aim, Search, Target};
 use crate::stencils::{Spot, Stencils};
 
 /// Leaves of the tree that make a parcel of parallel work.
@@ -64,10 +64,10 @@ struct Solution {
     extra: bool,
 }
 
-pub(crate) fn over_points<const D: usize, R: Rules<D>>(
+pub(crate) fn over_points<const D: usize>(
     search: &Search<'_, D>,
     plan: &Plan,
-    rules: &R,
+    rules: &dyn Rules<D>,
 ) -> Result<Stencils<D>, Error> {
     let target = |row: usize| search.target(row);
     let leaves = search.tree().leaves();
@@ -82,14 +82,14 @@ pub(crate) fn over_points<const D: usize, R: Rules<D>>(
         })
         .collect::<Vec<_>>();
     let bench = bench(search, plan, rules)?;
-    bench.sweep(batches, search.cloud().points.len(), target)
+    bench.sweep(batches, search.cloud().points.len(), &target)
 }
 
-pub(crate) fn over_places<const D: usize, R: Rules<D>>(
+pub(crate) fn over_places<const D: usize>(
     search: &Search<'_, D>,
     plan: &Plan,
     places: &[[f64; D]],
-    rules: &R,
+    rules: &dyn Rules<D>,
 ) -> Result<Stencils<D>, Error> {
     if let Some(point) = places.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         return Err(Error::NotFinite {
@@ -111,14 +111,14 @@ pub(crate) fn over_places<const D: usize, R: Rules<D>>(
         })
         .collect::<Vec<_>>();
     let bench = bench(search, plan, rules)?;
-    bench.sweep(batches, places.len(), target)
+    bench.sweep(batches, places.len(), &target)
 }
 
-fn bench<'a, const D: usize, R: Rules<D>>(
+fn bench<'a, const D: usize>(
     search: &'a Search<'a, D>,
     plan: &'a Plan,
-    rules: &'a R,
-) -> Result<Bench<'a, D, R>, Error> {
+    rules: &'a dyn Rules<D>,
+) -> Result<Bench<'a, D>, Error> {
     plan.check::<D>()?;
     Ok(Bench {
         search,
@@ -150,12 +150,12 @@ struct Parcel {
     extra: Vec<f64>,
 }
 
-impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
+impl<const D: usize> Bench<'_, D> {
     fn sweep(
         &self,
         mut batches: Vec<Batch>,
         rows: usize,
-        target: impl Fn(usize) -> Target<D> + Sync,
+        target: &Aim<'_, D>,
     ) -> Result<Stencils<D>, Error> {
         let mut stencils = Stencils {
             spots: vec![Spot::default(); rows],
@@ -166,12 +166,12 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
         };
         let mut changed = Vec::new();
         while !batches.is_empty() {
-            let mut supports = self.supports(&batches, &target)?;
-            let groups = memo::groups(&supports, &target, self.search.cloud().points);
-            let strays = self.place(&supports, &groups, &target, (&mut stencils, &mut changed))?;
+            let mut supports = self.supports(&batches, target)?;
+            let groups = memo::groups(&supports, target, self.search.cloud().points);
+            let strays = self.place(&supports, &groups, target, (&mut stencils, &mut changed))?;
             let alone = strays.alone.into_iter().map(Group::alone);
             let alone = alone.collect::<Vec<_>>();
-            self.place(&supports, &alone, &target, (&mut stencils, &mut changed))?;
+            self.place(&supports, &alone, target, (&mut stencils, &mut changed))?;
             stencils.neighbours.append(&mut supports.neighbours);
             let again = strays.alike.into_iter().map(|(row, times)| Batch {
                 rows: vec![row],
@@ -189,11 +189,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
     }
 
     /// Supports of all rows, parcel after parcel.
-    fn supports(
-        &self,
-        batches: &[Batch],
-        target: &(impl Fn(usize) -> Target<D> + Sync),
-    ) -> Result<Supports, Error> {
+    fn supports(&self, batches: &[Batch], target: &Aim<'_, D>) -> Result<Supports, Error> {
         let parcels = batches
             .par_chunks(LEAVES)
             .map_init(Work::<D>::new, |work, batches| {
@@ -221,7 +217,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
     fn batch(
         &self,
         batch: &Batch,
-        target: &impl Fn(usize) -> Target<D>,
+        target: &Aim<'_, D>,
         work: &mut Work<D>,
         supports: &mut Supports,
     ) -> Result<(), Error> {
@@ -257,7 +253,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
         &self,
         supports: &Supports,
         groups: &[Group],
-        target: &(impl Fn(usize) -> Target<D> + Sync),
+        target: &Aim<'_, D>,
         (stencils, changed): (&mut Stencils<D>, &mut Vec<(usize, Vec<u32>)>),
     ) -> Result<Strays, Error> {
         let solutions = self.solutions(supports, groups, target, &mut stencils.weights)?;
@@ -297,7 +293,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
         &self,
         supports: &Supports,
         groups: &[Group],
-        target: &(impl Fn(usize) -> Target<D> + Sync),
+        target: &Aim<'_, D>,
         weights: &mut Vec<f64>,
     ) -> Result<Vec<Solution>, Error> {
         let first = weights.len();
@@ -344,7 +340,7 @@ impl<const D: usize, R: Rules<D>> Bench<'_, D, R> {
     fn parcel(
         &self,
         (supports, groups): (&Supports, &[Group]),
-        target: &impl Fn(usize) -> Target<D>,
+        target: &Aim<'_, D>,
         (mut start, mut room): (usize, &mut [f64]),
         work: &mut Work<D>,
     ) -> Result<Parcel, Error> {

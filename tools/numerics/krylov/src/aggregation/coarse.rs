@@ -1,7 +1,8 @@
 //! From a matrix to the next coarser one: each group of rows becomes one row, the sum of theirs.
 
-use super::rows::{Balance, NONE, Rows, blocks};
+use super::rows::{Balance, Rows, blocks};
 use crate::Error;
+use crate::grouping::{Grouping, NONE};
 
 /// Groups that one task restricts.
 const GROUPS: usize = 4096;
@@ -12,67 +13,49 @@ const STRONG: f64 = 0.2;
 /// One in so many rows of weak diagonal and no group is too many.
 const FEW: usize = 100;
 
-/// Which rows form which group.
+/// Which rows form which group, and memory for [`Self::sum`].
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Groups {
-    /// Group of each row, [`NONE`] for rows in no group.
-    of: Vec<u32>,
-    starts: Vec<u32>,
-    members: Vec<u32>,
-    /// For [`Self::sum`]: where the entry of each group stands, and the entries of a row.
+    rows: Grouping,
+    /// Where the entry of each group stands, and the entries of a row.
     slot: Vec<u32>,
     entries: Vec<(u32, f64)>,
 }
 
 impl Groups {
     pub(crate) fn new(of: Vec<u32>, count: usize) -> Self {
-        let mut starts = vec![0_u32; count + 1];
-        for &g in of.iter().filter(|g| **g != NONE) {
-            starts[g as usize + 1] += 1;
-        }
-        for g in 0..count {
-            starts[g + 1] += starts[g];
-        }
-        let mut next = starts.clone();
-        let mut members = vec![0; starts[count] as usize];
-        for (i, &g) in of.iter().enumerate().filter(|(_, g)| **g != NONE) {
-            members[next[g as usize] as usize] = i as u32;
-            next[g as usize] += 1;
-        }
         Self {
-            of,
-            starts,
-            members,
+            rows: Grouping::new(of, count),
             slot: vec![NONE; count],
             entries: Vec::new(),
         }
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.starts.len().saturating_sub(1)
+        self.rows.len()
     }
 
     pub(crate) fn bytes(&self) -> usize {
-        4 * (self.of.capacity() + self.starts.capacity() + self.members.capacity())
-            + 4 * self.slot.capacity()
-    }
-
-    fn group(&self, g: usize) -> &[u32] {
-        &self.members[self.starts[g] as usize..self.starts[g + 1] as usize]
+        self.rows.bytes() + 4 * self.slot.capacity()
     }
 
     /// Are there many rows in no group whose diagonal is no longer strong?
     pub(crate) fn outgrown(&self, balance: &Balance) -> bool {
-        let rows = self.of.iter().zip(&balance.excess).zip(&balance.diagonal);
+        let rows = self
+            .rows
+            .of
+            .iter()
+            .zip(&balance.excess)
+            .zip(&balance.diagonal);
         let weak = rows.filter(|((g, e), d)| **g == NONE && **e < STRONG * **d);
-        weak.count() > self.of.len() / FEW
+        weak.count() > self.rows.of.len() / FEW
     }
 
     /// Sums over groups.
     pub(crate) fn restrict(&self, x: &[f64], out: &mut [f64]) {
         blocks(out, GROUPS, |first, out| {
             for (k, out) in out.iter_mut().enumerate() {
-                let members = self.group(first + k);
+                let members = self.rows.members(first + k);
                 *out = members.iter().map(|i| x[*i as usize]).sum();
             }
         });
@@ -81,7 +64,7 @@ impl Groups {
     /// Adds the correction of each group to its rows.
     pub(crate) fn prolong(&self, correction: &[f64], x: &mut [f64]) {
         blocks(x, 4 * GROUPS, |first, x| {
-            for (x, &g) in x.iter_mut().zip(&self.of[first..]) {
+            for (x, &g) in x.iter_mut().zip(&self.rows.of[first..]) {
                 if g != NONE {
                     *x += correction[g as usize];
                 }
@@ -104,10 +87,10 @@ impl Groups {
         for g in 0..self.len() {
             entries.clear();
             let mut excess = 0.0;
-            for &i in self.group(g) {
+            for &i in self.rows.members(g) {
                 excess += balance.excess[i as usize];
                 for &(j, w) in rows.row(i as usize) {
-                    let (other, w) = (self.of[j as usize], f64::from(w));
+                    let (other, w) = (self.rows.of[j as usize], f64::from(w));
                     if other == NONE {
                         excess += w;
                     } else if other as usize != g {
@@ -124,7 +107,7 @@ impl Groups {
             for (other, _) in &entries {
                 slot[*other as usize] = NONE;
             }
-            let leader = balance.leader[self.group(g)[0] as usize];
+            let leader = balance.leader[self.rows.members(g)[0] as usize];
             let diagonal = excess + coarse.push(entries.iter().copied());
             if diagonal.is_nan() || diagonal <= 0.0 {
                 let index = leader as usize;

@@ -6,7 +6,8 @@
 //! the symmetric part is looked at).
 
 use super::quality::Candidate;
-use super::rows::{Balance, Link, NONE, Rows};
+use super::rows::{Balance, Link, Rows};
+use crate::grouping::NONE;
 
 /// Worst quality of a group in a narrow stencil.
 const QUALITY: f64 = 8.0;

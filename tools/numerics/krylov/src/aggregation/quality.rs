@@ -1,7 +1,7 @@
 //! The quality of a group of rows.
 
 use super::groups::View;
-use super::rows::NONE;
+use crate::grouping::NONE;
 
 /// Most rows of a group.
 pub(crate) const MOST: usize = 8;

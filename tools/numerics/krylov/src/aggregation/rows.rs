@@ -15,8 +15,6 @@ use rayon::prelude::*;
 
 /// Rows swept in sequence.
 pub(crate) const BLOCK: usize = 8192;
-/// No group, no row.
-pub(crate) const NONE: u32 = u32::MAX;
 
 /// The rows of a matrix. In each row stand first the columns before it in its block, then those of
 /// other blocks (and the row itself), then those after it in its block.

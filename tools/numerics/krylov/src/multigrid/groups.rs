@@ -1,93 +1,53 @@
 //! Points that are strongly coupled both ways, in groups.
 
+use crate::grouping::{Grouping, NONE};
 use crate::{Rows, Scalar};
 
-/// In no group.
-pub(crate) const NONE: u32 = u32::MAX;
-
-/// Which rows form which group.
-pub(crate) struct Groups {
-    pub(crate) of: Vec<u32>,
-    starts: Vec<u32>,
-    members: Vec<u32>,
-}
-
-impl Groups {
-    /// First points whose strong neighbours are all free, with these; then what is left joins the
-    /// group it is coupled to most, or forms groups of its own. A row of nothing but its diagonal
-    /// is in no group.
-    pub(crate) fn new<T: Scalar>(rows: &Rows<T>, strong: f64) -> Self {
-        let n = rows.len();
-        let graph = graph(rows, strong);
-        let mut of = vec![NONE; n];
-        let mut count = 0;
-        for i in 0..n {
-            let near = graph.columns(i);
-            if near.is_empty() || of[i] != NONE || near.iter().any(|j| of[*j as usize] != NONE) {
-                continue;
+/// First points whose strong neighbours are all free, with these; then what is left joins the
+/// group it is coupled to most, or forms groups of its own. A row of nothing but its diagonal
+/// is in no group.
+pub(crate) fn groups<T: Scalar>(rows: &Rows<T>, strong: f64) -> Grouping {
+    let n = rows.len();
+    let graph = graph(rows, strong);
+    let mut of = vec![NONE; n];
+    let mut count = 0;
+    for i in 0..n {
+        let near = graph.columns(i);
+        if near.is_empty() || of[i] != NONE || near.iter().any(|j| of[*j as usize] != NONE) {
+            continue;
+        }
+        of[i] = count;
+        for &j in near {
+            of[j as usize] = count;
+        }
+        count += 1;
+    }
+    let first = of.clone();
+    for i in (0..n).filter(|i| first[*i] == NONE) {
+        let mut best = (0.0, NONE);
+        for (j, v) in graph.pairs(i) {
+            if first[j] != NONE && v > best.0 {
+                best = (v, first[j]);
             }
-            of[i] = count;
-            for &j in near {
+        }
+        of[i] = best.1;
+    }
+    for i in 0..n {
+        if of[i] != NONE || rows.columns(i).len() == 1 {
+            continue;
+        }
+        if rows.pairs(i).all(|(j, v)| j == i || v == T::ZERO) {
+            continue;
+        }
+        of[i] = count;
+        for &j in graph.columns(i) {
+            if of[j as usize] == NONE {
                 of[j as usize] = count;
             }
-            count += 1;
         }
-        let first = of.clone();
-        for i in (0..n).filter(|i| first[*i] == NONE) {
-            let mut best = (0.0, NONE);
-            for (j, v) in graph.pairs(i) {
-                if first[j] != NONE && v > best.0 {
-                    best = (v, first[j]);
-                }
-            }
-            of[i] = best.1;
-        }
-        for i in 0..n {
-            if of[i] != NONE || rows.columns(i).len() == 1 {
-                continue;
-            }
-            if rows.pairs(i).all(|(j, v)| j == i || v == T::ZERO) {
-                continue;
-            }
-            of[i] = count;
-            for &j in graph.columns(i) {
-                if of[j as usize] == NONE {
-                    of[j as usize] = count;
-                }
-            }
-            count += 1;
-        }
-        Self::sorted(of, count as usize)
+        count += 1;
     }
-
-    fn sorted(of: Vec<u32>, count: usize) -> Self {
-        let mut starts = vec![0_u32; count + 1];
-        for &g in of.iter().filter(|g| **g != NONE) {
-            starts[g as usize + 1] += 1;
-        }
-        for g in 0..count {
-            starts[g + 1] += starts[g];
-        }
-        let mut next = starts.clone();
-        let mut members = vec![0; starts[count] as usize];
-        for (i, &g) in of.iter().enumerate().filter(|(_, g)| **g != NONE) {
-            members[next[g as usize] as usize] = i as u32;
-            next[g as usize] += 1;
-        }
-        Self {
-            of,
-            starts,
-            members,
-        }
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    pub(crate) fn members(&self, g: usize) -> &[u32] {
-        &self.members[self.starts[g] as usize..self.starts[g + 1] as usize]
-    }
+    Grouping::new(of, count as usize)
 }
 
 /// How much a coefficient couples: its real part against that of the diagonal, if of the other

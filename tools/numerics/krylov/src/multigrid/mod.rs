@@ -11,7 +11,7 @@ mod groups;
 mod transfer;
 
 use crate::{Coefficient, Direct, Error, Incomplete, Inverse, Keep, Order, Rows, Scalar};
-use groups::Groups;
+use groups::groups;
 use transfer::{coarse, interpolation, restriction, times};
 
 /// At most this many rows are solved directly.
@@ -119,7 +119,7 @@ where
             if a.len() <= BOTTOM || levels.len() >= LEVELS {
                 break;
             }
-            let groups = Groups::new(a, grids.strong);
+            let groups = groups(a, grids.strong);
             if 2 * groups.len() > a.len() || groups.len() == 0 {
                 break;
             }

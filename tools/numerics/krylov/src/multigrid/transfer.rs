@@ -1,6 +1,6 @@
 //! Interpolation, restriction and the products that make the next level.
 
-use super::groups::{Groups, NONE};
+use crate::grouping::{Grouping, NONE};
 use crate::{Coefficient, Rows, Scalar};
 
 /// A row that is being summed: where each column stands.
@@ -40,7 +40,7 @@ impl<T: Scalar> Sum<T> {
 }
 
 /// `(1 - step D^-1 A) P`, `P` being one on the groups.
-pub(crate) fn interpolation<T: Scalar>(a: &Rows<T>, groups: &Groups, step: f64) -> Rows<f32> {
+pub(crate) fn interpolation<T: Scalar>(a: &Rows<T>, groups: &Grouping, step: f64) -> Rows<f32> {
     Rows::made(
         a.len(),
         || Sum::<f64>::new(groups.len()),
@@ -60,7 +60,7 @@ pub(crate) fn interpolation<T: Scalar>(a: &Rows<T>, groups: &Groups, step: f64) 
 }
 
 /// `P^T (1 - step A D^-1)`.
-pub(crate) fn restriction<T: Scalar>(a: &Rows<T>, groups: &Groups, step: f64) -> Rows<f32> {
+pub(crate) fn restriction<T: Scalar>(a: &Rows<T>, groups: &Grouping, step: f64) -> Rows<f32> {
     let diagonal: Vec<f64> = (0..a.len()).map(|i| a.diagonal(i).real_part()).collect();
     Rows::made(
         groups.len(),

@@ -114,12 +114,11 @@ impl Cloud {
         let (points, kinds) = self.points();
         let h = self.spacing();
         let cells = Cells::new(&points, 2.5 * h, self.side);
-        let mut fit = Fit::default();
         let n = points.len();
-        let mut wide = Vec::new();
         let rows = Rows::gathered(n, 0.0, |i, row| match kinds[i] {
             Kind::Wall => row.push((i as u32, 1.0)),
             Kind::Medium(side) => {
+                let (mut fit, mut wide) = (Fit::default(), Vec::new());
                 cells.near(&points, i, |j| sees(side, kinds[j]), &mut wide);
                 let [_, _, _, xx, yy, zz, ..] = fit.solve(&points, i, &wide, 2.5 * h);
                 let s = self.squeeze.powi(-2);
@@ -131,6 +130,7 @@ impl Cloud {
             }
             Kind::Surface => {
                 let p = points[i];
+                let (mut fit, mut wide) = (Fit::default(), Vec::new());
                 for (side, factor) in [(1, self.ratio), (0, -1.0)] {
                     cells.near(&points, i, |j| sees(side, kinds[j]), &mut wide);
                     let g = fit.solve(&points, i, &wide, 2.5 * h);
