@@ -9,7 +9,7 @@ SHELL := /bin/sh
 THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 PROGRESS ?= auto
 BIN := target/release
-PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield avg report artefact verify stability bench)
+PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield avg report artefact verify stability bench exact)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 # Runs a stage only if the bytes of what it depends on have changed.
 RERUN := pipelines/rerun
@@ -85,6 +85,16 @@ build/others/.installed: pipelines/bench/others/requirements.txt
 	@mkdir -p build
 	python3 -m venv build/others
 	build/others/bin/pip install --quiet --disable-pip-version-check -r $<
+	@touch $@
+
+.PHONY: bench-em
+bench-em: programs build/em/.installed ## NGSolve beside emfield: error and run time (installs it into build/)
+	$(BIN)/bench --em build/em/bin/python --threads $(THREADS) --out build/bench
+
+build/em/.installed: pipelines/bench/em/requirements.txt
+	@mkdir -p build
+	python3 -m venv build/em
+	build/em/bin/pip install --quiet --disable-pip-version-check -r $<
 	@touch $@
 
 report: programs ## gather all evidence into build/report/index.html

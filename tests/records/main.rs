@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use verification::bench::absence::{self, Absence};
+use verification::bench::fields::Fields;
 use verification::bench::others::Others;
 use verification::bench::{Bench, Record, Stand, benches, in_order};
 use verification::case::{Case, Errors, Measurement, Target};
@@ -303,6 +304,45 @@ fn programs_that_cannot_be_run_are_told_as_missing() {
                 .contains("MISSING sin-xy, 41 x 41: FiPy, SuperLU")
     );
     let (good, said) = written(&folder.path().join("others.json"), &record);
+    assert!(good && said.contains("good: others"), "{said}");
+}
+
+#[test]
+fn exact_fields_of_the_studies_fit_their_schema() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for study in ["dielectric-sphere", "levitation-field"] {
+        let scene = root.join("pipelines").join(study).join("scene.json");
+        let out = folder.path().join(format!("{study}.json"));
+        let status = Command::new(env!("CARGO_BIN_EXE_exact"))
+            .arg(&scene)
+            .arg("--out")
+            .arg(&out)
+            .status()
+            .unwrap();
+        assert!(status.success(), "{study}");
+        let (good, said) = validate(&out);
+        assert!(good && said.contains("good: field-exact"), "{said}");
+    }
+}
+
+#[test]
+fn finite_elements_that_cannot_be_run_are_told_as_missing() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let lab = Lab {
+        root: root.to_owned(),
+        programs: folder.path().join("nowhere"),
+        out: folder.path().to_owned(),
+        threads: 1,
+        patch: None,
+        repeat_s: 0.0,
+    };
+    let record = Fields::read(root)
+        .unwrap()
+        .solve(&lab, Path::new("no-python"));
+    assert!(!record.whole() && record.table().contains("MISSING levitation-field, order 4"));
+    let (good, said) = written(&folder.path().join("em.json"), &record);
     assert!(good && said.contains("good: others"), "{said}");
 }
 

@@ -5,6 +5,7 @@
 //! median over the runs.
 
 pub mod absence;
+pub mod fields;
 pub mod others;
 mod record;
 

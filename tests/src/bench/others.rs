@@ -58,44 +58,50 @@ struct Problem {
 /// One program, one method, one size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    program: String,
-    version: String,
-    method: String,
-    problem: String,
-    points: u64,
-    run_time_s: f64,
-    run_time_least_s: f64,
-    run_time_greatest_s: f64,
-    repeats: usize,
-    peak_memory_bytes: Option<u64>,
-    /// Greatest error at the points, as a part of the range of the solution.
-    error: f64,
+    pub(super) program: String,
+    pub(super) version: String,
+    pub(super) method: String,
+    pub(super) problem: String,
+    pub(super) points: u64,
+    pub(super) run_time_s: f64,
+    pub(super) run_time_least_s: f64,
+    pub(super) run_time_greatest_s: f64,
+    pub(super) repeats: usize,
+    pub(super) peak_memory_bytes: Option<u64>,
+    /// Greatest error at the points, as a part of the range of the solution; or what the problem's measure says.
+    pub(super) error: f64,
 }
 
 /// All who solved a problem.
 #[derive(Debug, Serialize)]
-struct Solved {
-    name: String,
-    title: String,
-    rows: Vec<Row>,
+pub(super) struct Solved {
+    pub(super) name: String,
+    pub(super) title: String,
+    /// What the errors are, where they are not parts of the range of the solution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) measure: Option<String>,
+    pub(super) rows: Vec<Row>,
 }
 
 /// A run that gave no figure.
 #[derive(Debug, Serialize)]
-struct Missing {
-    what: String,
-    why: String,
+pub(super) struct Missing {
+    pub(super) what: String,
+    pub(super) why: String,
 }
 
 /// The record that `make bench-others` writes.
 #[derive(Debug, Serialize)]
 pub struct Record {
-    kind: &'static str,
-    version: &'static str,
-    load_average: Option<f64>,
-    threads: usize,
-    problems: Vec<Solved>,
-    missing: Vec<Missing>,
+    pub(super) kind: &'static str,
+    pub(super) version: &'static str,
+    /// What was compared and how, where it is not as in `make bench-others`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) about: Option<String>,
+    pub(super) load_average: Option<f64>,
+    pub(super) threads: usize,
+    pub(super) problems: Vec<Solved>,
+    pub(super) missing: Vec<Missing>,
 }
 
 impl Others {
@@ -136,12 +142,14 @@ impl Others {
             problems.push(Solved {
                 name: problem.name.clone(),
                 title: problem.title.clone(),
+                measure: None,
                 rows,
             });
         }
         Record {
             kind: "others",
             version: "1.0",
+            about: None,
             load_average: load(),
             threads: lab.threads,
             problems,
@@ -266,7 +274,7 @@ fn ask(python: &Path, script: &str, words: &[&str]) -> Result<Value, LabError> {
     })
 }
 
-fn output(command: &mut Command) -> Result<String, LabError> {
+pub(super) fn output(command: &mut Command) -> Result<String, LabError> {
     let program = PathBuf::from(command.get_program());
     let output = command.output().map_err(io(&program))?;
     if output.status.success() {

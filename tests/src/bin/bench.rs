@@ -12,7 +12,8 @@ use std::process::ExitCode;
 use clap::Parser;
 use serde::Serialize;
 use verification::bench::absence::{Absence, Bench, absences};
-use verification::bench::others::Others;
+use verification::bench::fields::Fields;
+use verification::bench::others::{self, Others};
 use verification::bench::{Record, Stand, benches, in_order};
 use verification::lab::Lab;
 use verification::speed;
@@ -47,6 +48,9 @@ struct Arguments {
     /// problems.
     #[arg(long)]
     others: Option<PathBuf>,
+    /// A Python with NGSolve: it alone is timed, beside emfield on the same problems.
+    #[arg(long)]
+    em: Option<PathBuf>,
     /// Times that each scene is run on that many threads; on one thread it is run once.
     #[arg(long, default_value_t = 3)]
     runs: usize,
@@ -67,7 +71,10 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let program = std::env::current_exe().map_err(|e| e.to_string())?;
     let programs = program.parent().map(PathBuf::from).unwrap_or_default();
     if let Some(python) = &arguments.others {
-        return others(arguments, programs, python);
+        return elsewhere(arguments, programs, python);
+    }
+    if let Some(python) = &arguments.em {
+        return fields(arguments, programs, python);
     }
     let mut threads = vec![1, arguments.threads.max(1)];
     threads.dedup();
@@ -110,19 +117,38 @@ fn run(arguments: &Arguments) -> Result<(), String> {
 }
 
 /// Times the programs of other people beside ours.
-fn others(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(), String> {
-    let lab = Lab {
-        root: std::env::current_dir().map_err(|e| e.to_string())?,
-        programs,
-        out: arguments.out.join("others"),
-        threads: arguments.threads.max(1),
-        patch: None,
-        repeat_s: REPEAT_S,
-    };
+fn elsewhere(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(), String> {
+    let lab = lab(arguments, programs, "others")?;
     let record = Others::read(&lab.root)
         .map_err(|e| e.to_string())?
         .solve(&lab, python);
-    write(&arguments.out, "others", &record, &record.table())?;
+    written(arguments, "others", &record)
+}
+
+/// Times NGSolve beside emfield.
+fn fields(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(), String> {
+    let lab = lab(arguments, programs, "em")?;
+    let all = Fields::read(&lab.root).map_err(|e| e.to_string())?;
+    written(arguments, "em", &all.solve(&lab, python))
+}
+
+/// Where runs beside those of others are made.
+fn lab(arguments: &Arguments, programs: PathBuf, folder: &str) -> Result<Lab, String> {
+    let out = arguments.out.join(folder);
+    std::fs::create_dir_all(&out).map_err(|e| at(&out, e))?;
+    Ok(Lab {
+        root: std::env::current_dir().map_err(|e| e.to_string())?,
+        programs,
+        out,
+        threads: arguments.threads.max(1),
+        patch: None,
+        repeat_s: REPEAT_S,
+    })
+}
+
+/// Writes the record of other people's programs; an error where figures are missing.
+fn written(arguments: &Arguments, name: &str, record: &others::Record) -> Result<(), String> {
+    write(&arguments.out, name, record, &record.table())?;
     if record.whole() {
         return Ok(());
     }

@@ -4,6 +4,7 @@
 //! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
 //! - [`cylinder`]: a conducting cylinder in an axial alternating field, eqs 3.12 and 3.13;
 //!   [`diffusion`]: the same after its field is switched on.
+//! - [`exact`]: fields along the lines of a scene whose solution is known.
 //! - [`frames`] reads runs and scenes.
 //! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field.
 
@@ -11,6 +12,7 @@ pub mod bessel;
 pub mod cylinder;
 pub mod dielectric;
 pub mod diffusion;
+pub mod exact;
 pub mod frames;
 pub mod sphere;
 

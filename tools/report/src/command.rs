@@ -29,6 +29,9 @@ enum Action {
     /// One page about a study of heat conduction, of one run or of several.
     #[command(after_help = HEAT)]
     Heat(HeatFiles),
+    /// One page about electric and magnetic fields, of one run or of several.
+    #[command(after_help = FIELD)]
+    Field(FieldFiles),
     /// One page about tables of gases: curves, composition, published values, uncertain inputs.
     #[command(after_help = GAS)]
     Gas(GasFiles),
@@ -87,6 +90,27 @@ pub(crate) struct HeatFiles {
     /// Points of a run, and what the page calls it; once for each run.
     #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
     pub(crate) frames: Vec<(String, PathBuf)>,
+}
+
+const FIELD: &str = "Example, from the repository root:\n  \
+    target/release/report field --study levitation-field --out build/levitation-field/report.html \\\n    \
+    --fields drop=build/levitation-field/fields.mcap --exact drop=build/levitation-field/exact.json";
+
+/// Files of a page about electric and magnetic fields.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FieldFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Points of a run, and what the page calls it; once for each run.
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) fields: Vec<(String, PathBuf)>,
+    /// The exact solution of the run of that name along its lines.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) exact: Vec<(String, PathBuf)>,
 }
 
 const GAS: &str = "Example, from the repository root:\n  \
@@ -165,6 +189,7 @@ pub fn main() -> ExitCode {
     let done = match &line.action {
         Action::Page(files) => page::write(files).map(|()| ExitCode::SUCCESS),
         Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Field(files) => page::field::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),

@@ -9,6 +9,8 @@ const MANY: usize = 128;
 const ROUND: f64 = 0.02;
 /// Weight against slopes that no neighbour tells of.
 const RIDGE: f64 = 1e-10;
+/// Most that the sizes of shares may sum up to: one where none is negative.
+const STEADY: f64 = 2.0;
 /// Points in a bin, about.
 const FILL: f64 = 3.0;
 
@@ -133,6 +135,36 @@ impl Fit {
         }
     }
 
+    /// Weights of samples in the value at a place of the plane, for values that are not known yet: neighbours
+    /// whose places tell little of a slope across the plane are joined by further ones.
+    pub(crate) fn shares(&self, p: [f64; 2]) -> Vec<(u32, f64)> {
+        let mut wanted = FEW;
+        loop {
+            let near = self.nearest(p, wanted);
+            let reach = near.last().map_or(0.0, |n| 1.1 * n.0.sqrt());
+            if reach <= 0.0 {
+                return near.first().map_or_else(Vec::new, |n| vec![(n.1, 1.0)]);
+            }
+            let rows: Vec<([f64; 4], f64, f64)> = near
+                .iter()
+                .map(|(square, n)| self.row(p, reach, (*square, *n)))
+                .collect();
+            let done = wanted >= MANY || near.len() < wanted;
+            if done || roundness(&rows) > ROUND {
+                let factors = factors(&rows);
+                let share = |((_, n), (basis, _, weight)): (&(f64, u32), &([f64; 4], f64, f64))| {
+                    let along: f64 = basis.iter().zip(&factors).map(|(b, y)| b * y).sum();
+                    (*n, weight * along)
+                };
+                let shares: Vec<(u32, f64)> = near.iter().zip(&rows).map(share).collect();
+                if done || shares.iter().map(|s| s.1.abs()).sum::<f64>() < STEADY {
+                    return shares;
+                }
+            }
+            wanted *= 2;
+        }
+    }
+
     /// Basis, value and weight of a neighbour.
     fn row(&self, p: [f64; 2], reach: f64, (square, n): (f64, u32)) -> ([f64; 4], f64, f64) {
         let sample = &self.samples[n as usize];
@@ -163,18 +195,34 @@ fn roundness(rows: &[([f64; 4], f64, f64)]) -> f64 {
     }
 }
 
-/// The value at the origin of the weighted linear fit, by Cholesky's method.
+/// The value at the origin of the weighted linear fit.
 fn solve(rows: &[([f64; 4], f64, f64)]) -> f64 {
     let whole: f64 = rows.iter().map(|r| r.2).sum();
     let mean: f64 = rows.iter().map(|r| r.2 * r.1).sum::<f64>() / whole;
-    let mut a = [[0.0; 4]; 4];
-    let mut x = [0.0; 4];
+    let mut right = [0.0; 4];
     for (basis, value, weight) in rows {
+        for (right, part) in right.iter_mut().zip(basis) {
+            *right += weight * part * (value - mean);
+        }
+    }
+    mean + normal(rows, right)[0]
+}
+
+/// What the bases of neighbours times their weights are multiplied by for the value at the origin.
+fn factors(rows: &[([f64; 4], f64, f64)]) -> [f64; 4] {
+    normal(rows, [1.0, 0.0, 0.0, 0.0])
+}
+
+/// Solves the normal equations of the weighted linear fit, by Cholesky's method.
+fn normal(rows: &[([f64; 4], f64, f64)], right: [f64; 4]) -> [f64; 4] {
+    let whole: f64 = rows.iter().map(|r| r.2).sum();
+    let mut a = [[0.0; 4]; 4];
+    let mut x = right;
+    for (basis, _, weight) in rows {
         for i in 0..4 {
             for k in 0..=i {
                 a[i][k] += weight * basis[i] * basis[k];
             }
-            x[i] += weight * basis[i] * (value - mean);
         }
     }
     for (i, row) in a.iter_mut().enumerate().skip(1) {
@@ -194,7 +242,7 @@ fn solve(rows: &[([f64; 4], f64, f64)]) -> f64 {
     for i in (0..4).rev() {
         x[i] = (x[i] - (i + 1..4).map(|m| a[m][i] * x[m]).sum::<f64>()) / a[i][i];
     }
-    mean + x[0]
+    x
 }
 
 #[cfg(test)]
@@ -228,6 +276,19 @@ mod tests {
                 let off = fit.at(p) - f([p[0], p[1], 0.0]);
                 assert!(off.abs() < 2e-3 * stretch, "{stretch} {p:?}: {off}");
             }
+        }
+    }
+
+    #[test]
+    fn shares_make_up_the_value_and_are_one_together() {
+        let all = samples(3.0, |p| (0.3 * p[0]).sin() + p[1] * p[1]);
+        let fit = Fit::new(all.clone()).unwrap();
+        for p in [[5.3, 6.1], [0.0, 0.0], [33.0, 11.2]] {
+            let shares = fit.shares(p);
+            let sum: f64 = shares.iter().map(|s| s.1).sum();
+            let value: f64 = shares.iter().map(|(n, w)| w * all[*n as usize].value).sum();
+            assert!((sum - 1.0).abs() < 1e-6, "{sum}");
+            assert!((value - fit.at(p)).abs() < 0.05, "{value} {}", fit.at(p));
         }
     }
 

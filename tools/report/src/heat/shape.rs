@@ -18,7 +18,7 @@ pub(crate) struct Body {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum Axis {
+pub(crate) enum Axis {
     X,
     Y,
     Z,
@@ -31,7 +31,7 @@ fn along_z() -> Axis {
 /// A shape of a scene.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Shape {
+pub(crate) enum Shape {
     Box {
         min_m: Vec<f64>,
         max_m: Vec<f64>,
@@ -78,7 +78,7 @@ fn from(place: &[f64], p: [f64; 3]) -> [f64; 3] {
 
 impl Shape {
     /// Whether a place \[m\] is inside.
-    fn holds(&self, p: [f64; 3]) -> bool {
+    pub(crate) fn holds(&self, p: [f64; 3]) -> bool {
         match self {
             Self::Box { min_m, max_m } => (0..min_m.len().min(3)).all(|k| {
                 let room = ROOM * (part(max_m, k) - part(min_m, k));

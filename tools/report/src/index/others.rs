@@ -11,6 +11,9 @@ use crate::records::{bytes, figure as digits};
 /// A record of `make bench-others`.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct Record {
+    /// What was compared and how.
+    #[serde(default)]
+    about: Option<String>,
     #[serde(default)]
     threads: u64,
     problems: Vec<Problem>,
@@ -22,6 +25,9 @@ pub(super) struct Record {
 #[derive(Debug, Clone, Deserialize)]
 struct Problem {
     title: String,
+    /// What the errors are.
+    #[serde(default)]
+    measure: Option<String>,
     rows: Vec<Row>,
 }
 
@@ -50,15 +56,22 @@ struct Missing {
     why: String,
 }
 
+impl Problem {
+    fn measure(&self) -> &str {
+        self.measure.as_deref().unwrap_or("greatest error / range")
+    }
+}
+
 /// A pair of plots and a table per problem.
 pub(super) fn section(record: &Record) -> String {
-    let words = format!(
+    let usual = format!(
         "Programs from elsewhere on the problems of our cases, at equal numbers of points, nodes or cells, judged \
          by one function. Theirs: meshing, assembly and solution within a Python that is warm; imports are not \
          counted. Ours: a run of its own on {} threads, without reading its scene and writing its files.",
         record.threads
     );
-    let mut out = paragraph(&words);
+    let about = |text: &String| format!("{text} On {} threads.", record.threads);
+    let mut out = paragraph(&record.about.as_ref().map_or(usual, about));
     for problem in &record.problems {
         out += &format!("<h3>{}</h3>\n", escape(&problem.title));
         out += &plots(problem);
@@ -80,8 +93,8 @@ fn plots(problem: &Problem) -> String {
             .or_default()
             .push(row);
     }
-    let mut time = Plot::new("run time [s]", "greatest error / range").log_log();
-    let mut size = Plot::new("points, nodes or cells", "run time [s]").log_log();
+    let mut time = Plot::new("run time [s]", problem.measure()).log_log();
+    let mut size = Plot::new("points, nodes, cells or unknowns", "run time [s]").log_log();
     for ((program, method), rows) in &lines {
         let name = format!("{program}, {method}");
         let error = |r: &&Row| Some([r.run_time_s, r.error?]);
@@ -97,7 +110,10 @@ fn plots(problem: &Problem) -> String {
     side_by_side(&[
         figure(
             &time.svg(),
-            "Error over run time: lower and further left is better.",
+            &format!(
+                "Error ({}) over run time: lower and further left is better.",
+                problem.measure()
+            ),
         ),
         figure(&size.svg(), "Run time over the size of the problem."),
     ])
@@ -111,7 +127,7 @@ fn table(problem: &Problem) -> String {
         "#Run time",
         "#Runs",
         "#Peak memory",
-        "#Error / range",
+        "#Error",
     ]);
     for row in &problem.rows {
         table.row([

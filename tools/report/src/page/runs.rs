@@ -5,6 +5,9 @@ use crate::html::{Rows, beside, escape, figure, note};
 use crate::plot::{Line, Plot};
 use crate::records::{RunRecord, bytes, duration, figure as digits};
 
+/// So many iterations are shown evenly.
+const FEW: f64 = 200.0;
+
 /// The section; nothing without records.
 pub(super) fn section(records: &[Named]) -> String {
     let mut table = Rows::new(&[
@@ -102,9 +105,14 @@ fn limits(record: &RunRecord) -> String {
     table.render()
 }
 
-/// Residuals and other histories; residuals on logarithmic axes.
+/// Residuals and other histories; residuals on a logarithmic axis, long ones on two.
 fn history(record: &RunRecord) -> String {
-    let mut residuals = Plot::new("iteration", "residual").log_log();
+    let empty = Plot::new("iteration", "residual");
+    let last = record.history.iter().flat_map(|h| h.at.last()).copied();
+    let mut residuals = match last.fold(0.0, f64::max) {
+        few if few <= FEW => empty.log_y(),
+        _ => empty.log_log(),
+    };
     for history in record
         .history
         .iter()

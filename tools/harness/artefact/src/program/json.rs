@@ -11,7 +11,7 @@ use super::trouble::{Trouble, file_error};
 use super::validate::schema_faults;
 
 /// Schemas of our JSON files by kind.
-const SCHEMAS: [(&str, &str); 9] = [
+const SCHEMAS: [(&str, &str); 10] = [
     (
         "run-record",
         include_str!("../../../../../schemas/run-record.v1.json"),
@@ -23,6 +23,10 @@ const SCHEMAS: [(&str, &str); 9] = [
     (
         "gas-reference",
         include_str!("../../../../../schemas/gas-reference.v1.json"),
+    ),
+    (
+        "field-exact",
+        include_str!("../../../../../schemas/field-exact.v1.json"),
     ),
     (
         "surface-profile",

@@ -1,0 +1,381 @@
+//! Exact fields along the lines of a scene of `emfield` whose solution is known, and its totals.
+//!
+//! Known are a dielectric sphere whose dipole is imposed on the walls, and a conducting sphere among coaxial
+//! loops; both spheres lie about the origin. Columns are named as `emfield` names them.
+
+use serde_json::{Value, json};
+
+use super::C;
+use super::dielectric::Sphere;
+use super::sphere::{Body, Loop, Solution, Sources};
+use crate::heat::formula::At;
+use crate::heat::property::Property;
+
+/// Disagreement of the walls with the dipole of the sphere, over the largest potential, that is none.
+const ALIKE: f64 = 1e-9;
+
+/// A solution that is known.
+#[derive(Debug, Clone)]
+pub enum Known {
+    /// A dielectric sphere in what was a uniform field.
+    Dielectric(Sphere),
+    /// A conducting sphere among loops.
+    Conductor {
+        /// The fields.
+        solution: Box<Solution>,
+        /// Radius and conductivity.
+        body: Body,
+        /// Distance of the nearest wire from the origin \[m\]: the solution holds within.
+        reach: f64,
+    },
+}
+
+/// A value with its name and unit.
+pub type Entry = (String, &'static str, f64);
+
+/// A line by name, and its places \[m\].
+pub type Places = (String, Vec<[f64; 3]>);
+
+fn number(scene: &Value, pointer: &str) -> Result<f64, String> {
+    let found = scene.pointer(pointer).and_then(Value::as_f64);
+    found.ok_or_else(|| format!("the scene has no number at {pointer}"))
+}
+
+fn numbers(value: &Value) -> Option<[f64; 3]> {
+    let part = |k: usize| value[k].as_f64();
+    Some([part(0)?, part(1)?, part(2)?])
+}
+
+/// Places along the lines of a scene.
+///
+/// # Errors
+/// Where one cannot be read.
+pub fn lines(scene: &Value) -> Result<Vec<Places>, String> {
+    let all = scene.pointer("/output/lines").and_then(Value::as_array);
+    let mut found = Vec::new();
+    for line in all.into_iter().flatten() {
+        let read = || {
+            let (from, to) = (numbers(&line["from_m"])?, numbers(&line["to_m"])?);
+            let count = line["points"].as_u64().filter(|n| *n > 1)?;
+            let at = |n: u64| {
+                let t = n as f64 / (count - 1) as f64;
+                [0, 1, 2].map(|k| from[k] + t * (to[k] - from[k]))
+            };
+            Some((
+                line["name"].as_str()?.to_owned(),
+                (0..count).map(at).collect(),
+            ))
+        };
+        found.push(read().ok_or_else(|| format!("no line in space: {line}"))?);
+    }
+    Ok(found)
+}
+
+impl Known {
+    /// The solution of a scene.
+    ///
+    /// # Errors
+    /// Where none is known.
+    pub fn of(scene: &Value) -> Result<Self, String> {
+        let bodies = scene["bodies"].as_array().map_or(0, Vec::len);
+        let centre = scene
+            .pointer("/bodies/0/shape/sphere/centre_m")
+            .and_then(numbers);
+        let first = scene["geometry"] == "space" && bodies == 1;
+        if !first || centre.is_none_or(|c| c.iter().any(|x| x.abs() > 0.0)) {
+            return Err("known is one sphere in space about the origin".to_owned());
+        }
+        match scene.get("electrostatics") {
+            Some(_) => Ok(Self::Dielectric(dielectric(scene)?)),
+            None => conductor(scene),
+        }
+    }
+
+    /// Where the solution comes from.
+    #[must_use]
+    pub fn source(&self) -> &'static str {
+        match self {
+            Self::Dielectric(_) => "dipole of the sphere, Matsuzawa (2017), eqs 3.3 to 3.11",
+            Self::Conductor { .. } => {
+                "spherical harmonics and Bessel functions, Smythe (1950), chapter XI, the current spread evenly over the wires"
+            }
+        }
+    }
+
+    /// All fields at a place.
+    #[must_use]
+    pub fn fields(&self, p: [f64; 3]) -> Vec<Entry> {
+        match self {
+            Self::Dielectric(sphere) => {
+                let mut all = vec![("potential".to_owned(), "V", sphere.potential(p))];
+                all.extend(vector("electric_field", "V/m", sphere.electric(p)));
+                all
+            }
+            Self::Conductor { solution, body, .. } => currents(solution, body, p),
+        }
+    }
+
+    /// Force and heat.
+    #[must_use]
+    pub fn totals(&self) -> Vec<Entry> {
+        match self {
+            Self::Dielectric(_) => Vec::new(),
+            Self::Conductor { solution, .. } => {
+                let lift = ["volume", "maxwell", "coil"];
+                let lift = lift.map(|n| (format!("force_{n}_z"), "N", solution.lift()));
+                let heat = ["volume", "poynting"];
+                let heat = heat.map(|n| (format!("power_{n}"), "W", solution.power()));
+                lift.into_iter().chain(heat).collect()
+            }
+        }
+    }
+
+    /// Traction along the outward normal over the height of a place on the surface, as a line.
+    fn surface(&self) -> Option<Value> {
+        let Self::Dielectric(sphere) = self else {
+            return None;
+        };
+        let cosines: Vec<f64> = (-50..=50).map(|k| f64::from(k) / 50.0).collect();
+        let heights: Vec<f64> = cosines.iter().map(|c| c * sphere.radius).collect();
+        let tractions: Vec<f64> = cosines.iter().map(|c| sphere.traction(*c)).collect();
+        Some(json!({"name": "surface", "columns": [
+            {"name": "z_m", "unit": "m", "values": heights},
+            {"name": "traction", "unit": "N/m2", "values": tractions}
+        ]}))
+    }
+
+    /// The solution along the lines of its scene, as a file.
+    ///
+    /// # Errors
+    /// Where a line leaves the places where it is known.
+    pub fn file(&self, scene: &Value) -> Result<Value, String> {
+        let mut all = Vec::new();
+        for (name, places) in lines(scene)? {
+            if let Self::Conductor { reach, .. } = self
+                && places.iter().any(|p| length(*p) >= *reach)
+            {
+                return Err(format!(
+                    "line {name} leaves the ball within the nearest wire, {reach} m"
+                ));
+            }
+            let rows: Vec<Vec<Entry>> = places.iter().map(|p| self.fields(*p)).collect();
+            let column = |k: usize| {
+                let values: Vec<f64> = rows.iter().map(|r| r[k].2).collect();
+                json!({"name": rows[0][k].0, "unit": rows[0][k].1, "values": values})
+            };
+            let count = rows.first().map_or(0, Vec::len);
+            let columns: Vec<Value> = (0..count).map(column).collect();
+            all.push(json!({"name": name, "columns": columns}));
+        }
+        all.extend(self.surface());
+        let total =
+            |(name, unit, value): Entry| json!({"name": name, "unit": unit, "value": value});
+        Ok(json!({
+            "kind": "field-exact",
+            "version": "1.0",
+            "source": self.source(),
+            "lines": all,
+            "totals": self.totals().into_iter().map(total).collect::<Vec<Value>>(),
+        }))
+    }
+}
+
+/// The sphere whose dipole the walls of a scene have.
+fn dielectric(scene: &Value) -> Result<Sphere, String> {
+    let walls = scene.pointer("/electrostatics/outer/0/potential_v");
+    let walls = Property::read(walls.ok_or("the walls have no potential")?)?;
+    let at = |p: [f64; 3]| walls.value(&At::place(p));
+    let corner = scene.pointer("/domain/box/max_m").and_then(numbers);
+    let corner = corner.ok_or("the domain is no box")?;
+    let around = number(scene, "/surroundings/relative_permittivity").unwrap_or(1.0);
+    let mut sphere = Sphere {
+        radius: number(scene, "/bodies/0/shape/sphere/radius_m")?,
+        ratio: number(scene, "/bodies/0/relative_permittivity").unwrap_or(1.0) / around,
+        field: 1.0,
+        middle: at([corner[0], corner[1], 0.0]),
+    };
+    // By a field of 1 V/m the potential of a corner is off the middle by that much.
+    let unit = sphere.potential(corner) - sphere.middle;
+    sphere.field = (at(corner) - sphere.middle) / unit;
+    for p in [[corner[0], 0.0, 0.3 * corner[2]], [0.0, 0.0, corner[2]]] {
+        let far = (sphere.potential(p) - at(p)).abs();
+        if far > ALIKE * at(corner).abs().max(sphere.middle.abs()) {
+            return Err(
+                "the walls have another potential than the dipole of the sphere".to_owned(),
+            );
+        }
+    }
+    Ok(sphere)
+}
+
+fn conductor(scene: &Value) -> Result<Known, String> {
+    let body = Body {
+        radius: number(scene, "/bodies/0/shape/sphere/radius_m")?,
+        conductivity: number(scene, "/bodies/0/conductivity_s_m")?,
+        frequency: number(scene, "/eddy_currents/harmonic/frequency_hz")?,
+    };
+    let sources = loops(scene)?;
+    let far = sources.loops.iter().map(|l| l.radius.hypot(l.height));
+    Ok(Known::Conductor {
+        reach: far.fold(f64::INFINITY, f64::min),
+        solution: Box::new(Solution::of(body, sources)),
+        body,
+    })
+}
+
+/// The coaxial loops of a scene, thick ones as many thin ones.
+fn loops(scene: &Value) -> Result<Sources, String> {
+    let coils = scene
+        .pointer("/eddy_currents/coils")
+        .and_then(Value::as_array);
+    let mut sources = Sources::default();
+    for coil in coils.into_iter().flatten() {
+        let own = coil.get("loop").ok_or("known are loops alone")?;
+        let centre = numbers(&own["centre_m"]).filter(|c| c[0].hypot(c[1]) <= 0.0);
+        if own.get("normal").is_some() || own["phase_deg"].as_f64().is_some_and(|p| p.abs() > 0.0) {
+            return Err("known are coaxial loops in phase".to_owned());
+        }
+        let one = Loop {
+            radius: number(own, "/radius_m")?,
+            height: centre.ok_or("known are loops about z")?[2],
+            current: number(own, "/current_a")? * own["turns"].as_f64().unwrap_or(1.0),
+        };
+        match own["wire_radius_m"].as_f64() {
+            None => sources.loops.push(one),
+            Some(thick) => sources.loops.extend(one.thick(thick)),
+        }
+    }
+    Ok(sources)
+}
+
+/// Fields of the conducting sphere: what goes around the axis, and what lies in its planes.
+fn currents(solution: &Solution, body: &Body, p: [f64; 3]) -> Vec<Entry> {
+    let rho = p[0].hypot(p[1]);
+    let share = if rho > 0.0 {
+        [p[0] / rho, p[1] / rho]
+    } else {
+        [0.0; 2]
+    };
+    let zero = C::new(0.0, 0.0);
+    let around = |v: C| [v * -share[1], v * share[0], zero];
+    let inside = length(p) <= body.radius;
+    let potential = solution.potential(rho, p[2]);
+    let [out, up] = solution.flux(rho, p[2]);
+    let current = if inside {
+        solution.current(rho, p[2])
+    } else {
+        zero
+    };
+    let mut all = phasor("vector_potential", "Wb/m", around(potential));
+    all.extend(phasor(
+        "magnetic_flux_density",
+        "T",
+        [out * share[0], out * share[1], up],
+    ));
+    all.extend(phasor("current_density", "A/m2", around(current)));
+    let [away, along] = [(current * up.conj()).re, -(current * out.conj()).re];
+    all.extend(vector(
+        "force_density",
+        "N/m3",
+        [away * share[0], away * share[1], along],
+    ));
+    all.push((
+        "joule_heat".to_owned(),
+        "W/m3",
+        current.norm_sqr() / body.conductivity,
+    ));
+    all
+}
+
+fn vector(name: &str, unit: &'static str, v: [f64; 3]) -> Vec<Entry> {
+    let each = ["x", "y", "z"].iter().zip(v);
+    each.map(|(axis, v)| (format!("{name}_{axis}"), unit, v))
+        .collect()
+}
+
+fn phasor(name: &str, unit: &'static str, v: [C; 3]) -> Vec<Entry> {
+    let mut all = vector(&format!("{name}_real"), unit, v.map(|c| c.re));
+    all.extend(vector(&format!("{name}_imag"), unit, v.map(|c| c.im)));
+    all
+}
+
+fn length(p: [f64; 3]) -> f64 {
+    p.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(text: &str) -> Value {
+        serde_json::from_str(text).unwrap()
+    }
+
+    const DROP: &str = include_str!("../../../pipelines/levitation-field/scene.json");
+    const SPHERE: &str = include_str!("../../../pipelines/dielectric-sphere/scene.json");
+
+    #[test]
+    fn the_dipole_is_read_from_the_walls() {
+        let mut own = scene(SPHERE);
+        let Known::Dielectric(sphere) = Known::of(&own).unwrap() else {
+            panic!("no dielectric");
+        };
+        assert!((sphere.field + 5e6).abs() < 1e-3 && (sphere.middle - 2500.0).abs() < 1e-9);
+        own["bodies"][0]["relative_permittivity"] = json!(2);
+        assert!(Known::of(&own).is_err());
+    }
+
+    #[test]
+    fn the_levitated_drop_has_its_known_lift_and_heat() {
+        let known = Known::of(&scene(DROP)).unwrap();
+        let of = |name: &str| known.totals().iter().find(|e| e.0 == name).unwrap().2;
+        assert!((of("force_coil_z") / 0.026_570 - 1.0).abs() < 1e-4);
+        assert!((of("power_volume") / 16.337 - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn lines_of_the_studies_are_known_all_along() {
+        for text in [DROP, SPHERE] {
+            let own = scene(text);
+            let file = Known::of(&own).unwrap().file(&own).unwrap();
+            let all = file["lines"].as_array().unwrap();
+            let wanted = own["output"]["lines"].as_array().unwrap();
+            for line in wanted {
+                assert!(all.iter().any(|l| l["name"] == line["name"]));
+            }
+            let values = all.iter().flat_map(|l| l["columns"].as_array().unwrap());
+            for column in values {
+                let numbers = column["values"].as_array().unwrap();
+                assert!(numbers.iter().all(Value::is_f64), "{}", column["name"]);
+            }
+        }
+        let mut long = scene(DROP);
+        long["output"]["lines"][0]["to_m"] = json!([0.01, 0, 0]);
+        assert!(Known::of(&long).unwrap().file(&long).is_err());
+    }
+
+    #[test]
+    fn the_force_is_that_of_current_and_flux_density() {
+        let known = Known::of(&scene(DROP)).unwrap();
+        let all = known.fields([1.3e-3, 0.9e-3, -1.7e-3]);
+        let of = |name: String| all.iter().find(|e| e.0 == name).unwrap().2;
+        let part = |stem: &str, axis: &str| {
+            C::new(
+                of(format!("{stem}_real_{axis}")),
+                of(format!("{stem}_imag_{axis}")),
+            )
+        };
+        let axes = ["x", "y", "z"];
+        let j = axes.map(|a| part("current_density", a));
+        let b = axes.map(|a| part("magnetic_flux_density", a).conj());
+        for (k, axis) in axes.iter().enumerate() {
+            let (m, n) = ((k + 1) % 3, (k + 2) % 3);
+            let wanted = (j[m] * b[n] - j[n] * b[m]).re;
+            let found = of(format!("force_density_{axis}"));
+            assert!(
+                (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0),
+                "{k}: {found} {wanted}"
+            );
+        }
+    }
+}
