@@ -19,7 +19,7 @@ MACHINE := --threads $(THREADS) --progress $(PROGRESS)
 all: programs gmaw-quick ## build and run the default study to build/gmaw-quick/report.html
 
 help: ## list studies and targets
-	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sort | awk -F':.*## ' '{printf "  make %-16s %s\n", $$1, $$2}'
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | sort | awk -F':.*## ' '{printf "  make %-18s %s\n", $$1, $$2}'
 
 programs: $(PROGRAMS) ## build every program
 $(PROGRAMS) &: $(SOURCES)

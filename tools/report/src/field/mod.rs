@@ -42,6 +42,8 @@ pub(crate) struct Meeting {
 /// The points of a frame.
 #[derive(Debug, Clone)]
 pub(crate) struct Points {
+    /// Simulated time \[s\].
+    pub(crate) time: f64,
     /// Places \[m\].
     pub(crate) position: Vec<[f64; 3]>,
     /// Distance of neighbours \[m\].
@@ -80,6 +82,7 @@ impl Points {
         };
         let (meetings, surface) = meetings(reader)?;
         Ok(Some(Self {
+            time: frame.time_s,
             position: frame.position_vectors()?,
             spacing: frame.f64("spacing")?,
             kind: frame.u8("kind")?.iter().map(kind).collect(),

@@ -6,7 +6,7 @@ use super::Run;
 use crate::draw::axes::number;
 use crate::draw::colour::Map;
 use crate::field::Points;
-use crate::field::columns::{Part, QUANTITIES, Quantity};
+use crate::field::columns::{Part, QUANTITIES, Quantity, prefixed};
 use crate::field::plane::{Plane, View};
 use crate::field::scene::Geometry;
 use crate::html::{figure, picture, side_by_side};
@@ -79,6 +79,10 @@ fn caption(
         text += &format!(", root mean square |{}|", symbol(quantity));
     } else if alternates && mean {
         text += ", mean over a period";
+    }
+    if points.time > 0.0 {
+        let (unit, factor) = prefixed("s", points.time);
+        text += &format!(", after {} {unit}", number(factor * points.time));
     }
     match plane.view.cut {
         Some((axis, at)) => {
