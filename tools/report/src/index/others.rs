@@ -70,7 +70,7 @@ pub(super) fn section(record: &Record) -> String {
          counted. Ours: a run of its own on {} threads, without reading its scene and writing its files.",
         record.threads
     );
-    let about = |text: &String| format!("{text} On {} threads.", record.threads);
+    let about = |text: &String| format!("{text} Threads: {}.", record.threads);
     let mut out = paragraph(&record.about.as_ref().map_or(usual, about));
     for problem in &record.problems {
         out += &format!("<h3>{}</h3>\n", escape(&problem.title));
