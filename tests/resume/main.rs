@@ -26,7 +26,17 @@ enum Scene {
     Heat,
     /// Conduction on a lattice, in explicit stages.
     Rod,
+    /// Eddy currents in a ball, in steps of several lengths.
+    Field,
 }
+
+const SCENES: [Scene; 5] = [
+    Scene::Drop,
+    Scene::Weld,
+    Scene::Heat,
+    Scene::Rod,
+    Scene::Field,
+];
 
 impl Scene {
     fn file(self) -> PathBuf {
@@ -35,6 +45,7 @@ impl Scene {
             Self::Weld => "weld.json",
             Self::Heat => "heat.json",
             Self::Rod => "rod.json",
+            Self::Field => "field.json",
         };
         Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("resume")
@@ -45,6 +56,7 @@ impl Scene {
         match self {
             Self::Drop | Self::Weld => "poolsph",
             Self::Heat | Self::Rod => "heatsph",
+            Self::Field => "emfield",
         }
     }
 
@@ -52,7 +64,7 @@ impl Scene {
     fn frames(self) -> &'static str {
         match self {
             Self::Drop | Self::Weld => "/particles",
-            Self::Heat | Self::Rod => "/points",
+            Self::Heat | Self::Rod | Self::Field => "/points",
         }
     }
 
@@ -89,11 +101,13 @@ impl Scene {
         static WELD: OnceLock<Vec<u8>> = OnceLock::new();
         static HEAT: OnceLock<Vec<u8>> = OnceLock::new();
         static ROD: OnceLock<Vec<u8>> = OnceLock::new();
+        static FIELD: OnceLock<Vec<u8>> = OnceLock::new();
         let bytes = match self {
             Self::Drop => &DROP,
             Self::Weld => &WELD,
             Self::Heat => &HEAT,
             Self::Rod => &ROD,
+            Self::Field => &FIELD,
         };
         bytes.get_or_init(|| {
             let folder = folder();
@@ -102,6 +116,7 @@ impl Scene {
             match self {
                 Self::Drop | Self::Weld => happens(&reader),
                 Self::Heat | Self::Rod => warms(&reader),
+                Self::Field => enters(&reader),
             }
             bytes
         })
@@ -137,6 +152,15 @@ fn warms(reader: &Reader) {
         lost.abs() < 1e-6 * stored.abs(),
         "lost {lost} J of {stored} J"
     );
+}
+
+/// The field must enter the ball, and heat it less in the end than at first.
+fn enters(reader: &Reader) {
+    let totals = reader.records("/totals").unwrap();
+    let heat = |i: usize| totals[i].1.get("power_volume").unwrap();
+    let (early, late) = (heat(1), heat(totals.len() - 1));
+    assert!(totals.len() > 10 && heat(0).abs() < 1e-300);
+    assert!(late > 0.0 && late < 0.5 * early, "{early} W and {late} W");
 }
 
 /// Runs to the end and gives the bytes.
@@ -180,7 +204,7 @@ fn record(folder: &Path) -> serde_json::Value {
 
 #[test]
 fn two_threads_write_the_bytes_of_one() {
-    for scene in [Scene::Drop, Scene::Weld, Scene::Heat, Scene::Rod] {
+    for scene in SCENES {
         let folder = folder();
         let bytes = finish(&mut scene.command(folder.path(), 2), folder.path());
         assert!(bytes == scene.straight(), "{scene:?}");
@@ -214,7 +238,7 @@ fn ctrl_c_leaves_a_checkpoint_and_the_run_goes_on_to_the_same_bytes() {
 
 #[test]
 fn a_run_killed_at_any_moment_goes_on_to_the_same_bytes() {
-    for scene in [Scene::Drop, Scene::Weld, Scene::Heat, Scene::Rod] {
+    for scene in SCENES {
         let folder = folder();
         let folder = folder.path();
         let out = folder.join(OUT);

@@ -71,7 +71,12 @@ impl Case for EmSphereLoops {
     }
 }
 
-fn errors(run: &Finished, points: &Points, exact: &Solution) -> Result<Errors, LabError> {
+/// Errors of force, heat, currents and flux density, and what they cost.
+pub(super) fn errors(
+    run: &Finished,
+    points: &Points,
+    exact: &Solution,
+) -> Result<Errors, LabError> {
     let found = totals(run)?;
     let mut errors = Errors::new();
     for (name, total, wanted) in [
@@ -90,7 +95,7 @@ fn errors(run: &Finished, points: &Points, exact: &Solution) -> Result<Errors, L
     let (wanted, _) = exact.largest_current();
     errors.insert("largest_current".to_owned(), (largest / wanted - 1.0).abs());
     // Within 1.2 radii: no loop is nearer.
-    let radius = number(run, "/bodies/0/shape/sphere/radius_m")?;
+    let radius = radius(run)?;
     let scale = exact.flux(0.0, -radius)[1].norm();
     let flux = flux_error(points, exact, 1.2 * radius)? / scale;
     errors.insert("flux_linf".to_owned(), flux);
@@ -119,16 +124,26 @@ pub(super) fn flux_error(points: &Points, exact: &Solution, within: f64) -> Resu
     Ok(worst)
 }
 
+/// Radius of the sphere of a scene \[m\]; about an axis it is a disc.
+fn radius(run: &Finished) -> Result<f64, LabError> {
+    let disc = number_or(run, "/bodies/0/shape/disc/radius_m", 0.0);
+    if disc > 0.0 {
+        return Ok(disc);
+    }
+    number(run, "/bodies/0/shape/sphere/radius_m")
+}
+
 /// The sphere of a scene.
 pub(super) fn body(run: &Finished) -> Result<Body, LabError> {
     Ok(Body {
-        radius: number(run, "/bodies/0/shape/sphere/radius_m")?,
+        radius: radius(run)?,
         conductivity: number(run, "/bodies/0/conductivity_s_m")?,
         frequency: number(run, "/eddy_currents/harmonic/frequency_hz")?,
     })
 }
 
-fn loops(run: &Finished) -> Result<Sources, LabError> {
+/// The loops of a scene; a place has two numbers about an axis.
+pub(super) fn loops(run: &Finished) -> Result<Sources, LabError> {
     let coils = run.scene.pointer("/eddy_currents/coils");
     let count = coils.and_then(Value::as_array).map_or(0, Vec::len);
     let mut sources = Sources::default();
@@ -137,7 +152,10 @@ fn loops(run: &Finished) -> Result<Sources, LabError> {
         let turns = number_or(run, &at("turns"), 1.0);
         let one = Loop {
             radius: number(run, &at("radius_m"))?,
-            height: number(run, &at("centre_m/2"))?,
+            height: match number(run, &at("centre_m/2")) {
+                Ok(height) => height,
+                Err(_) => number(run, &at("centre_m/1"))?,
+            },
             current: turns * number(run, &at("current_a"))?,
         };
         match number_or(run, &at("wire_radius_m"), 0.0) {

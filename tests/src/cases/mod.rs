@@ -10,11 +10,14 @@ mod arc_potential;
 mod arc_surface;
 mod arc_vapour;
 mod arc_wire_joule;
+mod em_axisymmetric_sphere;
 mod em_cylinder_ac;
 mod em_dielectric_sphere;
+mod em_planar_az;
 mod em_sphere_loops;
 mod em_sphere_uniform_ac;
 mod em_transient_cylinder;
+mod em_transient_sphere;
 mod gas_argon;
 mod heat_block_3d;
 mod heat_cylinder_flux;
@@ -53,9 +56,12 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_wire_joule::ArcWireJoule),
         Box::new(em_dielectric_sphere::EmDielectricSphere),
         Box::new(em_cylinder_ac::EmCylinderAc),
+        Box::new(em_planar_az::EmPlanarAz),
         Box::new(em_sphere_uniform_ac::EmSphereUniformAc),
         Box::new(em_sphere_loops::EmSphereLoops),
+        Box::new(em_axisymmetric_sphere::EmAxisymmetricSphere),
         Box::new(em_transient_cylinder::EmTransientCylinder),
+        Box::new(em_transient_sphere::EmTransientSphere),
         Box::new(gas_argon::GasArgon),
         Box::new(heat_patch::HeatPatch),
         Box::new(heat_exp_x::HeatExpX),

@@ -6,7 +6,9 @@
 //!   [`diffusion`]: the same after its field is switched on.
 //! - [`exact`]: fields along the lines of a scene whose solution is known.
 //! - [`frames`] reads runs and scenes.
-//! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field.
+//! - [`transverse`]: a conducting cylinder in an alternating field across it.
+//! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field;
+//!   [`switched`]: the same after a uniform field is switched on.
 
 pub mod bessel;
 pub mod cylinder;
@@ -15,6 +17,8 @@ pub mod diffusion;
 pub mod exact;
 pub mod frames;
 pub mod sphere;
+pub mod switched;
+pub mod transverse;
 
 use num_complex::Complex;
 

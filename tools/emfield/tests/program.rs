@@ -111,8 +111,8 @@ fn a_march_comes_to_the_sinusoidal_state() {
         "wave": {"expr": format!("cos({} * t)", std::f64::consts::TAU * frequency)}}}));
     scene["output"]["every_s"] = json!(end / 2.0);
     let reader = run(folder.path(), &scene);
-    assert_eq!(reader.count("/points"), 2);
-    let frame = reader.frame("/points", 1).unwrap();
+    assert_eq!(reader.count("/points"), 3);
+    let frame = reader.frame("/points", 2).unwrap();
     assert!((frame.time_s / end - 1.0).abs() < 1e-9);
     for name in [
         "vector_potential",
@@ -129,6 +129,62 @@ fn a_march_comes_to_the_sinusoidal_state() {
             "{name}: {far:e} of {most:e}"
         );
     }
+}
+
+#[test]
+fn a_skin_thinner_than_the_spacing_is_told_and_the_field_stays_bounded() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = scene();
+    scene["geometry"] = json!("plane");
+    scene["domain"] = json!({"sphere": {"centre_m": [0, 0], "radius_m": 0.1}});
+    scene["bodies"] = json!([]);
+    scene["surroundings"] = json!({"conductivity_s_m": 7.7e6});
+    scene["points"] = json!({"spacing_m": 0.01});
+    // A skin of 5.7 um.
+    scene["eddy_currents"] = json!({"harmonic": {"frequency_hz": 1e9},
+        "applied_flux_density_t": [0, 0, 1.2566370614359173e-6]});
+    let out = folder.path().join("fields.mcap");
+    let file = folder.path().join("scene.json");
+    std::fs::write(&file, scene.to_string()).unwrap();
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+        .args(["run", file.to_str().unwrap(), "--out"])
+        .args([out.to_str().unwrap(), "-q"])
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(3));
+    let record = std::fs::read_to_string(out.with_extension("run.json")).unwrap();
+    let record: Value = serde_json::from_str(&record).unwrap();
+    assert_eq!(record["outcome"], "warned");
+    let told = record["warnings"][0].as_str().unwrap();
+    assert!(told.starts_with("unresolved: skin depth"), "{told}");
+    let frame = Reader::open(&out).unwrap().frame("/points", 0).unwrap();
+    for name in ["magnetic_field_real", "magnetic_field_imag"] {
+        for h in frame.f64(name).unwrap() {
+            assert!((-1e-3..=1.0 + 1e-9).contains(&h), "{name}: {h}");
+        }
+    }
+}
+
+#[test]
+fn frames_of_a_march_come_at_the_very_instants() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = driven(&json!({"transient": {"end_s": 1, "step_s": 0.1}}));
+    scene["output"]["at_s"] = json!([0.25, 0.7, 0.73]);
+    let reader = run(folder.path(), &scene);
+    assert_eq!(
+        reader.times("/points").unwrap(),
+        [0.0, 0.25, 0.7, 0.73, 1.0]
+    );
+    scene["output"]["at_s"] = json!([0.25, 2]);
+    let file = folder.path().join("late.json");
+    std::fs::write(&file, scene.to_string()).unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+        .args(["check", file.to_str().unwrap()])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("/output/at_s/1"), "{said}");
 }
 
 #[test]

@@ -16,7 +16,7 @@ use crate::solve::eddy::{Drive, Solution, steady_change};
 use crate::solve::multipole::Multipoles;
 use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
-use crate::solve::sides::Sides;
+use crate::solve::sides::{Form, Sides};
 use crate::source::{MU0, Source};
 
 type C = Complex<f64>;
@@ -91,7 +91,11 @@ impl<'a, const D: usize> Setting<'a, D> {
         session: &mut Session,
     ) -> Result<Self, Failure> {
         let region: Region<D> = region(scene, cloud, &|_| false);
-        let form = super::form(scene);
+        let unknown = unknown(scene, currents);
+        let form = Form {
+            around: unknown.around(),
+            ..super::form(scene)
+        };
         let made = session.timed("weights", || {
             let cells: Vec<Moments<D>> = cloud.cells.iter().map(moments).collect();
             let weights = quadrature::weights(&region, &cells, &form)?;
@@ -102,7 +106,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         Ok(Self {
             sides,
             weights,
-            unknown: unknown(scene, currents),
+            unknown,
             source: source(scene, currents),
             conductors: Conductors {
                 mu_sigma: media(scene, |m| {

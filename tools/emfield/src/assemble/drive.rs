@@ -33,10 +33,6 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
     let mut faults = Vec::new();
     let unknown = unknown(scene, currents);
     if currents.transient.is_some() {
-        if scene.geometry == Geometry::Axisymmetric {
-            let what = "a march in time is not computed about an axis, where its rows let errors grow: take a scene in space";
-            faults.push(Fault::at("/eddy_currents/transient", what));
-        }
         let lead = |coil: &Coil| match coil {
             Coil::Loop(l) => ("loop", l.phase_deg),
             Coil::Segments(s) => ("segments", s.phase_deg),

@@ -9,7 +9,6 @@ use crate::output::{Column, Found};
 use crate::scene::Geometry;
 use crate::solve::diffusion::Unknown;
 use crate::solve::eddy::{Fields, Media, Solution};
-use crate::solve::region::Region;
 use crate::solve::totals::{self, Totals};
 use crate::source::{MU0, Source};
 
@@ -133,27 +132,24 @@ impl<const D: usize> Setting<'_, D> {
                 }
             }
         };
-        if let Some(region) = self.in_space() {
-            let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
-            let found = Totals::in_space(region, fields, &self.weights, (source, &conducts));
-            force("force_volume", found.force_volume);
-            force("force_maxwell", found.force_stress);
-            force("force_coil", found.force_coil);
-            all.totals
-                .push(("force_spread".to_owned(), newton, found.spread()));
-            all.totals
-                .push(("power_volume".to_owned(), watt, found.heat_volume));
-            all.totals
-                .push(("power_poynting".to_owned(), watt, found.heat_surface));
-        } else {
+        if self.unknown == Unknown::Axial {
+            // A field along z pulls at no coil, and what flows in through a wall is not told apart.
             let (pull, heat) = totals::volume(fields, &self.weights);
             force("force_volume", pull);
             all.totals.push(("power_volume".to_owned(), watt, heat));
+            return;
         }
-    }
-
-    /// The points, if they have three coordinates.
-    fn in_space(&self) -> Option<&Region<3>> {
-        (&self.region as &dyn std::any::Any).downcast_ref()
+        let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
+        let found = Totals::of(&self.region, fields, &self.weights, (source, &conducts));
+        force("force_volume", found.force_volume);
+        force("force_maxwell", found.force_stress);
+        force("force_coil", found.force_coil);
+        for (name, unit, value) in [
+            ("force_spread", newton, found.spread()),
+            ("power_volume", watt, found.heat_volume),
+            ("power_poynting", watt, found.heat_surface),
+        ] {
+            all.totals.push((name.to_owned(), unit, value));
+        }
     }
 }

@@ -1,12 +1,13 @@
-//! Eddy currents of a scene in time: from rest to the end in even steps.
+//! Eddy currents of a scene in time: from rest to the end.
 
 use artefact::Checkpoint;
-use krylov::{Ending, Solved, System};
+use krylov::{Ending, Rows, Solved, System};
 use num_complex::Complex;
 use run::property::{Arguments, Curve, Property};
 use run::{Failure, Session};
 
 use super::currents::Setting;
+use super::steps::Steps;
 use crate::cloud::Cloud;
 use crate::output::Found;
 use crate::scene::currents::{OuterReaction, Transient};
@@ -14,46 +15,9 @@ use crate::scene::{EddyCurrents, Scene};
 use crate::solve::eddy::{Drive, Solution, pairs};
 use crate::solve::march::{Forcing, March, State, shift};
 use crate::solve::multipole::Multipoles;
-use crate::solve::sides::Sides;
+use crate::solve::sides::{Form, Sides};
 
 type C = Complex<f64>;
-
-/// Part of a step that counts as rounding where steps and instants are compared.
-const ROUNDING: f64 = 1e-6;
-
-/// Even steps, and those after which fields are written.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Steps {
-    count: u64,
-    length: f64,
-    every: Option<f64>,
-}
-
-impl Steps {
-    /// Steps of at most the length that is asked for.
-    fn new(transient: &Transient, every: Option<f64>) -> Self {
-        let count = (transient.end_s / transient.step_s - ROUNDING)
-            .ceil()
-            .max(1.0);
-        Self {
-            count: count as u64,
-            length: transient.end_s / count,
-            every,
-        }
-    }
-
-    /// The instant after so many steps \[s\].
-    fn time(&self, taken: u64) -> f64 {
-        self.length * taken as f64
-    }
-
-    /// Are fields written after so many steps?
-    fn written(&self, taken: u64) -> bool {
-        let passed = |every: f64, taken: u64| (self.time(taken) / every + ROUNDING).floor();
-        let due = |every: f64| passed(every, taken) > passed(every, taken - 1);
-        taken == self.count || self.every.is_some_and(due)
-    }
-}
 
 /// What solves of a march have taken.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -102,41 +66,56 @@ pub fn march<const D: usize, const K: usize>(
     mut write: impl FnMut(f64, Found, &mut Session) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let setting: Setting<'_, D> = Setting::new(scene, currents, cloud, session)?;
-    let steps = Steps::new(transient, scene.output.every_s);
+    let steps = Steps::new(transient, &scene.output);
     let wave = Wave::new(transient)?;
     let drive = session.timed("source", || setting.drive::<K>());
     let flux = setting.source.flux(&cloud.position);
-    let mut march = begin(&setting, &drive, steps.length, session)?;
+    let equations = Equations::new(&setting, session)?;
+    let mut length = steps.step(0).1;
+    let system = equations.system(&setting, length, session)?;
+    let forcing = forcing(&setting, &drive);
+    let mut march = March::new(system, equations.rates.clone(), forcing, length);
     let (mut taken, mut effort) = (0, Effort::default());
     if let Some(mut checkpoint) = session.restored() {
         (taken, effort) = restore(&mut march, &mut checkpoint)?;
+    } else {
+        write(
+            0.0,
+            fields(&setting, &drive, march.state(), (0.0, &flux)),
+            session,
+        )?;
     }
     let rule = super::rule(scene);
-    while taken < steps.count {
-        let from = steps.time(taken);
+    while taken < steps.count() {
+        let (from, wanted) = steps.step(taken);
+        if wanted != length {
+            length = wanted;
+            march.pace(equations.system(&setting, length, session)?, length);
+        }
         let solved = session.timed("march", || march.advance(from, |t| wave.at(t), rule))?;
         taken += 1;
-        let time = steps.time(taken);
+        let (time, written) = steps.end(taken);
         effort.add(time, &solved, session)?;
-        session.progress(taken, steps.count, || {
+        session.progress(taken, steps.count(), || {
             vec![
                 ("time", time, "s"),
-                ("step", steps.length, "s"),
+                ("step", length, "s"),
                 ("products", effort.products as f64, "1"),
             ]
         });
-        if steps.written(taken) {
+        if written {
+            let wave = wave.at(time)?;
             let found = session.timed("fields", || {
-                fields(&setting, &drive, march.state(), (wave.at(time)?, &flux))
-            })?;
+                fields(&setting, &drive, march.state(), (wave, &flux))
+            });
             write(time, found, session)?;
         }
-        if taken < steps.count {
+        if taken < steps.count() {
             session.keep(|checkpoint| save(march.state(), taken, effort, checkpoint))?;
         }
     }
-    session.steps(steps.count);
-    session.closing("step", "s", steps.length);
+    session.steps(steps.count());
+    session.closing("step", "s", steps.longest());
     session.closing("products_march", "1", effort.products as f64);
     session.closing("residual_march", "1", effort.residual);
     Ok(())
@@ -158,31 +137,67 @@ impl Wave {
     }
 }
 
-/// A march at rest, its equations factorised.
-fn begin<const D: usize, const K: usize>(
+/// What the rows of a march hold whatever its step.
+struct Equations {
+    rates: Vec<f64>,
+    rows: Rows<f64>,
+    /// Rows of low order, which precondition those of high order.
+    low: Option<Rows<f64>>,
+}
+
+impl Equations {
+    fn new<const D: usize>(
+        setting: &Setting<'_, D>,
+        session: &mut Session,
+    ) -> Result<Self, Failure> {
+        let (region, sides, unknown) = (&setting.region, &setting.sides, setting.unknown);
+        let conductors = &setting.conductors;
+        let low = super::low_order(setting.scene, region.len()).map(|low| {
+            let low = Form {
+                around: unknown.around(),
+                ..low
+            };
+            let sides = session.timed("weights", || Sides::new(region, &low))?;
+            Ok(conductors.rows(region, &sides, unknown))
+        });
+        Ok(Self {
+            low: low
+                .transpose()
+                .map_err(|error: wls::Error| failed(&error))?,
+            rates: session.timed("assemble", || conductors.rates(region, sides, unknown)),
+            rows: session.timed("assemble", || conductors.rows(region, sides, unknown)),
+        })
+    }
+
+    /// The equations of a step of this length \[s\], factorised.
+    fn system<const D: usize>(
+        &self,
+        setting: &Setting<'_, D>,
+        step: f64,
+        session: &mut Session,
+    ) -> Result<System<f64, f64>, Failure> {
+        let (shift, options) = (shift(&self.rates, step), super::options(setting.scene));
+        let rows = self.rows.clone();
+        let system = session.timed("factorise", || match &self.low {
+            Some(low) => System::with_low_order(rows, shift, low.clone(), options),
+            None => System::new(rows, shift, options),
+        });
+        system.map_err(|error| failed(&error))
+    }
+}
+
+/// What drives a march.
+fn forcing<const D: usize, const K: usize>(
     setting: &Setting<'_, D>,
     drive: &Drive<K>,
-    step: f64,
-    session: &mut Session,
-) -> Result<March<K>, Failure> {
-    let (region, sides, unknown) = (&setting.region, &setting.sides, setting.unknown);
+) -> Forcing<K> {
+    let (region, unknown) = (&setting.region, setting.unknown);
     let conductors = &setting.conductors;
-    let (rates, rows) = session.timed("assemble", || {
-        let rates = conductors.rates(region, sides, unknown);
-        (rates, conductors.rows(region, sides, unknown))
-    });
-    let low = super::low_order(setting.scene, region.len()).map(|low| {
-        let sides = session.timed("weights", || Sides::new(region, &low))?;
-        Ok(conductors.rows(region, &sides, unknown))
-    });
-    let low = low
-        .transpose()
-        .map_err(|error: wls::Error| failed(&error))?;
     let held = |i| {
         let held = conductors.held(region, unknown, i);
         held.then(|| drive.held.map(|h| h.re))
     };
-    let forcing = Forcing {
+    Forcing {
         source: drive.source.iter().map(|a| a.map(|a| a.re)).collect(),
         held: (0..region.len()).map(held).collect(),
         pairs: if setting.currents.outer == OuterReaction::Multipole {
@@ -191,14 +206,7 @@ fn begin<const D: usize, const K: usize>(
         } else {
             Vec::new()
         },
-    };
-    let (shift, options) = (shift(&rates, step), super::options(setting.scene));
-    let system = session.timed("factorise", || match low {
-        Some(low) => System::with_low_order(rows, shift, low, options),
-        None => System::new(rows, shift, options),
-    });
-    let system = system.map_err(|error| failed(&error))?;
-    Ok(March::new(system, rates, forcing, step))
+    }
 }
 
 fn failed(error: &dyn std::fmt::Display) -> Failure {
@@ -211,7 +219,7 @@ fn fields<const D: usize, const K: usize>(
     drive: &Drive<K>,
     state: &State<K>,
     (wave, flux): (f64, &[[C; 3]]),
-) -> Result<Found, Failure> {
+) -> Found {
     let real =
         |values: &[[f64; K]]| -> Vec<[C; K]> { values.iter().map(|v| v.map(C::from)).collect() };
     let source: Vec<[C; K]> = drive.source.iter().map(|a| a.map(|a| a * wave)).collect();
@@ -221,7 +229,7 @@ fn fields<const D: usize, const K: usize>(
         source: &source,
         change: &real(&state.change),
     };
-    Ok(setting.found(solution, &flux, &setting.source.times(wave)))
+    setting.found(solution, &flux, &setting.source.times(wave))
 }
 
 /// Puts all that the rest of a march depends on into a checkpoint.

@@ -6,6 +6,7 @@ mod magnetic;
 mod march;
 mod potential;
 mod region;
+mod steps;
 
 use krylov::{Ending, Grids, Method, Options, Rule, Solved};
 use run::{Failure, Session};
@@ -46,6 +47,7 @@ fn form(scene: &Scene) -> Form {
         order: scene.method.order as u8,
         support: scene.method.support,
         positive: scene.method.positive,
+        ..Form::default()
     }
 }
 
@@ -59,8 +61,7 @@ fn low_order(scene: &Scene, unknowns: usize) -> Option<Form> {
     };
     (scene.method.order > 2 && !direct).then_some(Form {
         order: 2,
-        support: None,
-        positive: false,
+        ..Form::default()
     })
 }
 

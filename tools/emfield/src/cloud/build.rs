@@ -188,10 +188,21 @@ impl Builder {
             .fold(solid.spacing, |least, seed| least.min(local(seed.place)));
         if least < 0.999 * solid.spacing {
             let limits = (solid.spacing, LEAST * solid.spacing);
-            surface::seeds(&solid.body, self.region.dimensions, limits, &local)
+            let fine = surface::seeds(&solid.body, self.region.dimensions, limits, &local);
+            self.on_axis(fine)
         } else {
-            coarse
+            self.on_axis(coarse)
         }
+    }
+
+    /// Points that lie on an axis but for rounding lie on it.
+    fn on_axis(&self, mut seeds: Vec<Seed>) -> Vec<Seed> {
+        for seed in seeds.iter_mut().filter(|_| self.region.axisymmetric) {
+            if seed.place[0].abs() < 1e-6 * seed.spacing {
+                seed.place[0] = 0.0;
+            }
+        }
+        seeds
     }
 
     /// The media that a surface point parts, if it parts any and lies in the domain.
@@ -297,9 +308,13 @@ impl Builder {
         if layered {
             spacing = spacing.min(self.region.spacing);
         }
-        surface::seeds(&body, self.region.dimensions, (spacing, spacing), &|_| {
-            spacing
-        })
+        let limits = (spacing, spacing);
+        self.on_axis(surface::seeds(
+            &body,
+            self.region.dimensions,
+            limits,
+            &|_| spacing,
+        ))
     }
 
     fn outer(&mut self, x: Vector, spacing: f64, face: u8) -> Option<u32> {

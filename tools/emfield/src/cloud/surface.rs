@@ -24,6 +24,8 @@ pub(crate) struct Seed {
 
 /// Pieces per spacing from which points are chosen, over those that shapes make by themselves.
 const FINER: f64 = 2.0;
+/// Pieces per spacing along a curve: points stand as evenly as these are fine.
+const CURVES: f64 = 64.0;
 /// Distance over spacing at which points chosen at random stand as close as an even arrangement.
 const PACKING: f64 = 0.8;
 /// The same for points of two faces that meet at an edge.
@@ -48,7 +50,7 @@ pub(crate) fn seeds(
         Some((centre, radius)) if even && dimensions == 3 => {
             return spiral(centre, radius, spacing);
         }
-        _ if dimensions == 2 => along_curves(&pieces(body, 2, least / FINER / 2.0), local),
+        _ if dimensions == 2 => along_curves(&pieces(body, 2, least / CURVES), local),
         _ => {
             let finer = if even { FINER } else { 1.0 };
             spread(&pieces(body, 3, least / finer), (spacing, least), local)
@@ -92,8 +94,11 @@ fn along_curves(pieces: &[Piece], local: &dyn Fn(Vector) -> f64) -> Vec<Seed> {
     for curve in pieces.chunk_by(joined) {
         let steps: Vec<f64> = curve.iter().map(|p| p.area / local(p.place)).collect();
         let whole: f64 = steps.iter().sum();
-        // An even number keeps the points of a full circle off its axis of symmetry.
-        let number = (2.0 * (0.5 * whole).round()).max(if whole < 1.0 { 1.0 } else { 2.0 });
+        // Points of a curve that closes stand between its quarters: off the axes of a full circle.
+        let closed = curve.len() > 2 && joined(&curve[curve.len() - 1], &curve[0]);
+        let parts = if closed { 4.0 } else { 2.0 };
+        let least = if whole < 1.0 { 1.0 } else { parts };
+        let number = (parts * (whole / parts).round()).max(least);
         let (mut passed, mut area, mut next) = (0.0, 0.0, 0.5);
         let mut middle: Option<Piece> = None;
         for (piece, step) in curve.iter().zip(&steps) {

@@ -32,6 +32,7 @@ impl Scene {
             }
         }
         check_bodies(&self.bodies, dimensions, &mut misfits);
+        self.times(&mut misfits);
         if self.electrostatics.is_none() && self.eddy_currents.is_none() {
             misfits.push(Misfit::at(
                 "",
@@ -50,6 +51,30 @@ impl Scene {
             .collect();
         faults.extend(self.formulas());
         faults
+    }
+
+    /// Times of frames lie in a march and rise.
+    fn times(&self, misfits: &mut Vec<Misfit>) {
+        let march = self.eddy_currents.as_ref();
+        let end = march
+            .and_then(|e| e.transient.as_ref())
+            .map_or(0.0, |t| t.end_s);
+        for (number, at) in self.output.at_s.iter().enumerate() {
+            let path = format!("/output/at_s/{number}");
+            if !(*at >= 0.0 && *at <= end) {
+                let what = format!("{at} s is out of range: from 0 s to the end at {end} s");
+                misfits.push(Misfit::at(&path, what));
+            } else if number > 0 && *at <= self.output.at_s[number - 1] {
+                let what = format!("{at} s does not rise above the time before it");
+                misfits.push(Misfit::at(&path, what));
+            }
+        }
+        if let Some(every) = self.output.every_s
+            && end / every > 1e6
+        {
+            let what = format!("{} outputs are too many: at most 1e6", end / every);
+            misfits.push(Misfit::at("/output/every_s", what));
+        }
     }
 
     /// Faults of formulas.

@@ -42,7 +42,7 @@ pub enum Precision {
     F64,
 }
 
-/// What is written: the fields of all points at the end, and what is asked for here.
+/// What is written: the fields of all points at the end, in a march at its start too, and what is asked for here.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
@@ -58,8 +58,11 @@ pub struct Output {
     /// Lines along which fields are written.
     #[serde(default)]
     pub lines: Vec<Line>,
-    /// Interval of frames and probes of a march in time: they are written after the first step that reaches each
-    /// multiple of it, and at the end; the end alone when it is absent.
+    /// Times of frames and probes of a march in time, rising, beside its start and end: steps end there.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "s"))]
+    pub at_s: Vec<f64>,
+    /// Interval of frames and probes of a march in time: steps end at its multiples.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub every_s: Option<f64>,
 }
@@ -75,6 +78,7 @@ impl Default for Output {
             surface: true,
             probes: Vec::new(),
             lines: Vec::new(),
+            at_s: Vec::new(),
             every_s: None,
         }
     }

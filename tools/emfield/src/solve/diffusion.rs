@@ -34,6 +34,17 @@ pub struct Conductors {
     pub mu_sigma: Vec<f64>,
 }
 
+impl Unknown {
+    /// How many times `1/r d/dr` its equation has about an axis, beside the Laplacian in r and z.
+    #[must_use]
+    pub fn around(self) -> f64 {
+        match self {
+            Self::Around => 3.0,
+            Self::Potential | Self::Axial => 1.0,
+        }
+    }
+}
+
 impl Conductors {
     /// What stands before the rate in the row of point `i`, `row(A) = at d(A + A_s)/dt`: inside a
     /// medium `mu sigma`; on an interface the shares of the Laplacians on both sides in the slopes;
@@ -104,7 +115,7 @@ impl Conductors {
                     let plain = sides.own.laplacian(i);
                     plain.iter().for_each(|(j, w)| push(j, w));
                     if unknown == Unknown::Around {
-                        around(region, &sides.own, i, 3.0, &mut push);
+                        around(region, &sides.own, i, unknown.around(), &mut push);
                     }
                 }
             }

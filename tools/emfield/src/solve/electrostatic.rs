@@ -7,8 +7,9 @@
 
 use krylov::Rows;
 use rayon::prelude::*;
-use wls::{Cloud, Error, Search, Stencils, Wants};
+use wls::{Error, Search, Stencils, Wants};
 
+use super::mirror::Mirror;
 use super::region::{Counted, Kind, Region};
 use super::sides::{Form, Sides, along_normal};
 
@@ -115,11 +116,8 @@ impl<const D: usize> Smeared<D> {
     /// # Errors
     /// Where points are alone, coincide or lie in a plane.
     pub fn new(region: &Region<D>, form: &Form) -> Result<Self, Error> {
-        let cloud = Cloud {
-            points: &region.places,
-            metrics: &region.metrics,
-        };
-        let search = Search::new(cloud)?;
+        let mirror = Mirror::new(region);
+        let search = Search::new(mirror.cloud())?;
         let laplacian = Wants {
             laplacian: true,
             hessian: region.axial,
@@ -131,8 +129,8 @@ impl<const D: usize> Smeared<D> {
             ..Wants::default()
         };
         Ok(Self {
-            laplacian: Stencils::build(&search, &form.plan::<D>(laplacian), &wls::Everything)?,
-            gradient: Stencils::build(&search, &form.plan::<D>(gradient), &Counted(region))?,
+            laplacian: mirror.stencils(&search, &form.plan::<D>(laplacian), &wls::Everything)?,
+            gradient: mirror.stencils(&search, &form.plan::<D>(gradient), &Counted(region))?,
         })
     }
 

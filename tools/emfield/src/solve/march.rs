@@ -56,25 +56,36 @@ impl<const K: usize> March<K> {
     #[must_use]
     pub fn new(system: System<f64, f64>, rates: Vec<f64>, forcing: Forcing<K>, step: f64) -> Self {
         let none = vec![[0.0; K]; rates.len()];
-        let slope = 1.0 / (GAMMA * step);
-        let implicit = |v: &Vec<f64>| v.iter().map(|v| slope * v).collect();
-        Self {
-            pairs: forcing
-                .pairs
-                .iter()
-                .map(|(u, v)| (u.clone(), implicit(v)))
-                .collect(),
+        let mut march = Self {
+            pairs: Vec::new(),
             system,
             rates,
             forcing,
-            slope,
+            slope: 0.0,
             step,
             state: State {
                 unknown: none.clone(),
                 total: none.clone(),
                 change: none,
             },
-        }
+        };
+        march.set(step);
+        march
+    }
+
+    /// Goes on in steps of another length \[s\], for which `system` is shifted.
+    pub fn pace(&mut self, system: System<f64, f64>, step: f64) {
+        self.system = system;
+        self.set(step);
+    }
+
+    fn set(&mut self, step: f64) {
+        self.step = step;
+        self.slope = 1.0 / (GAMMA * step);
+        let slope = self.slope;
+        let implicit = |v: &Vec<f64>| v.iter().map(|v| slope * v).collect();
+        let pairs = self.forcing.pairs.iter();
+        self.pairs = pairs.map(|(u, v)| (u.clone(), implicit(v))).collect();
     }
 
     /// What has been reached.

@@ -1,14 +1,17 @@
 //! Equations at the points: one row for each unknown, their solution, and the fields of it.
 //!
-//! - [`region`]: what a point is; [`sides`]: stencils that keep to one side of an interface.
+//! - [`region`]: what a point is; [`sides`]: stencils that keep to one side of an interface, mirrored about an axis
+//!   of symmetry.
 //! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`eddy`] what drives
 //!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`march`] the same in time.
 
+mod coils;
 pub mod diffusion;
 pub mod eddy;
 pub mod electrostatic;
 pub mod march;
+mod mirror;
 pub mod multipole;
 pub mod quadrature;
 pub mod region;

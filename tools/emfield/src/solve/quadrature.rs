@@ -6,8 +6,9 @@
 //! `int f dV = sum_i (V_i f_i + M_i . grad_i f + M2_i : H_i f / 2) = sum_j W_j f_j`:
 //! of third order in the spacing, on the surface as inside, where the sum of `V_i f_i` is of first order.
 
-use wls::{Cloud, Error, Plan, Rules, Search, Stencils, Wants};
+use wls::{Error, Plan, Rules, Search, Wants};
 
+use super::mirror::Mirror;
 use super::region::Region;
 use super::sides::Form;
 
@@ -58,11 +59,10 @@ pub fn weights<const D: usize>(
     };
     let mut plan = Plan::new::<D>(form.order.max(2), wants);
     plan.interpolating = true;
-    let search = Search::new(Cloud {
-        points: &region.places,
-        metrics: &region.metrics,
-    })?;
-    let fits = Stencils::build(&search, &plan, &Within { region, cells })?;
+    // About an axis all that is integrated is even in the distance from it.
+    let mirror = Mirror::new(region);
+    let search = Search::new(mirror.cloud())?;
+    let fits = mirror.stencils(&search, &plan, &Within { region, cells })?;
     for (i, cell) in cells.iter().enumerate().filter(|(_, c)| c.volume > 0.0) {
         weights[i] += cell.volume;
         for a in 0..D {

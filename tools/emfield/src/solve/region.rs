@@ -84,6 +84,16 @@ impl<const D: usize> Region<D> {
         }
     }
 
+    /// A direction at the half plane or plane of the points, in space: about an axis away from it, around it, along it.
+    #[must_use]
+    pub fn raise(&self, along: [f64; D]) -> [f64; 3] {
+        let mut raised = [0.0; 3];
+        for (k, part) in along.iter().enumerate() {
+            raised[if self.axial { 2 * k } else { k }] = *part;
+        }
+        raised
+    }
+
     /// Is the point on an interface?
     #[must_use]
     pub fn on_interface(&self, i: usize) -> bool {
@@ -108,6 +118,8 @@ impl<const D: usize> Rules<D> for Own<'_, D> {
 pub(super) struct Side<'a, const D: usize> {
     pub(super) region: &'a Region<D>,
     pub(super) inner: bool,
+    /// How many times `1/r d/dr` the equation has about an axis.
+    pub(super) around: f64,
 }
 
 impl<const D: usize> Side<'_, D> {
@@ -132,9 +144,13 @@ impl<const D: usize> Rules<D> for Side<'_, D> {
     /// The equation of the side holds on the interface too, with the Laplacian as its datum: a
     /// one-sided slope gains an order from it. About an axis the equation has first derivatives.
     fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
+        let at = self.region.places[i];
         if !self.region.axial {
-            let at = self.region.places[i];
             conditions.push(Condition::Laplacian { at });
+        } else if at[0] > 0.0 {
+            let mut drift = [0.0; D];
+            drift[0] = self.around / at[0];
+            conditions.push(Condition::Drift { at, drift });
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Stencils that keep to one side of an interface.
 
-use wls::{Cloud, Error, Plan, Reach, Search, Stencils, Wants};
+use wls::{Error, Plan, Reach, Search, Stencils, Wants};
 
+use super::mirror::Mirror;
 use super::region::{Own, Region, Side};
 
 /// Radius of the support of cubics over the spacing, for potentials.
@@ -19,6 +20,8 @@ pub struct Form {
     pub support: Option<f64>,
     /// Weights of the Laplacian of other points are not negative where that is possible.
     pub positive: bool,
+    /// How many times `1/r d/dr` the equation has about an axis: 1 of a potential, 3 of `A_phi / r`.
+    pub around: f64,
 }
 
 impl Default for Form {
@@ -27,6 +30,7 @@ impl Default for Form {
             order: 2,
             support: None,
             positive: false,
+            around: 1.0,
         }
     }
 }
@@ -82,11 +86,8 @@ impl<const D: usize> Sides<D> {
     /// # Errors
     /// Where points are alone, coincide or lie in a plane.
     pub fn new(region: &Region<D>, form: &Form) -> Result<Self, Error> {
-        let cloud = Cloud {
-            points: &region.places,
-            metrics: &region.metrics,
-        };
-        let search = Search::new(cloud)?;
+        let mirror = Mirror::new(region);
+        let search = Search::new(mirror.cloud())?;
         let gradient = Wants {
             gradient: true,
             ..Wants::default()
@@ -96,9 +97,14 @@ impl<const D: usize> Sides<D> {
             hessian: region.axial,
             ..gradient
         };
-        let own = Stencils::build(&search, &form.plan::<D>(both), &Own(region))?;
+        let own = mirror.stencils(&search, &form.plan::<D>(both), &Own(region))?;
         let side = |inner: bool| {
-            Stencils::build(&search, &form.plan::<D>(gradient), &Side { region, inner })
+            let rules = Side {
+                region,
+                inner,
+                around: form.around,
+            };
+            mirror.stencils(&search, &form.plan::<D>(gradient), &rules)
         };
         Ok(Self {
             own,

@@ -137,5 +137,6 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<Moments<3>>) {
     (region, cells)
 }
 
+mod axis;
 mod eddy;
 mod march;

@@ -1,11 +1,11 @@
 //! Total force and heat, each in ways that share little: their difference is an estimate of the error.
 
 use num_complex::Complex;
-use rayon::prelude::*;
 
+use super::coils;
 use super::eddy::{Fields, cross_mean};
 use super::region::Region;
-use crate::source::{MU0, Source, cross, minus};
+use crate::source::{MU0, Source, minus};
 
 /// A complex number.
 type C = Complex<f64>;
@@ -25,14 +25,12 @@ pub struct Totals {
     pub heat_surface: f64,
 }
 
-/// Pieces of which a loop is made where its force is summed.
-const PIECES: usize = 48;
-
 impl Totals {
-    /// Totals of the fields of a scene in space; `weights` are those of [`super::quadrature`].
+    /// Totals of the fields of a scene, in a plane per metre, about an axis of a full turn; `weights` are those of
+    /// [`super::quadrature`].
     #[must_use]
-    pub fn in_space(
-        region: &Region<3>,
+    pub fn of<const D: usize>(
+        region: &Region<D>,
         fields: &Fields,
         weights: &[f64],
         (source, conducts): (&Source, &[bool]),
@@ -50,7 +48,7 @@ impl Totals {
             }
             let sign = if a { face.area } else { -face.area };
             let i = face.point as usize;
-            let n = face.normal;
+            let n = region.raise(face.normal);
             let b = fields.flux[i];
             let square: f64 = b.iter().map(C::norm_sqr).sum();
             let normal: C = (0..3).map(|k| b[k].conj() * n[k]).sum();
@@ -64,7 +62,13 @@ impl Totals {
             let flow: f64 = (0..3).map(|k| inward[k] * n[k]).sum();
             found.heat_surface -= sign * flow / MU0;
         }
-        found.force_coil = coils((region, weights), fields, source);
+        if region.axial {
+            // Radial forces of a full turn cancel.
+            for force in [&mut found.force_volume, &mut found.force_stress] {
+                force[..2].fill(0.0);
+            }
+        }
+        found.force_coil = coils::force(region, weights, fields, source);
         found
     }
 
@@ -96,54 +100,4 @@ pub fn volume(fields: &Fields, weights: &[f64]) -> ([f64; 3], f64) {
         heat += w * fields.heat[i];
     }
     (force, heat)
-}
-
-/// Opposite of the force on the coils: `-Re sum I* dl x B` with the field of the currents.
-fn coils((region, weights): (&Region<3>, &[f64]), fields: &Fields, source: &Source) -> [f64; 3] {
-    let currents: Vec<([f64; 3], [C; 3])> = (0..region.len())
-        .filter(|i| weights[*i] != 0.0)
-        .map(|i| {
-            (
-                region.places[i],
-                fields.current[i].map(|j| j * (weights[i] * 1e-7)),
-            )
-        })
-        .collect();
-    let loops = source.loops.iter().map(|l| (l.pieces(PIECES), l.current));
-    let segments = source
-        .segments
-        .iter()
-        .map(|s| (s.pieces(PIECES), s.current));
-    let mut force = [0.0; 3];
-    for (pieces, current) in loops.chain(segments) {
-        let on: Vec<[f64; 3]> = pieces
-            .par_iter()
-            .map(|(place, along)| {
-                let b = biot_savart(&currents, *place);
-                cross_mean(along.map(|x| current * x), b)
-            })
-            .collect();
-        for f in on {
-            for k in 0..3 {
-                force[k] -= f[k];
-            }
-        }
-    }
-    force
-}
-
-/// `mu0/(4 pi) sum J dV x d / d^3`; `mu0 / 4 pi` is in the moments.
-fn biot_savart(currents: &[([f64; 3], [C; 3])], p: [f64; 3]) -> [C; 3] {
-    let mut sum = [C::new(0.0, 0.0); 3];
-    for (place, moment) in currents {
-        let d = minus(p, *place);
-        let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        let inverse = (square * square.sqrt()).recip();
-        let re = cross(moment.map(|m| m.re), d);
-        let im = cross(moment.map(|m| m.im), d);
-        for k in 0..3 {
-            sum[k] += C::new(re[k], im[k]) * inverse;
-        }
-    }
-    sum
 }

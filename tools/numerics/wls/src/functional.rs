@@ -40,6 +40,13 @@ pub enum Condition<const D: usize> {
         /// Place \[m\].
         at: [f64; D],
     },
+    /// The Laplacian and the derivative along a drift together g at a place.
+    Drift {
+        /// Place \[m\].
+        at: [f64; D],
+        /// Drift \[1/m\]: the Laplacian and the gradient times it are g.
+        drift: [f64; D],
+    },
     /// The polynomial is harmonic: its Laplacian is zero everywhere. It has no datum.
     Harmonic,
 }
@@ -188,6 +195,14 @@ impl<const D: usize> Rows<'_, D> {
             Condition::Value { at } => push(self.value(offset(at)), Some(0)),
             Condition::Flux { at, normal } => push(self.first(normal, offset(at)), Some(1)),
             Condition::Laplacian { at } => push(self.laplacian(offset(at)), Some(2)),
+            Condition::Drift { at, drift } => {
+                let along = drift.map(|part| part * self.metric.spacing());
+                let mut row = self.laplacian(offset(at));
+                for (sum, first) in row.iter_mut().zip(self.first(along, offset(at))) {
+                    *sum += first;
+                }
+                push(row, Some(2));
+            }
             Condition::Harmonic => self.harmonic(push),
         }
     }

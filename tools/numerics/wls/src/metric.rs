@@ -47,6 +47,21 @@ impl<const D: usize> Metric<D> {
         }
     }
 
+    /// The same beyond a plane across `axis`.
+    #[must_use]
+    pub fn mirrored(mut self, axis: usize) -> Self {
+        if let Some(rows) = &mut self.stretch {
+            for (a, row) in rows.iter_mut().enumerate() {
+                for (b, entry) in row.iter_mut().enumerate() {
+                    if (a == axis) != (b == axis) {
+                        *entry = -*entry;
+                    }
+                }
+            }
+        }
+        self
+    }
+
     /// Spacing \[m\]; along the surface, where there are layers.
     #[must_use]
     pub fn spacing(&self) -> f64 {

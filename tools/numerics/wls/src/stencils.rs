@@ -56,8 +56,8 @@ impl<'a> Row<'a> {
     /// Weight of point `i`; 0 where it does not stand in the row.
     #[must_use]
     pub fn own(&self, i: usize) -> f64 {
-        let place = self.neighbours.iter().position(|&j| j as usize == i);
-        place.map_or(0.0, |k| self.factor * self.weights[k])
+        let all = self.iter().filter(|(j, _)| *j == i);
+        all.map(|(_, w)| w).sum()
     }
 
     /// Weights of the data of the conditions that the row obeys, in their order.
@@ -121,6 +121,19 @@ impl<const D: usize> Stencils<D> {
         rules: &impl Rules<D>,
     ) -> Result<Self, Error> {
         sweep::over_places(search, plan, places, rules)
+    }
+
+    /// The same where point `j` carries the value of point `origin[j]`, as an image beyond a plane of symmetry does;
+    /// a row may then have a point more than once. Points that stand for themselves come first, and their rows stay.
+    #[must_use]
+    pub fn folded(mut self, origin: &[u32]) -> Self {
+        let own = |&(i, o): &(usize, &u32)| i == *o as usize;
+        let rows = origin.iter().enumerate().take_while(own).count();
+        self.spots.truncate(rows);
+        for j in &mut self.neighbours {
+            *j = origin[*j as usize];
+        }
+        self
     }
 
     /// Number of rows, empty ones included.

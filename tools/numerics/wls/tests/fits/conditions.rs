@@ -138,3 +138,41 @@ fn conditions_stand_in_for_points_that_are_missing() {
         assert!((row.apply(&field) + known - 2.0 * p[0]).abs() < 1e-10);
     }
 }
+
+/// Points of which each knows the Laplacian and the derivative along a drift.
+struct Drifting {
+    places: Vec<[f64; 2]>,
+}
+
+impl Rules<2> for Drifting {
+    fn wanted(&self, i: usize) -> bool {
+        self.places[i][0] < 0.3
+    }
+
+    fn conditions(&self, i: usize, conditions: &mut Vec<Condition<2>>) {
+        conditions.push(Condition::Drift {
+            at: self.places[i],
+            drift: [3.0, -0.5],
+        });
+    }
+}
+
+#[test]
+fn a_known_laplacian_with_a_drift_is_obeyed() {
+    let points = lattice::<2>(9, 0.2);
+    let rules = Drifting {
+        places: points.places.clone(),
+    };
+    // No polynomial of the order of the fit: only the condition makes the operators agree.
+    let field = points.field(|p| (3.0 * p[0] - p[1]).exp());
+    let stencils = Stencils::build(&points.search(), &Plan::new::<2>(2, BOTH), &rules).unwrap();
+    for i in (0..points.places.len()).filter(|i| rules.wanted(*i)) {
+        let with = |row: wls::Row<'_>| {
+            let known = row.conditions().map(|w| w * 7.0).sum::<f64>();
+            row.apply(&field) + known
+        };
+        let [dx, dy] = [0, 1].map(|axis| with(stencils.derivative(i, axis)));
+        let sum = with(stencils.laplacian(i)) + 3.0 * dx - 0.5 * dy;
+        assert!((sum - 7.0).abs() < 1e-8, "{sum}");
+    }
+}

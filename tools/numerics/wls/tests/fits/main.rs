@@ -9,6 +9,7 @@
 mod clouds;
 mod conditions;
 mod exact;
+mod folded;
 mod invariant;
 mod orders;
 mod positive;

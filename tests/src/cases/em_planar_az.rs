@@ -1,0 +1,104 @@
+//! `em-planar-az`: a conducting cylinder in an alternating field across it, by the potential along it.
+
+use serde_json::json;
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::em::C;
+use crate::em::frames::{Points, number, totals};
+use crate::em::transverse::Transverse;
+use crate::heat::frames::greater;
+use crate::lab::{Finished, Lab, LabError};
+
+/// The case.
+pub(super) struct EmPlanarAz;
+
+impl Case for EmPlanarAz {
+    fn name(&self) -> &'static str {
+        "em-planar-az"
+    }
+
+    fn tool(&self) -> &'static str {
+        "emfield"
+    }
+
+    fn reference(&self) -> &'static str {
+        "Modified Bessel functions, Smythe (1950), chapter XI"
+    }
+
+    fn methods(&self) -> &'static [&'static str] {
+        &["quartic", "quadratic"]
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        let mut targets = Vec::new();
+        for quantity in [
+            "potential_linf",
+            "flux_linf",
+            "current_linf",
+            "power_volume",
+            "power_poynting",
+        ] {
+            targets.push(Target::error(quantity, 5e-3));
+        }
+        for quantity in ["flux_linf", "potential_linf"] {
+            targets.push(Target::order(quantity, 2.7));
+            targets.push(Target::order(quantity, 1.0).of("quadratic"));
+        }
+        targets
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let spacing = [0.001, 0.0007, 0.0005][level.clamp(1, 3) as usize - 1];
+        let order = if method == "quadratic" { 2 } else { 4 };
+        let layers = json!({"first_m": 0.5 * spacing});
+        let patch = json!({
+            "points": {"spacing_m": spacing, "layers": layers},
+            "method": {"order": order}
+        });
+        let label = format!("level{level}-{method}");
+        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
+        let points = Points::read(&run)?;
+        let errors = errors(&run, &points)?;
+        Ok(Measurement::of(run, points.count(), spacing, errors))
+    }
+}
+
+fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
+    let at = |k: u32| number(run, &format!("/eddy_currents/applied_flux_density_t/{k}"));
+    let [bx, by] = [at(0)?, at(1)?];
+    let exact = Transverse {
+        radius: number(run, "/bodies/0/shape/disc/radius_m")?,
+        conductivity: number(run, "/bodies/0/conductivity_s_m")?,
+        frequency: number(run, "/eddy_currents/harmonic/frequency_hz")?,
+        flux: bx.hypot(by),
+    };
+    // The field acts along y of the exact solution.
+    let [s, c] = [bx / exact.flux, by / exact.flux];
+    let potential = points.phasors("vector_potential")?;
+    let flux = points.phasors("magnetic_flux_density")?;
+    let current = points.phasors("current_density")?;
+    let [mut a, mut b, mut j, mut most] = [0.0; 4];
+    for (i, p) in points.position.iter().enumerate() {
+        let (x, y) = (c * p[0] - s * p[1], s * p[0] + c * p[1]);
+        let far = (potential[i][2] - exact.potential(x, y)).norm();
+        a = greater(a, far / (exact.flux * exact.radius));
+        let [u, v] = exact.field(x, y);
+        let wanted: [C; 2] = [u * c + v * s, v * c - u * s];
+        let far: f64 = (0..2).map(|k| (flux[i][k] - wanted[k]).norm_sqr()).sum();
+        b = greater(b, far.sqrt() / exact.flux);
+        if x.hypot(y) <= exact.radius * (1.0 + 1e-9) {
+            let wanted = exact.current(x, y);
+            j = greater(j, (current[i][2] - wanted).norm());
+            most = greater(most, wanted.norm());
+        }
+    }
+    let found = totals(run)?;
+    let power = |name: &str| Ok::<_, LabError>((found.get(name)? / exact.power() - 1.0).abs());
+    Ok(Errors::from([
+        ("potential_linf".to_owned(), a),
+        ("flux_linf".to_owned(), b),
+        ("current_linf".to_owned(), j / most),
+        ("power_volume".to_owned(), power("power_volume")?),
+        ("power_poynting".to_owned(), power("power_poynting")?),
+    ]))
+}

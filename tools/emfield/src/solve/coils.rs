@@ -1,0 +1,136 @@
+//! The force on coils in the field of the currents found: by Biot and Savart in space, by coaxial rings about an axis,
+//! by parallel lines in a plane.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex;
+use rayon::prelude::*;
+
+use super::eddy::{Fields, cross_mean};
+use super::region::Region;
+use crate::source::{Loop, Source, Wire, cross, minus};
+
+/// A complex number.
+type C = Complex<f64>;
+
+/// Pieces of which a loop is made where its force is summed.
+const PIECES: usize = 48;
+
+/// A ring or line of current counts as this thin \[m\]: no coil lies within.
+const THIN: f64 = 1e-9;
+
+/// Current of the volume of a point \[A m\], \[A\] in a plane, of a full turn about an axis.
+struct Part<const D: usize> {
+    place: [f64; D],
+    moment: [C; 3],
+}
+
+/// Opposite of the force on the coils \[N\], \[N/m\] in a plane; about an axis only that along it.
+pub(super) fn force<const D: usize>(
+    region: &Region<D>,
+    weights: &[f64],
+    fields: &Fields,
+    source: &Source,
+) -> [f64; 3] {
+    let conducts = |i: &usize| weights[*i] != 0.0 && fields.heat[*i] > 0.0;
+    let parts: Vec<Part<D>> = (0..region.len())
+        .filter(conducts)
+        .map(|i| Part {
+            place: region.places[i],
+            moment: fields.current[i].map(|j| j * weights[i]),
+        })
+        .collect();
+    if region.axial {
+        [0.0, 0.0, coaxial(&parts, source)]
+    } else if D == 2 {
+        parallel(&parts, source)
+    } else {
+        in_space(&parts, source)
+    }
+}
+
+/// Along the axis: `2 pi a Re(I* B_r)` on each loop, with the field of rings.
+fn coaxial<const D: usize>(parts: &[Part<D>], source: &Source) -> f64 {
+    let ring = |part: &Part<D>| Loop {
+        centre: [0.0, 0.0, part.place[1]],
+        axis: [0.0, 0.0, 1.0],
+        radius: part.place[0],
+        wire_radius: THIN,
+        current: part.moment[1] / (TAU * part.place[0]),
+    };
+    let rings: Vec<Loop> = parts.iter().map(ring).collect();
+    let on = |coil: &Loop| {
+        let place = [coil.radius, 0.0, coil.centre[2]];
+        let outward: C = rings.iter().map(|r| r.current * r.flux(place)[0]).sum();
+        let current = coil.current * coil.axis[2].signum();
+        TAU * coil.radius * (current.conj() * outward).re
+    };
+    let all: Vec<f64> = source.loops.par_iter().map(on).collect();
+    all.iter().sum()
+}
+
+/// Per length: `-Re(I* z x B)` on each wire, with the field of lines.
+fn parallel<const D: usize>(parts: &[Part<D>], source: &Source) -> [f64; 3] {
+    let line = |part: &Part<D>| Wire {
+        place: [part.place[0], part.place[1]],
+        wire_radius: THIN,
+        current: part.moment[2],
+    };
+    let lines: Vec<Wire> = parts.iter().map(line).collect();
+    let on = |wire: &Wire| {
+        let place = [wire.place[0], wire.place[1], 0.0];
+        let mut b = [C::default(); 3];
+        for line in &lines {
+            for (sum, part) in b.iter_mut().zip(line.flux(place)) {
+                *sum += line.current * part;
+            }
+        }
+        cross_mean([C::default(), C::default(), wire.current], b)
+    };
+    opposite(source.wires.par_iter().map(on).collect())
+}
+
+/// `-Re sum I* dl x B`.
+fn in_space<const D: usize>(parts: &[Part<D>], source: &Source) -> [f64; 3] {
+    let moment = |part: &Part<D>| {
+        let place = std::array::from_fn(|k| part.place[k]);
+        (place, part.moment.map(|j| j * 1e-7))
+    };
+    let currents: Vec<([f64; 3], [C; 3])> = parts.iter().map(moment).collect();
+    let loops = source.loops.iter().map(|l| (l.pieces(PIECES), l.current));
+    let segments = source
+        .segments
+        .iter()
+        .map(|s| (s.pieces(PIECES), s.current));
+    let mut force = [0.0; 3];
+    for (pieces, current) in loops.chain(segments) {
+        let on = |(place, along): &([f64; 3], [f64; 3])| {
+            let b = biot_savart(&currents, *place);
+            cross_mean(along.map(|x| current * x), b)
+        };
+        let part = opposite(pieces.par_iter().map(on).collect());
+        force = std::array::from_fn(|k| force[k] + part[k]);
+    }
+    force
+}
+
+fn opposite(forces: Vec<[f64; 3]>) -> [f64; 3] {
+    let add = |sum: [f64; 3], f: &[f64; 3]| std::array::from_fn(|k| sum[k] - f[k]);
+    forces.iter().fold([0.0; 3], add)
+}
+
+/// `mu0/(4 pi) sum J dV x d / d^3`; `mu0 / 4 pi` is in the moments.
+fn biot_savart(currents: &[([f64; 3], [C; 3])], p: [f64; 3]) -> [C; 3] {
+    let mut sum = [C::new(0.0, 0.0); 3];
+    for (place, moment) in currents {
+        let d = minus(p, *place);
+        let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        let inverse = (square * square.sqrt()).recip();
+        let re = cross(moment.map(|m| m.re), d);
+        let im = cross(moment.map(|m| m.im), d);
+        for k in 0..3 {
+            sum[k] += C::new(re[k], im[k]) * inverse;
+        }
+    }
+    sum
+}
