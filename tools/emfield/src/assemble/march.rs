@@ -88,7 +88,7 @@ pub fn march<const D: usize, const K: usize>(
     let rule = super::rule(scene);
     while taken < steps.count() {
         let (from, wanted) = steps.step(taken);
-        if wanted != length {
+        if wanted.to_bits() != length.to_bits() {
             length = wanted;
             march.pace(equations.system(&setting, length, session)?, length);
         }
