@@ -196,33 +196,18 @@ impl<T: Copy> Rows<T> {
 
     /// The same equations in another order: row `i` becomes row `order.new_of(i)`.
     #[must_use]
-    pub fn permuted(&self, order: &crate::Order) -> Self {
-        let n = self.len();
-        let mut offsets = Vec::with_capacity(n + 1);
-        offsets.push(0);
-        let mut end = 0;
-        for new in 0..n {
-            end += self.row(order.old_of(new)).len();
-            offsets.push(end);
-        }
-        let mut columns = vec![0; self.entries()];
-        let mut values = self.values.clone();
-        let mut row = Vec::new();
-        for (new, &begin) in offsets[..n].iter().enumerate() {
+    pub fn permuted(&self, order: &crate::Order) -> Self
+    where
+        T: Send + Sync,
+    {
+        Self::made(self.len(), Vec::new, |new, row, columns, values| {
             row.clear();
             let pairs = self.pairs(order.old_of(new));
             row.extend(pairs.map(|(j, v)| (order.new_of(j) as u32, v)));
             row.sort_unstable_by_key(|e: &(u32, T)| e.0);
-            for (k, &(j, v)) in (begin..).zip(&row) {
-                columns[k] = j;
-                values[k] = v;
-            }
-        }
-        Self {
-            offsets,
-            columns,
-            values,
-        }
+            columns.extend(row.iter().map(|e| e.0));
+            values.extend(row.iter().map(|e| e.1));
+        })
     }
 
     /// Without the entries below `least` times the largest of their row, and, if `wrong`, without

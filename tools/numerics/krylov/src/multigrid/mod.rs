@@ -14,8 +14,6 @@ use crate::{Coefficient, Direct, Error, Incomplete, Inverse, Keep, Order, Rows, 
 use groups::groups;
 use transfer::{coarse, interpolation, restriction, times};
 
-/// At most this many rows are solved directly.
-const BOTTOM: usize = 1500;
 /// An imaginary part of this share of the diagonal needs complex factors.
 const LARGE: f64 = 0.2;
 /// Most levels.
@@ -28,10 +26,14 @@ pub struct Grids {
     pub strong: f64,
     /// Step of the smoothing of the interpolation, of the diagonal.
     pub step: f64,
-    /// Entries below this share of the largest of their row are not given to the factors.
+    /// Entries below this share of the largest of their row are not given to the interpolation, nor
+    /// to the factors of the finest level. Those of coarser levels take all: there the sum of many
+    /// small entries counts, and they are few beside those of the finest.
     pub thin: f64,
     /// Corrections on each coarse level.
     pub visits: usize,
+    /// At most this many rows are solved directly.
+    pub bottom: usize,
 }
 
 impl Default for Grids {
@@ -40,7 +42,8 @@ impl Default for Grids {
             strong: 0.25,
             step: 0.66,
             thin: 0.1,
-            visits: 2,
+            visits: 1,
+            bottom: 1500,
         }
     }
 }
@@ -116,7 +119,7 @@ where
         let mut held: Option<(Rows<T>, Vec<S>)> = None;
         loop {
             let (a, s) = held.as_ref().map_or((rows, shift), |h| (&h.0, &h.1[..]));
-            if a.len() <= BOTTOM || levels.len() >= LEVELS {
+            if a.len() <= grids.bottom.max(1) || levels.len() >= LEVELS {
                 break;
             }
             let groups = groups(a, grids.strong);
@@ -137,7 +140,11 @@ where
                 natural = Order::natural(a.len());
                 &natural
             };
-            let factors = Smoother::new(&a.thinned(grids.thin, false), s, order);
+            let factors = if levels.is_empty() {
+                Smoother::new(&a.thinned(grids.thin, false), s, order)
+            } else {
+                Smoother::new(a, s, order)
+            };
             sizes.push((next.len(), next.entries()));
             let (rows, shift) = held
                 .take()

@@ -65,6 +65,30 @@ fn products_hardly_grow_with_the_number_of_points() {
 }
 
 #[test]
+fn products_hardly_grow_with_the_levels() {
+    for cloud in [
+        Cloud::ball(22, 80.0),
+        Cloud {
+            squeeze: 0.16,
+            ..Cloud::plain(22)
+        },
+    ] {
+        let count = |bottom: usize| {
+            let grids = Grids {
+                bottom,
+                ..Grids::default()
+            };
+            solved(cloud, Method::Multigrid(grids)).0.products
+        };
+        let (two, more) = (count(1500), count(10));
+        assert!(
+            more <= two + two / 2,
+            "{cloud:?}: {more}, two levels: {two}"
+        );
+    }
+}
+
+#[test]
 fn products_hardly_grow_with_the_jump() {
     let grids = Method::Multigrid(Grids::default());
     let count = |ratio| solved(Cloud::ball(22, ratio), grids).0.products;
