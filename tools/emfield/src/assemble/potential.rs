@@ -1,6 +1,6 @@
 //! Electrostatics of a scene: its equations, their solution, potential, field and traction.
 
-use krylov::{Rows, System};
+use krylov::{Options, Rows, System};
 use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
@@ -13,9 +13,7 @@ use crate::scene::{Electrostatics, Interfaces, Scene};
 use crate::solve::electrostatic::{Equations, Held, Problem, Smeared};
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
-
-/// Permittivity of vacuum \[F/m\].
-const VACUUM: f64 = 8.854_187_812_8e-12;
+use crate::surface::traction::{dielectric, electrode};
 
 /// An entry of the walls, ready to be evaluated.
 struct Entry {
@@ -123,11 +121,17 @@ pub fn electrostatics<const D: usize>(
             .collect(),
         held,
     };
-    let form = super::form(scene).for_potentials();
+    let form = super::form(scene);
     let low = super::low_order(scene, region.len());
-    let stencil = |error: wls::Error| Failure::Other(format!("electrostatics: {error}"));
+    let stencil = |error: wls::Error| Fault::at("/points", format!("electrostatics: {error}"));
     let (value, inner, beyond) = match scene.method.interfaces {
         Interfaces::OneSided(_) => {
+            let form = if region.axial {
+                form.for_potentials()
+            } else {
+                form.for_harmonics(D)
+            };
+            let low = low.filter(|_| !form.compares());
             let sides = session
                 .timed("weights", || Sides::new(&region, &form))
                 .map_err(stencil)?;
@@ -142,6 +146,7 @@ pub fn electrostatics<const D: usize>(
             (v, a, b)
         }
         Interfaces::Smeared(_) => {
+            let form = form.for_potentials();
             let made = session.timed("weights", || Smeared::new(&region, &form));
             let stencils = made.map_err(stencil)?;
             let equations = session.timed("assemble", || stencils.rows(&problem, &region));
@@ -169,7 +174,10 @@ fn solve(
     session: &mut Session,
 ) -> Result<Vec<f64>, Failure> {
     let mut x = vec![[0.0]; right.len()];
-    let options = super::options(scene);
+    let options = Options {
+        fluxes: true,
+        ..super::options(scene)
+    };
     let made = session.timed("factorise", || match low {
         Some(low) => System::with_low_order(rows, Vec::new(), low, options),
         None => System::new(rows, Vec::new(), options),
@@ -220,10 +228,10 @@ fn columns(
     let mut tractions = Vec::with_capacity(cloud.surface.len());
     for s in &cloud.surface {
         let pull = pull(scene, s, inner, beyond);
-        tractions.push(s.normal.map(|n| n * pull));
+        tractions.push(pull);
         if s.inner > 0 {
             let total = &mut force[s.inner as usize - 1];
-            *total = std::array::from_fn(|k| total[k] + s.area * pull * s.normal[k]);
+            *total = std::array::from_fn(|k| total[k] + s.area * pull[k]);
         }
     }
     found
@@ -247,20 +255,14 @@ fn columns(
     found
 }
 
-/// Outward pull on a surface \[N/m2\].
-///
-/// Matsuzawa (2017), eq. 2.62 with its errata: `eps0 (S - 1)/2 (S En^2 + Et^2)` with the inner field and S the ratio of
-/// permittivities; on an electrode `eps E^2 / 2` of the outer one.
-fn pull(scene: &Scene, s: &SurfacePoint, inner: &[Vector], beyond: &[Vector]) -> f64 {
+/// Traction \[Pa\] on a surface: of a dielectric by its inner field, of an electrode by the outer one.
+fn pull(scene: &Scene, s: &SurfacePoint, inner: &[Vector], beyond: &[Vector]) -> Vector {
     let eps = [s.inner, s.outer].map(|m| scene.medium(m as usize).relative_permittivity);
-    let electrode = s.inner > 0 && scene.bodies[s.inner as usize - 1].potential_v.is_some();
-    let e = if electrode { beyond } else { inner }[s.point as usize];
-    let up = dot(e, s.normal);
-    let level = (dot(e, e) - up * up).max(0.0);
-    if electrode {
-        0.5 * VACUUM * eps[1] * up * up
+    let own = s.inner.checked_sub(1).map(|k| &scene.bodies[k as usize]);
+    let point = s.point as usize;
+    if own.is_some_and(|body| body.potential_v.is_some()) {
+        electrode(eps[1], beyond[point], s.normal)
     } else {
-        let ratio = eps[0] / eps[1];
-        0.5 * VACUUM * eps[1] * (ratio - 1.0) * (ratio * up * up + level)
+        dielectric(eps, inner[point], s.normal)
     }
 }

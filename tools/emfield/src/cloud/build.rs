@@ -35,6 +35,7 @@ pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
     builder.layers(scene, &mut columns, &plans);
     builder.lattices(&nodes, &columns, scene.points.arrangement);
     builder.shake(scene);
+    builder.extra(&scene.points.extra_m)?;
     let mut cloud = builder.cloud;
     cells::fill(scene, &builder.region, &columns, &mut cloud);
     finish(&mut cloud);
@@ -274,6 +275,28 @@ impl Builder {
         }
         self.cloud.counts.outer = self.cloud.len() - before;
         columns
+    }
+
+    /// Points that the scene names one by one, as they are.
+    fn extra(&mut self, places: &[Vec<f64>]) -> Result<(), Vec<Fault>> {
+        let mut faults = Vec::new();
+        for (number, place) in places.iter().enumerate() {
+            let x = super::region::vector(place);
+            if self.region.depth(x) <= 0.0 {
+                let at = format!("/points/extra_m/{number}");
+                faults.push(Fault::at(&at, "the point does not lie within the domain"));
+                continue;
+            }
+            let spacing = self.region.wanted(x, 0.0);
+            let class = Class::Inside(self.region.medium(x));
+            self.push(x, spacing, class, Metric::Round);
+            self.cloud.counts.lattice += 1;
+        }
+        if faults.is_empty() {
+            Ok(())
+        } else {
+            Err(faults)
+        }
     }
 
     fn medium_at_wall(&self, seed: &Seed) -> u8 {

@@ -21,6 +21,10 @@ impl Scene {
             let at = format!("/points/refinements/{number}/shape");
             check::check(&refinement.shape, &at, dimensions, &mut misfits);
         }
+        for (number, place) in self.points.extra_m.iter().enumerate() {
+            let at = format!("/points/extra_m/{number}");
+            check::coordinates(place, &at, dimensions, &mut misfits);
+        }
         for (number, probe) in self.output.probes.iter().enumerate() {
             let at = format!("/output/probes/{number}/place_m");
             check::coordinates(&probe.place_m, &at, dimensions, &mut misfits);

@@ -38,7 +38,8 @@ pub struct Method {
     #[schemars(range(min = 1, max = 4))]
     pub order: usize,
     /// Radius of the support over the local spacing; at least what the order needs when it is absent (2.5 for
-    /// order 2, as in the paper; for potentials 3 for order 3 and 3.5 for order 4).
+    /// order 2, as in the paper; 2.75, in a plane 3, for potentials of order 3 and 4 without an axis, whose
+    /// polynomials are harmonic; for other potentials 3 for order 3 and 3.5 for order 4).
     #[schemars(range(min = 1.2, max = 8.0), extend("x-unit" = "1"))]
     pub support: Option<f64>,
     /// How media meet.

@@ -106,6 +106,10 @@ pub struct Points {
     /// Regions with finer points.
     #[serde(default)]
     pub refinements: Vec<Refinement>,
+    /// Further points inside, wherever they come to lie.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "m"))]
+    pub extra_m: Vec<Vec<f64>>,
     /// Random shift of points that lie neither on interfaces nor on walls, at most this part of the spacing along
     /// each axis.
     #[serde(default)]

@@ -33,6 +33,9 @@ pub struct Problem {
     pub held: Vec<Option<Held>>,
 }
 
+/// Least share of a Laplacian in a comparison over that of the square of the spacing; usual are 0.2 to 0.4.
+const FLAT: f64 = 0.02;
+
 /// A system of equations: rows and right side.
 pub type Equations = (Rows<f64>, Vec<[f64; 1]>);
 
@@ -56,21 +59,44 @@ impl Problem {
     /// Rows with one-sided stencils.
     #[must_use]
     pub fn rows<const D: usize>(&self, region: &Region<D>, sides: &Sides<D>) -> Equations {
-        self.gather(region, |i, row| match region.kinds[i] {
-            Kind::Inside(_) => flow(region, &sides.own, i, row),
-            Kind::Interface(face) => {
-                let face = &region.faces[face as usize];
-                let [a, b] = [face.inner, face.outer].map(|m| self.permittivity[m as usize]);
-                let share = |eps: f64| eps / (a + b);
-                let n = face.normal;
-                along_normal(&sides.inner, i, n, share(a), |j, w| push(row, j, w));
-                along_normal(&sides.outer, i, n, -share(b), |j, w| push(row, j, w));
-            }
-            Kind::Wall { .. } => {
-                let n = region.wall_normals[i];
-                along_normal(&sides.own, i, n, 1.0, |j, w| push(row, j, w));
+        self.gather(region, |i, row| {
+            let size = self.size(region, i);
+            match region.kinds[i] {
+                Kind::Inside(_) if sides.wall.is_some() => {
+                    compare(region, &sides.own, i, |j, w| push(row, j, size * w));
+                }
+                Kind::Inside(_) => flow(region, &sides.own, i, |j, w| push(row, j, -size * w)),
+                Kind::Interface(face) => {
+                    let face = &region.faces[face as usize];
+                    let [a, b] = [face.inner, face.outer].map(|m| self.permittivity[m as usize]);
+                    let n = face.normal;
+                    along_normal(&sides.inner, i, n, size * a, |j, w| push(row, j, w));
+                    along_normal(&sides.outer, i, n, -size * b, |j, w| push(row, j, w));
+                }
+                Kind::Wall { .. } => {
+                    let n = region.wall_normals[i];
+                    along_normal(sides.at_walls(), i, n, size, |j, w| push(row, j, w));
+                }
             }
         })
+    }
+
+    /// What makes the equation of a point a flux of displacement over `eps0`: volume and permittivity of its cell, area of
+    /// an interface, area and permittivity at a wall; about an axis by the radian.
+    fn size<const D: usize>(&self, region: &Region<D>, i: usize) -> f64 {
+        let area = region.metrics[i].spacing().powi(D as i32 - 1);
+        let flat = match region.kinds[i] {
+            Kind::Inside(_) => return self.cell(region, i),
+            Kind::Interface(_) => area,
+            Kind::Wall { medium, .. } => self.permittivity[medium as usize] * area,
+        };
+        flat * turn(region, i)
+    }
+
+    /// The same for a point with a Laplacian, wherever it is.
+    fn cell<const D: usize>(&self, region: &Region<D>, i: usize) -> f64 {
+        let eps = self.permittivity[region.medium(i) as usize];
+        eps * region.metrics[i].volume() * turn(region, i)
     }
 
     fn gather<const D: usize>(
@@ -141,16 +167,19 @@ impl<const D: usize> Smeared<D> {
         problem.gather(region, |i, row| {
             if let Kind::Wall { .. } = region.kinds[i] {
                 let n = region.wall_normals[i];
-                along_normal(&self.gradient, i, n, 1.0, |j, w| push(row, j, w));
+                let size = problem.size(region, i);
+                along_normal(&self.gradient, i, n, size, |j, w| push(row, j, w));
                 return;
             }
             let mut plain = Vec::new();
-            flow(region, &self.laplacian, i, &mut plain);
+            let size = problem.cell(region, i);
+            let add = |j: usize, w: f64| plain.push((j, -size * w));
+            flow(region, &self.laplacian, i, add);
             let own = eps(i);
             for (j, w) in plain {
-                let other = eps(j as usize);
+                let other = eps(j);
                 let k = 2.0 * other / (own + other);
-                push(row, j as usize, k * w);
+                push(row, j, k * w);
                 push(row, i, -k * w);
             }
         })
@@ -164,20 +193,50 @@ impl<const D: usize> Smeared<D> {
     }
 }
 
-/// Puts the Laplacian of point `i` into a row; about an axis of symmetry with `1/r d/dr`, which is
+/// Length per radian of a turn about the axis of symmetry; one without an axis.
+fn turn<const D: usize>(region: &Region<D>, i: usize) -> f64 {
+    if region.axial {
+        region.places[i][0].max(0.25 * region.metrics[i].spacing())
+    } else {
+        1.0
+    }
+}
+
+/// Adds up how far the value at point `i` lies above the harmonic polynomial that fits it and its neighbours best. Of
+/// a field with a Laplacian that is `-c` times the Laplacian, and the sum is divided by `c`. It is as if the point had
+/// not been among those fitted: that multiplies all weights by the same.
+fn compare<const D: usize>(
+    region: &Region<D>,
+    stencils: &Stencils<D>,
+    i: usize,
+    mut add: impl FnMut(usize, f64),
+) {
+    let place = region.places[i];
+    let square = |j: usize| -> f64 {
+        let other = region.places[j];
+        (0..D).map(|k| (other[k] - place[k]).powi(2)).sum()
+    };
+    let value = stencils.value(i);
+    let share: f64 = value.iter().map(|(j, w)| w * square(j)).sum();
+    let cell = region.metrics[i].volume().powf(2.0 / D as f64);
+    let factor = (share / (2.0 * D as f64)).max(FLAT * cell).recip();
+    add(i, factor);
+    for (j, w) in value.iter() {
+        add(j, -factor * w);
+    }
+}
+
+/// Adds up the Laplacian of point `i`; about an axis of symmetry with `1/r d/dr`, which is
 /// `d2/dr2` on the axis.
 pub(super) fn flow<const D: usize>(
     region: &Region<D>,
     stencils: &Stencils<D>,
     i: usize,
-    row: &mut Vec<(u32, f64)>,
+    mut add: impl FnMut(usize, f64),
 ) {
-    stencils
-        .laplacian(i)
-        .iter()
-        .for_each(|(j, w)| push(row, j, w));
+    stencils.laplacian(i).iter().for_each(|(j, w)| add(j, w));
     if region.axial {
-        around(region, stencils, i, 1.0, |j, w| push(row, j, w));
+        around(region, stencils, i, 1.0, add);
     }
 }
 

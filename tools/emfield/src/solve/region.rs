@@ -114,10 +114,36 @@ impl<const D: usize> Rules<D> for Own<'_, D> {
     }
 }
 
+/// Stencils of points inside media, or of those on walls, by harmonic polynomials.
+pub(super) struct Harmonic<'a, const D: usize> {
+    pub(super) region: &'a Region<D>,
+    pub(super) walls: bool,
+}
+
+impl<const D: usize> Rules<D> for Harmonic<'_, D> {
+    fn wanted(&self, i: usize) -> bool {
+        match self.region.kinds[i] {
+            Kind::Inside(_) => !self.walls,
+            Kind::Wall { .. } => self.walls,
+            Kind::Interface(_) => false,
+        }
+    }
+
+    fn allowed(&self, i: usize, j: usize) -> bool {
+        self.region.touches(j, self.region.medium(i))
+    }
+
+    fn conditions(&self, _: usize, conditions: &mut Vec<Condition<D>>) {
+        conditions.push(Condition::Harmonic);
+    }
+}
+
 /// Stencils of interface points from one side, where the equation of that side holds.
 pub(super) struct Side<'a, const D: usize> {
     pub(super) region: &'a Region<D>,
     pub(super) inner: bool,
+    /// The Laplacian is zero not only on the interface.
+    pub(super) harmonic: bool,
     /// How many times `1/r d/dr` the equation has about an axis.
     pub(super) around: f64,
 }
@@ -145,7 +171,9 @@ impl<const D: usize> Rules<D> for Side<'_, D> {
     /// one-sided slope gains an order from it. About an axis the equation has first derivatives.
     fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
         let at = self.region.places[i];
-        if !self.region.axial {
+        if self.harmonic {
+            conditions.push(Condition::Harmonic);
+        } else if !self.region.axial {
             conditions.push(Condition::Laplacian { at });
         } else if at[0] > 0.0 {
             let mut drift = [0.0; D];

@@ -3,13 +3,17 @@
 use wls::{Error, Plan, Reach, Search, Stencils, Wants};
 
 use super::mirror::Mirror;
-use super::region::{Own, Region, Side};
+use super::region::{Harmonic, Kind, Own, Region, Side};
 
 /// Radius of the support of cubics over the spacing, for potentials.
 const CUBIC_REACH: f64 = 3.0;
 
 /// Radius of the support of quartics over the spacing, for potentials: about 180 points in space.
 const QUARTIC_REACH: f64 = 3.5;
+
+/// Radius of the support of harmonic cubics and quartics over the spacing, in a plane and in space: 4 to 5 points for
+/// each coefficient.
+const HARMONIC_REACH: [f64; 2] = [3.0, 2.75];
 
 /// How stencils are made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +24,9 @@ pub struct Form {
     pub support: Option<f64>,
     /// Weights of the Laplacian of other points are not negative where that is possible.
     pub positive: bool,
+    /// The field has no Laplacian on either side of an interface, and so have the polynomials there: never about an axis,
+    /// where the equation has first derivatives.
+    pub harmonic: bool,
     /// How many times `1/r d/dr` the equation has about an axis: 1 of a potential, 3 of `A_phi / r`.
     pub around: f64,
 }
@@ -30,6 +37,7 @@ impl Default for Form {
             order: 2,
             support: None,
             positive: false,
+            harmonic: false,
             around: 1.0,
         }
     }
@@ -49,6 +57,24 @@ impl Form {
             support: self.support.or(reach),
             ..self
         }
+    }
+
+    /// For potentials that have no Laplacian inside any medium: of order 3 and 4 the polynomials themselves are harmonic,
+    /// 16 and 25 coefficients in space instead of 20 and 35. Quadratics keep their Laplacian.
+    #[must_use]
+    pub fn for_harmonics(self, dimensions: usize) -> Self {
+        let reach = (self.order > 2).then(|| HARMONIC_REACH[dimensions - 2]);
+        Self {
+            support: self.support.or(reach),
+            harmonic: true,
+            ..self
+        }
+    }
+
+    /// Whether equations inside media compare values with polynomials, which are harmonic.
+    #[must_use]
+    pub fn compares(&self) -> bool {
+        self.harmonic && self.order > 2
     }
 
     pub(super) fn plan<const D: usize>(&self, wants: Wants) -> Plan {
@@ -72,8 +98,11 @@ impl Form {
 /// Stencils of all points.
 #[derive(Debug, Clone)]
 pub struct Sides<const D: usize> {
-    /// Gradient and Laplacian inside media, gradient on walls.
+    /// Gradient and Laplacian inside media, gradient on walls; where polynomials are harmonic, gradient and value inside
+    /// media.
     pub own: Stencils<D>,
+    /// Gradient on walls, where polynomials are harmonic.
+    pub wall: Option<Stencils<D>>,
     /// Gradient at interfaces from the side that the normal leaves.
     pub inner: Stencils<D>,
     /// Gradient at interfaces from the other side.
@@ -97,20 +126,44 @@ impl<const D: usize> Sides<D> {
             hessian: region.axial,
             ..gradient
         };
-        let own = mirror.stencils(&search, &form.plan::<D>(both), &Own(region))?;
+        let harmonic = |walls: bool| Harmonic { region, walls };
+        let (own, wall) = if form.compares() {
+            let plan = Plan {
+                interpolating: false,
+                ..form.plan::<D>(Wants {
+                    value: true,
+                    ..gradient
+                })
+            };
+            let own = mirror.stencils(&search, &plan, &harmonic(false))?;
+            let wall = form.plan::<D>(gradient);
+            let wall = mirror.stencils(&search, &wall, &harmonic(true))?;
+            (own, Some(wall))
+        } else {
+            let own = mirror.stencils(&search, &form.plan::<D>(both), &Own(region))?;
+            (own, None)
+        };
         let side = |inner: bool| {
             let rules = Side {
                 region,
                 inner,
+                harmonic: form.harmonic,
                 around: form.around,
             };
             mirror.stencils(&search, &form.plan::<D>(gradient), &rules)
         };
         Ok(Self {
             own,
+            wall,
             inner: side(true)?,
             outer: side(false)?,
         })
+    }
+
+    /// Gradient on walls.
+    #[must_use]
+    pub fn at_walls(&self) -> &Stencils<D> {
+        self.wall.as_ref().unwrap_or(&self.own)
     }
 
     /// Gradient of a field without a Laplacian at every point: on interfaces from the inner, or from
@@ -124,12 +177,10 @@ impl<const D: usize> Sides<D> {
         let side = if inner { &self.inner } else { &self.outer };
         (0..region.len())
             .into_par_iter()
-            .map(|i| {
-                if region.on_interface(i) {
-                    side.gradient_of(field, i)
-                } else {
-                    self.own.gradient_of(field, i)
-                }
+            .map(|i| match region.kinds[i] {
+                Kind::Interface(_) => side.gradient_of(field, i),
+                Kind::Wall { .. } => self.at_walls().gradient_of(field, i),
+                Kind::Inside(_) => self.own.gradient_of(field, i),
             })
             .collect()
     }

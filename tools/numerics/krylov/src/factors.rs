@@ -3,7 +3,7 @@
 use crate::operator::residual;
 use crate::{
     Breakdown, Coefficient, Direct, Ending, Error, Grids, Incomplete, Inverse, Keep, Method,
-    Multigrid, Operator, Order, Rows, Rule, Scalar, Scratch, Solved, Stagnation, bicgstab2,
+    Multigrid, Operator, Options, Order, Rows, Rule, Scalar, Scratch, Solved, Stagnation, bicgstab2,
     minimal_residual,
 };
 
@@ -22,16 +22,24 @@ impl<T: Coefficient<S> + Scalar, S: Scalar> Factors<T, S>
 where
     f32: Coefficient<S> + Coefficient<T>,
 {
-    /// Factors for a method that iterates.
+    /// Factors for a method that iterates, of rows that were multiplied by `scale`.
     pub(crate) fn new(
         rows: &Rows<T>,
         shift: &[S],
-        order: &Order,
-        method: Method,
+        (order, scale): (&Order, &[f64]),
+        options: Options,
     ) -> Result<Self, Error> {
-        let grids = |grids| Multigrid::new(rows, shift, order, grids).map(Box::new);
+        let grids = |grids| {
+            if options.fluxes {
+                let least = scale.iter().copied().fold(f64::INFINITY, f64::min);
+                let weights = scale.iter().map(|s| least / s).collect();
+                Multigrid::of_fluxes(rows, shift, (order, weights), grids).map(Box::new)
+            } else {
+                Multigrid::new(rows, shift, order, grids).map(Box::new)
+            }
+        };
         let real = |keep| Self::Real(Incomplete::new(rows, shift, order, keep));
-        Ok(match method {
+        Ok(match options.method {
             Method::Incomplete(keep) => real(keep),
             Method::IncompleteComplex(keep) => {
                 Self::Complex(Incomplete::new(rows, shift, order, keep))

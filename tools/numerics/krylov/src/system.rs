@@ -32,6 +32,10 @@ pub struct Options {
     pub direct: usize,
     /// Most unknowns that are solved directly where an iteration fails.
     pub rescue: usize,
+    /// Rows are given as fluxes: each in its share of a balance, so that rows of many neighbours add
+    /// up to about what passes the border of these. Coarse equations of a multigrid are made of such
+    /// sums; where coefficients jump they are right only for fluxes.
+    pub fluxes: bool,
 }
 
 impl Default for Options {
@@ -40,6 +44,7 @@ impl Default for Options {
             method: Method::Chosen,
             direct: 2000,
             rescue: 20_000,
+            fluxes: false,
         }
     }
 }
@@ -212,9 +217,9 @@ where
                     *v = v.times_real(*scale);
                 }
             }
-            Factors::new(&low, &mixed, &order, options.method)?
+            Factors::new(&low, &mixed, (&order, &scale), options)?
         } else {
-            Factors::new(&rows, &mixed, &order, options.method)?
+            Factors::new(&rows, &mixed, (&order, &scale), options)?
         };
         Ok(Self {
             options,

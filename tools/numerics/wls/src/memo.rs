@@ -87,6 +87,7 @@ impl<'a, const D: usize> Member<'a, D> {
         let near = (self.found.radius - other.found.radius).abs() <= EQUAL * self.found.radius;
         if !near
             || self.found.count != other.found.count
+            || self.found.harmonic != other.found.harmonic
             || !same_stretch(&self.target.metric, &other.target.metric)
         {
             return false;

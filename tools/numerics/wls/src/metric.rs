@@ -68,6 +68,12 @@ impl<const D: usize> Metric<D> {
         self.spacing
     }
 
+    /// Volume of the cell of a point, about \[m^D\].
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.spacing.powi(D as i32) * self.widest * self.narrowest
+    }
+
     /// s = M dx / L.
     #[inline]
     #[must_use]
@@ -122,5 +128,6 @@ mod tests {
         assert!((length(across) - 1.0).abs() < 1e-12);
         assert!((length(along) - 1.0).abs() < 1e-12);
         assert!((length(metric.scaled([0.0, 0.0, 0.25])) - 1.0).abs() < 1e-12);
+        assert!((metric.volume() / (0.04 * 0.25 * 0.25) - 1.0).abs() < 1e-12);
     }
 }

@@ -26,8 +26,10 @@ pub(crate) struct Found {
     pub(crate) start: usize,
     pub(crate) radius: f64,
     pub(crate) hash: u64,
-    /// It may share weights: no conditions of its own.
+    /// It may share weights: no conditions of its own, unless its polynomial is harmonic.
     pub(crate) free: bool,
+    /// Its polynomial is harmonic.
+    pub(crate) harmonic: bool,
     /// How often the support was enlarged.
     pub(crate) times: u32,
 }
@@ -239,7 +241,8 @@ impl<const D: usize> Bench<'_, D> {
                 start: supports.neighbours.len(),
                 radius: support.radius,
                 hash: support.hash,
-                free: conditions.is_empty(),
+                free: conditions.iter().all(|c| *c == Condition::Harmonic),
+                harmonic: conditions.contains(&Condition::Harmonic),
                 times: batch.times,
             });
             supports.neighbours.extend_from_slice(&support.neighbours);

@@ -35,8 +35,12 @@ fn errors(spacing: f64, ratio: f64, order: u8, smeared: bool) -> [f64; 2] {
     let form = Form {
         order,
         ..Form::default()
-    }
-    .for_potentials();
+    };
+    let form = if smeared {
+        form.for_potentials()
+    } else {
+        form.for_harmonics(2)
+    };
     let sides = Sides::new(&region, &form).unwrap();
     let crossing = smeared.then(|| Smeared::new(&region, &form).unwrap());
     let (rows, right) = match &crossing {
@@ -95,4 +99,74 @@ fn one_sided_rows_have_order_p_less_one_up_to_the_interface() {
 fn the_smeared_form_is_worse() {
     let [crossing, sided] = [true, false].map(|s| errors(0.05, 80.0, 2, s));
     assert!(crossing[1] > 5.0 * sided[1]);
+}
+
+#[test]
+fn harmonic_polynomials_of_degree_4_are_met_exactly() {
+    let region = rings(0.1);
+    // The real part of (x + i y)^4, beside a plane that a wall without field cannot hold.
+    let exact = |p: [f64; 2]| {
+        let [x, y] = p;
+        x.powi(4) - 6.0 * x * x * y * y + y.powi(4) + 3.0 * x - 2.0
+    };
+    let mut problem = problem(&region, 1.0);
+    for (held, place) in problem.held.iter_mut().zip(&region.places) {
+        if let Some(Held::Potential(v)) = held {
+            *v = exact(*place);
+        }
+    }
+    let form = Form {
+        order: 4,
+        ..Form::default()
+    }
+    .for_harmonics(2);
+    let sides = Sides::new(&region, &form).unwrap();
+    let (rows, right) = problem.rows(&region, &sides);
+    let mut x = vec![[0.0]; region.len()];
+    let options = Options {
+        method: krylov::Method::Direct,
+        ..Options::default()
+    };
+    let mut system = System::new(rows, vec![], options).unwrap();
+    assert!(system.solve(&right, &mut x, Rule::default()).converged());
+    let v: Vec<f64> = x.iter().map(|x| x[0]).collect();
+    let field = Problem::field(&region, &sides, &v, false);
+    for (i, place) in region.places.iter().enumerate() {
+        assert!((v[i] - exact(*place)).abs() < 1e-9, "{i} {}", v[i]);
+        let [a, b] = *place;
+        let slope = [
+            4.0 * a.powi(3) - 12.0 * a * b * b + 3.0,
+            4.0 * b.powi(3) - 12.0 * a * a * b,
+        ];
+        for k in 0..2 {
+            assert!((field[i][k] + slope[k]).abs() < 1e-7, "{i} {:?}", field[i]);
+        }
+    }
+}
+
+/// Rows given as fluxes: the same few products for any contrast and any number of points.
+#[test]
+fn products_depend_neither_on_contrast_nor_on_size() {
+    let products = |spacing: f64, ratio: f64| {
+        let region = rings(spacing);
+        let problem = problem(&region, ratio);
+        let form = Form::default().for_harmonics(2);
+        let sides = Sides::new(&region, &form).unwrap();
+        let (rows, right) = problem.rows(&region, &sides);
+        let options = Options {
+            direct: 0,
+            rescue: 0,
+            fluxes: true,
+            ..Options::default()
+        };
+        let mut x = vec![[0.0]; region.len()];
+        let mut system = System::new(rows, vec![], options).unwrap();
+        let solved = system.solve(&right, &mut x, Rule::default());
+        assert!(solved.converged(), "{:?}", solved.ending);
+        solved.products
+    };
+    for ratio in [1e-6, 80.0, 1e6] {
+        let [coarse, fine] = [0.05, 0.02].map(|h| products(h, ratio));
+        assert!(coarse <= 30 && fine <= 30, "{ratio}: {coarse} {fine}");
+    }
 }

@@ -103,6 +103,10 @@ pub struct Multigrid<T, S: Scalar> {
     bottom: Direct<S>,
     visits: usize,
     sizes: Vec<(usize, usize)>,
+    /// What residuals are multiplied by to become fluxes; none where they are.
+    weights: Vec<f64>,
+    /// Fluxes.
+    weighed: Vec<S>,
 }
 
 impl<S: Scalar, T: Coefficient<S> + Scalar> Multigrid<T, S>
@@ -166,7 +170,32 @@ where
             levels,
             visits: grids.visits.max(1),
             sizes,
+            weights: Vec::new(),
+            weighed: Vec::new(),
         })
+    }
+
+    /// The same for rows that become fluxes by the given weights: rows of many neighbours add up to about what
+    /// passes the border of these, as the coarse equations ask where coefficients jump.
+    ///
+    /// # Errors
+    /// When the coarsest matrix is singular.
+    pub fn of_fluxes(
+        rows: &Rows<T>,
+        shift: &[S],
+        (order, weights): (&Order, Vec<f64>),
+        grids: Grids,
+    ) -> Result<Self, Error> {
+        let mut rows = rows.clone();
+        let mut shift = shift.to_vec();
+        for (i, (shift, weight)) in shift.iter_mut().zip(&weights).enumerate() {
+            for v in rows.values_mut(i) {
+                *v = v.times_real(*weight);
+            }
+            *shift = shift.times_real(*weight);
+        }
+        let whole = Self::new(&rows, &shift, order, grids)?;
+        Ok(Self { weights, ..whole })
     }
 
     /// Rows and coefficients of each level, the finest first.
@@ -192,7 +221,17 @@ where
     f32: Coefficient<S>,
 {
     fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
-        cycle(&mut self.levels, (&mut self.bottom, self.visits), rhs, out);
+        let bottom = (&mut self.bottom, self.visits);
+        if self.weights.is_empty() {
+            cycle(&mut self.levels, bottom, rhs, out);
+            return;
+        }
+        self.weighed.resize(rhs.len() * C, S::ZERO);
+        let weighed = self.weighed.as_chunks_mut::<C>().0;
+        for ((weighed, rhs), weight) in weighed.iter_mut().zip(rhs).zip(&self.weights) {
+            *weighed = rhs.map(|r| r.times_real(*weight));
+        }
+        cycle(&mut self.levels, bottom, weighed, out);
     }
 }
 

@@ -100,6 +100,26 @@ fn products_hardly_grow_with_the_jump() {
 }
 
 #[test]
+fn rows_given_as_fluxes_have_the_same_solution() {
+    let cloud = Cloud::ball(22, 80.0).build();
+    let n = cloud.rows.len();
+    let solve = |fluxes: bool| {
+        let options = Options {
+            fluxes,
+            ..options(Method::Multigrid(Grids::default()))
+        };
+        let made = System::<f64, C64>::new(cloud.rows.clone(), cloud.shift.clone(), options);
+        let mut x = vec![[C64::ZERO; 3]; n];
+        let solved = made.unwrap().solve(&cloud.rhs, &mut x, Rule::default());
+        assert!(solved.converged(), "{fluxes}: {}", solved.ending);
+        x
+    };
+    let [a, b] = [false, true].map(solve);
+    let far = a.iter().zip(&b).map(|(a, b)| (a[1] - b[1]).norm());
+    assert!(far.fold(0.0, f64::max) < 1e-5);
+}
+
+#[test]
 fn eddy_currents_of_all_depths() {
     let grids = Method::Multigrid(Grids::default());
     for shift in [1e2, 1e4, 1e6] {
