@@ -14,6 +14,8 @@ mod em_axisymmetric_sphere;
 mod em_cylinder_ac;
 mod em_dielectric_sphere;
 mod em_planar_az;
+mod em_sphere_aside;
+mod em_sphere_gauge;
 mod em_sphere_loops;
 mod em_sphere_uniform_ac;
 mod em_transient_cylinder;
@@ -60,6 +62,8 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(em_sphere_uniform_ac::EmSphereUniformAc),
         Box::new(em_sphere_loops::EmSphereLoops),
         Box::new(em_axisymmetric_sphere::EmAxisymmetricSphere),
+        Box::new(em_sphere_gauge::EmSphereGauge),
+        Box::new(em_sphere_aside::EmSphereAside),
         Box::new(em_transient_cylinder::EmTransientCylinder),
         Box::new(em_transient_sphere::EmTransientSphere),
         Box::new(gas_argon::GasArgon),

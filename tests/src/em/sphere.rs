@@ -7,6 +7,8 @@
 //! `a_n = (2n+1) c_n R^n / (k R i_{n-1}(k R))`, `b_n = (a_n i_n(k R) - c_n R^n) R^(n+1)`
 //! (Smythe 1950, chapter XI; Brisley and Thornton 1963). `P_n^1 = -dP_n/d theta`.
 
+pub mod anywhere;
+
 use std::f64::consts::PI;
 
 use super::bessel::{scaled_i0_spherical, spherical_ratios};

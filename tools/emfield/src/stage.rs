@@ -135,13 +135,21 @@ fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
     let plan = plan.column("magnetic_flux_density", "T");
     let conducts = (0..=scene.bodies.len()).any(|m| scene.medium(m).conductivity_s_m > 0.0);
     if conducts {
-        plan.column("current_density", "A/m2")
+        let plan = plan
+            .column("current_density", "A/m2")
             .column("force_density", "N/m3")
-            .column("joule_heat", "W/m3")
-            .left_out(
-                "electric potential V",
-                "currents close within conductors by div A = 0 where surfaces carry no charge",
-            )
+            .column("joule_heat", "W/m3");
+        if currents.charged(scene.geometry) {
+            plan.stage("charges on conductors")
+                .column("electric_potential", "V")
+        } else {
+            let why = match (&currents.potential, scene.geometry) {
+                (Some(_), _) => "\"potential\" is \"none\"",
+                (None, Geometry::Space) => "a march in time",
+                (None, _) => "currents leave no conductor in a plane or about an axis",
+            };
+            plan.left_out("electric potential V", why)
+        }
     } else {
         plan.left_out("currents", "nothing conducts")
     }

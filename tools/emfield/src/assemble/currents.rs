@@ -50,8 +50,17 @@ pub fn eddy_currents<const D: usize, const K: usize>(
     let setting: Setting<'_, D> = Setting::new(scene, currents, cloud, session)?;
     setting.warn(session);
     let drive = session.timed("source", || setting.drive::<K>());
-    let found = setting.solve(&drive, session)?;
-    let change = steady_change(drive.omega, &found, &drive.source);
+    let charge = setting.charge(session)?;
+    let (found, phi) = match &charge {
+        None => (setting.solve(&drive, session)?, Vec::new()),
+        Some(charge) => setting.coupled(charge, &drive, session)?,
+    };
+    let mut change = steady_change(drive.omega, &found, &drive.source);
+    let charged = charge.as_ref().map(|charge| {
+        let at = (charge, phi.as_slice());
+        setting.charged(at, drive.omega, &mut change)
+    });
+    setting.lack(&change, session);
     let solution = Solution {
         found: &found,
         source: &drive.source,
@@ -59,7 +68,7 @@ pub fn eddy_currents<const D: usize, const K: usize>(
     };
     Ok(session.timed("fields", || {
         let flux = setting.source.flux(&cloud.position);
-        setting.found(solution, &flux, &setting.source)
+        setting.found_with(solution, charged.as_ref(), &flux, &setting.source)
     }))
 }
 
@@ -196,7 +205,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         }
     }
 
-    fn solve<const K: usize>(
+    pub(super) fn solve<const K: usize>(
         &self,
         drive: &Drive<K>,
         session: &mut Session,

@@ -6,9 +6,9 @@ use shapes::frame::direction;
 
 use crate::cloud::region::vector;
 use crate::scene::currents::OuterReaction;
-use crate::scene::{Coil, EddyCurrents, Geometry, Scene};
+use crate::scene::{Coil, EddyCurrents, ElectricPotential, Geometry, Magnet, Scene};
 use crate::solve::diffusion::Unknown;
-use crate::source::{Loop, Segment, Source, Uniform, Wire};
+use crate::source::{Loop, Origin, Segment, Source, Uniform, Wire};
 
 type C = Complex<f64>;
 
@@ -46,6 +46,13 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
             }
         }
     }
+    let left_out = currents.potential == Some(ElectricPotential::Conductors)
+        && !currents.charged(scene.geometry);
+    if left_out {
+        let what = "charges on conductors are computed in space in a sinusoidal steady state alone";
+        faults.push(Fault::at("/eddy_currents/potential", what));
+    }
+    faults.extend(magnet(scene, currents));
     let own = scene.surroundings.relative_permeability;
     for (k, body) in scene.bodies.iter().enumerate() {
         if unknown != Unknown::Axial && (body.relative_permeability - own).abs() > 1e-12 * own {
@@ -77,6 +84,36 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
         }
     }
     faults
+}
+
+/// What the applied field comes from.
+fn origin(magnet: Option<Magnet>) -> Origin {
+    match magnet {
+        None => Origin::Solenoid([0.0; 3]),
+        Some(Magnet::Solenoid { centre_m }) => Origin::Solenoid(centre_m),
+        Some(Magnet::Sheets { normal }) => Origin::Sheets(direction(normal)),
+    }
+}
+
+/// What is wrong with the magnet of a scene.
+fn magnet(scene: &Scene, currents: &EddyCurrents) -> Option<Fault> {
+    let at = "/eddy_currents/magnet";
+    let magnet = currents.magnet?;
+    let Some(b) = &currents.applied_flux_density_t else {
+        return Some(Fault::at(at, "there is no \"applied_flux_density_t\""));
+    };
+    if scene.geometry != Geometry::Space {
+        return Some(Fault::at(at, "a magnet has a place in space alone"));
+    }
+    let Magnet::Sheets { normal } = magnet else {
+        return None;
+    };
+    let b = vector(b);
+    let along: f64 = (0..3).map(|k| b[k] * normal[k]).sum();
+    let size = shapes::frame::length(b) * shapes::frame::length(normal);
+    let square = along.abs() <= 1e-9 * size && size > 0.0;
+    let at = format!("{at}/sheets/normal");
+    (!square).then(|| Fault::at(&at, "not zero, and square to the applied flux density"))
 }
 
 /// The exact fields of coils and of the applied field, rms.
@@ -129,7 +166,7 @@ pub fn source(scene: &Scene, currents: &EddyCurrents) -> Source {
         };
         source.uniform.push(Uniform {
             flux: b.map(|b| C::from(currents.rms(b))),
-            origin: [0.0; 3],
+            origin: origin(currents.magnet),
         });
     }
     source

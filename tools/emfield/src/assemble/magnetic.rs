@@ -3,12 +3,14 @@
 use num_complex::Complex;
 use shapes::frame::Vector;
 
+use super::charge::Charged;
 use super::currents::{Setting, media};
-use crate::cloud::SurfacePoint;
 use crate::output::{Column, Found};
 use crate::scene::Geometry;
 use crate::solve::diffusion::Unknown;
 use crate::solve::eddy::{Fields, Media, Solution};
+use crate::solve::region::Region;
+use crate::solve::sides::Sides;
 use crate::solve::totals::{self, Totals};
 use crate::source::{MU0, Source};
 
@@ -25,15 +27,34 @@ impl<const D: usize> Setting<'_, D> {
         flux: &[[C; 3]],
         source: &Source,
     ) -> Found {
+        self.found_with(solution, None, flux, source)
+    }
+
+    /// The same with charges on conductors.
+    pub(super) fn found_with<const K: usize>(
+        &self,
+        solution: Solution<'_, K>,
+        charged: Option<&Charged>,
+        flux: &[[C; 3]],
+        source: &Source,
+    ) -> Found {
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
         let media = Media {
             permeability: &media(self.scene, |m| MU0 * m.relative_permeability),
             conductivity: &conductivity,
             flux,
         };
-        let fields = Fields::new((&self.region, &self.sides), self.unknown, solution, &media);
+        let mut fields = Fields::new((&self.region, &self.sides), self.unknown, solution, &media);
         let mut all = Found::default();
         let columns = &mut all.columns;
+        if let Some(charged) = charged {
+            fields.charged(&self.region, &media, &charged.beyond);
+            for (part, of) in self.parts() {
+                let values = charged.voltage.iter().map(of).collect();
+                let name = format!("electric_potential{part}");
+                columns.push(Column::new(&name, "V", values));
+            }
+        }
         if self.unknown == Unknown::Axial {
             for (part, of) in self.parts() {
                 let name = format!("magnetic_field{part}");
@@ -42,11 +63,11 @@ impl<const D: usize> Setting<'_, D> {
             }
         } else {
             let name = ("vector_potential", "Wb/m");
-            self.vector(columns, name, &fields.potential, None);
+            self.vector(columns, name, &fields.potential, &[]);
         }
-        self.vector(columns, ("magnetic_flux_density", "T"), &fields.flux, None);
+        self.vector(columns, ("magnetic_flux_density", "T"), &fields.flux, &[]);
         if conductivity.iter().any(|s| *s > 0.0) {
-            self.currents(&fields, &conductivity, columns);
+            self.currents(&fields, columns);
         }
         self.totals(&fields, &conductivity, source, &mut all);
         all
@@ -60,61 +81,37 @@ impl<const D: usize> Setting<'_, D> {
         }
     }
 
-    /// Columns of a vector by its parts; beyond interfaces it is that much of the value before them.
+    /// Columns of a vector by its parts, with its values beyond interfaces if it jumps there.
     fn vector(
         &self,
         columns: &mut Vec<Column>,
         (name, unit): (&str, &'static str),
         values: &[[C; 3]],
-        beyond: Option<&[f64]>,
+        beyond: &[[C; 3]],
     ) {
         for (part, of) in self.parts() {
-            let all: Vec<Vector> = values
-                .iter()
-                .map(|v| [0, 1, 2].map(|k| of(&v[k])))
-                .collect();
-            let outer: Vec<Vector> = beyond.map_or_else(Vec::new, |share| {
-                let each = self.cloud.surface.iter().zip(share);
-                each.map(|(s, share)| all[s.point as usize].map(|v| v * share))
-                    .collect()
+            let [all, outer]: [Vec<Vector>; 2] = [values, beyond].map(|values| {
+                let parts = values.iter().map(|v| [0, 1, 2].map(|k| of(&v[k])));
+                parts.collect()
             });
             columns.extend(Column::vector(&format!("{name}{part}"), unit, &all, &outer));
         }
     }
 
     /// Currents, forces and heat of conductors.
-    fn currents(&self, fields: &Fields, conductivity: &[f64], columns: &mut Vec<Column>) {
-        // E is continuous along the surface: beyond it currents are as conductivities are.
-        let beyond: Vec<f64> = self
-            .cloud
-            .surface
-            .iter()
-            .map(|s| {
-                let [inner, outer] = [s.inner, s.outer].map(|m| conductivity[m as usize]);
-                if inner > 0.0 { outer / inner } else { 0.0 }
-            })
-            .collect();
+    fn currents(&self, fields: &Fields, columns: &mut Vec<Column>) {
+        let beyond: Vec<[C; 3]> = fields.beyond.iter().map(|b| b.current).collect();
         let name = ("current_density", "A/m2");
-        self.vector(columns, name, &fields.current, Some(&beyond));
-        let scaled = |s: &SurfacePoint, k: f64| fields.force[s.point as usize].map(|f| f * k);
-        let force: Vec<Vector> = self
-            .cloud
-            .surface
-            .iter()
-            .zip(&beyond)
-            .map(|(s, k)| scaled(s, *k))
-            .collect();
+        self.vector(columns, name, &fields.current, &beyond);
+        let beyond: Vec<Vector> = fields.beyond.iter().map(|b| b.force).collect();
         columns.extend(Column::vector(
             "force_density",
             "N/m3",
             &fields.force,
-            &force,
+            &beyond,
         ));
-        let heat = self.cloud.surface.iter().zip(&beyond);
         columns.push(Column {
-            beyond: heat
-                .map(|(s, k)| fields.heat[s.point as usize] * k)
-                .collect(),
+            beyond: fields.beyond.iter().map(|b| b.heat).collect(),
             ..Column::new("joule_heat", "W/m3", fields.heat.clone())
         });
     }
@@ -151,5 +148,14 @@ impl<const D: usize> Setting<'_, D> {
         ] {
             all.totals.push((name.to_owned(), unit, value));
         }
+    }
+
+    /// The points, if they have three coordinates.
+    pub(super) fn in_space(&self) -> Option<&Region<3>> {
+        (&self.region as &dyn std::any::Any).downcast_ref()
+    }
+
+    pub(super) fn sides_in_space(&self) -> Option<&Sides<3>> {
+        (&self.sides as &dyn std::any::Any).downcast_ref()
     }
 }

@@ -1,5 +1,6 @@
 //! From a scene and its points to equations, and from their solution to columns.
 
+mod charge;
 mod currents;
 pub mod drive;
 mod magnetic;

@@ -4,6 +4,8 @@ use run::property::Property;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::Geometry;
+
 /// What the currents and fields of a scene mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -132,6 +134,34 @@ pub enum OuterReaction {
     Multipole,
 }
 
+/// What is computed of the charges that a changing field drives to the surfaces of conductors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ElectricPotential {
+    /// Nothing: by symmetry no current would leave a conductor without them, as in a ball among coaxial loops.
+    None,
+    /// Their potential V in all conductors.
+    Conductors,
+}
+
+/// What a uniform field comes from: where it drives no current, the electric field depends on it.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Magnet {
+    /// A long round solenoid along the field: A = B x (r - centre) / 2.
+    Solenoid {
+        /// A place on its axis.
+        #[schemars(extend("x-unit" = "m"))]
+        centre_m: [f64; 3],
+    },
+    /// Two wide plane sheets of opposite currents, parallel to the field: A = (n . r) B x n.
+    Sheets {
+        /// Their normal, square to the field.
+        #[schemars(extend("x-unit" = "1"))]
+        normal: [f64; 3],
+    },
+}
+
 /// Currents that a changing magnetic field drives (Matsuzawa 2017, eqs 2.64-2.69).
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -147,12 +177,17 @@ pub struct EddyCurrents {
     /// plane, one in the plane drives them along z; axisymmetric: along z (0, B).
     #[schemars(extend("x-unit" = "T"), length(min = 2, max = 3))]
     pub applied_flux_density_t: Option<Vec<f64>>,
+    /// What the uniform field comes from, in space; a solenoid about the origin when it is absent.
+    pub magnet: Option<Magnet>,
     /// What currents and applied field mean in a sinusoidal steady state.
     #[serde(default)]
     pub amplitude: Amplitude,
     /// What holds at the walls.
     #[serde(default)]
     pub outer: OuterReaction,
+    /// Charges on the surfaces of conductors; when it is absent, computed in space in a sinusoidal steady state. In a
+    /// plane, about an axis and in a march in time they are left out.
+    pub potential: Option<ElectricPotential>,
 }
 
 impl EddyCurrents {
@@ -163,6 +198,14 @@ impl EddyCurrents {
             (Amplitude::Peak, Some(_)) => value * std::f64::consts::FRAC_1_SQRT_2,
             _ => value,
         }
+    }
+
+    /// Whether charges on conductors are computed in a scene of this geometry.
+    #[must_use]
+    pub fn charged(&self, geometry: Geometry) -> bool {
+        geometry == Geometry::Space
+            && self.harmonic.is_some()
+            && self.potential != Some(ElectricPotential::None)
     }
 
     /// Angular frequency of a sinusoidal steady state \[rad/s\].

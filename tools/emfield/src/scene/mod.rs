@@ -12,7 +12,7 @@ pub mod potential;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use currents::{Amplitude, Coil, EddyCurrents};
+pub use currents::{Amplitude, Coil, EddyCurrents, ElectricPotential, Magnet};
 pub use domain::{BodyScene, Domain, Geometry, Medium};
 pub use method::{Interfaces, Method, Solver};
 pub use output::Output;

@@ -1,7 +1,7 @@
 //! Eddy currents in a sinusoidal steady state: right sides, and the fields of a solution.
 //!
 //! Phasors are rms values of `exp(j w t)`; in a march in time fields are real. In a conductor `J = -j w sigma (A + A_s)` (Matsuzawa 2017,
-//! eq. 2.65, without charge on surfaces), `B = B_s + curl A` (2.67), the mean force density is
+//! eq. 2.65, here without charge on surfaces; [`super::charge`] has that), `B = B_s + curl A` (2.67), the mean force density is
 //! `Re(J x B*)` (2.68), the heat `|J|^2 / sigma`.
 
 use num_complex::Complex;
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::diffusion::{Conductors, Unknown};
 use super::multipole::Multipoles;
-use super::region::Region;
+use super::region::{Face, Region};
 use super::sides::Sides;
 
 /// A complex number.
@@ -121,6 +121,35 @@ pub struct Fields {
     pub force: Vec<[f64; 3]>,
     /// Heat \[W/m3\].
     pub heat: Vec<f64>,
+    /// On the outer side of interfaces, by face.
+    pub beyond: Vec<Beyond>,
+}
+
+/// Fields on the outer side of an interface, where they jump.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Beyond {
+    /// Electric field \[V/m\].
+    pub electric: [C; 3],
+    /// Current density \[A/m2\].
+    pub current: [C; 3],
+    /// Mean force density \[N/m3\].
+    pub force: [f64; 3],
+    /// Heat \[W/m3\].
+    pub heat: f64,
+}
+
+impl Beyond {
+    /// From the electric field there, the flux density and the conductivity.
+    fn new(electric: [C; 3], flux: [C; 3], sigma: f64) -> Self {
+        let current = electric.map(|e| e * sigma);
+        let square: f64 = electric.iter().map(C::norm_sqr).sum();
+        Self {
+            electric,
+            current,
+            force: cross_mean(current, flux),
+            heat: sigma * square,
+        }
+    }
 }
 
 /// What fields are made from beside the solution.
@@ -220,7 +249,32 @@ impl Fields {
                 .heat
                 .push(if sigma > 0.0 { square / sigma } else { 0.0 });
         }
+        // E is continuous along an interface; where no charge is computed, all of it.
+        let face = |face: &Face<D>| {
+            let i = face.point as usize;
+            let [a, b] = [face.inner, face.outer].map(|m| media.conductivity[m as usize]);
+            let electric = match unknown {
+                Unknown::Axial if a > 0.0 => fields.current[i].map(|j| j / a),
+                _ => fields.electric[i],
+            };
+            Beyond::new(electric, fields.flux[i], b)
+        };
+        fields.beyond = region.faces.iter().map(face).collect();
         fields
+    }
+
+    /// Takes the rate on the outer side of interfaces, by face: charges make its normal part jump.
+    pub fn charged<const D: usize>(
+        &mut self,
+        region: &Region<D>,
+        media: &Media<'_>,
+        change: &[[C; 3]],
+    ) {
+        for ((face, beyond), change) in region.faces.iter().zip(&mut self.beyond).zip(change) {
+            let sigma = media.conductivity[face.outer as usize];
+            let flux = self.flux[face.point as usize];
+            *beyond = Beyond::new(change.map(|rate| -rate), flux, sigma);
+        }
     }
 }
 

@@ -5,11 +5,16 @@
 //! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`eddy`] what drives
 //!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`march`] the same in time.
+//! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`factors`]
+//!   their solution.
 
 mod coils;
+pub mod charge;
+pub mod coupled;
 pub mod diffusion;
 pub mod eddy;
 pub mod electrostatic;
+pub mod factors;
 pub mod march;
 mod mirror;
 pub mod multipole;

@@ -41,7 +41,7 @@ impl Totals {
             heat_volume,
             ..Self::default()
         };
-        for face in &region.faces {
+        for (face, beyond) in region.faces.iter().zip(&fields.beyond) {
             let [a, b] = [face.inner, face.outer].map(|m| conducts[m as usize]);
             if a == b {
                 continue;
@@ -58,7 +58,12 @@ impl Totals {
                 found.force_stress[k] += sign * pull / MU0;
             }
             // E x H* through the surface.
-            let inward = cross_mean(fields.electric[i], b);
+            let electric = if a {
+                fields.electric[i]
+            } else {
+                beyond.electric
+            };
+            let inward = cross_mean(electric, b);
             let flow: f64 = (0..3).map(|k| inward[k] * n[k]).sum();
             found.heat_surface -= sign * flow / MU0;
         }

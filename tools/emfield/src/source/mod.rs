@@ -13,7 +13,7 @@ mod wire;
 
 pub use ring::Loop;
 pub use segment::Segment;
-pub use uniform::Uniform;
+pub use uniform::{Origin, Uniform};
 pub use wire::Wire;
 
 use num_complex::Complex;

@@ -87,10 +87,16 @@ fn flux_is_the_curl_of_the_potential_and_neither_has_sources() {
             wire_radius: 1e-3,
             current: Complex::new(1.0, 1.0),
         }],
-        uniform: vec![Uniform {
-            flux: [1e-6, 2e-6, -3e-7].map(Complex::from),
-            origin: [0.1, 0.0, 0.0],
-        }],
+        uniform: vec![
+            Uniform {
+                flux: [1e-6, 2e-6, -3e-7].map(Complex::from),
+                origin: Origin::Solenoid([0.1, 0.0, 0.0]),
+            },
+            Uniform {
+                flux: [2e-6, 0.0, 1e-6].map(Complex::from),
+                origin: Origin::Sheets([0.0, 1.0, 0.0]),
+            },
+        ],
     };
     let h = 1e-4;
     for p in [[0.6, 0.5, 0.3], [-0.5, 0.2, 0.1], [0.35, -0.1, 0.2]] {

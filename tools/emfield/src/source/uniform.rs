@@ -1,26 +1,36 @@
 //! A uniform field.
 
-use super::Phasor;
+use super::{Phasor, cross, dot, minus};
+
+/// What a uniform field comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Origin {
+    /// A long round solenoid, whose axis goes through a place \[m\]: `A = B x (r - r0) / 2`.
+    Solenoid([f64; 3]),
+    /// Two wide plane sheets of opposite currents with this unit normal, square to the field:
+    /// `A = (n.r) B x n`.
+    Sheets([f64; 3]),
+}
 
 /// A uniform flux density.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Uniform {
     /// Flux density \[T\], rms.
     pub flux: Phasor,
-    /// Where its vector potential is zero \[m\].
-    pub origin: [f64; 3],
+    /// What it comes from.
+    pub origin: Origin,
 }
 
 impl Uniform {
-    /// Vector potential `B x (r - origin) / 2` \[V s/m\].
+    /// Vector potential \[V s/m\], in Coulomb gauge and harmonic.
     #[must_use]
     pub fn potential(&self, p: [f64; 3]) -> Phasor {
-        let d = [0, 1, 2].map(|k| 0.5 * (p[k] - self.origin[k]));
-        let b = self.flux;
-        [
-            b[1] * d[2] - b[2] * d[1],
-            b[2] * d[0] - b[0] * d[2],
-            b[0] * d[1] - b[1] * d[0],
-        ]
+        let (along, size) = match self.origin {
+            Origin::Solenoid(place) => (minus(p, place), 0.5),
+            Origin::Sheets(normal) => (normal, dot(normal, p)),
+        };
+        let [re, im] = [self.flux.map(|b| b.re), self.flux.map(|b| b.im)];
+        let [re, im] = [cross(re, along), cross(im, along)];
+        [0, 1, 2].map(|k| super::C::new(size * re[k], size * im[k]))
     }
 }

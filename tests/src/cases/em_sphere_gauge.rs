@@ -1,0 +1,109 @@
+//! `em-sphere-gauge`: charges that turn one electric field into another.
+
+use serde_json::json;
+
+use super::em_sphere_loops::{body, flux_error};
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::em::C;
+use crate::em::frames::{Points, number, totals};
+use crate::em::sphere::{Solution, Sources};
+use crate::heat::frames::greater;
+use crate::lab::{Finished, Lab, LabError};
+
+/// The case.
+pub(super) struct EmSphereGauge;
+
+/// Frequencies.
+const METHODS: &[&str] = &["100-khz", "100-hz", "10-mhz"];
+
+impl Case for EmSphereGauge {
+    fn name(&self) -> &'static str {
+        "em-sphere-gauge"
+    }
+
+    fn tool(&self) -> &'static str {
+        "emfield"
+    }
+
+    fn reference(&self) -> &'static str {
+        "Spherical Bessel functions, Smythe (1950), chapter XI"
+    }
+
+    fn methods(&self) -> &'static [&'static str] {
+        METHODS
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        let mut targets = vec![
+            Target::error("power_poynting", 1e-2),
+            Target::error("flux_linf", 2e-2),
+            Target::error("current_linf", 5e-2),
+            Target::error("potential_linf", 2e-2),
+            Target::order("current_linf", 1.5),
+            Target::order("flux_linf", 1.5),
+        ];
+        for method in &METHODS[1..] {
+            targets.push(Target::error("potential_linf", 2e-2).of(*method));
+            targets.push(Target::error("current_linf", 5e-2).of(*method));
+        }
+        targets
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let spacing = [5.6e-4, 4e-4, 2.8e-4][level.clamp(1, 3) as usize - 1];
+        let (frequency, first) = match method {
+            "100-hz" => (1e2, 0.3),
+            "10-mhz" => (1e7, 0.02),
+            _ => (1e5, 0.3),
+        };
+        let patch = json!({
+            "points": {"spacing_m": spacing, "layers": {"first_m": first * spacing}},
+            "eddy_currents": {"harmonic": {"frequency_hz": frequency}}
+        });
+        let label = format!("level{level}-{method}");
+        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
+        let points = Points::read(&run)?;
+        let errors = errors(&run, &points)?;
+        Ok(Measurement::of(run, points.count(), spacing, errors))
+    }
+}
+
+fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
+    let applied = number(run, "/eddy_currents/applied_flux_density_t/2")?;
+    let sources = Sources {
+        loops: Vec::new(),
+        uniform: applied,
+    };
+    let ball = body(run)?;
+    let exact = Solution::of(ball, sources);
+    let found = totals(run)?;
+    let power = |name: &str| Ok::<_, LabError>((found.get(name)? / exact.power() - 1.0).abs());
+    let mut errors = Errors::from([
+        ("power_volume".to_owned(), power("power_volume")?),
+        ("power_poynting".to_owned(), power("power_poynting")?),
+    ]);
+    let flux = flux_error(points, &exact, 1.2 * ball.radius)? / applied;
+    errors.insert("flux_linf".to_owned(), flux);
+    let omega = std::f64::consts::TAU * ball.frequency;
+    let voltage = |p: &[f64; 3]| C::new(0.0, -0.5 * omega * applied * p[0] * p[1]);
+    let [re, im] = ["real", "imag"].map(|part| format!("electric_potential_{part}"));
+    let (re, im) = (points.frame.f64(&re)?, points.frame.f64(&im)?);
+    let current = points.phasors("current_density")?;
+    let [mut worst, mut off] = [0.0; 2];
+    for (i, p) in points.position.iter().enumerate() {
+        let rho = p[0].hypot(p[1]);
+        if rho.hypot(p[2]) > ball.radius * (1.0 + 1e-9) {
+            continue;
+        }
+        worst = greater(worst, (C::new(re[i], im[i]) - voltage(p)).norm());
+        let around = exact.current(rho, p[2]);
+        let share = |k: usize| if rho > 0.0 { p[k] / rho } else { 0.0 };
+        let wanted = [around * -share(1), around * share(0), C::new(0.0, 0.0)];
+        let apart = (0..3).map(|k| (current[i][k] - wanted[k]).norm_sqr());
+        off = greater(off, apart.sum::<f64>().sqrt());
+    }
+    let most = 0.25 * omega * applied * ball.radius * ball.radius;
+    errors.insert("potential_linf".to_owned(), worst / most);
+    errors.insert("current_linf".to_owned(), off / exact.largest_current().0);
+    Ok(errors)
+}
