@@ -29,7 +29,7 @@ impl Case for EmSphereAside {
     }
 
     fn methods(&self) -> &'static [&'static str] {
-        &["quartic", "quadratic", "without"]
+        &["quartic", "quadratic"]
     }
 
     fn targets(&self) -> Vec<Target> {
@@ -47,14 +47,9 @@ impl Case for EmSphereAside {
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let spacing = [5.6e-4, 4e-4, 2.8e-4][level.clamp(1, 3) as usize - 1];
-        let (order, potential) = match method {
-            "quadratic" => (2, "conductors"),
-            "without" => (4, "none"),
-            _ => (4, "conductors"),
-        };
+        let order = if method == "quadratic" { 2 } else { 4 };
         let patch = json!({
             "points": {"spacing_m": spacing, "layers": {"first_m": 0.3 * spacing}},
-            "eddy_currents": {"potential": potential},
             "method": {"order": order}
         });
         let label = format!("level{level}-{method}");

@@ -114,11 +114,11 @@ impl Anywhere {
             }
         }
         let mut sum = 0.0;
-        for n in 0..TERMS {
+        for (n, energy) in energy.into_iter().enumerate() {
             let degree = (n + 1) as f64;
             let u = self.unit.within[n] * self.unit.ratios[n];
             let slope = (self.unit.k * radius * self.unit.within[n] - (degree + 1.0) * u) / radius;
-            let source = radius * radius / (degree * (degree + 1.0)) * energy[n];
+            let source = radius * radius / (degree * (degree + 1.0)) * energy;
             sum += source * radius * radius * (slope * u.conj()).im / q;
         }
         self.unit.omega().powi(2) * self.body.conductivity * sum

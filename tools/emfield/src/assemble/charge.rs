@@ -152,8 +152,13 @@ impl<const D: usize> Setting<'_, D> {
             let inner = self.region.faces[face as usize].inner;
             let name = self.scene.medium_name(inner as usize);
             let x = self.cloud.position[place];
+            let what = if self.currents.charged(self.scene.geometry) {
+                "the solution is not converged"
+            } else {
+                "charges are missing, which the potential of conductors would compute"
+            };
             session.warn(format!(
-                "charges are missing: at ({:.3e}, {:.3e}, {:.3e}) m {share:.1e} of the largest electric field points out of {name}; \"potential\": \"conductors\" computes them",
+                "at ({:.3e}, {:.3e}, {:.3e}) m {share:.1e} of the largest electric field on the surface points out of {name}: {what}",
                 x[0], x[1], x[2]
             ));
         }

@@ -138,5 +138,6 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<Moments<3>>) {
 }
 
 mod axis;
+mod charge;
 mod eddy;
 mod march;
