@@ -193,6 +193,11 @@ pub fn solve(
     let solved = minimal_residual(coupled, right, &mut x, &mut factors, with, &mut scratch);
     let (a, phi) = x.as_flattened().split_at(3 * coupled.points());
     let a = a.as_chunks::<3>().0.to_vec();
-    let phi = phi.iter().map(|phi| phi * coupled.length).collect();
+    let mut phi: Vec<C> = phi.iter().map(|phi| phi * coupled.length).collect();
+    for body in coupled.bodies() {
+        let own = &mut phi[body.clone()];
+        let mean = own.iter().sum::<C>() / own.len() as f64;
+        own.iter_mut().for_each(|phi| *phi -= mean);
+    }
     Ok(((a, phi), solved))
 }
