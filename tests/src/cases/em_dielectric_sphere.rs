@@ -133,8 +133,14 @@ fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
+/// Place \[m\].
+type Place = [f64; 3];
+
+/// Electric field \[V/m\].
+type Field = [f64; 3];
+
 /// Places on the surface with the field outside.
-fn beyond(run: &Finished) -> Result<Vec<([f64; 3], [f64; 3])>, LabError> {
+fn beyond(run: &Finished) -> Result<Vec<(Place, Field)>, LabError> {
     let surface = Points::channel(run, "/surface")?;
     let field = surface.frame.vectors("electric_field_outer")?;
     Ok(surface.position.into_iter().zip(field).collect())

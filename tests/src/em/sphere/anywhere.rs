@@ -114,7 +114,7 @@ impl Anywhere {
             }
         }
         let mut sum = 0.0;
-        for (n, energy) in energy.into_iter().enumerate() {
+        for (n, energy) in energy.iter().enumerate() {
             let degree = (n + 1) as f64;
             let u = self.unit.within[n] * self.unit.ratios[n];
             let slope = (self.unit.k * radius * self.unit.within[n] - (degree + 1.0) * u) / radius;
@@ -301,7 +301,7 @@ mod tests {
             assert!((force / known.lift() - 1.0).abs() < 1e-5, "{force}");
         }
         let found = coaxial([0.0, 0.0, 1.0]);
-        let p = [1.2e-3, 0.5e-3, -1.4e-3];
+        let p: [f64; 3] = [1.2e-3, 0.5e-3, -1.4e-3];
         let rho = p[0].hypot(p[1]);
         let around = known.current(rho, p[2]);
         let wanted = [
@@ -309,7 +309,8 @@ mod tests {
             around * (p[0] / rho),
             C::new(0.0, 0.0),
         ];
-        let apart = found.current(p).iter().zip(wanted);
+        let current = found.current(p);
+        let apart = current.iter().zip(wanted);
         for (a, b) in apart {
             assert!((a - b).norm() < 1e-6 * around.norm(), "{a} {b}");
         }

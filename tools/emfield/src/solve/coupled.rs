@@ -125,8 +125,8 @@ impl Coupled {
         for i in 0..n {
             let rate = C::new(0.0, parts.omega * rates[i] * scale[i]);
             made.shift.push(-rate);
-            for k in 0..3 {
-                made.right[3 * i + k] = rate * source[i][k];
+            for (k, given) in source[i].iter().enumerate() {
+                made.right[3 * i + k] = rate * given;
             }
             made.dragged(parts, i, scale[i]);
         }
@@ -217,14 +217,14 @@ impl Coupled {
                 given[k] += weight * source[i][k];
             }
             for (q, w) in parts.charge.gradient(i, Side::Inner) {
-                for k in 0..3 {
-                    pair.charge[q][k] += weight * (self.length * w[k]);
+                for (sum, w) in pair.charge[q].iter_mut().zip(w) {
+                    *sum += weight * (self.length * w);
                 }
             }
         }
         for (i, u) in &pair.walls {
-            for k in 0..3 {
-                self.right[3 * *i as usize + k] -= given[k] * *u;
+            for (k, given) in given.iter().enumerate() {
+                self.right[3 * *i as usize + k] -= given * *u;
             }
         }
         self.pairs.push(pair);

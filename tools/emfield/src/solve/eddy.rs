@@ -249,18 +249,28 @@ impl Fields {
                 .heat
                 .push(if sigma > 0.0 { square / sigma } else { 0.0 });
         }
-        // E is continuous along an interface; where no charge is computed, all of it.
+        fields.beyond = fields.beyond(region, unknown, media);
+        fields
+    }
+
+    /// The fields on the outer side of interfaces: E is continuous along an interface; where no charge is computed, all of
+    /// it.
+    fn beyond<const D: usize>(
+        &self,
+        region: &Region<D>,
+        unknown: Unknown,
+        media: &Media<'_>,
+    ) -> Vec<Beyond> {
         let face = |face: &Face<D>| {
             let i = face.point as usize;
             let [a, b] = [face.inner, face.outer].map(|m| media.conductivity[m as usize]);
             let electric = match unknown {
-                Unknown::Axial if a > 0.0 => fields.current[i].map(|j| j / a),
-                _ => fields.electric[i],
+                Unknown::Axial if a > 0.0 => self.current[i].map(|j| j / a),
+                _ => self.electric[i],
             };
-            Beyond::new(electric, fields.flux[i], b)
+            Beyond::new(electric, self.flux[i], b)
         };
-        fields.beyond = region.faces.iter().map(face).collect();
-        fields
+        region.faces.iter().map(face).collect()
     }
 
     /// Takes the rate on the outer side of interfaces, by face: charges make its normal part jump.

@@ -8,8 +8,8 @@
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`factors`]
 //!   their solution.
 
-mod coils;
 pub mod charge;
+mod coils;
 pub mod coupled;
 pub mod diffusion;
 pub mod eddy;

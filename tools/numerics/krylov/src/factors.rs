@@ -3,8 +3,8 @@
 use crate::operator::residual;
 use crate::{
     Breakdown, Coefficient, Direct, Ending, Error, Grids, Incomplete, Inverse, Keep, Method,
-    Multigrid, Operator, Options, Order, Rows, Rule, Scalar, Scratch, Solved, Stagnation, bicgstab2,
-    minimal_residual,
+    Multigrid, Operator, Options, Order, Rows, Rule, Scalar, Scratch, Solved, Stagnation,
+    bicgstab2, minimal_residual,
 };
 
 /// Bytes of a basis of minimal residuals, about.

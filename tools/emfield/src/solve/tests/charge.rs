@@ -17,6 +17,8 @@ const FORM: Form = Form {
     order: 2,
     support: None,
     positive: false,
+    harmonic: false,
+    around: 1.0,
 };
 
 /// Conductivity over R^2 for a skin of half a radius at 100 kHz.
