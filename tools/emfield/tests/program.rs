@@ -62,6 +62,57 @@ fn a_uniform_field_is_exact() {
 }
 
 #[test]
+fn a_body_that_differs_in_nothing_is_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let methods = [1, 2, 3, 4].map(|order| json!({"order": order}));
+    let smeared = json!({"order": 2, "interfaces": {"smeared": {}}});
+    for method in methods.into_iter().chain([smeared]) {
+        let mut scene = scene();
+        scene["points"] = json!({"spacing_m": 0.4});
+        scene["method"] = method.clone();
+        scene["electrostatics"] = json!({"applied_field_v_m": [1, 2, 3]});
+        let reader = run(folder.path(), &scene);
+        let frame = reader.frame("/points", 0).unwrap();
+        let surface = reader.frame("/surface", 0).unwrap();
+        let fields = [
+            frame.vectors("electric_field").unwrap(),
+            surface.vectors("electric_field_inner").unwrap(),
+            surface.vectors("electric_field_outer").unwrap(),
+        ];
+        for e in fields.concat() {
+            let far = (e[0] - 1.0).abs() + (e[1] - 2.0).abs() + (e[2] - 3.0).abs();
+            assert!(far < 1e-5, "{method}: {e:?}");
+        }
+        for pull in surface.vectors("traction").unwrap() {
+            assert!(pull.iter().all(|p| p.abs() < 1e-30), "{method}: {pull:?}");
+        }
+        for axis in ["x", "y", "z"] {
+            let force = reader.record("/totals").unwrap();
+            let force = force.get(&format!("electric_force_ball_{axis}")).unwrap();
+            assert!(force.abs() < 1e-20, "{method}: {force}");
+        }
+    }
+}
+
+#[test]
+fn points_on_top_of_each_other_are_refused_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = scene();
+    scene["points"] = json!({"spacing_m": 0.5, "extra_m": [[0, 0, 0]]});
+    scene["electrostatics"] = json!({"applied_field_v_m": [1, 2, 3]});
+    let file = folder.path().join("scene.json");
+    std::fs::write(&file, scene.to_string()).unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+        .args(["run", file.to_str().unwrap(), "--out"])
+        .arg(folder.path().join("fields.mcap"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("coincide at [0.0, 0.0, 0.0]"), "{said}");
+}
+
+#[test]
 fn where_nothing_conducts_there_is_no_current() {
     let folder = tempfile::tempdir().unwrap();
     let mut scene = scene();

@@ -15,6 +15,8 @@ use crate::scene::{Geometry, Layers, Scene};
 
 /// Most points of a cloud.
 const MOST: f64 = 5e8;
+/// Least width of a body over its spacing.
+const NARROW: f64 = 0.04;
 /// Least spacing of points on a surface over that of the scene, where another body is near.
 const LEAST: f64 = 1.0 / 8.0;
 
@@ -48,12 +50,19 @@ fn check_sizes(region: &Region) -> Result<(), Vec<Fault>> {
     for (k, solid) in region.solids.iter().enumerate() {
         let [low, high] = solid.body.bounds();
         let size = (0..region.dimensions).map(|a| (high[a] - low[a]) / solid.spacing);
+        let widest = size.clone().fold(0.0, f64::max);
         let number: f64 = size.map(|s| s.max(1.0)).product();
         if !number.is_finite() {
             faults.push(Fault::at(
                 &format!("/bodies/{k}/shape"),
                 "the body has no end",
             ));
+        } else if widest < NARROW {
+            let what = format!(
+                "the body is {widest:.1e} spacings of {} m wide, which points around it cannot follow; at least {NARROW}",
+                solid.spacing
+            );
+            faults.push(Fault::at(&format!("/bodies/{k}/shape"), what));
         } else if number > MOST {
             let what = format!(
                 "spacing {} m gives more than {number:.1e} points; at most {MOST:.0e}",

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::basis::{Basis, TERMS};
 use crate::factor::{self, Factor};
+use crate::harmonic::Reduction;
 use crate::moments::{Coefficients, Points};
 
 /// Functionals of one fit at most: value, three first and six second derivatives, Laplacian.
@@ -20,6 +21,9 @@ const DETERMINED: f64 = 1e-10;
 /// Singular values of the conditions' matrix below this part of the greatest belong to conditions
 /// that repeat others.
 const REPEATED: f64 = 1e-10;
+
+/// A condition shorter than this part of what it asks of monomials asks nothing.
+const NOTHING: f64 = 1e-12;
 
 /// How a fit was solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +47,8 @@ pub(crate) enum Way {
 #[derive(Debug, Clone)]
 pub(crate) struct Fit<const D: usize> {
     pub(crate) points: Points<D>,
+    /// The polynomials that are fitted.
+    reduction: Reduction,
     gram: Box<[Coefficients; TERMS]>,
     spare: Box<[Coefficients; TERMS]>,
     scale: Coefficients,
@@ -65,6 +71,7 @@ impl<const D: usize> Fit<D> {
     pub(crate) fn new() -> Self {
         Self {
             points: Points::default(),
+            reduction: Reduction::default(),
             gram: Box::new([[0.0; TERMS]; TERMS]),
             spare: Box::new([[0.0; TERMS]; TERMS]),
             scale: [1.0; TERMS],
@@ -80,15 +87,26 @@ impl<const D: usize> Fit<D> {
         }
     }
 
-    /// Takes offsets `s` and `radius` in the same unit, and the rows of the conditions.
+    /// Takes offsets `s` and `radius` in the same unit, the rows of the conditions, and those that a harmonic polynomial
+    /// obeys, none where it need not be one.
     pub(crate) fn load(
         &mut self,
         basis: &Basis<D>,
         (s, radius): (&[[f64; D]], f64),
-        conditions: &[Coefficients],
+        (conditions, harmonic): (&[Coefficients], &[Coefficients]),
     ) {
         self.points.load(s, radius);
+        if harmonic.is_empty() {
+            self.reduction.clear();
+        } else {
+            self.reduction.take(basis, harmonic);
+        }
         self.assemble(basis, conditions);
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn many(&self, basis: &Basis<D>) -> usize {
+        self.reduction.many(basis.len())
     }
 
     /// Factors that give the columns length 1.
@@ -98,8 +116,12 @@ impl<const D: usize> Fit<D> {
 
     /// Normal equations of the points that are loaded.
     pub(crate) fn assemble(&mut self, basis: &Basis<D>, conditions: &[Coefficients]) {
-        let many = basis.len();
+        let many = self.many(basis);
         self.points.gram(basis, &mut self.gram);
+        self.reduction
+            .square(basis.len(), &mut self.gram, &mut self.spare);
+        let reduced = conditions.iter().map(|row| self.reduction.forth(row));
+        let conditions: &[Coefficients] = &reduced.collect::<Vec<_>>();
         for k in 0..many {
             let mut square = self.gram[k][k];
             for row in conditions {
@@ -124,9 +146,13 @@ impl<const D: usize> Fit<D> {
                 scaled[k] = row[k] * self.scale[k];
             }
             let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if length > 0.0 {
-                scaled.iter_mut().for_each(|x| *x /= length);
-            }
+            // One that harmonic polynomials obey by themselves is none.
+            let length = if length > NOTHING {
+                length
+            } else {
+                f64::INFINITY
+            };
+            scaled.iter_mut().for_each(|x| *x /= length);
             for k in 0..many {
                 for l in 0..=k {
                     self.gram[k][l] += scaled[k] * scaled[l];
@@ -140,7 +166,7 @@ impl<const D: usize> Fit<D> {
     /// Factors by Cholesky or, where that would lose too many digits, by rotations; false where the
     /// condition number is above `limit`.
     pub(crate) fn factor(&mut self, basis: &Basis<D>, limit: f64) -> bool {
-        let many = basis.len();
+        let many = self.many(basis);
         self.way = Way::Normal;
         self.condition = f64::INFINITY;
         if factor::cholesky(&self.gram, many, &mut self.spare) {
@@ -173,19 +199,24 @@ impl<const D: usize> Fit<D> {
         };
         self.factor = factor;
         self.condition = condition;
-        self.join(basis.len());
+        self.join(self.many(basis));
         true
     }
 
     /// The matrix of the fit: weighted monomials by points, then the conditions.
     fn matrix(&self, basis: &Basis<D>) -> DMatrix<f64> {
-        let (points, many) = (self.points.len(), basis.len());
+        let (points, many) = (self.points.len(), self.many(basis));
         let mut a = DMatrix::zeros(points + self.conditions.len(), many);
         for j in 0..points {
             let (s, weight) = self.points.point(j);
             let root = weight.sqrt();
+            let mut values = [0.0; TERMS];
+            for (k, value) in values.iter_mut().enumerate().take(basis.len()) {
+                *value = basis.derivative(k, &[], s);
+            }
+            let values = self.reduction.forth(&values);
             for k in 0..many {
-                a[(j, k)] = root * self.scale[k] * basis.derivative(k, &[], s);
+                a[(j, k)] = root * self.scale[k] * values[k];
             }
         }
         for (row, condition) in self.conditions.iter().enumerate() {
@@ -232,49 +263,35 @@ impl<const D: usize> Fit<D> {
 
     /// Weights of the `functionals`, rows over the monomials; true where all moment conditions hold.
     pub(crate) fn solve(&mut self, basis: &Basis<D>, functionals: &[Coefficients]) -> bool {
-        let (many, points, count) = (basis.len(), self.points.len(), self.conditions.len());
+        let (many, points, count) = (self.many(basis), self.points.len(), self.conditions.len());
         let rows = functionals.len();
         self.weights.clear();
         self.weights.resize(rows * points, 0.0);
         self.shares.clear();
         self.shares.resize(rows * count, 0.0);
+        // What is missing over the monomials, and what the conditions have given over the polynomials.
         let mut rest = [[0.0; TERMS]; ROWS];
+        let mut given = [[0.0; TERMS]; ROWS];
         let mut sizes = [0.0; ROWS];
         rest[..rows].copy_from_slice(functionals);
         for (size, e) in sizes.iter_mut().zip(functionals) {
-            *size = e[..many]
-                .iter()
-                .fold(0.0, |most, x| f64::max(most, x.abs()));
+            let e = self.reduction.forth(e);
+            *size = e[..many].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         }
         let mut missing = f64::INFINITY;
         for _ in 0..=CORRECTIONS {
             let before = missing;
             let mut change = [[0.0; TERMS]; ROWS];
             for f in 0..rows {
-                let change = &mut change[f];
-                for (x, (r, scale)) in change.iter_mut().zip(rest[f].iter().zip(&self.scale)) {
-                    *x = r * scale;
-                }
-                let mut shares = std::mem::take(&mut self.shares);
-                let own = &mut shares[f * count..(f + 1) * count];
-                let known = own.to_vec();
-                self.answer(many, change, own);
-                for (k, condition) in self.conditions.iter().enumerate() {
-                    let share = own[k] - known[k];
-                    for l in 0..many {
-                        rest[f][l] -= share * condition[l] / self.scale[l];
-                    }
-                }
-                self.shares = shares;
-                for (x, scale) in change.iter_mut().zip(&self.scale) {
-                    *x *= scale;
-                }
+                let left = self.left(many, &rest[f], &given[f]);
+                change[f] = self.correction(many, f, left, &mut given[f]);
             }
             self.points
                 .spread(basis, &change[..rows], &mut self.weights, &mut rest[..rows]);
             missing = 0.0;
             for f in 0..rows {
-                for r in &rest[f][..many] {
+                let left = self.left(many, &rest[f], &given[f]);
+                for r in &left[..many] {
                     missing = f64::max(missing, r.abs() / sizes[f]);
                 }
             }
@@ -288,6 +305,46 @@ impl<const D: usize> Fit<D> {
             }
         }
         missing <= DETERMINED
+    }
+
+    /// What is missing of a functional over the polynomials.
+    fn left(&self, many: usize, rest: &Coefficients, given: &Coefficients) -> Coefficients {
+        let mut left = self.reduction.forth(rest);
+        for (l, g) in left[..many].iter_mut().zip(given) {
+            *l -= g;
+        }
+        left
+    }
+
+    /// Coefficients over the monomials that answer what is `left` of functional `f`; adds to its shares of the conditions.
+    fn correction(
+        &mut self,
+        many: usize,
+        f: usize,
+        left: Coefficients,
+        given: &mut Coefficients,
+    ) -> Coefficients {
+        let count = self.conditions.len();
+        let mut change = [0.0; TERMS];
+        for (x, (r, scale)) in change.iter_mut().zip(left.iter().zip(&self.scale)) {
+            *x = r * scale;
+        }
+        let mut shares = std::mem::take(&mut self.shares);
+        let own = &mut shares[f * count..(f + 1) * count];
+        let known = own.to_vec();
+        self.answer(many, &mut change, own);
+        for (k, condition) in self.conditions.iter().enumerate() {
+            let share = own[k] - known[k];
+            for l in 0..many {
+                given[l] += share * condition[l] / self.scale[l];
+            }
+        }
+        self.shares = shares;
+        for (x, scale) in change[..many].iter_mut().zip(&self.scale) {
+            *x *= scale;
+        }
+        change[many..].fill(0.0);
+        self.reduction.back(&change)
     }
 }
 

@@ -49,6 +49,8 @@ pub(crate) struct Work<const D: usize> {
     /// For each row of a condition: the power of the spacing that its datum bears, if it has one.
     powers: Vec<Option<i32>>,
     condition_rows: Vec<Coefficients>,
+    /// What a harmonic polynomial obeys, where it must be one.
+    harmonic: Vec<Coefficients>,
     functionals: Vec<Coefficients>,
     /// Weights of the data of conditions, functional after functional.
     pub(crate) shares: Vec<f64>,
@@ -62,6 +64,7 @@ impl<const D: usize> Work<D> {
             conditions: Vec::new(),
             powers: Vec::new(),
             condition_rows: Vec::new(),
+            harmonic: Vec::new(),
             functionals: Vec::new(),
             shares: Vec::new(),
         }
@@ -139,7 +142,7 @@ impl<const D: usize> Bench<'_, D> {
         let basis = &self.bases[usize::from(order) - 1];
         self.prepare(target, basis, work);
         let known = work.support.offsets.len() + work.condition_rows.len();
-        if known < basis.len() {
+        if known < work.fit.many(basis) {
             work.fit.condition = f64::INFINITY;
             return None;
         }
@@ -181,19 +184,25 @@ impl<const D: usize> Bench<'_, D> {
         rows.functionals(&self.columns, &mut work.functionals);
         work.condition_rows.clear();
         work.powers.clear();
+        work.harmonic.clear();
         for condition in &work.conditions {
             rows.condition(condition, target.place, |row, power| {
-                work.condition_rows.push(row);
-                work.powers.push(power);
+                if *condition == Condition::Harmonic {
+                    work.harmonic.push(row);
+                } else {
+                    work.condition_rows.push(row);
+                    work.powers.push(power);
+                }
             });
         }
         let support = (work.support.offsets.as_slice(), work.support.radius);
-        work.fit.load(basis, support, &work.condition_rows);
+        let conditions = (work.condition_rows.as_slice(), work.harmonic.as_slice());
+        work.fit.load(basis, support, conditions);
     }
 
     fn make_positive(&self, basis: &Basis<D>, work: &mut Work<D>) -> Option<bool> {
         let row = self.columns.laplacian.filter(|_| self.plan.positive)?;
-        let (own, first) = (work.support.own?, work.condition_rows.is_empty());
+        let (own, first) = (work.support.own?, work.conditions.is_empty());
         if !first {
             return None;
         }

@@ -40,6 +40,7 @@ mod error;
 mod factor;
 mod fit;
 mod functional;
+mod harmonic;
 mod ladder;
 mod memo;
 mod metric;
