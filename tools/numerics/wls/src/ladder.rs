@@ -153,7 +153,7 @@ impl<const D: usize> Bench<'_, D> {
             work.fit.condition = f64::INFINITY;
             return None;
         }
-        let positive = self.make_positive(basis, work);
+        let positive = self.make_positive(target, basis, work);
         Some(self.made(target, (order, times), positive, work))
     }
 
@@ -200,10 +200,15 @@ impl<const D: usize> Bench<'_, D> {
         work.fit.load(basis, support, conditions);
     }
 
-    fn make_positive(&self, basis: &Basis<D>, work: &mut Work<D>) -> Option<bool> {
+    fn make_positive(
+        &self,
+        target: &Target<D>,
+        basis: &Basis<D>,
+        work: &mut Work<D>,
+    ) -> Option<bool> {
         let row = self.columns.laplacian.filter(|_| self.plan.positive)?;
-        let (own, first) = (work.support.own?, work.conditions.is_empty());
-        if !first {
+        let own = work.support.own?;
+        if work.conditions.len() > usize::from(self.plan.interpolating && target.own) {
             return None;
         }
         positive::improve(&mut work.fit, basis, &work.functionals[row], (row, own))

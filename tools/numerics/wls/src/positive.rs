@@ -24,7 +24,8 @@ const ACTIVE: [f64; 3] = [1e-6, 1e-4, 1e-8];
 const GOOD: f64 = 1e8;
 
 /// Replaces the weights of the functional `row` (`e` over the monomials) in `fit`, if some weight of
-/// a point other than `own` is negative; tells whether that could be done.
+/// a point other than `own` is negative; tells whether that could be done. The fit has no condition but that on the own
+/// value, which any weights of nonnegative others that are exact for constants obey.
 pub(crate) fn improve<const D: usize>(
     fit: &mut Fit<D>,
     basis: &Basis<D>,
@@ -32,20 +33,26 @@ pub(crate) fn improve<const D: usize>(
     (row, own): (usize, usize),
 ) -> Option<bool> {
     let points = fit.points.len();
-    let plain = &fit.weights[row * points..(row + 1) * points];
-    if nonnegative(plain, own) {
+    let count = fit.shares.len() * points / fit.weights.len();
+    let shares = row * count..(row + 1) * count;
+    let mut plain = fit.weights[row * points..(row + 1) * points].to_vec();
+    // What the own point has from the condition that the fit passes through its value.
+    plain[own] += fit.shares[shares.clone()].iter().sum::<f64>();
+    if nonnegative(&plain, own) {
         return None;
     }
     let Some(program) = program(fit, basis, e, own) else {
         return Some(false);
     };
-    let kept = fit.weights.clone();
+    let (kept, whole) = (fit.weights.clone(), fit.shares.clone());
     let (condition, way) = (fit.condition, fit.way);
     let found = exact(fit, basis, e, (&program, own));
     let weights = std::mem::replace(&mut fit.weights, kept);
+    fit.shares = whole;
     (fit.condition, fit.way) = (condition, way);
     if found {
         fit.weights[row * points..(row + 1) * points].copy_from_slice(&weights);
+        fit.shares[shares].fill(0.0);
     }
     Some(found)
 }

@@ -4,9 +4,10 @@ use wls::{Everything, Plan, Stencils, Wants};
 
 use crate::clouds::{Points, lattice};
 
-fn check<const D: usize>(points: &Points<D>) -> wls::Report {
+fn check<const D: usize>(points: &Points<D>, interpolating: bool) -> wls::Report {
     let plan = Plan {
         positive: true,
+        interpolating,
         ..Plan::new::<D>(
             2,
             Wants {
@@ -39,8 +40,10 @@ fn check<const D: usize>(points: &Points<D>) -> wls::Report {
 
 #[test]
 fn weights_are_nonnegative_and_exact() {
-    let report = check(&lattice::<2>(14, 0.3));
-    assert!(report.positive_made > 0, "{report:?}");
-    let report = check(&lattice::<3>(9, 0.4));
-    assert!(report.positive_made > 0, "{report:?}");
+    for interpolating in [false, true] {
+        let report = check(&lattice::<2>(14, 0.3), interpolating);
+        assert!(report.positive_made > 0, "{report:?}");
+        let report = check(&lattice::<3>(9, 0.4), interpolating);
+        assert!(report.positive_made > 0, "{report:?}");
+    }
 }
