@@ -6,6 +6,7 @@
 //! the two are the same. A good conductor's heat then does not hang on a poor one, nor does it cross a contact,
 //! and the flux at an interface between points is of second order.
 
+use rayon::prelude::*;
 use run::property::{Arguments, Curve, OutOfRange};
 
 use super::Materials;
@@ -128,15 +129,18 @@ impl Materials {
         for x in &cloud.position {
             temperature.push(start(*x)?);
         }
-        for i in 0..volume.len() {
-            let (x, edge) = (cloud.position[i], cloud.spacing[i]);
-            let own = self.at(x);
-            if !self.crossed(x, edge) {
-                capacity[i] += self.stored(own, x)? * volume[i];
+        let crossed = |i: usize| {
+            let crossed = self.crossed(cloud.position[i], cloud.spacing[i]);
+            crossed.then(|| self.parts(&Cell::about(ground, i), ground.body, start))
+        };
+        let crossed: Vec<_> = (0..volume.len()).into_par_iter().map(crossed).collect();
+        for (i, parts) in crossed.into_iter().enumerate() {
+            let own = self.at(cloud.position[i]);
+            let Some(parts) = parts else {
+                capacity[i] += self.stored(own, cloud.position[i])? * volume[i];
                 continue;
-            }
-            let cell = Cell::about(ground, i);
-            let parts = self.parts(&cell, ground.body, start)?;
+            };
+            let parts = parts?;
             let ways = self.ways(ground, (i, own), temperature[i])?;
             for (material, (stored, heat)) in parts.into_iter().enumerate() {
                 let mut give = |j: usize, stored: f64, heat: f64| {
@@ -240,7 +244,11 @@ impl Materials {
             let (i, j, k) = (number % each, number / each % each, number / (each * each));
             let z = if deep > 1 { offset(k) } else { 0.0 };
             let place = [x[0] + offset(i), x[1] + offset(j), x[2] + z];
-            let mut left = covered(body.distance(place)) * covered(cell.distance(place));
+            let within = covered(cell.distance(place));
+            if within <= 0.0 {
+                continue;
+            }
+            let mut left = covered(body.distance(place)) * within;
             whole += left;
             for (material, sum) in parts.iter_mut().enumerate() {
                 let (part, own) = match self.region(material) {
