@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::em_sphere_loops::{body, errors, loops};
 use crate::case::{Case, Measurement, Target};
-use crate::em::frames::{Points, planned};
+use crate::em::frames::{measured, planned};
 use crate::em::sphere::Solution;
 use crate::lab::{Lab, LabError};
 
@@ -75,12 +75,13 @@ impl Case for EmAxisymmetricSphere {
             let coils = scene["eddy_currents"]["coils"].take();
             patch["eddy_currents"]["coils"] = thin(coils);
         }
-        let label = format!("level{level}-{method}");
-        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
-        let exact = Solution::of(body(&run)?, loops(&run)?);
-        let points = Points::read(&run)?;
-        let errors = errors(&run, &points, &exact)?;
-        Ok(Measurement::of(run, points.count(), spacing, errors))
+        measured(
+            lab,
+            self,
+            (level, method),
+            (&patch, spacing),
+            |run, points| errors(run, points, &Solution::of(body(run)?, loops(run)?)),
+        )
     }
 }
 

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::C;
-use crate::em::frames::{Points, number, totals};
+use crate::em::frames::{Points, measured, number, totals};
 use crate::em::transverse::Transverse;
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -55,11 +55,7 @@ impl Case for EmPlanarAz {
             "points": {"spacing_m": spacing, "layers": layers},
             "method": {"order": order}
         });
-        let label = format!("level{level}-{method}");
-        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
-        let points = Points::read(&run)?;
-        let errors = errors(&run, &points)?;
-        Ok(Measurement::of(run, points.count(), spacing, errors))
+        measured(lab, self, (level, method), (&patch, spacing), errors)
     }
 }
 

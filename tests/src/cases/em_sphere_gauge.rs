@@ -5,7 +5,7 @@ use serde_json::json;
 use super::em_sphere_loops::{body, flux_error};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::C;
-use crate::em::frames::{Points, number, totals};
+use crate::em::frames::{Points, measured, number, totals};
 use crate::em::sphere::{Solution, Sources};
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -61,11 +61,7 @@ impl Case for EmSphereGauge {
             "eddy_currents": {"harmonic": {"frequency_hz": frequency}},
             "method": {"order": order}
         });
-        let label = format!("level{level}-{method}");
-        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
-        let points = Points::read(&run)?;
-        let errors = errors(&run, &points)?;
-        Ok(Measurement::of(run, points.count(), spacing, errors))
+        measured(lab, self, (level, method), (&patch, spacing), errors)
     }
 }
 

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, number, number_or, totals};
+use crate::em::frames::{Points, measured, number, number_or, totals};
 use crate::em::sphere::{Body, Loop, Solution, Sources};
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -62,12 +62,13 @@ impl Case for EmSphereLoops {
             "points": {"spacing_m": spacing, "layers": {"first_m": first * spacing}},
             "eddy_currents": {"harmonic": {"frequency_hz": frequency}}
         });
-        let label = format!("level{level}-{method}");
-        let run = lab.run(self.tool(), self.name(), &label, &patch)?;
-        let exact = Solution::of(body(&run)?, loops(&run)?);
-        let points = Points::read(&run)?;
-        let errors = errors(&run, &points, &exact)?;
-        Ok(Measurement::of(run, points.count(), spacing, errors))
+        measured(
+            lab,
+            self,
+            (level, method),
+            (&patch, spacing),
+            |run, points| errors(run, points, &Solution::of(body(run)?, loops(run)?)),
+        )
     }
 }
 

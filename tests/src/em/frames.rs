@@ -4,9 +4,28 @@ use artefact::{Frame, Reader, Record};
 use serde_json::Value;
 
 use super::C;
+use crate::case::{Case, Errors, Measurement};
 use crate::heat::methods::over;
 use crate::heat::property::at;
 use crate::lab::{Finished, Lab, LabError, read_json};
+
+/// Runs a case on a scene with a patch, and finds its errors from the points at its end.
+///
+/// # Errors
+/// When the run fails or lacks what is asked for.
+pub fn measured(
+    lab: &Lab,
+    case: &dyn Case,
+    (level, method): (u32, &str),
+    (patch, spacing): (&Value, f64),
+    errors: impl Fn(&Finished, &Points) -> Result<Errors, LabError>,
+) -> Result<Measurement, LabError> {
+    let label = format!("level{level}-{method}");
+    let run = lab.run(case.tool(), case.name(), &label, patch)?;
+    let points = Points::read(&run)?;
+    let errors = errors(&run, &points)?;
+    Ok(Measurement::of(run, points.count(), spacing, errors))
+}
 
 /// The points of a run at its end.
 #[derive(Debug)]

@@ -23,7 +23,8 @@ pub struct Moments<const D: usize> {
     pub second: [[f64; D]; D],
 }
 
-/// Fits to points of the own medium, where a point stands for a volume.
+/// Fits to points counted in the own medium, where a point stands for a volume: on an interface densities are those of
+/// the inner side.
 struct Within<'a, const D: usize> {
     region: &'a Region<D>,
     cells: &'a [Moments<D>],
@@ -35,7 +36,7 @@ impl<const D: usize> Rules<D> for Within<'_, D> {
     }
 
     fn allowed(&self, i: usize, j: usize) -> bool {
-        self.region.touches(j, self.region.medium(i))
+        self.region.medium(i) == self.region.medium(j)
     }
 }
 

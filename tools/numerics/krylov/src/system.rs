@@ -151,24 +151,11 @@ impl<T: Scalar, S: Unknown<T>> System<T, S> {
                 "systems are solved for one or three columns"
             )
         };
+        let (rhs, x) = (rhs.as_flattened(), x.as_flattened_mut());
         if C == 1 {
-            let right = rhs.as_flattened().as_chunks().0;
-            let solution = x.as_flattened_mut().as_chunks_mut().0;
-            let sides = Sides {
-                pairs,
-                right,
-                solution,
-            };
-            S::one(self, sides, rule)
+            S::one(self, Sides::new(pairs, rhs, x), rule)
         } else {
-            let right = rhs.as_flattened().as_chunks().0;
-            let solution = x.as_flattened_mut().as_chunks_mut().0;
-            let sides = Sides {
-                pairs,
-                right,
-                solution,
-            };
-            S::three(self, sides, rule)
+            S::three(self, Sides::new(pairs, rhs, x), rule)
         }
     }
 }

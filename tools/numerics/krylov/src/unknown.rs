@@ -29,6 +29,17 @@ pub struct Sides<'a, S, const C: usize> {
     pub(crate) solution: &'a mut [[S; C]],
 }
 
+impl<'a, S, const C: usize> Sides<'a, S, C> {
+    /// From sides whose columns follow each other row by row.
+    pub(crate) fn new(pairs: &'a [(Vec<S>, Vec<S>)], right: &'a [S], x: &'a mut [S]) -> Self {
+        Self {
+            pairs,
+            right: right.as_chunks().0,
+            solution: x.as_chunks_mut().0,
+        }
+    }
+}
+
 /// Compiles the solvers.
 macro_rules! unknowns {
     ($(($coefficient:ty, $unknown:ty)),*) => {$(

@@ -1,4 +1,5 @@
 use super::super::quadrature::weights;
+use super::super::region::Kind;
 use super::super::sides::Form;
 use super::shells;
 
@@ -29,6 +30,22 @@ fn integrals_over_cells_are_of_third_order() {
         let found = (errors[0] / errors[3]).ln() / 3.0_f64.ln();
         assert!(found > 3.0, "order {found}: {errors:?}");
     }
+}
+
+#[test]
+fn a_cell_outside_takes_nothing_from_the_inner_side_of_an_interface() {
+    let (region, mut cells) = shells(0.2, 0.4);
+    let near = |i: &usize| region.kinds[*i] == Kind::Inside(0);
+    let i = (0..region.len()).find(near).unwrap();
+    cells.iter_mut().for_each(|c| c.volume = 0.0);
+    (cells[i].volume, cells[i].first) = (1.0, [0.0, 0.0, 0.05]);
+    cells[i].second = [[0.0; 3]; 3];
+    let found = weights(&region, &cells, &Form::default()).unwrap();
+    let height = |(w, x): (&f64, &[f64; 3])| w * (x[2] - region.places[i][2]);
+    assert!((found.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+    let first: f64 = found.iter().zip(&region.places).map(height).sum();
+    assert!((first - 0.05).abs() < 1e-9);
+    assert!((0..region.len()).all(|j| found[j] == 0.0 || region.medium(j) == 0));
 }
 
 #[test]
