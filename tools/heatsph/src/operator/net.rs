@@ -94,6 +94,14 @@ impl<'a, const D: usize, const K: usize> Net<'a, D, K> {
         values::<D, K>(d.map(|d| d * self.inverse_unit))
     }
 
+    /// The links of point `i`: their other ends and what `weight` gives them.
+    #[inline]
+    fn links<'w>(&'w self, i: usize, weight: &'w [f64]) -> impl Iterator<Item = (usize, f64)> + 'w {
+        let row = self.pattern.row(i);
+        let ends = self.pattern.columns()[row.clone()].iter();
+        ends.zip(&weight[row]).map(|(j, a)| (*j as usize, *a))
+    }
+
     /// The exponent of the link from i to j, at whose displacement the functions have the values `s`.
     #[inline]
     fn exponent(own: &[f64; K], other: &[f64; K], s: &[f64; K]) -> f64 {
@@ -111,10 +119,9 @@ impl<'a, const D: usize, const K: usize> Net<'a, D, K> {
     pub(super) fn imbalance(&self, weight: &[f64], multipliers: &[f64]) -> Vec<f64> {
         let mut out = self.surface.clone();
         let gather = |(i, out): (usize, &mut [f64])| {
-            for k in self.pattern.row(i) {
-                let s = self.values(i, self.pattern.columns()[k] as usize);
-                for (out, s) in out.iter_mut().zip(s) {
-                    *out += weight[k] * s;
+            for (j, a) in self.links(i, weight) {
+                for (out, s) in out.iter_mut().zip(self.values(i, j)) {
+                    *out += a * s;
                 }
             }
             if !multipliers.is_empty() {
@@ -182,10 +189,9 @@ impl<const D: usize, const K: usize> Linear for Springs<'_, D, K> {
             .for_each(|(i, out)| {
                 let own = &each[i];
                 let mut sum = [0.0; K];
-                for k in net.pattern.row(i) {
-                    let j = net.pattern.columns()[k] as usize;
+                for (j, a) in net.links(i, self.weight) {
                     let s = net.values(i, j);
-                    let pull = self.weight[k] * Net::<D, K>::exponent(own, &each[j], &s);
+                    let pull = a * Net::<D, K>::exponent(own, &each[j], &s);
                     for m in 0..K {
                         sum[m] += pull * s[m];
                     }
@@ -213,11 +219,10 @@ impl<const K: usize> Blocks<K> {
             .map(|i| {
                 let mut block = SMatrix::<f64, K, K>::zeros();
                 let mut trace = 0.0;
-                for k in net.pattern.row(i) {
-                    let j = net.pattern.columns()[k] as usize;
+                for (j, a) in net.links(i, springs.weight) {
                     let s = SVector::from(net.values(i, j));
-                    block += springs.weight[k] * s * s.transpose();
-                    trace += springs.weight[k] * s.norm_squared();
+                    block += a * s * s.transpose();
+                    trace += a * s.norm_squared();
                 }
                 for m in 0..K {
                     // A point whose links lie in one plane has no stiffness across it.

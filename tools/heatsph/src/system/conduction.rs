@@ -267,11 +267,11 @@ impl Series {
         Ok(())
     }
 
-    /// Number of an undirected link.
+    /// Numbers of the undirected links of a row.
     #[inline]
     #[must_use]
-    pub fn edge(&self, k: usize) -> usize {
-        self.edge[k] as usize
+    pub fn edges(&self, row: std::ops::Range<usize>) -> &[u32] {
+        &self.edge[row]
     }
 
     /// Mean conductivity of every undirected link \[W/(m K)\], each reckoned once for both of its ends.
@@ -347,7 +347,7 @@ impl Series {
 
     /// With `k = 1 / sum(w/k_p)` the heat is `k dT`, and `d(k dT)/dT_j = sum w (k/k_p)^2 k_p(T_j)`.
     fn slopes(&self, (k, a): (usize, f64), ends: &Ends<'_>, means: &[f64]) -> Slopes {
-        let edge = self.edge(k);
+        let edge = self.edge[k] as usize;
         let (pieces, contact) = self.pieces(edge);
         let mut slopes = Slopes {
             own: 0.0,

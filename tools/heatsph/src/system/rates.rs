@@ -129,26 +129,27 @@ impl System {
         temperature: &[f64],
         (nodes, means): (&[Node], &[f64]),
     ) -> (f64, f64) {
-        let (pattern, weight) = (&self.links.pattern, &self.links.weight);
-        let sum = |conductance: &dyn Fn(usize, usize) -> f64| {
-            let (mut heat, mut stiffness) = (0.0, 0.0);
-            for k in pattern.row(i) {
-                let j = pattern.columns()[k] as usize;
-                let g = conductance(k, j);
-                heat += g * (temperature[j] - temperature[i]);
-                stiffness += g;
-            }
-            (heat, stiffness)
-        };
+        let row = self.links.pattern.row(i);
+        let ends = &self.links.pattern.columns()[row.clone()];
+        let weight = &self.links.weight[row.clone()];
+        let own = (temperature, i);
         match &self.conduction {
-            Conduction::Fixed(g) => sum(&|k, _| g[k]),
+            Conduction::Fixed(g) => gathered(own, ends, g[row].iter().copied()),
             Conduction::Kirchhoff {
                 conductor,
                 fraction,
-            } => sum(&|k, j| {
-                weight[k] * fraction * kirchhoff(&self.ends((i, j), temperature, nodes), *conductor)
-            }),
-            Conduction::Series(series) => sum(&|k, _| weight[k] * means[series.edge(k)]),
+            } => {
+                let conductance = |(a, j): (&f64, &u32)| {
+                    let ends = self.ends((i, *j as usize), temperature, nodes);
+                    a * fraction * kirchhoff(&ends, *conductor)
+                };
+                gathered(own, ends, weight.iter().zip(ends).map(conductance))
+            }
+            Conduction::Series(series) => {
+                let links = weight.iter().zip(series.edges(row));
+                let conductance = |(a, edge): (&f64, &u32)| a * means[*edge as usize];
+                gathered(own, ends, links.map(conductance))
+            }
         }
     }
 
@@ -188,4 +189,19 @@ impl System {
         }
         Ok(())
     }
+}
+
+/// Heat through links of the given conductances from point `i` to the others, and the sum of these.
+#[inline]
+fn gathered(
+    (temperature, i): (&[f64], usize),
+    ends: &[u32],
+    conductances: impl Iterator<Item = f64>,
+) -> (f64, f64) {
+    let (mut heat, mut stiffness) = (0.0, 0.0);
+    for (j, g) in ends.iter().zip(conductances) {
+        heat += g * (temperature[*j as usize] - temperature[i]);
+        stiffness += g;
+    }
+    (heat, stiffness)
 }

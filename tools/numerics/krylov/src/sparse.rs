@@ -43,24 +43,28 @@ impl Pattern {
     }
 
     /// Number of rows.
+    #[inline]
     #[must_use]
     pub fn rows(&self) -> usize {
         self.offsets.len().saturating_sub(1)
     }
 
     /// Where row `i` stands in the columns and values.
+    #[inline]
     #[must_use]
     pub fn row(&self, i: usize) -> Range<usize> {
         self.offsets[i]..self.offsets[i + 1]
     }
 
     /// Begin of each row, and the end of the last.
+    #[inline]
     #[must_use]
     pub fn offsets(&self) -> &[usize] {
         &self.offsets
     }
 
     /// Columns of all rows.
+    #[inline]
     #[must_use]
     pub fn columns(&self) -> &[u32] {
         &self.columns
@@ -93,6 +97,7 @@ impl Sparse {
     }
 
     /// Diagonal of each row.
+    #[inline]
     #[must_use]
     pub fn diagonal(&self) -> &[f64] {
         &self.diagonal
@@ -104,6 +109,7 @@ impl Sparse {
     }
 
     /// Off-diagonal coefficients.
+    #[inline]
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
