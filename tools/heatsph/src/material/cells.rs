@@ -93,24 +93,34 @@ impl Cell {
             let d = difference(cloud.position[pattern.columns()[link] as usize], centre);
             (along(centre, 0.5, d), d.map(|x| x / length(d)))
         };
+        let mut walls = Vec::new();
+        if !cloud.lattice {
+            walls.extend(pattern.row(i).map(wall));
+            // The nearest ones shut out most.
+            walls.sort_by(|(a, _), (b, _)| {
+                let [a, b] = [a, b].map(|middle| length(difference(*middle, centre)));
+                a.total_cmp(&b)
+            });
+        }
         Self {
             centre,
             edge: cloud.spacing[i],
             edges: if cloud.lattice { 1 } else { 2 },
-            walls: if cloud.lattice {
-                Vec::new()
-            } else {
-                pattern.row(i).map(wall).collect()
-            },
+            walls,
         }
     }
 
-    /// Distance of a place from the cell, negative inside, exact next to a wall.
-    fn distance(&self, place: Vector) -> f64 {
-        self.walls
-            .iter()
-            .map(|(middle, normal)| dot(*normal, difference(place, *middle)))
-            .fold(f64::NEG_INFINITY, f64::max)
+    /// Distance of a place from the cell, negative inside, exact next to a wall; some distance above `far` is told of
+    /// a place that is farther away than that.
+    fn distance(&self, place: Vector, far: f64) -> f64 {
+        let mut greatest = f64::NEG_INFINITY;
+        for (middle, normal) in &self.walls {
+            greatest = greatest.max(dot(*normal, difference(place, *middle)));
+            if greatest > far {
+                break;
+            }
+        }
+        greatest
     }
 }
 
@@ -244,27 +254,29 @@ impl Materials {
             let (i, j, k) = (number % each, number / each % each, number / (each * each));
             let z = if deep > 1 { offset(k) } else { 0.0 };
             let place = [x[0] + offset(i), x[1] + offset(j), x[2] + z];
-            let within = covered(cell.distance(place));
+            let within = covered(cell.distance(place, size));
             if within <= 0.0 {
                 continue;
             }
             let mut left = covered(body.distance(place)) * within;
             whole += left;
             for (material, sum) in parts.iter_mut().enumerate() {
+                if left <= 0.0 {
+                    break;
+                }
                 let (part, own) = match self.region(material) {
                     Some(region) if material + 1 < self.len() => {
                         let distance = region.distance(place);
-                        (
-                            left * covered(distance),
-                            inside(region, place, (distance, size)),
-                        )
+                        let part = left * covered(distance);
+                        if part <= 0.0 {
+                            continue;
+                        }
+                        (part, inside(region, place, (distance, size)))
                     }
                     _ => (left, self.beyond(place, size)),
                 };
-                if part > 0.0 {
-                    let stored = part * self.stored(material, own)?;
-                    *sum = (sum.0 + stored, sum.1 + stored * value(own)?);
-                }
+                let stored = part * self.stored(material, own)?;
+                *sum = (sum.0 + stored, sum.1 + stored * value(own)?);
                 left -= part;
             }
         }
