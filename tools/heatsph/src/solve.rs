@@ -5,6 +5,7 @@
 use krylov::{
     Aggregation, Jacobi, Krylov, Precondition, Sparse, Workspace, conjugate_gradient, gmres,
 };
+use rayon::prelude::*;
 use run::property::OutOfRange;
 
 use crate::system::conduction::Conduction;
@@ -19,8 +20,12 @@ const RESTART: usize = 40;
 const ITERATIONS: usize = 500;
 /// Roundings in the heat of a point, on average.
 const ROUNDING: f64 = 2.0;
+/// Part of the residual that a step with an older matrix may leave before the matrix is taken anew.
+const LED: f64 = 0.2;
 /// Halvings of a Newton step.
 const HALVINGS: usize = 12;
+/// Points that one task moves.
+const POINTS: usize = 256;
 /// Iterations for a temperature from a rise of the integral of conductivity.
 const INVERSION: usize = 60;
 
@@ -108,6 +113,8 @@ impl Precondition for Near {
 #[derive(Debug)]
 pub struct Solver {
     matrix: Sparse,
+    /// Whether the matrix is still to be taken, or taken anew.
+    stale: bool,
     near: Near,
     work: Workspace,
     symmetric: bool,
@@ -124,6 +131,7 @@ impl Solver {
     pub fn new(system: &System) -> Self {
         Self {
             matrix: system.matrix(),
+            stale: true,
             near: Near::Nothing,
             work: Workspace::default(),
             symmetric: !matches!(system.conduction(), Conduction::Series(_)),
@@ -173,11 +181,14 @@ impl Solver {
                 _ => Near::Grid(Box::new(Aggregation::new(&self.matrix, self.symmetric)?)),
             }
         };
+        self.stale = false;
         Ok(())
     }
 
-    /// Forgets the preconditioner, so that what follows does not depend on what came before.
+    /// Forgets matrix and preconditioner, so that what follows does not depend on what came before; to be called
+    /// between problems of unlike shift.
     pub fn forget(&mut self) {
+        self.stale = true;
         self.near = Near::Nothing;
     }
 
@@ -248,6 +259,9 @@ impl Solver {
     /// Solves a problem; `temperature` is the first guess and becomes the solution, `rates` are those of it.
     /// The temperatures of held points must stand.
     ///
+    /// The matrix of one Newton step serves the next ones, and those of the next problem of the same shift, as long
+    /// as they lead well (the stages of a singly diagonally implicit method are made for it: Alexander 1977).
+    ///
     /// # Errors
     /// [`SolveError`].
     pub fn newton(
@@ -270,7 +284,10 @@ impl Solver {
             if norm.residual <= wanted {
                 return Ok(effort);
             }
-            self.linearise(system, problem, (temperature, rates))?;
+            let fresh = self.stale;
+            if fresh {
+                self.linearise(system, problem, (temperature, rates))?;
+            }
             let reduction = (0.1 * wanted / norm.residual).clamp(least, 0.1);
             let right = std::mem::take(&mut self.residual);
             let solved = self.linear(&right, reduction);
@@ -279,7 +296,8 @@ impl Solver {
             effort.newton += 1;
             let before = norm.residual;
             norm = self.step(system, problem, (temperature, rates), before)?;
-            if norm.residual >= before * (1.0 - 1e-12) {
+            self.stale = norm.residual > LED * before;
+            if fresh && norm.residual >= before * (1.0 - 1e-12) {
                 break;
             }
         }
@@ -306,15 +324,18 @@ impl Solver {
     ) -> Result<Norm, SolveError> {
         let mut length = 1.0;
         for _ in 0..=HALVINGS {
-            self.trial.clear();
-            for (i, t) in temperature.iter().enumerate() {
-                let change = length * self.change[i];
-                self.trial.push(if system.is_held(i) || change == 0.0 {
+            let each = temperature.par_iter().zip(&self.change).enumerate();
+            let to = |(i, (t, change)): (usize, (&f64, &f64))| {
+                let change = length * change;
+                if system.is_held(i) || change == 0.0 {
                     *t
                 } else {
                     moved(system, i, *t, change)
-                });
-            }
+                }
+            };
+            each.with_min_len(POINTS)
+                .map(to)
+                .collect_into_vec(&mut self.trial);
             let trial = std::mem::take(&mut self.trial);
             let evaluated = system.rates(problem.time, &trial, rates);
             let weighed = evaluated.map(|()| self.weigh(system, problem, &trial, rates));

@@ -99,6 +99,7 @@ impl Implicit {
         self.base.clone_from(&state.temperature);
         let mut temperature = state.temperature.clone();
         let end = state.time + step;
+        self.solver.forget();
         self.stage(system, (end, step), (&mut temperature, rates))?;
         let before = std::mem::replace(&mut state.temperature, temperature);
         state.pass(rates, step);
