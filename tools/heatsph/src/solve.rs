@@ -8,7 +8,6 @@ use krylov::{
 use rayon::prelude::*;
 use run::property::OutOfRange;
 
-use crate::system::conduction::Conduction;
 use crate::system::{Rates, System};
 
 /// Own part of the diagonal above which its inverse alone is a good preconditioner: a hierarchy of grids costs as
@@ -134,7 +133,7 @@ impl Solver {
             stale: true,
             near: Near::Nothing,
             work: Workspace::default(),
-            symmetric: !matches!(system.conduction(), Conduction::Series(_)),
+            symmetric: system.conduction().is_symmetric(),
             scale: Vec::new(),
             residual: Vec::new(),
             change: Vec::new(),

@@ -34,45 +34,62 @@ impl System {
             let slopes: f64 = films.iter().map(|passed| passed.slope).sum();
             shift * self.capacity[i] - slopes - heating.get(i).copied().unwrap_or(0.0)
         };
-        let weight = &self.links.weight;
-        let free = |i: usize, j: usize, value: f64| {
-            if self.held[i] || self.held[j] {
-                0.0
-            } else {
-                value
-            }
+        let slopes = {
+            let ends =
+                |[i, j]: [u32; 2]| self.ends((i as usize, j as usize), temperature, &rates.nodes);
+            self.conduction.slopes(ends, &rates.means)
         };
-        if let Conduction::Kirchhoff {
-            conductor,
-            fraction,
-        } = &self.conduction
-        {
-            let count = self.materials.conductors.len();
-            matrix.fill(|i, columns, values| {
-                let first = self.links.pattern.row(i).start;
-                let k = fraction * rates.nodes[i * count + conductor].0;
-                let mut diagonal = own(i) / k;
-                for (m, (value, j)) in values.iter_mut().zip(columns).enumerate() {
-                    diagonal += weight[first + m];
-                    *value = free(i, *j as usize, -weight[first + m]);
-                }
-                diagonal
-            });
-            return Ok(());
-        }
+        let weight = &self.links.weight;
         matrix.fill(|i, columns, values| {
-            let first = self.links.pattern.row(i).start;
-            let mut diagonal = own(i);
-            for (m, (value, j)) in values.iter_mut().zip(columns).enumerate() {
-                let (k, j) = (first + m, *j as usize);
-                let ends = self.ends((i, j), temperature, &rates.nodes);
-                let slopes = self.conduction.slopes(k, weight[k], (&ends, &rates.means));
-                diagonal += slopes.own;
-                *value = free(i, j, -slopes.other);
+            let row = self.links.pattern.row(i);
+            let links = (i, columns);
+            match &self.conduction {
+                Conduction::Fixed(g) => {
+                    let slopes = g[row].iter().map(|g| (*g, *g));
+                    self.lay(links, (own(i), slopes), values)
+                }
+                Conduction::Kirchhoff {
+                    conductor,
+                    fraction,
+                } => {
+                    let count = self.materials.conductors.len();
+                    let k = fraction * rates.nodes[i * count + conductor].0;
+                    let slopes = weight[row].iter().map(|a| (*a, *a));
+                    self.lay(links, (own(i) / k, slopes), values)
+                }
+                Conduction::Mixture(_) | Conduction::Series(_) => {
+                    let edges = self.conduction.edges_of(row.clone());
+                    let slope = |((j, edge), a): ((&u32, &u32), &f64)| {
+                        let [low, high] = slopes[*edge as usize];
+                        if i < *j as usize {
+                            (a * low, a * high)
+                        } else {
+                            (a * high, a * low)
+                        }
+                    };
+                    let slopes = columns.iter().zip(edges).zip(&weight[row]).map(slope);
+                    self.lay(links, (own(i), slopes), values)
+                }
             }
-            diagonal
         });
         Ok(())
+    }
+
+    /// Lays the links of point `i` into its row; gives the diagonal, `own` and the links' slopes by its temperature.
+    #[inline]
+    fn lay(
+        &self,
+        (i, columns): (usize, &[u32]),
+        (own, slopes): (f64, impl Iterator<Item = (f64, f64)>),
+        values: &mut [f64],
+    ) -> f64 {
+        let mut diagonal = own;
+        for ((value, j), (here, there)) in values.iter_mut().zip(columns).zip(slopes) {
+            diagonal += here;
+            let free = !self.held[i] && !self.held[*j as usize];
+            *value = if free { -there } else { 0.0 };
+        }
+        diagonal
     }
 
     /// What the solution is to be divided by, point by point; nothing where it is the change of temperature.

@@ -84,11 +84,9 @@ impl System {
         self.pass(time, temperature, &mut rates.passed)?;
         rates.heat.resize(self.len(), 0.0);
         rates.stiffness.resize(self.len(), 0.0);
-        if let Conduction::Series(series) = &self.conduction {
-            let nodes = &rates.nodes;
-            let ends = |[i, j]: [u32; 2]| self.ends((i as usize, j as usize), temperature, nodes);
-            series.means(ends, &mut rates.means);
-        }
+        let nodes = &rates.nodes;
+        let ends = |[i, j]: [u32; 2]| self.ends((i as usize, j as usize), temperature, nodes);
+        self.conduction.means(ends, &mut rates.means);
         let (nodes, means, passed) = (&rates.nodes, &rates.means, &rates.passed);
         rates
             .heat
@@ -145,10 +143,10 @@ impl System {
                 };
                 gathered(own, ends, weight.iter().zip(ends).map(conductance))
             }
-            Conduction::Series(series) => {
-                let links = weight.iter().zip(series.edges(row));
+            Conduction::Mixture(_) | Conduction::Series(_) => {
+                let edges = self.conduction.edges_of(row);
                 let conductance = |(a, edge): (&f64, &u32)| a * means[*edge as usize];
-                gathered(own, ends, links.map(conductance))
+                gathered(own, ends, weight.iter().zip(edges).map(conductance))
             }
         }
     }
