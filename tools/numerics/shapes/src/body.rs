@@ -4,7 +4,7 @@
 //! its parts' (a lower bound of the true distance, with the right sign everywhere), which is all that the
 //! arrangement of points and the search for surfaces ask for.
 
-use crate::frame::{Frame, Vector, direction, length};
+use crate::frame::{Frame, Vector, along, direction, length};
 use crate::shape::Shape;
 
 /// What a primitive is, in its own frame.
@@ -70,6 +70,33 @@ impl Primitive {
             Kind::Ball(radius) => length(q) - radius,
             Kind::HalfSpace => q[2],
         }
+    }
+
+    /// The same with all faces moved out of the body by a distance \[m\]; none where nothing would be left of it.
+    fn grown(&self, distance: f64) -> Option<Self> {
+        let by = if self.cut { -distance } else { distance };
+        let mut grown = self.clone();
+        let left = match &mut grown.kind {
+            Kind::Box(half) => {
+                *half = half.map(|h| h + by);
+                half.iter().all(|h| *h > 0.0)
+            }
+            Kind::Cylinder { radius, half } => {
+                *radius += by;
+                *half += by;
+                *radius > 0.0 && *half > 0.0
+            }
+            Kind::Ball(radius) => {
+                *radius += by;
+                *radius > 0.0
+            }
+            Kind::HalfSpace => {
+                let frame = &mut grown.frame;
+                frame.origin = along(frame.origin, by, frame.axes[2]);
+                true
+            }
+        };
+        left.then_some(grown)
     }
 
     /// Corners of a box that holds it \[m\]; infinite where it has no end.
@@ -184,6 +211,25 @@ impl Body {
             Tree::All(trees) => join(trees, f64::max, f64::min),
             Tree::First(trees) => self.bounds_of(&trees[0]),
         }
+    }
+
+    /// The body with all its faces moved outward by a distance \[m\]: a box stays a box. None where that fills what is
+    /// cut away from it.
+    ///
+    /// ```
+    /// use shapes::Body;
+    /// let ball = r#"{"sphere": {"centre_m": [0, 0, 0], "radius_m": 2}}"#;
+    /// let ball = Body::new(&serde_json::from_str(ball)?, 3);
+    /// assert_eq!(ball.grown(0.5).map(|b| b.distance([3.0, 0.0, 0.0])), Some(0.5));
+    /// # Ok::<(), serde_json::Error>(())
+    /// ```
+    #[must_use]
+    pub fn grown(&self, distance: f64) -> Option<Self> {
+        let primitives = self.primitives.iter().map(|p| p.grown(distance));
+        Some(Self {
+            primitives: primitives.collect::<Option<_>>()?,
+            tree: self.tree.clone(),
+        })
     }
 
     /// The one primitive that the body is, if it is not composed.
@@ -320,6 +366,26 @@ mod tests {
             "the hole's face looks into the hole"
         );
         assert_eq!(ring.bounds()[1][..2], [2.0, 2.0]);
+    }
+
+    #[test]
+    fn what_is_cut_away_shrinks_where_a_body_grows() {
+        let ring = body(
+            r#"{"difference": [{"disc": {"centre_m": [0, 0], "radius_m": 2}},
+                               {"box": {"min_m": [-1, -0.5], "max_m": [1, 0.5]}}]}"#,
+            2,
+        );
+        let grown = ring.grown(0.25).unwrap();
+        assert!((grown.distance([2.5, 0.0, 0.0]) - 0.25).abs() < 1e-15);
+        assert!((grown.distance([0.5, 0.0, 0.0]) - 0.25).abs() < 1e-15);
+        assert!(grown.distance([0.0, 0.3, 0.0]) < 0.0);
+        assert!(ring.grown(0.6).is_none());
+        let below = body(
+            r#"{"half_space": {"point_m": [0, 1], "normal": [0, 2]}}"#,
+            2,
+        );
+        let grown = below.grown(0.5).unwrap();
+        assert!((grown.distance([7.0, 2.0, 0.0]) - 0.5).abs() < 1e-15);
     }
 
     #[test]

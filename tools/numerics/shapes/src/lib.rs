@@ -2,12 +2,14 @@
 //!
 //! - [`shape`] is how a scene writes them, [`check`] what its types cannot tell;
 //! - [`body`] knows how far a place is from the surface, with sign, and which way the surface looks;
-//! - [`surface`] divides the surface into pieces with area and normal;
+//! - [`surface`] divides the surface into pieces with area and normal, [`rule`] knows places and weights of integrals
+//!   over it;
 //! - [`frame`] holds the little vector algebra that all of them need.
 
 pub mod body;
 pub mod check;
 pub mod frame;
+pub mod rule;
 pub mod shape;
 pub mod surface;
 

@@ -42,15 +42,15 @@ enum Sheet {
 
 /// A face of a primitive.
 #[derive(Debug, Clone, PartialEq)]
-struct Face {
+pub(crate) struct Face {
     sheet: Sheet,
     label: &'static str,
-    range: [[f64; 2]; 2],
+    pub(crate) range: [[f64; 2]; 2],
     /// Length of the whole range of each parameter \[m\].
-    lengths: [f64; 2],
+    pub(crate) lengths: [f64; 2],
 }
 
-fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec<Face> {
+pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec<Face> {
     use std::f64::consts::TAU;
     let face = |sheet, label, range: [[f64; 2]; 2], lengths| Face {
         sheet,
@@ -121,56 +121,77 @@ fn others(axis: usize, dimensions: usize) -> [usize; 2] {
 }
 
 impl Face {
-    /// Middle, outward normal of the primitive, and area of the part between two corners.
-    fn part(
-        &self,
-        kind: &Kind,
-        frame: &Frame,
-        [u, v]: [[f64; 2]; 2],
-        dimensions: usize,
-    ) -> (Vector, Vector, f64) {
-        let (mu, mv) = (0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
-        let (du, dv) = (u[1] - u[0], v[1] - v[0]);
-        let (place, normal, area) = match (self.sheet, kind) {
+    /// Place, outward normal of the primitive, and area over that of the parameters, in the primitive's frame.
+    fn own(&self, kind: &Kind, [u, v]: [f64; 2], dimensions: usize) -> (Vector, Vector, f64) {
+        let high = if dimensions == 3 { v } else { 0.0 };
+        match (self.sheet, kind) {
             (Sheet::Flat(axis, sign), Kind::Box(half)) => {
                 let [a, b] = others(axis, dimensions);
                 let (mut place, mut normal) = ([0.0; 3], [0.0; 3]);
                 place[axis] = sign * half[axis];
-                place[a] = mu;
-                place[b] = if dimensions == 3 { mv } else { 0.0 };
+                place[a] = u;
+                place[b] = high;
                 normal[axis] = sign;
-                (place, normal, du * dv)
+                (place, normal, 1.0)
             }
             (Sheet::Side, Kind::Cylinder { radius, .. }) => {
-                let (sine, cosine) = mu.sin_cos();
-                let height = if dimensions == 3 { mv } else { 0.0 };
-                let place = [radius * cosine, radius * sine, height];
-                (place, [cosine, sine, 0.0], radius * du * dv)
+                let (sine, cosine) = u.sin_cos();
+                let place = [radius * cosine, radius * sine, high];
+                (place, [cosine, sine, 0.0], *radius)
             }
             (Sheet::End(sign), Kind::Cylinder { half, .. }) => {
-                let (sine, cosine) = mv.sin_cos();
-                // Radius of the middle of a ring's sector.
-                let radius = 2.0 / 3.0 * (u[0] * u[0] + u[0] * u[1] + u[1] * u[1]) / (u[0] + u[1]);
-                let place = [radius * cosine, radius * sine, sign * half];
-                (place, [0.0, 0.0, sign], mu * du * dv)
+                let (sine, cosine) = v.sin_cos();
+                let place = [u * cosine, u * sine, sign * half];
+                (place, [0.0, 0.0, sign], u)
             }
             (Sheet::Globe, Kind::Ball(radius)) => {
-                let (sine, cosine) = mu.sin_cos();
-                let across = (1.0 - mv * mv).max(0.0).sqrt();
-                let normal = [across * cosine, across * sine, mv];
-                (
-                    normal.map(|n| radius * n),
-                    normal,
-                    radius * radius * du * dv,
-                )
+                let (sine, cosine) = u.sin_cos();
+                let across = (1.0 - v * v).max(0.0).sqrt();
+                let normal = [across * cosine, across * sine, v];
+                (normal.map(|n| radius * n), normal, radius * radius)
             }
-            _ => {
-                // The plane of a half space holds z in a plane scene: its line is along the other axis.
-                let place = [mu, if dimensions == 3 { mv } else { 0.0 }, 0.0];
-                (place, [0.0, 0.0, 1.0], du * dv)
-            }
-        };
+            // The plane of a half space holds z in a plane scene: its line is along the other axis.
+            _ => ([u, high, 0.0], [0.0, 0.0, 1.0], 1.0),
+        }
+    }
+
+    /// Place, outward normal of the primitive, and area over that of the parameters.
+    pub(crate) fn at(
+        &self,
+        (kind, frame): (&Kind, &Frame),
+        parameters: [f64; 2],
+        dimensions: usize,
+    ) -> (Vector, Vector, f64) {
+        let (place, normal, area) = self.own(kind, parameters, dimensions);
         (frame.place(place), frame.turn(normal), area)
+    }
+
+    /// Whether the ends of the range of a parameter meet: an angle.
+    pub(crate) fn closed(&self, parameter: usize) -> bool {
+        match self.sheet {
+            Sheet::Side | Sheet::Globe => parameter == 0,
+            Sheet::End(_) => parameter == 1,
+            Sheet::Flat(..) | Sheet::Plane => false,
+        }
+    }
+
+    /// Middle, outward normal of the primitive, and area of the part between two corners.
+    fn part(
+        &self,
+        (kind, frame): (&Kind, &Frame),
+        [u, v]: [[f64; 2]; 2],
+        dimensions: usize,
+    ) -> (Vector, Vector, f64) {
+        let middle = [0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1])];
+        let (_, normal, density) = self.at((kind, frame), middle, dimensions);
+        let area = density * (u[1] - u[0]) * (v[1] - v[0]);
+        let mut heavy = middle;
+        if let Sheet::End(_) = self.sheet {
+            // Radius of the middle of a ring's sector.
+            heavy[0] = 2.0 / 3.0 * (u[0] * u[0] + u[0] * u[1] + u[1] * u[1]) / (u[0] + u[1]);
+        }
+        let (place, ..) = self.at((kind, frame), heavy, dimensions);
+        (place, normal, area)
     }
 }
 
@@ -296,7 +317,7 @@ impl Surface<'_> {
         let primitive = &self.body.primitives[self.number];
         let (place, normal, area) =
             self.face
-                .part(&primitive.kind, &primitive.frame, part, self.dimensions);
+                .part((&primitive.kind, &primitive.frame), part, self.dimensions);
         Piece {
             face: self.id,
             place,
