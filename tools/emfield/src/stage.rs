@@ -10,6 +10,7 @@ use crate::cloud::Cloud;
 use crate::output::{self, Found, Samples};
 use crate::scene::{EddyCurrents, Geometry, Scene};
 use crate::solve::diffusion::Unknown;
+use crate::surface::enclosing::Enclosing;
 
 /// Electric and magnetic fields on points.
 #[derive(Debug)]
@@ -48,7 +49,8 @@ impl Tool for EmField {
             return Err(faults.into());
         }
         let cloud = Cloud::new(scene)?;
-        let plan = shown(scene, &cloud);
+        let enclosing = assemble::enclosing(scene, &cloud)?;
+        let plan = shown(scene, &cloud, &enclosing);
         if let Ok(mut ready) = READY.lock() {
             *ready = Some((scene.clone(), cloud));
         }
@@ -97,7 +99,7 @@ fn solve<const D: usize, const K: usize>(
     output::write(scene, cloud, &samples, (0.0, &found), session)
 }
 
-fn shown(scene: &Scene, cloud: &Cloud) -> Plan {
+fn shown(scene: &Scene, cloud: &Cloud, enclosing: &[Enclosing]) -> Plan {
     let counts = cloud.counts;
     let mut plan = Plan::new()
         .stage("points")
@@ -107,6 +109,10 @@ fn shown(scene: &Scene, cloud: &Cloud) -> Plan {
         .count("in layers", counts.layers as u64)
         .count("on lattices", counts.lattice as u64)
         .memory("points", cloud.bytes());
+    if !enclosing.is_empty() {
+        let places: usize = enclosing.iter().map(|e| e.places.len()).sum();
+        plan = plan.count("on enclosing surfaces", places as u64);
+    }
     if scene.electrostatics.is_some() {
         plan = plan
             .stage("electrostatics")

@@ -6,6 +6,7 @@ use run::{Failure, Session};
 use shapes::frame::Vector;
 
 use super::drive::{source, unknown};
+use super::enclosed::enclosed;
 use super::region::region;
 use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
@@ -13,6 +14,7 @@ use crate::scene::currents::OuterReaction;
 use crate::scene::{EddyCurrents, Scene};
 use crate::solve::diffusion::{self, Conductors, Unknown};
 use crate::solve::eddy::{Drive, Solution, steady_change};
+use crate::solve::enclosed::Enclosed;
 use crate::solve::multipole::Multipoles;
 use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
@@ -35,6 +37,8 @@ pub(super) struct Setting<'a, const D: usize> {
     pub(super) conductors: Conductors,
     /// Weights of points in integrals over conductors.
     pub(super) weights: Vec<f64>,
+    /// Surfaces around bodies.
+    pub(super) enclosed: Vec<Enclosed<D>>,
 }
 
 /// Solves the sinusoidal eddy currents of a scene in `D` coordinates with `K` unknowns a point: 3 in space, else 1.
@@ -113,6 +117,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         let failed = |error: wls::Error| Failure::Other(format!("eddy currents: {error}"));
         let (sides, weights) = made.map_err(failed)?;
         Ok(Self {
+            enclosed: enclosed(scene, cloud, (&region, &form), session)?,
             sides,
             weights,
             unknown,
@@ -157,33 +162,41 @@ impl<'a, const D: usize> Setting<'a, D> {
         }
     }
 
-    /// What sources give of the unknowns.
+    /// What sources give of the unknowns, by point.
     pub(super) fn drive<const K: usize>(&self) -> Drive<K> {
+        let mut held = [C::default(); K];
+        if self.unknown == Unknown::Axial {
+            let applied = self.source.uniform.iter().map(|u| u.flux[2]).sum::<C>();
+            held[0] = applied / MU0;
+        }
+        Drive {
+            omega: self.omega.unwrap_or(0.0),
+            source: self.given(&self.source, &self.cloud.position),
+            held,
+        }
+    }
+
+    /// What sources give of the unknown at places in space.
+    pub(super) fn given<const K: usize>(&self, source: &Source, places: &[Vector]) -> Vec<[C; K]> {
         let zero = C::default();
-        let places = &self.cloud.position;
-        let mut held = [zero; K];
-        let source = match self.unknown {
-            Unknown::Axial => {
-                let applied = self.source.uniform.iter().map(|u| u.flux[2]).sum::<C>();
-                held[0] = applied / MU0;
-                vec![[zero; K]; places.len()]
-            }
+        match self.unknown {
+            Unknown::Axial => vec![[zero; K]; places.len()],
             Unknown::Around => {
-                let a = self.source.potential(places);
+                let a = source.potential(places);
                 let at = |(x, a): (&Vector, [C; 3])| {
                     let mut value = [zero; K];
                     value[0] = if x[0] > 0.0 {
                         a[1] / x[0]
                     } else {
                         // A = r B_z / 2 beside the axis.
-                        self.source.flux_at(*x)[2] * 0.5
+                        source.flux_at(*x)[2] * 0.5
                     };
                     value
                 };
                 places.iter().zip(a).map(at).collect()
             }
             Unknown::Potential if K == 1 => {
-                let mut source = self.source.clone();
+                let mut source = source.clone();
                 // Of a uniform field in the plane the z component carries all, not half.
                 for uniform in &mut source.uniform {
                     uniform.flux = uniform.flux.map(|b| b * 2.0);
@@ -192,16 +205,11 @@ impl<'a, const D: usize> Setting<'a, D> {
                 a.into_iter().map(|a| [a[2]; K]).collect()
             }
             Unknown::Potential => {
-                let a = self.source.potential(places);
+                let a = source.potential(places);
                 a.into_iter()
                     .map(|a| std::array::from_fn(|k| a[k]))
                     .collect()
             }
-        };
-        Drive {
-            omega: self.omega.unwrap_or(0.0),
-            source,
-            held,
         }
     }
 

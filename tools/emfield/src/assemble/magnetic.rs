@@ -69,7 +69,9 @@ impl<const D: usize> Setting<'_, D> {
         if conductivity.iter().any(|s| *s > 0.0) {
             self.currents(&fields, columns);
         }
-        self.totals(&fields, &conductivity, source, &mut all);
+        let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
+        let totals = self.totals(&fields, (source, &conducts), &mut all);
+        self.enclosed(solution, (&fields, &totals), (source, &conducts), &mut all);
         all
     }
 
@@ -116,7 +118,13 @@ impl<const D: usize> Setting<'_, D> {
         });
     }
 
-    fn totals(&self, fields: &Fields, conductivity: &[f64], source: &Source, all: &mut Found) {
+    /// Adds and gives the totals of all conductors.
+    fn totals(
+        &self,
+        fields: &Fields,
+        (source, conducts): (&Source, &[bool]),
+        all: &mut Found,
+    ) -> Totals {
         let plane = self.scene.geometry == Geometry::Plane;
         let (newton, watt) = if plane { ("N/m", "W/m") } else { ("N", "W") };
         let axisymmetric = self.scene.geometry == Geometry::Axisymmetric;
@@ -131,13 +139,16 @@ impl<const D: usize> Setting<'_, D> {
         };
         if self.unknown == Unknown::Axial {
             // A field along z pulls at no coil, and what flows in through a wall is not told apart.
-            let (pull, heat) = totals::volume(fields, &self.weights);
+            let (pull, heat) = totals::volume(fields, &self.weights, |_| true);
             force("force_volume", pull);
             all.totals.push(("power_volume".to_owned(), watt, heat));
-            return;
+            return Totals {
+                force_volume: pull,
+                heat_volume: heat,
+                ..Totals::default()
+            };
         }
-        let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
-        let found = Totals::of(&self.region, fields, &self.weights, (source, &conducts));
+        let found = Totals::of(&self.region, fields, &self.weights, (source, conducts));
         force("force_volume", found.force_volume);
         force("force_maxwell", found.force_stress);
         force("force_coil", found.force_coil);
@@ -148,6 +159,7 @@ impl<const D: usize> Setting<'_, D> {
         ] {
             all.totals.push((name.to_owned(), unit, value));
         }
+        found
     }
 
     /// The points, if they have three coordinates.

@@ -3,6 +3,8 @@
 mod charge;
 mod currents;
 pub mod drive;
+mod enclosed;
+mod enclosing;
 mod magnetic;
 mod march;
 mod potential;
@@ -17,6 +19,7 @@ use crate::scene::method::Way;
 use crate::solve::sides::Form;
 
 pub use currents::eddy_currents;
+pub use enclosing::enclosing;
 pub use march::march;
 pub use potential::electrostatics;
 pub(crate) use region::region;

@@ -5,6 +5,7 @@ use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
 
+use super::enclosed::{electric, enclosed};
 use super::region::{raise, region, walls};
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::output::{Column, Found};
@@ -106,21 +107,7 @@ pub fn electrostatics<const D: usize>(
 ) -> Result<Found, Failure> {
     let outer = Walls::new(scene, electrostatics)?;
     let region: Region<D> = region(scene, cloud, &|wall| outer.insulated(wall));
-    let mut held = vec![None; cloud.len()];
-    for (i, held) in held.iter_mut().enumerate() {
-        if let Class::Outer { .. } = cloud.class[i] {
-            *held = Some(outer.held(cloud.position[i])?);
-        }
-    }
-    let problem = Problem {
-        permittivity: (0..cloud.media)
-            .map(|m| scene.medium(m).relative_permittivity)
-            .collect(),
-        electrodes: std::iter::once(None)
-            .chain(scene.bodies.iter().map(|b| b.potential_v))
-            .collect(),
-        held,
-    };
+    let problem = problem(scene, cloud, &outer)?;
     let form = super::form(scene);
     let low = super::low_order(scene, region.len());
     let stencil = |error: wls::Error| Fault::at("/points", format!("electrostatics: {error}"));
@@ -159,11 +146,38 @@ pub fn electrostatics<const D: usize>(
             (v, a.clone(), a)
         }
     };
+    let enclosed = enclosed(scene, cloud, (&region, &form), session)?;
     let [inner, beyond] = [inner, beyond].map(|field| {
         let up = field.into_iter().map(|e| raise(cloud.geometry, e));
         up.collect::<Vec<Vector>>()
     });
-    Ok(columns(scene, cloud, value, &inner, &beyond))
+    let (mut found, pulls) = columns(scene, cloud, value, &inner, &beyond);
+    if !enclosed.is_empty() {
+        let with = (found.columns[0].values.as_slice(), pulls.as_slice());
+        let mut totals = Found::default();
+        electric((scene, cloud), &region, with, &enclosed, &mut totals);
+        found.join(totals);
+    }
+    Ok(found)
+}
+
+/// What is given where.
+fn problem(scene: &Scene, cloud: &Cloud, outer: &Walls<'_>) -> Result<Problem, Failure> {
+    let mut held = vec![None; cloud.len()];
+    for (i, held) in held.iter_mut().enumerate() {
+        if let Class::Outer { .. } = cloud.class[i] {
+            *held = Some(outer.held(cloud.position[i])?);
+        }
+    }
+    Ok(Problem {
+        permittivity: (0..cloud.media)
+            .map(|m| scene.medium(m).relative_permittivity)
+            .collect(),
+        electrodes: std::iter::once(None)
+            .chain(scene.bodies.iter().map(|b| b.potential_v))
+            .collect(),
+        held,
+    })
 }
 
 /// Solves the equations; rows of low order, where there are some, precondition them.
@@ -189,14 +203,14 @@ fn solve(
     Ok(x.into_iter().map(|x| x[0]).collect())
 }
 
-/// Potential and field of all points, traction and fields of both sides on interfaces.
+/// Potential and field of all points, traction and fields of both sides on interfaces; the tractions.
 fn columns(
     scene: &Scene,
     cloud: &Cloud,
     value: Vec<f64>,
     inner: &[Vector],
     beyond: &[Vector],
-) -> Found {
+) -> (Found, Vec<Vector>) {
     let mut found = Found::default();
     let on_surface = |field: &[Vector]| -> Vec<Vector> {
         cloud
@@ -252,7 +266,7 @@ fn columns(
             }
         }
     }
-    found
+    (found, tractions)
 }
 
 /// Traction \[Pa\] on a surface: of a dielectric by its inner field, of an electrode by the outer one.

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use run::Fault;
 use shapes::check::{self, Misfit};
 
+use super::output::Closed;
 use super::{BodyScene, Coil, Domain, EddyCurrents, Electrostatics, Geometry, Scene};
 
 /// What a potential may depend on.
@@ -36,6 +37,7 @@ impl Scene {
             }
         }
         check_bodies(&self.bodies, dimensions, &mut misfits);
+        self.enclosures(&mut misfits);
         self.times(&mut misfits);
         if self.electrostatics.is_none() && self.eddy_currents.is_none() {
             misfits.push(Misfit::at(
@@ -55,6 +57,34 @@ impl Scene {
             .collect();
         faults.extend(self.formulas());
         faults
+    }
+
+    /// Names and shapes of enclosing surfaces.
+    fn enclosures(&self, misfits: &mut Vec<Misfit>) {
+        let mut names = BTreeSet::new();
+        for (number, enclosure) in self.output.enclosures.iter().enumerate() {
+            let at = format!("/output/enclosures/{number}");
+            if !names.insert(&enclosure.name) {
+                let what = format!("the name \"{}\" is taken", enclosure.name);
+                misfits.push(Misfit::at(&format!("{at}/name"), what));
+            }
+            match &enclosure.surface {
+                Closed::Shape(shape) => {
+                    let at = format!("{at}/surface/shape");
+                    check::check(shape, &at, self.geometry.dimensions(), misfits);
+                }
+                Closed::Around(around) if !self.bodies.iter().any(|b| b.name == around.body) => {
+                    let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
+                    let what = format!(
+                        "\"{}\" is no body; bodies are {}",
+                        around.body,
+                        names.join(", ")
+                    );
+                    misfits.push(Misfit::at(&format!("{at}/surface/around/body"), what));
+                }
+                Closed::Around(_) => {}
+            }
+        }
     }
 
     /// Times of frames lie in a march and rise.

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use shapes::Shape;
 
 /// A place whose fields are written.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -31,6 +32,41 @@ pub struct Line {
     pub points: usize,
 }
 
+/// The surface of a body, moved outward.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Around {
+    /// Name of the body.
+    pub body: String,
+    /// How far each of its faces is moved outward.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub distance_m: f64,
+}
+
+/// A closed surface.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Closed {
+    /// That of a shape; in an axisymmetric scene the section in r and z: a disc on the axis is a ball.
+    Shape(Shape),
+    /// That of a body, moved outward.
+    Around(Around),
+}
+
+/// A closed surface around bodies, in a medium that does not conduct: the total force on what it encloses is the
+/// integral of Maxwell's stress over it.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Enclosure {
+    /// Name, in front of its totals: `NAME.force_z`.
+    pub name: String,
+    /// The surface.
+    pub surface: Closed,
+    /// Distance of the places at which fields are evaluated; that of `points` when it is absent.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub spacing_m: Option<f64>,
+}
+
 /// Precision of the floats in frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -58,6 +94,12 @@ pub struct Output {
     /// Lines along which fields are written.
     #[serde(default)]
     pub lines: Vec<Line>,
+    /// Closed surfaces around bodies whose total force is written: of electrostatics, and of eddy currents (with the
+    /// heat within them in a sinusoidal steady state), each with the largest difference from the force found at the
+    /// bodies themselves.
+    #[serde(default)]
+    #[schemars(length(max = 100))]
+    pub enclosures: Vec<Enclosure>,
     /// Times of frames and probes of a march in time, rising, beside its start and end: steps end there.
     #[serde(default)]
     #[schemars(extend("x-unit" = "s"))]
@@ -78,6 +120,7 @@ impl Default for Output {
             surface: true,
             probes: Vec::new(),
             lines: Vec::new(),
+            enclosures: Vec::new(),
             at_s: Vec::new(),
             every_s: None,
         }

@@ -289,7 +289,7 @@ impl Fields {
 }
 
 /// A value of the unknown as a vector in space; nothing of `H_z`.
-fn along<const D: usize, const K: usize>(
+pub(super) fn along<const D: usize, const K: usize>(
     unknown: Unknown,
     place: &[f64; D],
     value: &[C; K],
@@ -304,7 +304,7 @@ fn along<const D: usize, const K: usize>(
 }
 
 /// Potential of all, and curl of the reaction, in space; `H_z` as it is.
-fn local<const D: usize, const K: usize>(
+pub(super) fn local<const D: usize, const K: usize>(
     unknown: Unknown,
     place: &[f64; D],
     (total, reaction): (&[C; K], &[C; K]),
@@ -328,7 +328,8 @@ fn local<const D: usize, const K: usize>(
 }
 
 /// `Re(a x b*)`.
-pub(super) fn cross_mean(a: [C; 3], b: [C; 3]) -> [f64; 3] {
+#[must_use]
+pub fn cross_mean(a: [C; 3], b: [C; 3]) -> [f64; 3] {
     let part = |i: usize, j: usize| (a[i] * b[j].conj() - a[j] * b[i].conj()).re;
     [part(1, 2), part(2, 0), part(0, 1)]
 }

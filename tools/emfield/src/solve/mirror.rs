@@ -51,6 +51,11 @@ impl<'a, const D: usize> Mirror<'a, D> {
         }
     }
 
+    /// The point that each point or image stands for; empty without an axis.
+    pub(super) fn origin(&self) -> &[u32] {
+        &self.origin
+    }
+
     /// Stencils of the points of the region, in which an image counts as its point.
     ///
     /// # Errors

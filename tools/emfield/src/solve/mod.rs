@@ -4,7 +4,8 @@
 //!   of symmetry.
 //! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`eddy`] what drives
 //!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
-//!   integrals over conductors, [`totals`] forces and heat, [`march`] the same in time.
+//!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies, [`march`]
+//!   the same in time.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`factors`]
 //!   their solution.
 
@@ -14,6 +15,7 @@ pub mod coupled;
 pub mod diffusion;
 pub mod eddy;
 pub mod electrostatic;
+pub mod enclosed;
 pub mod factors;
 pub mod march;
 mod mirror;

@@ -94,6 +94,12 @@ impl<const D: usize> Region<D> {
         raised
     }
 
+    /// The coordinates of a place in space; the opposite of [`Region::raise`].
+    #[must_use]
+    pub fn lower(&self, place: [f64; 3]) -> [f64; D] {
+        std::array::from_fn(|k| place[if self.axial { 2 * k } else { k }])
+    }
+
     /// Is the point on an interface?
     #[must_use]
     pub fn on_interface(&self, i: usize) -> bool {

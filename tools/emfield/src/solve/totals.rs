@@ -35,7 +35,21 @@ impl Totals {
         weights: &[f64],
         (source, conducts): (&Source, &[bool]),
     ) -> Self {
-        let (force_volume, heat_volume) = volume(fields, weights);
+        Self {
+            force_coil: coils::force(region, weights, fields, source),
+            ..Self::bodies(region, fields, weights, (conducts, |_| true))
+        }
+    }
+
+    /// The same of those conductors whose points are `kept`, but for the force on coils.
+    #[must_use]
+    pub fn bodies<const D: usize>(
+        region: &Region<D>,
+        fields: &Fields,
+        weights: &[f64],
+        (conducts, kept): (&[bool], impl Fn(usize) -> bool),
+    ) -> Self {
+        let (force_volume, heat_volume) = volume(fields, weights, &kept);
         let mut found = Self {
             force_volume,
             heat_volume,
@@ -48,6 +62,9 @@ impl Totals {
             }
             let sign = if a { face.area } else { -face.area };
             let i = face.point as usize;
+            if !kept(i) {
+                continue;
+            }
             let n = region.raise(face.normal);
             let b = fields.flux[i];
             let square: f64 = b.iter().map(C::norm_sqr).sum();
@@ -73,32 +90,35 @@ impl Totals {
                 force[..2].fill(0.0);
             }
         }
-        found.force_coil = coils::force(region, weights, fields, source);
         found
     }
 
     /// The largest difference between two of the forces \[N\].
     #[must_use]
     pub fn spread(&self) -> f64 {
-        let all = [self.force_volume, self.force_stress, self.force_coil];
-        let apart = |a: [f64; 3], b: [f64; 3]| {
-            let d = minus(a, b);
-            d.iter().map(|x| x * x).sum::<f64>().sqrt()
-        };
-        let pairs = [(0, 1), (0, 2), (1, 2)];
-        pairs
-            .into_iter()
-            .map(|(i, j)| apart(all[i], all[j]))
-            .fold(0.0, f64::max)
+        spread(&[self.force_volume, self.force_stress, self.force_coil])
     }
 }
 
-/// Force and heat of all conductors.
+/// The largest difference between two of several forces \[N\].
 #[must_use]
-pub fn volume(fields: &Fields, weights: &[f64]) -> ([f64; 3], f64) {
+pub fn spread(forces: &[[f64; 3]]) -> f64 {
+    let apart = |a: &[f64; 3], b: &[f64; 3]| {
+        let d = minus(*a, *b);
+        d.iter().map(|x| x * x).sum::<f64>().sqrt()
+    };
+    let pairs = forces.iter().enumerate();
+    pairs
+        .flat_map(|(k, a)| forces[..k].iter().map(move |b| apart(a, b)))
+        .fold(0.0, f64::max)
+}
+
+/// Force and heat of the conductors whose points are `kept`.
+#[must_use]
+pub fn volume(fields: &Fields, weights: &[f64], kept: impl Fn(usize) -> bool) -> ([f64; 3], f64) {
     let mut force = [0.0; 3];
     let mut heat = 0.0;
-    for (i, w) in weights.iter().enumerate() {
+    for (i, w) in weights.iter().enumerate().filter(|(i, _)| kept(*i)) {
         for (sum, f) in force.iter_mut().zip(fields.force[i]) {
             *sum += w * f;
         }

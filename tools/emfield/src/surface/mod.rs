@@ -1,3 +1,4 @@
-//! What fields do to surfaces.
+//! What fields do to surfaces: of bodies, and around them.
 
+pub mod enclosing;
 pub mod traction;

@@ -1,0 +1,173 @@
+//! Force and heat of what closed surfaces enclose, and how far they are from those found at the bodies.
+
+use num_complex::Complex;
+use run::{Failure, Session};
+use shapes::frame::Vector;
+
+use super::currents::Setting;
+use super::enclosing::enclosing;
+use crate::cloud::Cloud;
+use crate::output::Found;
+use crate::scene::{Geometry, Scene};
+use crate::solve::eddy::{Fields, Solution, cross_mean};
+use crate::solve::enclosed::Enclosed;
+use crate::solve::region::Region;
+use crate::solve::sides::Form;
+use crate::solve::totals::{Totals, spread};
+use crate::source::{MU0, Source, minus};
+use crate::surface::traction::EPS0;
+
+type C = Complex<f64>;
+
+/// The enclosing surfaces of a scene with fits of the points about them; none where it asks for none.
+///
+/// # Errors
+/// Where a surface does not enclose, or too few points lie about it.
+pub(super) fn enclosed<const D: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    (region, form): (&Region<D>, &Form),
+    session: &mut Session,
+) -> Result<Vec<Enclosed<D>>, Failure> {
+    if scene.output.enclosures.is_empty() {
+        return Ok(Vec::new());
+    }
+    let surfaces = enclosing(scene, cloud)?;
+    session.timed("enclosures", || {
+        let each = surfaces.into_iter().map(|surface| {
+            let name = surface.name.clone();
+            let failed = |error: wls::Error| Failure::Other(format!("enclosure {name}: {error}"));
+            Enclosed::new(region, form, surface).map_err(failed)
+        });
+        each.collect()
+    })
+}
+
+/// Adds the components of a force that a scene has, and the largest difference between the ways of finding it.
+fn push(scene: &Scene, name: &str, ways: &[Vector], all: &mut Found) {
+    let unit = match scene.geometry {
+        Geometry::Plane => "N/m",
+        Geometry::Axisymmetric | Geometry::Space => "N",
+    };
+    let had: &[usize] = match scene.geometry {
+        Geometry::Plane => &[0, 1],
+        // The radial forces of a full turn cancel.
+        Geometry::Axisymmetric => &[2],
+        Geometry::Space => &[0, 1, 2],
+    };
+    for k in had {
+        let axis = ['x', 'y', 'z'][*k];
+        all.totals
+            .push((format!("{name}_{axis}"), unit, ways[0][*k]));
+    }
+    let part = |force: &Vector| {
+        let mut part = [0.0; 3];
+        for k in had {
+            part[*k] = force[*k];
+        }
+        part
+    };
+    let ways: Vec<Vector> = ways.iter().map(part).collect();
+    all.totals
+        .push((format!("{name}_spread"), unit, spread(&ways)));
+}
+
+/// Adds the electric forces of a potential by point; `pulls` are the tractions on surfaces of bodies.
+pub(super) fn electric<const D: usize>(
+    (scene, cloud): (&Scene, &Cloud),
+    region: &Region<D>,
+    (potential, pulls): (&[f64], &[Vector]),
+    enclosed: &[Enclosed<D>],
+    all: &mut Found,
+) {
+    for one in enclosed {
+        let surface = &one.surface;
+        let eps = scene.medium(surface.medium as usize).relative_permittivity;
+        let stress = surface.stress(&one.electric(region, potential));
+        let mut bodies = [0.0; 3];
+        for (s, pull) in cloud.surface.iter().zip(pulls) {
+            if surface.within[s.point as usize] {
+                bodies = std::array::from_fn(|k| bodies[k] + s.area * pull[k]);
+            }
+        }
+        let ways = [stress.map(|f| EPS0 * eps * f), bodies];
+        let name = format!("{}.electric_force", surface.name);
+        push(scene, &name, &ways, all);
+    }
+}
+
+impl<const D: usize> Setting<'_, D> {
+    /// Adds the forces and the heat of eddy currents; `totals` are those of all conductors.
+    pub(super) fn enclosed<const K: usize>(
+        &self,
+        solution: Solution<'_, K>,
+        (fields, totals): (&Fields, &Totals),
+        (source, conducts): (&Source, &[bool]),
+        all: &mut Found,
+    ) {
+        for one in &self.enclosed {
+            let surface = &one.surface;
+            let medium = self.scene.medium(surface.medium as usize);
+            let mu = MU0 * medium.relative_permeability;
+            let (stress, heat) = self.stress(one, solution.found, source);
+            let kept = |i: usize| surface.within[i];
+            let bodies = Totals::bodies(&self.region, fields, &self.weights, (conducts, kept));
+            let mut ways = vec![
+                stress.map(|f| f / mu),
+                bodies.force_volume,
+                bodies.force_stress,
+            ];
+            let mut points = self.weights.iter().enumerate();
+            if points.all(|(i, w)| *w == 0.0 || kept(i)) {
+                ways.push(totals.force_coil);
+            }
+            push(self.scene, &format!("{}.force", surface.name), &ways, all);
+            if let Some(heat) = heat {
+                let unit = match self.scene.geometry {
+                    Geometry::Plane => "W/m",
+                    Geometry::Axisymmetric | Geometry::Space => "W",
+                };
+                let name = format!("{}.power", surface.name);
+                all.totals.push((name, unit, heat / mu));
+            }
+        }
+    }
+
+    /// Force over a surface, and in a sinusoidal steady state heat within, both times the permeability.
+    ///
+    /// Sources alone exert no force and bring no heat where the surface encloses none: what they give by themselves is
+    /// left out, which near coils is most of what the sum over the places errs by. A potential V of charges, which is not
+    /// computed in air, adds nothing to the heat: `grad V x H = curl(V H)` where no current flows.
+    fn stress<const K: usize>(
+        &self,
+        one: &Enclosed<D>,
+        found: &[[C; K]],
+        source: &Source,
+    ) -> (Vector, Option<f64>) {
+        let surface = &one.surface;
+        let alone = source.flux(&surface.places);
+        let own = one.magnetic(self.unknown, found);
+        let flux: Vec<[C; 3]> = own
+            .iter()
+            .zip(&alone)
+            .map(|(a, s)| sum(&a.flux, s))
+            .collect();
+        let force = minus(surface.stress(&flux), surface.stress(&alone));
+        let heat = self.omega.map(|omega| {
+            let given = one.potential(self.unknown, &self.given::<K>(source, &surface.places));
+            let rate = C::new(0.0, -omega);
+            let flow = |n: usize| {
+                let electric = |a: &[C; 3]| a.map(|a| rate * a);
+                let total = sum(&own[n].potential, &given[n]);
+                let all = cross_mean(electric(&total), flux[n]);
+                minus(all, cross_mean(electric(&given[n]), alone[n]))
+            };
+            surface.inward((0..own.len()).map(flow))
+        });
+        (force, heat)
+    }
+}
+
+fn sum(a: &[C; 3], b: &[C; 3]) -> [C; 3] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
