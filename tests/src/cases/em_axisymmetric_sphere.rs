@@ -41,8 +41,10 @@ impl Case for EmAxisymmetricSphere {
                 "lift_volume",
                 "lift_maxwell",
                 "lift_coil",
+                "lift_enclosed",
                 "power_volume",
                 "power_poynting",
+                "power_enclosed",
                 "largest_current",
             ] {
                 targets.push(Target::error(quantity, 5e-3).of(*method));
@@ -54,6 +56,10 @@ impl Case for EmAxisymmetricSphere {
         for quantity in ["lift_maxwell", "lift_coil", "power_poynting"] {
             targets.push(Target::order(quantity, 2.0).of(THIN));
         }
+        for quantity in ["lift_enclosed", "power_enclosed"] {
+            targets.push(Target::error(quantity, 5e-4).of(THIN));
+        }
+        targets.push(Target::order("lift_enclosed", 1.5).of(THIN));
         targets.push(Target::order("flux_linf", 2.5).of(THIN));
         targets.push(Target::order("flux_linf", 2.0).of("1-mhz"));
         targets

@@ -41,8 +41,10 @@ impl Case for EmSphereLoops {
                 ("lift_volume", 1e-2),
                 ("lift_maxwell", 1e-2),
                 ("lift_coil", 1e-2),
+                ("lift_enclosed", 1e-2),
                 ("power_volume", 1e-2),
                 ("power_poynting", 1e-2),
+                ("power_enclosed", 1e-2),
             ] {
                 targets.push(Target::error(quantity, bound).of(*method));
             }
@@ -60,7 +62,9 @@ impl Case for EmSphereLoops {
         };
         let patch = json!({
             "points": {"spacing_m": spacing, "layers": {"first_m": first * spacing}},
-            "eddy_currents": {"harmonic": {"frequency_hz": frequency}}
+            "eddy_currents": {"harmonic": {"frequency_hz": frequency}},
+            "output": {"enclosures": [{"name": "around", "spacing_m": 2.0 * spacing,
+                "surface": {"around": {"body": "drop", "distance_m": 7e-4}}}]}
         });
         measured(
             lab,
@@ -84,8 +88,10 @@ pub(super) fn errors(
         ("lift_volume", "force_volume_z", exact.lift()),
         ("lift_maxwell", "force_maxwell_z", exact.lift()),
         ("lift_coil", "force_coil_z", exact.lift()),
+        ("lift_enclosed", "around.force_z", exact.lift()),
         ("power_volume", "power_volume", exact.power()),
         ("power_poynting", "power_poynting", exact.power()),
+        ("power_enclosed", "around.power", exact.power()),
     ] {
         let error = (found.get(total)? / wanted - 1.0).abs();
         errors.insert(name.to_owned(), error);
