@@ -19,7 +19,7 @@ const WAYS: [(&str, &str); 5] = [
     ),
     (
         "force_maxwell",
-        "Force: Maxwell's stress over a surface around",
+        "Force: Maxwell's stress on the surface of the body",
     ),
     ("force_coil", "Force: reaction on the coils"),
     ("power_volume", "Joule heat: integral over the volume"),
@@ -126,6 +126,7 @@ fn table(run: &Run, record: &Record) -> String {
     let mut table = Rows::new(&heads);
     let mut ways: Vec<(String, String)> = WAYS.map(|(n, w)| (n.to_owned(), w.to_owned())).to_vec();
     ways.extend(bodies(record));
+    ways.extend(enclosures(record));
     for (name, words) in ways {
         let part = |axis: &str| {
             let whole = format!("{name}{axis}");
@@ -206,6 +207,31 @@ fn bodies(record: &Record) -> Vec<(String, String)> {
     found
 }
 
+/// What is found over closed surfaces around bodies: `NAME.force_z`, `NAME.electric_force_z`, `NAME.power`.
+fn enclosures(record: &Record) -> Vec<(String, String)> {
+    let mut found: Vec<(String, String)> = Vec::new();
+    for entry in &record.values {
+        let whole = entry.name.as_str();
+        let name = ["_x", "_y", "_z"]
+            .iter()
+            .find_map(|axis| whole.strip_suffix(axis))
+            .unwrap_or(whole);
+        let Some((surface, what)) = name.rsplit_once('.') else {
+            continue;
+        };
+        let words = match what {
+            "force" => "Force: Maxwell's stress over the surface",
+            "electric_force" => "Electric force: Maxwell's stress over the surface",
+            "power" => "Joule heat: Poynting's flux through the surface",
+            _ => continue,
+        };
+        if !found.iter().any(|(n, _)| n == name) {
+            found.push((name.to_owned(), format!("{words} \"{surface}\"")));
+        }
+    }
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,5 +253,17 @@ mod tests {
         let found = bodies(&record);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].0, "electric_force_left drop");
+    }
+
+    #[test]
+    fn surfaces_around_bodies_are_named() {
+        let record = Record::new()
+            .with("near.force_x", "N", 1.0)
+            .with("near.force_z", "N", 1.0)
+            .with("near.force_spread", "N", 1.0)
+            .with("near.power", "W", 1.0)
+            .with("force_volume_x", "N", 1.0);
+        let names: Vec<String> = enclosures(&record).into_iter().map(|w| w.0).collect();
+        assert_eq!(names, ["near.force", "near.power"]);
     }
 }
