@@ -49,6 +49,9 @@ impl Tool for EmField {
             return Err(faults.into());
         }
         let cloud = Cloud::new(scene)?;
+        if let Some(currents) = &scene.eddy_currents {
+            assemble::windings(scene, currents, &cloud)?;
+        }
         let enclosing = assemble::enclosing(scene, &cloud)?;
         let plan = shown(scene, &cloud, &enclosing);
         if let Ok(mut ready) = READY.lock() {
@@ -139,13 +142,24 @@ fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
             .column("vector_potential", "Wb/m"),
     };
     let plan = plan.column("magnetic_flux_density", "T");
-    let conducts = (0..=scene.bodies.len()).any(|m| scene.medium(m).conductivity_s_m > 0.0);
-    if conducts {
+    let media = 0..=scene.bodies.len();
+    let carries = media.clone().any(|m| scene.carries(m));
+    let conducts = media
+        .clone()
+        .any(|m| scene.medium(m).conductivity_s_m > 0.0);
+    let plan = if carries {
+        plan.stage("coils of points")
+    } else {
+        plan
+    };
+    if conducts || carries {
         let plan = plan
             .column("current_density", "A/m2")
             .column("force_density", "N/m3")
             .column("joule_heat", "W/m3");
-        if currents.charged(scene.geometry) {
+        if !conducts {
+            plan.left_out("eddy currents in conductors", "nothing conducts")
+        } else if currents.charged(scene.geometry) {
             plan.stage("charges on conductors")
                 .column("electric_potential", "V")
         } else {

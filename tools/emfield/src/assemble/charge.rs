@@ -73,7 +73,7 @@ impl<const D: usize> Setting<'_, D> {
         let coupled = session.timed("assemble", || {
             let open = self.currents.outer == OuterReaction::Multipole;
             let multipoles = open.then(|| Multipoles::new(&self.region, &self.weights));
-            Coupled::new(&parts, &source, multipoles.as_ref())
+            Coupled::new(&parts, (&source, &self.wound()), multipoles.as_ref())
         });
         let options = super::options(self.scene);
         let rule: Rule = super::rule(self.scene);

@@ -7,7 +7,9 @@ use shapes::frame::Vector;
 
 use super::drive::{source, unknown};
 use super::enclosed::enclosed;
+use super::magnetic::Driven;
 use super::region::region;
+use super::winding::windings;
 use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
@@ -19,6 +21,7 @@ use crate::solve::multipole::Multipoles;
 use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
 use crate::solve::sides::{Form, Sides};
+use crate::solve::winding::Windings;
 use crate::source::{MU0, Source};
 
 type C = Complex<f64>;
@@ -37,6 +40,8 @@ pub(super) struct Setting<'a, const D: usize> {
     pub(super) conductors: Conductors,
     /// Weights of points in integrals over conductors.
     pub(super) weights: Vec<f64>,
+    /// Currents that are given in coils of points, where there are some.
+    pub(super) windings: Option<Windings>,
     /// Surfaces around bodies.
     pub(super) enclosed: Vec<Enclosed<D>>,
 }
@@ -72,7 +77,12 @@ pub fn eddy_currents<const D: usize, const K: usize>(
     };
     Ok(session.timed("fields", || {
         let flux = setting.source.flux(&cloud.position);
-        setting.found_with(solution, charged.as_ref(), &flux, &setting.source)
+        let driven = Driven {
+            source: &setting.source,
+            flux: &flux,
+            windings: setting.windings.as_ref(),
+        };
+        setting.found(solution, charged.as_ref(), driven)
     }))
 }
 
@@ -115,8 +125,11 @@ impl<'a, const D: usize> Setting<'a, D> {
             Ok((Sides::new(&region, &form)?, weights))
         });
         let failed = |error: wls::Error| Failure::Other(format!("eddy currents: {error}"));
-        let (sides, weights) = made.map_err(failed)?;
+        let (sides, mut weights) = made.map_err(failed)?;
+        let coils = windings(scene, currents, cloud)?;
+        let wound = || Windings::new(&region, &coils, &mut weights);
         Ok(Self {
+            windings: (!coils.is_empty()).then(wound),
             enclosed: enclosed(scene, cloud, (&region, &form), session)?,
             sides,
             weights,
@@ -213,6 +226,21 @@ impl<'a, const D: usize> Setting<'a, D> {
         }
     }
 
+    /// Right sides that currents in coils of points make; none where there are no such coils.
+    pub(super) fn wound<const K: usize>(&self) -> Vec<[C; K]> {
+        let Some(windings) = &self.windings else {
+            return Vec::new();
+        };
+        let mu = MU0 * self.scene.surroundings.relative_permeability;
+        let (region, unknown) = (&self.region, self.unknown);
+        let mut right = windings.right::<D, K>((region, &self.sides), unknown);
+        if self.currents.outer == OuterReaction::Multipole {
+            windings.open(region, unknown, &mut right);
+        }
+        right.as_flattened_mut().iter_mut().for_each(|r| *r *= mu);
+        right
+    }
+
     pub(super) fn solve<const K: usize>(
         &self,
         drive: &Drive<K>,
@@ -225,6 +253,11 @@ impl<'a, const D: usize> Setting<'a, D> {
         });
         let at = (region, self.unknown);
         let mut right = drive.right(&self.conductors, at, &rates);
+        for (right, given) in right.iter_mut().zip(self.wound::<K>()) {
+            for (right, given) in right.iter_mut().zip(given) {
+                *right += given;
+            }
+        }
         let pairs = if self.currents.outer == OuterReaction::Multipole {
             let multipoles = Multipoles::new(region, &self.weights);
             drive.pairs(&self.conductors, at, &multipoles, &mut right)

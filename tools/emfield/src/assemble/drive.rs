@@ -37,6 +37,7 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
             Coil::Loop(l) => ("loop", l.phase_deg),
             Coil::Segments(s) => ("segments", s.phase_deg),
             Coil::Wire(w) => ("wire", w.phase_deg),
+            Coil::Region(r) => ("region", r.phase_deg),
         };
         for (k, (kind, lead)) in currents.coils.iter().map(lead).enumerate() {
             if lead != 0.0 {
@@ -157,6 +158,7 @@ pub fn source(scene: &Scene, currents: &EddyCurrents) -> Source {
                 wire_radius: THIN * scene.points.spacing_m,
                 current: phasor(w.current_a, w.phase_deg),
             }),
+            Coil::Region(_) => {}
         }
     }
     if let Some(b) = &currents.applied_flux_density_t {

@@ -8,7 +8,7 @@ use shapes::surface::Piece;
 
 use super::drive;
 use crate::cloud::region::Region as Ground;
-use crate::cloud::{Class, Cloud};
+use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::scene::output::{Closed, Enclosure};
 use crate::scene::{Geometry, Scene};
 use crate::solve::diffusion::Unknown;
@@ -77,6 +77,13 @@ impl Finder<'_> {
         let other = |i: usize| within[i] && self.cloud.class[i] != Class::Inside(medium);
         if !(0..self.cloud.len()).any(other) {
             return Err("the surface encloses nothing".to_owned());
+        }
+        let carries = |s: &&SurfacePoint| {
+            let media = [s.inner, s.outer].map(usize::from);
+            within[s.point as usize] && media.into_iter().any(|m| self.scene.carries(m))
+        };
+        if let Some(s) = self.cloud.surface.iter().find(carries) {
+            return Err(told_coil(self.cloud.position[s.point as usize]));
         }
         let turn = |p: &Piece| match geometry {
             Geometry::Axisymmetric => std::f64::consts::TAU * p.place[0] * p.area,
@@ -160,6 +167,9 @@ impl Finder<'_> {
             let name = name(first);
             return Err(format!("the surface lies in {name}, which conducts"));
         }
+        if self.scene.carries(first as usize) {
+            return Err(format!("the surface lies in the coil {}", name(first)));
+        }
         let electrode = (first as usize)
             .checked_sub(1)
             .map(|k| &self.scene.bodies[k]);
@@ -202,13 +212,17 @@ impl Finder<'_> {
         }
         let inside = |(x, radius): &&(Vector, f64)| body.distance(*x) < *radius;
         match self.wires.iter().find(inside) {
-            Some((x, _)) => Err(format!(
-                "the surface encloses or cuts a coil at ({:.4e}, {:.4e}, {:.4e}) m, on which the field exerts a force too",
-                x[0], x[1], x[2]
-            )),
+            Some((x, _)) => Err(told_coil(self.scene.geometry.place(*x))),
             None => Ok(()),
         }
     }
+}
+
+fn told_coil(x: Vector) -> String {
+    format!(
+        "the surface encloses or cuts a coil at ({:.4e}, {:.4e}, {:.4e}) m, on which the field exerts a force too",
+        x[0], x[1], x[2]
+    )
 }
 
 /// Places of the coils of a scene.

@@ -12,6 +12,7 @@ use crate::solve::eddy::{Fields, Media, Solution};
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
 use crate::solve::totals::{self, Totals};
+use crate::solve::winding::Windings;
 use crate::source::{MU0, Source};
 
 type C = Complex<f64>;
@@ -19,30 +20,30 @@ type C = Complex<f64>;
 /// Ending of a column and what it holds of a phasor.
 type Part = (&'static str, fn(&C) -> f64);
 
+/// What drives currents, as strong as it is.
+#[derive(Clone, Copy)]
+pub(super) struct Driven<'a> {
+    /// Sources.
+    pub(super) source: &'a Source,
+    /// Their flux density by point \[T\].
+    pub(super) flux: &'a [[C; 3]],
+    /// Coils of points.
+    pub(super) windings: Option<&'a Windings>,
+}
+
 impl<const D: usize> Setting<'_, D> {
-    /// Columns and totals of a solution, with the flux density of its sources and these themselves.
+    /// Columns and totals of a solution, with what drives it and charges on conductors.
     pub(super) fn found<const K: usize>(
         &self,
         solution: Solution<'_, K>,
-        flux: &[[C; 3]],
-        source: &Source,
-    ) -> Found {
-        self.found_with(solution, None, flux, source)
-    }
-
-    /// The same with charges on conductors.
-    pub(super) fn found_with<const K: usize>(
-        &self,
-        solution: Solution<'_, K>,
         charged: Option<&Charged>,
-        flux: &[[C; 3]],
-        source: &Source,
+        driven: Driven<'_>,
     ) -> Found {
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
         let media = Media {
             permeability: &media(self.scene, |m| MU0 * m.relative_permeability),
             conductivity: &conductivity,
-            flux,
+            flux: driven.flux,
         };
         let mut fields = Fields::new((&self.region, &self.sides), self.unknown, solution, &media);
         let mut all = Found::default();
@@ -55,6 +56,10 @@ impl<const D: usize> Setting<'_, D> {
                 columns.push(Column::new(&name, "V", values));
             }
         }
+        if let Some(windings) = driven.windings {
+            let at = (&self.region, &self.sides);
+            fields.wound::<D, K>(at, self.unknown, (&media, windings));
+        }
         if self.unknown == Unknown::Axial {
             for (part, of) in self.parts() {
                 let name = format!("magnetic_field{part}");
@@ -66,12 +71,13 @@ impl<const D: usize> Setting<'_, D> {
             self.vector(columns, name, &fields.potential, &[]);
         }
         self.vector(columns, ("magnetic_flux_density", "T"), &fields.flux, &[]);
-        if conductivity.iter().any(|s| *s > 0.0) {
+        if conductivity.iter().any(|s| *s > 0.0) || driven.windings.is_some() {
             self.currents(&fields, columns);
         }
         let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
-        let totals = self.totals(&fields, (source, &conducts), &mut all);
-        self.enclosed(solution, (&fields, &totals), (source, &conducts), &mut all);
+        let totals = self.totals(&fields, (driven, &conducts), &mut all);
+        let with = (driven.source, conducts.as_slice());
+        self.enclosed(solution, (&fields, &totals), with, &mut all);
         all
     }
 
@@ -122,7 +128,7 @@ impl<const D: usize> Setting<'_, D> {
     fn totals(
         &self,
         fields: &Fields,
-        (source, conducts): (&Source, &[bool]),
+        (driven, conducts): (Driven<'_>, &[bool]),
         all: &mut Found,
     ) -> Totals {
         let plane = self.scene.geometry == Geometry::Plane;
@@ -148,7 +154,12 @@ impl<const D: usize> Setting<'_, D> {
                 ..Totals::default()
             };
         }
-        let found = Totals::of(&self.region, fields, &self.weights, (source, conducts));
+        let found = Totals::of(
+            &self.region,
+            fields,
+            &self.weights,
+            ((driven.source, driven.windings), conducts),
+        );
         force("force_volume", found.force_volume);
         force("force_maxwell", found.force_stress);
         force("force_coil", found.force_coil);

@@ -7,6 +7,7 @@ use run::property::{Arguments, Curve, Property};
 use run::{Failure, Session};
 
 use super::currents::Setting;
+use super::magnetic::Driven;
 use super::steps::Steps;
 use crate::cloud::Cloud;
 use crate::output::Found;
@@ -200,6 +201,7 @@ fn forcing<const D: usize, const K: usize>(
     Forcing {
         source: drive.source.iter().map(|a| a.map(|a| a.re)).collect(),
         held: (0..region.len()).map(held).collect(),
+        given: setting.wound().iter().map(|g| g.map(|g| g.re)).collect(),
         pairs: if setting.currents.outer == OuterReaction::Multipole {
             let multipoles = Multipoles::new(region, &setting.weights);
             pairs(conductors, (region, unknown), &multipoles)
@@ -229,7 +231,13 @@ fn fields<const D: usize, const K: usize>(
         source: &source,
         change: &real(&state.change),
     };
-    setting.found(solution, &flux, &setting.source.times(wave))
+    let windings = setting.windings.as_ref().map(|w| w.times(wave));
+    let driven = Driven {
+        source: &setting.source.times(wave),
+        flux: &flux,
+        windings: windings.as_ref(),
+    };
+    setting.found(solution, None, driven)
 }
 
 /// Puts all that the rest of a march depends on into a checkpoint.

@@ -10,6 +10,7 @@ mod march;
 mod potential;
 mod region;
 mod steps;
+mod winding;
 
 use krylov::{Ending, Grids, Method, Options, Rule, Solved};
 use run::{Failure, Session};
@@ -23,6 +24,7 @@ pub use enclosing::enclosing;
 pub use march::march;
 pub use potential::electrostatics;
 pub(crate) use region::region;
+pub use winding::windings;
 
 /// How the systems of a scene are solved.
 fn options(scene: &Scene) -> Options {

@@ -103,6 +103,40 @@ pub struct Wire {
     pub phase_deg: f64,
 }
 
+/// An axis in space.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Axis {
+    /// A place on it.
+    #[schemars(extend("x-unit" = "m"))]
+    pub centre_m: [f64; 3],
+    /// Its direction, right-handed with the current.
+    #[schemars(extend("x-unit" = "1"))]
+    pub normal: [f64; 3],
+}
+
+/// A body of the scene as a coil: its points carry a current, spread evenly over the section, and what it makes is
+/// computed with everything else. The body does not conduct by itself. A loop or wire costs less, and errs less.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// Name of the body.
+    pub body: String,
+    /// Axis around which the current flows, in space; that of the scene where it is axisymmetric. In a plane it flows
+    /// along z.
+    pub axis: Option<Axis>,
+    /// Current through the section, of one turn.
+    #[schemars(extend("x-unit" = "A"))]
+    pub current_a: f64,
+    /// Lead of the current.
+    #[serde(default)]
+    pub phase_deg: f64,
+    /// Turns.
+    #[serde(default = "one")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub turns: f64,
+}
+
 fn one() -> f64 {
     1.0
 }
@@ -111,7 +145,7 @@ fn yes() -> bool {
     true
 }
 
-/// A coil whose own field is known exactly.
+/// A coil: one whose own field is known exactly, or a region of points.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Coil {
@@ -121,16 +155,30 @@ pub enum Coil {
     Segments(Segments),
     /// An endless wire along z.
     Wire(Wire),
+    /// A body of the scene, by its points.
+    Region(Region),
 }
 
-/// What holds for the field of the eddy currents at the walls of the domain.
+impl Coil {
+    /// The region of points that it is, if it is one.
+    #[must_use]
+    pub fn region(&self) -> Option<&Region> {
+        match self {
+            Self::Region(region) => Some(region),
+            Self::Loop(_) | Self::Segments(_) | Self::Wire(_) => None,
+        }
+    }
+}
+
+/// What holds for the field of the eddy currents, and of coils of points, at the walls of the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum OuterReaction {
     /// It is zero there: a box far away.
     #[default]
     Zero,
-    /// It is that of the multipoles of the currents found inside: no error of truncation beyond them.
+    /// It is that of the multipoles of the currents found inside, and of all that is given in coils of points: no error
+    /// of truncation beyond them.
     Multipole,
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use run::Fault;
 use shapes::check::{self, Misfit};
 
+use super::currents::Region;
 use super::output::Closed;
 use super::{BodyScene, Coil, Domain, EddyCurrents, Electrostatics, Geometry, Scene};
 
@@ -263,14 +264,16 @@ impl EddyCurrents {
             }
         }
         for (number, coil) in self.coils.iter().enumerate() {
-            coil.check(&format!("{at}/coils/{number}"), scene.geometry, misfits);
+            coil.check(&format!("{at}/coils/{number}"), scene, misfits);
         }
     }
 }
 
 impl Coil {
-    fn check(&self, at: &str, geometry: Geometry, misfits: &mut Vec<Misfit>) {
+    fn check(&self, at: &str, scene: &Scene, misfits: &mut Vec<Misfit>) {
+        let geometry = scene.geometry;
         match (self, geometry) {
+            (Self::Region(region), _) => region.check(&format!("{at}/region"), scene, misfits),
             (Self::Loop(l), Geometry::Space | Geometry::Axisymmetric) => {
                 let at = format!("{at}/loop");
                 let dimensions = geometry.dimensions();
@@ -303,6 +306,44 @@ impl Coil {
                 at,
                 "a wire along z has a place in a plane scene alone",
             )),
+        }
+    }
+}
+
+impl Region {
+    fn check(&self, at: &str, scene: &Scene, misfits: &mut Vec<Misfit>) {
+        match scene.bodies.iter().find(|b| b.name == self.body) {
+            None => {
+                let names: Vec<&str> = scene.bodies.iter().map(|b| b.name.as_str()).collect();
+                let what = format!(
+                    "\"{}\" is no body; bodies are {}",
+                    self.body,
+                    names.join(", ")
+                );
+                misfits.push(Misfit::at(&format!("{at}/body"), what));
+            }
+            Some(body) if body.conductivity_s_m > 0.0 => {
+                let what = format!(
+                    "{} conducts: a current that is given is spread evenly, as over thin strands; leave its conductivity away",
+                    self.body
+                );
+                misfits.push(Misfit::at(&format!("{at}/body"), what));
+            }
+            Some(_) => {}
+        }
+        let path = format!("{at}/axis");
+        match (&self.axis, scene.geometry) {
+            (None, Geometry::Space) => {
+                misfits.push(Misfit::at(&path, "in space an axis is wanted"));
+            }
+            (Some(axis), Geometry::Space) if axis.normal.iter().all(|n| *n == 0.0) => {
+                misfits.push(Misfit::at(&format!("{path}/normal"), "not zero"));
+            }
+            (Some(_), Geometry::Plane | Geometry::Axisymmetric) => {
+                let what = "an axis has a place in space alone: here the current flows along z, or around the axis of the scene";
+                misfits.push(Misfit::at(&path, what));
+            }
+            _ => {}
         }
     }
 }

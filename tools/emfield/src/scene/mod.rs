@@ -64,6 +64,16 @@ impl Scene {
         }
     }
 
+    /// Whether a medium is a coil of points.
+    #[must_use]
+    pub fn carries(&self, number: usize) -> bool {
+        let coils = self.eddy_currents.iter().flat_map(|e| &e.coils);
+        let name = number.checked_sub(1).map(|k| &self.bodies[k].name);
+        coils
+            .filter_map(Coil::region)
+            .any(|r| Some(&r.body) == name)
+    }
+
     /// Name of a medium.
     #[must_use]
     pub fn medium_name(&self, number: usize) -> &str {

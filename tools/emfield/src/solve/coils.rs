@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::eddy::{Fields, cross_mean};
 use super::region::Region;
+use super::winding::{self, Windings};
 use crate::source::{Loop, Source, Wire, cross, minus};
 
 /// A complex number.
@@ -30,7 +31,7 @@ pub(super) fn force<const D: usize>(
     region: &Region<D>,
     weights: &[f64],
     fields: &Fields,
-    source: &Source,
+    (source, windings): (&Source, Option<&Windings>),
 ) -> [f64; 3] {
     let conducts = |i: &usize| weights[*i] != 0.0 && fields.heat[*i] > 0.0;
     let parts: Vec<Part<D>> = (0..region.len())
@@ -40,24 +41,84 @@ pub(super) fn force<const D: usize>(
             moment: fields.current[i].map(|j| j * weights[i]),
         })
         .collect();
-    if region.axial {
+    let force = if region.axial {
         [0.0, 0.0, coaxial(&parts, source)]
     } else if D == 2 {
         parallel(&parts, source)
     } else {
         in_space(&parts, source)
+    };
+    let Some(windings) = windings else {
+        return force;
+    };
+    let more = wound(region, &parts, windings);
+    std::array::from_fn(|k| force[k] + more[k])
+}
+
+/// The same on coils that are regions of points.
+fn wound<const D: usize>(region: &Region<D>, parts: &[Part<D>], windings: &Windings) -> [f64; 3] {
+    let coil: Vec<winding::Part> = windings.parts(region).collect();
+    let field: Box<dyn Fn([f64; 3]) -> [C; 3] + Sync> = if region.axial {
+        let rings: Vec<Loop> = parts.iter().map(ring).collect();
+        Box::new(move |place| sum(rings.iter().map(|r| (r.current, r.flux(place)))))
+    } else if D == 2 {
+        let lines: Vec<Wire> = parts.iter().map(line).collect();
+        Box::new(move |place| sum(lines.iter().map(|l| (l.current, l.flux(place)))))
+    } else {
+        let currents = moments(parts);
+        Box::new(move |place| biot_savart(&currents, place))
+    };
+    let on = |part: &winding::Part| cross_mean(part.moment, field(part.place));
+    let force = opposite(coil.par_iter().map(on).collect());
+    if region.axial {
+        [0.0, 0.0, force[2]]
+    } else {
+        force
     }
 }
 
-/// Along the axis: `2 pi a Re(I* B_r)` on each loop, with the field of rings.
-fn coaxial<const D: usize>(parts: &[Part<D>], source: &Source) -> f64 {
-    let ring = |part: &Part<D>| Loop {
+/// A turn of a part about an axis.
+fn ring<const D: usize>(part: &Part<D>) -> Loop {
+    Loop {
         centre: [0.0, 0.0, part.place[1]],
         axis: [0.0, 0.0, 1.0],
         radius: part.place[0],
         wire_radius: THIN,
         current: part.moment[1] / (TAU * part.place[0]),
+    }
+}
+
+/// A part in a plane.
+fn line<const D: usize>(part: &Part<D>) -> Wire {
+    Wire {
+        place: [part.place[0], part.place[1]],
+        wire_radius: THIN,
+        current: part.moment[2],
+    }
+}
+
+/// Places and moments of parts in space, with `mu0 / 4 pi`.
+fn moments<const D: usize>(parts: &[Part<D>]) -> Vec<([f64; 3], [C; 3])> {
+    let moment = |part: &Part<D>| {
+        let place = std::array::from_fn(|k| part.place[k]);
+        (place, part.moment.map(|j| j * 1e-7))
     };
+    parts.iter().map(moment).collect()
+}
+
+/// Sum of fields of 1 A times their currents.
+fn sum(fields: impl Iterator<Item = (C, [f64; 3])>) -> [C; 3] {
+    let mut sum = [C::default(); 3];
+    for (current, field) in fields {
+        for (sum, part) in sum.iter_mut().zip(field) {
+            *sum += current * part;
+        }
+    }
+    sum
+}
+
+/// Along the axis: `2 pi a Re(I* B_r)` on each loop, with the field of rings.
+fn coaxial<const D: usize>(parts: &[Part<D>], source: &Source) -> f64 {
     let rings: Vec<Loop> = parts.iter().map(ring).collect();
     let on = |coil: &Loop| {
         let place = [coil.radius, 0.0, coil.centre[2]];
@@ -71,20 +132,10 @@ fn coaxial<const D: usize>(parts: &[Part<D>], source: &Source) -> f64 {
 
 /// Per length: `-Re(I* z x B)` on each wire, with the field of lines.
 fn parallel<const D: usize>(parts: &[Part<D>], source: &Source) -> [f64; 3] {
-    let line = |part: &Part<D>| Wire {
-        place: [part.place[0], part.place[1]],
-        wire_radius: THIN,
-        current: part.moment[2],
-    };
     let lines: Vec<Wire> = parts.iter().map(line).collect();
     let on = |wire: &Wire| {
         let place = [wire.place[0], wire.place[1], 0.0];
-        let mut b = [C::default(); 3];
-        for line in &lines {
-            for (sum, part) in b.iter_mut().zip(line.flux(place)) {
-                *sum += line.current * part;
-            }
-        }
+        let b = sum(lines.iter().map(|l| (l.current, l.flux(place))));
         cross_mean([C::default(), C::default(), wire.current], b)
     };
     opposite(source.wires.par_iter().map(on).collect())
@@ -92,11 +143,7 @@ fn parallel<const D: usize>(parts: &[Part<D>], source: &Source) -> [f64; 3] {
 
 /// `-Re sum I* dl x B`.
 fn in_space<const D: usize>(parts: &[Part<D>], source: &Source) -> [f64; 3] {
-    let moment = |part: &Part<D>| {
-        let place = std::array::from_fn(|k| part.place[k]);
-        (place, part.moment.map(|j| j * 1e-7))
-    };
-    let currents: Vec<([f64; 3], [C; 3])> = parts.iter().map(moment).collect();
+    let currents = moments(parts);
     let loops = source.loops.iter().map(|l| (l.pieces(PIECES), l.current));
     let segments = source
         .segments

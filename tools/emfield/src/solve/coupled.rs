@@ -96,9 +96,14 @@ pub struct Coupled {
 }
 
 impl Coupled {
-    /// Makes the equations for sources `A_s`, by point.
+    /// Makes the equations for sources `A_s`, by point; `given` are right sides of the rows of A that currents in coils
+    /// make, by point, or nothing.
     #[must_use]
-    pub fn new(parts: &Parts<'_>, source: &[[C; 3]], multipoles: Option<&Multipoles>) -> Self {
+    pub fn new(
+        parts: &Parts<'_>,
+        (source, given): (&[[C; 3]], &[[C; 3]]),
+        multipoles: Option<&Multipoles>,
+    ) -> Self {
         use super::diffusion::Unknown::Potential;
         let Parts { region, sides, .. } = *parts;
         let (n, m) = (region.len(), parts.charge.len());
@@ -125,8 +130,11 @@ impl Coupled {
         for i in 0..n {
             let rate = C::new(0.0, parts.omega * rates[i] * scale[i]);
             made.shift.push(-rate);
-            for (k, given) in source[i].iter().enumerate() {
-                made.right[3 * i + k] = rate * given;
+            for (k, a) in source[i].iter().enumerate() {
+                made.right[3 * i + k] = rate * a;
+            }
+            for (k, given) in given.get(i).into_iter().flatten().enumerate() {
+                made.right[3 * i + k] += given * scale[i];
             }
             made.dragged(parts, i, scale[i]);
         }

@@ -11,6 +11,7 @@ use super::diffusion::{Conductors, Unknown};
 use super::multipole::Multipoles;
 use super::region::{Face, Region};
 use super::sides::Sides;
+use super::winding::{Windings, component};
 
 /// A complex number.
 type C = Complex<f64>;
@@ -284,6 +285,52 @@ impl Fields {
             let sigma = media.conductivity[face.outer as usize];
             let flux = self.flux[face.point as usize];
             *beyond = Beyond::new(change.map(|rate| -rate), flux, sigma);
+        }
+    }
+}
+
+impl Fields {
+    /// Takes currents that are given in coils: `J` there, `J x B`, and `B` on their surfaces, where slopes from within know
+    /// that the Laplacian is `-mu J`.
+    pub fn wound<const D: usize, const K: usize>(
+        &mut self,
+        (region, sides): (&Region<D>, &Sides<D>),
+        unknown: Unknown,
+        (media, windings): (&Media<'_>, &Windings),
+    ) {
+        let none = [C::new(0.0, 0.0); K];
+        let carries = |j: &[C; 3]| *j != NONE;
+        for i in (0..region.len()).filter(|i| carries(&windings.own[*i])) {
+            let current = windings.own[i];
+            if region.on_interface(i) {
+                let place = region.places[i];
+                let mu = media.permeability[region.medium(i) as usize];
+                let bend: [C; K] = component(unknown, &place, &current);
+                let share = |axis: usize| -> f64 {
+                    let row = sides.inner.derivative(i, axis);
+                    row.conditions().sum::<f64>() * -mu
+                };
+                let slopes: [[C; D]; K] =
+                    std::array::from_fn(|k| std::array::from_fn(|axis| bend[k] * share(axis)));
+                let (_, curl) = local(unknown, &place, (&none, &none), &slopes);
+                for (k, b) in curl.iter().enumerate() {
+                    self.flux[i][k] += b;
+                    self.reaction[i][k] += b;
+                }
+            }
+            self.current[i] = current;
+            self.force[i] = cross_mean(current, self.flux[i]);
+        }
+        for ((beyond, face), current) in self
+            .beyond
+            .iter_mut()
+            .zip(&region.faces)
+            .zip(&windings.beyond)
+        {
+            if carries(current) {
+                beyond.current = *current;
+                beyond.force = cross_mean(*current, self.flux[face.point as usize]);
+            }
         }
     }
 }

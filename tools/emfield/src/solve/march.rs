@@ -25,6 +25,8 @@ pub struct Forcing<const K: usize> {
     pub source: Vec<[f64; K]>,
     /// What the unknown is held at where their wave is 1, at points where it is held.
     pub held: Vec<Option<[f64; K]>>,
+    /// Right sides that currents in coils make where the wave is 1, by point; empty where there are none.
+    pub given: Vec<[f64; K]>,
     /// Pairs `(u, v)` of columns: `u` times the sum of `v d(A + A_s)/dt` is added to the rows.
     pub pairs: Vec<(Vec<f64>, Vec<f64>)>,
 }
@@ -141,6 +143,11 @@ impl<const K: usize> March<K> {
                 None => std::array::from_fn(|k| self.rates[i] * driven(i, k, &state.total)),
             })
             .collect();
+        for (right, given) in right.iter_mut().zip(&self.forcing.given) {
+            for (right, given) in right.iter_mut().zip(given) {
+                *right += given * wave;
+            }
+        }
         for (u, v) in &self.forcing.pairs {
             let given: [f64; K] = std::array::from_fn(|k| {
                 let part = |(i, v): (usize, &f64)| v * driven(i, k, &state.total);

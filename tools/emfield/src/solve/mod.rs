@@ -6,6 +6,7 @@
 //!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies, [`march`]
 //!   the same in time.
+//! - [`winding`]: coils that are regions of points.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`factors`]
 //!   their solution.
 
@@ -24,6 +25,7 @@ pub mod quadrature;
 pub mod region;
 pub mod sides;
 pub mod totals;
+pub mod winding;
 
 #[cfg(test)]
 mod tests;

@@ -5,6 +5,7 @@ use num_complex::Complex;
 use super::coils;
 use super::eddy::{Fields, cross_mean};
 use super::region::Region;
+use super::winding::Windings;
 use crate::source::{MU0, Source, minus};
 
 /// A complex number.
@@ -33,10 +34,10 @@ impl Totals {
         region: &Region<D>,
         fields: &Fields,
         weights: &[f64],
-        (source, conducts): (&Source, &[bool]),
+        (coils, conducts): ((&Source, Option<&Windings>), &[bool]),
     ) -> Self {
         Self {
-            force_coil: coils::force(region, weights, fields, source),
+            force_coil: coils::force(region, weights, fields, coils),
             ..Self::bodies(region, fields, weights, (conducts, |_| true))
         }
     }

@@ -48,7 +48,7 @@ fn driven(region: &Region<3>, origin: Origin) -> (Vec<[C; 3]>, Vec<C>, Charge) {
         charge: &charge,
         omega: std::f64::consts::TAU * 1e5,
     };
-    let coupled = Coupled::new(&parts, &given, None);
+    let coupled = Coupled::new(&parts, (&given, &[]), None);
     let rule = Rule {
         reduction: 1e-12,
         ..Rule::default()

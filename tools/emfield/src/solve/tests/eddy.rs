@@ -83,7 +83,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
         &media,
     );
     let conducts = [false, true];
-    Totals::of(&region, &fields, &weights, (&source, &conducts))
+    Totals::of(&region, &fields, &weights, ((&source, None), &conducts))
 }
 
 #[test]

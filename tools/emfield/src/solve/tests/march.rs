@@ -21,6 +21,7 @@ fn switched_on(steps: u32) -> f64 {
     };
     let held = |i| conductors.held(&region, Unknown::Axial, i).then_some([1.0]);
     let forcing = Forcing {
+        given: Vec::new(),
         source: vec![[0.0]; region.len()],
         held: (0..region.len()).map(held).collect(),
         pairs: Vec::new(),
