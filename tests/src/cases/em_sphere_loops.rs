@@ -96,13 +96,20 @@ pub(super) fn errors(
         let error = (found.get(total)? / wanted - 1.0).abs();
         errors.insert(name.to_owned(), error);
     }
+    let radius = radius(run)?;
     let current = points.phasors("current_density")?;
     let size = |j: &[crate::em::C; 3]| j.iter().map(|c| c.norm_sqr()).sum::<f64>().sqrt();
-    let largest = current.iter().map(size).fold(0.0, f64::max);
+    // Coils of points have a current too.
+    let inside = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>().sqrt() < 1.01 * radius;
+    let own = points
+        .position
+        .iter()
+        .zip(&current)
+        .filter(|(p, _)| inside(p));
+    let largest = own.map(|(_, j)| size(j)).fold(0.0, f64::max);
     let (wanted, _) = exact.largest_current();
     errors.insert("largest_current".to_owned(), (largest / wanted - 1.0).abs());
     // Within 1.2 radii: no loop is nearer.
-    let radius = radius(run)?;
     let scale = exact.flux(0.0, -radius)[1].norm();
     let flux = flux_error(points, exact, 1.2 * radius)? / scale;
     errors.insert("flux_linf".to_owned(), flux);
@@ -149,23 +156,35 @@ pub(super) fn body(run: &Finished) -> Result<Body, LabError> {
     })
 }
 
-/// The loops of a scene; a place has two numbers about an axis.
+/// The loops of a run; a place has two numbers about an axis.
 pub(super) fn loops(run: &Finished) -> Result<Sources, LabError> {
-    let coils = run.scene.pointer("/eddy_currents/coils");
-    let count = coils.and_then(Value::as_array).map_or(0, Vec::len);
+    loops_of(&run.scene, run)
+}
+
+/// The loops of a scene, whatever became of them in a run.
+pub(super) fn loops_of(scene: &Value, run: &Finished) -> Result<Sources, LabError> {
+    let coils = scene.pointer("/eddy_currents/coils");
     let mut sources = Sources::default();
-    for k in 0..count {
-        let at = |key: &str| format!("/eddy_currents/coils/{k}/loop/{key}");
-        let turns = number_or(run, &at("turns"), 1.0);
-        let one = Loop {
-            radius: number(run, &at("radius_m"))?,
-            height: match number(run, &at("centre_m/2")) {
-                Ok(height) => height,
-                Err(_) => number(run, &at("centre_m/1"))?,
-            },
-            current: turns * number(run, &at("current_a"))?,
+    for coil in coils.and_then(Value::as_array).into_iter().flatten() {
+        let read = |key: &str| {
+            coil.pointer(&format!("/loop/{key}"))
+                .and_then(Value::as_f64)
         };
-        match number_or(run, &at("wire_radius_m"), 0.0) {
+        let wanted = |key: &str| {
+            read(key).ok_or_else(|| LabError::Content {
+                path: run.artefact.clone(),
+                what: format!("a loop of its scene has no {key}"),
+            })
+        };
+        let one = Loop {
+            radius: wanted("radius_m")?,
+            height: match read("centre_m/2") {
+                Some(height) => height,
+                None => wanted("centre_m/1")?,
+            },
+            current: read("turns").unwrap_or(1.0) * wanted("current_a")?,
+        };
+        match read("wire_radius_m").unwrap_or(0.0) {
             0.0 => sources.loops.push(one),
             thick => sources.loops.extend(one.thick(thick)),
         }

@@ -14,6 +14,7 @@ mod em_axisymmetric_sphere;
 mod em_cylinder_ac;
 mod em_dielectric_sphere;
 mod em_planar_az;
+mod em_ring_coil;
 mod em_sphere_aside;
 mod em_sphere_gauge;
 mod em_sphere_loops;
@@ -59,6 +60,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_wire_joule::ArcWireJoule),
         Box::new(em_dielectric_sphere::EmDielectricSphere),
         Box::new(em_sphere_pull::EmSpherePull),
+        Box::new(em_ring_coil::EmRingCoil),
         Box::new(em_cylinder_ac::EmCylinderAc),
         Box::new(em_planar_az::EmPlanarAz),
         Box::new(em_sphere_uniform_ac::EmSphereUniformAc),

@@ -2,6 +2,7 @@
 //!
 //! - [`dielectric`]: a dielectric sphere in a uniform field, Matsuzawa (2017), eqs 3.3 to 3.11.
 //! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
+//! - [`coil`]: rings of current.
 //! - [`cylinder`]: a conducting cylinder in an axial alternating field, eqs 3.12 and 3.13;
 //!   [`diffusion`]: the same after its field is switched on.
 //! - [`exact`]: fields along the lines of a scene whose solution is known.
@@ -11,6 +12,7 @@
 //!   [`switched`]: the same after a uniform field is switched on.
 
 pub mod bessel;
+pub mod coil;
 pub mod cylinder;
 pub mod dielectric;
 pub mod diffusion;
