@@ -93,6 +93,7 @@ impl Grid {
     }
 
     /// Point indices sorted by cell: the order in which a compact copy has the best locality.
+    #[inline]
     #[must_use]
     pub fn order(&self) -> &[u32] {
         &self.order
@@ -107,12 +108,14 @@ impl Grid {
     }
 
     /// Positions in the order of [`Grid::order`].
+    #[inline]
     #[must_use]
     pub fn sorted(&self) -> &[[f64; 3]] {
         &self.sorted
     }
 
     /// Edge of the cells in use \[m\]: the one asked for, doubled while the cloud is too sparse.
+    #[inline]
     #[must_use]
     pub fn edge(&self) -> f64 {
         self.edge
@@ -184,6 +187,42 @@ impl Grid {
         false
     }
 
+    /// Calls `visit` with each run of sorted points that may lie within `radius` of the `length`
+    /// cells from `first` on along x.
+    #[inline(always)]
+    pub(crate) fn runs_around(
+        &self,
+        first: [usize; 3],
+        length: usize,
+        radius: f64,
+        mut visit: impl FnMut(std::ops::Range<usize>),
+    ) {
+        // In edges, from the faces of the cells on.
+        let reach = radius / self.edge;
+        let cells = reach.ceil() as usize;
+        let around = |axis: usize| {
+            let (low, high) = (first[axis].saturating_sub(cells), first[axis] + cells);
+            low..=high.min(self.counts[axis] - 1)
+        };
+        let gap = |axis: usize, cell: usize| cell.abs_diff(first[axis]).saturating_sub(1) as f64;
+        for k in around(2) {
+            for j in around(1) {
+                let rest = reach * reach - gap(1, j) * gap(1, j) - gap(2, k) * gap(2, k);
+                if rest <= 0.0 {
+                    continue;
+                }
+                let along = rest.sqrt().ceil() as usize;
+                let low = first[0].saturating_sub(along);
+                let high = (first[0] + length + along).min(self.counts[0]);
+                let row = self.counts[0] * (j + self.counts[1] * k);
+                let run = self.start[row + low] as usize..self.start[row + high] as usize;
+                if !run.is_empty() {
+                    visit(run);
+                }
+            }
+        }
+    }
+
     /// Cells along `axis` that a sphere may touch, and how far from its centre they begin.
     #[inline]
     fn gaps(&self, point: [f64; 3], radius: f64, axis: usize) -> Gaps {
@@ -235,7 +274,7 @@ impl Grid {
 
     /// Cell coordinates, clamped into the grid.
     #[inline]
-    fn cell(&self, point: [f64; 3]) -> [usize; 3] {
+    pub(crate) fn cell(&self, point: [f64; 3]) -> [usize; 3] {
         let inverse = 1.0 / self.edge;
         // A float cast saturates, so that points left of the origin land in cell 0.
         std::array::from_fn(|k| {

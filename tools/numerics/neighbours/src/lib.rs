@@ -6,6 +6,10 @@
 //! so a sum over a row is bitwise reproducible. A point at exactly the radius is no neighbour
 //! (every kernel is zero there), nor is a point its own.
 //!
+//! What may be near the points of a few cells is collected once and tested for each of them in the
+//! widest vectors that the machine has. No operation is fused or reordered for it: the bits are the
+//! same on every machine.
+//!
 //! [`Tree`] serves clouds whose spacing varies, where no one size of cells fits.
 //!
 //! Lists are kept in chunks of [`ROWS`] rows. A chunk is the unit of parallel work and of
@@ -22,6 +26,7 @@
 //! assert_eq!(lists.row(1), [0, 2]);
 //! ```
 
+mod brick;
 mod grid;
 mod halo;
 mod lists;

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::grid::{Grid, distance_squared};
+use crate::brick::Brick;
+use crate::grid::Grid;
 
 /// Rows per chunk.
 pub const ROWS: usize = 256;
@@ -14,16 +15,19 @@ pub struct Chunk {
     offsets: Vec<u32>,
     index: Vec<u32>,
     square: Vec<f64>,
+    brick: Brick,
 }
 
 impl Chunk {
     /// Index of the first row.
+    #[inline]
     #[must_use]
     pub fn first(&self) -> usize {
         self.first
     }
 
     /// Number of rows.
+    #[inline]
     #[must_use]
     pub fn rows(&self) -> usize {
         self.offsets.len() - 1
@@ -48,60 +52,32 @@ impl Chunk {
         self.offsets[k] as usize..self.offsets[k + 1] as usize
     }
 
-    /// Fills the rows.
-    fn fill(
-        &mut self,
-        grid: &Grid,
-        points: &[[f64; 3]],
-        radius: f64,
-        (wanted, accepts): (
-            &(impl Fn(usize) -> bool + Sync),
-            &(impl Fn(usize, usize) -> bool + Sync),
-        ),
-    ) {
-        let end = points.len().min(self.first + ROWS);
-        self.offsets.clear();
-        self.offsets.push(0);
-        let mut used = 0;
-        for (a, &point) in points.iter().enumerate().take(end).skip(self.first) {
-            if wanted(a) {
-                used = self.search(grid, (point, radius), (a, used), accepts);
-            }
-            self.offsets.push(used as u32);
-        }
-    }
-
-    /// Appends the row of point `a` at `used`; returns the new end.
+    /// Appends the row of point `a` to the chunk, which holds `used` pairs; returns the new number.
     ///
-    /// The list is written without a branch per candidate: every index is stored and the end
-    /// moves on only for a neighbour.
-    #[inline]
+    /// The list is written without a branch per point: every index is stored and the end moves on
+    /// only for a neighbour.
+    #[inline(always)]
     fn search(
         &mut self,
         grid: &Grid,
-        (point, radius): ([f64; 3], f64),
-        (a, mut used): (usize, usize),
+        place: ([f64; 3], f64),
+        (a, used): (usize, usize),
         accepts: &impl Fn(usize, usize) -> bool,
     ) -> usize {
-        let limit = radius * radius;
-        grid.runs(point, radius, |run| {
-            let end = used + run.len();
-            if self.index.len() < end {
-                self.index.resize(2 * end, 0);
-            }
-            if self.square.len() < end {
-                self.square.resize(2 * end, 0.0);
-            }
-            let (slots, squares) = (&mut self.index[used..end], &mut self.square[used..end]);
-            let mut hits = 0;
-            for (position, &b) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
-                let square = distance_squared(point, *position);
-                (slots[hits], squares[hits]) = (b, square);
-                hits += usize::from((square < limit) & (b as usize != a) & accepts(a, b as usize));
-            }
-            used += hits;
+        let end = used + self.brick.settle(grid, place);
+        if self.index.len() < end {
+            self.index.resize(2 * end, 0);
+        }
+        if self.square.len() < end {
+            self.square.resize(2 * end, 0.0);
+        }
+        let (slots, squares) = (&mut self.index[used..end], &mut self.square[used..end]);
+        let mut hits = 0;
+        self.brick.each(place, |b, square| {
+            (slots[hits], squares[hits]) = (b, square);
+            hits += usize::from((b as usize != a) & accepts(a, b as usize));
         });
-        used
+        used + hits
     }
 
     /// Neighbours of the chunk's row `k`.
@@ -109,6 +85,36 @@ impl Chunk {
     #[must_use]
     pub fn row(&self, k: usize) -> &[u32] {
         &self.index[self.range(k)]
+    }
+}
+
+/// The filling of a chunk, in the widest vectors that the machine has.
+struct Fill<'a, W, A> {
+    chunk: &'a mut Chunk,
+    grid: &'a Grid,
+    points: &'a [[f64; 3]],
+    radius: f64,
+    wanted: &'a W,
+    accepts: &'a A,
+}
+
+impl<W: Fn(usize) -> bool, A: Fn(usize, usize) -> bool> pulp::NullaryFnOnce for Fill<'_, W, A> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { chunk, grid, .. } = self;
+        let end = self.points.len().min(chunk.first + ROWS);
+        chunk.offsets.clear();
+        chunk.offsets.push(0);
+        chunk.brick.clear();
+        let mut used = 0;
+        for (a, &point) in self.points[..end].iter().enumerate().skip(chunk.first) {
+            if (self.wanted)(a) {
+                used = chunk.search(grid, (point, self.radius), (a, used), self.accepts);
+            }
+            chunk.offsets.push(used as u32);
+        }
     }
 }
 
@@ -141,7 +147,14 @@ impl Lists {
     ) {
         self.resize(points.len());
         self.chunks.par_iter_mut().for_each(|chunk| {
-            chunk.fill(grid, points, radius, (&wanted, &accepts));
+            pulp::Arch::new().dispatch(Fill {
+                chunk,
+                grid,
+                points,
+                radius,
+                wanted: &wanted,
+                accepts: &accepts,
+            });
         });
     }
 
@@ -161,7 +174,14 @@ impl Lists {
             .par_iter_mut()
             .zip(extra)
             .for_each(|(chunk, extra)| {
-                chunk.fill(grid, points, radius, (&wanted, &|_, _| true));
+                pulp::Arch::new().dispatch(Fill {
+                    chunk,
+                    grid,
+                    points,
+                    radius,
+                    wanted: &wanted,
+                    accepts: &|_, _| true,
+                });
                 let mut squares = std::mem::take(&mut chunk.square);
                 visit(chunk, &mut squares, extra);
                 chunk.square = squares;
@@ -214,7 +234,7 @@ impl Lists {
             .iter()
             .map(|chunk| {
                 let indices = chunk.index.capacity() + chunk.offsets.capacity();
-                4 * indices + 8 * chunk.square.capacity()
+                4 * indices + 8 * chunk.square.capacity() + chunk.brick.bytes()
             })
             .sum()
     }
