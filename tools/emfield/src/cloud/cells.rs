@@ -123,11 +123,12 @@ impl<'a> Conductor<'a> {
                     if volume <= 0.0 {
                         return None;
                     }
-                    let mut radius = spacing;
+                    // Most samples of a lattice are nearer than this to one of its points.
+                    let mut radius = 0.6 * spacing;
                     loop {
                         match set.nearest(x, radius) {
                             Some(k) => return Some((k, volume, x)),
-                            None => radius *= 2.0,
+                            None => radius *= 1.7,
                         }
                     }
                 });
