@@ -88,16 +88,16 @@ impl<T: Copy> Rows<T> {
     where
         T: Send,
     {
-        let part = |m: usize| {
+        let part = |scratch: &mut W, m: usize| {
             let (mut ends, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
-            let mut scratch = scratch();
             for i in m * TASK..((m + 1) * TASK).min(n) {
-                each(i, &mut scratch, &mut columns, &mut values);
+                each(i, scratch, &mut columns, &mut values);
                 ends.push(columns.len());
             }
             (ends, columns, values)
         };
-        let parts: Vec<_> = (0..n.div_ceil(TASK)).into_par_iter().map(part).collect();
+        let tasks = (0..n.div_ceil(TASK)).into_par_iter();
+        let parts: Vec<_> = tasks.map_init(&scratch, part).collect();
         let entries = parts.iter().map(|p| p.1.len()).sum();
         let mut offsets = Vec::with_capacity(n + 1);
         offsets.push(0);
