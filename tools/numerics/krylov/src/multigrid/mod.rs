@@ -27,8 +27,8 @@ pub struct Grids {
     /// Step of the smoothing of the interpolation, of the diagonal.
     pub step: f64,
     /// Entries below this share of the largest of their row are not given to the interpolation, nor
-    /// to the factors of the finest level. Those of coarser levels take all: there the sum of many
-    /// small entries counts, and they are few beside those of the finest.
+    /// to the factors of the finest level. Those of coarser levels take small ones too: there the
+    /// sum of many counts, and they are few beside those of the finest.
     pub thin: f64,
     /// Corrections on each coarse level.
     pub visits: usize,
@@ -147,7 +147,10 @@ where
             let factors = if levels.is_empty() {
                 Smoother::new(&a.thinned(grids.thin, false), s, order)
             } else {
-                Smoother::new(a, s, order)
+                // Coarse rows have entries of the sign of their diagonal, with which incomplete
+                // factors can grow without bound; without them they cannot (Meijerink and van der
+                // Vorst 1977, Math. Comp. 31, 148).
+                Smoother::new(&a.thinned(0.0, true), s, order)
             };
             sizes.push((next.len(), next.entries()));
             let (rows, shift) = held
