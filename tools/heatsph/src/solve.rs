@@ -108,12 +108,22 @@ impl Precondition for Near {
     }
 }
 
+/// What the matrix is good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Hold {
+    /// Nothing: it is that of another step, or of none.
+    Nothing,
+    /// To filter with, but Newton's method asks for a newer one.
+    Filter,
+    /// All.
+    Newton,
+}
+
 /// Matrix, preconditioner and scratch columns, kept between solves.
 #[derive(Debug)]
 pub struct Solver {
     matrix: Sparse,
-    /// Whether the matrix is still to be taken, or taken anew.
-    stale: bool,
+    hold: Hold,
     near: Near,
     work: Workspace,
     symmetric: bool,
@@ -130,7 +140,7 @@ impl Solver {
     pub fn new(system: &System) -> Self {
         Self {
             matrix: system.matrix(),
-            stale: true,
+            hold: Hold::Nothing,
             near: Near::Nothing,
             work: Workspace::default(),
             symmetric: system.conduction().is_symmetric(),
@@ -180,14 +190,14 @@ impl Solver {
                 _ => Near::Grid(Box::new(Aggregation::new(&self.matrix, self.symmetric)?)),
             }
         };
-        self.stale = false;
+        self.hold = Hold::Newton;
         Ok(())
     }
 
     /// Forgets matrix and preconditioner, so that what follows does not depend on what came before; to be called
     /// between problems of unlike shift.
     pub fn forget(&mut self) {
-        self.stale = true;
+        self.hold = Hold::Nothing;
         self.near = Near::Nothing;
     }
 
@@ -212,11 +222,21 @@ impl Solver {
         Ok(outcome.iterations)
     }
 
-    /// Filters `values` \[W\] by the matrix of the last solve: what a stiff part would become within its step.
+    /// Filters `values` \[W\] by the matrix of the last solve: what a stiff part would become within its step. A solve
+    /// that had nothing to do has left none; it is then taken at `temperature` and `rates`, which it ended with.
     ///
     /// # Errors
     /// As the linear solver.
-    pub fn filter(&mut self, values: &[f64], reduction: f64) -> Result<&[f64], SolveError> {
+    pub fn filter(
+        &mut self,
+        system: &System,
+        problem: Problem<'_>,
+        (temperature, rates): (&[f64], &Rates),
+        (values, reduction): (&[f64], f64),
+    ) -> Result<&[f64], SolveError> {
+        if self.hold == Hold::Nothing {
+            self.linearise(system, problem, (temperature, rates))?;
+        }
         self.linear(values, reduction)?;
         Ok(&self.change)
     }
@@ -283,7 +303,7 @@ impl Solver {
             if norm.residual <= wanted {
                 return Ok(effort);
             }
-            let fresh = self.stale;
+            let fresh = self.hold != Hold::Newton;
             if fresh {
                 self.linearise(system, problem, (temperature, rates))?;
             }
@@ -295,7 +315,9 @@ impl Solver {
             effort.newton += 1;
             let before = norm.residual;
             norm = self.step(system, problem, (temperature, rates), before)?;
-            self.stale = norm.residual > LED * before;
+            if norm.residual > LED * before {
+                self.hold = Hold::Filter;
+            }
             if fresh && norm.residual >= before * (1.0 - 1e-12) {
                 break;
             }

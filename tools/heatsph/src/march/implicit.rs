@@ -160,7 +160,13 @@ impl Method for Implicit {
         estimate(system, both, (&self.first, rates), step, &mut self.error);
         let shift = 1.0 / (gamma * step);
         let scaled: Vec<f64> = self.error.iter().map(|e| shift * e).collect();
-        let filtered = self.solver.filter(&scaled, FILTER)?;
+        let problem = Problem {
+            shift,
+            from: &self.base,
+            time: end,
+        };
+        let at = (state.temperature.as_slice(), &*rates);
+        let filtered = self.solver.filter(system, problem, at, (&scaled, FILTER))?;
         let error = filtered.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
         if self.guard && rough(system, (&before, state), error) {
             state.clone_from(&before);

@@ -123,3 +123,18 @@ fn long_implicit_steps_stay_between_the_ends() {
         }
     }
 }
+
+#[test]
+fn a_method_taken_up_anew_takes_the_same_step() {
+    let system = bar(0.05, "exp(2*T)", [COLD, r#""temperature_k": 1"#], "0");
+    let (mut state, mut rates) = start(&system, |_| 0.0);
+    let mut method = Implicit::new(&system, 1e-8, false);
+    // Until nothing changes: a step then has nothing to solve.
+    for step in [0.01, 0.1, 1.0, 10.0, 1e3, 1e3, 1e3] {
+        let (mut twin, mut its) = (state.clone(), rates.clone());
+        let error = method.advance(&system, &mut state, &mut rates, step);
+        let again = Implicit::new(&system, 1e-8, false).advance(&system, &mut twin, &mut its, step);
+        assert_eq!(error.unwrap().to_bits(), again.unwrap().to_bits(), "{step}");
+        assert_eq!(state, twin);
+    }
+}
