@@ -1,37 +1,8 @@
 //! Closed surfaces around bodies: forces that are known, faults where they stand, nothing where none is asked for.
 
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-use std::path::Path;
-
-use artefact::{Reader, Record};
 use serde_json::{Value, json};
 
-/// Runs the program on a scene and gives exit code, what it said and its artefact.
-fn said(folder: &Path, scene: &Value) -> (i32, String, std::path::PathBuf) {
-    let out = folder.join("fields.mcap");
-    let file = folder.join("scene.json");
-    std::fs::write(&file, scene.to_string()).unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
-        .args(["run", file.to_str().unwrap(), "--out"])
-        .arg(&out)
-        .args(["--threads", "2", "-q"])
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    (output.status.code().unwrap(), text, out)
-}
-
-fn run(folder: &Path, scene: &Value) -> Reader {
-    let (code, text, out) = said(folder, scene);
-    assert_eq!(code, 0, "{text}");
-    Reader::open_kind(&out, "point-fields", 1).unwrap()
-}
-
-fn last(reader: &Reader) -> Record {
-    let last = reader.count("/totals") - 1;
-    reader.record_at("/totals", last).unwrap()
-}
+use super::{last, run, said};
 
 fn around(name: &str, distance_m: f64) -> Value {
     json!({"name": name, "surface": {"around": {"body": "ball", "distance_m": distance_m}}})
@@ -63,7 +34,7 @@ fn a_dielectric_ball_is_pulled_as_its_dipole_is() {
         // F = 4 pi eps0 R^3 (S - 1)/(S + 2) E dE/dz.
         let exact =
             4.0 * std::f64::consts::PI * 8.854_187_812_8e-12 * (ratio - 1.0) / (ratio + 2.0) * 0.5;
-        let totals = last(&run(folder.path(), &pulled(ratio)));
+        let totals = last(&run(folder.path(), &pulled(ratio)), "/totals");
         for name in ["near", "far"] {
             let force = |axis: &str| {
                 totals
@@ -90,7 +61,7 @@ fn a_uniform_field_pulls_at_nothing_even_by_a_box_askew() {
     scene["bodies"][0]["relative_permittivity"] = json!(1);
     scene["output"]["enclosures"] = json!([{"name": "box", "spacing_m": 0.5, "surface": {"shape":
         {"turned": {"angle_deg": 20, "shape": {"box": {"min_m": [-1.5, -1.4, -1.3], "max_m": [1.4, 1.6, 1.7]}}}}}}]);
-    let totals = last(&run(folder.path(), &scene));
+    let totals = last(&run(folder.path(), &scene), "/totals");
     for axis in ["x", "y", "z"] {
         let force = totals.get(&format!("box.electric_force_{axis}")).unwrap();
         assert!(force.abs() < 1e-16, "{force:e}");
@@ -101,11 +72,11 @@ fn a_uniform_field_pulls_at_nothing_even_by_a_box_askew() {
 fn what_no_surface_is_asked_for_is_the_same_to_the_bit() {
     let folder = tempfile::tempdir().unwrap();
     let with = run(folder.path(), &pulled(4.0));
-    let (with, totals) = (with.frame("/points", 0).unwrap(), last(&with));
+    let (with, totals) = (with.frame("/points", 0).unwrap(), last(&with, "/totals"));
     let mut scene = pulled(4.0);
     scene["output"]["enclosures"] = json!([]);
     let without = run(folder.path(), &scene);
-    let left = last(&without);
+    let left = last(&without, "/totals");
     assert!(left.values.iter().all(|v| !v.name.contains('.')));
     assert_eq!(left.values.len() + 8, totals.values.len());
     for value in &left.values {
@@ -136,10 +107,8 @@ fn lifted(drive: &Value) -> Value {
 #[test]
 fn a_ball_above_a_loop_is_lifted_by_what_any_surface_says() {
     let folder = tempfile::tempdir().unwrap();
-    let totals = last(&run(
-        folder.path(),
-        &lifted(&json!({"harmonic": {"frequency_hz": 5.066}})),
-    ));
+    let scene = lifted(&json!({"harmonic": {"frequency_hz": 5.066}}));
+    let totals = last(&run(folder.path(), &scene), "/totals");
     let get = |name: &str| totals.get(name).unwrap();
     let (coil, heat) = (get("force_coil_z"), get("power_volume"));
     assert!(coil > 0.0 && heat > 0.0);
