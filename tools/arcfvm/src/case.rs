@@ -187,6 +187,23 @@ pub enum VapourEdge {
     Fraction(f64),
 }
 
+/// How iron lowers the ionisation voltage of the gas.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ionisation {
+    /// Ionisation voltage of iron \[V\].
+    pub voltage: f64,
+    /// Whether the voltage is linear in the mass fraction of iron, or in its mole fraction.
+    pub by_mass: bool,
+}
+
+impl Ionisation {
+    /// The fraction that the voltage goes with, where the mass fraction of iron is `y`.
+    #[must_use]
+    pub fn fraction(&self, molar: Molar, y: f64) -> f64 {
+        if self.by_mass { y } else { molar.mole(y) }
+    }
+}
+
 /// Iron vapour, where it is solved.
 #[derive(Debug, Clone)]
 pub struct VapourCase {
@@ -206,8 +223,12 @@ pub struct VapourCase {
     pub molar: Molar,
     /// Pressure \[Pa\].
     pub pressure: f64,
-    /// Ionisation voltage of iron \[V\], where it counts.
-    pub ionisation: Option<f64>,
+    /// Ionisation of iron, where it counts.
+    pub ionisation: Option<Ionisation>,
+    /// Whether a metal that boils vents what the gas cannot take.
+    pub vents: bool,
+    /// Whether vapour comes back to metal as warm as the gas nearby, or as the metal.
+    pub returns_hot: bool,
     /// The wall that takes iron up: its material, and the mass fraction at it.
     pub wall: Option<(usize, f64)>,
 }
@@ -293,5 +314,26 @@ impl Case {
         let (i, j) = (k % self.grid.nr, k / self.grid.nr);
         let (r, z) = (self.grid.rc[i] * 1e3, self.grid.zc[j] * 1e3);
         format!("cell ({i}, {j}) r = {r:.3} mm z = {z:.3} mm")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn iron_counts_by_its_mass_or_by_its_moles() {
+        let molar = Molar {
+            gas: 0.028,
+            iron: 0.056,
+        };
+        let by = |by_mass| Ionisation {
+            voltage: 7.9,
+            by_mass,
+        };
+        // Two thirds of the mass are half of the moles, where iron is twice as heavy.
+        let y = 2.0 / 3.0;
+        assert!((by(false).fraction(molar, y) - 0.5).abs() < 1e-12);
+        assert!((by(true).fraction(molar, y) - y).abs() < 1e-15);
     }
 }

@@ -44,7 +44,7 @@ pub(crate) fn surface(arc: &Arc, table: Table, over: Gather<'_>, mean: Gather<'_
         .column(
             "evaporation_kg_m2_s",
             "kg/(m2 s)",
-            over(&|n| passed[n].flux),
+            over(&|n| passed[n].off()),
         )
         .column("iron_mass_fraction", "1", mean(&|n| passed[n].surface))
 }
@@ -60,6 +60,9 @@ pub(crate) fn record(arc: &Arc, balance: Option<&Balance>, mut record: Record) -
     let wall = arc.vaporising.as_ref().and_then(|v| v.setup.wall);
     if wall.is_some() {
         record = record.with("iron_wall_kg_s", "kg/s", iron.wall);
+    }
+    if arc.vaporising.as_ref().is_some_and(|v| v.setup.vents) {
+        record = record.with("iron_vented_kg_s", "kg/s", iron.vented);
     }
     record
         .with("iron_surfaces_kg_s", "kg/s", iron.surfaces)

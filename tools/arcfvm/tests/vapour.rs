@@ -161,15 +161,54 @@ fn a_tube_whose_vapour_takes_the_place_of_gas_is_linear() {
 }
 
 #[test]
+fn boiling_metal_fills_the_tube_and_vents_the_rest() {
+    // At 3300 K iron boils: its vapour alone is at the surface, and the line ends at 1 there.
+    let boiling = |mass: &str| {
+        let body = tube(mass, 5e-4, "").replace("2950", "3300");
+        solve(&body, None)
+    };
+    let arc = boiling("vented");
+    let grid = &arc.case.grid;
+    let row = grid.row_of(1e-6);
+    for (j, y) in axis(&arc, row).iter().enumerate() {
+        let want = 1.0 - grid.zc[row + j] / 0.008;
+        assert!((y - want).abs() < 1e-8, "{y} {want}");
+    }
+    let passed = arc.vaporising.as_ref().unwrap().vapour.passed[0];
+    let diffused = 0.2 * 0.01 / 0.008;
+    assert!((passed.flux / diffused - 1.0).abs() < 1e-8);
+    let excess = 101_325.0 * (10_f64.powf(6.347 - 19_574.0 / 3300.0) - 1.0);
+    let root = (0.055_845 / (std::f64::consts::TAU * 8.314_462_618 * 3300.0)).sqrt();
+    assert!((passed.off() / (root * excess) - 1.0).abs() < 1e-8);
+    let iron = arc.iron_balance().unwrap();
+    let area = std::f64::consts::PI * 0.002 * 0.002;
+    assert!((iron.vented / (area * passed.vented) - 1.0).abs() < 1e-9);
+    assert!(iron.closure().abs() < 1e-8 * iron.size);
+    // Where nothing is vented, the gas holds the same.
+    let held = boiling("exchanged");
+    assert_eq!(axis(&held, row), axis(&arc, row));
+    assert!(held.iron_balance().unwrap().vented.abs() < 1e-15);
+}
+
+#[test]
 fn heat_goes_with_the_vapour_and_none_is_lost() {
-    let heat = r#", "heat": {"edges": {"bottom": [{"temperature_k": 3200}],
-        "top": [{"temperature_k": 2500}]}}"#;
-    for mass in ["added", "exchanged"] {
-        let mut arc = solve(&tube(mass, 5e-4, heat), None);
+    for (mass, bottom) in [
+        ("added", 3200.0),
+        ("exchanged", 3200.0),
+        ("vented", 2900.0),
+        ("vented", 5000.0),
+    ] {
+        let heat = format!(
+            r#", "heat": {{"edges": {{"bottom": [{{"temperature_k": {bottom}}}],
+                "top": [{{"temperature_k": 2500}}]}}}}"#
+        );
+        let mut arc = solve(&tube(mass, 5e-4, &heat), None);
         let balance = arc.settle().unwrap();
         let latent = balance.electrodes[0].vapour;
         let iron = arc.iron_balance().unwrap();
-        assert!((latent + 6.1e6 * iron.surfaces).abs() < 1e-9 * latent.abs());
+        let off = iron.surfaces + iron.vented;
+        assert!((latent + 6.1e6 * off).abs() < 1e-9 * latent.abs());
+        assert_eq!(iron.vented > 0.0, bottom > 4000.0, "{iron:?}");
         assert!(latent < -1.0 && balance.vapour > 0.0, "{balance:?}");
         let power = latent.abs();
         assert!(balance.closure().abs() < 1e-6 * power, "{mass} {balance:?}");
@@ -254,6 +293,10 @@ fn what_vapour_lacks_is_told_with_its_place() {
         r#"{BOX}, {gas}, "vapour": {{"ionisation_voltage_v": 7.9}}"#
     ));
     assert!(found.contains("/vapour/ionisation_voltage_v"), "{found}");
+    let found = told(&format!(
+        r#"{BOX}, {gas}, "vapour": {{"ionisation_by": "mass"}}"#
+    ));
+    assert!(found.contains("/vapour/ionisation_by"), "{found}");
     let metal = tube("exchanged", 5e-4, "").replace("\"vapour\": {", "\"sample\": {");
     let metal = metal.replace(
         r#""mass": "exchanged", "edges": {"top": [{"iron_mass_fraction": 0}]}"#,

@@ -4,11 +4,11 @@ use crate::assemble::electrodes::Electrodes;
 use crate::assemble::gas::GasFile;
 use crate::assemble::layout::Layout;
 use crate::assemble::{Faults, PLACE, cell_source, edges, surfaces, value};
-use crate::case::{FlowCase, VapourCase};
+use crate::case::{FlowCase, Ionisation, VapourCase};
 use crate::heat::evaporation::Evaporating;
 use crate::material::REFERENCE_K;
 use crate::mixture::Molar;
-use crate::scene::{Body, Evaporation, Gas, Scene, Vapour, VapourMass};
+use crate::scene::{Amount, Body, Evaporation, Gas, Returns, Scene, Vapour, VapourMass};
 
 /// Molar mass of iron \[kg/mol\], where no table tells it.
 const IRON: f64 = 0.055_845;
@@ -40,6 +40,10 @@ pub(crate) fn vapour(
             "is for a cathode; there is none",
         );
     }
+    if given.ionisation_by == Amount::Mass && given.ionisation_voltage_v.is_none() {
+        let what = "wants ionisation_voltage_v, which goes with it";
+        faults.add("/vapour/ionisation_by", what);
+    }
     let source = cell_source(
         &layout.grid,
         given.source_kg_m3_s.as_ref(),
@@ -54,9 +58,14 @@ pub(crate) fn vapour(
         contacts: surfaces(layout, electrodes, None).map_or(Vec::new(), |s| s.contacts),
         metals: metals(&bodies, electrodes),
         adds,
+        vents: given.mass == VapourMass::Vented,
         molar,
         pressure,
-        ionisation: given.ionisation_voltage_v,
+        ionisation: given.ionisation_voltage_v.map(|voltage| Ionisation {
+            voltage,
+            by_mass: given.ionisation_by == Amount::Mass,
+        }),
+        returns_hot: given.returns == Returns::Gas,
         wall: wall(&bodies),
     })
 }

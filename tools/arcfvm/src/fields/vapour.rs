@@ -56,6 +56,8 @@ pub struct IronBalance {
     pub given: f64,
     /// Given off by the wall of the cavity: what it takes up is negative.
     pub wall: f64,
+    /// Off boiling metal past the gas; no part of its balance.
+    pub vented: f64,
     /// Sum of the amounts exchanged, for scale.
     pub size: f64,
 }
@@ -176,7 +178,7 @@ impl Vapour {
             temperature[contact.metal],
             1e-4 * temperature[contact.metal],
         );
-        let flux = |t: f64| metal.pass(t, film).flux;
+        let flux = |t: f64| metal.pass(t, film).off();
         let slope = (flux(t + step) - flux(t - step)) / (2.0 * step);
         metal.latent_heat * slope.max(0.0)
     }
@@ -271,6 +273,7 @@ impl Vapour {
         for (contact, passed) in contacts.iter().zip(&self.passed) {
             let rate = contact.area * passed.flux;
             all.surfaces += rate;
+            all.vented += contact.area * passed.vented;
             all.size += rate.abs();
         }
         for given in setup.source.iter().flatten() {
@@ -344,6 +347,8 @@ fn film(
         pressure: setup.pressure,
         molar: setup.molar,
         adds: setup.adds,
+        vents: setup.vents,
+        returning: setup.returns_hot.then(|| temperature[contact.gas]),
     }
 }
 

@@ -131,8 +131,8 @@ impl Evaporation {
 }
 
 impl Electrode {
-    /// The same beside gas with the mole fraction `fraction` of iron, whose ionisation voltage is `iron`
-    /// \[V\]: a cathode's goes linearly from its own to that one.
+    /// The same beside gas with the part `fraction` of iron, whose ionisation voltage is `iron` \[V\]: a
+    /// cathode's goes linearly from its own to that one.
     #[must_use]
     pub fn beside(&self, fraction: f64, iron: f64) -> Self {
         let mut electrode = self.clone();

@@ -16,9 +16,21 @@
 //! ```
 //!
 //! `Y_s` is the one at which both agree; it lies between `Y_P` and saturation, so that no surface gives off
-//! vapour beyond saturation, and a surface below the saturation of its gas takes vapour back. The print
-//! divides the partial pressure by the root of the temperature of the gas nearby: hot gas could then hold
-//! back vapour only at `sqrt(T_gas / T)` times the saturation pressure.
+//! vapour beyond saturation, and a surface below the saturation of its gas takes vapour back.
+//!
+//! The print divides the partial pressure by the root of the temperature `T_g` of the gas nearby. With
+//! `c = sqrt(T / T_g)`
+//!
+//! ```text
+//! J = sqrt(M / (2 pi R T)) (p0(T) - c x_s p),
+//! ```
+//!
+//! which is the law above with `p0` over c and the factor in front times c: gas then holds vapour back only at `1 / c` times the
+//! saturation pressure. Either can be chosen; `c = 1` where vapour comes back as warm as the metal.
+//!
+//! Vapour that takes the place of as much gas can do so up to `Y_s = 1`. A metal that boils gives off more,
+//! `J = sqrt(M / (2 pi R T)) (p0 - c p)`, which blows gas and vapour away; where that flow is left out, the gas
+//! takes up `g (1 - Y_P)` of it, and the rest is lost or, where it is vented, leaves with its latent heat.
 
 use std::f64::consts::{LN_10, TAU};
 
@@ -59,13 +71,19 @@ pub struct Film {
     pub molar: Molar,
     /// Whether the vapour adds to the gas.
     pub adds: bool,
+    /// Whether a metal that boils vents what the gas cannot take.
+    pub vents: bool,
+    /// Temperature at which vapour comes back \[K\]; absent: that of the metal.
+    pub returning: Option<f64>,
 }
 
 /// Vapour that passes a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Evaporated {
-    /// Mass flux off the metal \[kg/(m2 s)\]; negative where vapour condenses.
+    /// Mass flux off the metal into the gas \[kg/(m2 s)\]; negative where vapour condenses.
     pub flux: f64,
+    /// Mass flux off the metal that the gas cannot take \[kg/(m2 s)\].
+    pub vented: f64,
     /// Mass fraction of iron at the surface.
     pub surface: f64,
     /// Mass fraction of iron in the cell at which no more iron gathers there.
@@ -114,8 +132,9 @@ impl Evaporating {
     /// What passes the surface at `t` \[K\] into or out of `film`.
     #[must_use]
     pub fn pass(&self, t: f64, film: Film) -> Evaporated {
-        let (kinetic, wanted) = (self.knudsen(t), self.saturation(t) / film.pressure);
-        let kinetic = kinetic * film.pressure;
+        let comes_back = film.returning.map_or(1.0, |own| (t / own).sqrt());
+        let kinetic = self.knudsen(t) * film.pressure * comes_back;
+        let wanted = self.saturation(t) / film.pressure / comes_back;
         let boils = wanted >= 1.0;
         let equilibrium = if boils { 1.0 } else { film.molar.mass(wanted) };
         let surface = film.surface(kinetic, wanted, equilibrium);
@@ -140,12 +159,26 @@ impl Evaporating {
         } else {
             (flux * part / distance).max(0.0)
         };
+        let excess = if film.vents && held_back {
+            (by_surface - by_gas).max(0.0)
+        } else {
+            0.0
+        };
         Evaporated {
             flux,
+            vented: excess,
             surface,
             equilibrium,
             coefficient,
         }
+    }
+}
+
+impl Evaporated {
+    /// Mass flux off the metal in all \[kg/(m2 s)\].
+    #[must_use]
+    pub fn off(&self) -> f64 {
+        self.flux + self.vented
     }
 }
 
@@ -203,6 +236,72 @@ mod tests {
                 iron: IRON,
             },
             adds,
+            vents: false,
+            returning: None,
+        }
+    }
+
+    #[test]
+    fn a_boiling_metal_vents_what_the_gas_cannot_take() {
+        let metal = iron();
+        let (t, y, g) = (3300.0, 0.4, 0.5);
+        let vents = Film {
+            vents: true,
+            ..film(y, g, false)
+        };
+        let found = metal.pass(t, vents);
+        assert!((found.flux / (g * (1.0 - y)) - 1.0).abs() < 1e-12);
+        let want = metal.knudsen(t) * (metal.saturation(t) - ATMOSPHERE);
+        assert!((found.off() / want - 1.0).abs() < 1e-12, "{found:?} {want}");
+        // What goes off is continuous where venting begins, and below that nothing is vented.
+        let start = |t: f64| metal.knudsen(t) * (metal.saturation(t) - ATMOSPHERE) - g * (1.0 - y);
+        let (mut low, mut high) = (3084.0, 3300.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if start(middle) < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let (before, after) = (
+            metal.pass(low - 1e-6, vents),
+            metal.pass(high + 1e-6, vents),
+        );
+        assert!(before.vented.abs() < 1e-15 && after.vented > 0.0);
+        assert!((after.off() - before.off()).abs() < 1e-6 * after.off());
+        // Where the gas moves aside it takes all.
+        let blown = Film {
+            vents: true,
+            ..film(y, g, true)
+        };
+        assert!(metal.pass(t, blown).vented.abs() < 1e-15);
+    }
+
+    #[test]
+    fn vapour_that_comes_back_hotter_comes_back_less() {
+        let (metal, t, y, gas) = (iron(), 2700.0, 0.3, 10_800.0);
+        let molar = film(y, 1.0, false).molar;
+        for adds in [false, true] {
+            // Gas that diffuses at once: the surface holds what the cell does, and eq. 5.24 stands as printed.
+            let hot = Film {
+                returning: Some(gas),
+                ..film(y, 1e9, adds)
+            };
+            let found = metal.pass(t, hot);
+            let back = ATMOSPHERE * molar.mole(y) / gas.sqrt();
+            let root = (IRON / (TAU * MOLAR_GAS)).sqrt();
+            let want = (metal.saturation(t) / t.sqrt() - back) * root;
+            assert!((found.flux / want - 1.0).abs() < 1e-6, "{found:?} {want}");
+            // A quarter of the speed of return: twice the pressure in equilibrium.
+            let full = molar.mole(found.equilibrium) * ATMOSPHERE;
+            assert!((full / metal.saturation(t) - 2.0).abs() < 1e-9, "{full}");
+            // As warm as the metal: the same bits as where nothing is said.
+            let level = Film {
+                returning: Some(t),
+                ..film(y, 0.5, adds)
+            };
+            assert_eq!(metal.pass(t, level), metal.pass(t, film(y, 0.5, adds)));
         }
     }
 

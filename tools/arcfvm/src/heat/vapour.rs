@@ -2,7 +2,7 @@
 //!
 //! Metal that evaporates gives off the latent heat, `q = J L`, and its vapour enters the gas as warm as the
 //! metal, with the enthalpy `h(T_metal, Y = 1)`. Vapour that condenses leaves as warm as the gas and brings
-//! the metal what it is warmer, beside the latent heat. What the vapour displaces leaves with the
+//! the metal what it is warmer, beside the latent heat. What a boiling metal vents takes along its latent heat. What the vapour displaces leaves with the
 //! enthalpy of the gas where vapour adds to its mass, else with that of the gas without iron: so the balance
 //! of the energy goes with that of the iron. At the wall of a cavity in flux iron changes places with gas as warm.
 
@@ -36,7 +36,7 @@ struct Carried {
 
 impl Reads<'_> {
     /// The electrode of a contact: one whose ionisation voltage is that of the gas beside it, linear in the
-    /// mole fraction of iron (Komen 2019, text under eq. 5.21).
+    /// fraction of iron (Komen 2019, text under eq. 5.21).
     pub(crate) fn electrode<'s>(
         &self,
         surfaces: &'s Surfaces,
@@ -49,8 +49,8 @@ impl Reads<'_> {
         let Some(iron) = setup.ionisation else {
             return Cow::Borrowed(electrode);
         };
-        let fraction = setup.molar.mole(vapour.iron[contact.gas]);
-        Cow::Owned(electrode.beside(fraction, iron))
+        let fraction = iron.fraction(setup.molar, vapour.iron[contact.gas]);
+        Cow::Owned(electrode.beside(fraction, iron.voltage))
     }
 
     fn carried(&self, of: Vapours<'_>, contact: &Contact, n: usize) -> Option<Carried> {
@@ -61,7 +61,8 @@ impl Reads<'_> {
             self.temperature[contact.metal],
             self.temperature[contact.gas],
         );
-        let (flux, iron) = (vapour.passed[n].flux, vapour.iron[contact.gas]);
+        let passed = &vapour.passed[n];
+        let (flux, iron) = (passed.flux, vapour.iron[contact.gas]);
         let held = if setup.adds { iron } else { 0.0 };
         let displaced = law.within(gas, held);
         let (vapour_k, warmer, slope) = if flux > 0.0 {
@@ -72,7 +73,7 @@ impl Reads<'_> {
         let brought = law.within(vapour_k, 1.0);
         let leaves = if setup.adds { 0.0 } else { displaced };
         Some(Carried {
-            metal: -flux * (metal.latent_heat + warmer),
+            metal: -flux * (metal.latent_heat + warmer) - passed.vented * metal.latent_heat,
             gas: flux * (brought - displaced),
             slope,
             enters: flux * (brought - leaves),

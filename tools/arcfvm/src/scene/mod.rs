@@ -17,7 +17,7 @@ pub use matter::{
 };
 pub use shape::{Profile, Ring, Shape, Surface};
 
-pub use vapour::{Diffusion, Vapour, VapourEdge, VapourMass};
+pub use vapour::{Amount, Diffusion, Returns, Vapour, VapourEdge, VapourMass};
 
 use std::collections::BTreeMap;
 

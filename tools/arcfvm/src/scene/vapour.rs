@@ -20,10 +20,16 @@ pub struct Vapour {
     /// What becomes of the mass of the vapour.
     #[serde(default)]
     pub mass: VapourMass,
-    /// Ionisation voltage of iron: that of cathodes goes with the mole fraction of iron from their own
-    /// to this one; absent: it stays their own.
+    /// How warm it comes back to metal.
+    #[serde(default)]
+    pub returns: Returns,
+    /// Ionisation voltage of iron: that of cathodes goes with the fraction of iron from their own to this
+    /// one; absent: it stays their own.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub ionisation_voltage_v: Option<f64>,
+    /// Which fraction of iron the ionisation voltage goes with.
+    #[serde(default)]
+    pub ionisation_by: Amount,
     /// Mass fraction of iron at the start in r, z.
     #[serde(default = "none")]
     pub start: Property,
@@ -57,6 +63,29 @@ pub enum Diffusion {
     Viscosity,
 }
 
+/// How warm vapour comes back to metal, which tells how much of it does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Returns {
+    /// As warm as the metal: saturated vapour and metal are in equilibrium.
+    #[default]
+    Metal,
+    /// As warm as the gas nearby (Komen 2019, eq. 5.24 as printed): less comes back than from gas as dense
+    /// that has cooled, and what hot gas can hold back grows with the root of its temperature.
+    Gas,
+}
+
+/// A measure of how much iron there is in the gas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Amount {
+    /// Mole fraction.
+    #[default]
+    Mole,
+    /// Mass fraction (Komen 2019, the Y of the text under eq. 5.21).
+    Mass,
+}
+
 /// What becomes of the mass of the vapour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -64,6 +93,9 @@ pub enum VapourMass {
     /// It takes the place of as much gas (Komen 2019: the right side of eq. 3.5 is 0).
     #[default]
     Exchanged,
+    /// As `exchanged`; what a boiling metal gives off beyond what the gas can take leaves at once, with its
+    /// latent heat (Komen 2019, eq. 5.24 with the Y of eq. 5.23 at most 1).
+    Vented,
     /// It adds to the gas, which flows away from where metal evaporates (Stefan 1873).
     Added,
 }
