@@ -191,6 +191,28 @@ fn boiling_metal_fills_the_tube_and_vents_the_rest() {
 }
 
 #[test]
+fn metal_that_does_not_evaporate_lies_under_the_gas_as_it_is() {
+    let body = tube("exchanged", 5e-4, "");
+    let (start, rest) = body.split_once(r#", "evaporation""#).unwrap();
+    let (_, rest) = rest.split_once("19574}}").unwrap();
+    let edges = r#""edges": {"outer": [{"iron_mass_fraction": 0.3}], "top": "#;
+    let body = format!("{start}{rest}")
+        .replace(r#""edges": {"top": [{"iron"#, &format!("{edges}[{{\"iron"));
+    let arc = solve(&body, None);
+    let (grid, vapour) = (&arc.case.grid, &arc.vaporising.as_ref().unwrap().vapour);
+    let row = grid.row_of(1e-6);
+    for (i, passed) in vapour.passed.iter().enumerate() {
+        let beside = vapour.iron[grid.cell(i, row)];
+        assert!(
+            (passed.surface - beside).abs() < 1e-15 && beside > 0.1,
+            "{passed:?}"
+        );
+        assert!(passed.off().abs() < 1e-15);
+    }
+    assert_eq!(vapour.passed.len(), grid.nr);
+}
+
+#[test]
 fn heat_goes_with_the_vapour_and_none_is_lost() {
     for (mass, bottom) in [
         ("added", 3200.0),

@@ -145,7 +145,7 @@ impl Vapour {
         }
     }
 
-    /// What passes one contact; nothing where its metal does not evaporate.
+    /// What passes one contact; nothing where its metal does not evaporate: the gas there is that of the cell.
     fn pass(
         &self,
         case: &Case,
@@ -153,10 +153,14 @@ impl Vapour {
         contact: &Contact,
         temperature: &[f64],
     ) -> Evaporated {
+        let iron = self.iron[contact.gas];
         let Some(metal) = &setup.metals[contact.electrode] else {
-            return Evaporated::default();
+            return Evaporated {
+                surface: iron,
+                ..Evaporated::default()
+            };
         };
-        let film = film(case, setup, contact, temperature, self.iron[contact.gas]);
+        let film = film(case, setup, contact, temperature, iron);
         metal.pass(temperature[contact.metal], film)
     }
 
