@@ -294,12 +294,11 @@ mod tests {
                 uniform: 0.0,
             },
         );
-        for axis in [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8]] {
-            let found = coaxial(axis);
-            assert!((found.power() / known.power() - 1.0).abs() < 1e-6);
-            let force = dot(found.force(), axis);
-            assert!((force / known.lift() - 1.0).abs() < 1e-5, "{force}");
-        }
+        let axis = [0.6, 0.0, 0.8];
+        let found = coaxial(axis);
+        assert!((found.power() / known.power() - 1.0).abs() < 1e-6);
+        let force = dot(found.force(), axis);
+        assert!((force / known.lift() - 1.0).abs() < 1e-5, "{force}");
         let found = coaxial([0.0, 0.0, 1.0]);
         let p: [f64; 3] = [1.2e-3, 0.5e-3, -1.4e-3];
         let rho = p[0].hypot(p[1]);

@@ -56,8 +56,8 @@ fn plane() {
 
 #[test]
 fn space() {
-    hold("regular", |n| lattice::<3>(n, 0.0), [12, 24]);
-    hold("jitter 10 %", |n| lattice::<3>(n, 0.1), [12, 24]);
-    hold("jitter 30 %", |n| lattice::<3>(n, 0.3), [12, 24]);
-    hold("graded 1:3", |n| graded::<3>(n, 0.1), [12, 24]);
+    hold("regular", |n| lattice::<3>(n, 0.0), [10, 20]);
+    hold("jitter 10 %", |n| lattice::<3>(n, 0.1), [10, 20]);
+    hold("jitter 30 %", |n| lattice::<3>(n, 0.3), [10, 20]);
+    hold("graded 1:3", |n| graded::<3>(n, 0.1), [10, 20]);
 }
