@@ -265,19 +265,27 @@ impl Surface<'_> {
         let size = self.spacing / PER_SPACING[self.dimensions - 2];
         let parts = |k: usize| ((self.face.lengths[k] / size).ceil() as usize).max(1);
         let (nu, nv) = (parts(0), if self.dimensions == 3 { parts(1) } else { 1 });
-        let cut = |[a, b]: [f64; 2], n: usize, i: usize| {
-            let at = |i: usize| a + (b - a) * i as f64 / n as f64;
-            [at(i), at(i + 1)]
-        };
         for i in 0..nu {
             for j in 0..nv {
-                let part = [
-                    cut(self.face.range[0], nu, i),
-                    cut(self.face.range[1], nv, j),
-                ];
-                self.refine(part, 0, found);
+                self.refine([self.cut(0, (i, nu)), self.cut(1, (j, nv))], 0, found);
             }
         }
+    }
+
+    /// Part `i` of `n` of the range of a parameter, all as long on the surface: heights of a ball lie at even angles.
+    fn cut(&self, parameter: usize, (i, n): (usize, usize)) -> [f64; 2] {
+        let [a, b] = self.face.range[parameter];
+        let globe = self.face.sheet == Sheet::Globe && parameter == 1;
+        let at = |i: usize| {
+            let share = i as f64 / n as f64;
+            let share = if globe {
+                0.5 - 0.5 * (std::f64::consts::PI * share).cos()
+            } else {
+                share
+            };
+            a + (b - a) * share
+        };
+        [at(i), at(i + 1)]
     }
 
     /// Takes a part whole, leaves it, or halves it where the surface has an edge.
@@ -414,6 +422,19 @@ mod tests {
         checked(bar, 3, (6.0 * PI, 2.0 * PI, 1e-3));
         let ball = r#"{"sphere": {"centre_m": [1, 0, 2], "radius_m": 1}}"#;
         checked(ball, 3, (4.0 * PI, 4.0 / 3.0 * PI, 1e-3));
+    }
+
+    #[test]
+    fn pieces_of_a_ball_are_fine_at_its_poles_too() {
+        let ball = r#"{"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}}"#;
+        let (found, _) = surface(ball, 3, 0.1);
+        for k in 0..200 {
+            let angle = PI * f64::from(k) / 199.0;
+            let place = [angle.sin(), 0.0, angle.cos()];
+            let away = |p: &Piece| (0..3).map(|a| (p.place[a] - place[a]).powi(2)).sum::<f64>();
+            let nearest = found.iter().map(away).fold(f64::INFINITY, f64::min).sqrt();
+            assert!(nearest < 0.05, "{nearest} at {angle}");
+        }
     }
 
     #[test]
