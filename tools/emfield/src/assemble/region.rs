@@ -84,7 +84,12 @@ pub(crate) fn region<const D: usize>(
                 normal,
                 across,
                 along,
-            } => Metric::layered(reduce(geometry, normal), across, along),
+                bow,
+            } => {
+                // Neighbours on a surface that bends must not lie outside a support for being layers away.
+                let across = across.max(bow).min(along);
+                Metric::layered(reduce(geometry, normal), across, along)
+            }
         });
         let mut normal = [0.0; 3];
         region.kinds.push(match cloud.class[i] {

@@ -49,8 +49,11 @@ impl Builder {
                 let first = plan[0].first().or(plan[1].first()).copied();
                 let scale = column.seed.spacing / spacing;
                 let across = first.map_or(column.seed.spacing, |t| t * scale.min(1.0));
-                self.cloud.metric[column.point as usize] =
-                    metric(column.seed.normal, across, column.seed.spacing);
+                self.cloud.metric[column.point as usize] = metric(
+                    column.seed.normal,
+                    [across, column.seed.spacing],
+                    column.seed.bow(),
+                );
             }
         }
         self.cloud.counts.layers = self.cloud.len() - before;
@@ -58,7 +61,7 @@ impl Builder {
     }
 
     fn layered(&mut self, point: &Layered) {
-        let metric = metric(point.normal, point.across, point.along);
+        let metric = metric(point.normal, [point.across, point.along], point.bow);
         let spacing = if metric == Metric::Round {
             (point.across * point.along).sqrt()
         } else {
@@ -165,6 +168,7 @@ impl Builder {
                 normal,
                 across,
                 along: flat,
+                ..
             } = self.cloud.metric[i]
             {
                 let shift = difference(moved, x);
@@ -184,7 +188,7 @@ impl Builder {
     }
 }
 
-fn metric(normal: Vector, across: f64, along: f64) -> Metric {
+fn metric(normal: Vector, [across, along]: [f64; 2], bow: f64) -> Metric {
     if across >= ROUND * along {
         Metric::Round
     } else {
@@ -192,6 +196,7 @@ fn metric(normal: Vector, across: f64, along: f64) -> Metric {
             normal,
             across,
             along,
+            bow,
         }
     }
 }

@@ -75,6 +75,8 @@ pub(crate) struct Layered {
     pub(crate) medium: u8,
     pub(crate) across: f64,
     pub(crate) along: f64,
+    /// How far the surface leaves its tangent plane within one spacing \[m\].
+    pub(crate) bow: f64,
 }
 
 /// What layers grow in.
@@ -166,6 +168,7 @@ impl Ground<'_> {
             medium,
             across: thickness,
             along: flat * wide.max(TOO_CLOSE),
+            bow: column.seed.bow() * wide.max(TOO_CLOSE),
         })
     }
 }

@@ -51,6 +51,8 @@ pub enum Metric {
         across: f64,
         /// Spacing along the surface \[m\].
         along: f64,
+        /// How far the surface leaves its tangent plane within one spacing along it \[m\].
+        bow: f64,
     },
 }
 

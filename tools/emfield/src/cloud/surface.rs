@@ -22,6 +22,15 @@ pub(crate) struct Seed {
     pub(crate) curvature: [f64; 2],
 }
 
+impl Seed {
+    /// How far the surface leaves its tangent plane within one spacing \[m\]: by the greater principal curvature.
+    pub(crate) fn bow(&self) -> f64 {
+        let [half, product] = [0.5 * self.curvature[0], self.curvature[1]];
+        let most = half.abs() + (half * half - product).max(0.0).sqrt();
+        0.5 * most * self.spacing * self.spacing
+    }
+}
+
 /// Pieces per spacing from which points are chosen, over those that shapes make by themselves.
 const FINER: f64 = 2.0;
 /// Pieces per spacing along a curve: points stand as evenly as these are fine.

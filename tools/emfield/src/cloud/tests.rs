@@ -41,6 +41,7 @@ fn nearness(cloud: &Cloud) -> (f64, f64) {
                     normal,
                     across,
                     along,
+                    ..
                 } => {
                     let up = dot(d, normal);
                     let flat = (dot(d, d) - up * up).max(0.0);
