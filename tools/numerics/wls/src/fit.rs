@@ -87,15 +87,17 @@ impl<const D: usize> Fit<D> {
         }
     }
 
-    /// Takes offsets `s` and `radius` in the same unit, the rows of the conditions, and those that a harmonic polynomial
+    /// Takes offsets `s` and `radius` in the same unit, what the weight of each point is multiplied by, if there is
+    /// something, the rows of the conditions, and those that a harmonic polynomial
     /// obeys, none where it need not be one.
     pub(crate) fn load(
         &mut self,
         basis: &Basis<D>,
-        (s, radius): (&[[f64; D]], f64),
+        (s, rooms, radius): (&[[f64; D]], &[f64], f64),
         (conditions, harmonic): (&[Coefficients], &[Coefficients]),
     ) {
         self.points.load(s, radius);
+        self.points.weigh(rooms);
         if harmonic.is_empty() {
             self.reduction.clear();
         } else {

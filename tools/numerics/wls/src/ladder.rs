@@ -16,9 +16,14 @@ const GOOD: [[f64; 4]; 2] = [[20.0, 40.0, 100.0, 400.0], [20.0, 60.0, 150.0, 400
 const FAIR: f64 = 1e5;
 /// A support is enlarged so many times.
 const ENLARGEMENTS: u32 = 5;
+/// And so many times for an even Laplacian.
+const SEARCHES: u32 = 3;
 /// Weights of an operator, in units of the least spacing, sum up to this at most: some tens are
 /// usual, and more come from points that tell little.
 const TAME: f64 = 1e3;
+/// Weights of a Laplacian of the sign of the own one add up to this part of it at most; lattices have none for quadratics
+/// and a tenth for quartics, points all on one side several times as many.
+const EVEN: f64 = 1.0;
 
 /// How a row came about.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +34,19 @@ pub(crate) struct Made {
     pub(crate) times: u32,
     pub(crate) condition: f64,
     pub(crate) positive: Option<bool>,
+    /// Points weigh by the room that each has.
+    pub(crate) by_room: bool,
+}
+
+/// A support that was tried.
+#[derive(Debug, Clone, Copy)]
+struct Trial {
+    order: u8,
+    times: u32,
+    /// Condition number at most.
+    limit: f64,
+    /// Points weigh by the room that each has.
+    by_room: bool,
 }
 
 /// Everything that rows of one plan share.
@@ -52,6 +70,8 @@ pub(crate) struct Work<const D: usize> {
     /// What a harmonic polynomial obeys, where it must be one.
     harmonic: Vec<Coefficients>,
     functionals: Vec<Coefficients>,
+    /// Room of each point over that of the own one, where points weigh by it.
+    rooms: Vec<f64>,
     /// Weights of the data of conditions, functional after functional.
     pub(crate) shares: Vec<f64>,
 }
@@ -66,6 +86,7 @@ impl<const D: usize> Work<D> {
             condition_rows: Vec::new(),
             harmonic: Vec::new(),
             functionals: Vec::new(),
+            rooms: Vec::new(),
             shares: Vec::new(),
         }
     }
@@ -90,6 +111,7 @@ impl<const D: usize> Bench<'_, D> {
         for order in (self.plan.lowest()..=self.plan.order).rev() {
             let good = GOOD[D - 2][usize::from(order) - 1];
             let (mut best, mut size) = ((f64::INFINITY, from), 0);
+            let mut evenest: Option<(f64, Trial)> = None;
             for times in from..=ENLARGEMENTS {
                 if !std::mem::take(&mut ready) {
                     self.enlarge(target, times, &mut work.support)?;
@@ -98,8 +120,17 @@ impl<const D: usize> Bench<'_, D> {
                 if size == before {
                     continue;
                 }
-                if let Some(made) = self.attempt(target, (order, times, good), work) {
+                let trial = Trial {
+                    order,
+                    times,
+                    limit: good,
+                    by_room: false,
+                };
+                if let Some(made) = self.even(target, trial, work, &mut evenest) {
                     return Ok(made);
+                }
+                if evenest.is_some() && times >= from + SEARCHES {
+                    break;
                 }
                 best = if work.fit.condition < best.0 {
                     (work.fit.condition, times)
@@ -107,9 +138,16 @@ impl<const D: usize> Bench<'_, D> {
                     best
                 };
             }
-            if best.0 <= FAIR {
-                self.enlarge(target, best.1, &mut work.support)?;
-                if let Some(made) = self.attempt(target, (order, best.1, FAIR), work) {
+            let fair = Trial {
+                order,
+                times: best.1,
+                limit: FAIR,
+                by_room: false,
+            };
+            let rest = (best.0 <= FAIR).then_some(fair);
+            if let Some(trial) = evenest.map(|e| e.1).or(rest) {
+                self.enlarge(target, trial.times, &mut work.support)?;
+                if let Some((made, _)) = self.attempt(target, trial, work) {
                     return Ok(made);
                 }
             }
@@ -133,14 +171,37 @@ impl<const D: usize> Bench<'_, D> {
         self.search.lone_support(target, reach, allowed, support)
     }
 
-    fn attempt(
+    /// A row whose Laplacian is even, points weighing alike or by their room; else the evenest trial is kept.
+    fn even(
         &self,
         target: &Target<D>,
-        (order, times, limit): (u8, u32, f64),
+        trial: Trial,
         work: &mut Work<D>,
+        evenest: &mut Option<(f64, Trial)>,
     ) -> Option<Made> {
+        for by_room in [false, true] {
+            let trial = Trial { by_room, ..trial };
+            let (made, uneven) = self.attempt(target, trial, work)?;
+            if uneven <= EVEN {
+                return Some(made);
+            }
+            if evenest.is_none_or(|(least, _)| uneven < least) {
+                *evenest = Some((uneven, trial));
+            }
+        }
+        None
+    }
+
+    /// A row from one support, and the weights of its Laplacian that have the sign of the own one over that.
+    fn attempt(&self, target: &Target<D>, trial: Trial, work: &mut Work<D>) -> Option<(Made, f64)> {
+        let Trial {
+            order,
+            times,
+            limit,
+            by_room,
+        } = trial;
         let basis = &self.bases[usize::from(order) - 1];
-        self.prepare(target, basis, work);
+        self.prepare((target, by_room), basis, work);
         let known = work.support.offsets.len() + work.condition_rows.len();
         if known < work.fit.many(basis) {
             work.fit.condition = f64::INFINITY;
@@ -154,7 +215,31 @@ impl<const D: usize> Bench<'_, D> {
             return None;
         }
         let positive = self.make_positive(target, basis, work);
-        Some(self.made(target, (order, times), positive, work))
+        let made = Made {
+            by_room,
+            ..self.made(target, (order, times), positive, work)
+        };
+        Some((made, self.uneven(work)))
+    }
+
+    /// Weights of the Laplacian that have the sign of the own one, over that; nothing where none is wanted.
+    fn uneven(&self, work: &Work<D>) -> f64 {
+        let (Some(row), Some(own), true) = (
+            self.columns.laplacian,
+            work.support.own,
+            self.plan.interpolating,
+        ) else {
+            return 0.0;
+        };
+        let points = work.support.offsets.len();
+        let weights = &work.fit.weights[row * points..(row + 1) * points];
+        let others = weights.iter().enumerate().filter(|(j, _)| *j != own);
+        let wrong: f64 = others.map(|(_, w)| (-w).max(0.0)).sum();
+        if weights[own] < 0.0 {
+            wrong / -weights[own]
+        } else {
+            f64::INFINITY
+        }
     }
 
     fn by_spectrum(
@@ -167,7 +252,7 @@ impl<const D: usize> Bench<'_, D> {
         if work.support.offsets.len() <= D {
             return None;
         }
-        self.prepare(target, basis, work);
+        self.prepare((target, false), basis, work);
         if !work.fit.factor_spectrum(basis) || !work.fit.solve(basis, &work.functionals) {
             return None;
         }
@@ -175,7 +260,7 @@ impl<const D: usize> Bench<'_, D> {
     }
 
     /// Loads the fit with the support, the conditions and the functionals.
-    fn prepare(&self, target: &Target<D>, basis: &Basis<D>, work: &mut Work<D>) {
+    fn prepare(&self, (target, by_room): (&Target<D>, bool), basis: &Basis<D>, work: &mut Work<D>) {
         let rows = Rows {
             basis,
             metric: &target.metric,
@@ -195,7 +280,15 @@ impl<const D: usize> Bench<'_, D> {
                 }
             });
         }
-        let support = (work.support.offsets.as_slice(), work.support.radius);
+        work.rooms.clear();
+        if by_room {
+            let metrics = self.search.cloud().metrics;
+            let rooms = work.support.neighbours.iter();
+            let rooms = rooms.map(|j| metrics[*j as usize].volume() / target.metric.volume());
+            work.rooms.extend(rooms);
+        }
+        let offsets = work.support.offsets.as_slice();
+        let support = (offsets, work.rooms.as_slice(), work.support.radius);
         let conditions = (work.condition_rows.as_slice(), work.harmonic.as_slice());
         work.fit.load(basis, support, conditions);
     }
@@ -244,6 +337,7 @@ impl<const D: usize> Bench<'_, D> {
             times,
             condition: work.fit.condition,
             positive,
+            by_room: false,
         }
     }
 

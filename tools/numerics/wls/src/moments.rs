@@ -38,6 +38,13 @@ impl<const D: usize> Points<D> {
         }
     }
 
+    /// Multiplies the weights of the first points.
+    pub(crate) fn weigh(&mut self, rooms: &[f64]) {
+        for (j, room) in rooms.iter().enumerate() {
+            self.weights[j / LANES][j % LANES] *= room;
+        }
+    }
+
     /// Number of points.
     pub(crate) fn len(&self) -> usize {
         self.count

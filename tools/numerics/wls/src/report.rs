@@ -20,6 +20,8 @@ pub struct Report {
     pub by_svd: usize,
     /// Solved rows whose support was ill-conditioned and was enlarged.
     pub enlarged: usize,
+    /// Solved rows whose points weigh by the room that each has, since points crowd on one side.
+    pub by_room: usize,
     /// Solved rows whose order was lowered, for want of a good support.
     pub lowered: usize,
     /// Solved rows that got positive weights in place of negative ones.
@@ -36,6 +38,7 @@ impl Report {
         self.by_qr += usize::from(made.way == Way::Orthogonal);
         self.by_svd += usize::from(made.way == Way::Spectrum);
         self.enlarged += usize::from(made.times > 0);
+        self.by_room += usize::from(made.by_room);
         self.lowered += usize::from(made.order < order);
         self.positive_made += usize::from(made.positive == Some(true));
         self.positive_failed += usize::from(made.positive == Some(false));

@@ -184,3 +184,45 @@ fn what_is_no_number_is_refused() {
     let error = wls::Search::new(cloud).unwrap_err();
     assert!(matches!(error, wls::Error::BadSpacing { point: 3, .. }));
 }
+
+#[test]
+fn crowds_on_one_side_leave_laplacians_even() {
+    let mut points: Points<2> = Points {
+        places: Vec::new(),
+        metrics: Vec::new(),
+    };
+    for (spacing, columns) in [(1.0, -8..0), (0.125, 0..24)] {
+        for i in columns {
+            for j in 0..(16.0 / spacing) as i32 {
+                let place = [f64::from(i), f64::from(j)].map(|k| spacing * k);
+                points.places.push(place);
+                points.metrics.push(Metric::round(spacing));
+            }
+        }
+    }
+    let plan = Plan {
+        interpolating: true,
+        ..Plan::new::<2>(2, BOTH)
+    };
+    let made = Stencils::build(&points.search(), &plan, &Everything).unwrap();
+    assert!(made.report().by_room > 0, "{:?}", made.report());
+    for i in 0..points.places.len() {
+        let place = points.places[i];
+        let coarse = place[0] > -7.0 && place[0] < 0.0 && place[1] > 1.0 && place[1] < 14.0;
+        let own: f64 = made
+            .laplacian(i)
+            .iter()
+            .filter(|(j, _)| *j == i)
+            .map(|e| e.1)
+            .sum();
+        let others = made.laplacian(i).iter().filter(|(j, _)| *j != i);
+        let wrong: f64 = others.map(|(_, w)| (-w).max(0.0)).sum();
+        assert!(
+            !coarse || own < 0.0 && wrong <= -own,
+            "{place:?}: {own} {wrong}"
+        );
+        let square = |j: usize| points.places[j].iter().map(|x| x * x).sum::<f64>();
+        let bend: f64 = made.laplacian(i).iter().map(|(j, w)| w * square(j)).sum();
+        assert!((bend - 4.0).abs() < 1e-7, "{place:?}: {bend}");
+    }
+}
