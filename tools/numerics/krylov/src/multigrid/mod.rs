@@ -16,6 +16,8 @@ use transfer::{coarse, interpolation, restriction, times};
 
 /// An imaginary part of this share of the diagonal needs complex factors.
 const LARGE: f64 = 0.2;
+/// Factors that answer this many times as much as those of an M-matrix have grown: 1 is usual, 10 to 100 stagnate.
+const GROWN: f64 = 4.0;
 /// Most levels.
 const LEVELS: usize = 8;
 
@@ -68,6 +70,40 @@ where
         } else {
             Self::Real(Incomplete::new(a, shift, order, Keep::PATTERN))
         }
+    }
+
+    /// Factors of all entries that are not thin, where these do not grow: they suit the rows best.
+    fn of_finest<T: Coefficient<S> + Scalar>(
+        a: &Rows<T>,
+        shift: &[S],
+        (order, thin): (&Order, f64),
+    ) -> Self {
+        let whole = Self::new(&a.thinned(thin, false), shift, order);
+        let sound = Self::new(&a.thinned(thin, true), shift, order);
+        if whole.growth(a) > GROWN * sound.growth(a) {
+            sound
+        } else {
+            whole
+        }
+    }
+
+    /// Largest entry of the inverse times the diagonal with scattered signs.
+    fn growth<T: Coefficient<S> + Scalar>(&self, a: &Rows<T>) -> f64 {
+        let sign = |i: usize| {
+            let bits = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let size = a.diagonal(i).modulus();
+            [S::real(if bits >> 63 == 0 { size } else { -size })]
+        };
+        let signs: Vec<[S; 1]> = (0..a.len()).map(sign).collect();
+        let mut out = vec![[S::ZERO; 1]; a.len()];
+        self.solve(&signs, &mut out);
+        out.iter().fold(0.0, |most: f64, v| {
+            if v[0].finite() {
+                most.max(v[0].modulus())
+            } else {
+                f64::INFINITY
+            }
+        })
     }
 
     fn solve<const C: usize>(&self, rhs: &[[S; C]], out: &mut [[S; C]]) {
@@ -145,7 +181,7 @@ where
                 &natural
             };
             let factors = if levels.is_empty() {
-                Smoother::new(&a.thinned(grids.thin, false), s, order)
+                Smoother::of_finest(a, s, (order, grids.thin))
             } else {
                 // Coarse rows have entries of the sign of their diagonal, with which incomplete
                 // factors can grow without bound; without them they cannot (Meijerink and van der
