@@ -55,6 +55,7 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
     }
     faults.extend(magnet(scene, currents));
     let own = scene.surroundings.relative_permeability;
+    faults.extend(vacuum(own, currents));
     for (k, body) in scene.bodies.iter().enumerate() {
         if unknown != Unknown::Axial && (body.relative_permeability - own).abs() > 1e-12 * own {
             let what = format!(
@@ -85,6 +86,16 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
         }
     }
     faults
+}
+
+/// Coils whose exact field is that in vacuum, in surroundings of another permeability.
+fn vacuum(own: f64, currents: &EddyCurrents) -> Option<Fault> {
+    let exact = currents.coils.iter().any(|c| c.region().is_none());
+    let what = format!(
+        "{own}: loops, segments and wires have the field that they have in vacuum, with 1; coils of points have any"
+    );
+    let other = exact && (own - 1.0).abs() > 1e-12;
+    other.then(|| Fault::at("/surroundings/relative_permeability", what))
 }
 
 /// What the applied field comes from.
