@@ -202,4 +202,9 @@ fn faults_are_located() {
     let mut scene = lifted(true, &json!({"harmonic": {"frequency_hz": 5.066}}));
     scene["output"]["enclosures"][0]["surface"]["around"]["body"] = json!("ring");
     fault(&scene, "/output/enclosures/0", "encloses or cuts a coil");
+    // What is exact in vacuum is not where anything else surrounds the coils.
+    let mut scene = lifted(false, &json!({"harmonic": {"frequency_hz": 5}}));
+    scene["surroundings"] = json!({"relative_permeability": 2});
+    let at = "/surroundings/relative_permeability";
+    fault(&scene, at, "have the field that they have in vacuum");
 }
