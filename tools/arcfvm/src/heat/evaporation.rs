@@ -25,8 +25,8 @@
 //! J = sqrt(M / (2 pi R T)) (p0(T) - c x_s p),
 //! ```
 //!
-//! which is the law above with `p0` over c and the factor in front times c: gas then holds vapour back only at `1 / c` times the
-//! saturation pressure. Either can be chosen; `c = 1` where vapour comes back as warm as the metal.
+//! which is the law above with `p0` over c and the factor in front times c: gas then holds vapour back only at
+//! `1 / c` times the saturation pressure. Either can be chosen; `c = 1` where vapour comes back as warm as the metal.
 //!
 //! Vapour that takes the place of as much gas can do so up to `Y_s = 1`. A metal that boils gives off more,
 //! `J = sqrt(M / (2 pi R T)) (p0 - c p)`, which blows gas and vapour away; where that flow is left out, the gas

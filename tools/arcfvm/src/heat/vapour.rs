@@ -2,8 +2,8 @@
 //!
 //! Metal that evaporates gives off the latent heat, `q = J L`, and its vapour enters the gas as warm as the
 //! metal, with the enthalpy `h(T_metal, Y = 1)`. Vapour that condenses leaves as warm as the gas and brings
-//! the metal what it is warmer, beside the latent heat. What a boiling metal vents takes along its latent heat. What the vapour displaces leaves with the
-//! enthalpy of the gas where vapour adds to its mass, else with that of the gas without iron: so the balance
+//! the metal what it is warmer, beside the latent heat. What a boiling metal vents takes along its latent heat.
+//! What the vapour displaces leaves with the enthalpy of the gas where vapour adds to its mass, else with that of the gas without iron: so the balance
 //! of the energy goes with that of the iron. At the wall of a cavity in flux iron changes places with gas as warm.
 
 use std::borrow::Cow;

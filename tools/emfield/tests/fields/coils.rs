@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde_json::{Value, json};
 
-use super::{last, run, said};
+use super::{driven, last, run, said};
 
 /// A bar of radius 0.5 that carries 1000 A along z.
 fn bar(spacing: f64) -> Value {
@@ -83,9 +83,7 @@ fn lifted(points: bool, drive: &Value) -> Value {
         scene["eddy_currents"]["coils"] =
             json!([{"region": {"body": "ring", "current_a": 500, "turns": 2}}]);
     }
-    let currents = scene["eddy_currents"].as_object_mut().unwrap();
-    currents.extend(drive.as_object().unwrap().clone());
-    scene
+    driven(scene, drive)
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{last, run, said};
+use super::{driven, last, run, said};
 
 fn around(name: &str, distance_m: f64) -> Value {
     json!({"name": name, "surface": {"around": {"body": "ball", "distance_m": distance_m}}})
@@ -91,7 +91,7 @@ fn what_no_surface_is_asked_for_is_the_same_to_the_bit() {
 
 /// A conducting ball of radius 1 below which a loop carries a current, about its axis; `mu sigma w R^2` is 40.
 fn lifted(drive: &Value) -> Value {
-    let mut scene = json!({"kind": "emfield.scene", "version": 1, "geometry": "axisymmetric",
+    let scene = json!({"kind": "emfield.scene", "version": 1, "geometry": "axisymmetric",
         "domain": {"sphere": {"centre_m": [0, 0], "radius_m": 4}},
         "bodies": [{"name": "ball", "shape": {"disc": {"centre_m": [0, 0], "radius_m": 1}},
             "conductivity_s_m": 1e6}],
@@ -99,9 +99,7 @@ fn lifted(drive: &Value) -> Value {
             "coils": [{"loop": {"centre_m": [0, -1.8], "radius_m": 1.2, "current_a": 1e3}}]},
         "method": {"order": 4}, "points": {"spacing_m": 0.1, "layers": {"first_m": 0.05}, "outward": 0},
         "output": {"precision": "f64", "enclosures": [around("near", 0.2), around("far", 0.6)]}});
-    let currents = scene["eddy_currents"].as_object_mut().unwrap();
-    currents.extend(drive.as_object().unwrap().clone());
-    scene
+    driven(scene, drive)
 }
 
 #[test]

@@ -37,3 +37,10 @@ fn last(reader: &Reader, channel: &str) -> Record {
     let last = reader.count(channel) - 1;
     reader.record_at(channel, last).unwrap()
 }
+
+/// The scene with what drives its eddy currents.
+fn driven(mut scene: Value, drive: &Value) -> Value {
+    let currents = scene["eddy_currents"].as_object_mut().unwrap();
+    currents.extend(drive.as_object().unwrap().clone());
+    scene
+}

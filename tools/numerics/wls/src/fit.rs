@@ -88,8 +88,7 @@ impl<const D: usize> Fit<D> {
     }
 
     /// Takes offsets `s` and `radius` in the same unit, what the weight of each point is multiplied by, if there is
-    /// something, the rows of the conditions, and those that a harmonic polynomial
-    /// obeys, none where it need not be one.
+    /// something, the rows of the conditions, and those that a harmonic polynomial obeys, none where it need not be one.
     pub(crate) fn load(
         &mut self,
         basis: &Basis<D>,
