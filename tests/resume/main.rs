@@ -68,15 +68,20 @@ impl Scene {
         }
     }
 
-    /// The run of the scene, with a checkpoint every 50 ms.
-    fn command(self, folder: &Path, threads: u8) -> Command {
+    /// The program that runs the scene.
+    fn program(self) -> PathBuf {
         let program = Path::new(env!("CARGO_BIN_EXE_verify")).with_file_name(self.tool());
         assert!(
             program.exists(),
             "{} is not built: run `cargo build --release` first",
             program.display()
         );
-        let mut command = Command::new(program);
+        program
+    }
+
+    /// The run of the scene, with a checkpoint every 50 ms.
+    fn command(self, folder: &Path, threads: u8) -> Command {
+        let mut command = Command::new(self.program());
         command
             .arg("run")
             .arg(self.file())
@@ -234,6 +239,36 @@ fn ctrl_c_leaves_a_checkpoint_and_the_run_goes_on_to_the_same_bytes() {
     let told = record(folder);
     assert_eq!(told["outcome"], "done");
     assert_eq!(told["resumed"], 1);
+}
+
+#[test]
+fn ctrl_c_soon_ends_a_steady_run_that_has_nothing_to_keep() {
+    let folder = folder();
+    let out = folder.path().join(OUT);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("pipelines");
+    let mut command = Command::new(Scene::Field.program());
+    command
+        .arg("run")
+        .arg(root.join("verify/em-sphere-loops/scene.json"))
+        .arg("--patch")
+        .arg(root.join("bench/em-levitation-118k/points.json"))
+        .arg("--out")
+        .arg(&out)
+        .args(["--threads", "2", "--progress", "none", "-q"]);
+    let mut child = command.spawn().unwrap();
+    while !beside(&out, ".part").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it began");
+        sleep(Duration::from_millis(2));
+    }
+    sleep(Duration::from_millis(300));
+    let sent = Instant::now();
+    let status = signal(&mut child, "INT");
+    // Weights and factors of so many points alone take twice as long.
+    assert!(sent.elapsed() < Duration::from_secs(3));
+    assert_eq!(status.code(), Some(130));
+    assert!(!out.exists() && !beside(&out, ".checkpoint").exists());
+    let part = Reader::recover(beside(&out, ".part")).unwrap();
+    assert!(!part.has("/points"), "nothing was found yet");
 }
 
 #[test]

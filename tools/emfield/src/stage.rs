@@ -74,6 +74,8 @@ fn solve<const D: usize, const K: usize>(
     cloud: &Cloud,
     session: &mut Session,
 ) -> Result<(), Failure> {
+    // Until a march has begun nothing is worth a checkpoint.
+    let expendable = session.expendable();
     let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
     let mut found = Found::default();
     if let Some(electrostatics) = &scene.electrostatics {
@@ -87,6 +89,7 @@ fn solve<const D: usize, const K: usize>(
     session.stopped()?;
     if let Some(currents) = &scene.eddy_currents {
         if let Some(transient) = &currents.transient {
+            drop(expendable);
             let at = (currents, transient);
             return assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
                 let mut all = found.clone();

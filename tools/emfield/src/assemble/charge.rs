@@ -1,6 +1,5 @@
 //! Charges on the conductors of a scene in space.
 
-use krylov::Rule;
 use num_complex::Complex;
 use run::{Failure, Session};
 
@@ -76,7 +75,8 @@ impl<const D: usize> Setting<'_, D> {
             Coupled::new(&parts, (&source, &self.wound()), multipoles.as_ref())
         });
         let options = super::options(self.scene);
-        let rule: Rule = super::rule(self.scene);
+        let stop = session.interrupt();
+        let rule = super::rule(self.scene, &*stop);
         let with = (&options, rule);
         let made = session.timed("solve", || factors::solve(&parts, &coupled, with));
         let ((a, phi), solved) =

@@ -1,6 +1,6 @@
 //! Eddy currents of a scene: its equations, their solution, fields, forces and heat.
 
-use krylov::{Rule, System};
+use krylov::System;
 use num_complex::Complex;
 use run::{Failure, Session};
 use shapes::frame::Vector;
@@ -270,7 +270,8 @@ impl<'a, const D: usize> Setting<'a, D> {
         let failed = |error: krylov::Error| Failure::Other(format!("eddy currents: {error}"));
         let mut system = made.map_err(failed)?;
         let mut x = vec![[C::default(); K]; right.len()];
-        let rule: Rule = super::rule(self.scene);
+        let stop = session.interrupt();
+        let rule = super::rule(self.scene, &*stop);
         let solved = session.timed("solve", || system.solve_with(&pairs, &right, &mut x, rule));
         super::report("vector_potential", &solved, session)?;
         Ok(x)

@@ -86,7 +86,7 @@ pub fn march<const D: usize, const K: usize>(
             session,
         )?;
     }
-    let rule = super::rule(scene);
+    let rule = super::rule(scene, None);
     while taken < steps.count() {
         let (from, wanted) = steps.step(taken);
         if wanted.to_bits() != length.to_bits() {

@@ -12,6 +12,8 @@ mod region;
 mod steps;
 mod winding;
 
+use std::sync::atomic::AtomicBool;
+
 use krylov::{Ending, Grids, Method, Options, Rule, Solved};
 use run::{Failure, Session};
 
@@ -38,11 +40,12 @@ fn options(scene: &Scene) -> Options {
     }
 }
 
-/// When the solves of a scene stop.
-fn rule(scene: &Scene) -> Rule {
+/// When the solves of a scene stop; at once where `stop` is set.
+fn rule<'a>(scene: &Scene, stop: impl Into<Option<&'a AtomicBool>>) -> Rule<'a> {
     Rule {
         reduction: scene.solver.tolerance,
         products: 2 * scene.solver.iterations,
+        stop: stop.into(),
         ..Rule::default()
     }
 }
@@ -74,7 +77,7 @@ fn low_order(scene: &Scene, unknowns: usize) -> Option<Form> {
 /// Keeps what a solve says of itself.
 ///
 /// # Errors
-/// Where it broke down.
+/// Where it broke down, or was stopped.
 fn report(name: &str, solved: &Solved, session: &mut Session) -> Result<(), Failure> {
     for (k, value) in solved.history.iter().enumerate() {
         session.history(&format!("residual_{name}"), "1", k as f64, *value);
@@ -84,6 +87,7 @@ fn report(name: &str, solved: &Solved, session: &mut Session) -> Result<(), Fail
     session.closing(&format!("residual_{name}"), "1", residual);
     match &solved.ending {
         Ending::Converged => Ok(()),
+        Ending::Stopped => session.stopped(),
         Ending::BrokenDown(why) => Err(Failure::Other(format!("{name}: {why}"))),
         other => {
             session.warn(format!("{name}: {other}; residual {residual:.2e}"));

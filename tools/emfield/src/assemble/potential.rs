@@ -197,7 +197,8 @@ fn solve(
         None => System::new(rows, Vec::new(), options),
     });
     let mut system = made.map_err(|error| Failure::Other(format!("potential: {error}")))?;
-    let rule = super::rule(scene);
+    let stop = session.interrupt();
+    let rule = super::rule(scene, &*stop);
     let solved = session.timed("solve", || system.solve(&right, &mut x, rule));
     super::report("potential", &solved, session)?;
     Ok(x.into_iter().map(|x| x[0]).collect())

@@ -1,15 +1,23 @@
-//! Ctrl-C and SIGTERM: the first asks for a checkpoint, the second ends at once.
+//! Ctrl-C and SIGTERM: the first asks for a checkpoint, the second ends at once. Where a run has
+//! nothing to keep, the first soon ends it too.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::time::Duration;
 
 use signal_hook::consts::TERM_SIGNALS;
 use signal_hook::flag;
 
+use crate::console::line;
 use crate::failure::Failure;
 
 /// Exit code of an interrupted run.
 pub(crate) const EXIT: u8 = 130;
+/// Time between two looks at the flag.
+const LOOK: Duration = Duration::from_millis(50);
+/// Looks at a flag that is set until the run is ended from outside.
+const LOOKS: u32 = 15;
 
 /// Whether the user wants the run to stop.
 #[derive(Debug, Clone, Default)]
@@ -30,4 +38,31 @@ impl Interrupt {
     pub(crate) fn wanted(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
+
+    pub(crate) fn flag(&self) -> Arc<AtomicBool> {
+        self.0.clone()
+    }
+
+    /// Ends the program where it does not notice by itself that it is to stop.
+    pub(crate) fn expendable(&self, tool: &str) -> Expendable {
+        let (alive, gone) = channel();
+        let (wanted, tool) = (self.clone(), tool.to_owned());
+        std::thread::spawn(move || {
+            let mut looks = 0;
+            while gone.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                looks += u32::from(wanted.wanted());
+                if looks > LOOKS {
+                    line(&format!("{tool}: interrupted"));
+                    std::process::exit(i32::from(EXIT));
+                }
+            }
+        });
+        Expendable { _alive: alive }
+    }
+}
+
+/// Work that may end anywhere: see [`Session::expendable`](crate::Session::expendable).
+#[derive(Debug)]
+pub struct Expendable {
+    _alive: Sender<()>,
 }

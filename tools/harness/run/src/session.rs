@@ -1,6 +1,8 @@
 //! What a stage holds while it runs: the artefact, the clock, progress, checkpoints, the ledger.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use artefact::{Checkpoint, Frame, Header, Position, Record, Table, Writer, beside};
@@ -9,7 +11,7 @@ use serde::Serialize;
 use crate::clock::Clock;
 use crate::console::Level;
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Expendable, Interrupt};
 use crate::ledger::{Ledger, set};
 use crate::plan::Plan;
 use crate::progress::{Progress, Style};
@@ -248,6 +250,21 @@ impl Session {
     #[must_use]
     pub fn interrupted(&self) -> bool {
         self.interrupt.wanted()
+    }
+
+    /// Set as soon as the user wants the run to stop: for loops that last long, which end then. The
+    /// stage calls [`Session::stopped`] after them.
+    #[must_use]
+    pub fn interrupt(&self) -> Arc<AtomicBool> {
+        self.interrupt.flag()
+    }
+
+    /// While the value is kept there is nothing that a checkpoint could hold: a run that is
+    /// interrupted and does not stop by itself within a second, in factors of a large matrix say,
+    /// is ended where it stands, with the artefact as after a crash and without a record.
+    #[must_use]
+    pub fn expendable(&self) -> Expendable {
+        self.interrupt.expendable(&self.header.tool)
     }
 
     /// Ends an interrupted run that keeps no checkpoint.

@@ -1,22 +1,35 @@
 //! How a solve of several columns ended.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 /// When to stop.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rule {
+#[derive(Debug, Clone, Copy)]
+pub struct Rule<'a> {
     /// Wanted residual over that of a zero guess, `|b - A x| / |b|`, of each column.
     pub reduction: f64,
     /// Residual below which nothing is gained, in the unit of the right side.
     pub floor: f64,
     /// Most products with the matrix.
     pub products: usize,
+    /// Looked at after each product: whoever set it no longer wants a solution. What it does not
+    /// stop it does not change.
+    pub stop: Option<&'a AtomicBool>,
 }
 
-impl Default for Rule {
+impl Rule<'_> {
+    /// Is the solution no longer wanted?
+    pub(crate) fn stopped(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
+}
+
+impl Default for Rule<'_> {
     fn default() -> Self {
         Self {
             reduction: 1e-8,
             floor: 0.0,
             products: 2000,
+            stop: None,
         }
     }
 }
@@ -32,6 +45,8 @@ pub enum Ending {
     BrokenDown(Breakdown),
     /// The products allowed are spent.
     Spent,
+    /// The solution was no longer wanted ([`Rule::stop`]).
+    Stopped,
 }
 
 /// Why a residual stays where it is.
@@ -78,6 +93,7 @@ impl std::fmt::Display for Ending {
         match self {
             Self::Converged => write!(f, "converged"),
             Self::Spent => write!(f, "the products allowed are spent"),
+            Self::Stopped => write!(f, "stopped"),
             Self::Stagnated(why) => write!(f, "stagnated: {why}"),
             Self::BrokenDown(what) => write!(f, "broken down: {what}"),
         }
@@ -141,5 +157,82 @@ impl Solved {
     #[must_use]
     pub fn worst(&self) -> f64 {
         self.residuals.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Identity, Operator, Rows, Scratch, bicgstab2, minimal_residual};
+    use std::sync::atomic::AtomicUsize;
+
+    /// A chain whose solution is no longer wanted after so many products.
+    struct Unwanted {
+        rows: Rows<f64>,
+        products: AtomicUsize,
+        most: usize,
+        stop: AtomicBool,
+    }
+
+    impl Operator<f64> for Unwanted {
+        fn len(&self) -> usize {
+            self.rows.len()
+        }
+
+        fn apply<const C: usize>(&self, x: &[[f64; C]], out: &mut [[f64; C]]) {
+            self.rows.apply(x, out);
+            let done = self.products.fetch_add(1, Ordering::Relaxed) + 1;
+            self.stop.fetch_or(done == self.most, Ordering::Relaxed);
+        }
+    }
+
+    /// Products, ending and the residual of the solution of both methods.
+    fn solved(most: usize) -> [(usize, Solved, f64); 2] {
+        let n = 200;
+        [true, false].map(|short| {
+            let a = Unwanted {
+                rows: Rows::gathered(n, 0.0, |i, row| {
+                    row.push((i as u32, 2.0));
+                    let beside = [i.wrapping_sub(1), i + 1].into_iter();
+                    row.extend(beside.filter(|j| *j < n).map(|j| (j as u32, -0.98)));
+                }),
+                products: AtomicUsize::new(0),
+                most,
+                stop: AtomicBool::new(false),
+            };
+            let (rhs, mut x) = (vec![[1.0]; n], vec![[0.0]; n]);
+            let rule = Rule {
+                stop: Some(&a.stop),
+                ..Rule::default()
+            };
+            let mut scratch = Scratch::default();
+            let solved = if short {
+                bicgstab2(&a, &rhs, &mut x, &mut Identity, rule, &mut scratch)
+            } else {
+                let rule = (rule, 30);
+                minimal_residual(&a, &rhs, &mut x, &mut Identity, rule, &mut scratch)
+            };
+            let mut left = rhs.clone();
+            a.rows.apply(&x, &mut left);
+            let square = |(b, r): (&[f64; 1], &[f64; 1])| (b[0] - r[0]).powi(2);
+            let left: f64 = rhs.iter().zip(&left).map(square).sum();
+            let size = (n as f64).sqrt();
+            (a.products.into_inner(), solved, left.sqrt() / size)
+        })
+    }
+
+    #[test]
+    fn a_solve_that_is_no_longer_wanted_ends_with_the_next_product() {
+        for most in [1, 5, 18] {
+            for (products, solved, left) in solved(most) {
+                assert_eq!(solved.ending, Ending::Stopped);
+                assert!(products <= most + 2, "{products} products, not {most}");
+                // The residual told is that of what was found so far.
+                assert!(left > 1e-8 && (solved.worst() - left).abs() < 1e-9 * left);
+            }
+        }
+        for (products, solved, left) in solved(usize::MAX) {
+            assert!(solved.converged() && products > 20 && left < 2e-8);
+        }
     }
 }

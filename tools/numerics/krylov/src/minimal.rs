@@ -128,6 +128,9 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
         if products >= rule.products {
             return watch.solved(Ending::Spent, products);
         }
+        if rule.stopped() {
+            return watch.solved(Ending::Stopped, products);
+        }
         let before = watch.now;
         let steps = restart.min(rule.products - products);
         let mut small: Vec<Small<S>> = (0..C)
@@ -137,7 +140,7 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
             (a, inverse),
             (&mut vectors, z),
             &mut small,
-            &mut watch,
+            (&rule, &mut watch),
             &mut products,
         );
         combine(&mut small, &mut vectors);
@@ -147,7 +150,8 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
         let now = residual(a, rhs, x, vectors[0]);
         products += 1;
         watch.note(now, products);
-        let idle = (0..C).all(|c| watch.done(c) || now[c] > GAIN * before[c]);
+        // Cut short, a cycle tells nothing.
+        let idle = !rule.stopped() && (0..C).all(|c| watch.done(c) || now[c] > GAIN * before[c]);
         if idle && !watch.all_done() && watch.finite() {
             let rounding = (0..C).any(|c| now[c] > 10.0 * carried[c].max(1e-300) && !watch.done(c));
             let level = watch.relative().into_iter().fold(0.0, f64::max);
@@ -167,7 +171,7 @@ fn cycle<S: Scalar, const C: usize>(
     (a, inverse): (&impl Operator<S>, &mut impl Inverse<S>),
     (vectors, z): (&mut [&mut [[S; C]]], &mut [[S; C]]),
     small: &mut [Small<S>],
-    watch: &mut Watch<C>,
+    (rule, watch): (&Rule, &mut Watch<C>),
     products: &mut usize,
 ) -> usize {
     let scale = |c: usize| {
@@ -212,7 +216,7 @@ fn cycle<S: Scalar, const C: usize>(
             }
         }
         scaled(w, scale);
-        if small.iter().all(|s| s.rests) {
+        if small.iter().all(|s| s.rests) || rule.stopped() {
             return m + 1;
         }
     }

@@ -197,7 +197,7 @@ pub fn bicgstab2<S: Scalar, const C: usize>(
         renewals += 1;
         let worse = (0..C).any(|c| !watch.done(c) && now[c] > 0.5 * before[c]);
         match end {
-            Some(Ending::Spent) => return watch.solved(Ending::Spent, products),
+            Some(end @ (Ending::Spent | Ending::Stopped)) => return watch.solved(end, products),
             Some(Ending::Stagnated(why)) => {
                 return watch.solved(Ending::Stagnated(why), products);
             }
@@ -245,6 +245,9 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
             if *products >= rule.products {
                 return Some(Ending::Spent);
             }
+            if rule.stopped() {
+                return Some(Ending::Stopped);
+            }
             if watch.stuck(*products) {
                 let products = PATIENCE;
                 return Some(Ending::Stagnated(Stagnation::Plateau { products }));
@@ -255,6 +258,9 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
             for j in 0..2 {
                 if !self.conjugate(j, &mut state, (a, inverse), (watch, &shadow)) {
                     return Some(Ending::BrokenDown(Breakdown::Shadow));
+                }
+                if rule.stopped() {
+                    return Some(Ending::Stopped);
                 }
             }
             *products += 4;

@@ -246,7 +246,7 @@ where
         let pairs = self.mixed(pairs);
         self.given(&pairs, b, y);
         let mut solved = self.run(&pairs, b, y, rule);
-        let failed = !matches!(solved.ending, Ending::Converged | Ending::Spent);
+        let failed = matches!(solved.ending, Ending::Stagnated(_) | Ending::BrokenDown(_));
         let direct = matches!(self.factors, Factors::Direct(_));
         let rounding = matches!(
             solved.ending,
