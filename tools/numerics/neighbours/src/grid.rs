@@ -1,5 +1,9 @@
 //! Points sorted into cubic cells.
 
+use std::ops::Range;
+
+use crate::sieve::{AWAY, LANES, Lanes};
+
 /// More cells than this many per point make the cells grow: a lone far point must not cost
 /// memory in proportion to the empty space before it.
 const CELLS_PER_POINT: usize = 16;
@@ -44,7 +48,13 @@ pub struct Grid {
     cell_of: Vec<u32>,
     order: Vec<u32>,
     sorted: Vec<[f64; 3]>,
+    /// The sorted points once more, each axis a column, with [`LANES`] points far away behind them.
+    columns: [Vec<f64>; 3],
 }
+
+/// Rows of cells that come closer than a radius to a cell: how many cells away each is along y and z,
+/// and to its ends along x.
+pub(crate) type Reach = Vec<([isize; 2], usize)>;
 
 impl Grid {
     /// An empty grid with cells of `edge` \[m\]; the search radius or half of it is a good choice.
@@ -60,6 +70,7 @@ impl Grid {
             cell_of: Vec::new(),
             order: Vec::new(),
             sorted: Vec::new(),
+            columns: [const { Vec::new() }; 3],
         }
     }
 
@@ -78,7 +89,7 @@ impl Grid {
         for cell in 0..cells {
             self.start[cell + 1] += self.start[cell];
         }
-        self.order.resize(points.len(), 0);
+        self.order.resize(points.len() + LANES, 0);
         self.sorted.resize(points.len(), [0.0; 3]);
         // Filling backwards from the ends keeps the sort stable and turns `start` of the next
         // cell into the start of this one.
@@ -90,13 +101,24 @@ impl Grid {
         }
         self.start.remove(0);
         self.start.push(number(points.len()));
+        for (axis, column) in self.columns.iter_mut().enumerate() {
+            column.clear();
+            column.extend(self.sorted.iter().map(|place| place[axis]));
+            column.extend([AWAY; LANES]);
+        }
     }
 
     /// Point indices sorted by cell: the order in which a compact copy has the best locality.
     #[inline]
     #[must_use]
     pub fn order(&self) -> &[u32] {
-        &self.order
+        &self.order[..self.sorted.len()]
+    }
+
+    /// The indices of the sorted points from `first` on, with numbers of no meaning behind the last.
+    #[inline(always)]
+    pub(crate) fn order_from(&self, first: usize) -> Option<&[u32; LANES]> {
+        self.order.get(first..)?.first_chunk()
     }
 
     /// Renumbers the points as sorted: for a caller that has reordered its own columns by
@@ -123,12 +145,7 @@ impl Grid {
 
     /// Calls `visit` with each run of sorted points that may lie within `radius` of `point`.
     #[inline]
-    pub fn runs(
-        &self,
-        point: [f64; 3],
-        radius: f64,
-        mut visit: impl FnMut(std::ops::Range<usize>),
-    ) {
+    pub fn runs(&self, point: [f64; 3], radius: f64, mut visit: impl FnMut(Range<usize>)) {
         self.any_run(point, radius, |run| {
             visit(run);
             false
@@ -161,7 +178,7 @@ impl Grid {
         &self,
         point: [f64; 3],
         radius: f64,
-        mut stop: impl FnMut(std::ops::Range<usize>) -> bool,
+        mut stop: impl FnMut(Range<usize>) -> bool,
     ) -> bool {
         let limit = radius * radius;
         let [x, y, z] = [0, 1, 2].map(|axis| self.gaps(point, radius, axis));
@@ -187,40 +204,65 @@ impl Grid {
         false
     }
 
-    /// Calls `visit` with each run of sorted points that may lie within `radius` of the `length`
-    /// cells from `first` on along x.
-    #[inline(always)]
-    pub(crate) fn runs_around(
-        &self,
-        first: [usize; 3],
-        length: usize,
-        radius: f64,
-        mut visit: impl FnMut(std::ops::Range<usize>),
-    ) {
-        // In edges, from the faces of the cells on.
-        let reach = radius / self.edge;
-        let cells = reach.ceil() as usize;
-        let around = |axis: usize| {
-            let (low, high) = (first[axis].saturating_sub(cells), first[axis] + cells);
-            low..=high.min(self.counts[axis] - 1)
-        };
-        let gap = |axis: usize, cell: usize| cell.abs_diff(first[axis]).saturating_sub(1) as f64;
-        for k in around(2) {
-            for j in around(1) {
-                let rest = reach * reach - gap(1, j) * gap(1, j) - gap(2, k) * gap(2, k);
-                if rest <= 0.0 {
-                    continue;
-                }
-                let along = rest.sqrt().ceil() as usize;
-                let low = first[0].saturating_sub(along);
-                let high = (first[0] + length + along).min(self.counts[0]);
-                let row = self.counts[0] * (j + self.counts[1] * k);
-                let run = self.start[row + low] as usize..self.start[row + high] as usize;
-                if !run.is_empty() {
-                    visit(run);
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let indices = self.start.capacity() + self.cell_of.capacity() + self.order.capacity();
+        4 * indices + 24 * (self.sorted.capacity() + self.columns[0].capacity())
+    }
+
+    /// Rows of cells with points closer than `radius` to those of a cell.
+    pub(crate) fn reach(&self, radius: f64) -> Reach {
+        // In edges, from the faces of the cell on.
+        let radius = radius / self.edge;
+        let cells = radius.ceil() as isize;
+        let gap = |cell: isize| cell.unsigned_abs().saturating_sub(1) as f64;
+        let mut reach = Reach::new();
+        for above in -cells..=cells {
+            for beside in -cells..=cells {
+                let rest = radius * radius - gap(beside).powi(2) - gap(above).powi(2);
+                if rest > 0.0 {
+                    reach.push(([beside, above], rest.sqrt().ceil() as usize));
                 }
             }
         }
+        reach
+    }
+
+    /// Fills `runs` with the runs of sorted points within reach of the `length` cells from `first` on
+    /// along x.
+    pub(crate) fn runs_around(
+        &self,
+        [i, j, k]: [usize; 3],
+        length: usize,
+        reach: &Reach,
+        runs: &mut Vec<Range<usize>>,
+    ) {
+        runs.clear();
+        for &([beside, above], along) in reach {
+            let (j, k) = (j.wrapping_add_signed(beside), k.wrapping_add_signed(above));
+            // What lies left of the grid has become very large.
+            if j < self.counts[1] && k < self.counts[2] {
+                let row = self.counts[0] * (j + self.counts[1] * k);
+                let (low, high) = (i.saturating_sub(along), i + length + along);
+                let (low, high) = (row + low, row + high.min(self.counts[0]));
+                let run = self.start[low] as usize..self.start[high] as usize;
+                if !run.is_empty() {
+                    runs.push(run);
+                }
+            }
+        }
+    }
+
+    /// The sorted points from `first` on.
+    #[inline(always)]
+    pub(crate) fn lanes(&self, first: usize) -> Option<Lanes<'_>> {
+        let [x, y, z] = &self.columns;
+        Some(Lanes {
+            x: x.get(first..)?.first_chunk()?,
+            y: y.get(first..)?.first_chunk()?,
+            z: z.get(first..)?.first_chunk()?,
+        })
     }
 
     /// Cells along `axis` that a sphere may touch, and how far from its centre they begin.

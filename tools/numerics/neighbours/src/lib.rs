@@ -6,9 +6,8 @@
 //! so a sum over a row is bitwise reproducible. A point at exactly the radius is no neighbour
 //! (every kernel is zero there), nor is a point its own.
 //!
-//! What may be near the points of a few cells is collected once and tested for each of them in the
-//! widest vectors that the machine has. No operation is fused or reordered for it: the bits are the
-//! same on every machine.
+//! Points of the cells around are tested in the widest vectors that the machine has. No operation is
+//! fused or reordered for it: the bits are the same on every machine.
 //!
 //! [`Tree`] serves clouds whose spacing varies, where no one size of cells fits.
 //!
@@ -26,11 +25,11 @@
 //! assert_eq!(lists.row(1), [0, 2]);
 //! ```
 
-mod brick;
 mod grid;
 mod halo;
 mod lists;
 pub mod naive;
+mod sieve;
 mod tree;
 
 pub use grid::Grid;

@@ -1,9 +1,14 @@
 //! Rows of neighbours, chunk by chunk.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
-use crate::brick::Brick;
-use crate::grid::Grid;
+use crate::grid::{Grid, Reach};
+use crate::sieve::{Candidates, Centre, LANES, Sieve, Sifting, on_this_machine};
+
+/// Cells along x of which the neighbourhood is found at once: consecutive rows mostly share it.
+const LENGTH: usize = 3;
 
 /// Rows per chunk.
 pub const ROWS: usize = 256;
@@ -16,6 +21,32 @@ pub struct Chunk {
     index: Vec<u32>,
     square: Vec<f64>,
     brick: Brick,
+}
+
+/// What may be near the points of some cells.
+#[derive(Debug, Clone, Default)]
+struct Brick {
+    /// Number of the brick along x, and of its cells along y and z.
+    place: Option<[usize; 3]>,
+    /// Runs of sorted points.
+    runs: Vec<Range<usize>>,
+    /// Points in all runs.
+    points: usize,
+}
+
+impl Brick {
+    /// Makes the brick the one of `point`.
+    #[inline(always)]
+    fn settle(&mut self, grid: &Grid, reach: &Reach, point: [f64; 3]) {
+        let [i, j, k] = grid.cell(point);
+        let place = Some([i / LENGTH, j, k]);
+        if self.place != place {
+            self.place = place;
+            let first = [i - i % LENGTH, j, k];
+            grid.runs_around(first, LENGTH, reach, &mut self.runs);
+            self.points = self.runs.iter().map(Range::len).sum();
+        }
+    }
 }
 
 impl Chunk {
@@ -52,32 +83,64 @@ impl Chunk {
         self.offsets[k] as usize..self.offsets[k + 1] as usize
     }
 
-    /// Appends the row of point `a` to the chunk, which holds `used` pairs; returns the new number.
-    ///
-    /// The list is written without a branch per point: every index is stored and the end moves on
-    /// only for a neighbour.
+    /// Appends the row of `centre` to the chunk, which holds `used` pairs; returns the new number.
     #[inline(always)]
     fn search(
         &mut self,
-        grid: &Grid,
-        place: ([f64; 3], f64),
-        (a, used): (usize, usize),
-        accepts: &impl Fn(usize, usize) -> bool,
+        (grid, reach): (&Grid, &Reach),
+        centre: Centre,
+        used: usize,
+        sieve: impl Sieve,
     ) -> usize {
-        let end = used + self.brick.settle(grid, place);
-        if self.index.len() < end {
-            self.index.resize(2 * end, 0);
-        }
-        if self.square.len() < end {
-            self.square.resize(2 * end, 0.0);
-        }
+        self.brick.settle(grid, reach, centre.point);
+        let end = used + self.brick.points + LANES;
+        self.hold(end);
         let (slots, squares) = (&mut self.index[used..end], &mut self.square[used..end]);
         let mut hits = 0;
-        self.brick.each(place, |b, square| {
-            (slots[hits], squares[hits]) = (b, square);
-            hits += usize::from((b as usize != a) & accepts(a, b as usize));
-        });
+        for run in &self.brick.runs {
+            for first in run.clone().step_by(LANES) {
+                let count = run.end - first;
+                // All four hold as many.
+                if let (Some(lanes), Some(index), Some(slots), Some(squares)) = (
+                    grid.lanes(first),
+                    grid.order_from(first),
+                    slots[hits..].first_chunk_mut(),
+                    squares[hits..].first_chunk_mut(),
+                ) {
+                    let candidates = Candidates {
+                        lanes,
+                        index,
+                        count,
+                    };
+                    hits += sieve.sift(centre, candidates, slots, squares);
+                }
+            }
+        }
         used + hits
+    }
+
+    /// Makes room for so many pairs.
+    #[inline(always)]
+    fn hold(&mut self, pairs: usize) {
+        if self.index.len() < pairs {
+            self.index.resize(2 * pairs, 0);
+        }
+        if self.square.len() < pairs {
+            self.square.resize(2 * pairs, 0.0);
+        }
+    }
+
+    /// Leaves out the pairs that `accepts` refuses.
+    fn prune(&mut self, accepts: &impl Fn(usize, usize) -> bool) {
+        let (mut from, mut used) = (0, 0);
+        for (k, end) in self.offsets[1..].iter_mut().enumerate() {
+            for at in std::mem::replace(&mut from, *end as usize)..*end as usize {
+                let b = self.index[at];
+                self.index[used] = b;
+                used += usize::from(accepts(self.first + k, b as usize));
+            }
+            *end = used as u32;
+        }
     }
 
     /// Neighbours of the chunk's row `k`.
@@ -88,30 +151,33 @@ impl Chunk {
     }
 }
 
-/// The filling of a chunk, in the widest vectors that the machine has.
-struct Fill<'a, W, A> {
+/// The filling of a chunk.
+struct Fill<'a, W> {
     chunk: &'a mut Chunk,
     grid: &'a Grid,
+    reach: &'a Reach,
     points: &'a [[f64; 3]],
     radius: f64,
     wanted: &'a W,
-    accepts: &'a A,
 }
 
-impl<W: Fn(usize) -> bool, A: Fn(usize, usize) -> bool> pulp::NullaryFnOnce for Fill<'_, W, A> {
-    type Output = ();
-
+impl<W: Fn(usize) -> bool> Sifting for Fill<'_, W> {
     #[inline(always)]
-    fn call(self) {
-        let Self { chunk, grid, .. } = self;
+    fn run(self, sieve: impl Sieve) {
+        let Self {
+            chunk, grid, reach, ..
+        } = self;
         let end = self.points.len().min(chunk.first + ROWS);
         chunk.offsets.clear();
         chunk.offsets.push(0);
-        chunk.brick.clear();
+        // The grid has changed.
+        chunk.brick.place = None;
         let mut used = 0;
         for (a, &point) in self.points[..end].iter().enumerate().skip(chunk.first) {
             if (self.wanted)(a) {
-                used = chunk.search(grid, (point, self.radius), (a, used), self.accepts);
+                let (radius, own) = (self.radius, a as u32);
+                let centre = Centre { point, radius, own };
+                used = chunk.search((grid, reach), centre, used, sieve);
             }
             chunk.offsets.push(used as u32);
         }
@@ -146,15 +212,17 @@ impl Lists {
         accepts: impl Fn(usize, usize) -> bool + Sync,
     ) {
         self.resize(points.len());
+        let reach = &grid.reach(radius);
         self.chunks.par_iter_mut().for_each(|chunk| {
-            pulp::Arch::new().dispatch(Fill {
+            on_this_machine(Fill {
                 chunk,
                 grid,
+                reach,
                 points,
                 radius,
                 wanted: &wanted,
-                accepts: &accepts,
             });
+            chunk.prune(&accepts);
         });
     }
 
@@ -170,17 +238,18 @@ impl Lists {
         visit: impl Fn(&Chunk, &mut Vec<f64>, T) + Sync,
     ) {
         self.resize(points.len());
+        let reach = &grid.reach(radius);
         self.chunks
             .par_iter_mut()
             .zip(extra)
             .for_each(|(chunk, extra)| {
-                pulp::Arch::new().dispatch(Fill {
+                on_this_machine(Fill {
                     chunk,
                     grid,
+                    reach,
                     points,
                     radius,
                     wanted: &wanted,
-                    accepts: &|_, _| true,
                 });
                 let mut squares = std::mem::take(&mut chunk.square);
                 visit(chunk, &mut squares, extra);
@@ -234,7 +303,7 @@ impl Lists {
             .iter()
             .map(|chunk| {
                 let indices = chunk.index.capacity() + chunk.offsets.capacity();
-                4 * indices + 8 * chunk.square.capacity() + chunk.brick.bytes()
+                4 * indices + 8 * chunk.square.capacity()
             })
             .sum()
     }

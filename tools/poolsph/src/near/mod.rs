@@ -208,8 +208,7 @@ impl Near {
             |chunk, squares, mut row| {
                 // Two buffers that hold squares and values by turns.
                 std::mem::swap(squares, &mut row.pairs.value);
-                row.weigh(chunk, kernel);
-                row.sum(chunk, marks, kernel.value(0.0));
+                row.fill(chunk, kernel, marks);
             },
         );
     }
@@ -223,8 +222,7 @@ impl Near {
             .zip(self.lists.chunks())
             .for_each(|(mut row, chunk)| {
                 row.measure(chunk, marks);
-                row.weigh(chunk, kernel);
-                row.sum(chunk, marks, kernel.value(0.0));
+                row.fill(chunk, kernel, marks);
             });
     }
 

@@ -109,8 +109,19 @@ impl Rows<'_> {
         }
     }
 
+    /// Turns squared distances into kernel values, and sums these over the rows.
+    pub(super) fn fill(&mut self, chunk: &Chunk, kernel: CubicSpline<3>, marks: &[[f64; 4]]) {
+        pulp::Arch::new().dispatch(Filling {
+            rows: self,
+            chunk,
+            kernel,
+            marks,
+        });
+    }
+
     /// Turns squared distances into kernel values.
-    pub(super) fn weigh(&mut self, chunk: &Chunk, kernel: CubicSpline<3>) {
+    #[inline(always)]
+    fn weigh(&mut self, chunk: &Chunk, kernel: CubicSpline<3>) {
         let PairChunk { value, slope } = &mut *self.pairs;
         let n = chunk.index().len();
         slope.resize(n, 0.0);
@@ -121,7 +132,8 @@ impl Rows<'_> {
     }
 
     /// Sums over the rows; `own` is W at no distance.
-    pub(super) fn sum(&mut self, chunk: &Chunk, marks: &[[f64; 4]], own: f64) {
+    #[inline(always)]
+    fn sum(&mut self, chunk: &Chunk, marks: &[[f64; 4]], own: f64) {
         let PairChunk { value, slope } = &*self.pairs;
         for k in 0..chunk.rows() {
             let at = marks[chunk.first() + k];
@@ -140,5 +152,24 @@ impl Rows<'_> {
             self.number[k] = if chunk.row(k).is_empty() { 0.0 } else { number };
             (self.gradient[k], self.squares[k]) = ([x, y, z], squares);
         }
+    }
+}
+
+/// [`Rows::fill`] in the widest vectors that the machine has. No operation is fused or reordered for it.
+struct Filling<'a, 'b> {
+    rows: &'a mut Rows<'b>,
+    chunk: &'a Chunk,
+    kernel: CubicSpline<3>,
+    marks: &'a [[f64; 4]],
+}
+
+impl pulp::NullaryFnOnce for Filling<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.rows.weigh(self.chunk, self.kernel);
+        self.rows
+            .sum(self.chunk, self.marks, self.kernel.value(0.0));
     }
 }
