@@ -146,6 +146,9 @@ pub fn electrostatics<const D: usize>(
             (v, a.clone(), a)
         }
     };
+    if let Some(what) = beyond_given(cloud, &problem, &value) {
+        session.warn(what);
+    }
     let enclosed = enclosed(scene, cloud, (&region, &form), session)?;
     let [inner, beyond] = [inner, beyond].map(|field| {
         let up = field.into_iter().map(|e| raise(cloud.geometry, e));
@@ -159,6 +162,33 @@ pub fn electrostatics<const D: usize>(
         found.join(totals);
     }
     Ok(found)
+}
+
+/// Share of the range of what is given by which a potential may lie outside it.
+const BEYOND: f64 = 0.01;
+
+/// Says where a potential lies outside what walls and electrodes give: between them no permittivity has a maximum or a
+/// minimum, so that the points do not resolve what is there.
+fn beyond_given(cloud: &Cloud, problem: &Problem, value: &[f64]) -> Option<String> {
+    let walls = problem.held.iter().flatten().filter_map(|held| match held {
+        Held::Potential(v) => Some(*v),
+        Held::Insulated => None,
+    });
+    let given = walls.chain(problem.electrodes.iter().flatten().copied());
+    let (low, high) = given.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    });
+    let beyond = |v: f64| (low - v).max(v - high);
+    let worst = (0..value.len()).max_by(|a, b| beyond(value[*a]).total_cmp(&beyond(value[*b])))?;
+    // A field between equal potentials is none.
+    let slack = BEYOND * (high - low) + 1e-6 * low.abs().max(high.abs());
+    (beyond(value[worst]) > slack).then(|| {
+        let x = cloud.position[worst];
+        format!(
+            "potential: {:.4e} V at ({:.3e}, {:.3e}, {:.3e}) m lies outside what walls and electrodes give, {low:.4e} to {high:.4e} V: points there do not resolve an edge, a wedge or a gap; take smaller spacings or a lower order",
+            value[worst], x[0], x[1], x[2]
+        )
+    })
 }
 
 /// What is given where.

@@ -10,15 +10,13 @@ use super::layers::{Column, thicknesses};
 use super::occupied::Occupied;
 use super::region::{Region, Wall};
 use super::surface::{self, Seed};
-use super::{Class, Cloud, Counts, Metric, SurfacePoint, cells};
+use super::{Class, Cloud, Counts, Metric, cells};
 use crate::scene::{Geometry, Layers, Scene};
 
 /// Most points of a cloud.
 const MOST: f64 = 5e8;
 /// Least width of a body over its spacing.
 const NARROW: f64 = 0.04;
-/// Least spacing of points on a surface over that of the scene, where another body is near.
-const LEAST: f64 = 1.0 / 8.0;
 
 /// The points of a scene; see [`Cloud::new`].
 pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
@@ -135,121 +133,6 @@ impl Builder {
         self.cloud.class.push(class);
         self.cloud.metric.push(metric);
         self.cloud.len() as u32 - 1
-    }
-
-    /// Points on the surfaces of bodies.
-    fn surfaces(&mut self) -> Result<Vec<Column>, Vec<Fault>> {
-        let mut columns: Vec<Column> = Vec::new();
-        let mut faults = Vec::new();
-        for k in 0..self.region.solids.len() {
-            let before = columns.len();
-            for seed in self.seeds(k) {
-                if let Some(media) = self.parts(&seed, k) {
-                    let point = self.interface(&seed, media);
-                    columns.push(Column {
-                        seed,
-                        point,
-                        solid: Some(k),
-                        media,
-                        side: [Vec::new(), Vec::new()],
-                    });
-                }
-            }
-            let inside = self.region.solids[k].body.bounds();
-            let middle = std::array::from_fn(|a| 0.5 * (inside[0][a] + inside[1][a]));
-            if columns.len() == before && self.region.depth(middle) < 0.0 {
-                let what = "no part of the body's surface lies in the domain";
-                faults.push(Fault::at(&format!("/bodies/{k}/shape"), what));
-            }
-        }
-        self.cloud.counts.interface = self.cloud.len();
-        if faults.is_empty() {
-            Ok(columns)
-        } else {
-            Err(faults)
-        }
-    }
-
-    /// Points on the surface of a body, nearer to each other where another body is near.
-    fn seeds(&self, k: usize) -> Vec<Seed> {
-        let solid = &self.region.solids[k];
-        let others = || {
-            let all = self.region.solids.iter().enumerate();
-            all.filter(move |(other, _)| *other != k).map(|(_, s)| s)
-        };
-        let local = |x: Vector| {
-            let gap = others().fold(f64::INFINITY, |gap, s| gap.min(s.body.distance(x).abs()));
-            // A body that touches is no gap: its surface is the same.
-            let wanted = if gap < 1e-6 * solid.spacing {
-                f64::INFINITY
-            } else {
-                0.5 * gap
-            };
-            wanted.clamp(LEAST * solid.spacing, solid.spacing)
-        };
-        let coarse = surface::seeds(
-            &solid.body,
-            self.region.dimensions,
-            (solid.spacing, solid.spacing),
-            &|_| solid.spacing,
-        );
-        let least = coarse
-            .iter()
-            .fold(solid.spacing, |least, seed| least.min(local(seed.place)));
-        if least < 0.999 * solid.spacing {
-            let limits = (solid.spacing, LEAST * solid.spacing);
-            let fine = surface::seeds(&solid.body, self.region.dimensions, limits, &local);
-            self.on_axis(fine)
-        } else {
-            self.on_axis(coarse)
-        }
-    }
-
-    /// Points that lie on an axis but for rounding lie on it.
-    fn on_axis(&self, mut seeds: Vec<Seed>) -> Vec<Seed> {
-        for seed in seeds.iter_mut().filter(|_| self.region.axisymmetric) {
-            if seed.place[0].abs() < 1e-6 * seed.spacing {
-                seed.place[0] = 0.0;
-            }
-        }
-        seeds
-    }
-
-    /// The media that a surface point parts, if it parts any and lies in the domain.
-    fn parts(&self, seed: &Seed, k: usize) -> Option<[u8; 2]> {
-        let step = 1e-4 * seed.spacing;
-        let sides = [-step, step].map(|s| self.region.medium(along(seed.place, s, seed.normal)));
-        let own = k as u8 + 1;
-        let shared = sides[0] == sides[1] || sides[0] != own;
-        let outside = self.region.depth(seed.place) < 0.3 * seed.spacing
-            || self.region.axisymmetric && seed.place[0] < 0.0;
-        let taken = self
-            .occupied
-            .any(seed.place, 0.5 * seed.spacing, |other, _, square| {
-                let other = self.cloud.class[other as usize];
-                other
-                    == Class::Interface {
-                        inner: sides[1],
-                        outer: sides[0],
-                    }
-                    || square < 0.01 * seed.spacing * seed.spacing
-            });
-        (!shared && !outside && !taken).then_some(sides)
-    }
-
-    fn interface(&mut self, seed: &Seed, [inner, outer]: [u8; 2]) -> u32 {
-        self.occupied.push(seed.place);
-        self.sizes.push(seed.spacing);
-        let class = Class::Interface { inner, outer };
-        let point = self.push(seed.place, seed.spacing, class, Metric::Round);
-        self.cloud.surface.push(SurfacePoint {
-            point,
-            inner,
-            outer,
-            normal: seed.normal,
-            area: seed.area,
-        });
-        point
     }
 
     /// Points on the wall: nodes of the lattice on a box, a surface of its own on a ball.

@@ -5,6 +5,7 @@
 
 mod build;
 mod cells;
+mod faces;
 mod inner;
 mod jitter;
 mod lattice;

@@ -1,3 +1,4 @@
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::*;
@@ -253,4 +254,65 @@ fn a_conductor_may_cross_the_wall() {
     let inside = |c: &Class| matches!(c, Class::Outer { medium: 1, .. });
     assert!(cloud.class.iter().any(inside));
     assert!(cloud.position.iter().all(|x| x[2].abs() <= 2.0));
+}
+
+/// Two bodies of spacings 0.25 and `second` in a cube of edge 20.
+fn pair(first: &str, other: &str, second: f64) -> Cloud {
+    let scene = scene(&format!(
+        r#"{{"geometry": "space", "domain": {{"box": {{"min_m": [-10, -10, -10], "max_m": [10, 10, 10]}}}},
+        "bodies": [{{"name": "a", "shape": {first}, "relative_permittivity": 3}},
+        {{"name": "b", "shape": {other}, "relative_permittivity": 80, "spacing_m": {second}}}],
+        "points": {{"spacing_m": 0.25}}, "electrostatics": {{"applied_field_v_m": [0, 0, 1]}}}}"#
+    ));
+    Cloud::new(&scene).unwrap()
+}
+
+/// Areas of the surface between two media, and the finest spacing there.
+fn between(cloud: &Cloud, inner: u8, outer: u8) -> (f64, f64) {
+    let all = cloud.surface.iter();
+    let own = all.filter(|s| (s.inner, s.outer) == (inner, outer));
+    own.fold((0.0, f64::INFINITY), |(area, finest), s| {
+        (area + s.area, finest.min(cloud.spacing[s.point as usize]))
+    })
+}
+
+#[test]
+fn bodies_that_touch_share_the_points_of_their_face() {
+    let left = r#"{"box": {"min_m": [-1, -1, -1], "max_m": [0, 1, 1]}}"#;
+    let right = r#"{"box": {"min_m": [0, -1, -1], "max_m": [1, 1, 1]}}"#;
+    let cloud = pair(left, right, 0.25);
+    for (media, exact) in [((1, 2), 4.0), ((1, 0), 12.0), ((2, 0), 12.0)] {
+        let (area, finest) = between(&cloud, media.0, media.1);
+        assert!((area - exact).abs() < 1e-9, "{media:?}: {area}");
+        // Surfaces that go on where another ends are no gap.
+        assert!(finest > 0.249, "{media:?}: {finest}");
+    }
+    assert_eq!(between(&cloud, 2, 1).0.to_bits(), 0.0_f64.to_bits());
+    let (least, _) = nearness(&cloud);
+    assert!(least > 0.55, "{least}");
+    // The finer body places them.
+    let cloud = pair(left, right, 0.125);
+    let (area, finest) = between(&cloud, 2, 1);
+    assert!((area - 4.0).abs() < 1e-9 && finest < 0.126);
+    assert_eq!(between(&cloud, 1, 2).0.to_bits(), 0.0_f64.to_bits());
+}
+
+#[test]
+fn surfaces_that_cross_keep_their_points_apart() {
+    let ball = |z: f64| format!(r#"{{"sphere": {{"centre_m": [0, 0, {z}], "radius_m": 1.25}}}}"#);
+    for way in [0.4, 1.25, 2.0, 2.4] {
+        let cloud = pair(&ball(-0.4 * way), &ball(0.6 * way), 0.25);
+        let (least, _) = nearness(&cloud);
+        assert!(least > 0.45, "{way}: {least}");
+        // Caps cut each other at half their distance.
+        let exact = TAU * 1.25 * (1.25 + 0.5 * way);
+        let (area, finest) = between(&cloud, 2, 0);
+        assert!((area / exact - 1.0).abs() < 0.06, "{way}: {area} {exact}");
+        assert!(finest > 0.1, "{way}: {finest}");
+    }
+    // Across a gap points of two surfaces stay near.
+    let cloud = pair(&ball(-1.2565), &ball(1.2565), 0.25);
+    let (area, finest) = between(&cloud, 2, 0);
+    assert!((area / (2.0 * TAU * 1.25 * 1.25) - 1.0).abs() < 1e-3);
+    assert!(finest < 0.04, "{finest}");
 }
