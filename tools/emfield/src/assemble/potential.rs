@@ -106,7 +106,7 @@ pub fn electrostatics<const D: usize>(
     session: &mut Session,
 ) -> Result<Found, Failure> {
     let outer = Walls::new(scene, electrostatics)?;
-    let region: Region<D> = region(scene, cloud, &|wall| outer.insulated(wall));
+    let region: Region<D> = region(scene, cloud, &|wall| outer.insulated(wall)).straight();
     let problem = problem(scene, cloud, &outer)?;
     let form = super::form(scene);
     let low = super::low_order(scene, region.len());

@@ -84,11 +84,13 @@ pub(crate) fn region<const D: usize>(
                 normal,
                 across,
                 along,
-                bow,
+                foot,
             } => {
-                // Neighbours on a surface that bends must not lie outside a support for being layers away.
-                let across = across.max(bow).min(along);
-                Metric::layered(reduce(geometry, normal), across, along)
+                let straight = Metric::layered(reduce(geometry, normal), across, along);
+                match cloud.curvature(i, (foot, normal)) {
+                    Some(c) => straight.bent(reduce(geometry, c.along), c.principal),
+                    None => straight,
+                }
             }
         });
         let mut normal = [0.0; 3];

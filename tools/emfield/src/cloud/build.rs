@@ -119,6 +119,7 @@ impl Builder {
                 spacing: Vec::new(),
                 class: Vec::new(),
                 metric: Vec::new(),
+                feet: Vec::new(),
                 surface: Vec::new(),
                 cells: Vec::new(),
                 counts: Counts::default(),
@@ -155,6 +156,7 @@ impl Builder {
                     if let Some(point) = self.outer(seed.place, seed.spacing, 0) {
                         let media = [self.medium_at_wall(&seed), 0];
                         columns.push(Column {
+                            foot: 0,
                             seed,
                             point,
                             solid: None,
@@ -263,6 +265,10 @@ fn finish(cloud: &mut Cloud) {
     }
     for x in &mut cloud.position {
         *x = geometry.place(*x);
+    }
+    for foot in &mut cloud.feet {
+        foot.place = geometry.place(foot.place);
+        foot.curvature.along = geometry.place(foot.curvature.along);
     }
     for metric in &mut cloud.metric {
         if let Metric::Layered { normal, .. } = metric {

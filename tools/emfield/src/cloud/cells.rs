@@ -208,14 +208,14 @@ impl<'a> Conductor<'a> {
         let d = self.region.dimensions;
         // The middle of a curved patch lies below its surface point.
         let sag = if d == 3 {
-            0.5 * seed.curvature[0] * seed.area / (4.0 * PI)
+            0.5 * seed.curvature.sum() * seed.area / (4.0 * PI)
         } else {
-            seed.curvature[0] * seed.area * seed.area / 24.0
+            seed.curvature.sum() * seed.area * seed.area / 24.0
         };
         for (k, weight) in WEIGHTS.iter().enumerate() {
             let away = low + (high - low) * 0.25 * k as f64;
             let signed = if side == 0 { -away } else { away };
-            let flat = 1.0 + signed * seed.curvature[0] / (d - 1) as f64;
+            let flat = 1.0 + signed * seed.curvature.sum() / (d - 1) as f64;
             let place = along(seed.place, signed - sag * flat, seed.normal);
             let area = seed.area * column.widening(side, away);
             let mut volume = weight * (high - low) * area;

@@ -39,6 +39,7 @@ impl Builder {
                 }
                 let point = self.interface(&seed, media);
                 columns.push(Column {
+                    foot: 0,
                     seed,
                     point,
                     solid: Some(k),

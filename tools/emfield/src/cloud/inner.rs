@@ -7,11 +7,14 @@ use super::build::Builder;
 use super::lattice::{self, Node};
 use super::layers::{Column, Ground, Layered, Standing, thicknesses};
 use super::region::Wall;
-use super::{Class, Metric, jitter};
+use super::{Class, Foot, Metric, jitter};
 use crate::scene::{Arrangement, Scene};
 
 /// Spacing across over spacing along the surface from which a layer counts as round.
 const ROUND: f64 = 0.85;
+/// Layers so many times as wide as thin are thin ones, and those by more than which a surface leaves its tangent plane
+/// within a spacing.
+const THIN: f64 = 8.0;
 /// Nodes of lattices keep this part of the spacing away from other points.
 const APART: f64 = 0.65;
 
@@ -24,6 +27,14 @@ impl Builder {
         plans: &[[Vec<f64>; 2]],
     ) {
         let before = self.cloud.len();
+        for (number, column) in columns.iter_mut().enumerate() {
+            column.foot = number as u32;
+            self.cloud.feet.push(Foot {
+                place: column.seed.place,
+                curvature: column.seed.curvature,
+                thin: false,
+            });
+        }
         for group in columns.chunk_by_mut(|a, b| a.solid == b.solid) {
             let (spacing, plan) = match group[0].solid {
                 Some(k) => (self.region.solids[k].spacing, plans[k].clone()),
@@ -49,10 +60,13 @@ impl Builder {
                 let first = plan[0].first().or(plan[1].first()).copied();
                 let scale = column.seed.spacing / spacing;
                 let across = first.map_or(column.seed.spacing, |t| t * scale.min(1.0));
+                let wide = column.seed.spacing;
+                let bow = column.seed.curvature.bow(wide);
+                self.cloud.feet[column.foot as usize].thin = across < bow.max(wide / THIN);
                 self.cloud.metric[column.point as usize] = metric(
                     column.seed.normal,
                     [across, column.seed.spacing],
-                    column.seed.bow(),
+                    column.foot,
                 );
             }
         }
@@ -61,7 +75,7 @@ impl Builder {
     }
 
     fn layered(&mut self, point: &Layered) {
-        let metric = metric(point.normal, [point.across, point.along], point.bow);
+        let metric = metric(point.normal, [point.across, point.along], point.foot);
         let spacing = if metric == Metric::Round {
             (point.across * point.along).sqrt()
         } else {
@@ -188,7 +202,7 @@ impl Builder {
     }
 }
 
-fn metric(normal: Vector, [across, along]: [f64; 2], bow: f64) -> Metric {
+fn metric(normal: Vector, [across, along]: [f64; 2], foot: u32) -> Metric {
     if across >= ROUND * along {
         Metric::Round
     } else {
@@ -196,7 +210,7 @@ fn metric(normal: Vector, [across, along]: [f64; 2], bow: f64) -> Metric {
             normal,
             across,
             along,
-            bow,
+            foot,
         }
     }
 }

@@ -36,6 +36,8 @@ pub(crate) struct Column {
     pub(crate) seed: Seed,
     /// Number of the surface point.
     pub(crate) point: u32,
+    /// Number among the feet of the cloud.
+    pub(crate) foot: u32,
     /// The body, or `None` for the wall of the domain.
     pub(crate) solid: Option<usize>,
     /// Media inside and outside.
@@ -61,9 +63,8 @@ impl Column {
 
     /// How areas change with the distance from the surface, over the area on it.
     pub(crate) fn widening(&self, side: usize, away: f64) -> f64 {
-        let s = if side == 0 { -away } else { away };
-        let [sum, product] = self.seed.curvature;
-        (1.0 + s * sum + s * s * product).max(0.0)
+        let signed = if side == 0 { -away } else { away };
+        self.seed.curvature.widening(signed)
     }
 }
 
@@ -75,8 +76,8 @@ pub(crate) struct Layered {
     pub(crate) medium: u8,
     pub(crate) across: f64,
     pub(crate) along: f64,
-    /// How far the surface leaves its tangent plane within one spacing \[m\].
-    pub(crate) bow: f64,
+    /// Where its column stands, among those of the cloud.
+    pub(crate) foot: u32,
 }
 
 /// What layers grow in.
@@ -168,7 +169,7 @@ impl Ground<'_> {
             medium,
             across: thickness,
             along: flat * wide.max(TOO_CLOSE),
-            bow: column.seed.bow() * wide.max(TOO_CLOSE),
+            foot: column.foot,
         })
     }
 }

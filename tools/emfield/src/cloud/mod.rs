@@ -14,9 +14,11 @@ mod occupied;
 pub mod region;
 mod surface;
 
+pub use surface::Curvature;
+
 use crate::scene::{Geometry, Scene};
 use run::Fault;
-use shapes::frame::Vector;
+use shapes::frame::{Vector, difference, dot};
 
 /// Where a point stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,9 +54,20 @@ pub enum Metric {
         across: f64,
         /// Spacing along the surface \[m\].
         along: f64,
-        /// How far the surface leaves its tangent plane within one spacing along it \[m\].
-        bow: f64,
+        /// Where it stands on the surface, in [`Cloud::feet`].
+        foot: u32,
     },
+}
+
+/// Where a column of layers stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// Place on the surface \[m\].
+    pub place: Vector,
+    /// How the surface bends there.
+    pub curvature: Curvature,
+    /// Its thinnest layer is so thin that offsets follow the surface.
+    pub thin: bool,
 }
 
 /// What a surface point knows of its surface.
@@ -133,6 +146,8 @@ pub struct Cloud {
     pub class: Vec<Class>,
     /// How offsets are measured.
     pub metric: Vec<Metric>,
+    /// Where layered points stand.
+    pub feet: Vec<Foot>,
     /// One entry for each interface point, in their order.
     pub surface: Vec<SurfacePoint>,
     /// What each point in or on a conductor stands for; a point on an interface stands for its inner medium. Empty
@@ -172,13 +187,22 @@ impl Cloud {
         }
     }
 
+    /// How the level of a layered point bends where layers are thin, `foot` and `normal` being those of its metric.
+    #[must_use]
+    pub fn curvature(&self, point: usize, (foot, normal): (u32, Vector)) -> Option<Curvature> {
+        let foot = &self.feet[foot as usize];
+        let away = dot(difference(self.position[point], foot.place), normal);
+        foot.thin.then(|| foot.curvature.beside(away))
+    }
+
     /// Memory \[byte\].
     #[must_use]
     pub fn bytes(&self) -> u64 {
         let each =
             size_of::<Vector>() + size_of::<f64>() + size_of::<Class>() + size_of::<Metric>();
-        let more =
-            self.surface.len() * size_of::<SurfacePoint>() + self.cells.len() * size_of::<Cell>();
+        let more = self.surface.len() * size_of::<SurfacePoint>()
+            + self.feet.len() * size_of::<Foot>()
+            + self.cells.len() * size_of::<Cell>();
         (self.len() * each + more) as u64
     }
 }

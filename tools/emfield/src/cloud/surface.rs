@@ -18,19 +18,47 @@ pub(crate) struct Seed {
     pub(crate) area: f64,
     /// Distance of its neighbours, about \[m\].
     pub(crate) spacing: f64,
-    /// Sum and product of the principal curvatures \[1/m, 1/m2\], positive where the body is convex.
-    pub(crate) curvature: [f64; 2],
+    pub(crate) curvature: Curvature,
 }
 
-impl Seed {
-    /// How far the surface leaves its tangent plane within one spacing \[m\]: by the greater principal curvature.
-    pub(crate) fn bow(&self) -> f64 {
-        let [half, product] = [0.5 * self.curvature[0], self.curvature[1]];
-        let most = half.abs() + (half * half - product).max(0.0).sqrt();
-        0.5 * most * self.spacing * self.spacing
+/// How a surface bends at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Curvature {
+    /// Unit direction along the surface, that of the first curvature.
+    pub along: Vector,
+    /// Principal curvatures \[1/m\], positive where the body is convex.
+    pub principal: [f64; 2],
+}
+
+impl Curvature {
+    /// Sum of the principal curvatures \[1/m\].
+    pub(crate) fn sum(&self) -> f64 {
+        self.principal[0] + self.principal[1]
+    }
+
+    /// How far the surface leaves its tangent plane within one spacing \[m\].
+    pub(crate) fn bow(&self, spacing: f64) -> f64 {
+        let most = self.principal.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
+        0.5 * most * spacing * spacing
+    }
+
+    /// How areas change with the signed distance from the surface, over the area on it.
+    pub(crate) fn widening(&self, away: f64) -> f64 {
+        let [a, b] = self.principal;
+        ((1.0 + away * a) * (1.0 + away * b)).max(0.0)
+    }
+
+    /// That of the parallel surface at a signed distance \[m\].
+    pub(crate) fn beside(&self, away: f64) -> Self {
+        Self {
+            principal: self.principal.map(|k| k / (1.0 + away * k).max(SHRUNK)),
+            ..*self
+        }
     }
 }
 
+/// Parallel surfaces shrink to this at most, in lengths.
+const SHRUNK: f64 = 0.6;
 /// Pieces per spacing from which points are chosen, over those that shapes make by themselves.
 const FINER: f64 = 2.0;
 /// Pieces per spacing along a curve: points stand as evenly as these are fine.
@@ -87,7 +115,10 @@ fn spiral(centre: Vector, radius: f64, spacing: f64) -> Vec<Seed> {
                 normal,
                 area: area / number,
                 spacing: (area / number).sqrt(),
-                curvature: [2.0 / radius, 1.0 / (radius * radius)],
+                curvature: Curvature {
+                    along: aside(normal),
+                    principal: [1.0 / radius; 2],
+                },
             }
         })
         .collect()
@@ -134,7 +165,7 @@ fn seed(piece: &Piece, area: f64, spacing: f64) -> Seed {
         normal: direction(piece.normal),
         area,
         spacing,
-        curvature: [0.0; 2],
+        curvature: Curvature::default(),
     }
 }
 
@@ -192,26 +223,39 @@ fn spread(
     seeds
 }
 
-/// Sum and product of the principal curvatures: from the turning of the normal.
-fn curvature(body: &Body, seed: &Seed, dimensions: usize) -> [f64; 2] {
-    if let Some(primitive) = body.single()
-        && let Kind::Cylinder { radius, half } = primitive.kind
-        && half.is_infinite()
-    {
-        let sign = if primitive.cut { -1.0 } else { 1.0 };
-        return [sign / radius, 0.0];
-    }
-    let step = 0.02 * seed.spacing;
+/// A direction across another.
+fn aside(normal: Vector) -> Vector {
     let least = (0..3).fold(0, |m, k| {
-        if seed.normal[k].abs() < seed.normal[m].abs() {
+        if normal[k].abs() < normal[m].abs() {
             k
         } else {
             m
         }
     });
     let mut axis = [0.0; 3];
-    axis[if dimensions == 2 { 2 } else { least }] = 1.0;
-    let u = direction(cross(axis, seed.normal));
+    axis[least] = 1.0;
+    direction(cross(axis, normal))
+}
+
+/// Principal curvatures: from the turning of the normal.
+fn curvature(body: &Body, seed: &Seed, dimensions: usize) -> Curvature {
+    let plane = [0.0, 0.0, 1.0];
+    if let Some(primitive) = body.single()
+        && let Kind::Cylinder { radius, half } = primitive.kind
+        && half.is_infinite()
+    {
+        let sign = if primitive.cut { -1.0 } else { 1.0 };
+        return Curvature {
+            along: direction(cross(primitive.frame.axes[2], seed.normal)),
+            principal: [sign / radius, 0.0],
+        };
+    }
+    let step = 0.02 * seed.spacing;
+    let u = if dimensions == 2 {
+        direction(cross(plane, seed.normal))
+    } else {
+        aside(seed.normal)
+    };
     let v = cross(seed.normal, u);
     let slope = |d: Vector| {
         let normal = |s: f64| body.normal(along(seed.place, s, d), 0.1 * step);
@@ -219,11 +263,52 @@ fn curvature(body: &Body, seed: &Seed, dimensions: usize) -> [f64; 2] {
         [dot(change, u), dot(change, v)].map(|c| c / (2.0 * step))
     };
     let (a, b) = (slope(u), if dimensions == 2 { [0.0; 2] } else { slope(v) });
+    let found = if dimensions == 2 {
+        Curvature {
+            along: u,
+            principal: [a[0], 0.0],
+        }
+    } else {
+        principal([u, v], [a[0], 0.5 * (a[1] + b[0]), b[1]])
+    };
     // Where a sharp edge is within reach there is no curvature to speak of.
     let limit = 1.0 / seed.spacing;
-    let [sum, product] = [a[0] + b[1], a[0] * b[1] - a[1] * b[0]];
-    if sum.abs() > limit {
-        return [0.0; 2];
+    let sharp = found.principal.iter().any(|k| k.abs() > limit);
+    if sharp || found.sum().abs() > limit {
+        return Curvature::default();
     }
-    [sum, product]
+    found
+}
+
+/// Principal curvatures of the form `a x^2 + 2 b x y + c y^2` along two axes.
+fn principal([u, v]: [Vector; 2], [a, b, c]: [f64; 3]) -> Curvature {
+    let (sine, cosine) = (0.5 * (2.0 * b).atan2(a - c)).sin_cos();
+    let [mean, apart] = [0.5 * (a + c), (0.5 * (a - c)).hypot(b)];
+    Curvature {
+        along: std::array::from_fn(|k| cosine * u[k] + sine * v[k]),
+        principal: [mean + apart, mean - apart],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn principal_curvatures_turn_with_their_axes() {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let (sine, cosine) = 0.4_f64.sin_cos();
+        let [first, second] = [3.0, -1.0];
+        let form = [
+            first * cosine * cosine + second * sine * sine,
+            (first - second) * sine * cosine,
+            first * sine * sine + second * cosine * cosine,
+        ];
+        let found = principal(axes, form);
+        assert!((found.principal[0] - first).abs() < 1e-12);
+        assert!((found.principal[1] - second).abs() < 1e-12);
+        assert!((found.along[0] - cosine).abs() < 1e-12 && (found.along[1] - sine).abs() < 1e-12);
+        assert!((found.widening(0.1) - 1.3 * 0.9).abs() < 1e-12);
+        assert!((found.beside(0.1).principal[0] - 3.0 / 1.3).abs() < 1e-12);
+    }
 }

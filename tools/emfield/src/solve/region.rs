@@ -100,6 +100,15 @@ impl<const D: usize> Region<D> {
         std::array::from_fn(|k| place[if self.axial { 2 * k } else { k }])
     }
 
+    /// The same with metrics that do not follow surfaces that bend.
+    #[must_use]
+    pub fn straight(mut self) -> Self {
+        for metric in &mut self.metrics {
+            *metric = metric.straight();
+        }
+        self
+    }
+
     /// Is the point on an interface?
     #[must_use]
     pub fn on_interface(&self, i: usize) -> bool {

@@ -47,7 +47,7 @@ pub enum Condition<const D: usize> {
         /// Drift \[1/m\]: the Laplacian and the gradient times it are g.
         drift: [f64; D],
     },
-    /// The polynomial is harmonic: its Laplacian is zero everywhere. It has no datum.
+    /// The polynomial is harmonic: its Laplacian is zero everywhere. It has no datum. Bent metrics are taken straight.
     Harmonic,
 }
 
@@ -90,7 +90,7 @@ impl Columns {
 }
 
 /// Rows over the monomials of `basis` in coordinates that `metric` and the radius of a support
-/// scale: s = M dx / (L radius). Derivatives are taken with respect to x / L.
+/// scale: s = M dx / (L radius), or along a surface. Derivatives are taken with respect to x / L.
 pub(crate) struct Rows<'a, const D: usize> {
     pub(crate) basis: &'a Basis<D>,
     pub(crate) metric: &'a Metric<D>,
@@ -102,14 +102,9 @@ impl<const D: usize> Rows<'_, D> {
         self.sum(|k| self.basis.derivative(k, &[], s))
     }
 
-    fn first(&self, along: [f64; D], s: [f64; D]) -> Coefficients {
-        let mut scaled = [0.0; D];
-        for (a, part) in along.iter().enumerate() {
-            let row = self.metric.row(a);
-            for (sum, entry) in scaled.iter_mut().zip(row) {
-                *sum += part * entry / self.radius;
-            }
-        }
+    /// Row of the derivative along a vector, at the offset `dx` with its coordinates `s`.
+    fn first(&self, along: [f64; D], (dx, s): (&[f64; D], [f64; D])) -> Coefficients {
+        let scaled = self.metric.turned(along, dx).map(|x| x / self.radius);
         self.sum(|k| {
             (0..D)
                 .map(|b| scaled[b] * self.basis.derivative(k, &[b], s))
@@ -118,14 +113,19 @@ impl<const D: usize> Rows<'_, D> {
     }
 
     /// sum over (a, b) of `pairs` of d2/dx_a dx_b.
-    fn second(&self, pairs: &[(usize, usize)], s: [f64; D]) -> Coefficients {
+    fn second(&self, pairs: &[(usize, usize)], (dx, s): (&[f64; D], [f64; D])) -> Coefficients {
         let mut product = [[0.0; D]; D];
+        let mut bend = [0.0; D];
+        let axis = |a: usize| std::array::from_fn(|c| f64::from(u8::from(a == c)));
         for &(a, b) in pairs {
-            let (first, second) = (self.metric.row(a), self.metric.row(b));
+            let [first, second] = [a, b].map(|a| self.metric.turned(axis(a), dx));
             for (sums, x) in product.iter_mut().zip(first) {
                 for (sum, y) in sums.iter_mut().zip(second) {
                     *sum += x * y / (self.radius * self.radius);
                 }
+            }
+            for (sum, x) in bend.iter_mut().zip(self.metric.bend(a, b)) {
+                *sum += x / self.radius;
             }
         }
         self.sum(|k| {
@@ -134,14 +134,15 @@ impl<const D: usize> Rows<'_, D> {
                 for (d, factor) in row.iter().enumerate() {
                     value += factor * self.basis.derivative(k, &[c, d], s);
                 }
+                value += bend[c] * self.basis.derivative(k, &[c], s);
             }
             value
         })
     }
 
-    fn laplacian(&self, s: [f64; D]) -> Coefficients {
+    fn laplacian(&self, at: (&[f64; D], [f64; D])) -> Coefficients {
         let pairs: [(usize, usize); D] = std::array::from_fn(|a| (a, a));
-        self.second(&pairs, s)
+        self.second(&pairs, at)
     }
 
     fn sum(&self, value: impl Fn(usize) -> f64) -> Coefficients {
@@ -154,10 +155,10 @@ impl<const D: usize> Rows<'_, D> {
 
     /// Rows of all wanted operators at the point itself.
     pub(crate) fn functionals(&self, columns: &Columns, rows: &mut Vec<Coefficients>) {
-        let own = [0.0; D];
+        let own = (&[0.0; D], [0.0; D]);
         rows.clear();
         if columns.value.is_some() {
-            rows.push(self.value(own));
+            rows.push(self.value(own.1));
         }
         if columns.gradient.is_some() {
             for a in 0..D {
@@ -185,20 +186,24 @@ impl<const D: usize> Rows<'_, D> {
         place: [f64; D],
         mut push: impl FnMut(Coefficients, Option<i32>),
     ) {
-        let offset = |at: [f64; D]| {
-            let s = self
-                .metric
-                .scaled(std::array::from_fn(|a| at[a] - place[a]));
-            s.map(|x| x / self.radius)
-        };
+        let offset = |at: [f64; D]| -> [f64; D] { std::array::from_fn(|a| at[a] - place[a]) };
+        let coordinates = |dx: [f64; D]| self.metric.scaled(dx).map(|x| x / self.radius);
         match *condition {
-            Condition::Value { at } => push(self.value(offset(at)), Some(0)),
-            Condition::Flux { at, normal } => push(self.first(normal, offset(at)), Some(1)),
-            Condition::Laplacian { at } => push(self.laplacian(offset(at)), Some(2)),
+            Condition::Value { at } => push(self.value(coordinates(offset(at))), Some(0)),
+            Condition::Flux { at, normal } => {
+                let dx = offset(at);
+                push(self.first(normal, (&dx, coordinates(dx))), Some(1));
+            }
+            Condition::Laplacian { at } => {
+                let dx = offset(at);
+                push(self.laplacian((&dx, coordinates(dx))), Some(2));
+            }
             Condition::Drift { at, drift } => {
+                let dx = offset(at);
+                let s = coordinates(dx);
                 let along = drift.map(|part| part * self.metric.spacing());
-                let mut row = self.laplacian(offset(at));
-                for (sum, first) in row.iter_mut().zip(self.first(along, offset(at))) {
+                let mut row = self.laplacian((&dx, s));
+                for (sum, first) in row.iter_mut().zip(self.first(along, (&dx, s))) {
                     *sum += first;
                 }
                 push(row, Some(2));
@@ -207,11 +212,12 @@ impl<const D: usize> Rows<'_, D> {
         }
     }
 
-    /// All coefficients of the Laplacian of the polynomial.
+    /// All coefficients of the Laplacian of the polynomial, in straight coordinates.
     fn harmonic(&self, mut push: impl FnMut(Coefficients, Option<i32>)) {
         let mut product = [[0.0; D]; D];
         for a in 0..D {
-            let row = self.metric.row(a);
+            let axis = std::array::from_fn(|c| f64::from(u8::from(a == c)));
+            let row = self.metric.turned(axis, &[0.0; D]);
             for (sums, x) in product.iter_mut().zip(row) {
                 for (sum, y) in sums.iter_mut().zip(row) {
                     *sum += x * y;

@@ -70,7 +70,8 @@ pub(crate) struct Work<const D: usize> {
     /// What a harmonic polynomial obeys, where it must be one.
     harmonic: Vec<Coefficients>,
     functionals: Vec<Coefficients>,
-    /// Room of each point over that of the own one, where points weigh by it.
+    /// What the weights of points are multiplied by beside that of their distance: room of each point over that of the
+    /// own one, where points weigh by it, and more along columns of layers.
     rooms: Vec<f64>,
     /// Weights of the data of conditions, functional after functional.
     pub(crate) shares: Vec<f64>,
@@ -280,17 +281,30 @@ impl<const D: usize> Bench<'_, D> {
                 }
             });
         }
-        work.rooms.clear();
-        if by_room {
-            let metrics = self.search.cloud().metrics;
-            let rooms = work.support.neighbours.iter();
-            let rooms = rooms.map(|j| metrics[*j as usize].volume() / target.metric.volume());
-            work.rooms.extend(rooms);
-        }
+        self.weigh((target, by_room), basis.order(), work);
         let offsets = work.support.offsets.as_slice();
         let support = (offsets, work.rooms.as_slice(), work.support.radius);
         let conditions = (work.condition_rows.as_slice(), work.harmonic.as_slice());
         work.fit.load(basis, support, conditions);
+    }
+
+    /// What the weights of points are multiplied by beside that of their distance; nothing where it is nothing.
+    fn weigh(&self, (target, by_room): (&Target<D>, bool), order: u8, work: &mut Work<D>) {
+        work.rooms.clear();
+        if !by_room && !target.metric.follows() {
+            return;
+        }
+        let metrics = self.search.cloud().metrics;
+        let above = target.metric.above(order);
+        let points = work.support.neighbours.iter().zip(&work.support.offsets);
+        work.rooms.extend(points.map(|(j, s)| {
+            let room = if by_room {
+                metrics[*j as usize].volume() / target.metric.volume()
+            } else {
+                1.0
+            };
+            room * target.metric.heavier(s, above)
+        }));
     }
 
     fn make_positive(
@@ -351,7 +365,7 @@ impl<const D: usize> Bench<'_, D> {
                 place: target.place.to_vec(),
                 found,
                 needed,
-                radius: work.support.radius * target.metric.widest * target.metric.spacing(),
+                radius: target.metric.reach(work.support.radius),
             };
         }
         Error::Flat {

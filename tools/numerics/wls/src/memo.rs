@@ -1,10 +1,7 @@
 //! Rows whose supports are equal up to scale: they have the same weights in units of the spacing.
 
-use std::cmp::Ordering;
-
 use rayon::prelude::*;
 
-use crate::metric::Metric;
 use crate::search::{Aim, Target};
 use crate::sweep::{Found, Supports};
 
@@ -88,7 +85,7 @@ impl<'a, const D: usize> Member<'a, D> {
         if !near
             || self.found.count != other.found.count
             || self.found.harmonic != other.found.harmonic
-            || !same_stretch(&self.target.metric, &other.target.metric)
+            || !self.target.metric.alike(&other.target.metric, EQUAL)
         {
             return false;
         }
@@ -125,16 +122,5 @@ impl<'a, const D: usize> Member<'a, D> {
             .iter()
             .fold(0.0_f64, |most, x| most.max(x.abs()));
         4.0 * f64::EPSILON * size / self.target.metric.spacing
-    }
-}
-
-fn same_stretch<const D: usize>(a: &Metric<D>, b: &Metric<D>) -> bool {
-    match (&a.stretch, &b.stretch) {
-        (None, None) => true,
-        (Some(a), Some(b)) => {
-            let mut pairs = a.as_flattened().iter().zip(b.as_flattened());
-            pairs.all(|(x, y)| (x - y).abs().partial_cmp(&EQUAL) == Some(Ordering::Less))
-        }
-        _ => false,
     }
 }

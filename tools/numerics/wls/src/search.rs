@@ -240,7 +240,7 @@ impl<'a, const D: usize> Search<'a, D> {
     ) {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for target in targets {
-            let radius = reach.guess::<D>() * target.metric.widest * target.metric.spacing;
+            let radius = target.metric.reach(reach.guess::<D>());
             for (k, x) in solid(target.place).into_iter().enumerate() {
                 low[k] = low[k].min(x - radius);
                 high[k] = high[k].max(x + radius);
@@ -340,7 +340,7 @@ impl<'a, const D: usize> Search<'a, D> {
         support: &mut Support<D>,
     ) {
         // A little more than what the metric will admit.
-        let limit = (radius * target.metric.widest * target.metric.spacing).powi(2) * (1.0 + TIE);
+        let limit = target.metric.reach(radius).powi(2) * (1.0 + TIE);
         let within = radius * radius;
         support.found.clear();
         for run in candidates {

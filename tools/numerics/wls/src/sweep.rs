@@ -71,7 +71,7 @@ pub(crate) fn over_points<const D: usize>(
     plan: &Plan,
     rules: &dyn Rules<D>,
 ) -> Result<Stencils<D>, Error> {
-    let target = |row: usize| search.target(row);
+    let target = |row: usize| straightened(search.target(row), rules);
     let leaves = search.tree().leaves();
     let batches = leaves
         .iter()
@@ -99,11 +99,15 @@ pub(crate) fn over_places<const D: usize>(
             place: places[point].to_vec(),
         });
     }
-    let target = |row: usize| Target {
-        row,
-        place: places[row],
-        metric: search.cloud().metrics[search.nearest(places[row])],
-        own: false,
+    let target = |row: usize| {
+        let nearest = search.nearest(places[row]);
+        let target = Target {
+            row,
+            place: places[row],
+            metric: search.cloud().metrics[nearest],
+            own: false,
+        };
+        straightened(target, rules)
     };
     let batches = (0..places.len() as u32)
         .filter(|&row| rules.wanted(row as usize))
@@ -114,6 +118,21 @@ pub(crate) fn over_places<const D: usize>(
         .collect::<Vec<_>>();
     let bench = bench(search, plan, rules)?;
     bench.sweep(batches, places.len(), &target)
+}
+
+/// A row, its coordinates straight where its polynomial must be harmonic.
+fn straightened<const D: usize>(target: Target<D>, rules: &dyn Rules<D>) -> Target<D> {
+    if !target.metric.follows() {
+        return target;
+    }
+    let mut conditions = Vec::new();
+    rules.conditions(target.row, &mut conditions);
+    let metric = if conditions.contains(&Condition::Harmonic) {
+        target.metric.straight()
+    } else {
+        target.metric
+    };
+    Target { metric, ..target }
 }
 
 fn bench<'a, const D: usize>(

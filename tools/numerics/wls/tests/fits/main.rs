@@ -6,6 +6,7 @@
     reason = "a test may fail, and some answers are exact"
 )]
 
+mod bent;
 mod clouds;
 mod conditions;
 mod exact;
