@@ -13,6 +13,8 @@
 //! those of their neighbours. `A(-F) = A(F) + F`, so what leaves one cell enters the next exactly:
 //! the flux of phi is `F phi_P + A (phi_P - phi_E)`.
 
+use relax::Coefficients;
+
 /// The coefficient of the neighbour, from the mass flux out and the diffusive conductance.
 #[must_use]
 #[inline]
@@ -26,6 +28,14 @@ pub fn hybrid(out: f64, diffusion: f64) -> f64 {
 #[inline]
 pub fn dirichlet(out: f64, diffusion: f64) -> f64 {
     (diffusion - out).max(0.0)
+}
+
+/// Mass that leaves a cell beyond what enters it, before the fluxes are balanced, takes the cell's `own`
+/// value along: else a cell that all of its sides flow out of would have no equation. Balanced fluxes
+/// add nothing.
+pub fn unbalanced(c: &mut Coefficients, outflow: f64, own: f64) {
+    c.centre += outflow.max(0.0);
+    c.source += outflow.max(0.0) * own;
 }
 
 /// Harmonic mean of two values with distances to the face between them.
@@ -97,6 +107,20 @@ mod tests {
     fn what_leaves_one_cell_enters_the_next() {
         for (f, d) in [(0.3, 1.0), (5.0, 1.0), (-5.0, 1.0), (2.0, 1.0), (1.0, 0.0)] {
             assert!((hybrid(-f, d) - hybrid(f, d) - f).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn what_is_not_balanced_yet_takes_the_own_value_along() {
+        let equation = Coefficients {
+            centre: 3.0,
+            source: 5.0,
+            ..Coefficients::default()
+        };
+        for (outflow, centre, source) in [(0.0, 3.0, 5.0), (-2.0, 3.0, 5.0), (2.0, 5.0, 13.0)] {
+            let mut c = equation;
+            unbalanced(&mut c, outflow, 4.0);
+            assert!((c.centre - centre).abs() < 1e-15 && (c.source - source).abs() < 1e-15);
         }
     }
 

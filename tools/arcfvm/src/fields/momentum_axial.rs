@@ -11,7 +11,7 @@ use relax::Coefficients;
 use crate::case::{Case, FlowCase, FlowEdge};
 use crate::fields::edge_shear::Rows;
 use crate::fields::flow::{Face, Flow};
-use crate::transport::{dirichlet, hybrid};
+use crate::transport::{dirichlet, hybrid, unbalanced};
 
 /// What the axial momentum equation reads.
 pub struct AxialMomentum<'a> {
@@ -35,6 +35,8 @@ struct Beyond {
     neighbour: f64,
     centre: f64,
     source: f64,
+    /// Mass that leaves through the open parts \[kg/s\].
+    outflow: f64,
 }
 
 impl AxialMomentum<'_> {
@@ -74,6 +76,18 @@ impl AxialMomentum<'_> {
         c.centre += c.east + c.west + c.south + c.north + west.centre + east.centre;
         c.source = west.source + east.source + ring * (below - above);
         c.source += ring * (end - start) * self.force(i, j);
+        let south = if j > 0 {
+            -through(face - grid.nr)
+        } else {
+            -flow.mass_axial[face]
+        };
+        let north = if j < grid.nz {
+            through(face)
+        } else {
+            flow.mass_axial[face]
+        };
+        let outflow = south + north + west.outflow + east.outflow;
+        unbalanced(&mut c, outflow, flow.axial[face]);
         c
     }
 
@@ -117,6 +131,7 @@ impl AxialMomentum<'_> {
             let area = PI * grid.rf[at] * grid.dz[row];
             let flux = 0.5 * sign * flow.mass_radial[grid.radial_face(at, row)];
             let wall = self.viscosity[grid.cell(i, row)] * area / (0.5 * grid.dr[i]);
+            all.outflow += flux;
             if inside {
                 let column = if east { i + 1 } else { i - 1 };
                 if self.case.is_gas(column, row) {

@@ -13,7 +13,7 @@ use relax::Coefficients;
 use crate::case::{Case, FlowCase, FlowEdge};
 use crate::fields::edge_shear::Rows;
 use crate::fields::flow::{Face, Flow};
-use crate::transport::{dirichlet, hybrid};
+use crate::transport::{dirichlet, hybrid, unbalanced};
 
 /// What the radial momentum equation reads.
 pub struct RadialMomentum<'a> {
@@ -35,6 +35,8 @@ struct Beyond {
     neighbour: f64,
     centre: f64,
     source: f64,
+    /// Mass that leaves through the open parts \[kg/s\].
+    outflow: f64,
 }
 
 impl RadialMomentum<'_> {
@@ -79,6 +81,13 @@ impl RadialMomentum<'_> {
         c.source += grid.area(i, j) * (flow.pressure[west] - pressure_beyond);
         let volume = 0.5 * width * (end * end - start * start);
         c.source += volume * self.force(face);
+        let east = if i < grid.nr {
+            through(face)
+        } else {
+            flow.mass_radial[face]
+        };
+        let outflow = east - through(face - 1) + south.outflow + north.outflow;
+        unbalanced(&mut c, outflow, flow.radial[face]);
         c
     }
 
@@ -125,6 +134,7 @@ impl RadialMomentum<'_> {
             let area = PI * (grid.rf[i] * grid.rf[i] - grid.rc[column] * grid.rc[column]).abs();
             let flux = 0.5 * sign * flow.mass_axial[grid.axial_face(column, at)];
             let wall = self.viscosity[grid.cell(column, j)] * area / (0.5 * grid.dz[j]);
+            all.outflow += flux;
             if inside {
                 let row = if north { j + 1 } else { j - 1 };
                 if self.case.is_gas(column, row) {
