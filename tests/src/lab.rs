@@ -193,6 +193,25 @@ impl Lab {
         self.execute(command, artefact)
     }
 
+    /// The run `first` with `patch` over all others, the user's included: for a patch that is made from
+    /// the scene which ran.
+    ///
+    /// # Errors
+    /// When the tool cannot be started or does not end with exit code 0.
+    pub fn varied(
+        &self,
+        first: &Finished,
+        label: &str,
+        patch: &Value,
+    ) -> Result<Finished, LabError> {
+        let artefact = first.artefact.with_file_name(format!("{label}.mcap"));
+        let patch_file = artefact.with_extension("patch.json");
+        write(&patch_file, &patch.to_string())?;
+        let mut command = first.command.clone();
+        command.extend(["--patch".into(), patch_file.into()]);
+        self.execute(command, artefact)
+    }
+
     /// The same run once more. Its artefact is compared with the first and removed.
     ///
     /// # Errors

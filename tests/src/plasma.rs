@@ -1,6 +1,7 @@
 //! Reads the fields of an arc and compares them with exact ones.
 
 use artefact::{Reader, Table};
+use run::property::{Arguments, Property};
 
 use crate::case::{Errors, Measurement, Target};
 use crate::lab::{Finished, LabError};
@@ -110,6 +111,48 @@ pub fn number(run: &Finished, path: &str) -> Result<f64, LabError> {
             path: run.artefact.clone(),
             what: format!("its scene has no number at {path}; the exact solution needs one there"),
         })
+}
+
+/// The property at `path` of the scene that ran, at a radius \[m\] and a temperature \[K\].
+///
+/// # Errors
+/// When there is none, or it has no value there.
+pub fn property(
+    run: &Finished,
+    path: &str,
+    radius: f64,
+    temperature: f64,
+) -> Result<f64, LabError> {
+    let wrong = |what: String| LabError::Content {
+        path: run.artefact.clone(),
+        what: format!("its scene at {path}: {what}"),
+    };
+    let found = run.scene.pointer(path).cloned().unwrap_or_default();
+    let property: Property = serde_json::from_value(found).map_err(|e| wrong(e.to_string()))?;
+    let curve = property.compile(path, &["x", "y", "z", "r", "T", "t"]);
+    let at = Arguments {
+        temperature,
+        ..Arguments::at([radius, 0.0, 0.0], 0.0)
+    };
+    let value = curve.map_err(|e| wrong(e.to_string()))?.value(&at);
+    value.map_err(|e| wrong(e.to_string()))
+}
+
+/// The slope a of the property `a (T - wall)` at `path` of the scene that ran.
+///
+/// # Errors
+/// When the property is none such: the exact solution wants it.
+pub fn slope(run: &Finished, path: &str, wall: f64) -> Result<f64, LabError> {
+    const STEP: f64 = 1e3;
+    let at = |steps: f64| property(run, path, 0.0, wall + steps * STEP);
+    let [none, one, seven] = [at(0.0)?, at(1.0)?, at(7.0)?];
+    if none.abs() > 1e-9 * one.abs() || (seven / one - 7.0).abs() > 1e-9 {
+        return Err(LabError::Content {
+            path: run.artefact.clone(),
+            what: format!("its scene at {path}: the exact solution wants a (T - {wall})"),
+        });
+    }
+    Ok(one / STEP)
 }
 
 /// A bound `max` on the error and `order` on the order of each quantity.

@@ -9,11 +9,6 @@ use crate::lab::{Finished, Lab, LabError};
 use crate::plasma::{self, Plasma};
 use crate::special::{J0_ZERO, bessel_j};
 
-/// Slope of the scene's conductivity against temperature \[S/(m K)\].
-const CONDUCTIVITY: f64 = 0.5;
-/// Slope of the scene's net emission against temperature \[W/(m3 K)\].
-const EMISSION: f64 = 8e5;
-
 /// The case.
 pub(super) struct ArcColumn;
 
@@ -28,6 +23,8 @@ struct Column {
     excess: f64,
     /// Field strength \[V/m\].
     field: f64,
+    /// Slope of the net emission against temperature \[W/(m3 K)\].
+    emission: f64,
 }
 
 impl Column {
@@ -36,14 +33,18 @@ impl Column {
         let conduction = plasma::number(run, "/gas/given/thermal_conductivity_w_m_k")?;
         let current = plasma::number(run, "/current/edges/top/0/total_current_a")?;
         let curvature = conduction * (J0_ZERO / radius).powi(2);
-        let field = ((curvature + EMISSION) / CONDUCTIVITY).sqrt();
-        let per_kelvin = CONDUCTIVITY * field * area(radius);
+        let wall = plasma::number(run, "/heat/edges/outer/0/temperature_k")?;
+        let conductivity = plasma::slope(run, "/gas/given/electric_conductivity_s_m", wall)?;
+        let emission = plasma::slope(run, "/gas/given/net_emission_w_m3", wall)?;
+        let field = ((curvature + emission) / conductivity).sqrt();
+        let per_kelvin = conductivity * field * area(radius);
         Ok(Self {
             radius,
             length: plasma::number(run, "/domain/z_m/1")?,
-            wall: plasma::number(run, "/heat/edges/outer/0/temperature_k")?,
+            wall,
             excess: current / per_kelvin,
             field,
+            emission,
         })
     }
 
@@ -53,7 +54,7 @@ impl Column {
 
     /// What the whole column radiates \[W\].
     fn radiation(&self) -> f64 {
-        EMISSION * self.excess * area(self.radius) * self.length
+        self.emission * self.excess * area(self.radius) * self.length
     }
 }
 

@@ -7,9 +7,6 @@ use crate::lab::{Finished, Lab, LabError};
 use crate::plasma::{self, Plasma};
 use crate::special::{J0_ZERO, bessel_j};
 
-/// Slope of the scene's conductivity against temperature \[S/(m K)\].
-const SLOPE: f64 = 0.5;
-
 /// The case.
 pub(super) struct ArcElenbaas;
 
@@ -30,11 +27,13 @@ impl Column {
         let radius = plasma::number(run, "/domain/r_m/1")?;
         let heat = plasma::number(run, "/gas/given/thermal_conductivity_w_m_k")?;
         let current = plasma::number(run, "/current/edges/top/0/total_current_a")?;
-        let field = J0_ZERO / radius * (heat / SLOPE).sqrt();
-        let per_kelvin = 2.0 * PI * SLOPE * field * radius.powi(2) * bessel_j(1, J0_ZERO) / J0_ZERO;
+        let wall = plasma::number(run, "/heat/edges/outer/0/temperature_k")?;
+        let slope = plasma::slope(run, "/gas/given/electric_conductivity_s_m", wall)?;
+        let field = J0_ZERO / radius * (heat / slope).sqrt();
+        let per_kelvin = 2.0 * PI * slope * field * radius.powi(2) * bessel_j(1, J0_ZERO) / J0_ZERO;
         Ok(Self {
             radius,
-            wall: plasma::number(run, "/heat/edges/outer/0/temperature_k")?,
+            wall,
             excess: current / per_kelvin,
             field,
         })

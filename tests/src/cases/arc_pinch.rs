@@ -57,18 +57,15 @@ impl Case for ArcPinch {
             &format!("even-{method}{level}"),
             &even,
         )?;
-        let growing = json!({"grid": {"r": spacing}, "iterate": iterate, "gas": {"given": {"electric_conductivity_s_m":
-            {"expr": format!("1000*(1 + {GROWTH}*(r/0.005)^2)")}}}});
-        let run = lab.run(
-            "arcfvm",
-            self.name(),
-            &format!("growing-{method}{level}"),
-            &growing,
-        )?;
+        let radius = plasma::number(&even, "/domain/r_m/1")?;
+        let conductivity = "/gas/given/electric_conductivity_s_m";
+        let axis = plasma::property(&even, conductivity, 0.0, 300.0)?;
+        let growing = json!({"gas": {"given": {"electric_conductivity_s_m":
+            {"expr": format!("{axis}*(1 + {GROWTH}*(r/{radius})^2)")}}}});
+        let run = lab.varied(&even, &format!("growing-{method}{level}"), &growing)?;
         let mut errors = Errors::new();
         for (name, run, growth) in [("even_", &even, 0.0), ("", &run, GROWTH)] {
             let current = plasma::number(run, "/current/edges/top/0/total_current_a")?;
-            let radius = plasma::number(run, "/domain/r_m/1")?;
             let (l2, linf) = Plasma::read(run)?
                 .compare_shifted("pressure_pa", |r, _| pressure(current, radius, growth, r))?;
             errors.insert(format!("{name}pressure_l2"), l2);

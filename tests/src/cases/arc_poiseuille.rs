@@ -7,17 +7,60 @@ use crate::lab::{Finished, Lab, LabError};
 use crate::norms;
 use crate::plasma::{self, Plasma};
 
-/// Speed on the axis that both profiles are fed in with \[m/s\].
-const AXIS_SPEED: f64 = 2.0;
-
-/// Speed of a viscosity `mu (1 + x^2)`, `x = r/R`: the integral of `dw/dr = (dp/dz) r / (2 mu (1 + x^2))`.
+/// A viscosity `mu (1 + x^2)`, `x = r/R`: the integral of `dw/dr = (dp/dz) r / (2 mu (1 + x^2))` over
+/// the speed on the axis.
 fn growing(x: f64) -> f64 {
-    AXIS_SPEED * (1.0 - (x * x).ln_1p() / 2.0_f64.ln())
+    1.0 - (x * x).ln_1p() / 2.0_f64.ln()
 }
 
-/// Speed of an even viscosity.
+/// An even viscosity.
 fn even(x: f64) -> f64 {
-    AXIS_SPEED * (1.0 - x * x)
+    1.0 - x * x
+}
+
+/// What both runs share.
+struct Pipe {
+    /// \[m\].
+    radius: f64,
+    /// Speed on the axis \[m/s\].
+    axis: f64,
+    /// Viscosity there \[Pa s\].
+    viscosity: f64,
+}
+
+impl Pipe {
+    fn of(run: &Finished) -> Result<Self, LabError> {
+        let radius = plasma::number(run, "/domain/r_m/1")?;
+        let inflow = |r| plasma::property(run, "/flow/edges/bottom/0/velocity_m_s/1", r, 300.0);
+        let axis = inflow(0.0)?;
+        if (inflow(0.5 * radius)? / axis - even(0.5)).abs() > 1e-9 {
+            return Err(LabError::Content {
+                path: run.artefact.clone(),
+                what: "its gas does not come in developed, as w0 (1 - r^2/R^2)".to_owned(),
+            });
+        }
+        let viscosity = plasma::number(run, "/gas/given/viscosity_pa_s")?;
+        Ok(Self {
+            radius,
+            axis,
+            viscosity,
+        })
+    }
+
+    /// The same flow through a viscosity that grows outward.
+    fn growing(&self) -> serde_json::Value {
+        let Self {
+            radius,
+            axis,
+            viscosity,
+        } = self;
+        json!({
+            "gas": {"given": {"viscosity_pa_s":
+                {"expr": format!("{viscosity}*(1 + (r/{radius})^2)")}}},
+            "flow": {"edges": {"bottom": [{"velocity_m_s":
+                [0, {"expr": format!("{axis}*(1 - ln(1 + (r/{radius})^2)/ln(2))")}]}]}},
+        })
+    }
 }
 
 /// The case.
@@ -48,21 +91,15 @@ impl Case for ArcPoiseuille {
         let spacing = 5e-4 / f64::from(1 << (level - 1));
         let grid = json!({"grid": {"r": spacing, "z": 2.0 * spacing}});
         let steady = lab.run("arcfvm", self.name(), &format!("even{level}"), &grid)?;
-        let patch = json!({
-            "grid": {"r": spacing, "z": 2.0 * spacing},
-            "gas": {"given": {"viscosity_pa_s": {"expr": "0.001*(1 + (r/0.005)^2)"}}},
-            "flow": {"edges": {"bottom": [
-                {"velocity_m_s": [0, {"expr": "2*(1 - ln(1 + (r/0.005)^2)/ln(2))"}]}
-            ]}},
-        });
-        let run = lab.run("arcfvm", self.name(), &format!("growing{level}"), &patch)?;
-        let radius = plasma::number(&steady, "/domain/r_m/1")?;
-        let viscosity = plasma::number(&steady, "/gas/given/viscosity_pa_s")?;
-        let fall = -4.0 * viscosity * AXIS_SPEED / radius.powi(2);
-        let mut errors = errors_of(&steady, "even_", &|r| even(r / radius), fall)?;
-        // Of the growing viscosity 1e-3 Pa s on the axis; the slope of ln(1 + x^2) is 2x at small x.
-        let fall = -4.0 * 1e-3 * AXIS_SPEED / 2.0_f64.ln() / radius.powi(2);
-        errors.append(&mut errors_of(&run, "", &|r| growing(r / radius), fall)?);
+        let pipe = Pipe::of(&steady)?;
+        let run = lab.varied(&steady, &format!("growing{level}"), &pipe.growing())?;
+        let fall = -4.0 * pipe.viscosity * pipe.axis / pipe.radius.powi(2);
+        let pipe = &pipe;
+        let speed = |shape: fn(f64) -> f64| move |r: f64| pipe.axis * shape(r / pipe.radius);
+        let mut errors = errors_of(&steady, "even_", &speed(even), fall)?;
+        // The slope of ln(1 + x^2) is 2x at small x.
+        let fall = fall / 2.0_f64.ln();
+        errors.append(&mut errors_of(&run, "", &speed(growing), fall)?);
         let fields = Plasma::read(&run)?;
         Ok(plasma::measurement(run, &fields, spacing, errors))
     }

@@ -7,8 +7,6 @@ use crate::special::bessel_j;
 
 /// First positive zero of J1, so that nothing flows through the side.
 const J1_ZERO: f64 = 3.831_705_970_207_512;
-/// The voltages of the scene's upper edge: mean and Bessel mode \[V\].
-const MODES: [f64; 2] = [4.0, 2.0];
 const MU0: f64 = 1.256_637_062_12e-6;
 
 /// The case.
@@ -23,6 +21,26 @@ struct Layers {
     sigma: [f64; 2],
     /// Wave number of the mode \[1/m\].
     k: f64,
+    /// Voltages of the upper edge: mean and Bessel mode \[V\].
+    modes: [f64; 2],
+}
+
+/// Mean and Bessel mode of the upper edge's voltage, by its values on the axis and at the side.
+fn modes(run: &Finished) -> Result<[f64; 2], LabError> {
+    let side = plasma::number(run, "/domain/r_m/1")?;
+    let voltage = |r: f64| plasma::property(run, "/current/edges/top/0/voltage_v", r, 300.0);
+    let end = bessel_j(0, J1_ZERO);
+    let mode = (voltage(0.0)? - voltage(side)?) / (1.0 - end);
+    let mean = voltage(0.0)? - mode;
+    let half = mean + mode * bessel_j(0, 0.5 * J1_ZERO);
+    if (voltage(0.5 * side)? - half).abs() > 1e-6 * (mean.abs() + mode.abs()) {
+        return Err(LabError::Content {
+            path: run.artefact.clone(),
+            what: "the voltage of its upper edge is no constant and Bessel mode J0(3.83 r/R)"
+                .into(),
+        });
+    }
+    Ok([mean, mode])
 }
 
 impl Layers {
@@ -36,6 +54,7 @@ impl Layers {
                 plasma::number(run, "/gas/given/electric_conductivity_s_m")?,
             ],
             k: J1_ZERO / plasma::number(run, "/domain/r_m/1")?,
+            modes: modes(run)?,
         })
     }
 
@@ -73,8 +92,8 @@ impl Layers {
     /// Scales of both modes.
     fn scales(&self) -> [f64; 2] {
         [
-            MODES[0] / self.linear(self.height).0,
-            MODES[1] / self.hyperbolic(self.height).0,
+            self.modes[0] / self.linear(self.height).0,
+            self.modes[1] / self.hyperbolic(self.height).0,
         ]
     }
 
@@ -143,6 +162,7 @@ mod tests {
             height: 0.02,
             sigma: [8000.0, 2000.0],
             k: J1_ZERO / 0.02,
+            modes: [4.0, 2.0],
         };
         for mode in [Layers::linear, Layers::hyperbolic] {
             let (below, above) = (mode(&layers, 0.008), mode(&layers, 0.008 + 1e-12));
