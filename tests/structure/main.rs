@@ -32,7 +32,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "wls" => &["neighbours", "krylov"],
         "run" => &["artefact"],
         "report" => &["artefact", "run"],
-        "verification" => &["artefact", "kernels", "neighbours", "relax", "wls"],
+        "verification" => &["artefact", "kernels", "neighbours", "relax", "run", "wls"],
         _ => return NUMERICS.iter().chain(&HARNESS).copied().collect(),
     };
     set.iter().copied().collect()
