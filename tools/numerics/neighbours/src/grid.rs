@@ -2,11 +2,16 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::sieve::{AWAY, LANES, Lanes};
 
 /// More cells than this many per point make the cells grow: a lone far point must not cost
 /// memory in proportion to the empty space before it.
 const CELLS_PER_POINT: usize = 16;
+/// Points per unit of parallel work.
+const GRAIN: usize = 4096;
+
 /// Cells that are always allowed.
 const CELLS_FREE: usize = 4096;
 
@@ -78,13 +83,17 @@ impl Grid {
     pub fn bin(&mut self, points: &[[f64; 3]]) {
         self.enclose(points);
         let cells = self.counts.iter().product::<usize>();
+        let mut cell_of = std::mem::take(&mut self.cell_of);
+        points
+            .par_iter()
+            .with_min_len(GRAIN)
+            .map(|point| number(self.index(self.cell(*point))))
+            .collect_into_vec(&mut cell_of);
+        self.cell_of = cell_of;
         self.start.clear();
         self.start.resize(cells + 1, 0);
-        self.cell_of.clear();
-        for point in points {
-            let cell = self.index(self.cell(*point));
-            self.cell_of.push(number(cell));
-            self.start[cell + 1] += 1;
+        for cell in &self.cell_of {
+            self.start[*cell as usize + 1] += 1;
         }
         for cell in 0..cells {
             self.start[cell + 1] += self.start[cell];
@@ -101,11 +110,13 @@ impl Grid {
         }
         self.start.remove(0);
         self.start.push(number(points.len()));
-        for (axis, column) in self.columns.iter_mut().enumerate() {
+        let sorted = &self.sorted;
+        let columns = self.columns.par_iter_mut().enumerate();
+        columns.for_each(|(axis, column)| {
             column.clear();
-            column.extend(self.sorted.iter().map(|place| place[axis]));
+            column.extend(sorted.iter().map(|place| place[axis]));
             column.extend([AWAY; LANES]);
-        }
+        });
     }
 
     /// Point indices sorted by cell: the order in which a compact copy has the best locality.

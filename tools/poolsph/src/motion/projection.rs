@@ -200,33 +200,36 @@ impl Projection {
         self.field.resize(n, [0.0; 4]);
         self.sums.resize(n, [0.0; 4]);
         self.partial.resize(n.div_ceil(ROWS), Partial::default());
-        self.diagonal.clear();
+        self.diagonal.resize(n, 0.0);
+        self.place.resize(n, [0.0; 3]);
+        self.tried.resize(n, [0.0; 4]);
         let scale = dt * dt * volume * force;
         let least = DIAGONAL_LEAST * self.lattice.gradient_squared;
-        let diagonal = (0..n).map(|a| {
-            // The stiffest mode over the diagonal grows with the number of neighbours.
-            let scale = scale * (volume * near.number[a]).max(1.0);
-            match near.role[a] {
-                Role::Liquid => {
-                    (scale * (near.squares[a] + squared(near.gradient[a])).max(least)) as f32
-                }
-                Role::Wet if near.squares[a] > 0.0 => (scale * near.squares[a].max(least)) as f32,
-                _ => 0.0,
-            }
-        });
-        self.diagonal.extend(diagonal);
-        for (p, diagonal) in self.pressure.iter_mut().zip(&self.diagonal) {
-            if *diagonal <= 0.0 {
-                *p = 0.0;
-            }
-        }
         let origin = middle(&near.position);
-        self.place.clear();
-        let places = near.position.iter().map(|x| minus(*x, origin));
-        self.place.extend(places.map(|x| x.map(|x| x as f32)));
-        self.tried.clear();
-        let tried = self.place.iter().zip(&self.pressure);
-        self.tried.extend(tried.map(|(x, p)| carried(*x, *p)));
+        self.diagonal
+            .par_iter_mut()
+            .zip(&mut self.pressure)
+            .zip(&mut self.place)
+            .zip(&mut self.tried)
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(|(a, (((diagonal, pressure), place), tried))| {
+                // The stiffest mode over the diagonal grows with the number of neighbours.
+                let scale = scale * (volume * near.number[a]).max(1.0);
+                let squares = near.squares[a];
+                *diagonal = match near.role[a] {
+                    Role::Liquid => {
+                        (scale * (squares + squared(near.gradient[a])).max(least)) as f32
+                    }
+                    Role::Wet if squares > 0.0 => (scale * squares.max(least)) as f32,
+                    _ => 0.0,
+                };
+                if *diagonal <= 0.0 {
+                    *pressure = 0.0;
+                }
+                *place = minus(near.position[a], origin).map(|x| x as f32);
+                *tried = carried(*place, *pressure);
+            });
     }
 
     /// Fixed part of the residual, C + dt J u*. Where solid metal is packed too densely by itself, no

@@ -228,12 +228,14 @@ impl Near {
 
     /// Positions beside what tells liquid from solid.
     fn mark(&mut self) {
-        let marks = self.position.iter().zip(&self.role);
-        self.marks.clear();
-        self.marks.extend(marks.map(|([x, y, z], role)| {
-            let liquid = f64::from(u8::from(*role == Role::Liquid));
-            [*x, *y, *z, liquid]
-        }));
+        let marks = self.position.par_iter().zip(&self.role);
+        marks
+            .with_min_len(GRAIN)
+            .map(|([x, y, z], role)| {
+                let liquid = f64::from(u8::from(*role == Role::Liquid));
+                [*x, *y, *z, liquid]
+            })
+            .collect_into_vec(&mut self.marks);
     }
 
     /// Liquid particles, and solid ones within two reaches of a liquid one.
