@@ -9,6 +9,7 @@ use std::path::Path;
 use artefact::{Frame, Reader};
 use serde::Deserialize;
 
+use super::told::Told;
 use crate::lab::LabError;
 
 /// Coordinates closer than this part of the extent are the same.
@@ -208,6 +209,7 @@ fn shelves(values: impl Iterator<Item = f64>, same: f64) -> Vec<usize> {
 pub(super) struct Checks {
     pub(super) bounds: Option<Bounds>,
     pub(super) monotone: Option<Monotone>,
+    pub(super) told: Told,
 }
 
 impl Checks {

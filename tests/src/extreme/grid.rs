@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 
 use super::Outcome;
 use super::check::{Checks, Name};
+use super::told::Told;
 use crate::lab::LabError;
 
 /// What stands for the value in a template.
@@ -87,6 +88,9 @@ pub struct Special {
     pub patch: Value,
     /// Ends that are good here.
     pub expect: Option<Vec<Outcome>>,
+    /// What a run with this value must tell besides.
+    #[serde(default)]
+    pub told: Told,
 }
 
 fn slot() -> Value {
@@ -227,10 +231,13 @@ impl Grid {
         let axes = [Some(&self.x), self.y.as_ref()];
         let mut parameters = Map::new();
         let mut expect = self.expect.clone();
+        let mut checks = checks.clone();
         for (axis, index) in axes.into_iter().zip(at) {
             let Some(axis) = axis else { continue };
             parameters.insert(axis.name.clone(), axis.label(index).into());
-            if let Some(own) = axis.special(index).expect {
+            let special = axis.special(index);
+            checks.told = checks.told.and(&special.told);
+            if let Some(own) = special.expect {
                 expect = own;
             }
         }
@@ -242,7 +249,6 @@ impl Grid {
             axis.and_then(|axis| axis.special(index).value)
                 .unwrap_or(1.0)
         };
-        let mut checks = checks.clone();
         checks.bounds = checks.bounds.map(|b| match b.times {
             Some(name) => b.scaled(factor(name)),
             None => b,
@@ -343,7 +349,7 @@ mod tests {
         );
         let checks = Checks {
             bounds: bounds.ok(),
-            monotone: None,
+            ..Checks::default()
         };
         // The limit falls as the coefficient rises, which only the row's own scene can tell.
         let limit = |_: usize, name: &str, scene: &Value| {

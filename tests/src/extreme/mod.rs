@@ -9,6 +9,7 @@
 pub mod check;
 pub mod grid;
 mod stand;
+pub mod told;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ use serde_json::Value;
 use self::check::{Bounds, Monotone};
 use self::grid::{Grid, Scales};
 use self::stand::Stand;
+use self::told::Told;
 use crate::bell::Bell;
 use crate::lab::{LabError, read_json};
 
@@ -39,6 +41,9 @@ pub struct Extreme {
     pub bounds: Option<Bounds>,
     /// How a column goes along an axis in every run, unless a run tells its own.
     pub monotone: Option<Monotone>,
+    /// What every run must tell.
+    #[serde(default)]
+    pub told: Told,
     /// The runs.
     #[serde(default)]
     pub runs: Vec<Variant>,
@@ -73,6 +78,9 @@ pub struct Variant {
     pub bounds: Option<Bounds>,
     /// How a column goes along an axis.
     pub monotone: Option<Monotone>,
+    /// What it must tell besides.
+    #[serde(default)]
+    pub told: Told,
 }
 
 /// How a run ended.

@@ -36,6 +36,7 @@ impl Stand<'_> {
         let checks = Checks {
             bounds: variant.bounds.clone().or_else(|| case.bounds.clone()),
             monotone: variant.monotone.clone().or_else(|| case.monotone.clone()),
+            told: case.told.and(&variant.told),
         };
         let trial = Trial {
             name: &variant.name,
@@ -54,6 +55,7 @@ impl Stand<'_> {
         let checks = Checks {
             bounds: case.bounds.clone(),
             monotone: case.monotone.clone(),
+            told: case.told.clone(),
         };
         let limit = |row: usize, name: &str, scene: &Value| {
             let path = self.folder.join(format!("limit-y{row}.scene.json"));
@@ -130,8 +132,9 @@ impl Stand<'_> {
             Some(1) if record["outcome"].as_str() == Some("diverged") => Outcome::DivergedDetected,
             _ => Outcome::Failed,
         };
-        let mut broken = Vec::new();
-        if matches!(outcome, Outcome::Stable | Outcome::Substepped) {
+        let finished = matches!(outcome, Outcome::Stable | Outcome::Substepped);
+        let mut broken = trial.checks.told.broken(&message, &record, finished);
+        if finished {
             broken.extend(lost(&record["closing"]));
             broken.extend(trial.checks.broken(&artefact)?);
         }

@@ -52,6 +52,9 @@ impl Tool for EmField {
         if let Some(currents) = &scene.eddy_currents {
             assemble::windings(scene, currents, &cloud)?;
         }
+        if let Some(electrostatics) = &scene.electrostatics {
+            assemble::shorts(scene, electrostatics, &cloud)?;
+        }
         let enclosing = assemble::enclosing(scene, &cloud)?;
         let plan = shown(scene, &cloud, &enclosing);
         if let Ok(mut ready) = READY.lock() {
@@ -76,6 +79,9 @@ fn solve<const D: usize, const K: usize>(
 ) -> Result<(), Failure> {
     // Until a march has begun nothing is worth a checkpoint.
     let expendable = session.expendable();
+    for what in Cloud::grains(scene) {
+        session.warn(what);
+    }
     let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
     let mut found = Found::default();
     if let Some(electrostatics) = &scene.electrostatics {

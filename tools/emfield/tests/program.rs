@@ -264,3 +264,57 @@ fn a_fault_names_file_line_and_place() {
         "{said}"
     );
 }
+
+#[test]
+fn a_box_less_permittive_than_its_surroundings_has_no_potential_beyond_the_walls() {
+    for order in [2, 4] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = scene();
+        scene["bodies"] = json!([{"name": "void", "relative_permittivity": 0.1,
+            "shape": {"box": {"min_m": [-1.5, -1, -1], "max_m": [0.1, 1, 1]}}}]);
+        scene["method"] = json!({"order": order});
+        scene["electrostatics"] = json!({"outer": [{"potential_v": {"expr": "z"}}]});
+        let reader = run(folder.path(), &scene);
+        let v = reader
+            .frame("/points", 0)
+            .unwrap()
+            .f64("potential")
+            .unwrap();
+        assert!(v.iter().all(|v| v.abs() <= 4.0 + 1e-9), "order {order}");
+    }
+}
+
+#[test]
+fn electrodes_at_other_potentials_than_what_they_touch_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let ball = |name: &str, z: f64, v: f64| {
+        json!({"name": name, "potential_v": v,
+        "shape": {"sphere": {"centre_m": [0, 0, z], "radius_m": 1}}})
+    };
+    for (bodies, said) in [
+        (
+            json!([ball("a", -3.0, 2.0)]),
+            "/bodies/0/potential_v: 2 V touches the wall z- at 0 V at (",
+        ),
+        (
+            json!([ball("a", -1.0, 2.0), ball("b", 1.0, 3.0)]),
+            "/bodies/0/potential_v: 2 V touches the electrode b at 3 V at (",
+        ),
+    ] {
+        let mut scene = scene();
+        scene["bodies"] = bodies;
+        scene["electrostatics"] = json!({"outer": [{"potential_v": 0}]});
+        let file = folder.path().join("scene.json");
+        std::fs::write(&file, scene.to_string()).unwrap();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+            .arg("check")
+            .arg(&file)
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.code() == Some(2) && text.contains(said),
+            "{text}"
+        );
+    }
+}

@@ -81,7 +81,9 @@ impl<const D: usize> Setting<'_, D> {
         let made = session.timed("solve", || factors::solve(&parts, &coupled, with));
         let ((a, phi), solved) =
             made.map_err(|error| Failure::Other(format!("eddy currents: {error}")))?;
-        super::report("vector_potential", &solved, session)?;
+        let size = |i: usize| a[i].iter().map(C::norm_sqr).sum();
+        let at = (self.cloud, size);
+        super::report(("vector_potential", "V s/m"), &solved, at, session)?;
         Ok((spread(&a), phi))
     }
 

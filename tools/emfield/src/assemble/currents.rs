@@ -5,6 +5,7 @@ use num_complex::Complex;
 use run::{Failure, Session};
 use shapes::frame::Vector;
 
+use super::broken::{no_stencil, unsolvable};
 use super::drive::{source, unknown};
 use super::enclosed::enclosed;
 use super::magnetic::Driven;
@@ -124,7 +125,7 @@ impl<'a, const D: usize> Setting<'a, D> {
             let weights = quadrature::weights(&region, &cells, &form)?;
             Ok((Sides::new(&region, &form)?, weights))
         });
-        let failed = |error: wls::Error| Failure::Other(format!("eddy currents: {error}"));
+        let failed = |error: wls::Error| no_stencil("eddy currents", &error);
         let (sides, mut weights) = made.map_err(failed)?;
         let coils = windings(scene, currents, cloud)?;
         let wound = || Windings::new(&region, &coils, &mut weights);
@@ -148,8 +149,29 @@ impl<'a, const D: usize> Setting<'a, D> {
         })
     }
 
+    /// Says where a conductor touches a wall that stands for the space beyond it.
+    fn warn_walls(&self, session: &mut Session) {
+        if self.currents.outer != OuterReaction::Multipole {
+            return;
+        }
+        let conducts = |m: u8| self.conductors.mu_sigma[m as usize] > 0.0;
+        for (class, [x, y, z]) in self.cloud.class.iter().zip(&self.cloud.position) {
+            if let Class::Outer { medium, face } = class
+                && conducts(*medium)
+            {
+                let wall = self.scene.domain.walls(self.scene.geometry)[*face as usize];
+                let name = self.scene.medium_name(*medium as usize);
+                session.warn(format!(
+                    "{name} touches the wall {wall} at ({x:.3e}, {y:.3e}, {z:.3e}) m: no current passes there, and the multipoles of \"outer\" hold only where currents are farther away; leave room, or take \"zero\" where the wall screens"
+                ));
+                return;
+            }
+        }
+    }
+
     /// Says where layers are too thick for the skin of a conductor.
     fn warn(&self, session: &mut Session) {
+        self.warn_walls(session);
         let Some(omega) = self.omega else {
             return;
         };
@@ -267,13 +289,15 @@ impl<'a, const D: usize> Setting<'a, D> {
         let shift = diffusion::shift(&rates, drive.omega);
         let options = super::options(self.scene);
         let made = session.timed("factorise", || System::new(rows, shift, options));
-        let failed = |error: krylov::Error| Failure::Other(format!("eddy currents: {error}"));
+        let failed = |error: krylov::Error| unsolvable("eddy currents", &error, self.cloud);
         let mut system = made.map_err(failed)?;
         let mut x = vec![[C::default(); K]; right.len()];
         let stop = session.interrupt();
         let rule = super::rule(self.scene, &*stop);
         let solved = session.timed("solve", || system.solve_with(&pairs, &right, &mut x, rule));
-        super::report("vector_potential", &solved, session)?;
+        let size = |i: usize| x[i].iter().map(C::norm_sqr).sum();
+        let at = (self.cloud, size);
+        super::report(("vector_potential", "V s/m"), &solved, at, session)?;
         Ok(x)
     }
 }

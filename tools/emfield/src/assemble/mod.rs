@@ -1,5 +1,6 @@
 //! From a scene and its points to equations, and from their solution to columns.
 
+mod broken;
 mod charge;
 mod currents;
 pub mod drive;
@@ -9,6 +10,7 @@ mod magnetic;
 mod march;
 mod potential;
 mod region;
+mod shorts;
 mod steps;
 mod winding;
 
@@ -17,6 +19,7 @@ use std::sync::atomic::AtomicBool;
 use krylov::{Ending, Grids, Method, Options, Rule, Solved};
 use run::{Failure, Session};
 
+use crate::cloud::Cloud;
 use crate::scene::Scene;
 use crate::scene::method::Way;
 use crate::solve::sides::Form;
@@ -26,6 +29,7 @@ pub use enclosing::enclosing;
 pub use march::march;
 pub use potential::electrostatics;
 pub(crate) use region::region;
+pub use shorts::shorts;
 pub use winding::windings;
 
 /// How the systems of a scene are solved.
@@ -74,11 +78,16 @@ fn low_order(scene: &Scene, unknowns: usize) -> Option<Form> {
     })
 }
 
-/// Keeps what a solve says of itself.
+/// Keeps what a solve says of itself; `size` of the solution at a point tells where it broke down.
 ///
 /// # Errors
 /// Where it broke down, or was stopped.
-fn report(name: &str, solved: &Solved, session: &mut Session) -> Result<(), Failure> {
+fn report(
+    (name, unit): (&str, &str),
+    solved: &Solved,
+    (cloud, size): (&Cloud, impl Fn(usize) -> f64),
+    session: &mut Session,
+) -> Result<(), Failure> {
     for (k, value) in solved.history.iter().enumerate() {
         session.history(&format!("residual_{name}"), "1", k as f64, *value);
     }
@@ -88,7 +97,12 @@ fn report(name: &str, solved: &Solved, session: &mut Session) -> Result<(), Fail
     match &solved.ending {
         Ending::Converged => Ok(()),
         Ending::Stopped => session.stopped(),
-        Ending::BrokenDown(why) => Err(Failure::Other(format!("{name}: {why}"))),
+        Ending::BrokenDown(why) => Err(broken::broken_down(
+            (name, unit),
+            (solved, *why),
+            cloud,
+            size,
+        )),
         other => {
             session.warn(format!("{name}: {other}; residual {residual:.2e}"));
             Ok(())

@@ -5,6 +5,7 @@ use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
 
+use super::broken::{no_stencil, unsolvable};
 use super::enclosed::{electric, enclosed};
 use super::region::{raise, region, walls};
 use crate::cloud::{Class, Cloud, SurfacePoint};
@@ -23,14 +24,14 @@ struct Entry {
 }
 
 /// What a scene says of its walls.
-struct Walls<'a> {
+pub(super) struct Walls<'a> {
     scene: &'a Scene,
     entries: Vec<Entry>,
     applied: Option<Vector>,
 }
 
 impl<'a> Walls<'a> {
-    fn new(scene: &'a Scene, electrostatics: &Electrostatics) -> Result<Self, Failure> {
+    pub(super) fn new(scene: &'a Scene, electrostatics: &Electrostatics) -> Result<Self, Failure> {
         let names = scene.domain.walls(scene.geometry);
         let mut entries = Vec::new();
         for (number, outer) in electrostatics.outer.iter().enumerate() {
@@ -74,7 +75,7 @@ impl<'a> Walls<'a> {
     }
 
     /// What holds at a place in space on the walls: where several meet, a potential counts more than none.
-    fn held(&self, x: Vector) -> Result<Held, Failure> {
+    pub(super) fn held(&self, x: Vector) -> Result<Held, Failure> {
         let own = self.scene.geometry.coordinates(x);
         for wall in walls(self.scene, own) {
             let entry = self.entries.iter().position(|e| Self::names(e, wall));
@@ -110,7 +111,7 @@ pub fn electrostatics<const D: usize>(
     let problem = problem(scene, cloud, &outer)?;
     let form = super::form(scene);
     let low = super::low_order(scene, region.len());
-    let stencil = |error: wls::Error| Fault::at("/points", format!("electrostatics: {error}"));
+    let stencil = |error: wls::Error| no_stencil("electrostatics", &error);
     let (value, inner, beyond) = match scene.method.interfaces {
         Interfaces::OneSided(_) => {
             let form = if region.axial {
@@ -127,7 +128,8 @@ pub fn electrostatics<const D: usize>(
                 let sides = session.timed("weights", || Sides::new(&region, &low))?;
                 Ok(session.timed("assemble", || problem.rows(&region, &sides).0))
             });
-            let v = solve(scene, equations, low.transpose().map_err(stencil)?, session)?;
+            let low = low.transpose().map_err(stencil)?;
+            let v = solve((scene, cloud), equations, low, session)?;
             let field = |inner| Problem::field(&region, &sides, &v, inner);
             let (a, b) = session.timed("fields", || (field(true), field(false)));
             (v, a, b)
@@ -141,7 +143,8 @@ pub fn electrostatics<const D: usize>(
                 let stencils = session.timed("weights", || Smeared::new(&region, &low))?;
                 Ok(session.timed("assemble", || stencils.rows(&problem, &region).0))
             });
-            let v = solve(scene, equations, low.transpose().map_err(stencil)?, session)?;
+            let low = low.transpose().map_err(stencil)?;
+            let v = solve((scene, cloud), equations, low, session)?;
             let a = session.timed("fields", || stencils.field(&v));
             (v, a.clone(), a)
         }
@@ -212,7 +215,7 @@ fn problem(scene: &Scene, cloud: &Cloud, outer: &Walls<'_>) -> Result<Problem, F
 
 /// Solves the equations; rows of low order, where there are some, precondition them.
 fn solve(
-    scene: &Scene,
+    (scene, cloud): (&Scene, &Cloud),
     (rows, right): Equations,
     low: Option<Rows<f64>>,
     session: &mut Session,
@@ -226,11 +229,12 @@ fn solve(
         Some(low) => System::with_low_order(rows, Vec::new(), low, options),
         None => System::new(rows, Vec::new(), options),
     });
-    let mut system = made.map_err(|error| Failure::Other(format!("potential: {error}")))?;
+    let mut system = made.map_err(|error| unsolvable("potential", &error, cloud))?;
     let stop = session.interrupt();
     let rule = super::rule(scene, &*stop);
     let solved = session.timed("solve", || system.solve(&right, &mut x, rule));
-    super::report("potential", &solved, session)?;
+    let at = (cloud, |i: usize| x[i][0].abs());
+    super::report(("potential", "V"), &solved, at, session)?;
     Ok(x.into_iter().map(|x| x[0]).collect())
 }
 
@@ -308,6 +312,6 @@ fn pull(scene: &Scene, s: &SurfacePoint, inner: &[Vector], beyond: &[Vector]) ->
     if own.is_some_and(|body| body.potential_v.is_some()) {
         electrode(eps[1], beyond[point], s.normal)
     } else {
-        dielectric(eps, inner[point], s.normal)
+        dielectric(eps, [inner[point], beyond[point]], s.normal)
     }
 }

@@ -15,8 +15,10 @@ use crate::scene::{Geometry, Layers, Scene};
 
 /// Most points of a cloud.
 const MOST: f64 = 5e8;
-/// Least width of a body over its spacing.
-const NARROW: f64 = 0.04;
+/// Least width of a body over its spacing: the points of a smaller one hang together with each other alone.
+const NARROW: f64 = 0.5;
+/// Width of a body over its spacing below which fields in it are told to be unresolved: with 3 they err by half.
+const GRAIN: f64 = 4.0;
 
 /// The points of a scene; see [`Cloud::new`].
 pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
@@ -46,8 +48,7 @@ pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
 fn check_sizes(region: &Region) -> Result<(), Vec<Fault>> {
     let mut faults = Vec::new();
     for (k, solid) in region.solids.iter().enumerate() {
-        let [low, high] = solid.body.bounds();
-        let size = (0..region.dimensions).map(|a| (high[a] - low[a]) / solid.spacing);
+        let size = width(solid, region.dimensions);
         let widest = size.clone().fold(0.0, f64::max);
         let number: f64 = size.map(|s| s.max(1.0)).product();
         if !number.is_finite() {
@@ -82,6 +83,29 @@ fn check_sizes(region: &Region) -> Result<(), Vec<Fault>> {
     } else {
         Err(faults)
     }
+}
+
+/// Bodies with too few points across for the field in them: what to say of each.
+pub(super) fn grains(scene: &Scene) -> Vec<String> {
+    let region = Region::new(scene);
+    let told = |(solid, body): (&super::region::Solid, &crate::scene::BodyScene)| {
+        let widest = width(solid, region.dimensions).fold(0.0, f64::max);
+        (widest < GRAIN).then(|| {
+            format!(
+                "unresolved: {} is {widest:.1} spacings of {} m wide; fields in it take at least {GRAIN}",
+                body.name, solid.spacing
+            )
+        })
+    };
+    let all = region.solids.iter().zip(&scene.bodies);
+    all.filter_map(told).collect()
+}
+
+/// Extents of a body over its spacing.
+fn width(solid: &super::region::Solid, dimensions: usize) -> impl Iterator<Item = f64> + Clone {
+    let [low, high] = solid.body.bounds();
+    let spacing = solid.spacing;
+    (0..dimensions).map(move |a| (high[a] - low[a]) / spacing)
 }
 
 /// Thickness of the layers of each body, inside and outside; the region learns how far they reach.

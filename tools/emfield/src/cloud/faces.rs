@@ -13,7 +13,10 @@ use super::{Class, Metric, SurfacePoint};
 const LEAST: f64 = 1.0 / 8.0;
 /// Distance over spacing within which another body's surface counts as the same.
 const SAME: f64 = 1e-4;
-/// Two surfaces face each other where the cosine of the angle of their normals is beyond this.
+/// Two surfaces are those of a gap where the cosine of the angle of their normals is beyond this: one that goes on where
+/// another ends has 0.
+const GAP: f64 = 0.25;
+/// And face each other across it beyond this.
 const FACING: f64 = 0.5;
 /// How far along a surface a crossing is sought, over the spacing, and with how many steps.
 const REACH: f64 = 4.0;
@@ -80,7 +83,7 @@ impl Builder {
                 }
                 // Nor is one whose surface goes on where this one ends, or passes through it.
                 let cosine = dot(solid.body.normal(x, step), other.body.normal(x, step));
-                if cosine.abs() > FACING && !self.cross(x, k, number) {
+                if cosine.abs() > GAP && !self.cross(x, k, number) {
                     gap = gap.min(away);
                 }
             }

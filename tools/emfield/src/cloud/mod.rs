@@ -166,6 +166,12 @@ impl Cloud {
         build::cloud(scene)
     }
 
+    /// Bodies of a scene that have too few points across: what to say of each.
+    #[must_use]
+    pub fn grains(scene: &Scene) -> Vec<String> {
+        build::grains(scene)
+    }
+
     /// Number of points.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -153,6 +153,11 @@ impl<const D: usize> Rules<D> for Harmonic<'_, D> {
     }
 }
 
+/// How far below the tangent plane of a surface point points of its side lie beyond an edge, over its spacing.
+const BEHIND: f64 = 0.25;
+/// Cosine of the angle of two normals above which a surface goes on.
+const GOES_ON: f64 = 0.3;
+
 /// Stencils of interface points from one side, where the equation of that side holds.
 pub(super) struct Side<'a, const D: usize> {
     pub(super) region: &'a Region<D>,
@@ -171,6 +176,28 @@ impl<const D: usize> Side<'_, D> {
         let face = &self.region.faces[face as usize];
         Some(if self.inner { face.inner } else { face.outer })
     }
+
+    /// Whether point `j` lies behind an edge as seen from the interface point `i`: below the tangent plane, where a smooth
+    /// surface has none but its own points. Slopes across it would lean on both sides of the point, as at no surface.
+    fn behind(&self, i: usize, j: usize) -> bool {
+        let Kind::Interface(face) = self.region.kinds[i] else {
+            return false;
+        };
+        let normal = self.region.faces[face as usize].normal;
+        let (from, to) = (&self.region.places[i], &self.region.places[j]);
+        let up: f64 = (0..D).map(|k| (to[k] - from[k]) * normal[k]).sum();
+        let up = if self.inner { -up } else { up };
+        up < -BEHIND * self.region.metrics[i].spacing() && !self.goes_on(normal, j)
+    }
+
+    /// Whether a point is one of a surface that goes on, or of its thin layers, not beyond an edge.
+    fn goes_on(&self, normal: [f64; D], j: usize) -> bool {
+        let other = match self.region.kinds[j] {
+            Kind::Interface(face) => Some(self.region.faces[face as usize].normal),
+            _ => self.region.metrics[j].normal(),
+        };
+        other.is_some_and(|other| (0..D).map(|k| normal[k] * other[k]).sum::<f64>() > GOES_ON)
+    }
 }
 
 impl<const D: usize> Rules<D> for Side<'_, D> {
@@ -179,7 +206,7 @@ impl<const D: usize> Rules<D> for Side<'_, D> {
     }
 
     fn allowed(&self, i: usize, j: usize) -> bool {
-        self.medium(i).is_some_and(|m| self.region.touches(j, m))
+        self.medium(i).is_some_and(|m| self.region.touches(j, m)) && !self.behind(i, j)
     }
 
     /// The equation of the side holds on the interface too, with the Laplacian as its datum: a

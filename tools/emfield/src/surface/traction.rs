@@ -8,15 +8,26 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Traction \[Pa\] on a surface without free charge between the permittivities `[inner, outer]`
-/// (relative), from the field on the inner side and the unit normal outward:
-/// `eps0 eps_o (S - 1)/2 (S En^2 + Et^2)` along the normal with `S = eps_i / eps_o`. Matsuzawa (2017),
-/// eq. 2.62, has the part of a conductor alone.
+/// (relative), from the fields `[inside, outside]` and the unit normal outward:
+/// `eps0 (eps_i - eps_o)/2 (Dn^2 / (eps_i eps_o) + Et^2)` along the normal, which with `S = eps_i / eps_o` is
+/// `eps0 eps_o (S - 1)/2 (S En^2 + Et^2)` of the field inside. Matsuzawa (2017), eq. 2.62, has the part of a
+/// conductor alone. Both sides have the same displacement `Dn` and the same `Et`; each is taken where its
+/// error counts least: `Dn` from the lesser permittivity, `Et` from the greater.
 #[must_use]
-pub fn dielectric([inner, outer]: [f64; 2], field: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
-    let ratio = inner / outer;
-    let along = dot(field, normal);
-    let tangential = dot(field, field) - along * along;
-    let size = 0.5 * EPS0 * outer * (ratio - 1.0) * (ratio * along * along + tangential);
+pub fn dielectric(
+    [inner, outer]: [f64; 2],
+    [inside, outside]: [[f64; 3]; 2],
+    normal: [f64; 3],
+) -> [f64; 3] {
+    let (displacement, rich) = if inner > outer {
+        (outer * dot(outside, normal), inside)
+    } else {
+        (inner * dot(inside, normal), outside)
+    };
+    let along = dot(rich, normal);
+    let tangential = dot(rich, rich) - along * along;
+    let both = displacement * displacement / (inner * outer) + tangential;
+    let size = 0.5 * EPS0 * (inner - outer) * both;
     normal.map(|n| n * size)
 }
 
@@ -38,7 +49,7 @@ mod tests {
         let outside = normal.map(|n| 3e5 * n);
         let inside = outside.map(|e| e / 1e9);
         let [a, b] = [
-            dielectric([1e9, 1.0], inside, normal),
+            dielectric([1e9, 1.0], [inside, outside], normal),
             electrode(1.0, outside, normal),
         ];
         for k in [0, 2] {
@@ -54,7 +65,9 @@ mod tests {
         let normal = [0.0, 0.0, 1.0];
         let stress = |eps: f64, e: [f64; 3]| EPS0 * eps * (e[2] * e[2] - 0.5 * dot(e, e));
         let jump = stress(outer, beyond) - stress(inner, field);
-        let found = dielectric([inner, outer], field, normal)[2];
+        let found = dielectric([inner, outer], [field, beyond], normal)[2];
         assert!((found / jump - 1.0).abs() < 1e-12);
+        let swapped = dielectric([outer, inner], [beyond, field], normal)[2];
+        assert!((swapped / jump + 1.0).abs() < 1e-12);
     }
 }

@@ -156,6 +156,12 @@ impl<const D: usize> Metric<D> {
         self
     }
 
+    /// Normal of the surface that layers follow; none where all directions are alike.
+    #[must_use]
+    pub fn normal(&self) -> Option<[f64; D]> {
+        self.layer.as_ref().map(|layer| layer.normal)
+    }
+
     /// Spacing \[m\]; along the surface, where there are layers.
     #[must_use]
     pub fn spacing(&self) -> f64 {
