@@ -215,13 +215,6 @@ impl Grid {
         false
     }
 
-    /// Bytes held.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        let indices = self.start.capacity() + self.cell_of.capacity() + self.order.capacity();
-        4 * indices + 24 * (self.sorted.capacity() + self.columns[0].capacity())
-    }
-
     /// Rows of cells with points closer than `radius` to those of a cell.
     pub(crate) fn reach(&self, radius: f64) -> Reach {
         // In edges, from the faces of the cell on.
