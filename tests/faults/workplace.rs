@@ -165,7 +165,7 @@ fn cloud() -> Frame {
         .vector("velocity", "m/s", (0..n).map(|_| [0.0, 0.01, 0.0]))
         .scalar("temperature", "K", (0..n).map(|i| 1800.0 + f64::from(i)))
         .flag("molten", (0..n).map(|_| 1))
-        .flag("fused", (0..n).map(|_| 1))
+        .scalar("fused", "1", (0..n).map(|_| 1.0))
         .flag("droplet", (0..n).map(|_| 0))
         .id("id", 0..n)
 }

@@ -87,7 +87,7 @@ impl Layout {
         let liquid = |a: &usize| u8::from(state.phase[*a] != Phase::Solid);
         frame = frame
             .flag("molten", ids.iter().map(liquid))
-            .flag("fused", ids.iter().map(|a| u8::from(state.fused[*a])))
+            .scalar("fused", "1", ids.iter().map(|a| state.fused[*a]))
             .flag("droplet", ids.iter().map(|a| u8::from(state.droplet[*a])));
         if self.walls {
             frame = frame.flag("wall", ids.iter().map(|a| u8::from(state.wall[*a])));

@@ -104,7 +104,7 @@ impl Rest {
         for a in 0..state.len() {
             let rests = rests(state, a);
             if rests && self.part[a] == Part::Away {
-                let moved = state.droplet[a] || (state.fused[a] && state.flowing);
+                let moved = state.droplet[a] || (state.was_liquid(a) && state.flowing);
                 self.enter(state, a, if moved { Part::Settled } else { Part::Pristine });
             } else if !rests && self.part[a] != Part::Away {
                 self.leave(state, a);

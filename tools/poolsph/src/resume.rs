@@ -17,7 +17,7 @@ pub fn save(checkpoint: &mut Checkpoint, state: &State, march: &March, start: St
     checkpoint.put_vectors("position", &state.position);
     checkpoint.put_vectors("velocity", &state.velocity);
     checkpoint.put_u8("phase", &phases);
-    checkpoint.put_u8("fused", &flags(&state.fused));
+    checkpoint.put_f64("fused", &state.fused);
     checkpoint.put_u8("droplet", &flags(&state.droplet));
     checkpoint.put_u8("wall", &flags(&state.wall));
     checkpoint.put_f64("temperature", &state.temperature);
@@ -48,7 +48,7 @@ pub fn restore(
     state.position = checkpoint.vectors("position")?;
     state.velocity = checkpoint.vectors("velocity")?;
     state.phase = checkpoint.u8("phase")?.into_iter().map(phase).collect();
-    state.fused = flags(checkpoint.u8("fused")?);
+    state.fused = checkpoint.f64("fused")?;
     state.droplet = flags(checkpoint.u8("droplet")?);
     state.wall = flags(checkpoint.u8("wall")?);
     state.temperature = checkpoint.f64("temperature")?;

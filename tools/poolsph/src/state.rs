@@ -63,6 +63,9 @@ pub enum Column {
     Surface,
 }
 
+/// A particle is liquid from this part of its latent heat on (Komen 2019, section 4.2.2).
+pub const LIQUID: f64 = 0.5;
+
 /// All particles at one time. Index = identity.
 #[derive(Debug, Clone)]
 pub struct State {
@@ -78,8 +81,9 @@ pub struct State {
     pub velocity: Vec<[f64; 3]>,
     /// `[n]`.
     pub phase: Vec<Phase>,
-    /// Has ever been liquid, `[n]`.
-    pub fused: Vec<bool>,
+    /// Greatest part of its latent heat that it has ever held, `[n]`: 1 from the start on for what
+    /// enters liquid.
+    pub fused: Vec<f64>,
     /// Came from the wire, `[n]`.
     pub droplet: Vec<bool>,
     /// Belongs to the container and never melts, `[n]`.
@@ -184,12 +188,19 @@ impl State {
             .count()
     }
 
+    /// True if particle `a` has ever been liquid.
+    #[must_use]
+    pub fn was_liquid(&self, a: usize) -> bool {
+        self.fused[a] >= LIQUID
+    }
+
     /// Appends a particle.
     pub fn push(&mut self, particle: Particle) {
         self.position.push(particle.position);
         self.velocity.push(particle.velocity);
         self.phase.push(particle.phase);
-        self.fused.push(particle.phase != Phase::Solid);
+        self.fused
+            .push(f64::from(u8::from(particle.phase != Phase::Solid)));
         self.droplet.push(particle.droplet);
         self.wall.push(particle.wall);
         for column in &self.columns {

@@ -54,8 +54,8 @@ pub(crate) struct Weld {
     pub(crate) temperature: Option<Vec<f64>>,
     /// Liquid now.
     pub(crate) liquid: Vec<bool>,
-    /// Has ever been liquid.
-    pub(crate) fused: Vec<bool>,
+    /// Greatest part of its latent heat that each has ever held.
+    pub(crate) fused: Vec<f64>,
     /// Belongs to what is measured: the plate and the fused metal joined to the bead. Spatter and
     /// drops in flight do not.
     joined: Vec<bool>,
@@ -95,14 +95,11 @@ impl Weld {
                 None
             },
             liquid: flags(&frame, "molten")?,
-            fused: flags(
-                &frame,
-                if frame.has("fused") {
-                    "fused"
-                } else {
-                    "molten"
-                },
-            )?,
+            fused: frame.f64(if frame.has("fused") {
+                "fused"
+            } else {
+                "molten"
+            })?,
             plate,
             source: source_at(reader, frame.time_s)?,
             joined: Vec::new(),
@@ -114,12 +111,11 @@ impl Weld {
         }
         weld.leave_out_lost();
         let link = LINK * weld.plate.spacing_m;
-        let bead = spatter::largest(&weld.position, &weld.fused, link);
-        weld.joined = bead
-            .iter()
-            .zip(&weld.fused)
-            .map(|(b, f)| *b || !f)
+        let fused: Vec<bool> = (0..weld.position.len())
+            .map(|i| weld.was_liquid(i))
             .collect();
+        let bead = spatter::largest(&weld.position, &fused, link);
+        weld.joined = bead.iter().zip(&fused).map(|(b, f)| *b || !f).collect();
         Ok(weld)
     }
 
@@ -153,6 +149,11 @@ impl Weld {
         }
     }
 
+    /// Whether particle `i` has ever been liquid: from half of the latent heat on.
+    pub(crate) fn was_liquid(&self, i: usize) -> bool {
+        self.fused[i] >= 0.5
+    }
+
     /// The particles as the measures need them.
     pub(crate) fn metal(&self) -> Metal<'_> {
         Metal {
@@ -178,7 +179,7 @@ impl Weld {
         };
         let chosen: Vec<usize> = (0..self.position.len()).filter(near).collect();
         let position: Vec<[f64; 3]> = chosen.iter().map(|i| self.position[*i]).collect();
-        let fused: Vec<bool> = chosen.iter().map(|i| self.fused[*i]).collect();
+        let fused: Vec<f64> = chosen.iter().map(|i| self.fused[*i]).collect();
         let metal = Metal {
             position: &position,
             fused: &fused,
@@ -202,7 +203,7 @@ impl Weld {
     /// where that is most of the metal or where nothing has been fused.
     pub(crate) fn window(&self) -> Option<[f64; 2]> {
         let all = self.extent(|_| true)?;
-        let Some([start, end]) = self.extent(|i| self.fused[i] && self.joined[i]) else {
+        let Some([start, end]) = self.extent(|i| self.was_liquid(i) && self.joined[i]) else {
             return Some(all);
         };
         let more = (0.5 * (LEAST_SHOWN - (end - start))).max(ROOM);
@@ -214,7 +215,7 @@ impl Weld {
     /// Measures of the bead along its frozen stretch; of the whole fused stretch, as far as it has
     /// come, when nothing has frozen.
     pub(crate) fn bead(&self) -> Option<Stretch> {
-        let [start, end] = self.extent(|i| self.fused[i] && self.joined[i])?;
+        let [start, end] = self.extent(|i| self.was_liquid(i) && self.joined[i])?;
         let step = 2.0 * self.plate.spacing_m;
         let liquid: Vec<f64> = (0..self.liquid.len())
             .filter(|i| self.liquid[*i] && self.joined[*i])

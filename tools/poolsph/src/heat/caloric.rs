@@ -11,6 +11,8 @@
 
 use props::{Integral, Table};
 
+use crate::state::LIQUID;
+
 /// Melting of the metal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Melting {
@@ -105,12 +107,22 @@ impl Caloric {
         }
     }
 
+    /// Part of the latent heat that the enthalpy holds, 0 to 1: the part of a particle behind the front
+    /// of melting.
+    #[must_use]
+    #[inline]
+    pub fn molten(&self, enthalpy: f64) -> f64 {
+        match self.melting {
+            Some(m) if enthalpy > m.solidus => ((enthalpy - m.solidus) / m.latent_heat).min(1.0),
+            _ => 0.0,
+        }
+    }
+
     /// True from half of the latent heat on.
     #[must_use]
     #[inline]
     pub fn is_liquid(&self, enthalpy: f64) -> bool {
-        self.melting
-            .is_some_and(|m| enthalpy >= m.solidus + 0.5 * m.latent_heat)
+        self.molten(enthalpy) >= LIQUID
     }
 
     /// kappa \[W/(m K)\].

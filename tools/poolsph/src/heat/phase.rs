@@ -1,5 +1,8 @@
 //! Melting and solidification (Komen 2019, fig. 4.7): a particle is liquid from half of the
 //! latent heat on, and the flow starts with enough liquid particles (section 4.3).
+//!
+//! What a particle has held of its latent heat at most is kept, liquid or not: it tells how far into
+//! the particle the front of melting has come, and so the fusion line to a part of a particle.
 
 use std::sync::Arc;
 
@@ -8,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::caloric::Caloric;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{self, Column, State};
+use crate::state::{self, Column, LIQUID, State};
 
 /// When the flow starts (key `flow_start`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -53,12 +56,13 @@ impl Stage for Phase {
             if state.wall[a] || state.phase[a] == state::Phase::Flying {
                 continue;
             }
-            let liquid = self.caloric.is_liquid(state.enthalpy[a]);
+            let molten = self.caloric.molten(state.enthalpy[a]);
+            state.fused[a] = state.fused[a].max(molten);
+            let liquid = molten >= LIQUID;
             self.liquid += usize::from(liquid);
             match (state.phase[a], liquid) {
                 (state::Phase::Solid, true) => {
                     state.phase[a] = state::Phase::Liquid;
-                    state.fused[a] = true;
                 }
                 (state::Phase::Liquid, false) => {
                     state.phase[a] = state::Phase::Solid;

@@ -142,6 +142,67 @@ fn energy_is_kept_to_round_off_in_a_moving_melt() {
     assert!(drift.abs() < 1e-13, "drift {drift:e}");
 }
 
+/// erf by its series.
+fn erf(x: f64) -> f64 {
+    let mut term = 2.0 / PI.sqrt() * x;
+    let mut sum = term;
+    for n in 1..60 {
+        let n = f64::from(n);
+        term *= -x * x / n;
+        sum += term / (2.0 * n + 1.0);
+    }
+    sum
+}
+
+/// Neumann's front into a solid at its melting point: `s = 2 l sqrt(a t)` with
+/// `l exp(l^2) erf(l) = c (T_w - T_m)/(L sqrt(pi))`.
+#[test]
+fn the_parts_that_have_molten_tell_the_front_to_a_part_of_a_particle() {
+    let (length, part) = (40, 0.6_f64);
+    let (conductivity, heat, latent_heat) = (2.0, 500.0, 1e5);
+    let metal = metal(4000.0, 1e-3);
+    let melting = Melting {
+        point: 10.0,
+        latent_heat,
+    };
+    let caloric = Arc::new(plain(conductivity, heat, Some(melting)));
+    let rise = part * (part * part).exp() * erf(part) * PI.sqrt() * latent_heat / heat;
+    let wall = caloric.enthalpy(10.0 + rise);
+    let mut state = lattice(metal, [length, 3, 3], &caloric, |_| 10.0);
+    let given = parameters(metal, [length, 3, 3], vec![]);
+    let mut conduction = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    let mut phase = Phase::new(Arc::clone(&caloric), None);
+    let held: Vec<usize> = (0..state.len())
+        .filter(|a| state.position[*a][0] < metal.spacing)
+        .collect();
+    let dt = 0.5 * conduction.limit();
+    let (mut worst, mut whole, mut passed) = (0.0_f64, 0.0_f64, 0);
+    loop {
+        for a in &held {
+            (state.enthalpy[*a], state.temperature[*a]) = (wall, 10.0 + rise);
+        }
+        march(&mut state, &mut conduction, dt, 1);
+        march(&mut state, &mut phase, dt, 1);
+        passed += 1;
+        let time = f64::from(passed) * dt;
+        // In spacings from the middle of the particle that is held.
+        let exact =
+            2.0 * part * (conductivity / (metal.density * heat) * time).sqrt() / metal.spacing;
+        let sum = |f: fn(f64) -> f64| state.fused.iter().map(|v| f(*v)).sum::<f64>() / 9.0 - 0.5;
+        if exact > 12.0 {
+            break;
+        }
+        if exact > 4.0 {
+            worst = worst.max((sum(|f| f) - exact).abs());
+            whole = whole.max((sum(|f| f64::from(u8::from(f >= 0.5))) - exact).abs());
+        }
+    }
+    assert!(
+        worst < 0.15 && whole > 0.4,
+        "off by {worst} and, in whole particles, {whole} spacings"
+    );
+}
+
 #[test]
 fn heat_does_not_leave_the_range_of_temperatures() {
     let metal = metal(7850.0, 0.5e-3);

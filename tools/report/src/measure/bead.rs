@@ -158,25 +158,37 @@ mod tests {
 
     const D: f64 = 0.5e-3;
 
+    /// Part of the particle at `p` for which `inside` holds.
+    fn share(p: [f64; 3], inside: impl Fn([f64; 3]) -> bool) -> f64 {
+        const FINE: u32 = 6;
+        let part = |n: u32| ((f64::from(n) + 0.5) / f64::from(FINE) - 0.5) * D;
+        let cells = FINE.pow(3);
+        let counted = (0..cells).filter(|c| {
+            let off = [c % FINE, c / FINE % FINE, c / FINE / FINE].map(part);
+            inside([p[0] + off[0], p[1] + off[1], p[2] + off[2]])
+        });
+        counted.count() as f64 / f64::from(cells)
+    }
+
     /// A plate with a half-ellipsoid of fused metal below its surface and a cap above it, filled
     /// with particles whose lattice is shifted by `shift`.
-    fn weld(half: f64, deep: f64, high: f64, shift: f64) -> (Vec<[f64; 3]>, Vec<bool>) {
+    fn weld(half: f64, deep: f64, high: f64, shift: f64) -> (Vec<[f64; 3]>, Vec<f64>) {
         let mut position = Vec::new();
         let mut fused = Vec::new();
         let inside = |p: [f64; 3], up: f64| {
             (p[0] / half).powi(2) + (p[1] / 8e-3).powi(2) + (p[2] / up).powi(2) < 1.0
         };
         for i in -20..20 {
-            for j in -12..12 {
+            for j in -3..3 {
                 for k in -10..14 {
                     let place = |n: i32| (f64::from(n) + 0.5) * D;
                     let p = [place(i) + shift, place(j), place(k)];
                     if k < 0 {
                         position.push(p);
-                        fused.push(inside(p, deep));
+                        fused.push(share(p, |p| inside(p, deep)));
                     } else if inside(p, high) {
                         position.push(p);
-                        fused.push(true);
+                        fused.push(1.0);
                     }
                 }
             }
@@ -211,22 +223,18 @@ mod tests {
                 bead.reinforcement - high,
                 bead.bead_width - top,
             ];
-            // A front that lies between two layers of particles may be off by half a spacing on
-            // each side of what is measured.
-            for (k, (sum, e)) in mean.iter_mut().zip(error).enumerate() {
-                let sides = if k % 2 == 0 { 1.0 } else { 2.0 };
-                assert!(
-                    e.abs() < 0.55 * sides * D,
-                    "{error:?} m with half width {half}"
-                );
+            // The fusion line is known to a part of a particle. The surface is that of whole
+            // particles and may lie half a spacing off on each side of what is measured.
+            let allowed = [0.15, 0.3, 0.55, 1.1];
+            for ((sum, e), allowed) in mean.iter_mut().zip(error).zip(allowed) {
+                assert!(e.abs() < allowed * D, "{error:?} m with half width {half}");
                 *sum += e / f64::from(count);
             }
-            assert!((bead.fused_half_width - bead.fused_width / 2.0).abs() < 0.5 * D);
+            assert!((bead.fused_half_width - bead.fused_width / 2.0).abs() < 0.15 * D);
         }
-        assert!(
-            mean.iter().all(|e| e.abs() < 0.25 * D),
-            "mean errors {mean:?} m"
-        );
+        for (mean, allowed) in mean.iter().zip([0.1, 0.2, 0.25, 0.25]) {
+            assert!(mean.abs() < allowed * D, "mean error {mean} m");
+        }
     }
 
     #[test]
@@ -250,7 +258,7 @@ mod tests {
     fn a_bare_plate_has_no_bead_and_a_drop_in_flight_is_none() {
         let (mut position, mut fused) = weld(1e-9, 1e-9, 1e-9, 0.0);
         position.push([0.0, 0.0, 4e-3]);
-        fused.push(true);
+        fused.push(1.0);
         let metal = Metal {
             position: &position,
             fused: &fused,

@@ -1,7 +1,8 @@
 //! A cross-section of the weld as two smooth fields: share of metal, share of fused metal.
 //!
 //! At a point of the plane `y = const` the share of metal is `sum V W(r)` over all particles, the
-//! share of fused metal the same sum over those that have ever been liquid. `W` is Wendland's C2
+//! share of fused metal the same sum of `f V W(r)`, where `f` is the greatest part of its latent heat
+//! that a particle has ever held, the part of it that the front of melting has passed. `W` is Wendland's C2
 //! function with a support of two spacings, `21/(2 pi R^3) (1 - r/R)^4 (1 + 4 r/R)`, whose integral
 //! over space is 1. Where metal ends in a plane the share is exactly one half on the plane, by
 //! symmetry: surfaces and fusion lines are the lines of one half, not the outermost particles.
@@ -18,8 +19,8 @@ const FINENESS: f64 = 8.0;
 pub(crate) struct Metal<'a> {
     /// Positions x, y, z \[m\].
     pub(crate) position: &'a [[f64; 3]],
-    /// Whether each has ever been liquid.
-    pub(crate) fused: &'a [bool],
+    /// Greatest part of the latent heat that each has ever held.
+    pub(crate) fused: &'a [f64],
     /// Particle spacing d \[m\]; a particle stands for the volume d^3.
     pub(crate) spacing: f64,
 }
@@ -93,7 +94,7 @@ impl Section {
     }
 
     /// Adds one particle to the fields.
-    fn spread(&mut self, at: [f64; 2], off: f64, (reach, volume): (f64, f64), fused: bool) {
+    fn spread(&mut self, at: [f64; 2], off: f64, (reach, volume): (f64, f64), fused: f64) {
         let rows = self.up.len();
         let (Some(a0), Some(u0)) = (self.across.first().copied(), self.up.first().copied()) else {
             return;
@@ -109,9 +110,7 @@ impl Section {
                 let (da, du) = (self.across[i] - at[0], self.up[k] - at[1]);
                 let w = volume * wendland((da * da + du * du + off * off).sqrt(), reach);
                 self.metal[i * rows + k] += w;
-                if fused {
-                    self.fused[i * rows + k] += w;
-                }
+                self.fused[i * rows + k] += fused * w;
             }
         }
     }
@@ -175,7 +174,7 @@ mod tests {
                 }
             }
         }
-        let fused = vec![false; position.len()];
+        let fused = vec![0.0; position.len()];
         let metal = Metal {
             position: &position,
             fused: &fused,

@@ -49,7 +49,7 @@ impl Paint {
                 _ => LIQUID,
             };
         }
-        let cold = if weld.fused[i] { FROZEN } else { PLATE };
+        let cold = if weld.was_liquid(i) { FROZEN } else { PLATE };
         let warm = temperature.map_or(0.0, |t| (t - 300.0) / (self.melting - 300.0));
         mix(cold, EMBER, (0.9 * warm.clamp(0.0, 1.0).powf(1.3)) as f32)
     }
