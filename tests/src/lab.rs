@@ -48,6 +48,18 @@ pub enum LabError {
     },
 }
 
+impl LabError {
+    /// Whether the scene is at fault, and no program: a tool refused it (exit code 2), or it has no exact solution.
+    #[must_use]
+    pub fn is_of_the_scene(&self) -> bool {
+        match self {
+            Self::Tool { code, .. } => *code == Some(2),
+            Self::Content { .. } => true,
+            Self::Io { .. } | Self::NotRepeatable { .. } | Self::Artefact(_) => false,
+        }
+    }
+}
+
 /// Where scenes are, where programs are, where results go.
 #[derive(Debug, Clone)]
 pub struct Lab {

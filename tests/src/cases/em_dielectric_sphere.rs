@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::dielectric::Sphere;
-use crate::em::frames::{Points, number, planned};
+use crate::em::exact::dielectric;
+use crate::em::frames::{Points, planned};
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
 use crate::lab::{Finished, Lab, LabError};
@@ -121,18 +122,17 @@ fn method_patch(method: &str) -> Value {
 fn walls(scene: &Value) -> Value {
     let read = |pointer: &str| scene.pointer(pointer).and_then(Value::as_f64);
     let radius = read("/bodies/0/shape/sphere/radius_m").unwrap_or(5e-5);
-    let ratio = read("/bodies/0/relative_permittivity").unwrap_or(1.0);
+    let outer = read("/surroundings/relative_permittivity").unwrap_or(1.0);
+    let ratio = read("/bodies/0/relative_permittivity").unwrap_or(1.0) / outer;
     let moment = (ratio - 1.0) / (ratio + 2.0) * radius.powi(3);
     let expr = format!("2500 + 5e6*z*(1 - {moment:e}/(x^2 + y^2 + z^2)^1.5)");
     json!({"electrostatics": {"outer": [{"potential_v": {"expr": expr}}]}})
 }
 
 fn exact(run: &Finished) -> Result<Sphere, LabError> {
-    Ok(Sphere {
-        radius: number(run, "/bodies/0/shape/sphere/radius_m")?,
-        ratio: number(run, "/bodies/0/relative_permittivity")?,
-        field: -5e6,
-        middle: 2500.0,
+    dielectric(&run.scene).map_err(|what| LabError::Content {
+        path: run.artefact.clone(),
+        what,
     })
 }
 

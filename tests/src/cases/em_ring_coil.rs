@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::coil::{Section, parts, ring};
-use crate::em::frames::{Points, measured, number, number_or};
+use crate::em::frames::{Points, measured, number};
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
 use crate::lab::{Finished, Lab, LabError};
@@ -16,10 +16,6 @@ pub(super) struct EmRingCoil;
 /// A round section with quartics, shaken points, quadratics; a square section about the axis and in space.
 const METHODS: &[&str] = &["round", "irregular", "quadratic", "square", SPACE];
 const SPACE: &str = "space";
-
-/// Radius of the ring and half width of its section \[m\].
-const RADIUS: f64 = 0.01;
-const HALF: f64 = 0.003;
 
 /// Points in space are compared one in so many.
 const EACH: usize = 50;
@@ -79,6 +75,10 @@ impl Case for EmRingCoil {
     }
 }
 
+/// What the ways of the square section and of space are made from: the ring that they have in common \[m\].
+const RADIUS: f64 = 0.01;
+const HALF: f64 = 0.003;
+
 fn method_patch(method: &str) -> Value {
     match method {
         "irregular" => json!({"points": {"jitter": 0.2}}),
@@ -103,33 +103,85 @@ fn method_patch(method: &str) -> Value {
     }
 }
 
-/// Flux density away from and along the axis \[T\].
-fn exact(section: &[([f64; 2], f64)], current: f64, [rho, z]: [f64; 2]) -> [f64; 2] {
-    let mut sum = [0.0; 2];
-    for ([out, up], share) in section {
-        let part = ring(RADIUS + out, rho, z - up);
-        for k in 0..2 {
-            sum[k] += current * share * part[k];
+/// The ring of a scene.
+struct Ring {
+    /// Of the middle of its section: distance from the axis and height \[m\].
+    middle: [f64; 2],
+    section: Section,
+    /// \[A\]
+    current: f64,
+}
+
+impl Ring {
+    /// The ring that was run.
+    ///
+    /// # Errors
+    /// When its section has no exact field here.
+    fn of(run: &Finished) -> Result<Self, LabError> {
+        let value = |place: &str| number(run, &format!("/bodies/0/shape/{place}"));
+        let shape = &run.scene["bodies"][0]["shape"];
+        let (middle, section) = if shape["disc"].is_object() {
+            let middle = [value("disc/centre_m/0")?, value("disc/centre_m/1")?];
+            (middle, Section::Round(value("disc/radius_m")?))
+        } else if shape["box"].is_object() {
+            let low = [value("box/min_m/0")?, value("box/min_m/1")?];
+            let high = [value("box/max_m/0")?, value("box/max_m/1")?];
+            let half = [0, 1].map(|k| 0.5 * (high[k] - low[k]));
+            let middle = [0, 1].map(|k| 0.5 * (high[k] + low[k]));
+            (middle, Section::Rectangle(half))
+        } else {
+            let outer = value("difference/0/cylinder/radius_m")?;
+            let inner = value("difference/1/cylinder/radius_m")?;
+            let height = value("difference/0/cylinder/centre_m/2")?;
+            let length = value("difference/0/cylinder/length_m")?;
+            let half = [0.5 * (outer - inner), 0.5 * length];
+            ([0.5 * (outer + inner), height], Section::Rectangle(half))
+        };
+        let current = number(run, "/eddy_currents/coils/0/region/current_a")?;
+        Ok(Self {
+            middle,
+            section,
+            current,
+        })
+    }
+
+    /// Half of the greatest width of the section \[m\].
+    fn size(&self) -> f64 {
+        match self.section {
+            Section::Round(radius) => radius,
+            Section::Rectangle(half) => greater(half[0], half[1]),
         }
     }
-    sum
+
+    /// Flux density away from and along the axis \[T\].
+    fn flux(&self, parts: &[([f64; 2], f64)], [rho, z]: [f64; 2]) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for ([out, up], share) in parts {
+            let part = ring(self.middle[0] + out, rho, z - self.middle[1] - up);
+            for k in 0..2 {
+                sum[k] += self.current * share * part[k];
+            }
+        }
+        sum
+    }
 }
 
 fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
-    let round = number_or(run, "/bodies/0/shape/disc/radius_m", 0.0) > 0.0;
-    let section = parts(if round {
-        Section::Round(HALF)
-    } else {
-        Section::Square(HALF)
-    });
-    let current = number(run, "/eddy_currents/coils/0/region/current_a")?;
-    let scale = current * ring(RADIUS, 0.0, 0.0)[1];
+    let coil = Ring::of(run)?;
+    let section = parts(coil.section);
+    let scale = coil.current.abs() * ring(coil.middle[0], 0.0, 0.0)[1];
     let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
     let probes = reader.record("/probes")?;
     let (mut axis, mut flux) = (0.0, 0.0);
-    for (name, z) in [("centre", 0.0), ("near", 0.005), ("far", 0.02)] {
+    for probe in run.scene["output"]["probes"]
+        .as_array()
+        .into_iter()
+        .flatten()
+    {
+        let name = probe["name"].as_str().unwrap_or_default();
+        let place = probe["place_m"].as_array().and_then(|p| p.last()?.as_f64());
         let found = probes.get(&format!("{name}.magnetic_flux_density_real_z"))?;
-        let wanted = exact(&section, current, [0.0, z])[1];
+        let wanted = coil.flux(&section, [0.0, place.unwrap_or(f64::NAN)])[1];
         axis = greater(axis, (found - wanted).abs() / scale);
     }
     let each = if points.position.len() > 20_000 {
@@ -140,10 +192,10 @@ fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
     let found = points.phasors("magnetic_flux_density")?;
     for (p, b) in points.position.iter().zip(&found).step_by(each) {
         let rho = p[0].hypot(p[1]);
-        if (rho - RADIUS).hypot(p[2]) < 2.0 * HALF {
+        if (rho - coil.middle[0]).hypot(p[2] - coil.middle[1]) < 2.0 * coil.size() {
             continue;
         }
-        let [away, along] = exact(&section, current, [rho, p[2]]);
+        let [away, along] = coil.flux(&section, [rho, p[2]]);
         let share = |k: usize| if rho > 0.0 { p[k] / rho } else { 0.0 };
         let wanted = [away * share(0), away * share(1), along];
         let far = (0..3).map(|k| (b[k] - wanted[k]).norm_sqr()).sum::<f64>();

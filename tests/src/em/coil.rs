@@ -41,8 +41,8 @@ pub fn ring(radius: f64, rho: f64, height: f64) -> [f64; 2] {
 pub enum Section {
     /// Round, of this radius \[m\].
     Round(f64),
-    /// Square, of this half width \[m\].
-    Square(f64),
+    /// A rectangle of these half widths, away from the axis and along it \[m\].
+    Rectangle([f64; 2]),
 }
 
 /// Parts of a section along a side or radius, and half those around.
@@ -55,10 +55,11 @@ pub fn parts(section: Section) -> Vec<([f64; 2], f64)> {
     let middle = |k: u32| (f64::from(k) + 0.5) / count;
     let mut found = Vec::new();
     match section {
-        Section::Square(half) => {
+        Section::Rectangle(half) => {
             for i in 0..PARTS {
                 for j in 0..PARTS {
-                    let at = [i, j].map(|k| half * (2.0 * middle(k) - 1.0));
+                    let part = [i, j].map(|k| 2.0 * middle(k) - 1.0);
+                    let at = [half[0] * part[0], half[1] * part[1]];
                     found.push((at, 1.0 / (count * count)));
                 }
             }
@@ -105,7 +106,7 @@ mod tests {
 
     #[test]
     fn shares_of_a_section_add_up_to_one() {
-        for section in [Section::Round(0.3), Section::Square(0.3)] {
+        for section in [Section::Round(0.3), Section::Rectangle([0.3, 0.2])] {
             let sum: f64 = parts(section).iter().map(|p| p.1).sum();
             assert!((sum - 1.0).abs() < 1e-12, "{section:?}: {sum}");
         }

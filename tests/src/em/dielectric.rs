@@ -9,6 +9,8 @@ pub struct Sphere {
     pub radius: f64,
     /// Permittivity inside over that outside.
     pub ratio: f64,
+    /// Relative permittivity outside.
+    pub around: f64,
     /// The far field along z \[V/m\]; negative where the potential rises with z.
     pub field: f64,
     /// Potential in the plane z = 0 \[V\].
@@ -68,14 +70,14 @@ impl Sphere {
     }
 
     /// Traction along the outward normal of the surface \[Pa\] at the polar angle whose cosine is
-    /// given: `eps0 (S-1)/2 (S En^2 + Et^2)` with the field inside. Eq. 2.62 has the part of the
+    /// given: `eps (S-1)/2 (S En^2 + Et^2)` with the field inside. Eq. 2.62 has the part of the
     /// normal field of a conductor alone.
     #[must_use]
     pub fn traction(&self, cosine: f64) -> f64 {
         let e = self.inside()[2];
         let normal = (e * cosine).powi(2);
         let tangential = e * e * (1.0 - cosine * cosine);
-        0.5 * EPS0 * (self.ratio - 1.0) * (self.ratio * normal + tangential)
+        0.5 * EPS0 * self.around * (self.ratio - 1.0) * (self.ratio * normal + tangential)
     }
 }
 
@@ -91,6 +93,7 @@ mod tests {
         Sphere {
             radius: 2.0,
             ratio,
+            around: 1.0,
             field: -5.0,
             middle: 7.0,
         }

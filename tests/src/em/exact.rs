@@ -8,11 +8,7 @@ use serde_json::{Value, json};
 use super::C;
 use super::dielectric::Sphere;
 use super::sphere::{Body, Loop, Solution, Sources};
-use crate::heat::formula::At;
-use crate::heat::property::Property;
-
-/// Disagreement of the walls with the dipole of the sphere, over the largest potential, that is none.
-const ALIKE: f64 = 1e-9;
+use super::walls::amounts;
 
 /// A solution that is known.
 #[derive(Debug, Clone)]
@@ -181,31 +177,21 @@ impl Known {
 }
 
 /// The sphere whose dipole the walls of a scene have.
-fn dielectric(scene: &Value) -> Result<Sphere, String> {
-    let walls = scene.pointer("/electrostatics/outer/0/potential_v");
-    let walls = Property::read(walls.ok_or("the walls have no potential")?)?;
-    let at = |p: [f64; 3]| walls.value(&At::place(p));
-    let corner = scene.pointer("/domain/box/max_m").and_then(numbers);
-    let corner = corner.ok_or("the domain is no box")?;
+pub(crate) fn dielectric(scene: &Value) -> Result<Sphere, String> {
     let around = number(scene, "/surroundings/relative_permittivity").unwrap_or(1.0);
-    let mut sphere = Sphere {
+    let alone = Sphere {
         radius: number(scene, "/bodies/0/shape/sphere/radius_m")?,
         ratio: number(scene, "/bodies/0/relative_permittivity").unwrap_or(1.0) / around,
+        around,
         field: 1.0,
-        middle: at([corner[0], corner[1], 0.0]),
+        middle: 0.0,
     };
-    // By a field of 1 V/m the potential of a corner is off the middle by that much.
-    let unit = sphere.potential(corner) - sphere.middle;
-    sphere.field = (at(corner) - sphere.middle) / unit;
-    for p in [[corner[0], 0.0, 0.3 * corner[2]], [0.0, 0.0, corner[2]]] {
-        let far = (sphere.potential(p) - at(p)).abs();
-        if far > ALIKE * at(corner).abs().max(sphere.middle.abs()) {
-            return Err(
-                "the walls have another potential than the dipole of the sphere".to_owned(),
-            );
-        }
-    }
-    Ok(sphere)
+    let [field, middle] = amounts(scene, [&|p| alone.potential(p), &|_| 1.0])?;
+    Ok(Sphere {
+        field,
+        middle,
+        ..alone
+    })
 }
 
 fn conductor(scene: &Value) -> Result<Known, String> {

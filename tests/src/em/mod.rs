@@ -10,6 +10,7 @@
 //! - [`transverse`]: a conducting cylinder in an alternating field across it.
 //! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field;
 //!   [`switched`]: the same after a uniform field is switched on.
+//! - [`walls`]: which exact potential the walls of a scene hold.
 
 pub mod bessel;
 pub mod coil;
@@ -21,6 +22,7 @@ pub mod frames;
 pub mod sphere;
 pub mod switched;
 pub mod transverse;
+pub mod walls;
 
 use num_complex::Complex;
 

@@ -17,7 +17,7 @@ pub use verdict::Verdict;
 use verdict::verdicts;
 
 /// One resolution in the record: time and errors of the same runs.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Level {
     level: u32,
     points: u64,
@@ -36,11 +36,14 @@ pub struct Level {
 }
 
 /// One method over its resolutions.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Series {
     method: String,
     levels: Vec<Level>,
     order: BTreeMap<String, Option<f64>>,
+    /// Why the patch of the user's leaves nothing to measure: the method has another body than the patch names, say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<String>,
     /// What the finest level spent its time on, what it held, and what it did without, as its run
     /// record tells.
     stages: Value,
@@ -65,23 +68,34 @@ pub struct Study {
 
 /// Runs `case` at `levels` with each of its methods, which take turns at every level.
 ///
+/// Where a patch of the user's does not fit a method, the others go on and the record tells why.
+///
 /// # Errors
-/// When a run fails, its artefact cannot be read, or a repeat of it writes other bytes.
+/// When a run fails, its artefact cannot be read, or a repeat of it writes other bytes; when no method is left.
 pub fn study(case: &dyn Case, lab: &Lab, levels: &[u32]) -> Result<Study, LabError> {
     let methods = case.methods();
     let mut all: Vec<Vec<Taken>> = methods.iter().map(|_| Vec::new()).collect();
+    let mut refused: Vec<Option<LabError>> = methods.iter().map(|_| None).collect();
     for &level in levels {
-        let taking = |method: &str| case.levels(method, levels).contains(&level);
-        let who: Vec<usize> = (0..methods.len()).filter(|m| taking(methods[*m])).collect();
         let mut batch = Vec::new();
         let mut found = Vec::new();
-        for &m in &who {
-            let measured = case.measure(lab, level, methods[m])?;
-            batch.push(Repeated::first(measured.runs.clone())?);
-            found.push(measured);
+        for (m, method) in methods.iter().enumerate() {
+            if refused[m].is_some() || !case.levels(method, levels).contains(&level) {
+                continue;
+            }
+            match case.measure(lab, level, method) {
+                Ok(measured) => {
+                    batch.push(Repeated::first(measured.runs.clone())?);
+                    found.push((m, measured));
+                }
+                Err(error) if lab.patch.is_some() && error.is_of_the_scene() => {
+                    refused[m] = Some(error);
+                }
+                Err(error) => return Err(error),
+            }
         }
         in_turns(lab, &mut batch)?;
-        for ((m, measured), times) in who.into_iter().zip(found).zip(batch) {
+        for ((m, measured), times) in found.into_iter().zip(batch) {
             all[m].push(Taken {
                 level,
                 measured,
@@ -89,8 +103,18 @@ pub fn study(case: &dyn Case, lab: &Lab, levels: &[u32]) -> Result<Study, LabErr
             });
         }
     }
-    let all = methods.iter().zip(all);
-    let mut all: Vec<Series> = all.map(|(m, taken)| series(m, taken, lab)).collect();
+    if all.iter().all(Vec::is_empty)
+        && let Some(error) = refused.iter_mut().find_map(Option::take)
+    {
+        return Err(error);
+    }
+    let all = methods.iter().zip(all).zip(refused);
+    let mut all: Vec<Series> = all
+        .map(|((m, taken), refused)| Series {
+            refused: refused.map(|error| error.to_string()),
+            ..series(m, taken, lab)
+        })
+        .collect();
     let targets = verdicts(&case.targets(), &all, levels);
     let competing = all.split_off(1);
     let Some(first) = all.pop() else {
@@ -128,6 +152,7 @@ fn series(method: &str, taken: Vec<Taken>, lab: &Lab) -> Series {
     Series {
         method: method.to_owned(),
         order,
+        refused: None,
         stages: told("stages"),
         memory: told("memory"),
         left_out: told("left_out"),
@@ -183,6 +208,10 @@ impl Study {
 impl Series {
     fn table(&self) -> String {
         let mut text = String::new();
+        if let Some(why) = &self.refused {
+            let last = why.trim_end().lines().last().unwrap_or_default();
+            text += &format!("  the patch does not fit: {last}\n");
+        }
         for level in &self.levels {
             text += &format!(
                 "  {:>9} points {:>9.4} s x{} ",

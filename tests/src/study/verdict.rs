@@ -29,7 +29,7 @@ pub struct Verdict {
     #[serde(skip_serializing_if = "Option::is_none")]
     finest_error: Option<f64>,
     found: Option<f64>,
-    /// `None` where the level of the target was not run.
+    /// `None` where the level of the target was not run, or the user's patch does not fit the method.
     pub(super) holds: Option<bool>,
 }
 
@@ -44,6 +44,9 @@ pub(super) fn verdicts(
         let series = all.iter().find(wanted);
         let mut verdict = Verdict::open(target, series);
         verdict.judge(target, series, all.first(), levels);
+        if series.is_some_and(|s| s.refused.is_some()) {
+            verdict.holds = None;
+        }
         (target.name(), verdict)
     });
     judged.collect()
@@ -197,6 +200,7 @@ mod tests {
             method: method.to_owned(),
             levels: errors.iter().map(level).collect(),
             order: [("a".to_owned(), order)].into(),
+            refused: None,
             stages: Value::Null,
             memory: Value::Null,
             left_out: Value::Null,
@@ -210,6 +214,16 @@ mod tests {
         ];
         let judged = verdicts(std::slice::from_ref(&target), &all, levels);
         judged[&target.name()].holds
+    }
+
+    #[test]
+    fn a_method_that_the_patch_does_not_fit_leaves_its_targets_open() {
+        let mut series = series("fine", &[], None);
+        series.refused = Some("a sphere has no place here".to_owned());
+        for target in [Target::error("a", 1.0), Target::order("a", 2.0)] {
+            let judged = verdicts(std::slice::from_ref(&target), &[series.clone()], &[1, 2]);
+            assert_eq!(judged[&target.name()].holds, None);
+        }
     }
 
     #[test]
