@@ -3,15 +3,15 @@
 use std::f64::consts::{PI, TAU};
 
 use artefact::Reader;
+use serde_json::Value;
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Finished, Lab, LabError};
 use crate::plasma::{self, Plasma};
 
 const MOLAR_GAS: f64 = 8.314_462_618;
+/// Unit of saturation pressures, and the pressure of a gas that names none \[Pa\].
 const ATMOSPHERE: f64 = 101_325.0;
-/// Molar mass of iron \[kg/mol\].
-const IRON: f64 = 0.055_845;
 
 /// The case.
 pub(super) struct ArcEvaporation;
@@ -27,8 +27,12 @@ struct Tube {
     kinetic: f64,
     /// Saturation pressure \[Pa\].
     saturation: f64,
+    /// Pressure of gas and vapour \[Pa\].
+    pressure: f64,
     /// Molar mass of the gas \[kg/mol\].
     gas: f64,
+    /// Molar mass of the metal \[kg/mol\].
+    metal: f64,
     /// Whether the vapour adds to the gas.
     adds: bool,
 }
@@ -37,15 +41,19 @@ impl Tube {
     fn of(run: &Finished, adds: bool) -> Result<Self, LabError> {
         let number = |path: &str| plasma::number(run, path);
         let t = number("/start/temperature_k")?;
-        let law = "/bodies/metal/anode/evaporation/saturation";
-        let (a, b) = (number(&format!("{law}/a"))?, number(&format!("{law}/b_k"))?);
+        let law = |key: &str| number(&format!("/bodies/metal/anode/evaporation/{key}"));
+        let (a, b) = (law("saturation/a")?, law("saturation/b_k")?);
+        let metal = law("molar_mass_kg_mol")?;
+        let pressure = run.scene.pointer("/gas/given/pressure_pa");
         Ok(Self {
             length: number("/domain/z_m/1")?,
             product: number("/gas/given/density_kg_m3")?
                 * number("/gas/given/iron_diffusion_m2_s")?,
-            kinetic: (IRON / (TAU * MOLAR_GAS * t)).sqrt(),
+            kinetic: (metal / (TAU * MOLAR_GAS * t)).sqrt(),
             saturation: ATMOSPHERE * 10_f64.powf(a - b / t),
+            pressure: pressure.and_then(Value::as_f64).unwrap_or(ATMOSPHERE),
             gas: number("/gas/given/molar_mass_kg_mol")?,
+            metal,
             adds,
         })
     }
@@ -58,11 +66,11 @@ impl Tube {
 
     /// Mass fraction at the surface, at which metal and gas let through as much: by halving.
     fn surface(&self) -> f64 {
-        let mole = |y: f64| (y / IRON) / (y / IRON + (1.0 - y) / self.gas);
+        let mole = |y: f64| (y / self.metal) / (y / self.metal + (1.0 - y) / self.gas);
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..200 {
             let y = 0.5 * (low + high);
-            if self.kinetic * (self.saturation - mole(y) * ATMOSPHERE) > self.flux(y) {
+            if self.kinetic * (self.saturation - mole(y) * self.pressure) > self.flux(y) {
                 low = y;
             } else {
                 high = y;
@@ -153,7 +161,9 @@ mod tests {
             product: 2e-3,
             kinetic: 6e-4,
             saturation: 4e4,
+            pressure: ATMOSPHERE,
             gas: 0.04,
+            metal: 0.055_845,
             adds,
         }
     }
@@ -175,8 +185,8 @@ mod tests {
     fn the_surface_is_below_saturation_and_close_to_it() {
         let tube = tube(true);
         let y = tube.surface();
-        let mole = (y / IRON) / (y / IRON + (1.0 - y) / tube.gas);
-        let part = mole * ATMOSPHERE / tube.saturation;
+        let mole = (y / tube.metal) / (y / tube.metal + (1.0 - y) / tube.gas);
+        let part = mole * tube.pressure / tube.saturation;
         assert!(part < 1.0 && part > 0.98, "{part}");
     }
 }

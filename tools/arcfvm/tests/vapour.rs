@@ -328,6 +328,25 @@ fn what_vapour_lacks_is_told_with_its_place() {
 }
 
 #[test]
+fn metals_of_other_vapours_than_that_of_the_gas_are_refused() {
+    let one = tube("added", 5e-4, "");
+    let metal = &one[one.find("{\"shape\"").unwrap()..one.find("},\n        \"flow\"").unwrap()];
+    let lid = metal
+        .replace("[-0.002, 0]", "[0.006, 0.008]")
+        .replace("0.055845", "0.207");
+    let both = one.replace(metal, &format!("{metal}, \"lid\": {lid}"));
+    let told = assemble(&scene(&both), None).unwrap_err().to_string();
+    // The bodies come in the order of their names.
+    assert!(
+        told.contains("/bodies/metal/anode/evaporation/molar_mass_kg_mol"),
+        "{told}"
+    );
+    // One metal alone may be any.
+    let case = assemble(&scene(&one.replace("0.055845", "0.207")), None).unwrap();
+    assert!((case.vapour.unwrap().molar.iron - 0.207).abs() < 1e-15);
+}
+
+#[test]
 fn a_scene_without_vapour_holds_nothing_of_it() {
     let gas = r#""gas": {"given": {"density_kg_m3": 1, "viscosity_pa_s": 1e-3, "thermal_conductivity_w_m_k": 1,
         "specific_heat_j_kg_k": 1000}}"#;

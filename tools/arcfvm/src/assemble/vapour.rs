@@ -10,8 +10,10 @@ use crate::material::REFERENCE_K;
 use crate::mixture::Molar;
 use crate::scene::{Amount, Body, Evaporation, Gas, Returns, Scene, Vapour, VapourMass};
 
-/// Molar mass of iron \[kg/mol\], where no table tells it.
+/// Molar mass of iron \[kg/mol\], where neither table nor metal tell that of the vapour.
 const IRON: f64 = 0.055_845;
+/// Difference of molar masses that is none.
+const ALIKE: f64 = 1e-3;
 /// Pressure where neither table nor scene tell it \[Pa\].
 const ATMOSPHERE: f64 = 101_325.0;
 
@@ -50,7 +52,8 @@ pub(crate) fn vapour(
         "/vapour/source_kg_m3_s",
         faults,
     );
-    let (molar, pressure) = mixture(scene, gas, faults)?;
+    let (molar, pressure) = mixture(scene, gas, &bodies, faults)?;
+    of_one_kind(&bodies, molar.iron, faults);
     Some(VapourCase {
         edges: edges::vapour(scene, &layout.grid, faults),
         start: start(given, layout, faults),
@@ -77,7 +80,12 @@ fn wall(bodies: &[(&String, &Body)]) -> Option<(usize, f64)> {
 }
 
 /// Molar masses and pressure, of the table or given.
-fn mixture(scene: &Scene, gas: Option<&GasFile>, faults: &mut Faults) -> Option<(Molar, f64)> {
+fn mixture(
+    scene: &Scene,
+    gas: Option<&GasFile>,
+    bodies: &[(&String, &Body)],
+    faults: &mut Faults,
+) -> Option<(Molar, f64)> {
     match (&scene.gas, gas) {
         (Gas::Table(_), Some(file)) => Some((file.molar?, file.pressure)),
         (Gas::Table(_), None) => None,
@@ -89,24 +97,47 @@ fn mixture(scene: &Scene, gas: Option<&GasFile>, faults: &mut Faults) -> Option<
                 );
                 return None;
             };
-            let molar = Molar { gas, iron: IRON };
+            let metal = bodies.iter().find_map(|(_, body)| evaporation(body));
+            let iron = metal.map_or(IRON, |(_, metal)| metal.molar_mass_kg_mol);
+            let molar = Molar { gas, iron };
             Some((molar, given.pressure_pa.unwrap_or(ATMOSPHERE)))
         }
     }
 }
 
-/// How a body evaporates, as whichever electrode it is.
-fn evaporation(body: &Body) -> Option<&Evaporation> {
+/// The gas holds one vapour: all metals that evaporate have its molar mass \[kg/mol\].
+fn of_one_kind(bodies: &[(&String, &Body)], vapour: f64, faults: &mut Faults) {
+    for (name, body) in bodies {
+        let Some((electrode, metal)) = evaporation(body) else {
+            continue;
+        };
+        let own = metal.molar_mass_kg_mol;
+        if (own / vapour - 1.0).abs() > ALIKE {
+            let at = format!("/bodies/{name}/{electrode}/evaporation/molar_mass_kg_mol");
+            let what =
+                format!("{own} kg/mol is not that of the vapour in the gas, {vapour} kg/mol");
+            faults.add(&at, what);
+        }
+    }
+}
+
+/// How a body evaporates, as whichever electrode it is, and the key of that.
+fn evaporation(body: &Body) -> Option<(&'static str, &Evaporation)> {
     let anode = body.anode.as_ref().and_then(|a| a.evaporation.as_ref());
     let cathode = body.cathode.as_ref().and_then(|c| c.evaporation.as_ref());
     let either = body.electrode.as_ref().and_then(|e| e.evaporation.as_ref());
-    anode.or(cathode).or(either)
+    let keyed = [
+        ("anode", anode),
+        ("cathode", cathode),
+        ("electrode", either),
+    ];
+    keyed.into_iter().find_map(|(key, e)| Some((key, e?)))
 }
 
 /// A saturation pressure means nothing where vapour leaves into a vacuum.
 fn refuse_saturation(bodies: &[(&String, &Body)], faults: &mut Faults) {
     for (name, body) in bodies {
-        if evaporation(body).is_some_and(|e| e.saturation.is_some()) {
+        if evaporation(body).is_some_and(|(_, e)| e.saturation.is_some()) {
             let what = "evaporation/saturation wants vapour in the scene";
             faults.add(&format!("/bodies/{name}"), what);
         }
@@ -120,7 +151,7 @@ fn metals(bodies: &[(&String, &Body)], electrodes: &Electrodes) -> Vec<Option<Ev
         .enumerate()
         .filter(|(n, _)| electrodes.of[n + 1].is_some());
     electrodes
-        .map(|(_, (_, body))| evaporation(body).map(evaporating))
+        .map(|(_, (_, body))| evaporation(body).map(|(_, e)| evaporating(e)))
         .collect()
 }
 
