@@ -88,6 +88,8 @@ pub struct Finished {
     pub scene: Value,
     /// From the start of the process to its end \[s\].
     pub process_s: f64,
+    /// What the case sets by level or method, and the user's patch holds fast: JSON pointers.
+    pub held: Vec<String>,
     /// The program and its words, without `--out`.
     command: Vec<OsString>,
 }
@@ -105,6 +107,7 @@ impl Finished {
             record: serde_json::json!({ "wall_s": seconds }),
             scene: Value::Null,
             process_s: seconds,
+            held: Vec::new(),
             command: Vec::new(),
         }
     }
@@ -202,7 +205,12 @@ impl Lab {
         }
         let threads = self.threads.to_string();
         command.extend(["--threads", &threads, "--progress", "none"].map(OsString::from));
-        self.execute(command, artefact)
+        let held = match &self.patch {
+            Some(path) => common(patch, &read_json(path)?, ""),
+            None => Vec::new(),
+        };
+        let finished = self.execute(command, artefact)?;
+        Ok(Finished { held, ..finished })
     }
 
     /// The run `first` with `patch` over all others, the user's included: for a patch that is made from
@@ -252,6 +260,20 @@ impl Lab {
     }
 }
 
+/// Pointers to what both patches set.
+fn common(one: &Value, other: &Value, at: &str) -> Vec<String> {
+    match (one, other) {
+        (Value::Object(one), Value::Object(other)) => {
+            let both = one
+                .iter()
+                .filter_map(|(key, a)| Some((key, a, other.get(key)?)));
+            both.flat_map(|(key, a, b)| common(a, b, &format!("{at}/{key}")))
+                .collect()
+        }
+        _ => vec![at.to_owned()],
+    }
+}
+
 /// Removes what a run that was killed left: a measurement begins at the start.
 pub(crate) fn discard_unfinished(artefact: &Path) {
     for ending in ["checkpoint", "part"] {
@@ -289,6 +311,7 @@ fn finish(
         record,
         scene,
         process_s,
+        held: Vec::new(),
         command: words,
     })
 }
@@ -320,4 +343,20 @@ pub fn read_json(path: &Path) -> Result<Value, LabError> {
         path: path.to_owned(),
         what: e.to_string(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn what_two_patches_set_is_told_by_its_place() {
+        let level = json!({"points": {"spacing_m": 1, "layers": {"first_m": 0.5}}, "bodies": [1]});
+        let user = json!({"points": {"spacing_m": 2, "jitter": 0.1}, "bodies": [2], "gas": {}});
+        assert_eq!(common(&level, &user, ""), ["/points/spacing_m", "/bodies"]);
+        assert!(common(&level, &json!({"gas": {"pressure_pa": 1}}), "").is_empty());
+        // A whole object may be taken away.
+        assert_eq!(common(&level, &json!({"points": null}), ""), ["/points"]);
+    }
 }

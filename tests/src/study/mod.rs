@@ -4,7 +4,7 @@
 pub(crate) mod repeat;
 mod verdict;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 use serde_json::Value;
@@ -44,6 +44,9 @@ pub struct Series {
     /// Why the patch of the user's leaves nothing to measure: the method has another body than the patch names, say.
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
+    /// What levels or the method set and the user's patch holds fast, so that orders may mean nothing.
+    #[serde(skip_serializing_if = "BTreeSet::is_empty")]
+    held: BTreeSet<String>,
     /// What the finest level spent its time on, what it held, and what it did without, as its run
     /// record tells.
     stages: Value,
@@ -148,11 +151,14 @@ fn series(method: &str, taken: Vec<Taken>, lab: &Lab) -> Series {
     });
     let order = order.collect();
     let finest = taken.last().and_then(|t| t.times.runs().last());
+    let runs = taken.iter().flat_map(|t| &t.measured.runs);
+    let held = runs.flat_map(|run| run.held.iter().cloned()).collect();
     let told = |key: &str| finest.map_or(Value::Null, |run| run.record[key].clone());
     Series {
         method: method.to_owned(),
         order,
         refused: None,
+        held,
         stages: told("stages"),
         memory: told("memory"),
         left_out: told("left_out"),
@@ -211,6 +217,9 @@ impl Series {
         if let Some(why) = &self.refused {
             let last = why.trim_end().lines().last().unwrap_or_default();
             text += &format!("  the patch does not fit: {last}\n");
+        }
+        for held in &self.held {
+            text += &format!("  the patch holds {held}, which the case sets by level or method\n");
         }
         for level in &self.levels {
             text += &format!(

@@ -201,6 +201,7 @@ mod tests {
             levels: errors.iter().map(level).collect(),
             order: [("a".to_owned(), order)].into(),
             refused: None,
+            held: std::collections::BTreeSet::new(),
             stages: Value::Null,
             memory: Value::Null,
             left_out: Value::Null,
