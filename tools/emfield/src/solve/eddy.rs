@@ -4,6 +4,7 @@
 //! eq. 2.65, here without charge on surfaces; [`super::charge`] has that), `B = B_s + curl A` (2.67), the mean force density is
 //! `Re(J x B*)` (2.68), the heat `|J|^2 / sigma`.
 
+use krylov::Pair;
 use num_complex::Complex;
 use rayon::prelude::*;
 
@@ -58,9 +59,9 @@ impl<const K: usize> Drive<K> {
         (region, unknown): (&Region<D>, Unknown),
         multipoles: &Multipoles,
         right: &mut [[C; K]],
-    ) -> Vec<(Vec<C>, Vec<C>)> {
+    ) -> Vec<Pair<C>> {
         let mut found = Vec::new();
-        for (u, v) in pairs(conductors, (region, unknown), multipoles) {
+        for (u, v) in each_pair(conductors, (region, unknown), multipoles) {
             let v: Vec<C> = v.iter().map(|v| C::new(0.0, self.omega * v)).collect();
             let mut given = [C::new(0.0, 0.0); K];
             for (v, source) in v.iter().zip(&self.source) {
@@ -68,12 +69,12 @@ impl<const K: usize> Drive<K> {
                     given[k] += v * source[k];
                 }
             }
-            for (right, u) in right.iter_mut().zip(&u) {
+            for (right, u) in right.iter_mut().zip(u) {
                 for k in 0..K {
                     right[k] -= given[k] * *u;
                 }
             }
-            found.push((u.into_iter().map(C::from).collect(), v));
+            found.push(Pair::new(u.iter().map(|u| C::from(*u)), v));
         }
         found
     }
@@ -84,10 +85,20 @@ impl<const K: usize> Drive<K> {
 #[must_use]
 pub fn pairs<const D: usize>(
     conductors: &Conductors,
-    (region, unknown): (&Region<D>, Unknown),
+    at: (&Region<D>, Unknown),
     multipoles: &Multipoles,
 ) -> Vec<(Vec<f64>, Vec<f64>)> {
-    let weight = |(i, moment): (usize, &f64)| {
+    let pairs = each_pair(conductors, at, multipoles);
+    pairs.map(|(u, v)| (u.to_vec(), v)).collect()
+}
+
+/// [`pairs`], one after another: there is not room for all at once where there are many points.
+fn each_pair<'a, const D: usize>(
+    conductors: &'a Conductors,
+    (region, unknown): (&'a Region<D>, Unknown),
+    multipoles: &'a Multipoles,
+) -> impl Iterator<Item = (&'a [f64], Vec<f64>)> {
+    let weight = move |(i, moment): (usize, &f64)| {
         // The unknown is A over the distance from the axis.
         let arm = if unknown == Unknown::Around {
             region.places[i][0]
@@ -97,11 +108,10 @@ pub fn pairs<const D: usize>(
         conductors.mu_sigma[region.medium(i) as usize] * moment * arm
     };
     let each = multipoles.moments.iter().zip(&multipoles.fields);
-    each.map(|(moment, field)| {
+    each.map(move |(moment, field)| {
         let v = moment.iter().enumerate().map(weight).collect();
-        (field.clone(), v)
+        (field.as_slice(), v)
     })
-    .collect()
 }
 
 /// Fields of a solution, by point, in space: of an axisymmetric scene away from the axis, around it

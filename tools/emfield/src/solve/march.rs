@@ -6,7 +6,7 @@
 //! with `k` from [`super::diffusion::Conductors::rates`]. Where `k` is zero (air), the row holds at
 //! each instant.
 
-use krylov::{Rule, Solved, System};
+use krylov::{Pair, Rule, Solved, System};
 
 /// `1 - 1/sqrt(2)`: with it the method is of second order and the last stage is the next state.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -47,7 +47,7 @@ pub struct March<const K: usize> {
     system: System<f64, f64>,
     rates: Vec<f64>,
     forcing: Forcing<K>,
-    pairs: Vec<(Vec<f64>, Vec<f64>)>,
+    pairs: Vec<Pair<f64>>,
     slope: f64,
     step: f64,
     state: State<K>,
@@ -85,9 +85,10 @@ impl<const K: usize> March<K> {
         self.step = step;
         self.slope = 1.0 / (GAMMA * step);
         let slope = self.slope;
-        let implicit = |v: &Vec<f64>| v.iter().map(|v| slope * v).collect();
-        let pairs = self.forcing.pairs.iter();
-        self.pairs = pairs.map(|(u, v)| (u.clone(), implicit(v))).collect();
+        let implicit = |(u, v): &(Vec<f64>, Vec<f64>)| {
+            Pair::new(u.iter().copied(), v.iter().map(|v| slope * v))
+        };
+        self.pairs = self.forcing.pairs.iter().map(implicit).collect();
     }
 
     /// What has been reached.

@@ -1,6 +1,6 @@
-//! Operators on several columns at once: rows, rows with a diagonal of their own, low-rank parts.
+//! Operators on several columns at once: rows, rows with a diagonal of their own.
 
-use crate::columns::{dot, sum};
+use crate::columns::dot;
 use crate::{Coefficient, Rows, Scalar};
 
 /// A square linear operator on columns of numbers `S`.
@@ -47,43 +47,6 @@ impl<S: Scalar, T: Coefficient<S>> Operator<S> for Shifted<'_, T, S> {
                 out[c] = sum[c] + self.shift[i] * x[i][c];
             }
         });
-    }
-}
-
-/// `A + U V^T`: a sparse operator and a few dense products, such as a multipole condition.
-#[derive(Debug, Clone)]
-pub struct LowRank<'a, A, S> {
-    /// The sparse part.
-    pub sparse: &'a A,
-    /// Columns of `U` and of `V`, pair by pair. Not conjugated.
-    pub pairs: Vec<(Vec<S>, Vec<S>)>,
-}
-
-impl<S: Scalar, A: Operator<S>> Operator<S> for LowRank<'_, A, S> {
-    fn len(&self) -> usize {
-        self.sparse.len()
-    }
-
-    fn apply<const C: usize>(&self, x: &[[S; C]], out: &mut [[S; C]]) {
-        self.sparse.apply(x, out);
-        for (u, v) in &self.pairs {
-            let [factor] = sum(x.len(), |rows| {
-                let mut sum = [S::ZERO; C];
-                for (x, v) in x[rows.clone()].iter().zip(&v[rows]) {
-                    for c in 0..C {
-                        sum[c] += *v * x[c];
-                    }
-                }
-                [sum]
-            });
-            crate::columns::update(out, |rows, out| {
-                for (out, u) in out.iter_mut().zip(&u[rows]) {
-                    for c in 0..C {
-                        out[c] += *u * factor[c];
-                    }
-                }
-            });
-        }
     }
 }
 

@@ -68,7 +68,7 @@ impl<T: Copy> Rows<T> {
     #[must_use]
     pub fn gathered(n: usize, zero: T, each: impl Fn(usize, &mut Vec<(u32, T)>) + Sync) -> Self
     where
-        T: std::ops::AddAssign + Send + Sync,
+        T: std::ops::AddAssign + Default + Send + Sync,
     {
         Self::made(n, Vec::new, |i, row, columns, values| {
             row.clear();
@@ -86,7 +86,7 @@ impl<T: Copy> Rows<T> {
         each: impl Fn(usize, &mut W, &mut Vec<u32>, &mut Vec<T>) + Sync,
     ) -> Self
     where
-        T: Send,
+        T: Default + Send + Sync,
     {
         let part = |scratch: &mut W, m: usize| {
             let (mut ends, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
@@ -98,17 +98,43 @@ impl<T: Copy> Rows<T> {
         };
         let tasks = (0..n.div_ceil(TASK)).into_par_iter();
         let parts: Vec<_> = tasks.map_init(&scratch, part).collect();
-        let entries = parts.iter().map(|p| p.1.len()).sum();
         let mut offsets = Vec::with_capacity(n + 1);
         offsets.push(0);
-        let mut columns = Vec::with_capacity(entries);
-        let mut values = Vec::with_capacity(entries);
-        for (ends, c, v) in parts {
-            let begin = columns.len();
+        let mut begin = 0;
+        for (ends, ..) in &parts {
             offsets.extend(ends.iter().map(|end| begin + end));
-            columns.extend(c);
-            values.extend(v);
+            begin += ends.last().copied().unwrap_or(0);
         }
+        let parts = parts.into_par_iter();
+        Self::filled(offsets, parts, |(_, c, v), columns, values| {
+            columns.copy_from_slice(&c);
+            values.copy_from_slice(&v);
+        })
+    }
+
+    /// Rows whose places are known, from one part for each [`TASK`] of them: `each(part, columns, values)` fills in the
+    /// rows of a part. All threads take their share of the memory that is fresh.
+    fn filled<P: Send>(
+        offsets: Vec<usize>,
+        parts: impl IndexedParallelIterator<Item = P>,
+        each: impl Fn(P, &mut [u32], &mut [T]) + Sync + Send,
+    ) -> Self
+    where
+        T: Default + Send,
+    {
+        let (n, entries) = (offsets.len() - 1, offsets.last().copied().unwrap_or(0));
+        let mut columns = vec![0; entries];
+        let mut values = vec![T::default(); entries];
+        let (mut c, mut v) = (columns.as_mut_slice(), values.as_mut_slice());
+        let mut slots = Vec::with_capacity(n.div_ceil(TASK));
+        for from in (0..n).step_by(TASK) {
+            let size = offsets[(from + TASK).min(n)] - offsets[from];
+            let ((c0, c1), (v0, v1)) = (c.split_at_mut(size), v.split_at_mut(size));
+            slots.push((c0, v0));
+            (c, v) = (c1, v1);
+        }
+        let each = |(part, (c, v))| each(part, c, v);
+        parts.zip(slots).for_each(each);
         Self {
             offsets,
             columns,
@@ -198,16 +224,39 @@ impl<T: Copy> Rows<T> {
     #[must_use]
     pub fn permuted(&self, order: &crate::Order) -> Self
     where
-        T: Send + Sync,
+        T: Default + Send + Sync,
     {
-        Self::made(self.len(), Vec::new, |new, row, columns, values| {
-            row.clear();
-            let pairs = self.pairs(order.old_of(new));
-            row.extend(pairs.map(|(j, v)| (order.new_of(j) as u32, v)));
-            row.sort_unstable_by_key(|e: &(u32, T)| e.0);
-            columns.extend(row.iter().map(|e| e.0));
-            values.extend(row.iter().map(|e| e.1));
+        let n = self.len();
+        let mut offsets = Vec::with_capacity(n + 1);
+        offsets.push(0);
+        let mut end = 0;
+        for new in 0..n {
+            end += self.row(order.old_of(new)).len();
+            offsets.push(end);
+        }
+        let starts = (0..n.div_ceil(TASK)).into_par_iter();
+        Self::filled(offsets, starts, |m, columns, values| {
+            let (mut row, mut at): (Vec<(u32, T)>, _) = (Vec::new(), 0);
+            for new in m * TASK..((m + 1) * TASK).min(n) {
+                row.clear();
+                let pairs = self.pairs(order.old_of(new));
+                row.extend(pairs.map(|(j, v)| (order.new_of(j) as u32, v)));
+                row.sort_unstable_by_key(|e| e.0);
+                let (columns, values) = (&mut columns[at..], &mut values[at..]);
+                for ((&(j, v), column), value) in row.iter().zip(columns).zip(values) {
+                    (*column, *value) = (j, v);
+                }
+                at += row.len();
+            }
         })
+    }
+
+    /// [`Rows::permuted`], letting go of the old rows.
+    pub(crate) fn into_order(self, order: &crate::Order) -> Self
+    where
+        T: Default + Send + Sync,
+    {
+        self.permuted(order)
     }
 
     /// Without the entries below `least` times the largest of their row, and, if `wrong`, without

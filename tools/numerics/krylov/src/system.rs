@@ -1,8 +1,9 @@
 //! A system of equations made ready for solving: rows scaled and reordered, a method chosen.
 
 use crate::factors::{Factors, joined};
+use crate::lowrank::{LowRank, Ties};
 use crate::{
-    Coefficient, Direct, Ending, Error, Grids, Keep, LowRank, Order, Rows, Rule, Scalar, Scratch,
+    Coefficient, Direct, Ending, Error, Grids, Keep, Order, Pair, Rows, Rule, Scalar, Scratch,
     Shifted, Sides, Solved, Stagnation, Unknown,
 };
 
@@ -127,14 +128,14 @@ impl<T: Scalar, S: Unknown<T>> System<T, S> {
         self.solve_with(&[], rhs, x, rule)
     }
 
-    /// Solves with `sum u v^T` added to the matrix, for each pair `(u, v)` of columns: a condition
-    /// that ties few rows to many. The factors are those without.
+    /// Solves with `sum u v^T` added to the matrix, for each pair of columns: a condition that ties
+    /// few rows to many. The factors are those without.
     ///
     /// # Panics
     /// When lengths differ.
     pub fn solve_with<const C: usize>(
         &mut self,
-        pairs: &[(Vec<S>, Vec<S>)],
+        pairs: &[Pair<S>],
         rhs: &[[S; C]],
         x: &mut [[S; C]],
         rule: Rule,
@@ -191,14 +192,18 @@ where
         } else {
             Order::cuthill_mckee(low.as_ref().unwrap_or(&rows))
         };
-        let mut rows = if direct { rows } else { rows.permuted(&order) };
+        let mut rows = if direct {
+            rows
+        } else {
+            rows.into_order(&order)
+        };
         let mut mixed = vec![S::ZERO; n];
         order.forth(&shift, &mut mixed);
         let scale = equilibrate(&mut rows, &mut mixed).map_err(|e| located(e, &order))?;
         let factors = if direct {
             Factors::Direct(Box::new(Direct::new(&rows, &mixed)?))
         } else if let Some(low) = low {
-            let mut low = low.permuted(&order);
+            let mut low = low.into_order(&order);
             for (i, scale) in scale.iter().enumerate() {
                 for v in low.values_mut(i) {
                     *v = v.times_real(*scale);
@@ -243,9 +248,9 @@ where
         for (b, scale) in b.iter_mut().zip(&self.scale) {
             *b = b.map(|b| b.times_real(*scale));
         }
-        let pairs = self.mixed(pairs);
-        self.given(&pairs, b, y);
-        let mut solved = self.run(&pairs, b, y, rule);
+        let ties = Ties::new(pairs, &self.order, &self.scale);
+        self.given(&ties, b, y);
+        let mut solved = self.run(&ties, b, y, rule);
         let failed = matches!(solved.ending, Ending::Stagnated(_) | Ending::BrokenDown(_));
         let direct = matches!(self.factors, Factors::Direct(_));
         let rounding = matches!(
@@ -262,35 +267,18 @@ where
             self.factors = Factors::Direct(Box::new(factors));
             self.rescued = true;
             y.fill([S::ZERO; C]);
-            solved = joined(solved, self.run(&pairs, b, y, rule));
+            solved = joined(solved, self.run(&ties, b, y, rule));
         }
         self.order.back(y, solution);
         self.vectors = vectors;
         solved
     }
 
-    /// Low-rank pairs in the order and scale of the rows.
-    fn mixed(&self, pairs: &[(Vec<S>, Vec<S>)]) -> Vec<(Vec<S>, Vec<S>)> {
-        let mixed = |column: &[S]| {
-            let mut new = vec![S::ZERO; column.len()];
-            self.order.forth(column, &mut new);
-            new
-        };
-        let pair = |(u, v): &(Vec<S>, Vec<S>)| {
-            let mut u = mixed(u);
-            for (u, scale) in u.iter_mut().zip(&self.scale) {
-                *u = u.times_real(*scale);
-            }
-            (u, mixed(v))
-        };
-        pairs.iter().map(pair).collect()
-    }
-
     /// Puts given values where a row holds nothing but its diagonal.
-    fn given<const C: usize>(&self, pairs: &[(Vec<S>, Vec<S>)], b: &[[S; C]], y: &mut [[S; C]]) {
+    fn given<const C: usize>(&self, ties: &Ties<S>, b: &[[S; C]], y: &mut [[S; C]]) {
         for (i, y) in y.iter_mut().enumerate() {
             let alone = self.rows.pairs(i).all(|(j, v)| j == i || v == T::ZERO);
-            if alone && pairs.iter().all(|(u, _)| u[i] == S::ZERO) {
+            if alone && !ties.reach(i) {
                 let diagonal = Coefficient::<S>::widened(self.rows.diagonal(i)) + self.shift[i];
                 *y = b[i].map(|b| b / diagonal);
             }
@@ -299,7 +287,7 @@ where
 
     fn run<const C: usize>(
         &mut self,
-        pairs: &[(Vec<S>, Vec<S>)],
+        ties: &Ties<S>,
         b: &[[S; C]],
         y: &mut [[S; C]],
         rule: Rule,
@@ -310,7 +298,7 @@ where
         };
         let whole = LowRank {
             sparse: &sparse,
-            pairs: pairs.to_vec(),
+            ties,
         };
         let mut solved = self.factors.solve(&whole, b, y, rule, &mut self.scratch);
         if matches!(solved.ending, Ending::Stagnated(Stagnation::Plateau { .. })) {

@@ -1,6 +1,6 @@
 //! What this crate compiles a system for.
 
-use crate::{Error, Options, Rows, Rule, Scalar, Solved, System};
+use crate::{Error, Options, Pair, Rows, Rule, Scalar, Solved, System};
 use num_complex::Complex;
 
 /// Unknowns that a [`System`] with coefficients `T` can be solved for. This crate compiles the
@@ -24,14 +24,14 @@ pub trait Unknown<T: Scalar>: Scalar {
 /// What a solve adds to the matrix, its right sides, and its guesses, which become solutions.
 #[derive(Debug)]
 pub struct Sides<'a, S, const C: usize> {
-    pub(crate) pairs: &'a [(Vec<S>, Vec<S>)],
+    pub(crate) pairs: &'a [Pair<S>],
     pub(crate) right: &'a [[S; C]],
     pub(crate) solution: &'a mut [[S; C]],
 }
 
 impl<'a, S, const C: usize> Sides<'a, S, C> {
     /// From sides whose columns follow each other row by row.
-    pub(crate) fn new(pairs: &'a [(Vec<S>, Vec<S>)], right: &'a [S], x: &'a mut [S]) -> Self {
+    pub(crate) fn new(pairs: &'a [Pair<S>], right: &'a [S], x: &'a mut [S]) -> Self {
         Self {
             pairs,
             right: right.as_chunks().0,

@@ -25,8 +25,9 @@ pub(crate) struct Zone<'a, F> {
     pub(crate) done: &'a [Piece<F>],
 }
 
-/// A row that is being eliminated: values by column, and which columns there are.
-struct Work<S> {
+/// A row that is being eliminated: values by column, and which columns there are. One serves several pieces, whose rows
+/// differ.
+pub(crate) struct Work<S> {
     value: Vec<S>,
     /// One more than the row that has this column, or 0.
     stamp: Vec<u32>,
@@ -45,8 +46,26 @@ impl<T: Coefficient<S>, S: Scalar> Eliminate<'_, T, S> {
         !own && (j >= self.border) == (range.start >= self.border)
     }
 
-    pub(crate) fn run<F: Coefficient<S>>(&self, zone: &Zone<'_, F>) -> Piece<F> {
-        let (n, range) = (self.rows.len(), &zone.range);
+    /// Room for a row.
+    pub(crate) fn work(&self) -> Work<S> {
+        let n = self.rows.len();
+        Work {
+            value: vec![S::ZERO; n],
+            stamp: vec![0; n],
+            lower: Vec::new(),
+            upper: Vec::new(),
+            heap: BinaryHeap::new(),
+            large: Vec::new(),
+            dropped: S::ZERO,
+        }
+    }
+
+    pub(crate) fn run<F: Coefficient<S>>(
+        &self,
+        work: &mut Work<S>,
+        zone: &Zone<'_, F>,
+    ) -> Piece<F> {
+        let range = &zone.range;
         let half = range.clone().map(|i| self.rows.row(i).len()).sum::<usize>() * 6 / 10;
         let mut piece = Piece {
             first: range.start,
@@ -55,25 +74,16 @@ impl<T: Coefficient<S>, S: Scalar> Eliminate<'_, T, S> {
             inverse: Vec::with_capacity(range.len()),
             weak: 0,
         };
-        let mut work = Work {
-            value: vec![S::ZERO; n],
-            stamp: vec![0; n],
-            lower: Vec::new(),
-            upper: Vec::new(),
-            heap: BinaryHeap::new(),
-            large: Vec::new(),
-            dropped: S::ZERO,
-        };
         for i in range.clone() {
-            let size = self.load::<F>(i, range, &mut work);
+            let size = self.load::<F>(i, range, work);
             match self.keep {
                 Keep::Pattern { compensate } => {
-                    self.pattern(i, zone, &piece, &mut work);
+                    self.pattern(i, zone, &piece, work);
                     let dropped = work.dropped.times_real(compensate);
                     work.value[i] += dropped;
                 }
                 Keep::Threshold { drop, fill } => {
-                    self.threshold(i, zone, &piece, drop * size, &mut work);
+                    self.threshold(i, zone, &piece, drop * size, work);
                     let most = |count: usize| (count as f64 * fill).ceil() as usize;
                     let place = self.rows.diagonal_place(i);
                     let after = self.rows.row(i).len() - place - 1;
@@ -81,7 +91,7 @@ impl<T: Coefficient<S>, S: Scalar> Eliminate<'_, T, S> {
                     work.thin_upper(drop * size, most(after));
                 }
             }
-            self.store(i, range, size, &work, &mut piece);
+            self.store(i, range, size, work, &mut piece);
         }
         piece
     }

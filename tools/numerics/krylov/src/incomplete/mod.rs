@@ -72,19 +72,20 @@ impl<F: Copy> Incomplete<F> {
             keep,
             border,
         };
+        let room = || job.work();
         let slabs: Vec<_> = cut.slabs.clone();
         let slabs: Vec<_> = slabs
             .into_par_iter()
-            .map(|range| job.run(&Zone { range, done: &[] }))
+            .map_init(room, |work, range| {
+                job.run(work, &Zone { range, done: &[] })
+            })
             .collect();
         let walls: Vec<_> = cut.walls.clone();
         let walls: Vec<_> = walls
             .into_par_iter()
-            .map(|range| {
-                job.run(&Zone {
-                    range,
-                    done: &slabs,
-                })
+            .map_init(room, |work, range| {
+                let done = &slabs;
+                job.run(work, &Zone { range, done })
             })
             .collect();
         let weak = slabs.iter().chain(&walls).map(|p| p.weak).sum();

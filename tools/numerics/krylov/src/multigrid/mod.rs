@@ -72,14 +72,15 @@ where
         }
     }
 
-    /// Factors of all entries that are not thin, where these do not grow: they suit the rows best.
+    /// Factors of all entries that are not below `least`, where these do not grow: they suit the rows best; else of `thin`,
+    /// which lacks those of the wrong sign too.
     fn of_finest<T: Coefficient<S> + Scalar>(
-        a: &Rows<T>,
+        (a, thin): (&Rows<T>, &Rows<T>),
         shift: &[S],
-        (order, thin): (&Order, f64),
+        (order, least): (&Order, f64),
     ) -> Self {
-        let whole = Self::new(&a.thinned(thin, false), shift, order);
-        let sound = Self::new(&a.thinned(thin, true), shift, order);
+        let whole = Self::new(&a.thinned(least, false), shift, order);
+        let sound = Self::new(thin, shift, order);
         if whole.growth(a) > GROWN * sound.growth(a) {
             sound
         } else {
@@ -169,8 +170,6 @@ where
             let thin = a.thinned(grids.thin, true);
             let up = interpolation(&thin, &groups, grids.step);
             let down = restriction(&thin, &groups, grids.step);
-            let image = times(a, &up, groups.len());
-            let next = coarse(&down, &image, groups.len());
             let mut lumped = vec![[S::ZERO; 1]; groups.len()];
             down.product(s.as_chunks::<1>().0, &mut lumped, |_, sum, out| *out = sum);
             let natural;
@@ -181,13 +180,16 @@ where
                 &natural
             };
             let factors = if levels.is_empty() {
-                Smoother::of_finest(a, s, (order, grids.thin))
+                Smoother::of_finest((a, &thin), s, (order, grids.thin))
             } else {
                 // Coarse rows have entries of the sign of their diagonal, with which incomplete
                 // factors can grow without bound; without them they cannot (Meijerink and van der
                 // Vorst 1977, Math. Comp. 31, 148).
                 Smoother::new(&a.thinned(0.0, true), s, order)
             };
+            drop(thin);
+            let image = times(a, &up, groups.len());
+            let next = coarse(&down, &image, groups.len());
             sizes.push((next.len(), next.entries()));
             let (rows, shift) = held
                 .take()

@@ -6,7 +6,7 @@ mod clouds;
 
 use clouds::{C64, Cloud};
 use krylov::{
-    Coefficient, Direct, Ending, Grids, Inverse, Keep, Method, Operator, Options, Rows, Rule,
+    Coefficient, Direct, Ending, Grids, Inverse, Keep, Method, Operator, Options, Pair, Rows, Rule,
     Shifted, Solved, Stagnation, System,
 };
 
@@ -192,7 +192,7 @@ fn a_low_rank_part_is_solved_with_the_factors_of_the_rest() {
         reduction: 1e-11,
         ..Rule::default()
     };
-    let solved = system.solve_with(&[(u, v)], &rhs, &mut y, rule);
+    let solved = system.solve_with(&[Pair::new(u, v)], &rhs, &mut y, rule);
     assert!(solved.converged() && solved.products < 40, "{solved:?}");
     let far = x.iter().zip(&y).map(|(x, y)| (x[0] - y[0]).abs());
     assert!(far.fold(0.0, f64::max) < 1e-6);
