@@ -93,6 +93,10 @@ impl<const D: usize, R: Rules<D>> Rules<D> for Images<'_, R> {
         self.rules.allowed(i, self.origin[j] as usize)
     }
 
+    fn side(&self, i: usize) -> Option<[f64; D]> {
+        self.rules.side(i)
+    }
+
     fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
         self.rules.conditions(i, conditions);
     }

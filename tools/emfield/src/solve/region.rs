@@ -209,6 +209,18 @@ impl<const D: usize> Rules<D> for Side<'_, D> {
         self.medium(i).is_some_and(|m| self.region.touches(j, m)) && !self.behind(i, j)
     }
 
+    fn side(&self, i: usize) -> Option<[f64; D]> {
+        let Kind::Interface(face) = self.region.kinds[i] else {
+            return None;
+        };
+        let normal = self.region.faces[face as usize].normal;
+        Some(if self.inner {
+            normal.map(|n| -n)
+        } else {
+            normal
+        })
+    }
+
     /// The equation of the side holds on the interface too, with the Laplacian as its datum: a
     /// one-sided slope gains an order from it. About an axis the equation has first derivatives.
     fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {

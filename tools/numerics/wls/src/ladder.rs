@@ -4,6 +4,7 @@ use crate::basis::{Basis, terms};
 use crate::error::Error;
 use crate::fit::{Fit, Way};
 use crate::functional::{Columns, Condition, Rows};
+use crate::judge::tame;
 use crate::moments::Coefficients;
 use crate::plan::{Plan, Rules};
 use crate::positive;
@@ -18,13 +19,9 @@ const FAIR: f64 = 1e5;
 const ENLARGEMENTS: u32 = 5;
 /// And so many times for an even Laplacian.
 const SEARCHES: u32 = 3;
-/// Weights of an operator, in units of the least spacing, sum up to this at most: some tens are
-/// usual, and more come from points that tell little.
-const TAME: f64 = 1e3;
 /// Weights of a Laplacian of the sign of the own one add up to this part of it at most; lattices have none for quadratics
 /// and a tenth for quartics, points all on one side several times as many.
 const EVEN: f64 = 1.0;
-
 /// How a row came about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Made {
@@ -109,7 +106,7 @@ impl<const D: usize> Bench<'_, D> {
         self.rules.conditions(target.row, &mut work.conditions);
         let mut ready = true;
         let mut worst = f64::INFINITY;
-        for order in (self.plan.lowest()..=self.plan.order).rev() {
+        'orders: for order in (self.plan.lowest()..=self.plan.order).rev() {
             let good = GOOD[D - 2][usize::from(order) - 1];
             let (mut best, mut size) = ((f64::INFINITY, from), 0);
             let mut evenest: Option<(f64, Trial)> = None;
@@ -128,7 +125,12 @@ impl<const D: usize> Bench<'_, D> {
                     by_room: false,
                 };
                 if let Some(made) = self.even(target, trial, work, &mut evenest) {
-                    return Ok(made);
+                    if !self.leans(target, order, work) {
+                        return Ok(made);
+                    }
+                    self.enlarge(target, from, &mut work.support)?;
+                    ready = true;
+                    continue 'orders;
                 }
                 if evenest.is_some() && times >= from + SEARCHES {
                     break;
@@ -146,19 +148,34 @@ impl<const D: usize> Bench<'_, D> {
                 by_room: false,
             };
             let rest = (best.0 <= FAIR).then_some(fair);
-            if let Some(trial) = evenest.map(|e| e.1).or(rest) {
-                self.enlarge(target, trial.times, &mut work.support)?;
-                if let Some((made, _)) = self.attempt(target, trial, work) {
-                    return Ok(made);
-                }
-            }
+            let trial = evenest.map(|e| e.1).or(rest);
             worst = best.0;
-            self.enlarge(target, from, &mut work.support)?;
-            if let Some(made) = self.by_spectrum(target, (order, from), work) {
+            if let Some(made) = self.last(target, (order, from), trial, work)? {
                 return Ok(made);
             }
         }
         Err(self.refusal(target, work, worst))
+    }
+
+    /// A row of an order by what is left to try: the best support found, then singular values of the first.
+    fn last(
+        &self,
+        target: &Target<D>,
+        (order, from): (u8, u32),
+        trial: Option<Trial>,
+        work: &mut Work<D>,
+    ) -> Result<Option<Made>, Error> {
+        if let Some(trial) = trial {
+            self.enlarge(target, trial.times, &mut work.support)?;
+            if let Some((made, _)) = self.attempt(target, trial, work)
+                && !self.leans(target, order, work)
+            {
+                return Ok(Some(made));
+            }
+        }
+        self.enlarge(target, from, &mut work.support)?;
+        let made = self.by_spectrum(target, (order, from), work);
+        Ok(made.filter(|_| !self.leans(target, order, work)))
     }
 
     fn enlarge(
@@ -221,26 +238,6 @@ impl<const D: usize> Bench<'_, D> {
             ..self.made(target, (order, times), positive, work)
         };
         Some((made, self.uneven(work)))
-    }
-
-    /// Weights of the Laplacian that have the sign of the own one, over that; nothing where none is wanted.
-    fn uneven(&self, work: &Work<D>) -> f64 {
-        let (Some(row), Some(own), true) = (
-            self.columns.laplacian,
-            work.support.own,
-            self.plan.interpolating,
-        ) else {
-            return 0.0;
-        };
-        let points = work.support.offsets.len();
-        let weights = &work.fit.weights[row * points..(row + 1) * points];
-        let others = weights.iter().enumerate().filter(|(j, _)| *j != own);
-        let wrong: f64 = others.map(|(_, w)| (-w).max(0.0)).sum();
-        if weights[own] < 0.0 {
-            wrong / -weights[own]
-        } else {
-            f64::INFINITY
-        }
     }
 
     fn by_spectrum(
@@ -376,11 +373,4 @@ impl<const D: usize> Bench<'_, D> {
             condition,
         }
     }
-}
-
-/// Whether no operator of the fit has wild weights.
-fn tame<const D: usize>(target: &Target<D>, work: &Work<D>) -> bool {
-    let most = TAME / (target.metric.narrowest * target.metric.narrowest);
-    let mut rows = work.fit.weights.chunks(work.support.offsets.len());
-    rows.all(|row| row.iter().map(|w| w.abs()).sum::<f64>() < most)
 }

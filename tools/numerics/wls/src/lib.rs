@@ -41,6 +41,7 @@ mod factor;
 mod fit;
 mod functional;
 mod harmonic;
+mod judge;
 mod ladder;
 mod memo;
 mod metric;

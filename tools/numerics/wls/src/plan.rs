@@ -108,6 +108,13 @@ pub trait Rules<const D: usize>: Sync {
         true
     }
 
+    /// The direction in which the points of row `i` lie, if it is one-sided: its derivative that way should be a
+    /// difference to the own point, not lean on it with the sign of the others.
+    fn side(&self, i: usize) -> Option<[f64; D]> {
+        let _ = i;
+        None
+    }
+
     /// Pushes the conditions that the fit of row `i` obeys.
     fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
         let _ = (i, conditions);

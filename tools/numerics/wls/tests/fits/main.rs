@@ -15,3 +15,4 @@ mod invariant;
 mod orders;
 mod positive;
 mod singular;
+mod wedge;

@@ -1,0 +1,62 @@
+//! Whether weights are such as equations can be made of.
+
+use crate::ladder::{Bench, Work};
+use crate::search::Target;
+
+/// Weights of an operator, in units of the least spacing, sum up to this at most: some tens are
+/// usual, and more come from points that tell little.
+const TAME: f64 = 1e3;
+/// Weights of a one-sided derivative of the sign of the own one add up to this part of it at most: those of a flat surface
+/// have none, those beside edges up to 7 times as many; in a narrow wedge, whose points tell little of the way out of its
+/// surfaces, the own one has the sign of the others.
+const LEANS: f64 = 10.0;
+
+impl<const D: usize> Bench<'_, D> {
+    /// Weights of the Laplacian that have the sign of the own one, over that; nothing where none is wanted.
+    pub(crate) fn uneven(&self, work: &Work<D>) -> f64 {
+        let (Some(row), Some(own), true) = (
+            self.columns.laplacian,
+            work.support.own,
+            self.plan.interpolating,
+        ) else {
+            return 0.0;
+        };
+        let points = work.support.offsets.len();
+        let weights = &work.fit.weights[row * points..(row + 1) * points];
+        let others = weights.iter().enumerate().filter(|(j, _)| *j != own);
+        let wrong: f64 = others.map(|(_, w)| (-w).max(0.0)).sum();
+        if weights[own] < 0.0 {
+            wrong / -weights[own]
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Whether a one-sided derivative of quadratics leans on its own point with the sign of the others. That of higher
+    /// orders may: lowered here and there, slopes on both sides of a gap no longer agree.
+    pub(crate) fn leans(&self, target: &Target<D>, order: u8, work: &Work<D>) -> bool {
+        let judged = order == 2 && self.plan.order == 2 && self.plan.lowest() < 2;
+        let (Some(gradient), Some(own), Some(side)) = (
+            self.columns.gradient.filter(|_| judged),
+            work.support.own.filter(|_| self.plan.interpolating),
+            self.rules.side(target.row),
+        ) else {
+            return false;
+        };
+        let points = work.support.offsets.len();
+        let weight = |j: usize| -> f64 {
+            let part = |a: usize| side[a] * work.fit.weights[(gradient + a) * points + j];
+            (0..D).map(part).sum()
+        };
+        let others = (0..points).filter(|j| *j != own);
+        let wrong: f64 = others.map(|j| (-weight(j)).max(0.0)).sum();
+        wrong > LEANS * (-weight(own)).max(0.0)
+    }
+}
+
+/// Whether no operator of the fit has wild weights.
+pub(crate) fn tame<const D: usize>(target: &Target<D>, work: &Work<D>) -> bool {
+    let most = TAME / (target.metric.narrowest * target.metric.narrowest);
+    let mut rows = work.fit.weights.chunks(work.support.offsets.len());
+    rows.all(|row| row.iter().map(|w| w.abs()).sum::<f64>() < most)
+}
