@@ -28,14 +28,17 @@ enum Scene {
     Rod,
     /// Eddy currents in a ball, in steps of several lengths.
     Field,
+    /// The same in space, with charges on the ball.
+    Charges,
 }
 
-const SCENES: [Scene; 5] = [
+const SCENES: [Scene; 6] = [
     Scene::Drop,
     Scene::Weld,
     Scene::Heat,
     Scene::Rod,
     Scene::Field,
+    Scene::Charges,
 ];
 
 impl Scene {
@@ -46,6 +49,7 @@ impl Scene {
             Self::Heat => "heat.json",
             Self::Rod => "rod.json",
             Self::Field => "field.json",
+            Self::Charges => "charges.json",
         };
         Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("resume")
@@ -56,7 +60,7 @@ impl Scene {
         match self {
             Self::Drop | Self::Weld => "poolsph",
             Self::Heat | Self::Rod => "heatsph",
-            Self::Field => "emfield",
+            Self::Field | Self::Charges => "emfield",
         }
     }
 
@@ -64,7 +68,7 @@ impl Scene {
     fn frames(self) -> &'static str {
         match self {
             Self::Drop | Self::Weld => "/particles",
-            Self::Heat | Self::Rod | Self::Field => "/points",
+            Self::Heat | Self::Rod | Self::Field | Self::Charges => "/points",
         }
     }
 
@@ -107,12 +111,14 @@ impl Scene {
         static HEAT: OnceLock<Vec<u8>> = OnceLock::new();
         static ROD: OnceLock<Vec<u8>> = OnceLock::new();
         static FIELD: OnceLock<Vec<u8>> = OnceLock::new();
+        static CHARGES: OnceLock<Vec<u8>> = OnceLock::new();
         let bytes = match self {
             Self::Drop => &DROP,
             Self::Weld => &WELD,
             Self::Heat => &HEAT,
             Self::Rod => &ROD,
             Self::Field => &FIELD,
+            Self::Charges => &CHARGES,
         };
         bytes.get_or_init(|| {
             let folder = folder();
@@ -121,7 +127,7 @@ impl Scene {
             match self {
                 Self::Drop | Self::Weld => happens(&reader),
                 Self::Heat | Self::Rod => warms(&reader),
-                Self::Field => enters(&reader),
+                Self::Field | Self::Charges => enters(&reader),
             }
             bytes
         })

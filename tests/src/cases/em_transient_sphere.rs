@@ -42,6 +42,7 @@ impl Case for EmTransientSphere {
             radius: number(&run, "/bodies/0/shape/disc/radius_m")?,
             conductivity: number(&run, "/bodies/0/conductivity_s_m")?,
             flux: number(&run, "/eddy_currents/applied_flux_density_t/1")?,
+            rise: None,
         };
         let points = Points::read(&run)?;
         let potential = points.frame.vectors("vector_potential")?;

@@ -21,6 +21,7 @@ mod em_sphere_loops;
 mod em_sphere_pull;
 mod em_sphere_uniform_ac;
 mod em_transient_cylinder;
+mod em_transient_gauge;
 mod em_transient_sphere;
 mod gas_argon;
 mod heat_block_3d;
@@ -69,6 +70,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(em_sphere_gauge::EmSphereGauge),
         Box::new(em_sphere_aside::EmSphereAside),
         Box::new(em_transient_cylinder::EmTransientCylinder),
+        Box::new(em_transient_gauge::EmTransientGauge),
         Box::new(em_transient_sphere::EmTransientSphere),
         Box::new(gas_argon::GasArgon),
         Box::new(heat_patch::HeatPatch),

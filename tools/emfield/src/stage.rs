@@ -172,10 +172,9 @@ fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
             plan.stage("charges on conductors")
                 .column("electric_potential", "V")
         } else {
-            let why = match (&currents.potential, scene.geometry) {
-                (Some(_), _) => "\"potential\" is \"none\"",
-                (None, Geometry::Space) => "a march in time",
-                (None, _) => "currents leave no conductor in a plane or about an axis",
+            let why = match scene.geometry {
+                Geometry::Space => "\"potential\" is \"none\"",
+                _ => "currents leave no conductor in a plane or about an axis",
             };
             plan.left_out("electric potential V", why)
         }

@@ -5,10 +5,10 @@ use run::{Failure, Session};
 
 use super::currents::{Setting, media};
 use crate::scene::currents::OuterReaction;
+use crate::solve::at_rate::AtRate;
 use crate::solve::charge::{Charge, Side};
 use crate::solve::coupled::{Coupled, Parts};
 use crate::solve::eddy::Drive;
-use crate::solve::factors;
 use crate::solve::multipole::Multipoles;
 use crate::solve::region::Kind;
 
@@ -26,82 +26,115 @@ pub(super) struct Charged {
     pub(super) beyond: Vec<[C; 3]>,
 }
 
+/// What charges are computed with.
+pub(super) struct Charges {
+    pub(super) stencils: Charge,
+    pub(super) equations: Coupled,
+}
+
+/// How far the electric field on the surfaces of conductors points out of them.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Lack {
+    /// The largest field \[V/m\].
+    pub(super) largest: f64,
+    /// The largest part that points out \[V/m\], and its point.
+    pub(super) worst: (f64, usize),
+}
+
+impl Lack {
+    /// The worse of both.
+    pub(super) fn join(&mut self, other: Self) {
+        self.largest = self.largest.max(other.largest);
+        if other.worst.0 > self.worst.0 {
+            self.worst = other.worst;
+        }
+    }
+}
+
 impl<const D: usize> Setting<'_, D> {
-    /// The stencils of the potential of charges, where the scene computes it and something conducts.
+    /// Stencils and equations of charges, where the scene computes them and something conducts.
     ///
     /// # Errors
     /// Where a stencil cannot be made.
-    pub(super) fn charge(&self, session: &mut Session) -> Result<Option<Charge>, Failure> {
-        match self.in_space() {
-            Some(region) if self.currents.charged(self.scene.geometry) => {
-                let sigma = media(self.scene, |m| m.conductivity_s_m);
-                let form = super::form(self.scene);
-                let made = session.timed("weights", || Charge::new(region, &sigma, &form));
-                made.map_err(|error| Failure::Other(format!("electric potential: {error}")))
-            }
-            _ => Ok(None),
-        }
-    }
-
-    /// The reaction of all points, and `V / (j w)` of those of conductors.
-    ///
-    /// # Errors
-    /// Where a stencil cannot be made or the solve breaks down.
-    pub(super) fn coupled<const K: usize>(
-        &self,
-        charge: &Charge,
-        drive: &Drive<K>,
-        session: &mut Session,
-    ) -> Result<(Vec<[C; K]>, Vec<C>), Failure> {
+    pub(super) fn charges(&self, session: &mut Session) -> Result<Option<Charges>, Failure> {
         let (Some(region), Some(sides)) = (self.in_space(), self.sides_in_space()) else {
-            return Ok((
-                self.solve(drive, session)?,
-                vec![C::default(); charge.len()],
-            ));
+            return Ok(None);
         };
+        if !self.currents.charged(self.scene.geometry) {
+            return Ok(None);
+        }
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
+        let form = super::form(self.scene);
+        let made = session.timed("weights", || Charge::new(region, &conductivity, &form));
+        let made = made.map_err(|error| Failure::Other(format!("electric potential: {error}")))?;
+        let Some(stencils) = made else {
+            return Ok(None);
+        };
         let parts = Parts {
             region,
             sides,
             conductors: &self.conductors,
             conductivity: &conductivity,
-            charge,
-            omega: drive.omega,
+            charge: &stencils,
         };
-        let source: Vec<[C; 3]> = spread(&drive.source);
-        let coupled = session.timed("assemble", || {
+        let equations = session.timed("assemble", || {
             let open = self.currents.outer == OuterReaction::Multipole;
             let multipoles = open.then(|| Multipoles::new(&self.region, &self.weights));
-            Coupled::new(&parts, (&source, &self.wound()), multipoles.as_ref())
+            Coupled::new(&parts, multipoles.as_ref())
         });
+        Ok(Some(Charges {
+            stencils,
+            equations,
+        }))
+    }
+
+    /// The reaction of all points, and `V / (j w)` of those of conductors.
+    ///
+    /// # Errors
+    /// Where the solve breaks down.
+    pub(super) fn coupled<const K: usize>(
+        &self,
+        coupled: &Coupled,
+        drive: &Drive<K>,
+        session: &mut Session,
+    ) -> Result<(Vec<[C; K]>, Vec<C>), Failure> {
+        let rate = C::new(0.0, drive.omega);
         let options = super::options(self.scene);
+        let failed = |error| Failure::Other(format!("eddy currents: {error}"));
+        let made = session.timed("factorise", || AtRate::new(coupled, rate, &options));
+        let mut factors = made.map_err(failed)?;
+        let source: Vec<[C; 3]> = spread(&drive.source);
+        let mut driven: Vec<C> = source.as_flattened().iter().map(|a| rate * a).collect();
+        driven.resize(coupled.len(), C::default());
+        let unknowns = 0..coupled.points.len();
+        let pull: Vec<C> = unknowns.map(|p| coupled.pull(p, &source)).collect();
+        let right = coupled.right(&driven, 1.0, (&pull, &self.wound()));
+        let mut x = vec![C::default(); coupled.len()];
         let stop = session.interrupt();
         let rule = super::rule(self.scene, &*stop);
-        let with = (&options, rule);
-        let made = session.timed("solve", || factors::solve(&parts, &coupled, with));
-        let ((a, phi), solved) =
-            made.map_err(|error| Failure::Other(format!("eddy currents: {error}")))?;
+        let solved = session.timed("solve", || factors.solve(coupled, right, &mut x, rule));
+        let (a, phi) = x.split_at(3 * coupled.points());
+        let a = a.as_chunks::<3>().0;
         let size = |i: usize| a[i].iter().map(C::norm_sqr).sum();
         let at = (self.cloud, size);
         super::report(("vector_potential", "V s/m"), &solved, at, session)?;
-        Ok((spread(&a), phi))
+        Ok((spread(a), coupled.whole(phi)))
     }
 
-    /// Adds `grad V` to the rate of A.
+    /// Adds the gradient of the rate of phi to that of A; `voltage` is the potential that is written.
     pub(super) fn charged<const K: usize>(
         &self,
-        (charge, phi): (&Charge, &[C]),
-        omega: f64,
+        charge: &Charge,
+        (phi, voltage): (&[C], &[C]),
         change: &mut [[C; K]],
     ) -> Charged {
-        let rate = C::new(0.0, omega);
-        let mut voltage = vec![C::default(); change.len()];
+        let mut written = vec![C::default(); change.len()];
         let mut beyond: Vec<[C; 3]> = Vec::with_capacity(self.region.faces.len());
         let pull = |i: usize, side: Side| {
             let mut sum = [C::default(); 3];
             for (q, w) in charge.gradient(i, side) {
                 for k in 0..3 {
-                    sum[k] += phi[q] * rate * w[k];
+                    sum[k] += phi[q] * w[k];
                 }
             }
             sum
@@ -113,22 +146,26 @@ impl<const D: usize> Setting<'_, D> {
         }
         for (p, i) in charge.points.iter().enumerate() {
             let i = *i as usize;
-            voltage[i] = rate * phi[p];
+            written[i] = voltage[p];
             let push = pull(i, Side::Inner);
             for (change, push) in change[i].iter_mut().zip(push) {
                 *change += push;
             }
         }
-        Charged { voltage, beyond }
+        Charged {
+            voltage: written,
+            beyond,
+        }
     }
 
-    /// Says where a current would leave a conductor: charges are missing there.
-    pub(super) fn lack<const K: usize>(&self, change: &[[C; K]], session: &mut Session) {
+    /// How far `change`, the rate of A and of its gradient part, points out of conductors; a field is taken to be at
+    /// least as large as \[V/m\].
+    pub(super) fn lack<const K: usize>(&self, change: &[[C; K]], least: f64) -> Lack {
+        let mut lack = Lack::default();
         if self.in_space().is_none() {
-            return;
+            return lack;
         }
         let conducts = |m: u8| self.conductors.mu_sigma[m as usize] > 0.0;
-        let (mut largest, mut worst, mut place) = (0.0_f64, 0.0_f64, 0);
         for face in &self.region.faces {
             let i = face.point as usize;
             if !conducts(face.inner) || conducts(face.outer) {
@@ -136,16 +173,21 @@ impl<const D: usize> Setting<'_, D> {
             }
             let size = change[i].iter().map(C::norm_sqr).sum::<f64>().sqrt();
             let along = change[i].iter().zip(face.normal).map(|(e, n)| e * n);
-            let out = along.sum::<C>().norm();
-            largest = largest.max(size);
-            if out > worst {
-                (worst, place) = (out, i);
-            }
+            lack.join(Lack {
+                largest: size.max(least),
+                worst: (along.sum::<C>().norm(), i),
+            });
         }
-        if largest == 0.0 {
+        lack
+    }
+
+    /// Says where a current would leave a conductor: charges are missing there.
+    pub(super) fn tell(&self, lack: Lack, session: &mut Session) {
+        if lack.largest == 0.0 {
             return;
         }
-        let share = worst / largest;
+        let (worst, place) = lack.worst;
+        let share = worst / lack.largest;
         session.closing("field_out_of_conductors", "1", share);
         if share > LACK {
             let Kind::Interface(face) = self.region.kinds[place] else {
@@ -168,7 +210,9 @@ impl<const D: usize> Setting<'_, D> {
 }
 
 /// The same components, of which there are three in space.
-fn spread<const A: usize, const B: usize>(values: &[[C; A]]) -> Vec<[C; B]> {
-    let each = |v: &[C; A]| std::array::from_fn(|k| v.get(k).copied().unwrap_or_default());
+pub(super) fn spread<T: Copy + Default, const A: usize, const B: usize>(
+    values: &[[T; A]],
+) -> Vec<[T; B]> {
+    let each = |v: &[T; A]| std::array::from_fn(|k| v.get(k).copied().unwrap_or_default());
     values.iter().map(each).collect()
 }

@@ -60,17 +60,18 @@ pub fn eddy_currents<const D: usize, const K: usize>(
     let setting: Setting<'_, D> = Setting::new(scene, currents, cloud, session)?;
     setting.warn(session);
     let drive = session.timed("source", || setting.drive::<K>());
-    let charge = setting.charge(session)?;
-    let (found, phi) = match &charge {
+    let charges = setting.charges(session)?;
+    let (found, phi) = match &charges {
         None => (setting.solve(&drive, session)?, Vec::new()),
-        Some(charge) => setting.coupled(charge, &drive, session)?,
+        Some(charges) => setting.coupled(&charges.equations, &drive, session)?,
     };
     let mut change = steady_change(drive.omega, &found, &drive.source);
-    let charged = charge.as_ref().map(|charge| {
-        let at = (charge, phi.as_slice());
-        setting.charged(at, drive.omega, &mut change)
+    let charged = charges.map(|charges| {
+        let rate = C::new(0.0, drive.omega);
+        let voltage: Vec<C> = phi.iter().map(|phi| rate * phi).collect();
+        setting.charged(&charges.stencils, (&voltage, &voltage), &mut change)
     });
-    setting.lack(&change, session);
+    setting.tell(setting.lack(&change, 0.0), session);
     let solution = Solution {
         found: &found,
         source: &drive.source,

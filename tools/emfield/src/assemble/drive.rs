@@ -50,7 +50,7 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
     let left_out = currents.potential == Some(ElectricPotential::Conductors)
         && !currents.charged(scene.geometry);
     if left_out {
-        let what = "charges on conductors are computed in space in a sinusoidal steady state alone";
+        let what = "charges on conductors are computed in space alone: in a plane and about an axis none gather";
         faults.push(Fault::at("/eddy_currents/potential", what));
     }
     faults.extend(magnet(scene, currents));

@@ -1,11 +1,12 @@
 //! Eddy currents of a scene in time: from rest to the end.
 
 use artefact::Checkpoint;
-use krylov::{Ending, Rows, Solved, System};
+use krylov::{Ending, Solved};
 use num_complex::Complex;
 use run::property::{Arguments, Curve, Property};
 use run::{Failure, Session};
 
+use super::charge::{Charges, Lack, spread};
 use super::currents::Setting;
 use super::magnetic::Driven;
 use super::steps::Steps;
@@ -13,18 +14,24 @@ use crate::cloud::Cloud;
 use crate::output::Found;
 use crate::scene::currents::{OuterReaction, Transient};
 use crate::scene::{EddyCurrents, Scene};
+use crate::solve::alone::{Alone, Equations};
+use crate::solve::charged::Charged;
 use crate::solve::eddy::{Drive, Solution, pairs};
-use crate::solve::march::{Forcing, March, State, shift};
+use crate::solve::march::{March, Stage, State, slope};
 use crate::solve::multipole::Multipoles;
 use crate::solve::sides::{Form, Sides};
 
 type C = Complex<f64>;
 
-/// What solves of a march have taken.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Rates that solves leave, over their tolerance times potentials over a stage.
+const NOISE: f64 = 1e3;
+
+/// What solves of a march have taken, and what they lack.
+#[derive(Debug, Clone, Copy, Default)]
 struct Effort {
     products: u64,
     residual: f64,
+    lack: Lack,
 }
 
 impl Effort {
@@ -71,27 +78,31 @@ pub fn march<const D: usize, const K: usize>(
     let wave = Wave::new(transient)?;
     let drive = session.timed("source", || setting.drive::<K>());
     let flux = setting.source.flux(&cloud.position);
-    let equations = Equations::new(&setting, session)?;
+    let charges = setting.charges(session)?;
     let mut length = steps.step(0).1;
-    let system = equations.system(&setting, length, session)?;
-    let forcing = forcing(&setting, &drive);
-    let mut march = March::new(system, equations.rates.clone(), forcing, length);
+    let stage = stage(&setting, &drive, (charges.as_ref(), slope(length)), session)?;
+    let source: Vec<f64> = drive.source.as_flattened().iter().map(|a| a.re).collect();
+    let unknowns = source.len() + charges.as_ref().map_or(0, |c| c.stencils.len());
+    let mut march = March::new(stage, source, unknowns, length);
+    let view = View {
+        setting: &setting,
+        drive: &drive,
+        flux: &flux,
+        charges: charges.as_ref(),
+    };
     let (mut taken, mut effort) = (0, Effort::default());
     if let Some(mut checkpoint) = session.restored() {
         (taken, effort) = restore(&mut march, &mut checkpoint)?;
     } else {
-        write(
-            0.0,
-            fields(&setting, &drive, march.state(), (0.0, &flux)),
-            session,
-        )?;
+        write(0.0, view.fields(march.state(), (0.0, length)).0, session)?;
     }
     let rule = super::rule(scene, None);
     while taken < steps.count() {
         let (from, wanted) = steps.step(taken);
         if wanted.to_bits() != length.to_bits() {
             length = wanted;
-            march.pace(equations.system(&setting, length, session)?, length);
+            let paced = session.timed("factorise", || march.pace(length));
+            paced.map_err(|error| failed(&error))?;
         }
         let solved = session.timed("march", || march.advance(from, |t| wave.at(t), rule))?;
         taken += 1;
@@ -106,15 +117,16 @@ pub fn march<const D: usize, const K: usize>(
         });
         if written {
             let wave = wave.at(time)?;
-            let found = session.timed("fields", || {
-                fields(&setting, &drive, march.state(), (wave, &flux))
-            });
+            let (found, out) =
+                session.timed("fields", || view.fields(march.state(), (wave, length)));
+            effort.lack.join(out);
             write(time, found, session)?;
         }
         if taken < steps.count() {
             session.keep(|checkpoint| save(march.state(), taken, effort, checkpoint))?;
         }
     }
+    setting.tell(effort.lack, session);
     session.steps(steps.count());
     session.closing("step", "s", steps.longest());
     session.closing("products_march", "1", effort.products as f64);
@@ -138,148 +150,163 @@ impl Wave {
     }
 }
 
-/// What the rows of a march hold whatever its step.
-struct Equations {
-    rates: Vec<f64>,
-    rows: Rows<f64>,
-    /// Rows of low order, which precondition those of high order.
-    low: Option<Rows<f64>>,
-}
-
-impl Equations {
-    fn new<const D: usize>(
-        setting: &Setting<'_, D>,
-        session: &mut Session,
-    ) -> Result<Self, Failure> {
-        let (region, sides, unknown) = (&setting.region, &setting.sides, setting.unknown);
-        let conductors = &setting.conductors;
-        let low = super::low_order(setting.scene, region.len()).map(|low| {
-            let low = Form {
-                around: unknown.around(),
-                ..low
-            };
-            let sides = session.timed("weights", || Sides::new(region, &low))?;
-            Ok(conductors.rows(region, &sides, unknown))
-        });
-        Ok(Self {
-            low: low
-                .transpose()
-                .map_err(|error: wls::Error| failed(&error))?,
-            rates: session.timed("assemble", || conductors.rates(region, sides, unknown)),
-            rows: session.timed("assemble", || conductors.rows(region, sides, unknown)),
-        })
-    }
-
-    /// The equations of a step of this length \[s\], factorised.
-    fn system<const D: usize>(
-        &self,
-        setting: &Setting<'_, D>,
-        step: f64,
-        session: &mut Session,
-    ) -> Result<System<f64, f64>, Failure> {
-        let (shift, options) = (shift(&self.rates, step), super::options(setting.scene));
-        let rows = self.rows.clone();
-        let system = session.timed("factorise", || match &self.low {
-            Some(low) => System::with_low_order(rows, shift, low.clone(), options),
-            None => System::new(rows, shift, options),
-        });
-        system.map_err(|error| failed(&error))
-    }
-}
-
-/// What drives a march.
-fn forcing<const D: usize, const K: usize>(
+/// The equations of a stage, ready for a slope: of A alone, or with charges.
+///
+/// # Errors
+/// Where stencils cannot be made, or the equations have no solution.
+fn stage<'a, const D: usize, const K: usize>(
     setting: &Setting<'_, D>,
     drive: &Drive<K>,
-) -> Forcing<K> {
-    let (region, unknown) = (&setting.region, setting.unknown);
+    (charges, slope): (Option<&'a Charges>, f64),
+    session: &mut Session,
+) -> Result<Box<dyn Stage + 'a>, Failure> {
+    let given: Vec<[f64; K]> = setting.wound().iter().map(|g| g.map(|g| g.re)).collect();
+    let Some(charges) = charges else {
+        let equations = equations(setting, drive, given, session)?;
+        let made = session.timed("factorise", || Alone::new(equations, slope));
+        return Ok(Box::new(made.map_err(|error| failed(&error))?));
+    };
+    let source: Vec<[f64; K]> = drive.source.iter().map(|a| a.map(|a| a.re)).collect();
+    let with = (slope, super::options(setting.scene));
+    let made = session.timed("factorise", || {
+        let driven = (&spread(&source)[..], spread(&given));
+        Charged::new(&charges.equations, driven, with)
+    });
+    Ok(Box::new(made.map_err(|error| failed(&error))?))
+}
+
+/// The equations of A alone, and what drives them.
+fn equations<const D: usize, const K: usize>(
+    setting: &Setting<'_, D>,
+    drive: &Drive<K>,
+    given: Vec<[f64; K]>,
+    session: &mut Session,
+) -> Result<Equations<K>, Failure> {
+    let (region, sides, unknown) = (&setting.region, &setting.sides, setting.unknown);
     let conductors = &setting.conductors;
+    let low = super::low_order(setting.scene, region.len()).map(|low| {
+        let low = Form {
+            around: unknown.around(),
+            ..low
+        };
+        let sides = session.timed("weights", || Sides::new(region, &low))?;
+        Ok(conductors.rows(region, &sides, unknown))
+    });
+    let low = low.transpose();
     let held = |i| {
         let held = conductors.held(region, unknown, i);
         held.then(|| drive.held.map(|h| h.re))
     };
-    Forcing {
-        source: drive.source.iter().map(|a| a.map(|a| a.re)).collect(),
+    Ok(Equations {
+        low: low.map_err(|error: wls::Error| failed(&error))?,
+        rates: session.timed("assemble", || conductors.rates(region, sides, unknown)),
+        rows: session.timed("assemble", || conductors.rows(region, sides, unknown)),
         held: (0..region.len()).map(held).collect(),
-        given: setting.wound().iter().map(|g| g.map(|g| g.re)).collect(),
+        given,
         pairs: if setting.currents.outer == OuterReaction::Multipole {
             let multipoles = Multipoles::new(region, &setting.weights);
             pairs(conductors, (region, unknown), &multipoles)
         } else {
             Vec::new()
         },
-    }
+        options: super::options(setting.scene),
+    })
 }
 
 fn failed(error: &dyn std::fmt::Display) -> Failure {
     Failure::Other(format!("eddy currents: {error}"))
 }
 
-/// Columns and totals of a state, with the wave then and the flux density of the sources where it is 1.
-fn fields<const D: usize, const K: usize>(
-    setting: &Setting<'_, D>,
-    drive: &Drive<K>,
-    state: &State<K>,
-    (wave, flux): (f64, &[[C; 3]]),
-) -> Found {
-    let real =
-        |values: &[[f64; K]]| -> Vec<[C; K]> { values.iter().map(|v| v.map(C::from)).collect() };
-    let source: Vec<[C; K]> = drive.source.iter().map(|a| a.map(|a| a * wave)).collect();
-    let flux: Vec<[C; 3]> = flux.iter().map(|b| b.map(|b| b * wave)).collect();
-    let solution = Solution {
-        found: &real(&state.unknown),
-        source: &source,
-        change: &real(&state.change),
-    };
-    let windings = setting.windings.as_ref().map(|w| w.times(wave));
-    let driven = Driven {
-        source: &setting.source.times(wave),
-        flux: &flux,
-        windings: windings.as_ref(),
-    };
-    setting.found(solution, None, driven)
+/// What fields of a state are made from.
+struct View<'a, const D: usize, const K: usize> {
+    setting: &'a Setting<'a, D>,
+    drive: &'a Drive<K>,
+    /// Flux density of the sources where their wave is 1 \[T\].
+    flux: &'a [[C; 3]],
+    charges: Option<&'a Charges>,
+}
+
+impl<const D: usize, const K: usize> View<'_, D, K> {
+    /// Columns and totals of a state, with the wave then and the step before it \[s\]; and how far fields point out of
+    /// conductors.
+    fn fields(&self, state: &State, (wave, step): (f64, f64)) -> (Found, Lack) {
+        let Self { setting, drive, .. } = *self;
+        let real = |values: &[f64]| -> Vec<[C; K]> {
+            let points = values.as_chunks::<K>().0.iter();
+            let points = points.take(setting.region.len());
+            points.map(|v| v.map(C::from)).collect()
+        };
+        let source: Vec<[C; K]> = drive.source.iter().map(|a| a.map(|a| a * wave)).collect();
+        let flux: Vec<[C; 3]> = self.flux.iter().map(|b| b.map(|b| b * wave)).collect();
+        let mut change = real(&state.change);
+        let charged = self.charges.map(|charges| {
+            let potential = |phi: &[f64]| -> Vec<C> {
+                let whole = charges.equations.whole(phi);
+                whole.into_iter().map(C::from).collect()
+            };
+            let phi = potential(&state.change[K * setting.region.len()..]);
+            let voltage = potential(&state.following);
+            setting.charged(&charges.stencils, (&phi, &voltage), &mut change)
+        });
+        // What solves leave is no field.
+        let most = state.total.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let least = NOISE * setting.scene.solver.tolerance * slope(step) * most;
+        let lack = setting.lack(&change, least);
+        let solution = Solution {
+            found: &real(&state.unknown),
+            source: &source,
+            change: &change,
+        };
+        let windings = setting.windings.as_ref().map(|w| w.times(wave));
+        let driven = Driven {
+            source: &setting.source.times(wave),
+            flux: &flux,
+            windings: windings.as_ref(),
+        };
+        (setting.found(solution, charged.as_ref(), driven), lack)
+    }
 }
 
 /// Puts all that the rest of a march depends on into a checkpoint.
-fn save<const K: usize>(
-    state: &State<K>,
+fn save(
+    state: &State,
     taken: u64,
     effort: Effort,
     checkpoint: &mut Checkpoint,
 ) -> artefact::Result<()> {
-    checkpoint.put_u64("count", &[taken, effort.products]);
-    checkpoint.put_f64("residual", &[effort.residual]);
-    checkpoint.put_f64("unknown", state.unknown.as_flattened());
-    checkpoint.put_f64("total", state.total.as_flattened());
-    checkpoint.put_f64("change", state.change.as_flattened());
+    let Lack { largest, worst } = effort.lack;
+    checkpoint.put_u64("count", &[taken, effort.products, worst.1 as u64]);
+    checkpoint.put_f64("effort", &[effort.residual, largest, worst.0]);
+    checkpoint.put_f64("unknown", &state.unknown);
+    checkpoint.put_f64("total", &state.total);
     Ok(())
 }
 
 /// Takes back what [`save`] put.
-fn restore<const K: usize>(
-    march: &mut March<K>,
-    checkpoint: &mut Checkpoint,
-) -> Result<(u64, Effort), Failure> {
-    let mut column = |name: &str| -> Result<Vec<[f64; K]>, Failure> {
+fn restore(march: &mut March<'_>, checkpoint: &mut Checkpoint) -> Result<(u64, Effort), Failure> {
+    let wanted = march.state().unknown.len();
+    let mut column = |name: &str| -> Result<Vec<f64>, Failure> {
         let values = checkpoint.f64(name)?;
-        let (parts, _) = values.as_chunks::<K>();
-        if parts.len() == march.state().unknown.len() {
-            Ok(parts.to_vec())
+        if values.len() == wanted {
+            Ok(values)
         } else {
             Err(Failure::Other(format!(
                 "the checkpoint lacks a part of \"{name}\""
             )))
         }
     };
-    let state = State {
-        unknown: column("unknown")?,
-        total: column("total")?,
-        change: column("change")?,
-    };
-    let (count, residual) = (checkpoint.u64("count")?, checkpoint.f64("residual")?);
-    let (&[taken, products], &[residual]) = (&count[..], &residual[..]) else {
+    march.restore(column("unknown")?, column("total")?);
+    let (count, effort) = (checkpoint.u64("count")?, checkpoint.f64("effort")?);
+    let (&[taken, products, place], &[residual, largest, worst]) = (&count[..], &effort[..]) else {
         return Err(Failure::Other("the checkpoint lacks a part".to_owned()));
     };
-    march.restore(state);
-    Ok((taken, Effort { products, residual }))
+    let effort = Effort {
+        products,
+        residual,
+        lack: Lack {
+            largest,
+            worst: (worst, place as usize),
+        },
+    };
+    Ok((taken, effort))
 }

@@ -233,8 +233,8 @@ pub struct EddyCurrents {
     /// What holds at the walls.
     #[serde(default)]
     pub outer: OuterReaction,
-    /// Charges on the surfaces of conductors; when it is absent, computed in space in a sinusoidal steady state. In a
-    /// plane, about an axis and in a march in time they are left out.
+    /// Charges on the surfaces of conductors; when it is absent, computed in space. In a plane and about an axis none
+    /// gather.
     pub potential: Option<ElectricPotential>,
 }
 
@@ -251,9 +251,7 @@ impl EddyCurrents {
     /// Whether charges on conductors are computed in a scene of this geometry.
     #[must_use]
     pub fn charged(&self, geometry: Geometry) -> bool {
-        geometry == Geometry::Space
-            && self.harmonic.is_some()
-            && self.potential != Some(ElectricPotential::None)
+        geometry == Geometry::Space && self.potential != Some(ElectricPotential::None)
     }
 
     /// Angular frequency of a sinusoidal steady state \[rad/s\].

@@ -1,44 +1,36 @@
-//! A and V together in space, in a sinusoidal steady state.
+//! A and V together in space, whatever the rate of change.
 //!
-//! Unknown are the reaction A at all points and `phi = V / (j w)` at those of conductors
-//! ([`super::charge`]). With permeability uniform and `div A = 0` (Matsuzawa 2017, eqs 2.64 to 2.66 and 2.69):
+//! Unknown are the reaction A at all points and `phi`, of which V is the rate, at those of conductors ([`super::charge`]).
+//! With permeability uniform and `div A = 0` (Matsuzawa 2017, eqs 2.64 to 2.66 and 2.69):
 //!
 //! - in air: `lap A = 0`;
-//! - in a conductor: `lap A - j w mu sigma (A + A_s + grad phi) = 0` and `lap phi = 0`;
+//! - in a conductor: `lap A - mu sigma d(A + A_s + grad phi)/dt = 0` and `lap phi = 0`;
 //! - on an interface: `dA/dn` is continuous, from one-sided gradients that know the Laplacian of
 //!   their side; on the surface of a conductor `n.grad phi = -n.(A + A_s)`.
+//!
+//! The rows of `phi` hold at each instant, since all have been zero before anything was switched on: a jump of `A_s`
+//! makes one of `phi`, where V has none. `A` and `phi` add up to the unknown of a diffusion, `A + grad phi`, whose normal
+//! part vanishes on the surface.
+//!
+//! `d/dt` is `rate` times the unknowns and what the sources and the memory of a march drive: [`super::at_rate`] solves
+//! for a rate, `j w` or `1 / (gamma h)`. Here is what no rate changes.
 //!
 //! `phi` has a row more than it needs and a constant too many: the mean of each body is added to its
 //! rows, `lap phi - mean(phi) / s^2 = 0`, so that what the discrete fluxes lack to add up to zero is
 //! spread over the body, instead of leaving it at a point.
-//!
-//! The system is solved whole, by a Krylov method. Its preconditioner solves for A, then for `phi`
-//! with the charges that A asks for. In a thin skin the field of these charges is nearly cancelled by
-//! currents: of a wave `exp(j q x)` along a plane surface, A and phi together leave the share
-//! `2 q / (q + sqrt(q^2 + k^2))` of the normal derivative of phi, with `k^2 = j w mu sigma`. Its
-//! inverse is about `1 + k / (2 q)`, and `1 / q` is what the solution for a given normal derivative has
-//! on the surface: the charges are corrected by `k / 2` times the potential found first.
 
-use krylov::{Operator, Rows};
-use num_complex::Complex;
-use rayon::prelude::*;
+use krylov::Rows;
 
+use super::balance::Surface;
 use super::charge::{Charge, Side};
 use super::diffusion::Conductors;
 use super::multipole::Multipoles;
+use super::rate::Rate;
 use super::region::{Kind, Region};
 use super::sides::{Sides, share_along};
 
-/// A complex number.
-type C = Complex<f64>;
-
-const ZERO: C = Complex::new(0.0, 0.0);
-
 /// Extents of a body over the length that holds its constant.
 const HOLD: f64 = 3.0;
-
-/// Rows that one task gathers.
-const ROWS: usize = 512;
 
 /// What the equations are made of.
 #[derive(Debug, Clone, Copy)]
@@ -53,35 +45,55 @@ pub struct Parts<'a> {
     pub conductivity: &'a [f64],
     /// Stencils of phi.
     pub charge: &'a Charge,
-    /// Angular frequency \[rad/s\].
-    pub omega: f64,
 }
 
 /// A multipole of the currents, which stands in the rows of walls.
 #[derive(Debug, Clone)]
-struct Pair {
+pub(super) struct Pair {
     /// Points of walls, and what a unit moment gives there.
-    walls: Vec<(u32, f64)>,
-    /// What `A + A_s` at the point of each unknown adds to the moment.
-    potential: Vec<C>,
-    /// What phi of each unknown adds along each axis.
-    charge: Vec<[C; 3]>,
+    pub(super) walls: Vec<(u32, f64)>,
+    /// What the rate of `A + A_s` at the point of each unknown adds to the moment.
+    potential: Vec<f64>,
+    /// What that of phi of each unknown adds along each axis.
+    charge: Vec<[f64; 3]>,
+}
+
+impl Pair {
+    /// The moment of rates at the points and of phi.
+    pub(super) fn moment<S: Rate, const K: usize>(
+        &self,
+        points: &[u32],
+        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
+    ) -> [[S; K]; 3] {
+        let mut moment = [[S::ZERO; K]; 3];
+        for (p, i) in points.iter().enumerate() {
+            for (k, sum) in moment.iter_mut().enumerate() {
+                add(sum, &a[*i as usize][k], self.potential[p]);
+                add(sum, &phi[p], self.charge[p][k]);
+            }
+        }
+        moment
+    }
 }
 
 /// The equations. Unknowns: three of A for each point, then those of phi, over [`Self::length`].
 #[derive(Debug, Clone)]
 pub struct Coupled {
-    points: Vec<u32>,
-    bodies: Vec<std::ops::Range<usize>>,
+    /// Point of each unknown of phi.
+    pub points: Vec<u32>,
+    /// Unknowns of phi of each body.
+    pub bodies: Vec<std::ops::Range<usize>>,
     /// The extent of the largest body \[m\]: phi is sought in these times A.
     pub length: f64,
-    /// Rows of A without phi, each over its largest coefficient.
+    /// Rows of A without rates, each over its largest coefficient.
     pub rows: Rows<f64>,
-    /// Added to their diagonals.
-    pub shift: Vec<C>,
+    /// What stands before the rate of A in them, with its sign.
+    pub rates: Vec<f64>,
+    /// What they have been multiplied by.
+    even: Vec<f64>,
     /// Starts of the rows of `drag`.
     starts: Vec<usize>,
-    /// What phi adds to the rows of A, over j.
+    /// What the rate of phi adds to the rows of A.
     drag: Vec<(u32, [f64; 3])>,
     /// Rows of phi, each over its largest coefficient.
     pub poisson: Rows<f64>,
@@ -89,71 +101,61 @@ pub struct Coupled {
     pub normal: Vec<[f64; 3]>,
     /// What holds the mean of the body in the row of phi.
     pub hold: Vec<f64>,
-    /// What the rows of phi have been multiplied by.
-    pub scale: Vec<f64>,
-    right: Vec<C>,
-    pairs: Vec<Pair>,
+    /// `sqrt(mu sigma) / 2` in the row of phi of a surface, with its sign, as much as charges matter there; zero within.
+    pub skin: Vec<f64>,
+    /// Surfaces of conductors.
+    pub surfaces: Vec<Surface>,
+    pub(super) pairs: Vec<Pair>,
 }
 
 impl Coupled {
-    /// Makes the equations for sources `A_s`, by point; `given` are right sides of the rows of A that currents in coils
-    /// make, by point, or nothing.
+    /// Makes the equations.
     #[must_use]
-    pub fn new(
-        parts: &Parts<'_>,
-        (source, given): (&[[C; 3]], &[[C; 3]]),
-        multipoles: Option<&Multipoles>,
-    ) -> Self {
+    pub fn new(parts: &Parts<'_>, multipoles: Option<&Multipoles>) -> Self {
         use super::diffusion::Unknown::Potential;
         let Parts { region, sides, .. } = *parts;
         let (n, m) = (region.len(), parts.charge.len());
         let mut rows = parts.conductors.rows(region, sides, Potential);
+        let even: Vec<f64> = (0..n).map(|i| even(rows.values_mut(i))).collect();
         let rates = parts.conductors.rates(region, sides, Potential);
-        let scale: Vec<f64> = (0..n).map(|i| even(rows.values_mut(i))).collect();
         let mut made = Self {
             points: parts.charge.points.clone(),
             bodies: parts.charge.bodies.clone(),
             length: 0.0,
             rows,
-            shift: Vec::with_capacity(n),
+            rates: rates.iter().zip(&even).map(|(r, e)| -r * e).collect(),
+            even,
             starts: vec![0],
             drag: Vec::new(),
             poisson: Rows::default(),
             normal: vec![[0.0; 3]; m],
             hold: vec![0.0; m],
-            scale: vec![0.0; m],
-            right: vec![ZERO; 3 * n + m],
+            skin: vec![0.0; m],
+            surfaces: Vec::new(),
             pairs: Vec::new(),
         };
         let extents: Vec<f64> = made.bodies.iter().map(|b| extent(parts, b)).collect();
         made.length = extents.iter().copied().fold(0.0, f64::max);
         for i in 0..n {
-            let rate = C::new(0.0, parts.omega * rates[i] * scale[i]);
-            made.shift.push(-rate);
-            for (k, a) in source[i].iter().enumerate() {
-                made.right[3 * i + k] = rate * a;
-            }
-            for (k, given) in given.get(i).into_iter().flatten().enumerate() {
-                made.right[3 * i + k] += given * scale[i];
-            }
-            made.dragged(parts, i, scale[i]);
+            made.dragged(parts, i);
         }
-        made.potential(parts, &extents, source);
+        made.potential(parts, &extents);
         for (moment, field) in multipoles
             .iter()
             .flat_map(|l| l.moments.iter().zip(&l.fields))
         {
-            made.pair(parts, (moment, field, &scale), source);
+            let pair = made.pair(parts, (moment, field));
+            made.pairs.push(pair);
         }
         made
     }
 
-    /// What phi adds to the rows of A at point `i`: `-j w mu sigma grad phi`.
-    fn dragged(&mut self, parts: &Parts<'_>, i: usize, scale: f64) {
+    /// What the rate of phi adds to the rows of A at point `i`: `-mu sigma grad`.
+    fn dragged(&mut self, parts: &Parts<'_>, i: usize) {
+        let scale = self.even[i] * self.length;
         let mut add = |side: Side, rate: f64| {
-            let factor = -parts.omega * rate * scale * self.length;
             for (q, w) in parts.charge.gradient(i, side) {
-                self.drag.push((q as u32, w.map(|w| factor * w)));
+                self.drag.push((q as u32, w.map(|w| -rate * scale * w)));
             }
         };
         let mu_sigma = |m: u8| parts.conductors.mu_sigma[m as usize];
@@ -177,11 +179,10 @@ impl Coupled {
     }
 
     /// The rows of phi.
-    fn potential(&mut self, parts: &Parts<'_>, extents: &[f64], source: &[[C; 3]]) {
-        let (n, m) = (parts.region.len(), self.points.len());
+    fn potential(&mut self, parts: &Parts<'_>, extents: &[f64]) {
         let at = (parts.region, parts.conductivity);
         let length = self.length;
-        self.poisson = Rows::gathered(m, 0.0, |p, row| {
+        self.poisson = Rows::gathered(self.points.len(), 0.0, |p, row| {
             parts.charge.row(p, at, row);
             row.iter_mut().for_each(|(_, w)| *w *= length);
         });
@@ -191,76 +192,166 @@ impl Coupled {
                 let i = self.points[p] as usize;
                 if let Kind::Inside(_) = parts.region.kinds[i] {
                     let far = (HOLD * extent).powi(2);
-                    self.hold[p] = -scale * self.length / (far * body.len() as f64);
+                    self.hold[p] = -scale * length / (far * body.len() as f64);
                 }
-                self.scale[p] = scale * self.length;
-                self.normal[p] = parts.charge.leaving(p, at).map(|n| n * scale);
-                let given = (0..3).map(|k| source[i][k] * self.normal[p][k]);
-                self.right[3 * n + p] = -given.sum::<C>();
+                self.skin[p] = 0.5 * scale * length * skin(parts, i);
+                let leaving = parts.charge.leaving(p, at);
+                self.normal[p] = leaving.map(|n| n * scale);
+                if insulated(parts, i) {
+                    self.surfaces.push(Surface {
+                        point: i as u32,
+                        unknown: p as u32,
+                        normal: leaving,
+                        share: 1.0 / scale,
+                    });
+                }
             }
         }
     }
 
     /// The rows of walls for one multipole.
-    fn pair(
-        &mut self,
-        parts: &Parts<'_>,
-        (moment, field, scale): (&[f64], &[f64], &[f64]),
-        source: &[[C; 3]],
-    ) {
+    fn pair(&self, parts: &Parts<'_>, (moment, field): (&[f64], &[f64])) -> Pair {
         let far = field.iter().enumerate().filter(|(_, f)| **f != 0.0);
-        let walls: Vec<(u32, f64)> = far.map(|(i, f)| (i as u32, f * scale[i])).collect();
         let mut pair = Pair {
-            walls,
-            potential: vec![ZERO; self.points.len()],
-            charge: vec![[ZERO; 3]; self.points.len()],
+            walls: far.map(|(i, f)| (i as u32, f * self.even[i])).collect(),
+            potential: vec![0.0; self.points.len()],
+            charge: vec![[0.0; 3]; self.points.len()],
         };
-        let mut given = [ZERO; 3];
         for (p, i) in self.points.iter().enumerate() {
             let i = *i as usize;
             let mu_sigma = parts.conductors.mu_sigma[parts.region.medium(i) as usize];
-            let weight = C::new(0.0, parts.omega * mu_sigma * moment[i]);
+            let weight = mu_sigma * moment[i];
             pair.potential[p] = weight;
-            for k in 0..3 {
-                given[k] += weight * source[i][k];
-            }
             for (q, w) in parts.charge.gradient(i, Side::Inner) {
                 for (sum, w) in pair.charge[q].iter_mut().zip(w) {
                     *sum += weight * (self.length * w);
                 }
             }
         }
-        for (i, u) in &pair.walls {
-            for (k, given) in given.iter().enumerate() {
-                self.right[3 * *i as usize + k] -= given * *u;
-            }
-        }
-        self.pairs.push(pair);
+        pair
     }
 
     /// Number of points.
     #[must_use]
     pub fn points(&self) -> usize {
-        self.shift.len()
+        self.rates.len()
     }
 
-    /// Right sides.
+    /// Number of unknowns.
     #[must_use]
-    pub fn right(&self) -> &[C] {
-        &self.right
+    pub fn len(&self) -> usize {
+        3 * self.points() + self.points.len()
     }
 
-    /// Point of each unknown of phi.
+    /// No unknowns at all.
     #[must_use]
-    pub fn places(&self) -> &[u32] {
-        &self.points
+    pub fn is_empty(&self) -> bool {
+        self.rates.is_empty()
     }
 
-    /// Unknowns of phi of each body.
-    #[must_use]
-    pub fn bodies(&self) -> &[std::ops::Range<usize>] {
-        &self.bodies
+    /// What rates of A and phi add to the rows of A at point `i`.
+    pub(super) fn moved<S: Rate, const K: usize>(
+        &self,
+        i: usize,
+        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
+    ) -> [[S; K]; 3] {
+        let mut sum = [[S::ZERO; K]; 3];
+        for (sum, a) in sum.iter_mut().zip(&a[i]) {
+            add(sum, a, self.rates[i]);
+        }
+        for (q, w) in &self.drag[self.starts[i]..self.starts[i + 1]] {
+            for (sum, w) in sum.iter_mut().zip(w) {
+                add(sum, &phi[*q as usize], *w);
+            }
+        }
+        sum
     }
+
+    /// What a potential by point adds to the row of unknown `p` of phi.
+    #[must_use]
+    pub fn pull<S: Rate>(&self, p: usize, potential: &[[S; 3]]) -> S {
+        let here = potential[self.points[p] as usize].iter();
+        here.zip(self.normal[p]).map(|(a, n)| a.times_real(n)).sum()
+    }
+
+    /// Right sides: `driven` are the rates that sources and memory make of all unknowns. Where the wave of the sources is
+    /// 1, `pull` is what they add to the rows of phi, `given` what currents in coils make in the rows of A, by point, or
+    /// nothing.
+    #[must_use]
+    pub fn right<S: Rate>(
+        &self,
+        driven: &[S],
+        wave: f64,
+        (pull, given): (&[S], &[[S; 3]]),
+    ) -> Vec<S> {
+        let (a, phi) = driven.split_at(3 * self.points());
+        let (a, phi) = (ones(a).as_chunks::<3>().0, ones(phi));
+        let mut right: Vec<[S; 3]> = (0..self.points())
+            .map(|i| self.moved(i, (a, phi)).map(|[moved]| -moved))
+            .collect();
+        for ((right, given), even) in right.iter_mut().zip(given).zip(&self.even) {
+            for (right, given) in right.iter_mut().zip(given) {
+                *right += given.times_real(even * wave);
+            }
+        }
+        for pair in &self.pairs {
+            let moment = pair.moment(&self.points, (a, phi));
+            for (i, u) in &pair.walls {
+                for (right, [moment]) in right[*i as usize].iter_mut().zip(moment) {
+                    *right -= moment.times_real(*u);
+                }
+            }
+        }
+        let mut right = right.into_flattened();
+        right.extend(pull.iter().map(|pull| pull.times_real(-wave)));
+        right
+    }
+
+    /// A potential that was found, by unknown of phi: whole, its mean over each body zero.
+    #[must_use]
+    pub fn whole<S: Rate>(&self, phi: &[S]) -> Vec<S> {
+        let mut phi: Vec<S> = phi.iter().map(|phi| phi.times_real(self.length)).collect();
+        for body in &self.bodies {
+            let own = &mut phi[body.clone()];
+            let mean = own.iter().copied().sum::<S>();
+            let mean = mean.times_real(1.0 / own.len() as f64);
+            own.iter_mut().for_each(|phi| *phi -= mean);
+        }
+        phi
+    }
+}
+
+/// Does one side alone conduct at point `i`?
+fn insulated(parts: &Parts<'_>, i: usize) -> bool {
+    let conducts = |m: u8| parts.conductivity[m as usize] > 0.0;
+    match parts.region.kinds[i] {
+        Kind::Interface(face) => {
+            let face = &parts.region.faces[face as usize];
+            conducts(face.inner) != conducts(face.outer)
+        }
+        Kind::Inside(_) | Kind::Wall { .. } => false,
+    }
+}
+
+/// `sqrt(mu sigma)` on a surface, with the sign of its row: between conductors as much as charges matter there.
+fn skin(parts: &Parts<'_>, i: usize) -> f64 {
+    let wave = |m: u8| parts.conductors.mu_sigma[m as usize].sqrt();
+    match parts.region.kinds[i] {
+        Kind::Inside(_) => 0.0,
+        Kind::Wall { medium, .. } => wave(medium),
+        Kind::Interface(face) => {
+            let face = &parts.region.faces[face as usize];
+            let [a, b] = [face.inner, face.outer];
+            let [s, t] = [a, b].map(|m| parts.conductivity[m as usize]);
+            let better = if s > t { a } else { b };
+            wave(better) * ((s - t).abs() / (s + t))
+        }
+    }
+}
+
+/// Numbers as rows of one column.
+pub(super) fn ones<S>(values: &[S]) -> &[[S; 1]] {
+    values.as_chunks::<1>().0
 }
 
 /// Divides a row by its largest coefficient; the factor.
@@ -287,97 +378,8 @@ fn extent(parts: &Parts<'_>, body: &std::ops::Range<usize>) -> f64 {
 }
 
 /// Adds `w x` to a sum, column by column.
-fn add<const K: usize>(sum: &mut [C; K], x: &[C; K], w: f64) {
+pub(super) fn add<S: Rate, const K: usize>(sum: &mut [S; K], x: &[S; K], w: f64) {
     for (sum, x) in sum.iter_mut().zip(x) {
-        *sum += x * w;
-    }
-}
-
-impl Operator<C> for Coupled {
-    fn len(&self) -> usize {
-        self.right.len()
-    }
-
-    fn apply<const K: usize>(&self, x: &[[C; K]], out: &mut [[C; K]]) {
-        let (a, phi) = x.split_at(3 * self.points());
-        let (out_a, out_phi) = out.split_at_mut(3 * self.points());
-        let a = a.as_chunks::<3>().0;
-        let out_a = out_a.as_chunks_mut::<3>().0;
-        out_a
-            .par_iter_mut()
-            .with_min_len(ROWS)
-            .enumerate()
-            .for_each(|(i, out)| {
-                let [mut own, mut charge] = [[[ZERO; K]; 3]; 2];
-                for (j, w) in self.rows.pairs(i) {
-                    for k in 0..3 {
-                        add(&mut own[k], &a[j][k], w);
-                    }
-                }
-                for (q, w) in &self.drag[self.starts[i]..self.starts[i + 1]] {
-                    for k in 0..3 {
-                        add(&mut charge[k], &phi[*q as usize], w[k]);
-                    }
-                }
-                let shift = self.shift[i];
-                for k in 0..3 {
-                    for c in 0..K {
-                        out[k][c] = own[k][c] + a[i][k][c] * shift + charge[k][c] * C::I;
-                    }
-                }
-            });
-        for pair in &self.pairs {
-            let mut moment = [[ZERO; K]; 3];
-            for (p, i) in self.points.iter().enumerate() {
-                let (here, weight) = (&a[*i as usize], pair.potential[p]);
-                for k in 0..3 {
-                    for c in 0..K {
-                        moment[k][c] += weight * here[k][c] + pair.charge[p][k] * phi[p][c];
-                    }
-                }
-            }
-            for (i, u) in &pair.walls {
-                for k in 0..3 {
-                    for c in 0..K {
-                        out_a[*i as usize][k][c] += moment[k][c] * *u;
-                    }
-                }
-            }
-        }
-        self.apply_potential(a, phi, out_phi);
-    }
-}
-
-impl Coupled {
-    /// The rows of phi.
-    fn apply_potential<const K: usize>(
-        &self,
-        a: &[[[C; K]; 3]],
-        phi: &[[C; K]],
-        out: &mut [[C; K]],
-    ) {
-        out.par_iter_mut()
-            .with_min_len(ROWS)
-            .enumerate()
-            .for_each(|(p, out)| {
-                let mut sum = [ZERO; K];
-                for (q, w) in self.poisson.pairs(p) {
-                    add(&mut sum, &phi[q], w);
-                }
-                let here = &a[self.points[p] as usize];
-                for (here, normal) in here.iter().zip(self.normal[p]) {
-                    add(&mut sum, here, normal);
-                }
-                *out = sum;
-            });
-        for body in &self.bodies {
-            let mut total = [ZERO; K];
-            for phi in &phi[body.clone()] {
-                add(&mut total, phi, 1.0);
-            }
-            for p in body.clone() {
-                add(&mut out[p], &total, self.hold[p]);
-            }
-        }
+        *sum += x.times_real(w);
     }
 }

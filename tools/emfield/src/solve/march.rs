@@ -2,104 +2,98 @@
 //! is stiff (SDIRK2, Alexander 1977, SIAM J. Numer. Anal. 14, 1006), so that a field may be switched on
 //! at once.
 //!
-//! The rows are those of the sinusoidal steady state with `d/dt` for `j w`: `row(A) = k d(A + A_s)/dt`
-//! with `k` from [`super::diffusion::Conductors::rates`]. Where `k` is zero (air), the row holds at
-//! each instant.
+//! The equations are those of the sinusoidal steady state with `d/dt` for `j w`. In a stage this is `slope` times the
+//! unknowns and what sources and memory drive, `slope (A + A_s - from)` with `slope = 1 / (gamma h)`. Rows without rates
+//! (air, charges on conductors) hold at each stage, and so at the end of each step, which is the last stage.
+//!
+//! Of unknowns that follow from others at each instant, such as charges, the last stage knows the rate to first order
+//! only. `gamma` times that of the first and `1 - gamma` times that of the last stage is the slope at the end of the
+//! parabola through the values at start, first and last stage: of second order.
 
-use krylov::{Pair, Rule, Solved, System};
+use krylov::{Error, Rule, Solved};
 
 /// `1 - 1/sqrt(2)`: with it the method is of second order and the last stage is the next state.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
-/// What the rates of a march of `step` \[s\] add to the diagonal of its rows, from
-/// [`super::diffusion::Conductors::rates`].
+/// What a stage of a march of `step` \[s\] multiplies its unknowns by \[1/s\].
 #[must_use]
-pub fn shift(rates: &[f64], step: f64) -> Vec<f64> {
-    rates.iter().map(|k| -k / (GAMMA * step)).collect()
+pub fn slope(step: f64) -> f64 {
+    1.0 / (GAMMA * step)
 }
 
-/// What drives currents in time.
-#[derive(Debug, Clone)]
-pub struct Forcing<const K: usize> {
-    /// What sources give of the unknown where their wave is 1, by point.
-    pub source: Vec<[f64; K]>,
-    /// What the unknown is held at where their wave is 1, at points where it is held.
-    pub held: Vec<Option<[f64; K]>>,
-    /// Right sides that currents in coils make where the wave is 1, by point; empty where there are none.
-    pub given: Vec<[f64; K]>,
-    /// Pairs `(u, v)` of columns: `u` times the sum of `v d(A + A_s)/dt` is added to the rows.
-    pub pairs: Vec<(Vec<f64>, Vec<f64>)>,
+/// The equations of a stage.
+pub trait Stage {
+    /// Makes them ready for another [`slope`].
+    ///
+    /// # Errors
+    /// Where they cannot be factorised.
+    fn pace(&mut self, slope: f64) -> Result<(), Error>;
+
+    /// Solves them for `unknown`, which is the first guess: its rate is `slope` times it and what is `driven`; the
+    /// sources are `wave` times themselves.
+    fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved;
 }
 
-/// What a march has reached.
+/// What a march has reached, by unknown.
 #[derive(Debug, Clone, PartialEq)]
-pub struct State<const K: usize> {
-    /// The unknown: the reaction.
-    pub unknown: Vec<[f64; K]>,
+pub struct State {
+    /// The unknown: the reaction, and what charges make after it.
+    pub unknown: Vec<f64>,
     /// Sources and reaction together.
-    pub total: Vec<[f64; K]>,
-    /// Their rate, over a second.
-    pub change: Vec<[f64; K]>,
+    pub total: Vec<f64>,
+    /// Their rate in the last stage, over a second.
+    pub change: Vec<f64>,
+    /// The rate of those unknowns which follow from others at each instant, to second order.
+    pub following: Vec<f64>,
 }
 
 /// A march from rest.
-pub struct March<const K: usize> {
-    system: System<f64, f64>,
-    rates: Vec<f64>,
-    forcing: Forcing<K>,
-    pairs: Vec<Pair<f64>>,
-    slope: f64,
+pub struct March<'a> {
+    stage: Box<dyn Stage + 'a>,
+    /// What sources give of the unknown where their wave is 1; those beyond it follow from the others.
+    source: Vec<f64>,
     step: f64,
-    state: State<K>,
+    state: State,
+    driven: Vec<f64>,
 }
 
-impl<const K: usize> March<K> {
-    /// A march of `step` \[s\] with the rows, shifted by [`shift`], and rates of a region.
+impl<'a> March<'a> {
+    /// A march of `step` \[s\], for the slope of which the stage is ready, with so many unknowns.
     #[must_use]
-    pub fn new(system: System<f64, f64>, rates: Vec<f64>, forcing: Forcing<K>, step: f64) -> Self {
-        let none = vec![[0.0; K]; rates.len()];
-        let mut march = Self {
-            pairs: Vec::new(),
-            system,
-            rates,
-            forcing,
-            slope: 0.0,
+    pub fn new(stage: Box<dyn Stage + 'a>, source: Vec<f64>, unknowns: usize, step: f64) -> Self {
+        let none = vec![0.0; unknowns];
+        Self {
+            stage,
             step,
             state: State {
                 unknown: none.clone(),
                 total: none.clone(),
-                change: none,
+                change: none.clone(),
+                following: vec![0.0; unknowns - source.len()],
             },
-        };
-        march.set(step);
-        march
+            source,
+            driven: none,
+        }
     }
 
-    /// Goes on in steps of another length \[s\], for which `system` is shifted.
-    pub fn pace(&mut self, system: System<f64, f64>, step: f64) {
-        self.system = system;
-        self.set(step);
-    }
-
-    fn set(&mut self, step: f64) {
+    /// Goes on in steps of another length \[s\].
+    ///
+    /// # Errors
+    /// Those of the stage.
+    pub fn pace(&mut self, step: f64) -> Result<(), Error> {
         self.step = step;
-        self.slope = 1.0 / (GAMMA * step);
-        let slope = self.slope;
-        let implicit = |(u, v): &(Vec<f64>, Vec<f64>)| {
-            Pair::new(u.iter().copied(), v.iter().map(|v| slope * v))
-        };
-        self.pairs = self.forcing.pairs.iter().map(implicit).collect();
+        self.stage.pace(slope(step))
     }
 
     /// What has been reached.
     #[must_use]
-    pub fn state(&self) -> &State<K> {
+    pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// Goes on from another state.
-    pub fn restore(&mut self, state: State<K>) {
-        self.state = state;
+    /// Goes on from another unknown and total.
+    pub fn restore(&mut self, unknown: Vec<f64>, total: Vec<f64>) {
+        (self.state.unknown, self.state.total) = (unknown, total);
     }
 
     /// Makes a step that begins at `time` \[s\]; the sources follow `wave`.
@@ -118,55 +112,36 @@ impl<const K: usize> March<K> {
         let part = (1.0 - GAMMA) * self.step;
         let state = &mut self.state;
         for (total, change) in state.total.iter_mut().zip(&state.change) {
-            for (total, change) in total.iter_mut().zip(change) {
-                *total += part * change;
-            }
+            *total += part * change;
         }
+        let follow = self.source.len();
+        state.following.copy_from_slice(&state.change[follow..]);
         let second = self.stage(late, rule);
         let state = &mut self.state;
-        for (i, total) in state.total.iter_mut().enumerate() {
-            for (k, total) in total.iter_mut().enumerate() {
-                *total = state.unknown[i][k] + self.forcing.source[i][k] * late;
-            }
+        state.total.copy_from_slice(&state.unknown);
+        for (total, source) in state.total.iter_mut().zip(&self.source) {
+            *total += source * late;
+        }
+        let changes = state.following.iter_mut().zip(&state.change[follow..]);
+        for (following, change) in changes {
+            *following = GAMMA * *following + (1.0 - GAMMA) * change;
         }
         Ok([first, second])
     }
 
     /// A stage from the total of the state: its unknown, and the rate there.
     fn stage(&mut self, wave: f64, rule: Rule) -> Solved {
-        let (slope, state) = (self.slope, &mut self.state);
-        let source = &self.forcing.source;
-        let driven =
-            |i: usize, k: usize, from: &[[f64; K]]| slope * (source[i][k] * wave - from[i][k]);
-        let mut right: Vec<[f64; K]> = (0..self.rates.len())
-            .map(|i| match self.forcing.held[i] {
-                Some(held) => held.map(|h| h * wave),
-                None => std::array::from_fn(|k| self.rates[i] * driven(i, k, &state.total)),
-            })
-            .collect();
-        for (right, given) in right.iter_mut().zip(&self.forcing.given) {
-            for (right, given) in right.iter_mut().zip(given) {
-                *right += given * wave;
-            }
+        let (slope, state) = (slope(self.step), &mut self.state);
+        let sources = self.source.iter().copied();
+        let sources = sources.chain(std::iter::repeat(0.0));
+        for ((driven, total), source) in self.driven.iter_mut().zip(&state.total).zip(sources) {
+            *driven = slope * (source * wave - total);
         }
-        for (u, v) in &self.forcing.pairs {
-            let given: [f64; K] = std::array::from_fn(|k| {
-                let part = |(i, v): (usize, &f64)| v * driven(i, k, &state.total);
-                v.iter().enumerate().map(part).sum()
-            });
-            for (right, u) in right.iter_mut().zip(u) {
-                for (right, given) in right.iter_mut().zip(given) {
-                    *right -= u * given;
-                }
-            }
-        }
-        let solved = self
-            .system
-            .solve_with(&self.pairs, &right, &mut state.unknown, rule);
-        for (i, change) in state.change.iter_mut().enumerate() {
-            for (k, change) in change.iter_mut().enumerate() {
-                *change = slope * state.unknown[i][k] + driven(i, k, &state.total);
-            }
+        let unknown = &mut state.unknown;
+        let solved = self.stage.solve(&self.driven, wave, unknown, rule);
+        let rates = state.change.iter_mut().zip(&state.unknown);
+        for ((change, unknown), driven) in rates.zip(&self.driven) {
+            *change = slope * unknown + driven;
         }
         solved
     }

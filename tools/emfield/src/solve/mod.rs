@@ -4,24 +4,29 @@
 //!   of symmetry.
 //! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`eddy`] what drives
 //!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
-//!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies, [`march`]
-//!   the same in time.
+//!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
 //! - [`winding`]: coils that are regions of points.
-//! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`factors`]
-//!   their solution.
+//! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`at_rate`] their solution at a
+//!   [`rate`] of change, by [`block`]s and in [`balance`].
+//! - [`march`]: the same in time, each stage of A [`alone`] or [`charged`].
 
+pub mod alone;
+pub mod at_rate;
+pub mod balance;
+pub mod block;
 pub mod charge;
+pub mod charged;
 mod coils;
 pub mod coupled;
 pub mod diffusion;
 pub mod eddy;
 pub mod electrostatic;
 pub mod enclosed;
-pub mod factors;
 pub mod march;
 mod mirror;
 pub mod multipole;
 pub mod quadrature;
+pub mod rate;
 pub mod region;
 pub mod sides;
 pub mod totals;

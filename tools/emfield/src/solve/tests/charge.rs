@@ -2,10 +2,12 @@ use num_complex::Complex;
 
 use krylov::{Options, Rule};
 
+use super::super::at_rate::AtRate;
 use super::super::charge::{Charge, Side};
+use super::super::charged::Charged;
 use super::super::coupled::{Coupled, Parts};
 use super::super::diffusion::Conductors;
-use super::super::factors;
+use super::super::march::{March, slope};
 use super::super::region::Region;
 use super::super::sides::{Form, Sides};
 use super::shells;
@@ -24,14 +26,8 @@ const FORM: Form = Form {
 /// Conductivity over R^2 for a skin of half a radius at 100 kHz.
 const SIGMA: f64 = 10.0;
 
-/// `A + A_s + grad phi` within a ball in a field along z from a magnet, by point of the ball; and phi.
-fn driven(region: &Region<3>, origin: Origin) -> (Vec<[C; 3]>, Vec<C>, Charge) {
-    let sides = Sides::new(region, &FORM).unwrap();
-    let conductivity = [0.0, SIGMA];
-    let charge = Charge::new(region, &conductivity, &FORM).unwrap().unwrap();
-    let conductors = Conductors {
-        mu_sigma: conductivity.map(|s| MU0 * s).to_vec(),
-    };
+/// The potential of a field along z from a magnet, by point.
+fn applied(region: &Region<3>, origin: Origin) -> Vec<[C; 3]> {
     let source = Source {
         uniform: vec![Uniform {
             flux: [0.0, 0.0, 1.0].map(C::from),
@@ -39,23 +35,50 @@ fn driven(region: &Region<3>, origin: Origin) -> (Vec<[C; 3]>, Vec<C>, Charge) {
         }],
         ..Source::default()
     };
-    let given = source.potential(&region.places);
+    source.potential(&region.places)
+}
+
+/// The stencils and equations of charges on a ball.
+fn ball(region: &Region<3>) -> (Charge, Coupled) {
+    let sides = Sides::new(region, &FORM).unwrap();
+    let conductivity = [0.0, SIGMA];
+    let charge = Charge::new(region, &conductivity, &FORM).unwrap().unwrap();
+    let conductors = Conductors {
+        mu_sigma: conductivity.map(|s| MU0 * s).to_vec(),
+    };
     let parts = Parts {
         region,
         sides: &sides,
         conductors: &conductors,
         conductivity: &conductivity,
         charge: &charge,
-        omega: std::f64::consts::TAU * 1e5,
     };
-    let coupled = Coupled::new(&parts, (&given, &[]), None);
-    let rule = Rule {
-        reduction: 1e-12,
-        ..Rule::default()
-    };
-    let solved = factors::solve(&parts, &coupled, (&Options::default(), rule)).unwrap();
-    let ((a, phi), solved) = solved;
+    let coupled = Coupled::new(&parts, None);
+    (charge, coupled)
+}
+
+const RULE: Rule = Rule {
+    reduction: 1e-12,
+    floor: 0.0,
+    products: 2000,
+    stop: None,
+};
+
+/// `A + A_s + grad phi` within a ball in a field along z from a magnet, by point of the ball; and phi.
+fn driven(region: &Region<3>, origin: Origin) -> (Vec<[C; 3]>, Vec<C>, Charge) {
+    let (charge, coupled) = ball(region);
+    let given = applied(region, origin);
+    let rate = C::new(0.0, std::f64::consts::TAU * 1e5);
+    let mut push: Vec<C> = given.as_flattened().iter().map(|a| rate * a).collect();
+    push.resize(coupled.len(), C::default());
+    let pull: Vec<C> = (0..charge.len()).map(|p| coupled.pull(p, &given)).collect();
+    let right = coupled.right(&push, 1.0, (&pull, &[]));
+    let mut factors = AtRate::new(&coupled, rate, &Options::default()).unwrap();
+    let mut x = vec![C::default(); coupled.len()];
+    let solved = factors.solve(&coupled, right, &mut x, RULE);
     assert!(solved.converged(), "{}", solved.ending);
+    let (a, phi) = x.split_at(3 * region.len());
+    let (a, phi) = (a.as_chunks::<3>().0, coupled.whole(phi));
     let all = charge.points.iter().map(|i| {
         let i = *i as usize;
         let mut sum: [C; 3] = std::array::from_fn(|k| a[i][k] + given[i][k]);
@@ -66,7 +89,7 @@ fn driven(region: &Region<3>, origin: Origin) -> (Vec<[C; 3]>, Vec<C>, Charge) {
         }
         sum
     });
-    (all.collect(), phi.clone(), charge)
+    (all.collect(), phi, charge)
 }
 
 #[test]
@@ -103,6 +126,95 @@ fn no_current_leaves_the_ball() {
         let out: C = (0..3).map(|k| all[p][k] * face.normal[k]).sum();
         assert!(out.norm() < 1e-7, "{out}");
     }
+}
+
+/// Times of the diffusion through the ball that a march takes.
+const END: f64 = 0.2;
+
+/// Rates of `A + A_s + grad phi`, by point of the ball, and V after a march; the field rises as `wave` of the time over
+/// that of the diffusion.
+fn marched(
+    region: &Region<3>,
+    origin: Origin,
+    (steps, wave): (u32, fn(f64) -> f64),
+) -> (Vec<[f64; 3]>, Vec<f64>) {
+    let (charge, coupled) = ball(region);
+    let given: Vec<[f64; 3]> = applied(region, origin)
+        .iter()
+        .map(|a| a.map(|a| a.re))
+        .collect();
+    let time = MU0 * SIGMA;
+    let step = END * time / f64::from(steps);
+    let with = (slope(step), Options::default());
+    let stage = Charged::new(&coupled, (&given, Vec::new()), with).unwrap();
+    let source = given.into_flattened();
+    let mut march = March::new(Box::new(stage), source, coupled.len(), step);
+    for k in 0..steps {
+        let at = |t: f64| Ok::<f64, std::convert::Infallible>(wave(t / time));
+        let solved = march.advance(f64::from(k) * step, at, RULE).unwrap();
+        assert!(solved.iter().all(|s| s.converged()), "{solved:?}");
+    }
+    let state = march.state();
+    let (change, phi) = state.change.split_at(3 * region.len());
+    let (change, phi) = (change.as_chunks::<3>().0, coupled.whole(phi));
+    let all = charge.points.iter().map(|i| {
+        let mut sum = change[*i as usize];
+        for (q, w) in charge.gradient(*i as usize, Side::Inner) {
+            for k in 0..3 {
+                sum[k] += phi[q] * w[k];
+            }
+        }
+        sum.map(|e| e * time)
+    });
+    let voltage = coupled.whole(&state.following);
+    (all.collect(), voltage.iter().map(|v| v * time).collect())
+}
+
+/// The largest difference.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let each = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    each.fold(0.0, f64::max)
+}
+
+#[test]
+fn a_march_drives_the_same_whatever_the_magnet() {
+    let (region, _) = shells(0.2, 0.4);
+    let with = (3, (|_| 1.0) as fn(f64) -> f64);
+    let (round, still) = marched(&region, Origin::Solenoid([0.0; 3]), with);
+    let (flat, voltage) = marched(&region, Origin::Sheets([1.0, 0.0, 0.0]), with);
+    let most = apart(round.as_flattened(), &vec![0.0; 3 * round.len()]);
+    let far = apart(round.as_flattened(), flat.as_flattened());
+    assert!(most > 0.1 && far < 1e-6 * most, "{far:e} of {most:e}");
+    // What was switched on at once charged the ball at once.
+    let far = apart(&voltage, &still);
+    assert!(far < 1e-6, "{far:e}");
+}
+
+#[test]
+fn charges_follow_what_rises_with_second_order_in_time() {
+    let (region, _) = shells(0.25, 0.5);
+    let rises: fn(f64) -> f64 = |t| (5.0 * t).sin();
+    let run = |steps, origin| marched(&region, origin, (steps, rises));
+    let sheets = Origin::Sheets([1.0, 0.0, 0.0]);
+    let [a, b, c] = [2, 4, 8].map(|steps| run(steps, sheets));
+    // V of the sheets is that of the solenoid less the rate of x y / 2.
+    let (_, still) = run(8, Origin::Solenoid([0.0; 3]));
+    let rate = 5.0 * (5.0 * END).cos();
+    let (charge, _) = ball(&region);
+    let turned = charge.points.iter().map(|i| {
+        let x = region.places[*i as usize];
+        0.5 * rate * x[0] * x[1]
+    });
+    let known: Vec<f64> = turned.zip(&still).map(|(t, v)| v - t).collect();
+    let mean = known.iter().sum::<f64>() / known.len() as f64;
+    let known: Vec<f64> = known.iter().map(|v| v - mean).collect();
+    let off = [&a, &b, &c].map(|run| apart(&run.1, &known));
+    assert!(off[2] < 0.03, "{off:?}");
+    assert!(off[1] > 3.0 * off[2] && off[0] > 3.0 * off[1], "{off:?}");
+    // Fields err by their points too, which does not fall with the step.
+    let [a, b, c] = [&a, &b, &c].map(|run| run.0.as_flattened());
+    let (coarse, fine) = (apart(a, b), apart(b, c));
+    assert!(coarse > 3.0 * fine, "{coarse:e} {fine:e}");
 }
 
 #[test]

@@ -1,9 +1,10 @@
 use std::convert::Infallible;
 
-use krylov::{Options, Rule, System};
+use krylov::{Options, Rule};
 
+use super::super::alone::{Alone, Equations};
 use super::super::diffusion::{Conductors, Unknown};
-use super::super::march::{Forcing, March, shift};
+use super::super::march::{March, slope};
 use super::super::sides::{Form, Sides};
 use super::rings;
 
@@ -20,17 +21,18 @@ fn switched_on(steps: u32) -> f64 {
         mu_sigma: vec![0.0, 1.0],
     };
     let held = |i| conductors.held(&region, Unknown::Axial, i).then_some([1.0]);
-    let forcing = Forcing {
-        given: Vec::new(),
-        source: vec![[0.0]; region.len()],
+    let equations = Equations {
+        rates: conductors.rates(&region, &sides, Unknown::Axial),
+        rows: conductors.rows(&region, &sides, Unknown::Axial),
+        low: None,
         held: (0..region.len()).map(held).collect(),
+        given: Vec::new(),
         pairs: Vec::new(),
+        options: Options::default(),
     };
-    let rows = conductors.rows(&region, &sides, Unknown::Axial);
-    let rates = conductors.rates(&region, &sides, Unknown::Axial);
     let step = 0.1 / f64::from(steps);
-    let system = System::new(rows, shift(&rates, step), Options::default()).unwrap();
-    let mut march = March::new(system, rates, forcing, step);
+    let stage = Box::new(Alone::new(equations, slope(step)).unwrap());
+    let mut march = March::new(stage, vec![0.0; region.len()], region.len(), step);
     let rule = Rule {
         reduction: 1e-12,
         ..Rule::default()
@@ -40,7 +42,7 @@ fn switched_on(steps: u32) -> f64 {
         let solved = march.advance(f64::from(k) * step, on, rule).unwrap();
         assert!(solved.iter().all(|s| s.worst() < 1e-10));
     }
-    march.state().unknown[0][0]
+    march.state().unknown[0]
 }
 
 /// Carslaw and Jaeger (1959), section 7.6, with the first zeros of J0 and J1 there.

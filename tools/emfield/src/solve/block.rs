@@ -1,0 +1,78 @@
+//! Approximate solution of one part of the equations of A and V, by multigrid or sparse factors.
+
+use krylov::{
+    Coefficient, Direct, Error, Grids, Inverse, Method, Multigrid, Options, Order, Rows, Scalar,
+};
+
+/// Factors of one part of the equations.
+enum Way<S: Scalar> {
+    Grids(Box<Multigrid<f64, S>>),
+    Direct(Box<Direct<S>>),
+}
+
+/// Approximate solution of one part, in an order of its own.
+pub struct Block<S: Scalar> {
+    order: Order,
+    way: Way<S>,
+    given: Vec<S>,
+    found: Vec<S>,
+}
+
+impl<S: Scalar> Block<S>
+where
+    f64: Coefficient<S>,
+    f32: Coefficient<S>,
+{
+    /// Factors of `rows + diag(shift)`.
+    ///
+    /// # Errors
+    /// Where a coefficient is no number, or the rows are singular.
+    pub fn new(rows: &Rows<f64>, shift: &[S], options: &Options) -> Result<Self, Error> {
+        let n = rows.len();
+        let direct = match options.method {
+            Method::Direct => true,
+            Method::Chosen => n <= options.direct,
+            _ => false,
+        };
+        let (order, way);
+        if direct {
+            order = Order::natural(n);
+            way = Way::Direct(Box::new(Direct::new(rows, shift)?));
+        } else {
+            order = Order::cuthill_mckee(rows);
+            let mut mixed = vec![S::ZERO; n];
+            order.forth(shift, &mut mixed);
+            let grids = match options.method {
+                Method::Multigrid(grids) => grids,
+                _ => Grids::default(),
+            };
+            let made = Multigrid::<f64, S>::new(&rows.permuted(&order), &mixed, &order, grids)?;
+            way = Way::Grids(Box::new(made));
+        }
+        Ok(Self {
+            order,
+            way,
+            given: Vec::new(),
+            found: Vec::new(),
+        })
+    }
+}
+
+impl<S: Scalar> Inverse<S> for Block<S>
+where
+    f64: Coefficient<S>,
+    f32: Coefficient<S>,
+{
+    fn invert<const K: usize>(&mut self, given: &[[S; K]], found: &mut [[S; K]]) {
+        self.given.resize(K * given.len(), S::ZERO);
+        self.found.resize(K * given.len(), S::ZERO);
+        let own = self.given.as_chunks_mut::<K>().0;
+        let out = self.found.as_chunks_mut::<K>().0;
+        self.order.forth(given, own);
+        match &mut self.way {
+            Way::Grids(grids) => grids.invert(own, out),
+            Way::Direct(factors) => factors.invert(own, out),
+        }
+        self.order.back(out, found);
+    }
+}

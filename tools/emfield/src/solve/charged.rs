@@ -1,0 +1,51 @@
+//! The stage of a march of A and V together.
+
+use krylov::{Error, Options, Rule, Solved};
+
+use super::at_rate::AtRate;
+use super::coupled::Coupled;
+use super::march::Stage;
+
+/// The equations at a slope, and what drives them.
+pub struct Charged<'a> {
+    coupled: &'a Coupled,
+    factors: AtRate<f64>,
+    /// What the sources add to the rows of phi where their wave is 1.
+    pull: Vec<f64>,
+    /// Right sides that currents in coils make where the wave is 1, by point; empty where there are none.
+    given: Vec<[f64; 3]>,
+    options: Options,
+}
+
+impl<'a> Charged<'a> {
+    /// Factorises the equations at a slope; `source` is what the sources give of A where their wave is 1, by point.
+    ///
+    /// # Errors
+    /// Where a coefficient is no number, or a part is singular.
+    pub fn new(
+        coupled: &'a Coupled,
+        (source, given): (&[[f64; 3]], Vec<[f64; 3]>),
+        (slope, options): (f64, Options),
+    ) -> Result<Self, Error> {
+        let unknowns = 0..coupled.points.len();
+        Ok(Self {
+            pull: unknowns.map(|p| coupled.pull(p, source)).collect(),
+            factors: AtRate::new(coupled, slope, &options)?,
+            coupled,
+            given,
+            options,
+        })
+    }
+}
+
+impl Stage for Charged<'_> {
+    fn pace(&mut self, slope: f64) -> Result<(), Error> {
+        self.factors.pace(self.coupled, slope, &self.options)
+    }
+
+    fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved {
+        let given = (&self.pull[..], &self.given[..]);
+        let right = self.coupled.right(driven, wave, given);
+        self.factors.solve(self.coupled, right, unknown, rule)
+    }
+}
