@@ -123,7 +123,7 @@ pub fn march<const D: usize, const K: usize>(
             write(time, found, session)?;
         }
         if taken < steps.count() {
-            session.keep(|checkpoint| save(march.state(), taken, effort, checkpoint))?;
+            session.keep(|checkpoint| save(&march, taken, effort, checkpoint))?;
         }
     }
     setting.tell(effort.lack, session);
@@ -269,7 +269,7 @@ impl<const D: usize, const K: usize> View<'_, D, K> {
 
 /// Puts all that the rest of a march depends on into a checkpoint.
 fn save(
-    state: &State,
+    march: &March<'_>,
     taken: u64,
     effort: Effort,
     checkpoint: &mut Checkpoint,
@@ -277,8 +277,9 @@ fn save(
     let Lack { largest, worst } = effort.lack;
     checkpoint.put_u64("count", &[taken, effort.products, worst.1 as u64]);
     checkpoint.put_f64("effort", &[effort.residual, largest, worst.0]);
-    checkpoint.put_f64("unknown", &state.unknown);
-    checkpoint.put_f64("total", &state.total);
+    checkpoint.put_u8("rescued", &[u8::from(march.rescued())]);
+    checkpoint.put_f64("unknown", &march.state().unknown);
+    checkpoint.put_f64("total", &march.state().total);
     Ok(())
 }
 
@@ -295,7 +296,11 @@ fn restore(march: &mut March<'_>, checkpoint: &mut Checkpoint) -> Result<(u64, E
             )))
         }
     };
-    march.restore(column("unknown")?, column("total")?);
+    let reached = (column("unknown")?, column("total")?);
+    let rescued = checkpoint.u8("rescued")?.first().is_some_and(|r| *r != 0);
+    march
+        .restore(reached, rescued)
+        .map_err(|error| failed(&error))?;
     let (count, effort) = (checkpoint.u64("count")?, checkpoint.f64("effort")?);
     let (&[taken, products, place], &[residual, largest, worst]) = (&count[..], &effort[..]) else {
         return Err(Failure::Other("the checkpoint lacks a part".to_owned()));

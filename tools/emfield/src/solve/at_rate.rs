@@ -7,7 +7,10 @@
 //! inverse is about `1 + k / (2 q)`, and `1 / q` is what the solution for a given normal derivative has
 //! on the surface: the charges are corrected by `k / 2` times the potential found first.
 
-use krylov::{Error, Inverse, Method, Operator, Options, Rule, Scratch, Solved, minimal_residual};
+use krylov::{
+    Ending, Error, Inverse, Method, Operator, Options, Rule, Scratch, Solved, Stagnation,
+    minimal_residual,
+};
 use rayon::prelude::*;
 
 use super::balance::Balance;
@@ -26,6 +29,9 @@ pub struct AtRate<S: Rate> {
     rate: S,
     balance: Balance<S>,
     factors: Factors<S>,
+    /// How the rows of A are solved.
+    options: Options,
+    rescued: bool,
     scratch: Scratch<S>,
 }
 
@@ -58,6 +64,8 @@ impl<S: Rate> AtRate<S> {
                 a: [(); 2].map(|()| vec![[S::ZERO; 3]; coupled.points()]),
                 phi: [(); 2].map(|()| vec![[S::ZERO; 1]; coupled.points.len()]),
             },
+            options: *options,
+            rescued: false,
             scratch: Scratch::default(),
         })
     }
@@ -66,15 +74,35 @@ impl<S: Rate> AtRate<S> {
     ///
     /// # Errors
     /// As for [`Self::new`].
-    pub fn pace(&mut self, coupled: &Coupled, rate: S, options: &Options) -> Result<(), Error> {
-        self.factors.potential = potential(coupled, rate, options)?;
+    pub fn pace(&mut self, coupled: &Coupled, rate: S) -> Result<(), Error> {
+        self.factors.potential = potential(coupled, rate, &self.options)?;
         self.balance = Balance::new(coupled, rate);
         self.rate = rate;
         Ok(())
     }
 
+    /// Whether the rows of A are factorised because multigrid did not serve.
+    pub fn rescued(&self) -> bool {
+        self.rescued
+    }
+
+    /// Factorises the rows of A, for this rate and those to come.
+    ///
+    /// # Errors
+    /// Where they are singular.
+    pub fn rescue(&mut self, coupled: &Coupled) -> Result<(), Error> {
+        let options = Options {
+            method: Method::Direct,
+            ..self.options
+        };
+        self.factors.potential = potential(coupled, self.rate, &options)?;
+        (self.options, self.rescued) = (options, true);
+        Ok(())
+    }
+
     /// Solves the equations for right sides, of which it leaves nothing, by minimal residuals: stabilised bi-conjugate
-    /// gradients take twice as many products, and stagnate in thin skins. `x` is the first guess.
+    /// gradients take twice as many products, and stagnate in thin skins. `x` is the first guess. Where that stagnates
+    /// and the points are few enough, the rows of A are factorised and it begins anew.
     pub fn solve(
         &mut self,
         coupled: &Coupled,
@@ -85,6 +113,25 @@ impl<S: Rate> AtRate<S> {
         let (a, phi) = right.split_at_mut(3 * coupled.points());
         let a = a.as_chunks_mut::<1>().0.as_chunks_mut::<3>().0;
         self.balance.forth(coupled, (a, ones(phi)));
+        let first = self.run(coupled, &right, x, rule);
+        let failed = match first.ending {
+            Ending::Stagnated(why) => !matches!(why, Stagnation::Rounding { .. }),
+            Ending::BrokenDown(_) => true,
+            _ => false,
+        };
+        let few = coupled.points() <= self.options.rescue;
+        if failed && few && self.options.method == Method::Chosen && self.rescue(coupled).is_ok() {
+            x.fill(S::ZERO);
+            let again = self.run(coupled, &right, x, rule);
+            return Solved {
+                products: first.products + again.products,
+                ..again
+            };
+        }
+        first
+    }
+
+    fn run(&mut self, coupled: &Coupled, right: &[S], x: &mut [S], rule: Rule) -> Solved {
         let whole = Whole {
             coupled,
             rate: self.rate,
@@ -99,7 +146,7 @@ impl<S: Rate> AtRate<S> {
         let with = (rule, vectors);
         minimal_residual(
             &whole,
-            ones(&right),
+            ones(right),
             x,
             &mut inverse,
             with,

@@ -14,7 +14,6 @@ pub struct Charged<'a> {
     pull: Vec<f64>,
     /// Right sides that currents in coils make where the wave is 1, by point; empty where there are none.
     given: Vec<[f64; 3]>,
-    options: Options,
 }
 
 impl<'a> Charged<'a> {
@@ -33,14 +32,21 @@ impl<'a> Charged<'a> {
             factors: AtRate::new(coupled, slope, &options)?,
             coupled,
             given,
-            options,
         })
     }
 }
 
 impl Stage for Charged<'_> {
     fn pace(&mut self, slope: f64) -> Result<(), Error> {
-        self.factors.pace(self.coupled, slope, &self.options)
+        self.factors.pace(self.coupled, slope)
+    }
+
+    fn rescued(&self) -> bool {
+        self.factors.rescued()
+    }
+
+    fn rescue(&mut self) -> Result<(), Error> {
+        self.factors.rescue(self.coupled)
     }
 
     fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved {

@@ -29,6 +29,19 @@ pub trait Stage {
     /// Where they cannot be factorised.
     fn pace(&mut self, slope: f64) -> Result<(), Error>;
 
+    /// Whether it came to be solved in another way than it began, because that did not serve.
+    fn rescued(&self) -> bool {
+        false
+    }
+
+    /// Goes over to that other way.
+    ///
+    /// # Errors
+    /// Where the equations cannot be factorised.
+    fn rescue(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+
     /// Solves them for `unknown`, which is the first guess: its rate is `slope` times it and what is `driven`; the
     /// sources are `wave` times themselves.
     fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved;
@@ -91,9 +104,23 @@ impl<'a> March<'a> {
         &self.state
     }
 
-    /// Goes on from another unknown and total.
-    pub fn restore(&mut self, unknown: Vec<f64>, total: Vec<f64>) {
+    /// Whether stages came to be solved in another way than they began.
+    #[must_use]
+    pub fn rescued(&self) -> bool {
+        self.stage.rescued()
+    }
+
+    /// Goes on from another unknown and total, in the other way if that march had come to it.
+    ///
+    /// # Errors
+    /// Those of the stage.
+    pub fn restore(
+        &mut self,
+        (unknown, total): (Vec<f64>, Vec<f64>),
+        rescued: bool,
+    ) -> Result<(), Error> {
         (self.state.unknown, self.state.total) = (unknown, total);
+        if rescued { self.stage.rescue() } else { Ok(()) }
     }
 
     /// Makes a step that begins at `time` \[s\]; the sources follow `wave`.
