@@ -57,7 +57,7 @@ pub(super) fn broken_down(
     }
 }
 
-fn point(cloud: &Cloud, i: usize) -> String {
+pub(super) fn point(cloud: &Cloud, i: usize) -> String {
     let [x, y, z] = cloud.position[i];
     format!("point {i} at ({x:.3e}, {y:.3e}, {z:.3e}) m")
 }

@@ -150,6 +150,15 @@ impl<'a, const D: usize> Setting<'a, D> {
         })
     }
 
+    /// Conductivity times volume by point, up to a factor: what the square of a rate is weighted with in the heat.
+    pub(super) fn heating(&self) -> Vec<f64> {
+        let weight = |(i, w): (usize, &f64)| {
+            let medium = self.region.medium(i) as usize;
+            w.max(0.0) * self.conductors.mu_sigma[medium]
+        };
+        self.weights.iter().enumerate().map(weight).collect()
+    }
+
     /// Says where a conductor touches a wall that stands for the space beyond it.
     fn warn_walls(&self, session: &mut Session) {
         if self.currents.outer != OuterReaction::Multipole {

@@ -8,6 +8,7 @@ use run::{Failure, Session};
 
 use super::charge::{Charges, Lack, spread};
 use super::currents::Setting;
+use super::growth::Growth;
 use super::magnetic::Driven;
 use super::steps::Steps;
 use crate::cloud::Cloud;
@@ -90,9 +91,10 @@ pub fn march<const D: usize, const K: usize>(
         flux: &flux,
         charges: charges.as_ref(),
     };
+    let mut growth = Growth::new(setting.heating());
     let (mut taken, mut effort) = (0, Effort::default());
     if let Some(mut checkpoint) = session.restored() {
-        (taken, effort) = restore(&mut march, &mut checkpoint)?;
+        (taken, effort) = restore((&mut march, &mut growth), &mut checkpoint)?;
     } else {
         write(0.0, view.fields(march.state(), (0.0, length)).0, session)?;
     }
@@ -108,6 +110,9 @@ pub fn march<const D: usize, const K: usize>(
         taken += 1;
         let (time, written) = steps.end(taken);
         effort.add(time, &solved, session)?;
+        let still = wave.stands(from, time)?;
+        let rates = (&march.state().change[..K * cloud.len()], K);
+        growth.watch(rates, still, (taken, time), cloud)?;
         session.progress(taken, steps.count(), || {
             vec![
                 ("time", time, "s"),
@@ -123,15 +128,20 @@ pub fn march<const D: usize, const K: usize>(
             write(time, found, session)?;
         }
         if taken < steps.count() {
-            session.keep(|checkpoint| save(&march, taken, effort, checkpoint))?;
+            session.keep(|checkpoint| save((&march, &growth), taken, effort, checkpoint))?;
         }
     }
     setting.tell(effort.lack, session);
+    close(&steps, effort, session);
+    Ok(())
+}
+
+/// Tells what the march took.
+fn close(steps: &Steps, effort: Effort, session: &mut Session) {
     session.steps(steps.count());
     session.closing("step", "s", steps.longest());
     session.closing("products_march", "1", effort.products as f64);
     session.closing("residual_march", "1", effort.residual);
-    Ok(())
 }
 
 /// What coils and applied fields are multiplied by.
@@ -142,6 +152,13 @@ impl Wave {
         let on = Property::Constant(1.0);
         let wave = transient.wave.as_ref().unwrap_or(&on);
         Ok(Self(wave.compile("/eddy_currents/transient/wave", &["t"])?))
+    }
+
+    /// Whether it has one value at start, middle and end of a step.
+    fn stands(&self, from: f64, to: f64) -> Result<bool, Failure> {
+        let start = self.at(from)?;
+        let others = [self.at(0.5 * (from + to))?, self.at(to)?];
+        Ok(others.iter().all(|w| w.to_bits() == start.to_bits()))
     }
 
     fn at(&self, time: f64) -> Result<f64, Failure> {
@@ -269,7 +286,7 @@ impl<const D: usize, const K: usize> View<'_, D, K> {
 
 /// Puts all that the rest of a march depends on into a checkpoint.
 fn save(
-    march: &March<'_>,
+    (march, growth): (&March<'_>, &Growth),
     taken: u64,
     effort: Effort,
     checkpoint: &mut Checkpoint,
@@ -277,6 +294,8 @@ fn save(
     let Lack { largest, worst } = effort.lack;
     checkpoint.put_u64("count", &[taken, effort.products, worst.1 as u64]);
     checkpoint.put_f64("effort", &[effort.residual, largest, worst.0]);
+    let (last, most, rises) = growth.seen;
+    checkpoint.put_f64("growth", &[last, most, f64::from(rises)]);
     checkpoint.put_u8("rescued", &[u8::from(march.rescued())]);
     checkpoint.put_f64("unknown", &march.state().unknown);
     checkpoint.put_f64("total", &march.state().total);
@@ -284,7 +303,10 @@ fn save(
 }
 
 /// Takes back what [`save`] put.
-fn restore(march: &mut March<'_>, checkpoint: &mut Checkpoint) -> Result<(u64, Effort), Failure> {
+fn restore(
+    (march, growth): (&mut March<'_>, &mut Growth),
+    checkpoint: &mut Checkpoint,
+) -> Result<(u64, Effort), Failure> {
     let wanted = march.state().unknown.len();
     let mut column = |name: &str| -> Result<Vec<f64>, Failure> {
         let values = checkpoint.f64(name)?;
@@ -305,6 +327,9 @@ fn restore(march: &mut March<'_>, checkpoint: &mut Checkpoint) -> Result<(u64, E
     let (&[taken, products, place], &[residual, largest, worst]) = (&count[..], &effort[..]) else {
         return Err(Failure::Other("the checkpoint lacks a part".to_owned()));
     };
+    if let &[last, most, rises] = &checkpoint.f64("growth")?[..] {
+        growth.seen = (last, most, rises as u32);
+    }
     let effort = Effort {
         products,
         residual,

@@ -6,6 +6,7 @@ mod currents;
 pub mod drive;
 mod enclosed;
 mod enclosing;
+mod growth;
 mod magnetic;
 mod march;
 mod potential;
