@@ -5,18 +5,6 @@ use run::{Failure, Fault};
 
 use crate::cloud::Cloud;
 
-/// Points that no stencil can be made of, and what helps.
-pub(super) fn no_stencil(name: &str, error: &wls::Error) -> Fault {
-    let help = match error {
-        wls::Error::Coincident { .. } => "; move or remove one, of \"extra_m\" or of two surfaces",
-        wls::Error::Lone { .. } | wls::Error::Flat { .. } => {
-            "; points there follow a body, a gap or a film too narrow for them: take a smaller spacing, of the body or of \"refinements\""
-        }
-        _ => "",
-    };
-    Fault::at("/points", format!("{name}: {error}{help}"))
-}
-
 /// Equations that have no solution: `row` is the number of a point.
 pub(super) fn unsolvable(name: &str, error: &Error, cloud: &Cloud) -> Failure {
     let row = match error {

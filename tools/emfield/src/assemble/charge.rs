@@ -4,6 +4,7 @@ use num_complex::Complex;
 use run::{Failure, Session};
 
 use super::currents::{Setting, media};
+use super::unfit::no_stencil;
 use crate::scene::currents::OuterReaction;
 use crate::solve::at_rate::AtRate;
 use crate::solve::charge::{Charge, Side};
@@ -66,7 +67,8 @@ impl<const D: usize> Setting<'_, D> {
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
         let form = super::form(self.scene);
         let made = session.timed("weights", || Charge::new(region, &conductivity, &form));
-        let made = made.map_err(|error| Failure::Other(format!("electric potential: {error}")))?;
+        let made = made
+            .map_err(|error| no_stencil("electric potential", &error, (self.scene, self.cloud)))?;
         let Some(stencils) = made else {
             return Ok(None);
         };

@@ -5,11 +5,12 @@ use num_complex::Complex;
 use run::{Failure, Session};
 use shapes::frame::Vector;
 
-use super::broken::{no_stencil, unsolvable};
+use super::broken::unsolvable;
 use super::drive::{source, unknown};
 use super::enclosed::enclosed;
 use super::magnetic::Driven;
 use super::region::region;
+use super::unfit::no_stencil;
 use super::winding::windings;
 use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
@@ -126,7 +127,7 @@ impl<'a, const D: usize> Setting<'a, D> {
             let weights = quadrature::weights(&region, &cells, &form)?;
             Ok((Sides::new(&region, &form)?, weights))
         });
-        let failed = |error: wls::Error| no_stencil("eddy currents", &error);
+        let failed = |error: wls::Error| no_stencil("eddy currents", &error, (scene, cloud));
         let (sides, mut weights) = made.map_err(failed)?;
         let coils = windings(scene, currents, cloud)?;
         let wound = || Windings::new(&region, &coils, &mut weights);

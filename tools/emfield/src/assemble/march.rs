@@ -11,6 +11,7 @@ use super::currents::Setting;
 use super::growth::Growth;
 use super::magnetic::Driven;
 use super::steps::Steps;
+use super::unfit::no_stencil;
 use crate::cloud::Cloud;
 use crate::output::Found;
 use crate::scene::currents::{OuterReaction, Transient};
@@ -210,12 +211,14 @@ fn equations<const D: usize, const K: usize>(
         Ok(conductors.rows(region, &sides, unknown))
     });
     let low = low.transpose();
+    let unfit =
+        |error: wls::Error| no_stencil("eddy currents", &error, (setting.scene, setting.cloud));
     let held = |i| {
         let held = conductors.held(region, unknown, i);
         held.then(|| drive.held.map(|h| h.re))
     };
     Ok(Equations {
-        low: low.map_err(|error: wls::Error| failed(&error))?,
+        low: low.map_err(unfit)?,
         rates: session.timed("assemble", || conductors.rates(region, sides, unknown)),
         rows: session.timed("assemble", || conductors.rows(region, sides, unknown)),
         held: (0..region.len()).map(held).collect(),

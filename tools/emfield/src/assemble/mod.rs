@@ -13,6 +13,7 @@ mod potential;
 mod region;
 mod shorts;
 mod steps;
+mod unfit;
 mod winding;
 
 use std::sync::atomic::AtomicBool;

@@ -5,9 +5,10 @@ use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
 
-use super::broken::{no_stencil, unsolvable};
+use super::broken::unsolvable;
 use super::enclosed::{electric, enclosed};
 use super::region::{raise, region, walls};
+use super::unfit::no_stencil;
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::output::{Column, Found};
 use crate::scene::faults::PLACE;
@@ -111,7 +112,7 @@ pub fn electrostatics<const D: usize>(
     let problem = problem(scene, cloud, &outer)?;
     let form = super::form(scene);
     let low = super::low_order(scene, region.len());
-    let stencil = |error: wls::Error| no_stencil("electrostatics", &error);
+    let stencil = |error: wls::Error| no_stencil("electrostatics", &error, (scene, cloud));
     let (value, inner, beyond) = match scene.method.interfaces {
         Interfaces::OneSided(_) => {
             let form = if region.axial {
