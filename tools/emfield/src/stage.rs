@@ -7,7 +7,7 @@ use run::{Failure, Inputs, Plan, Session, Tool};
 
 use crate::assemble;
 use crate::cloud::Cloud;
-use crate::output::{self, Found, Samples};
+use crate::output::{self, Doubt, Found, Samples};
 use crate::scene::{EddyCurrents, Geometry, Scene};
 use crate::solve::diffusion::Unknown;
 use crate::surface::enclosing::Enclosing;
@@ -97,18 +97,36 @@ fn solve<const D: usize, const K: usize>(
         if let Some(transient) = &currents.transient {
             drop(expendable);
             let at = (currents, transient);
-            return assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
+            let mut doubts = Vec::new();
+            assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
                 let mut all = found.clone();
                 all.join(fields);
+                doubts.append(&mut all.doubts);
                 output::write(scene, cloud, &samples, (time, &all), session)
-            });
+            })?;
+            tell(doubts, session);
+            return Ok(());
         }
         found.join(assemble::eddy_currents::<D, K>(
             scene, currents, cloud, session,
         )?);
     }
     session.stopped()?;
+    tell(std::mem::take(&mut found.doubts), session);
     output::write(scene, cloud, &samples, (0.0, &found), session)
+}
+
+/// Says which forces are in doubt: of each the largest of all instants.
+fn tell(doubts: Vec<Doubt>, session: &mut Session) {
+    let mut worst: Vec<Doubt> = Vec::new();
+    for doubt in doubts {
+        match worst.iter_mut().find(|w| w.of == doubt.of) {
+            Some(w) if w.share < doubt.share => *w = doubt,
+            Some(_) => {}
+            None => worst.push(doubt),
+        }
+    }
+    worst.into_iter().for_each(|doubt| session.warn(doubt.what));
 }
 
 fn shown(scene: &Scene, cloud: &Cloud, enclosing: &[Enclosing]) -> Plan {

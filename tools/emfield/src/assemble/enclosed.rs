@@ -4,6 +4,8 @@ use num_complex::Complex;
 use run::{Failure, Session};
 use shapes::frame::Vector;
 
+use super::about::about;
+use super::agree::{seen, strength, unit};
 use super::currents::Setting;
 use super::enclosing::enclosing;
 use crate::cloud::Cloud;
@@ -45,10 +47,7 @@ pub(super) fn enclosed<const D: usize>(
 
 /// Adds the components of a force that a scene has, and the largest difference between the ways of finding it.
 fn push(scene: &Scene, name: &str, ways: &[Vector], all: &mut Found) {
-    let unit = match scene.geometry {
-        Geometry::Plane => "N/m",
-        Geometry::Axisymmetric | Geometry::Space => "N",
-    };
+    let unit = unit(scene.geometry);
     let had: &[usize] = match scene.geometry {
         Geometry::Plane => &[0, 1],
         // The radial forces of a full turn cancel.
@@ -60,40 +59,93 @@ fn push(scene: &Scene, name: &str, ways: &[Vector], all: &mut Found) {
         all.totals
             .push((format!("{name}_{axis}"), unit, ways[0][*k]));
     }
-    let part = |force: &Vector| {
-        let mut part = [0.0; 3];
-        for k in had {
-            part[*k] = force[*k];
-        }
-        part
-    };
+    let part = |force: &Vector| seen(scene.geometry, *force);
     let ways: Vec<Vector> = ways.iter().map(part).collect();
     all.totals
         .push((format!("{name}_spread"), unit, spread(&ways)));
 }
 
+/// What the electric field does through a closed surface to all within.
+pub(super) struct Closed<'a> {
+    /// What the surface is called.
+    pub(super) name: String,
+    /// Force by Maxwell's stress \[N\].
+    pub(super) force: Vector,
+    /// Flux of the displacement outward \[C\].
+    pub(super) charge: f64,
+    /// Root of the mean square of the field \[V/m\].
+    pub(super) field: f64,
+    /// The points within; all bodies where it is absent.
+    pub(super) within: Option<&'a [bool]>,
+}
+
+/// Force and flux of a potential by point over a closed surface.
+fn closed<'a, const D: usize>(
+    scene: &Scene,
+    (region, potential): (&Region<D>, &[f64]),
+    one: &'a Enclosed<D>,
+) -> Closed<'a> {
+    let surface = &one.surface;
+    let eps = EPS0 * scene.medium(surface.medium as usize).relative_permittivity;
+    let field = one.electric(region, potential);
+    Closed {
+        name: surface.name.clone(),
+        force: surface.stress(&field).map(|f| eps * f),
+        charge: -eps * surface.inward(field.iter().map(|f| f.map(|e| e.re))),
+        field: strength(&field, &surface.areas),
+        within: (!surface.within.is_empty()).then_some(surface.within.as_slice()),
+    }
+}
+
 /// Adds the electric forces of a potential by point; `pulls` are the tractions on surfaces of bodies.
-pub(super) fn electric<const D: usize>(
+pub(super) fn electric<'a, const D: usize>(
     (scene, cloud): (&Scene, &Cloud),
     region: &Region<D>,
     (potential, pulls): (&[f64], &[Vector]),
-    enclosed: &[Enclosed<D>],
+    enclosed: &'a [Enclosed<D>],
     all: &mut Found,
-) {
-    for one in enclosed {
-        let surface = &one.surface;
-        let eps = scene.medium(surface.medium as usize).relative_permittivity;
-        let stress = surface.stress(&one.electric(region, potential));
+) -> Vec<Closed<'a>> {
+    let add = |one| {
+        let closed = closed(scene, (region, potential), one);
         let mut bodies = [0.0; 3];
         for (s, pull) in cloud.surface.iter().zip(pulls) {
-            if surface.within[s.point as usize] {
+            if closed.within.is_none_or(|w| w[s.point as usize]) {
                 bodies = std::array::from_fn(|k| bodies[k] + s.area * pull[k]);
             }
         }
-        let ways = [stress.map(|f| EPS0 * eps * f), bodies];
-        let name = format!("{}.electric_force", surface.name);
-        push(scene, &name, &ways, all);
+        let name = format!("{}.electric_force", closed.name);
+        push(scene, &name, &[closed.force, bodies], all);
+        closed
+    };
+    enclosed.iter().map(add).collect()
+}
+
+/// A surface about all bodies with fits of the points about it, where one has room and no other holds all bodies.
+pub(super) fn about_all<const D: usize>(
+    (scene, cloud): (&Scene, &Cloud),
+    (region, form): (&Region<D>, &Form),
+    others: &[Enclosed<D>],
+    session: &mut Session,
+) -> Option<Enclosed<D>> {
+    let all = |one: &Enclosed<D>| {
+        let mut points = cloud.surface.iter().map(|s| s.point as usize);
+        points.all(|i| one.surface.within[i])
+    };
+    if others.iter().any(all) {
+        return None;
     }
+    let surface = about(scene, cloud)?;
+    // Where no fit can be made nothing can be checked.
+    session.timed("enclosures", || Enclosed::new(region, form, surface).ok())
+}
+
+/// What the field does through a surface about all bodies.
+pub(super) fn all_within<'a, const D: usize>(
+    scene: &Scene,
+    at: (&Region<D>, &[f64]),
+    about: &'a Option<Enclosed<D>>,
+) -> Option<Closed<'a>> {
+    about.as_ref().map(|one| closed(scene, at, one))
 }
 
 impl<const D: usize> Setting<'_, D> {

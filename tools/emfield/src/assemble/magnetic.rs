@@ -78,6 +78,7 @@ impl<const D: usize> Setting<'_, D> {
         let totals = self.totals(&fields, (driven, &conducts), &mut all);
         let with = (driven.source, conducts.as_slice());
         self.enclosed(solution, (&fields, &totals), with, &mut all);
+        all.doubts.extend(self.doubt(&fields, &totals));
         all
     }
 

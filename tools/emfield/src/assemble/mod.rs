@@ -1,5 +1,7 @@
 //! From a scene and its points to equations, and from their solution to columns.
 
+mod about;
+mod agree;
 mod broken;
 mod charge;
 mod currents;

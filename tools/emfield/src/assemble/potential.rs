@@ -5,8 +5,9 @@ use run::property::{Arguments, Curve};
 use run::{Failure, Fault, Session};
 use shapes::frame::{Vector, dot};
 
+use super::agree;
 use super::broken::unsolvable;
-use super::enclosed::{electric, enclosed};
+use super::enclosed::{about_all, all_within, electric, enclosed};
 use super::region::{raise, region, walls};
 use super::unfit::no_stencil;
 use crate::cloud::{Class, Cloud, SurfacePoint};
@@ -14,6 +15,7 @@ use crate::output::{Column, Found};
 use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Interfaces, Scene};
 use crate::solve::electrostatic::{Equations, Held, Problem, Smeared};
+use crate::solve::enclosed::Enclosed;
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
 use crate::surface::traction::{dielectric, electrode};
@@ -153,19 +155,36 @@ pub fn electrostatics<const D: usize>(
     if let Some(what) = beyond_given(cloud, &problem, &value) {
         session.warn(what);
     }
-    let enclosed = enclosed(scene, cloud, (&region, &form), session)?;
-    let [inner, beyond] = [inner, beyond].map(|field| {
-        let up = field.into_iter().map(|e| raise(cloud.geometry, e));
-        up.collect::<Vec<Vector>>()
-    });
+    let at = (&region, &form);
+    let enclosed = enclosed(scene, cloud, at, session)?;
+    let up = |e| raise(cloud.geometry, e);
+    let [inner, beyond] =
+        [inner, beyond].map(|field| field.into_iter().map(up).collect::<Vec<Vector>>());
     let (mut found, pulls) = columns(scene, cloud, value, &inner, &beyond);
-    if !enclosed.is_empty() {
+    if !cloud.surface.is_empty() {
+        let about = about_all((scene, cloud), at, &enclosed, session);
         let with = (found.columns[0].values.as_slice(), pulls.as_slice());
-        let mut totals = Found::default();
-        electric((scene, cloud), &region, with, &enclosed, &mut totals);
-        found.join(totals);
+        let (with, closed) = ((&region, with), (enclosed.as_slice(), &about));
+        found.join(forces((scene, cloud), with, [&inner, &beyond], closed));
     }
     Ok(found)
+}
+
+/// Electric forces on what surfaces enclose, and doubts about those on bodies, from potential by point, tractions by
+/// surface point, and the fields of both sides by point.
+fn forces<const D: usize>(
+    at: (&Scene, &Cloud),
+    (region, (potential, pulls)): (&Region<D>, (&[f64], &[Vector])),
+    fields: [&[Vector]; 2],
+    (enclosed, about): (&[Enclosed<D>], &Option<Enclosed<D>>),
+) -> Found {
+    let sides = fields.map(|field| on_surface(at.1, field));
+    let sides = sides.each_ref().map(Vec::as_slice);
+    let mut totals = Found::default();
+    let mut closed = electric(at, region, (potential, pulls), enclosed, &mut totals);
+    closed.extend(all_within(at.0, (region, potential), about));
+    totals.doubts = agree::electric(at, (pulls, sides), &closed);
+    totals
 }
 
 /// Share of the range of what is given by which a potential may lie outside it.
@@ -239,6 +258,12 @@ fn solve(
     Ok(x.into_iter().map(|x| x[0]).collect())
 }
 
+/// Values of points on surfaces.
+fn on_surface(cloud: &Cloud, field: &[Vector]) -> Vec<Vector> {
+    let points = cloud.surface.iter().map(|s| s.point as usize);
+    points.map(|i| field[i]).collect()
+}
+
 /// Potential and field of all points, traction and fields of both sides on interfaces; the tractions.
 fn columns(
     scene: &Scene,
@@ -248,13 +273,7 @@ fn columns(
     beyond: &[Vector],
 ) -> (Found, Vec<Vector>) {
     let mut found = Found::default();
-    let on_surface = |field: &[Vector]| -> Vec<Vector> {
-        cloud
-            .surface
-            .iter()
-            .map(|s| field[s.point as usize])
-            .collect()
-    };
+    let on_surface = |field| on_surface(cloud, field);
     found.columns.push(Column::new("potential", "V", value));
     found.columns.extend(Column::vector(
         "electric_field",

@@ -63,6 +63,19 @@ pub struct Found {
     pub surface: Vec<Column>,
     /// Totals: name, unit, value.
     pub totals: Vec<(String, &'static str, f64)>,
+    /// Forces known in several ways that disagree.
+    pub doubts: Vec<Doubt>,
+}
+
+/// What to say of a force whose ways disagree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doubt {
+    /// What the force acts on.
+    pub of: String,
+    /// How far the ways are apart, over the size of the force.
+    pub share: f64,
+    /// In words.
+    pub what: String,
 }
 
 impl Found {
@@ -71,6 +84,7 @@ impl Found {
         self.columns.extend(other.columns);
         self.surface.extend(other.surface);
         self.totals.extend(other.totals);
+        self.doubts.extend(other.doubts);
     }
 }
 

@@ -38,6 +38,13 @@ pub fn electrode(outer: f64, field: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
     normal.map(|n| n * 0.5 * EPS0 * outer * along * along)
 }
 
+/// Maxwell's stress on a surface of this normal where the permittivity is one: `E (E.n) - |E|^2 n / 2`.
+#[must_use]
+pub fn stress(field: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
+    let (along, square) = (dot(field, normal), dot(field, field));
+    std::array::from_fn(|k| field[k] * along - 0.5 * square * normal[k])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

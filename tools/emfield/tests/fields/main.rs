@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod coils;
+mod doubts;
 mod enclosures;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,112 @@
+//! A closed surface about all bodies, halfway to the walls, over which their forces are checked.
+
+use shapes::Body;
+use shapes::frame::{Vector, difference, length};
+use shapes::rule::rule;
+use shapes::shape::{BoxShape, Disc, Shape, Sphere};
+
+use crate::cloud::region::vector;
+use crate::cloud::{Class, Cloud, SurfacePoint};
+use crate::scene::domain::{BoxDomain, SphereDomain};
+use crate::scene::{Domain, Geometry, Scene};
+use crate::surface::enclosing::Enclosing;
+
+/// Places that may always be, and the most of them over the points: fits at places cost about as much as those at points.
+const FEW: usize = 600;
+const PART: usize = 10;
+/// Places of a line over its distance from bodies and walls, where they are equally far from each other.
+const FINE: f64 = 0.25;
+
+/// The surface; none where a body reaches a wall or leaves no spacing of room on both sides, nor where one so near to
+/// bodies or walls would need too many places.
+pub(super) fn about(scene: &Scene, cloud: &Cloud) -> Option<Enclosing> {
+    let geometry = scene.geometry;
+    let dimensions = geometry.dimensions();
+    let cut = |class: &Class| matches!(class, Class::Outer { medium, .. } if *medium > 0);
+    if cloud.surface.is_empty() || cloud.class.iter().any(cut) {
+        return None;
+    }
+    let (shape, room) = match &scene.domain {
+        Domain::Sphere(ball) => within_ball(ball, cloud),
+        Domain::Box(walls) => within_box(walls, cloud),
+    };
+    if room < scene.points.spacing_m {
+        return None;
+    }
+    // In space the rule is that of Gauss, of high order.
+    let spacing = if dimensions == 3 { room } else { FINE * room };
+    let mut pieces = rule(&Body::new(&shape, dimensions), dimensions, spacing);
+    if geometry == Geometry::Axisymmetric {
+        pieces.retain(|p| p.place[0] > 1e-9 * spacing);
+    }
+    if pieces.len() > FEW.max(cloud.len() / PART) {
+        return None;
+    }
+    let turn = |radius: f64| match geometry {
+        Geometry::Axisymmetric => std::f64::consts::TAU * radius,
+        Geometry::Plane | Geometry::Space => 1.0,
+    };
+    Some(Enclosing {
+        name: "a surface about all bodies".to_owned(),
+        places: pieces.iter().map(|p| geometry.place(p.place)).collect(),
+        normals: pieces.iter().map(|p| geometry.place(p.normal)).collect(),
+        areas: pieces.iter().map(|p| turn(p.place[0]) * p.area).collect(),
+        medium: 0,
+        within: Vec::new(),
+    })
+}
+
+/// Places of surfaces of bodies in coordinates of the scene.
+fn surfaces(cloud: &Cloud) -> impl Iterator<Item = Vector> + '_ {
+    let place = |s: &SurfacePoint| cloud.geometry.coordinates(cloud.position[s.point as usize]);
+    cloud.surface.iter().map(place)
+}
+
+/// The ball halfway between bodies and walls, and its distance from both.
+fn within_ball(ball: &SphereDomain, cloud: &Cloud) -> (Shape, f64) {
+    let centre = vector(&ball.centre_m);
+    let away = surfaces(cloud).map(|x| length(difference(x, centre)));
+    let radius_m = 0.5 * (away.fold(0.0, f64::max) + ball.radius_m);
+    let (centre_m, name) = (ball.centre_m.clone(), None);
+    let shape = if cloud.geometry == Geometry::Space {
+        Shape::Sphere(Sphere {
+            name,
+            centre_m,
+            radius_m,
+        })
+    } else {
+        Shape::Disc(Disc {
+            name,
+            centre_m,
+            radius_m,
+        })
+    };
+    (shape, ball.radius_m - radius_m)
+}
+
+/// The box halfway between bodies and walls, and its least distance from both.
+fn within_box(walls: &BoxDomain, cloud: &Cloud) -> (Shape, f64) {
+    let dimensions = cloud.geometry.dimensions();
+    let mut sides = [vector(&walls.min_m), vector(&walls.max_m)];
+    let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for x in surfaces(cloud) {
+        for k in 0..dimensions {
+            reach[0][k] = reach[0][k].min(x[k]);
+            reach[1][k] = reach[1][k].max(x[k]);
+        }
+    }
+    let mut room = f64::INFINITY;
+    for (end, side) in sides.iter_mut().enumerate() {
+        for k in 0..dimensions {
+            let axial = cloud.geometry == Geometry::Axisymmetric && (end, k) == (0, 0);
+            // There is no wall on an axis.
+            if !axial || side[k] > 0.0 {
+                room = room.min(0.5 * (side[k] - reach[end][k]).abs());
+                side[k] = 0.5 * (side[k] + reach[end][k]);
+            }
+        }
+    }
+    let [min_m, max_m] = sides.map(|side| side[..dimensions].to_vec());
+    let name = None;
+    (Shape::Box(BoxShape { name, min_m, max_m }), room)
+}
