@@ -12,13 +12,16 @@ use crate::lab::{Lab, LabError};
 pub(super) struct EmAxisymmetricSphere;
 
 /// Frequencies, and layers beside the surface over those at 100 kHz.
-const METHODS: &[&str] = &["100-khz", "30-khz", "1-mhz", THIN, REGIONS];
+const METHODS: &[&str] = &["100-khz", "30-khz", "1-mhz", THIN, REGIONS, LINEAR];
 
 /// At 100 kHz, with wires so thin that no rule for currents over their section stands between tool and reference.
 const THIN: &str = "100-khz-thin-wires";
 
 /// At 100 kHz, with coils that are regions of points instead of exact sources.
 const REGIONS: &str = "100-khz-coils-of-points";
+
+/// At 100 kHz, with slopes of linear polynomials, on points half as far apart.
+const LINEAR: &str = "100-khz-linear";
 
 impl Case for EmAxisymmetricSphere {
     fn name(&self) -> &'static str {
@@ -39,7 +42,7 @@ impl Case for EmAxisymmetricSphere {
 
     fn targets(&self) -> Vec<Target> {
         let mut targets = Vec::new();
-        for method in METHODS {
+        for method in METHODS.iter().filter(|m| **m != LINEAR) {
             for quantity in [
                 "lift_volume",
                 "lift_maxwell",
@@ -66,11 +69,28 @@ impl Case for EmAxisymmetricSphere {
         targets.push(Target::order("lift_enclosed", 1.5).of(THIN));
         targets.push(Target::order("flux_linf", 2.5).of(THIN));
         targets.push(Target::order("flux_linf", 2.0).of("1-mhz"));
+        for quantity in [
+            "lift_volume",
+            "lift_enclosed",
+            "power_volume",
+            "power_enclosed",
+        ] {
+            targets.push(Target::error(quantity, 0.03).of(LINEAR));
+        }
+        for quantity in [
+            "lift_volume",
+            "power_volume",
+            "largest_current",
+            "flux_linf",
+        ] {
+            targets.push(Target::order(quantity, 0.8).of(LINEAR));
+        }
         targets
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
-        let spacing = [2e-4, 1.4e-4, 1e-4][level.clamp(1, 3) as usize - 1];
+        let finer = if method == LINEAR { 0.5 } else { 1.0 };
+        let spacing = finer * [2e-4, 1.4e-4, 1e-4][level.clamp(1, 3) as usize - 1];
         let (frequency, first) = match method {
             "30-khz" => (3e4, 0.3),
             "1-mhz" => (1e6, 0.15),
@@ -86,6 +106,9 @@ impl Case for EmAxisymmetricSphere {
             patch["eddy_currents"]["coils"] = thin(coils);
         }
         let scene = planned(lab, self.name(), &patch)?;
+        if method == LINEAR {
+            patch["method"] = json!({"order": 1});
+        }
         if method == REGIONS {
             regions(&scene, &mut patch);
         }

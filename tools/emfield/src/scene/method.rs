@@ -33,7 +33,8 @@ impl Default for Interfaces {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Method {
-    /// Degree of the polynomials.
+    /// Degree of the polynomials; with 1 slopes at interfaces and walls are linear, bowed as the equation says, and
+    /// second derivatives those of quadratics.
     #[serde(default = "order")]
     #[schemars(range(min = 1, max = 4))]
     pub order: usize,

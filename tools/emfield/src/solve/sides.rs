@@ -18,7 +18,7 @@ const HARMONIC_REACH: [f64; 2] = [3.0, 2.75];
 /// How stencils are made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Form {
-    /// Degree of the polynomials, 1 to 4; second derivatives need 2.
+    /// Degree of the polynomials, 1 to 4; second derivatives are those of quadratics at least.
     pub order: u8,
     /// Radius of the support over the spacing; as the order needs it where it is absent.
     pub support: Option<f64>,

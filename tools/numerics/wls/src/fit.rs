@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::basis::{Basis, TERMS};
 use crate::factor::{self, Factor};
-use crate::harmonic::Reduction;
+use crate::harmonic::{Over, Reduction};
 use crate::moments::{Coefficients, Points};
 
 /// Functionals of one fit at most: value, three first and six second derivatives, Laplacian.
@@ -88,20 +88,16 @@ impl<const D: usize> Fit<D> {
     }
 
     /// Takes offsets `s` and `radius` in the same unit, what the weight of each point is multiplied by, if there is
-    /// something, the rows of the conditions, and those that a harmonic polynomial obeys, none where it need not be one.
+    /// something, the rows of the conditions, and which polynomials are fitted.
     pub(crate) fn load(
         &mut self,
         basis: &Basis<D>,
         (s, rooms, radius): (&[[f64; D]], &[f64], f64),
-        (conditions, harmonic): (&[Coefficients], &[Coefficients]),
+        (conditions, over): (&[Coefficients], Over<'_, D>),
     ) {
         self.points.load(s, radius);
         self.points.weigh(rooms);
-        if harmonic.is_empty() {
-            self.reduction.clear();
-        } else {
-            self.reduction.take(basis, harmonic);
-        }
+        self.reduction.choose(basis, over);
         self.assemble(basis, conditions);
     }
 
@@ -147,7 +143,7 @@ impl<const D: usize> Fit<D> {
                 scaled[k] = row[k] * self.scale[k];
             }
             let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
-            // One that harmonic polynomials obey by themselves is none.
+            // One that the polynomials obey by themselves is none.
             let length = if length > NOTHING {
                 length
             } else {

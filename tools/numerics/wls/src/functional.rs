@@ -19,6 +19,9 @@ pub struct Wants {
 
 /// A condition that a fit obeys exactly, whatever its points say.
 ///
+/// A linear fit under a condition on second derivatives has one square beside its linear terms, along the direction in
+/// which its points lie ([`crate::Rules::side`]) or else of the distance, so that the condition says how it bows.
+///
 /// The datum g of each enters with weights of its own ([`crate::Row::conditions`]), in the order in
 /// which the conditions are given; where g = 0 they do not matter.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,13 @@
-//! Harmonic polynomials as sums of monomials.
+//! Polynomials other than all of an order, as sums of monomials: harmonic ones, and linear ones that bow.
 //!
 //! Of a polynomial without a Laplacian the coefficients of monomials with at most one power of the last coordinate are
 //! free, and the others follow from them: 25 of 35 in space and 9 of 15 in a plane for order 4. A fit over these
 //! polynomials has so many unknowns and no conditions, and is much better determined than one that is kept harmonic
 //! by conditions.
+//!
+//! A linear polynomial has no Laplacian that a condition could speak of, and one that has a derivative along a drift
+//! instead would have to do without that derivative. With one square beside the linear terms, along the normal of a
+//! one-sided fit or alike in all directions, the condition says how the polynomial bows.
 
 use crate::basis::{Basis, TERMS};
 use crate::moments::Coefficients;
@@ -17,16 +21,62 @@ pub(crate) struct Reduction {
     parts: Vec<(usize, f64)>,
 }
 
+/// The polynomials of a fit.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Over<'a, const D: usize> {
+    /// All of the order of the basis.
+    All,
+    /// Those that obey rows, which a harmonic polynomial does.
+    Harmonic(&'a [Coefficients]),
+    /// Linear ones of a basis of order 2, and a square: along a direction of the coordinates, or of the distance.
+    Bowed(Option<[f64; D]>),
+}
+
 impl Reduction {
+    /// Takes polynomials.
+    pub(crate) fn choose<const D: usize>(&mut self, basis: &Basis<D>, over: Over<'_, D>) {
+        match over {
+            Over::All => self.clear(),
+            Over::Harmonic(rows) => self.take(basis, rows),
+            Over::Bowed(along) => self.bow(basis, along),
+        }
+    }
+
+    fn bow<const D: usize>(&mut self, basis: &Basis<D>, along: Option<[f64; D]>) {
+        self.clear();
+        self.starts.push(0);
+        let degree = |e: &[u8; D]| e.iter().sum::<u8>();
+        for k in (0..basis.len()).filter(|k| degree(&basis.exponents()[*k]) < 2) {
+            self.parts.push((k, 1.0));
+            self.starts.push(self.parts.len());
+        }
+        for a in 0..D {
+            for b in a..D {
+                let mut both = [0; D];
+                both[a] += 1;
+                both[b] += 1;
+                let factor = match along {
+                    Some(n) if a == b => n[a] * n[a],
+                    Some(n) => 2.0 * n[a] * n[b],
+                    None => f64::from(u8::from(a == b)),
+                };
+                if let Some(k) = basis.number(both).filter(|_| factor != 0.0) {
+                    self.parts.push((k, factor));
+                }
+            }
+        }
+        self.starts.push(self.parts.len());
+    }
+
     /// Takes all monomials.
-    pub(crate) fn clear(&mut self) {
+    fn clear(&mut self) {
         self.starts.clear();
         self.parts.clear();
     }
 
     /// Takes the polynomials that obey `rows`: for each monomial of degree two less than the order, in the order of
     /// the basis, its coefficient in the Laplacian.
-    pub(crate) fn take<const D: usize>(&mut self, basis: &Basis<D>, rows: &[Coefficients]) {
+    fn take<const D: usize>(&mut self, basis: &Basis<D>, rows: &[Coefficients]) {
         self.clear();
         let exponents = basis.exponents();
         let degree = |e: &[u8; D]| e.iter().sum::<u8>();

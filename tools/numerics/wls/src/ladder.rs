@@ -4,6 +4,7 @@ use crate::basis::{Basis, terms};
 use crate::error::Error;
 use crate::fit::{Fit, Way};
 use crate::functional::{Columns, Condition, Rows};
+use crate::harmonic::Over;
 use crate::judge::tame;
 use crate::moments::Coefficients;
 use crate::plan::{Plan, Rules};
@@ -218,8 +219,8 @@ impl<const D: usize> Bench<'_, D> {
             limit,
             by_room,
         } = trial;
-        let basis = &self.bases[usize::from(order) - 1];
-        self.prepare((target, by_room), basis, work);
+        let basis = self.basis(order, work);
+        self.prepare((target, by_room), order, work);
         let known = work.support.offsets.len() + work.condition_rows.len();
         if known < work.fit.many(basis) {
             work.fit.condition = f64::INFINITY;
@@ -246,19 +247,29 @@ impl<const D: usize> Bench<'_, D> {
         (order, times): (u8, u32),
         work: &mut Work<D>,
     ) -> Option<Made> {
-        let basis = &self.bases[usize::from(order) - 1];
+        let basis = self.basis(order, work);
         if work.support.offsets.len() <= D {
             return None;
         }
-        self.prepare((target, false), basis, work);
+        self.prepare((target, false), order, work);
         if !work.fit.factor_spectrum(basis) || !work.fit.solve(basis, &work.functionals) {
             return None;
         }
         tame(target, work).then(|| self.made(target, (order, times), None, work))
     }
 
+    /// The basis of a fit of an order: of linear polynomials that a condition asks to bow, that of quadratics.
+    fn basis(&self, order: u8, work: &Work<D>) -> &Basis<D> {
+        let bows =
+            |c: &Condition<D>| matches!(c, Condition::Laplacian { .. } | Condition::Drift { .. });
+        let harmonic = work.conditions.contains(&Condition::Harmonic);
+        let bowed = order == 1 && !harmonic && work.conditions.iter().any(bows);
+        &self.bases[usize::from(order) - usize::from(!bowed)]
+    }
+
     /// Loads the fit with the support, the conditions and the functionals.
-    fn prepare(&self, (target, by_room): (&Target<D>, bool), basis: &Basis<D>, work: &mut Work<D>) {
+    fn prepare(&self, (target, by_room): (&Target<D>, bool), order: u8, work: &mut Work<D>) {
+        let basis = self.basis(order, work);
         let rows = Rows {
             basis,
             metric: &target.metric,
@@ -281,8 +292,15 @@ impl<const D: usize> Bench<'_, D> {
         self.weigh((target, by_room), basis.order(), work);
         let offsets = work.support.offsets.as_slice();
         let support = (offsets, work.rooms.as_slice(), work.support.radius);
-        let conditions = (work.condition_rows.as_slice(), work.harmonic.as_slice());
-        work.fit.load(basis, support, conditions);
+        let over = if !work.harmonic.is_empty() {
+            Over::Harmonic(&work.harmonic)
+        } else if basis.order() > order {
+            let side = self.rules.side(target.row);
+            Over::Bowed(side.map(|n| target.metric.upward(n)))
+        } else {
+            Over::All
+        };
+        work.fit.load(basis, support, (&work.condition_rows, over));
     }
 
     /// What the weights of points are multiplied by beside that of their distance; nothing where it is nothing.

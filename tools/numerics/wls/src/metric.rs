@@ -194,6 +194,18 @@ impl<const D: usize> Metric<D> {
         std::array::from_fn(|a| (dx[a] + more * layer.normal[a]) * inverse)
     }
 
+    /// The direction in which the coordinates s rise where offsets do along the unit vector `n`: `n . dx` over the
+    /// coordinates.
+    pub(crate) fn upward(&self, n: [f64; D]) -> [f64; D] {
+        let Some(layer) = &self.layer else {
+            return n;
+        };
+        let less = (layer.ratio.recip() - 1.0) * dot(&layer.normal, &n);
+        let form: [f64; D] = std::array::from_fn(|a| n[a] + less * layer.normal[a]);
+        let length = dot(&form, &form).sqrt();
+        form.map(|x| x / length)
+    }
+
     /// What the derivative along `v` at the offset dx is along the coordinates s: `v . d s/dx L`.
     #[inline]
     pub(crate) fn turned(&self, v: [f64; D], dx: &[f64; D]) -> [f64; D] {

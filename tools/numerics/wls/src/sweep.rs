@@ -146,7 +146,7 @@ fn bench<'a, const D: usize>(
         plan,
         rules,
         columns: Columns::new::<D>(plan.wants),
-        bases: (1..=plan.order).map(Basis::new).collect(),
+        bases: (1..=plan.order.max(2)).map(Basis::new).collect(),
     })
 }
 

@@ -12,6 +12,7 @@ mod conditions;
 mod exact;
 mod folded;
 mod invariant;
+mod linear;
 mod orders;
 mod positive;
 mod singular;
