@@ -1,7 +1,10 @@
-//! Sums over the rows of neighbours in single precision, four numbers at once.
+//! Sums over the rows of neighbours, four numbers at once.
 //!
 //! A sum of differences is taken apart: with the sums D of the weights times a field, the sum of
 //! `w_ab (y_a + y_b) (x_a - x_b)` is `y_a` times that of `w_ab (x_a - x_b)`, plus `D(y) x_a - D(y x)`.
+
+/// Particles per unit of parallel work, where each takes little.
+pub(crate) const GRAIN: usize = 2048;
 
 /// y x and y.
 #[inline]
@@ -19,6 +22,32 @@ pub(crate) fn middle(places: &[[f64; 3]]) -> [f64; 3] {
         }
     }
     std::array::from_fn(|k| 0.5 * (low[k] + high[k]))
+}
+
+/// As [`summed`], in double precision; the weights may come in single.
+#[inline]
+pub(crate) fn summed_double<W: Copy + Into<f64>>(
+    row: &[u32],
+    weight: &[W],
+    field: &[[f64; 4]],
+) -> [f64; 4] {
+    let (mut even, mut odd) = ([0.0; 4], [0.0; 4]);
+    let ((twos, one), (weights, last)) = (row.as_chunks::<2>(), weight.as_chunks::<2>());
+    for ([b, c], [v, w]) in twos.iter().zip(weights) {
+        let (x, y) = (field[*b as usize], field[*c as usize]);
+        let (v, w): (f64, f64) = ((*v).into(), (*w).into());
+        for i in 0..4 {
+            even[i] += v * x[i];
+            odd[i] += w * y[i];
+        }
+    }
+    for (b, w) in one.iter().zip(last) {
+        let (x, w): (_, f64) = (field[*b as usize], (*w).into());
+        for i in 0..4 {
+            even[i] += w * x[i];
+        }
+    }
+    std::array::from_fn(|i| even[i] + odd[i])
 }
 
 /// Sum of `weight` times `field` over the neighbours of a `row`, of every other one on its own, so
@@ -64,6 +93,22 @@ mod tests {
                 }
                 let apart = pressure(0) * gradient + sum[3] * at(0)[i] - sum[i];
                 assert!((apart - direct).abs() < 1e-5, "{apart} {direct}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_precisions_sum_alike() {
+        let field: Vec<[f32; 4]> = (0..7)
+            .map(|k| [k, k * k, 3 - k, 1].map(|x| x as f32))
+            .collect();
+        let double: Vec<_> = field.iter().map(|x| x.map(f64::from)).collect();
+        for row in [&[1, 2, 3, 4, 5][..], &[6, 2], &[3], &[]] {
+            let weight: Vec<f32> = row.iter().map(|b| 0.5 * *b as f32 - 1.0).collect();
+            let sum = summed(row, &weight, &field).map(f64::from);
+            let other = summed_double(row, &weight, &double);
+            for (sum, other) in sum.iter().zip(other) {
+                assert!((sum - other).abs() < 1e-5, "{sum} {other}");
             }
         }
     }

@@ -30,7 +30,7 @@ use rayon::prelude::*;
 use neighbours::ROWS;
 
 use super::lattice::Lattice;
-use super::projection::{Solved, Step, Tolerance};
+use super::step::{Solved, Step, Tolerance};
 use crate::near::{Near, Role, minus, plus, squared};
 use crate::state::Metal;
 

@@ -1,16 +1,20 @@
 //! A step of the motion (Komen 2019, fig. 3.16): prediction by inertia, viscosity and forces,
 //! correction by the pressure, new positions.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::around::Around;
 use super::homogenising::Homogenising;
 use super::noise::Noise;
-use super::projection::{Projection, Solved, Step, Tolerance};
+use super::projection::Projection;
+use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::near::{Near, Role, plus, squared};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, State};
+use crate::sweep::GRAIN;
 
 /// A particle may cross this part of its diameter in one substep.
 const COURANT: f64 = 0.4;
@@ -76,12 +80,15 @@ pub struct Motion {
     parameters: Parameters,
     viscosity: Viscosity,
     noise: Noise,
+    around: Around,
     projection: Projection,
     homogenising: Homogenising,
     predicted: Vec<[f64; 3]>,
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
     spread: Vec<f64>,
+    /// Pressure and 1 for liquid particles, zero for solid ones.
+    carried: Vec<[f64; 2]>,
     solved: Solved,
     substeps: u32,
     speed: f64,
@@ -96,11 +103,13 @@ impl Motion {
             parameters,
             viscosity: Viscosity::new(parameters.viscosity_pa_s, metal),
             noise: Noise::new(squared(gravity).sqrt(), metal),
+            around: Around::default(),
             projection: Projection::new(metal),
             homogenising: Homogenising::new(metal),
             predicted: Vec::new(),
             multiplier: Vec::new(),
             spread: Vec::new(),
+            carried: Vec::new(),
             solved: Solved::default(),
             substeps: 0,
             speed: 0.0,
@@ -110,21 +119,24 @@ impl Motion {
     /// u* = u + dt (g + f/rho + viscous acceleration); solid particles rest.
     fn predict(&mut self, near: &Near, metal: Metal, dt: f64) {
         let gravity = self.parameters.gravity_m_s2.unwrap_or_default();
-        self.predicted.clear();
-        let start =
-            near.role
-                .iter()
-                .zip(&near.velocity)
-                .zip(&near.force)
-                .map(|((role, u), force)| match role {
-                    Role::Liquid => plus(plus(*u, dt, gravity), dt / metal.density, *force),
-                    _ => [0.0; 3],
-                });
-        self.predicted.extend(start);
-        if self.parameters.viscosity_pa_s > 0.0 {
-            self.viscosity.apply(near, dt, &mut self.predicted);
+        let points = near.role.par_iter().zip(&near.velocity).zip(&near.force);
+        points
+            .with_min_len(GRAIN)
+            .map(|((role, u), force)| match role {
+                Role::Liquid => plus(plus(*u, dt, gravity), dt / metal.density, *force),
+                _ => [0.0; 3],
+            })
+            .collect_into_vec(&mut self.predicted);
+        let viscous = self.parameters.viscosity_pa_s > 0.0;
+        if viscous || self.noise.acts() {
+            self.around.sum(near, &near.velocity);
         }
-        self.noise.damp(near, dt, &mut self.predicted);
+        if viscous {
+            let predicted = &mut self.predicted;
+            self.viscosity.apply(near, &self.around, dt, predicted);
+        }
+        let (around, predicted) = (&mut self.around, &mut self.predicted);
+        self.noise.damp(near, around, dt, predicted);
     }
 
     fn substep(&mut self, near: &mut Near, step: Step) {
@@ -143,31 +155,23 @@ impl Motion {
         self.solved.sweeps += solved.sweeps;
         self.solved.density_error = self.solved.density_error.max(solved.density_error);
         std::mem::swap(&mut near.velocity, &mut self.predicted);
-        for (x, u) in near.position.iter_mut().zip(&near.velocity) {
-            *x = plus(*x, dt, *u);
-        }
+        let points = near.position.par_iter_mut().zip(&near.velocity);
+        points
+            .with_min_len(GRAIN)
+            .for_each(|(x, u)| *x = plus(*x, dt, *u));
     }
 
     /// Number of substeps for the fastest particle; an error if it is no longer a flow.
     fn divide(&self, state: &State, dt: f64) -> Result<u32, StageError> {
         let near = &state.near;
-        let fastest =
-            near.velocity
-                .iter()
-                .enumerate()
-                .fold((0, 0.0), |fastest: (usize, f64), (a, u)| {
-                    let square = squared(*u);
-                    // A speed that is no number must not hide.
-                    if square > fastest.1 || square.is_nan() {
-                        (a, square)
-                    } else {
-                        fastest
-                    }
-                });
-        let speed = fastest.1.sqrt();
+        let fastest = fastest(&near.velocity);
+        let speed = fastest.sqrt();
         let limit = f64::from(SUBSTEPS_MAX) * COURANT * state.metal.spacing / dt;
         if speed.is_nan() || speed > limit {
-            let particle = near.id[fastest.0] as usize;
+            let is_it =
+                |u: &[f64; 3]| squared(*u).total_cmp(&fastest).is_eq() || squared(*u).is_nan();
+            let member = near.velocity.iter().position(is_it).unwrap_or(0);
+            let particle = near.id[member] as usize;
             return Err(StageError::Diverged {
                 step: state.step,
                 particle,
@@ -190,15 +194,23 @@ impl Motion {
     fn spread(&mut self, near: &Near) {
         let own = near.kernel.value(0.0);
         let (virial, role) = (&near.virial, &near.role);
+        let points = virial.par_iter().zip(role).with_min_len(GRAIN);
+        points
+            .map(|(p, role)| match role {
+                Role::Liquid => [*p, 1.0],
+                _ => [0.0; 2],
+            })
+            .collect_into_vec(&mut self.carried);
+        let carried = &self.carried;
         self.spread.resize(near.len(), 0.0);
         near.each_row(&mut self.spread, |a, row, out| {
             *out = virial[a];
             if role[a] == Role::Liquid {
-                let (mut sum, mut weight) = (own * virial[a], own);
-                for (b, w) in row.values().filter(|(b, _)| role[*b] == Role::Liquid) {
-                    sum += w * virial[b];
-                    weight += w;
-                }
+                let start = [own * virial[a], own];
+                let [sum, weight] = row.values().fold(start, |[sum, weight], (b, w)| {
+                    let [p, liquid] = carried[b];
+                    [sum + w * p, weight + w * liquid]
+                });
                 *out = sum / weight;
             }
         });
@@ -226,6 +238,12 @@ impl Motion {
             }
         }
     }
+}
+
+/// Largest square of a speed \[m2/s2\]; not a number where one is not.
+fn fastest(velocity: &[[f64; 3]]) -> f64 {
+    let squares = velocity.par_iter().with_min_len(GRAIN).map(|u| squared(*u));
+    squares.reduce(|| 0.0, |a, b| if a.is_nan() || a > b { a } else { b })
 }
 
 impl Stage for Motion {
@@ -275,13 +293,7 @@ impl Stage for Motion {
             }
             self.substep(&mut state.near, step);
         }
-        self.speed = state
-            .near
-            .velocity
-            .iter()
-            .map(|u| squared(*u))
-            .fold(0.0, f64::max)
-            .sqrt();
+        self.speed = fastest(&state.near.velocity).sqrt();
         self.scatter(state, dt);
         Ok(())
     }
@@ -315,7 +327,9 @@ impl Stage for Motion {
         self.projection.bytes()
             + self.homogenising.bytes()
             + self.noise.bytes()
+            + self.around.bytes()
             + 24 * self.predicted.capacity()
+            + 16 * self.carried.capacity()
             + 8 * (self.multiplier.capacity() + self.spread.capacity())
     }
 

@@ -1,10 +1,12 @@
 //! Motion of the liquid: viscosity and forces predict, a pressure corrects.
 
+pub mod around;
 pub mod homogenising;
 pub mod integration;
 pub mod lattice;
 pub mod noise;
 pub mod projection;
+pub mod step;
 pub mod viscosity;
 
 pub use integration::{Method, Motion, Parameters};

@@ -15,9 +15,13 @@
 //! symmetric: momentum is kept, and energy can only fall. Without gravity nothing is packed and nothing
 //! damped.
 
+use rayon::prelude::*;
+
+use super::around::Around;
 use super::lattice::Lattice;
-use crate::near::{Near, Role, minus, plus};
+use crate::near::{Near, plus};
 use crate::state::Metal;
+use crate::sweep::GRAIN;
 
 /// Largest part of a mode that a step may take.
 const PART: f64 = 0.5;
@@ -43,17 +47,24 @@ impl Noise {
         }
     }
 
-    /// Adds what `near.velocity` loses in `dt` \[s\] to `predicted`.
-    pub fn damp(&mut self, near: &Near, dt: f64, predicted: &mut [[f64; 3]]) {
-        if self.rate <= 0.0 {
+    /// True if there is anything to damp.
+    #[must_use]
+    pub fn acts(&self) -> bool {
+        self.rate > 0.0
+    }
+
+    /// Adds what `near.velocity` loses in `dt` \[s\] to `predicted`; `around` holds the sums of this
+    /// velocity, and then those of L u.
+    pub fn damp(&mut self, near: &Near, around: &mut Around, dt: f64, predicted: &mut [[f64; 3]]) {
+        if !self.acts() {
             return;
         }
         let part = -(self.rate * dt).min(PART);
         self.first.clear();
         self.first.resize(near.len(), [0.0; 3]);
-        let volume = self.volume;
-        difference(near, &near.velocity, volume, &mut self.first);
-        difference(near, &self.first, part * volume, predicted);
+        difference(&near.velocity, around, self.volume, &mut self.first);
+        around.sum(near, &self.first);
+        difference(&self.first, around, part * self.volume, predicted);
     }
 
     /// Bytes held.
@@ -64,14 +75,11 @@ impl Noise {
 }
 
 /// Adds `scale sum W (u_a - u_b)` over liquid pairs to `out`.
-fn difference(near: &Near, field: &[[f64; 3]], scale: f64, out: &mut [[f64; 3]]) {
-    near.each_row(out, |a, row, out| {
-        if near.role[a] == Role::Liquid {
-            let own = field[a];
-            let liquid = row.values().filter(|(b, _)| near.role[*b] == Role::Liquid);
-            let sum = liquid.fold([0.0; 3], |sum, (b, w)| plus(sum, w, minus(own, field[b])));
-            *out = plus(*out, scale, sum);
-        }
+fn difference(field: &[[f64; 3]], around: &Around, scale: f64, out: &mut [[f64; 3]]) {
+    let rows = out.par_iter_mut().zip(field).zip(&around.sums);
+    rows.with_min_len(GRAIN).for_each(|((out, own), sum)| {
+        let difference = std::array::from_fn(|i| sum[3] * own[i] - sum[i]);
+        *out = plus(*out, scale, difference);
     });
 }
 
@@ -106,7 +114,9 @@ mod tests {
         let mut noise = Noise::new(9.8, METAL);
         noise.rate *= 1e-6;
         let mut change = vec![[0.0; 3]; state.near.len()];
-        noise.damp(&state.near, 1.0, &mut change);
+        let mut around = Around::default();
+        around.sum(&state.near, &state.near.velocity);
+        noise.damp(&state.near, &mut around, 1.0, &mut change);
         for x in change.iter_mut().flatten() {
             *x *= 1e6;
         }

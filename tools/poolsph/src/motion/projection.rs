@@ -20,16 +20,17 @@
 //! momentum is kept to round-off. Sums of differences over a row are taken apart, so that a pair
 //! costs four products: what cancels is larger than what is left by the size L of the cloud over
 //! h. The error in C, 1e-7 (L/h) times the share dt^2 J acc, stays far below the tolerance; the
-//! part by u* is in double precision.
+//! part by u* is summed in the same way in double precision.
 
 use rayon::prelude::*;
 
 use neighbours::ROWS;
 
 use super::lattice::Lattice;
+use super::step::{Solved, Step, Tolerance};
 use crate::near::{Near, Role, dot, minus, plus, squared};
 use crate::state::Metal;
-use crate::sweep::{carried, middle, summed};
+use crate::sweep::{GRAIN, carried, middle, summed, summed_double};
 
 /// Step of the gradient in parts of what the stiffest mode of the filled lattice allows;
 /// disordered clouds are somewhat stiffer.
@@ -47,40 +48,6 @@ const RELEASE: f64 = 0.01;
 /// much by themselves.
 const YIELD: f64 = 10.0;
 
-/// Particles per unit of parallel work, where each takes little.
-const GRAIN: usize = 2048;
-
-/// When to stop.
-#[derive(Debug, Clone, Copy)]
-pub struct Tolerance {
-    /// Mean over the liquid of the excess of C + dt J u, and of its lack where p > 0.
-    pub density: f64,
-    /// Fewest sweeps.
-    pub sweeps_min: u32,
-    /// Most sweeps.
-    pub sweeps_max: u32,
-}
-
-/// The step to take.
-#[derive(Debug, Clone, Copy)]
-pub struct Step {
-    /// The metal.
-    pub metal: Metal,
-    /// \[s\].
-    pub dt: f64,
-    /// Part of the whole step that this one is: weight of its pressure in the virial.
-    pub share: f64,
-}
-
-/// How a solve ended.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Solved {
-    /// Sweeps made.
-    pub sweeps: u32,
-    /// What [`Tolerance::density`] bounds, predicted for the end of the step.
-    pub density_error: f64,
-}
-
 /// Scratch of the solver; all slices `[m]` in the order of [`Near`].
 #[derive(Debug, Clone)]
 pub struct Projection {
@@ -93,8 +60,12 @@ pub struct Projection {
     tried: Vec<[f32; 4]>,
     /// acc and acc . x, which give the row of J acc in the same way.
     field: Vec<[f32; 4]>,
-    /// Sum of grad W, and of (dW/dr)/r.
-    sums: Vec<[f32; 4]>,
+    /// Middle of the cloud \[m\].
+    origin: [f64; 3],
+    /// u* and u* . x, x from the middle on.
+    moved: Vec<[f64; 4]>,
+    /// Sum of grad W.
+    sums: Vec<[f32; 3]>,
     advanced: Vec<f32>,
     diagonal: Vec<f32>,
     residual: Vec<f32>,
@@ -133,6 +104,8 @@ impl Projection {
             place: Vec::new(),
             tried: Vec::new(),
             field: Vec::new(),
+            origin: [0.0; 3],
+            moved: Vec::new(),
             sums: Vec::new(),
             advanced: Vec::new(),
             diagonal: Vec::new(),
@@ -198,7 +171,7 @@ impl Projection {
         self.advanced.resize(n, 0.0);
         self.residual.resize(n, 0.0);
         self.field.resize(n, [0.0; 4]);
-        self.sums.resize(n, [0.0; 4]);
+        self.sums.resize(n, [0.0; 3]);
         self.partial.resize(n.div_ceil(ROWS), Partial::default());
         self.diagonal.resize(n, 0.0);
         self.place.resize(n, [0.0; 3]);
@@ -206,14 +179,16 @@ impl Projection {
         let scale = dt * dt * volume * force;
         let least = DIAGONAL_LEAST * self.lattice.gradient_squared;
         let origin = middle(&near.position);
+        self.origin = origin;
         self.diagonal
             .par_iter_mut()
             .zip(&mut self.pressure)
             .zip(&mut self.place)
             .zip(&mut self.tried)
+            .zip(&mut self.sums)
             .enumerate()
             .with_min_len(GRAIN)
-            .for_each(|(a, (((diagonal, pressure), place), tried))| {
+            .for_each(|(a, ((((diagonal, pressure), place), tried), sum))| {
                 // The stiffest mode over the diagonal grows with the number of neighbours.
                 let scale = scale * (volume * near.number[a]).max(1.0);
                 let squares = near.squares[a];
@@ -227,45 +202,49 @@ impl Projection {
                 if *diagonal <= 0.0 {
                     *pressure = 0.0;
                 }
+                *sum = near.gradient[a].map(|x| x as f32);
                 *place = minus(near.position[a], origin).map(|x| x as f32);
                 *tried = carried(*place, *pressure);
             });
     }
 
-    /// Fixed part of the residual, C + dt J u*. Where solid metal is packed too densely by itself, no
-    /// liquid could mend it, and C leaves room for a layer of liquid all the same.
+    /// Fixed part of the residual, C + dt J u*, with
+    /// (J u)_a = u_a . sum of grad W - D(u) . x_a + D(u . x).
+    ///
+    /// Where solid metal is packed too densely by itself, no liquid could mend it, and C leaves room
+    /// for a layer of liquid all the same.
     fn start(&mut self, near: &Near, predicted: &[[f64; 3]], step: Step) {
         let (volume, beside) = (self.scales.volume, self.lattice.beside);
         let (scale, release) = (step.dt * volume, RELEASE * step.share);
-        let own = near.kernel.value(0.0);
+        let (own, origin) = (near.kernel.value(0.0), self.origin);
+        let points = predicted.par_iter().zip(&near.position);
+        points
+            .with_min_len(GRAIN)
+            .map(|(u, x)| [u[0], u[1], u[2], dot(*u, minus(*x, origin))])
+            .collect_into_vec(&mut self.moved);
+        let moved = &self.moved;
         self.residual
             .par_chunks_mut(ROWS)
-            .zip(self.sums.par_chunks_mut(ROWS))
             .zip(near.lists.chunks())
             .zip(&near.pairs)
-            .for_each(|(((residual, sums), chunk), pairs)| {
-                for (k, (residual, sums)) in residual.iter_mut().zip(sums).enumerate() {
-                    let a = chunk.first() + k;
-                    let (x, u) = (near.position[a], predicted[a]);
-                    let (mut rate, mut total, mut solid) = (0.0, 0.0, own);
-                    let range = chunk.range(k);
-                    let values = pairs.slope[range.clone()].iter().zip(&pairs.value[range]);
-                    for (&b, (&slope, &value)) in chunk.row(k).iter().zip(values) {
-                        let b = b as usize;
-                        let (y, v) = (near.position[b], predicted[b]);
-                        solid += f64::from(u8::from(near.role[b] != Role::Liquid)) * value;
-                        rate += f64::from(slope) * dot(minus(x, y), minus(u, v));
-                        total += f64::from(slope);
+            .for_each(|((residual, chunk), pairs)| {
+                for (k, residual) in residual.iter_mut().enumerate() {
+                    let (a, range, row) = (chunk.first() + k, chunk.range(k), chunk.row(k));
+                    let sum = summed_double(row, &pairs.slope[range.clone()], moved);
+                    let (x, u) = (minus(near.position[a], origin), predicted[a]);
+                    let rate = dot(u, near.gradient[a]) - dot([sum[0], sum[1], sum[2]], x) + sum[3];
+                    let mut full = 1.0;
+                    if near.role[a] != Role::Liquid {
+                        let beside_it = row.iter().zip(&pairs.value[range]);
+                        let solid = beside_it.fold(own, |solid, (&b, value)| {
+                            let liquid = near.role[b as usize] == Role::Liquid;
+                            solid + if liquid { 0.0 } else { *value }
+                        });
+                        let over = (volume * solid - 1.0).max(0.0);
+                        full += over + (YIELD * over).min(volume * beside);
                     }
-                    let over = match near.role[a] {
-                        Role::Liquid => 0.0,
-                        _ => (volume * solid - 1.0).max(0.0),
-                    };
-                    let full = 1.0 + over + (YIELD * over).min(volume * beside);
                     let excess = (volume * near.number[a] - full).min(release);
                     *residual = (excess + scale * rate) as f32;
-                    let [gx, gy, gz] = near.gradient[a].map(|x| x as f32);
-                    *sums = [gx, gy, gz, total as f32];
                 }
             });
     }
@@ -391,6 +370,6 @@ impl Projection {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.tried.capacity() * (4 * 4 + 12 + 3 * 16)
+        self.tried.capacity() * (4 * 4 + 2 * 12 + 2 * 16 + 32)
     }
 }

@@ -147,7 +147,9 @@ fn a_parabola_feels_its_curvature() {
     state.gather();
     let near = &state.near;
     let mut change = vec![[0.0; 3]; near.len()];
-    viscosity::Viscosity::new(0.004, METAL).apply(near, 1.0, &mut change);
+    let mut around = around::Around::default();
+    around.sum(near, &near.velocity);
+    viscosity::Viscosity::new(0.004, METAL).apply(near, &around, 1.0, &mut change);
     let exact = 2.0 * slope * 0.004 / METAL.density;
     let inner = |x: &[f64; 3]| x.iter().all(|x| (x / METAL.spacing - 4.0).abs() < 2.0);
     let mut seen = 0;

@@ -11,9 +11,12 @@
 //! Solid neighbours stand still: the wall sticks.
 
 use kernels::CubicSpline;
+use rayon::prelude::*;
 
+use super::around::Around;
 use crate::near::{Near, Role, plus};
 use crate::state::Metal;
+use crate::sweep::GRAIN;
 
 /// Newtonian viscosity, one mu for all liquid.
 #[derive(Debug, Clone, Copy)]
@@ -54,18 +57,23 @@ impl Viscosity {
         self.limit
     }
 
-    /// Adds `dt` times the viscous acceleration of `near.velocity` to `predicted`.
-    pub fn apply(&self, near: &Near, dt: f64, predicted: &mut [[f64; 3]]) {
-        let velocity = &near.velocity;
-        near.each_row(predicted, |a, row, out| {
-            if near.role[a] == Role::Liquid {
-                let own = velocity[a];
-                let sum = row.values().fold([0.0; 3], |sum, (b, w)| {
-                    let other = velocity[b];
-                    std::array::from_fn(|i| sum[i] + w * (other[i] - own[i]))
-                });
-                *out = plus(*out, dt * self.scale, sum);
-            }
-        });
+    /// Adds `dt` times the viscous acceleration of `near.velocity` to `predicted`; `around` holds the
+    /// sums of this velocity. The velocity of solid neighbours is zero.
+    pub fn apply(&self, near: &Near, around: &Around, dt: f64, predicted: &mut [[f64; 3]]) {
+        let own = near.kernel.value(0.0);
+        let rows = near.velocity.par_iter().zip(&near.role).zip(&near.number);
+        predicted
+            .par_iter_mut()
+            .zip(&around.sums)
+            .zip(rows)
+            .with_min_len(GRAIN)
+            .for_each(|((out, sum), ((u, role), number))| {
+                if *role == Role::Liquid {
+                    // Without neighbours the number is zero.
+                    let weight = (number - own).max(0.0);
+                    let sum = std::array::from_fn(|i| sum[i] - weight * u[i]);
+                    *out = plus(*out, dt * self.scale, sum);
+                }
+            });
     }
 }
