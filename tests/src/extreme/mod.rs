@@ -93,7 +93,8 @@ pub enum Outcome {
     Refused,
     /// Finished with smaller steps than asked for.
     Substepped,
-    /// Stopped and named step, place and quantity.
+    /// Stopped and named step, place and quantity; or gave up an iteration, and named equation and
+    /// place.
     DivergedDetected,
     /// A crash, an unnamed failure or a value that is not a number.
     Failed,

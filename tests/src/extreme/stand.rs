@@ -126,6 +126,7 @@ impl Stand<'_> {
         let message = String::from_utf8_lossy(&output.stderr);
         let outcome = match output.status.code() {
             Some(0 | 3) if !numbers_only(self.programs, &artefact)? => Outcome::Failed,
+            Some(3) if not_converged(&record) => Outcome::DivergedDetected,
             Some(0 | 3) if record["substepped"].as_bool() == Some(true) => Outcome::Substepped,
             Some(0 | 3) => Outcome::Stable,
             Some(2) => Outcome::Refused,
@@ -154,6 +155,13 @@ impl Stand<'_> {
             broken,
         })
     }
+}
+
+/// Whether an iteration gave up, and said so.
+fn not_converged(record: &Value) -> bool {
+    let warnings = record["warnings"].as_array().into_iter().flatten();
+    let mut told = warnings.filter_map(Value::as_str);
+    told.any(|warning| warning.starts_with("not converged"))
 }
 
 /// The step that a scene asks for, wherever its method keeps it.
@@ -227,5 +235,15 @@ mod tests {
                 .contains("energy_balance")
         );
         assert!(lost(&closing(Value::Null, 0.0)).is_some());
+    }
+
+    #[test]
+    fn an_iteration_that_gave_up_is_told_from_one_that_warns() {
+        let record = |warning: &str| json!({"warnings": ["little is known here", warning]});
+        assert!(not_converged(&record(
+            "not converged after 1501 iterations"
+        )));
+        assert!(!not_converged(&record("the surface is coarse")));
+        assert!(!not_converged(&json!({})));
     }
 }
