@@ -15,7 +15,7 @@ const NEAR: f64 = 0.01;
 /// What its values then differ by.
 const JUMP: f64 = 1.5;
 /// Relaxation of a cell that has been calmed as far as it goes.
-const CALM: f64 = 0.11;
+const CALM: f64 = 0.011;
 
 /// The greatest residual of the last iterations.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

@@ -26,8 +26,9 @@ const CALMER: f64 = 0.7;
 const IN_CIRCLES: u8 = 3;
 /// Factor on that of all others.
 const BOLDER: f64 = 1.02;
-/// Least factor.
-const CALMEST: f64 = 0.1;
+/// Least factor: where flux begins to melt, what it conducts may answer twenty times as far as its
+/// temperature goes.
+const CALMEST: f64 = 0.01;
 /// Part of its temperature that a cell may lose in one iteration.
 const MOST_FALL: f64 = 0.8;
 
