@@ -59,9 +59,10 @@ impl<'a> Course<'a> {
         met && arc.iteration > 2 && self.steps.over()
     }
 
-    /// Whether no more is gained at the last current, however slow.
+    /// Whether no more is gained at the last current, however slow. What falls goes on, even where it
+    /// was once smaller: an arc can pass from one state to another.
     fn stagnates(&self) -> bool {
-        self.steps.over() && self.pace.stagnates()
+        self.steps.over() && self.pace.stagnates() && !self.trail.falls()
     }
 
     /// Acts on the residuals of an iteration: next current, pace.

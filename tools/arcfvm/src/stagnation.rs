@@ -10,6 +10,8 @@ use crate::solver::Arc;
 const LOOK_BACK: usize = 100;
 /// Iterations whose mean is compared with that of as many others.
 const MEAN: usize = 20;
+/// What a residual that falls leaves of itself in [`LOOK_BACK`] iterations.
+const FALLING: f64 = 0.8;
 /// Part of the temperature within which a property may jump.
 const NEAR: f64 = 0.01;
 /// What its values then differ by.
@@ -35,12 +37,11 @@ impl Trail {
         self.next = (self.next + 1) % LOOK_BACK;
     }
 
-    /// How it went, in words.
-    #[must_use]
-    pub fn told(&self) -> String {
+    /// What the last iterations have left of it, as a factor in [`LOOK_BACK`] of them.
+    fn trend(&self) -> Option<f64> {
         let n = self.values.len();
         if n < LOOK_BACK {
-            return format!("only {n} iterations were made");
+            return None;
         }
         let at = |k: usize| self.values[(self.next + k) % n];
         let mean = |from: usize| {
@@ -49,10 +50,24 @@ impl Trail {
                 .sum();
             (sum / MEAN as f64).exp()
         };
-        let trend = mean(n - MEAN) / mean(0);
+        Some(mean(n - MEAN) / mean(0))
+    }
+
+    /// Whether it is falling now, from wherever it was.
+    #[must_use]
+    pub fn falls(&self) -> bool {
+        self.trend().is_some_and(|trend| trend < FALLING)
+    }
+
+    /// How it went, in words.
+    #[must_use]
+    pub fn told(&self) -> String {
+        let Some(trend) = self.trend() else {
+            return format!("only {} iterations were made", self.values.len());
+        };
         let most = self.values.iter().copied().fold(0.0, f64::max);
         let least = self.values.iter().copied().fold(f64::MAX, f64::min);
-        if trend < 0.8 {
+        if trend < FALLING {
             let factor = 1.0 / trend;
             format!(
                 "it falls by a factor of {factor:.1} in {LOOK_BACK} iterations and needs more of them"
@@ -156,6 +171,12 @@ mod tests {
     #[test]
     fn falling_growing_swinging_and_standing_are_told_apart() {
         assert!(of(|k| 0.98_f64.powi(k as i32)).starts_with("it falls"));
+        let falls = |q: f64| {
+            let mut trail = Trail::default();
+            (0..250).for_each(|k| trail.push(q.powi(k)));
+            trail.falls()
+        };
+        assert!(falls(0.99) && !falls(0.999) && !falls(1.01));
         assert!(of(|k| 1.01_f64.powi(k as i32)).starts_with("it grew"));
         assert!(of(|k| 1.0 + 0.9 * (0.7 * k as f64).sin()).starts_with("it swings"));
         assert!(of(|_| 3e-4).starts_with("it stands still at 3.0e-4"));
