@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::material::Law;
+use crate::material::{Law, Material};
 use crate::residual::{EQUATIONS, Residuals, Stop};
 use crate::solver::Arc;
 
@@ -16,6 +16,10 @@ const FALLING: f64 = 0.8;
 const NEAR: f64 = 0.01;
 /// What its values then differ by.
 const JUMP: f64 = 1.5;
+/// Part of the greatest value of a property below which a jump does no harm.
+const COUNTS: f64 = 0.01;
+/// Number of laws that are looked at.
+const LAWS: usize = 5;
 /// Relaxation of a cell that has been calmed as far as it goes.
 const CALM: f64 = 0.011;
 
@@ -122,38 +126,84 @@ pub fn told(
             residuals.limited
         );
     }
-    if let Some(why) = cell.and_then(|k| at_cell(arc, k)) {
+    let greatest = greatest(arc);
+    let why = cell.and_then(|k| at_cell(arc, k, &greatest));
+    if let Some(why) = why.or_else(|| elsewhere(arc, &greatest)) {
         text += &format!("; {why}");
     }
     text
 }
 
-/// What is special about a cell: a property that jumps, or a temperature that alternates.
-fn at_cell(arc: &Arc, k: usize) -> Option<String> {
-    let (grid, t) = (&arc.case.grid, arc.temperature()[k]);
-    let (r, z) = (grid.rc[k % grid.nr], grid.zc[k / grid.nr]);
-    let material = arc.case.of(k);
-    let laws: [(&str, &Option<Law>); 5] = [
+/// What a jump is looked for in.
+fn laws(material: &Material) -> [(&'static str, &Option<Law>); LAWS] {
+    [
         ("electric conductivity", &material.electric_conductivity),
         ("thermal conductivity", &material.thermal_conductivity),
         ("density", &material.density),
         ("viscosity", &material.viscosity),
         ("net emission", &material.net_emission),
-    ];
-    for (name, law) in laws {
-        let Some(law) = law else { continue };
-        let [below, above] = [1.0 - NEAR, 1.0 + NEAR].map(|f| law.at(r, z, f * t));
-        let ratio = (above / below).max(below / above);
-        if ratio > JUMP && ratio.is_finite() {
-            let part = 100.0 * NEAR;
-            return Some(format!(
-                "the {name} changes by a factor of {ratio:.1} within {part:.0} % of the temperature there"
-            ));
+    ]
+}
+
+/// Values of a law at the temperature of cell `k`, and as far below and above as counts as near.
+fn around(arc: &Arc, k: usize, law: &Law) -> [f64; 3] {
+    let (grid, t) = (&arc.case.grid, arc.temperature()[k]);
+    let (r, z) = (grid.rc[k % grid.nr], grid.zc[k / grid.nr]);
+    [1.0, 1.0 - NEAR, 1.0 + NEAR].map(|part| law.at(r, z, part * t))
+}
+
+/// The greatest value of each law of each material.
+fn greatest(arc: &Arc) -> Vec<[f64; LAWS]> {
+    let mut greatest = vec![[0.0_f64; LAWS]; arc.case.materials.len()];
+    for (k, material) in arc.case.material.iter().enumerate() {
+        let found = greatest[*material].iter_mut();
+        for (most, (_, law)) in found.zip(laws(arc.case.of(k))) {
+            if let Some(law) = law {
+                *most = most.max(around(arc, k, law)[0]);
+            }
         }
+    }
+    greatest
+}
+
+/// The property that changes most near the temperature of cell `k`, and by which factor; properties that
+/// are negligible there do not count.
+fn jump(arc: &Arc, k: usize, greatest: &[[f64; LAWS]]) -> Option<(&'static str, f64)> {
+    let most = greatest[arc.case.material[k]];
+    let jumps = laws(arc.case.of(k))
+        .into_iter()
+        .zip(most)
+        .filter_map(|((name, law), most)| {
+            let [_, below, above] = around(arc, k, law.as_ref()?);
+            let ratio = (above / below).max(below / above);
+            let counts = below.max(above) > COUNTS * most;
+            (ratio > JUMP && ratio.is_finite() && counts).then_some((name, ratio))
+        });
+    jumps.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// What is special about a cell: a property that jumps, or a temperature that alternates.
+fn at_cell(arc: &Arc, k: usize, greatest: &[[f64; LAWS]]) -> Option<String> {
+    if let Some((name, ratio)) = jump(arc, k, greatest) {
+        let part = 100.0 * NEAR;
+        return Some(format!(
+            "the {name} changes by a factor of {ratio:.1} within {part:.0} % of the temperature there"
+        ));
     }
     let calm = arc.heating.as_ref().map_or(1.0, |h| h.energy.calm[k]);
     (calm < CALM)
         .then(|| "its temperature alternates however little of a change is taken".to_owned())
+}
+
+/// The property that jumps most in any cell.
+fn elsewhere(arc: &Arc, greatest: &[[f64; LAWS]]) -> Option<String> {
+    let jumps = (0..arc.case.grid.len()).filter_map(|k| Some((k, jump(arc, k, greatest)?)));
+    let (k, (name, ratio)) = jumps.max_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
+    let (own, t, part) = (&arc.case.of(k).name, arc.temperature()[k], 100.0 * NEAR);
+    Some(format!(
+        "in {} ({own}, {t:.0} K) the {name} changes by a factor of {ratio:.1} within {part:.0} % of the temperature",
+        arc.case.place(k)
+    ))
 }
 
 #[cfg(test)]
