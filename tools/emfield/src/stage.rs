@@ -116,6 +116,9 @@ fn solve<const D: usize, const K: usize>(
     output::write(scene, cloud, &samples, (0.0, &found), session)
 }
 
+/// Difference of the ways of a force over its size from which it is a warning that matters; less is a note.
+const MATTERS: f64 = 0.2;
+
 /// Says which forces are in doubt: of each the largest of all instants.
 fn tell(doubts: Vec<Doubt>, session: &mut Session) {
     let mut worst: Vec<Doubt> = Vec::new();
@@ -126,7 +129,13 @@ fn tell(doubts: Vec<Doubt>, session: &mut Session) {
             None => worst.push(doubt),
         }
     }
-    worst.into_iter().for_each(|doubt| session.warn(doubt.what));
+    for doubt in worst {
+        if doubt.share > MATTERS {
+            session.warn(doubt.what);
+        } else {
+            session.note(doubt.what);
+        }
+    }
 }
 
 fn shown(scene: &Scene, cloud: &Cloud, enclosing: &[Enclosing]) -> Plan {

@@ -24,6 +24,8 @@ use crate::surface::traction::{EPS0, stress};
 const APART: f64 = 0.05;
 /// What stresses come to without their directions counts as a force in this part.
 const CANCELLED: f64 = 0.1;
+/// Forces of currents that come to less than this part of all stresses on their conductors are not compared alone.
+const WEAK: f64 = 0.01;
 
 /// A force in several ways.
 pub(super) struct Ways<'a> {
@@ -258,10 +260,12 @@ impl<const D: usize> Setting<'_, D> {
             };
             all.doubt(self.scene.geometry)
         };
-        // The stress is that of the sources too, whose sum over points is not nothing.
+        // The stress is that of the sources too, whose sum over points is not nothing. Beside them weak currents are noise.
         let all = [volume.clone(), stress].into_iter().chain(coil.clone());
-        let found = doubt(all.collect(), gross.max(self.stresses(fields)));
-        found.or_else(|| doubt(vec![volume, coil?], gross))
+        let most = self.stresses(fields);
+        let found = doubt(all.collect(), gross.max(most));
+        let pair = || doubt(vec![volume, coil?], gross);
+        found.or_else(|| (gross > WEAK * most).then(pair).flatten())
     }
 
     /// What the stresses on surfaces of conductors come to without their directions \[N\].
