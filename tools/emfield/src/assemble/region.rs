@@ -111,3 +111,46 @@ pub(crate) fn region<const D: usize>(
     }
     region
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solve::diffusion::{Conductors, Unknown};
+    use crate::solve::sides::{Form, Sides};
+
+    /// What stands before the own value and before its rate in a row of an interface have opposite signs, or the value
+    /// grows by itself: slopes of quartics on boxes of a few spacings leaned on their own points with the sign of others.
+    #[test]
+    fn no_point_of_a_surface_grows_by_itself() {
+        for (jitter, order) in [(0.0, 3), (0.0, 4), (0.3, 4)] {
+            let scene = format!(
+                r#"{{"geometry": "space", "domain": {{"sphere": {{"centre_m": [0, 0, 0], "radius_m": 9}}}},
+                "bodies": [{{"name": "a", "conductivity_s_m": 1e7,
+                    "shape": {{"box": {{"min_m": [-3.6, -1.8, -1.8], "max_m": [0, 1.8, 1.8]}}}}}},
+                  {{"name": "b", "conductivity_s_m": 1e7,
+                    "shape": {{"box": {{"min_m": [0, -1.8, -1.8], "max_m": [3.6, 1.8, 1.8]}}}}}}],
+                "eddy_currents": {{"harmonic": {{"frequency_hz": 1}}, "applied_flux_density_t": [0, 0, 1]}},
+                "points": {{"spacing_m": 1, "layers": {{"first_m": 0.3}}, "jitter": {jitter}, "seed": 1}}}}"#
+            );
+            let scene: Scene = serde_json::from_str(&scene).unwrap();
+            let cloud = Cloud::new(&scene).unwrap();
+            let region: Region<3> = region(&scene, &cloud, &|_| false);
+            let form = Form {
+                order,
+                ..Form::default()
+            };
+            let sides = Sides::new(&region, &form).unwrap();
+            let conductors = Conductors {
+                mu_sigma: vec![0.0, 1.0, 1.0],
+            };
+            let rows = conductors.rows(&region, &sides, Unknown::Potential);
+            let rates = conductors.rates(&region, &sides, Unknown::Potential);
+            for face in &region.faces {
+                let i = face.point as usize;
+                let (own, rate) = (rows.diagonal(i), rates[i]);
+                let place = region.places[i];
+                assert!(own * rate < 0.0, "order {order}: {own} {rate} at {place:?}");
+            }
+        }
+    }
+}

@@ -7,9 +7,10 @@ use crate::search::Target;
 /// usual, and more come from points that tell little.
 const TAME: f64 = 1e3;
 /// Weights of a one-sided derivative of the sign of the own one add up to this part of it at most: those of a flat surface
-/// have none, those beside edges up to 7 times as many; in a narrow wedge, whose points tell little of the way out of its
-/// surfaces, the own one has the sign of the others.
-const LEANS: f64 = 10.0;
+/// have none with quadratics and up to three times as many with quartics, those beside edges up to 7 times as many; in a
+/// narrow wedge, whose points tell little of the way out of its surfaces, or where quartics have few points to spare, the own
+/// one has the sign of the others.
+pub(crate) const LEANS: f64 = 10.0;
 
 impl<const D: usize> Bench<'_, D> {
     /// Weights of the Laplacian that have the sign of the own one, over that; nothing where none is wanted.
@@ -32,16 +33,18 @@ impl<const D: usize> Bench<'_, D> {
         }
     }
 
-    /// Whether a one-sided derivative of quadratics leans on its own point with the sign of the others. That of higher
-    /// orders may: lowered here and there, slopes on both sides of a gap no longer agree.
-    pub(crate) fn leans(&self, target: &Target<D>, order: u8, work: &Work<D>) -> bool {
-        let judged = order == 2 && self.plan.order == 2 && self.plan.lowest() < 2;
+    /// Weights of a one-sided derivative that have the sign of the own one, over that; without bound where the own one has
+    /// the sign of the others, nothing where no derivative is one-sided. Quadratics that stand in for a higher order are
+    /// not judged: nothing is left to stand in for them.
+    pub(crate) fn leaning(&self, target: &Target<D>, order: u8, work: &Work<D>) -> f64 {
+        let judged =
+            self.plan.lowest() < 2 && (order > 2 || order == self.plan.order && order == 2);
         let (Some(gradient), Some(own), Some(side)) = (
             self.columns.gradient.filter(|_| judged),
             work.support.own.filter(|_| self.plan.interpolating),
             self.rules.side(target.row),
         ) else {
-            return false;
+            return 0.0;
         };
         let points = work.support.offsets.len();
         let weight = |j: usize| -> f64 {
@@ -50,7 +53,13 @@ impl<const D: usize> Bench<'_, D> {
         };
         let others = (0..points).filter(|j| *j != own);
         let wrong: f64 = others.map(|j| (-weight(j)).max(0.0)).sum();
-        wrong > LEANS * (-weight(own)).max(0.0)
+        let lean = wrong / (-weight(own)).max(0.0);
+        if lean.is_nan() { 0.0 } else { lean }
+    }
+
+    /// Whether that is more than serves.
+    pub(crate) fn leans(&self, target: &Target<D>, order: u8, work: &Work<D>) -> bool {
+        order == 2 && self.leaning(target, order, work) > LEANS
     }
 }
 

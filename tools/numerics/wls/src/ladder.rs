@@ -3,9 +3,8 @@
 use crate::basis::{Basis, terms};
 use crate::error::Error;
 use crate::fit::{Fit, Way};
-use crate::functional::{Columns, Condition, Rows};
-use crate::harmonic::Over;
-use crate::judge::tame;
+use crate::functional::{Columns, Condition};
+use crate::judge::{LEANS, tame};
 use crate::moments::Coefficients;
 use crate::plan::{Plan, Rules};
 use crate::positive;
@@ -47,6 +46,26 @@ struct Trial {
     by_room: bool,
 }
 
+/// What an order has come to where no support serves.
+struct Tried {
+    /// Least condition number, and how often that support was enlarged.
+    best: (f64, u32),
+    /// Least unevenness of a Laplacian.
+    evenest: Option<(f64, Trial)>,
+    /// Least leaning of a one-sided derivative.
+    leanest: Option<(f64, Trial)>,
+}
+
+impl Tried {
+    fn new(from: u32) -> Self {
+        Self {
+            best: (f64::INFINITY, from),
+            evenest: None,
+            leanest: None,
+        }
+    }
+}
+
 /// Everything that rows of one plan share.
 pub(crate) struct Bench<'a, const D: usize> {
     pub(crate) search: &'a Search<'a, D>,
@@ -61,16 +80,16 @@ pub(crate) struct Bench<'a, const D: usize> {
 pub(crate) struct Work<const D: usize> {
     pub(crate) support: Support<D>,
     pub(crate) fit: Fit<D>,
-    conditions: Vec<Condition<D>>,
+    pub(crate) conditions: Vec<Condition<D>>,
     /// For each row of a condition: the power of the spacing that its datum bears, if it has one.
-    powers: Vec<Option<i32>>,
-    condition_rows: Vec<Coefficients>,
+    pub(crate) powers: Vec<Option<i32>>,
+    pub(crate) condition_rows: Vec<Coefficients>,
     /// What a harmonic polynomial obeys, where it must be one.
-    harmonic: Vec<Coefficients>,
-    functionals: Vec<Coefficients>,
+    pub(crate) harmonic: Vec<Coefficients>,
+    pub(crate) functionals: Vec<Coefficients>,
     /// What the weights of points are multiplied by beside that of their distance: room of each point over that of the
     /// own one, where points weigh by it, and more along columns of layers.
-    rooms: Vec<f64>,
+    pub(crate) rooms: Vec<f64>,
     /// Weights of the data of conditions, functional after functional.
     pub(crate) shares: Vec<f64>,
 }
@@ -105,57 +124,93 @@ impl<const D: usize> Bench<'_, D> {
             work.conditions.push(Condition::Value { at: target.place });
         }
         self.rules.conditions(target.row, &mut work.conditions);
-        let mut ready = true;
-        let mut worst = f64::INFINITY;
-        'orders: for order in (self.plan.lowest()..=self.plan.order).rev() {
-            let good = GOOD[D - 2][usize::from(order) - 1];
-            let (mut best, mut size) = ((f64::INFINITY, from), 0);
-            let mut evenest: Option<(f64, Trial)> = None;
-            for times in from..=ENLARGEMENTS {
-                if !std::mem::take(&mut ready) {
-                    self.enlarge(target, times, &mut work.support)?;
+        let (mut ready, mut worst) = (true, f64::INFINITY);
+        for order in (self.plan.lowest()..=self.plan.order).rev() {
+            let mut tried = Tried::new(from);
+            let first = (order, from, std::mem::take(&mut ready));
+            if let Some(made) = self.climb(target, first, &mut tried, work)? {
+                return Ok(made);
+            }
+            if let Some(lean) = tried.leanest {
+                if let Some(made) = self.leaning_least(target, lean, work)? {
+                    return Ok(made);
                 }
-                let before = std::mem::replace(&mut size, work.support.neighbours.len());
-                if size == before {
-                    continue;
-                }
-                let trial = Trial {
-                    order,
-                    times,
-                    limit: good,
-                    by_room: false,
-                };
-                if let Some(made) = self.even(target, trial, work, &mut evenest) {
-                    if !self.leans(target, order, work) {
-                        return Ok(made);
-                    }
-                    self.enlarge(target, from, &mut work.support)?;
-                    ready = true;
-                    continue 'orders;
-                }
-                if evenest.is_some() && times >= from + SEARCHES {
-                    break;
-                }
-                best = if work.fit.condition < best.0 {
-                    (work.fit.condition, times)
-                } else {
-                    best
-                };
+                continue;
             }
             let fair = Trial {
                 order,
-                times: best.1,
+                times: tried.best.1,
                 limit: FAIR,
                 by_room: false,
             };
-            let rest = (best.0 <= FAIR).then_some(fair);
-            let trial = evenest.map(|e| e.1).or(rest);
-            worst = best.0;
+            let rest = (tried.best.0 <= FAIR).then_some(fair);
+            let trial = tried.evenest.map(|e| e.1).or(rest);
+            worst = tried.best.0;
             if let Some(made) = self.last(target, (order, from), trial, work)? {
                 return Ok(made);
             }
         }
         Err(self.refusal(target, work, worst))
+    }
+
+    /// A row of an order from the smallest support that is good, even and does not lean; else what was tried is kept.
+    fn climb(
+        &self,
+        target: &Target<D>,
+        (order, from, mut ready): (u8, u32, bool),
+        tried: &mut Tried,
+        work: &mut Work<D>,
+    ) -> Result<Option<Made>, Error> {
+        let mut size = 0;
+        for times in from..=ENLARGEMENTS {
+            if !std::mem::take(&mut ready) {
+                self.enlarge(target, times, &mut work.support)?;
+            }
+            let before = std::mem::replace(&mut size, work.support.neighbours.len());
+            if size == before {
+                continue;
+            }
+            let trial = Trial {
+                order,
+                times,
+                limit: GOOD[D - 2][usize::from(order) - 1],
+                by_room: false,
+            };
+            if let Some(made) = self.even(target, trial, work, &mut tried.evenest) {
+                let lean = self.leaning(target, order, work);
+                if lean <= LEANS {
+                    return Ok(Some(made));
+                }
+                if tried.leanest.is_none_or(|(least, _)| lean < least) {
+                    tried.leanest = Some((lean, trial));
+                }
+                if order == 2 || times >= from + SEARCHES {
+                    break;
+                }
+                continue;
+            }
+            if tried.evenest.is_some() && times >= from + SEARCHES {
+                break;
+            }
+            if work.fit.condition < tried.best.0 {
+                tried.best = (work.fit.condition, times);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The row of the support that leans least; none of quadratics, nor one whose own weight has the sign of the others.
+    fn leaning_least(
+        &self,
+        target: &Target<D>,
+        (lean, trial): (f64, Trial),
+        work: &mut Work<D>,
+    ) -> Result<Option<Made>, Error> {
+        if trial.order == 2 || lean.is_infinite() {
+            return Ok(None);
+        }
+        self.enlarge(target, trial.times, &mut work.support)?;
+        Ok(self.attempt(target, trial, work).map(|(made, _)| made))
     }
 
     /// A row of an order by what is left to try: the best support found, then singular values of the first.
@@ -256,70 +311,6 @@ impl<const D: usize> Bench<'_, D> {
             return None;
         }
         tame(target, work).then(|| self.made(target, (order, times), None, work))
-    }
-
-    /// The basis of a fit of an order: of linear polynomials that a condition asks to bow, that of quadratics.
-    fn basis(&self, order: u8, work: &Work<D>) -> &Basis<D> {
-        let bows =
-            |c: &Condition<D>| matches!(c, Condition::Laplacian { .. } | Condition::Drift { .. });
-        let harmonic = work.conditions.contains(&Condition::Harmonic);
-        let bowed = order == 1 && !harmonic && work.conditions.iter().any(bows);
-        &self.bases[usize::from(order) - usize::from(!bowed)]
-    }
-
-    /// Loads the fit with the support, the conditions and the functionals.
-    fn prepare(&self, (target, by_room): (&Target<D>, bool), order: u8, work: &mut Work<D>) {
-        let basis = self.basis(order, work);
-        let rows = Rows {
-            basis,
-            metric: &target.metric,
-            radius: work.support.radius,
-        };
-        rows.functionals(&self.columns, &mut work.functionals);
-        work.condition_rows.clear();
-        work.powers.clear();
-        work.harmonic.clear();
-        for condition in &work.conditions {
-            rows.condition(condition, target.place, |row, power| {
-                if *condition == Condition::Harmonic {
-                    work.harmonic.push(row);
-                } else {
-                    work.condition_rows.push(row);
-                    work.powers.push(power);
-                }
-            });
-        }
-        self.weigh((target, by_room), basis.order(), work);
-        let offsets = work.support.offsets.as_slice();
-        let support = (offsets, work.rooms.as_slice(), work.support.radius);
-        let over = if !work.harmonic.is_empty() {
-            Over::Harmonic(&work.harmonic)
-        } else if basis.order() > order {
-            let side = self.rules.side(target.row);
-            Over::Bowed(side.map(|n| target.metric.upward(n)))
-        } else {
-            Over::All
-        };
-        work.fit.load(basis, support, (&work.condition_rows, over));
-    }
-
-    /// What the weights of points are multiplied by beside that of their distance; nothing where it is nothing.
-    fn weigh(&self, (target, by_room): (&Target<D>, bool), order: u8, work: &mut Work<D>) {
-        work.rooms.clear();
-        if !by_room && !target.metric.follows() {
-            return;
-        }
-        let metrics = self.search.cloud().metrics;
-        let above = target.metric.above(order);
-        let points = work.support.neighbours.iter().zip(&work.support.offsets);
-        work.rooms.extend(points.map(|(j, s)| {
-            let room = if by_room {
-                metrics[*j as usize].volume() / target.metric.volume()
-            } else {
-                1.0
-            };
-            room * target.metric.heavier(s, above)
-        }));
     }
 
     fn make_positive(

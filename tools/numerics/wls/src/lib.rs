@@ -43,6 +43,7 @@ mod functional;
 mod harmonic;
 mod judge;
 mod ladder;
+mod load;
 mod memo;
 mod metric;
 mod moments;
