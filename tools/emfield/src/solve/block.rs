@@ -46,7 +46,12 @@ where
                 Method::Multigrid(grids) => grids,
                 _ => Grids::default(),
             };
-            let made = Multigrid::<f64, S>::new(&rows.permuted(&order), &mixed, &order, grids)?;
+            let rows = rows.permuted(&order);
+            // Laplacians have negative diagonals and slopes positive ones: summed up as they are, rows would cancel in
+            // the coarse equations.
+            let sign = |i: usize| if rows.diagonal(i) < 0.0 { -1.0 } else { 1.0 };
+            let signs = (0..n).map(sign).collect();
+            let made = Multigrid::<f64, S>::of_fluxes(&rows, &mixed, (&order, signs), grids)?;
             way = Way::Grids(Box::new(made));
         }
         Ok(Self {
