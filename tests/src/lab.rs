@@ -19,7 +19,7 @@ pub enum LabError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// A tool ended with another exit code than 0.
+    /// A tool ended with another exit code than 0, and not with warnings of a run that is whole (3).
     #[error("{command}\nended with exit code {code:?}:\n{stderr}")]
     Tool {
         /// The command line.
@@ -157,7 +157,7 @@ impl Lab {
     /// artefact `<out>/<case>/<label>.mcap`.
     ///
     /// # Errors
-    /// When the tool cannot be started or does not end with exit code 0.
+    /// When the tool cannot be started, fails or does not converge.
     pub fn run(
         &self,
         tool: &str,
@@ -171,7 +171,7 @@ impl Lab {
     /// As [`Lab::run`], with named inputs.
     ///
     /// # Errors
-    /// When the tool cannot be started or does not end with exit code 0.
+    /// When the tool cannot be started, fails or does not converge.
     pub fn run_with(
         &self,
         tool: &str,
@@ -217,7 +217,7 @@ impl Lab {
     /// the scene which ran.
     ///
     /// # Errors
-    /// When the tool cannot be started or does not end with exit code 0.
+    /// When the tool cannot be started, fails or does not converge.
     pub fn varied(
         &self,
         first: &Finished,
@@ -285,6 +285,14 @@ pub(crate) fn discard_unfinished(artefact: &Path) {
     }
 }
 
+/// Whether an iteration gave up, and said so in its run `record`.
+#[must_use]
+pub fn gave_up(record: &Value) -> bool {
+    let warnings = record["warnings"].as_array().into_iter().flatten();
+    let mut told = warnings.filter_map(Value::as_str);
+    told.any(|warning| warning.starts_with("not converged"))
+}
+
 fn finish(
     command: &mut Command,
     words: Vec<OsString>,
@@ -297,14 +305,17 @@ fn finish(
         source,
     })?;
     let process_s = start.elapsed().as_secs_f64();
-    if !output.status.success() {
+    let record = artefact.with_extension("run.json");
+    // A run with warnings is judged by its errors, but for one that gave up.
+    let warned = output.status.code() == Some(3) && !gave_up(&read_json(&record)?);
+    if !output.status.success() && !warned {
         return Err(LabError::Tool {
             command: format!("{command:?}"),
             code: output.status.code(),
             stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
         });
     }
-    let record = read_json(&artefact.with_extension("run.json"))?;
+    let record = read_json(&record)?;
     let scene = record["scene"].clone();
     Ok(Finished {
         artefact,

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::cylinder::Cylinder;
-use crate::em::frames::{Points, number, number_or};
+use crate::em::frames::{Points, flux_along, number, number_or};
 use crate::em::{C, MU0};
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
@@ -90,7 +90,7 @@ fn exact(run: &Finished) -> Result<Cylinder, LabError> {
     } else {
         1.0
     };
-    let flux = number(run, "/eddy_currents/applied_flux_density_t/2")?;
+    let flux = flux_along(run)?;
     Ok(Cylinder {
         radius: number(run, "/domain/sphere/radius_m")?,
         conductivity: number(run, "/surroundings/conductivity_s_m")?,

@@ -5,7 +5,7 @@ use serde_json::json;
 use super::em_sphere_loops::{body, flux_error};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::C;
-use crate::em::frames::{Points, measured, number, totals};
+use crate::em::frames::{Points, along, flux_along, measured, totals};
 use crate::em::sphere::{Solution, Sources};
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -82,7 +82,8 @@ impl Case for EmSphereGauge {
 }
 
 fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
-    let applied = number(run, "/eddy_currents/applied_flux_density_t/2")?;
+    let applied = flux_along(run)?;
+    along(run, "/eddy_currents/magnet/sheets/normal", 0)?;
     let sources = Sources {
         loops: Vec::new(),
         uniform: applied,

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::em_sphere_loops::{body, flux_error};
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, number, totals};
+use crate::em::frames::{Points, flux_along, totals};
 use crate::em::sphere::{Solution, Sources};
 use crate::lab::{Lab, LabError};
 
@@ -57,7 +57,7 @@ impl Case for EmSphereUniformAc {
         };
         let label = format!("level{level}-{method}");
         let run = lab.run(self.tool(), self.name(), &label, &patch)?;
-        let applied = number(&run, "/eddy_currents/applied_flux_density_t/2")?;
+        let applied = flux_along(&run)?;
         let sources = Sources {
             loops: Vec::new(),
             uniform: applied,

@@ -5,7 +5,7 @@ use serde_json::json;
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::MU0;
 use crate::em::diffusion::Step;
-use crate::em::frames::{Points, number, number_or};
+use crate::em::frames::{Points, flux_along, number, number_or};
 use crate::heat::frames::greater;
 use crate::lab::{Lab, LabError};
 
@@ -41,7 +41,7 @@ impl Case for EmTransientCylinder {
             radius: number(&run, "/domain/sphere/radius_m")?,
             conductivity: number(&run, "/surroundings/conductivity_s_m")?,
             permeability: number_or(&run, "/surroundings/relative_permeability", 1.0),
-            held: number(&run, "/eddy_currents/applied_flux_density_t/2")? / MU0,
+            held: flux_along(&run)? / MU0,
         };
         let points = Points::read(&run)?;
         let field = points.frame.f64("magnetic_field")?;

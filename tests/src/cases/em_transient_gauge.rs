@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, measured, number};
+use crate::em::frames::{Points, along, flux_along, measured, number};
 use crate::em::switched::Switched;
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -73,10 +73,11 @@ impl Case for EmTransientGauge {
 }
 
 fn errors(run: &Finished, points: &Points, rise: Option<f64>) -> Result<Errors, LabError> {
+    along(run, "/eddy_currents/magnet/sheets/normal", 0)?;
     let exact = Switched {
         radius: number(run, "/bodies/0/shape/sphere/radius_m")?,
         conductivity: number(run, "/bodies/0/conductivity_s_m")?,
-        flux: number(run, "/eddy_currents/applied_flux_density_t/2")?,
+        flux: flux_along(run)?,
         rise,
     };
     let time = points.time;

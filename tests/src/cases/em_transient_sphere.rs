@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, number};
+use crate::em::frames::{Points, flux_along, number};
 use crate::em::switched::Switched;
 use crate::heat::frames::greater;
 use crate::lab::{Lab, LabError};
@@ -41,7 +41,7 @@ impl Case for EmTransientSphere {
         let exact = Switched {
             radius: number(&run, "/bodies/0/shape/disc/radius_m")?,
             conductivity: number(&run, "/bodies/0/conductivity_s_m")?,
-            flux: number(&run, "/eddy_currents/applied_flux_density_t/1")?,
+            flux: flux_along(&run)?,
             rise: None,
         };
         let points = Points::read(&run)?;

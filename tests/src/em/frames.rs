@@ -108,6 +108,37 @@ pub fn number(run: &Finished, pointer: &str) -> Result<f64, LabError> {
     })
 }
 
+/// The applied flux density \[T\] of a scene whose exact solution wants it along the last axis.
+///
+/// # Errors
+/// When it has none, or points elsewhere.
+pub fn flux_along(run: &Finished) -> Result<f64, LabError> {
+    let pointer = "/eddy_currents/applied_flux_density_t";
+    let axes = at(run, pointer)?.as_array().map_or(0, Vec::len);
+    along(run, pointer, axes.saturating_sub(1))
+}
+
+/// The component along `axis` of a vector of the scene, the others of which are zero.
+///
+/// # Errors
+/// When there is none, or it points elsewhere.
+pub fn along(run: &Finished, pointer: &str, axis: usize) -> Result<f64, LabError> {
+    let vector = at(run, pointer)?.as_array().into_iter().flatten();
+    let vector: Option<Vec<f64>> = vector.map(Value::as_f64).collect();
+    let wrong = |what: &str| LabError::Content {
+        path: run.artefact.clone(),
+        what: format!("{pointer} of its scene {what}"),
+    };
+    let vector = vector.ok_or_else(|| wrong("is no vector"))?;
+    if (0..vector.len()).any(|k| k != axis && vector[k] != 0.0) {
+        return Err(wrong(&format!(
+            "is {vector:?}: the exact solution wants it along axis {axis} alone"
+        )));
+    }
+    let found = vector.get(axis).copied();
+    found.ok_or_else(|| wrong("has too few numbers"))
+}
+
 /// The scene of a case with a patch of its own and then the user's, before it is run.
 ///
 /// # Errors

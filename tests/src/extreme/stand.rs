@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::check::Checks;
 use super::grid::{Grid, Node};
 use super::{Extreme, Outcome, Row, Variant};
-use crate::lab::{LabError, discard_unfinished, read_json};
+use crate::lab::{LabError, discard_unfinished, gave_up, read_json};
 
 /// Where a case is run.
 pub(super) struct Stand<'a> {
@@ -126,7 +126,7 @@ impl Stand<'_> {
         let message = String::from_utf8_lossy(&output.stderr);
         let outcome = match output.status.code() {
             Some(0 | 3) if !numbers_only(self.programs, &artefact)? => Outcome::Failed,
-            Some(3) if not_converged(&record) => Outcome::DivergedDetected,
+            Some(3) if gave_up(&record) => Outcome::DivergedDetected,
             Some(0 | 3) if record["substepped"].as_bool() == Some(true) => Outcome::Substepped,
             Some(0 | 3) => Outcome::Stable,
             Some(2) => Outcome::Refused,
@@ -155,13 +155,6 @@ impl Stand<'_> {
             broken,
         })
     }
-}
-
-/// Whether an iteration gave up, and said so.
-fn not_converged(record: &Value) -> bool {
-    let warnings = record["warnings"].as_array().into_iter().flatten();
-    let mut told = warnings.filter_map(Value::as_str);
-    told.any(|warning| warning.starts_with("not converged"))
 }
 
 /// The step that a scene asks for, wherever its method keeps it.
@@ -240,10 +233,8 @@ mod tests {
     #[test]
     fn an_iteration_that_gave_up_is_told_from_one_that_warns() {
         let record = |warning: &str| json!({"warnings": ["little is known here", warning]});
-        assert!(not_converged(&record(
-            "not converged after 1501 iterations"
-        )));
-        assert!(!not_converged(&record("the surface is coarse")));
-        assert!(!not_converged(&json!({})));
+        assert!(gave_up(&record("not converged after 1501 iterations")));
+        assert!(!gave_up(&record("the surface is coarse")));
+        assert!(!gave_up(&json!({})));
     }
 }
