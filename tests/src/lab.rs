@@ -285,7 +285,7 @@ pub(crate) fn discard_unfinished(artefact: &Path) {
     }
 }
 
-/// Whether an iteration gave up, and said so in its run `record`.
+/// Whether an iteration gave up, and said so in its run `record`: every tool begins such a warning alike.
 #[must_use]
 pub fn gave_up(record: &Value) -> bool {
     let warnings = record["warnings"].as_array().into_iter().flatten();

@@ -56,7 +56,7 @@ impl Effort {
                     let what = format!("eddy currents at {time:.6e} s: {why}");
                     return Err(Failure::Other(what));
                 }
-                other => session.warn(format!("eddy currents: {other}")),
+                other => session.warn(format!("not converged: eddy currents: {other}")),
             }
         }
         Ok(())

@@ -108,7 +108,9 @@ fn report(
             size,
         )),
         other => {
-            session.warn(format!("{name}: {other}; residual {residual:.2e}"));
+            session.warn(format!(
+                "not converged: {name}: {other}; residual {residual:.2e}"
+            ));
             Ok(())
         }
     }
