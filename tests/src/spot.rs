@@ -1,6 +1,7 @@
 //! The Gaussian spots of heat in the scenes of `poolsph`.
 
 use crate::lab::{Finished, LabError};
+use crate::special::erf;
 
 /// q = peak exp(-r^2 / (2 sigma^2)).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +38,12 @@ impl Spot {
         let part = 1.0 - (-0.5 * radius * radius / square).exp();
         std::f64::consts::TAU * square * self.peak * part
     }
+
+    /// Heat that falls within a square around the axis in a second \[W\]; `half`: half the length of its sides \[m\].
+    pub(crate) fn power_on_square(&self, half: f64) -> f64 {
+        let side = erf(half / (self.sigma * std::f64::consts::SQRT_2));
+        self.power(f64::INFINITY) * side * side
+    }
 }
 
 #[cfg(test)]
@@ -48,6 +55,13 @@ mod tests {
         let spot = Spot::parse("1.5e7*exp(-r^2/(2*0.0015^2))").unwrap();
         assert!((spot.peak - 1.5e7).abs() < 1e-9 && (spot.sigma - 1.5e-3).abs() < 1e-15);
         assert!((spot.power(1.0) - 212.057_504).abs() < 1e-5);
+        // Narrow spots fall on the square as a whole; wide ones are even over it.
+        assert!((spot.power_on_square(0.05) / spot.power(1.0) - 1.0).abs() < 1e-14);
+        let wide = Spot {
+            sigma: 10.0,
+            ..spot
+        };
+        assert!((wide.power_on_square(0.01) / (spot.peak * 4e-4) - 1.0).abs() < 1e-6);
         assert!(Spot::parse("3*exp(-r)").is_none());
     }
 }

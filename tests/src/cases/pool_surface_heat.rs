@@ -10,6 +10,8 @@ use crate::spot::Spot;
 
 /// Radius of the sphere \[m\].
 const RADIUS: f64 = 0.018;
+/// Half the width of the planes, seen from above \[m\].
+const HALF_WIDTH: f64 = 0.02;
 
 /// The case.
 pub(super) struct PoolSurfaceHeat;
@@ -70,7 +72,7 @@ fn bodies() -> [(&'static str, Option<Value>); 3] {
     let (sin, cos) = (0.5, 0.75_f64.sqrt());
     let thick = 0.004;
     let inclined = json!({
-        "shape": {"box": {"min_m": [-0.02, -0.02, -0.02], "max_m": [0.02, 0.02, 0.012]}},
+        "shape": {"box": {"min_m": [-HALF_WIDTH, -HALF_WIDTH, -HALF_WIDTH], "max_m": [HALF_WIDTH, HALF_WIDTH, 0.012]}},
         "state": "solid",
         "temperature_k": 300,
         "cuts": [
@@ -94,7 +96,7 @@ fn error(run: &Finished, shape: &str) -> Result<f64, LabError> {
     let spot = Spot::of(run)?;
     let prescribed = match shape {
         "sphere" => spot.power(RADIUS),
-        _ => spot.power(f64::INFINITY),
+        _ => spot.power_on_square(HALF_WIDTH),
     };
     let reader = Reader::open_kind(&run.artefact, "particle-frames", 1)?;
     let balance = reader.records("/balance")?;
