@@ -5,7 +5,8 @@ use serde_json::json;
 use super::em_sphere_loops::{body, flux_error};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::C;
-use crate::em::frames::{Points, along, flux_along, measured, totals};
+use crate::em::axes::Axes;
+use crate::em::frames::{Points, measured, totals};
 use crate::em::sphere::{Solution, Sources};
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -82,8 +83,8 @@ impl Case for EmSphereGauge {
 }
 
 fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
-    let applied = flux_along(run)?;
-    along(run, "/eddy_currents/magnet/sheets/normal", 0)?;
+    let (applied, axes) = Axes::of_applied(run)?;
+    let points = &points.seen_from(axes);
     let sources = Sources {
         loops: Vec::new(),
         uniform: applied,
@@ -99,7 +100,12 @@ fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
     let flux = flux_error(points, &exact, 1.2 * ball.radius)? / applied;
     errors.insert("flux_linf".to_owned(), flux);
     let omega = std::f64::consts::TAU * ball.frequency;
-    let voltage = |p: &[f64; 3]| C::new(0.0, -0.5 * omega * applied * p[0] * p[1]);
+    // The sheets have A = B (x + aside) along y, of which the solenoid has B (-y, x)/2.
+    let aside = axes.components(axes.origin)[0];
+    let voltage = |p: &[f64; 3]| {
+        let far = 0.5 * p[0] + aside;
+        C::new(0.0, -omega * applied * far * p[1])
+    };
     let [re, im] = ["real", "imag"].map(|part| format!("electric_potential_{part}"));
     let (re, im) = (points.frame.f64(&re)?, points.frame.f64(&im)?);
     let current = points.phasors("current_density")?;
@@ -116,7 +122,7 @@ fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
         let apart = (0..3).map(|k| (current[i][k] - wanted[k]).norm_sqr());
         off = greater(off, apart.sum::<f64>().sqrt());
     }
-    let most = 0.25 * omega * applied * ball.radius * ball.radius;
+    let most = omega * applied * ball.radius * (0.25 * ball.radius + aside.abs());
     errors.insert("potential_linf".to_owned(), worst / most);
     errors.insert("current_linf".to_owned(), off / exact.largest_current().0);
     Ok(errors)

@@ -4,7 +4,8 @@ use serde_json::json;
 
 use super::em_sphere_loops::{body, flux_error};
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, flux_along, totals};
+use crate::em::axes::Axes;
+use crate::em::frames::{Points, totals};
 use crate::em::sphere::{Solution, Sources};
 use crate::lab::{Lab, LabError};
 
@@ -57,13 +58,13 @@ impl Case for EmSphereUniformAc {
         };
         let label = format!("level{level}-{method}");
         let run = lab.run(self.tool(), self.name(), &label, &patch)?;
-        let applied = flux_along(&run)?;
+        let (applied, axes) = Axes::of_applied(&run)?;
         let sources = Sources {
             loops: Vec::new(),
             uniform: applied,
         };
         let exact = Solution::of(body(&run)?, sources);
-        let points = Points::read(&run)?;
+        let points = Points::read(&run)?.seen_from(axes);
         let found = totals(&run)?;
         let power = |name: &str| Ok::<_, LabError>((found.get(name)? / exact.power() - 1.0).abs());
         let errors = Errors::from([

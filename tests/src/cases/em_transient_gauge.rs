@@ -3,7 +3,8 @@
 use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, along, flux_along, measured, number};
+use crate::em::axes::Axes;
+use crate::em::frames::{Points, measured, number};
 use crate::em::switched::Switched;
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -73,26 +74,29 @@ impl Case for EmTransientGauge {
 }
 
 fn errors(run: &Finished, points: &Points, rise: Option<f64>) -> Result<Errors, LabError> {
-    along(run, "/eddy_currents/magnet/sheets/normal", 0)?;
+    let (flux, axes) = Axes::of_applied(run)?;
+    let points = points.seen_from(axes);
+    // The sheets have A = B (x + aside) along y.
+    let aside = axes.components(axes.origin)[0];
     let exact = Switched {
         radius: number(run, "/bodies/0/shape/sphere/radius_m")?,
         conductivity: number(run, "/bodies/0/conductivity_s_m")?,
-        flux: flux_along(run)?,
+        flux,
         rise,
     };
     let time = points.time;
     let [wave, rate] = exact.wave(time);
     let voltage = points.frame.f64("electric_potential")?;
-    let current = points.frame.vectors("current_density")?;
-    let potential = points.frame.vectors("vector_potential")?;
-    let flux = points.frame.vectors("magnetic_flux_density")?;
+    let current = points.vectors("current_density")?;
+    let potential = points.vectors("vector_potential")?;
+    let flux = points.vectors("magnetic_flux_density")?;
     let [mut most, mut off, mut far, mut turned, mut bent] = [0.0; 5];
     for (i, p) in points.position.iter().enumerate() {
         let rho = p[0].hypot(p[1]);
         let share = |k: usize| if rho > 0.0 { p[k] / rho } else { 0.0 };
         let around = |size: f64| [-size * share(1), size * share(0), 0.0];
-        // The sheets have A of the solenoid and the gradient of B x y / 2.
-        let gauge = [p[1], p[0], 0.0].map(|x| 0.5 * exact.flux * wave * x);
+        // That is A of the solenoid and the gradient of B (x/2 + aside) y.
+        let gauge = [p[1], p[0] + 2.0 * aside, 0.0].map(|x| 0.5 * exact.flux * wave * x);
         let a = around(exact.potential(rho, p[2], time));
         let wanted = [0, 1, 2].map(|k| a[k] + gauge[k]);
         far = greater(far, distance(potential[i], wanted));
@@ -105,7 +109,7 @@ fn errors(run: &Finished, points: &Points, rise: Option<f64>) -> Result<Errors, 
         let j = around(exact.current(rho, p[2], time));
         most = greater(most, distance(j, [0.0; 3]));
         off = greater(off, distance(current[i], j));
-        let v = -0.5 * exact.flux * rate * p[0] * p[1];
+        let v = -exact.flux * rate * (0.5 * p[0] + aside) * p[1];
         turned = greater(turned, (voltage[i] - v).abs());
     }
     let scale = exact.flux.abs() * exact.radius;
@@ -115,7 +119,7 @@ fn errors(run: &Finished, points: &Points, rise: Option<f64>) -> Result<Errors, 
         ("flux_linf".to_owned(), bent / exact.flux.abs()),
     ]);
     if rise.is_some() {
-        let largest = 0.25 * scale * exact.radius * rate.abs();
+        let largest = exact.flux * exact.radius * (0.25 * exact.radius + aside.abs()) * rate.abs();
         errors.insert("voltage_linf".to_owned(), turned / largest);
     }
     Ok(errors)

@@ -4,6 +4,7 @@ use artefact::{Frame, Reader, Record};
 use serde_json::Value;
 
 use super::C;
+use super::axes::Axes;
 use crate::case::{Case, Errors, Measurement};
 use crate::heat::methods::over;
 use crate::heat::property::at;
@@ -36,6 +37,8 @@ pub struct Points {
     pub frame: Frame,
     /// Instant \[s\].
     pub time: f64,
+    /// In which axes places and vectors are told.
+    axes: Axes,
 }
 
 impl Points {
@@ -59,7 +62,19 @@ impl Points {
             position: frame.position_vectors()?,
             time: frame.time_s,
             frame,
+            axes: Axes::default(),
         })
+    }
+
+    /// The same points with places and vectors in other axes.
+    #[must_use]
+    pub fn seen_from(&self, axes: Axes) -> Self {
+        Self {
+            position: self.position.iter().map(|p| axes.place(*p)).collect(),
+            frame: self.frame.clone(),
+            time: self.time,
+            axes,
+        }
     }
 
     /// Number of points.
@@ -73,10 +88,19 @@ impl Points {
     /// # Errors
     /// When a column is missing.
     pub fn phasors(&self, name: &str) -> Result<Vec<[C; 3]>, LabError> {
-        let real = self.frame.vectors(&format!("{name}_real"))?;
-        let imaginary = self.frame.vectors(&format!("{name}_imag"))?;
+        let real = self.vectors(&format!("{name}_real"))?;
+        let imaginary = self.vectors(&format!("{name}_imag"))?;
         let pair = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|k| C::new(a[k], b[k]));
         Ok(real.iter().zip(&imaginary).map(pair).collect())
+    }
+
+    /// A vector.
+    ///
+    /// # Errors
+    /// When its column is missing.
+    pub fn vectors(&self, name: &str) -> Result<Vec<[f64; 3]>, LabError> {
+        let found = self.frame.vectors(name)?;
+        Ok(found.iter().map(|v| self.axes.components(*v)).collect())
     }
 }
 
@@ -108,35 +132,26 @@ pub fn number(run: &Finished, pointer: &str) -> Result<f64, LabError> {
     })
 }
 
-/// The applied flux density \[T\] of a scene whose exact solution wants it along the last axis.
-///
-/// # Errors
-/// When it has none, or points elsewhere.
-pub fn flux_along(run: &Finished) -> Result<f64, LabError> {
-    let pointer = "/eddy_currents/applied_flux_density_t";
-    let axes = at(run, pointer)?.as_array().map_or(0, Vec::len);
-    along(run, pointer, axes.saturating_sub(1))
-}
-
-/// The component along `axis` of a vector of the scene, the others of which are zero.
+/// The applied flux density \[T\] of a scene in a plane or about an axis, whose exact solution wants it along the last axis.
 ///
 /// # Errors
 /// When there is none, or it points elsewhere.
-pub fn along(run: &Finished, pointer: &str, axis: usize) -> Result<f64, LabError> {
-    let vector = at(run, pointer)?.as_array().into_iter().flatten();
-    let vector: Option<Vec<f64>> = vector.map(Value::as_f64).collect();
+pub fn flux_along(run: &Finished) -> Result<f64, LabError> {
+    let pointer = "/eddy_currents/applied_flux_density_t";
     let wrong = |what: &str| LabError::Content {
         path: run.artefact.clone(),
         what: format!("{pointer} of its scene {what}"),
     };
+    let vector = at(run, pointer)?.as_array().into_iter().flatten();
+    let vector: Option<Vec<f64>> = vector.map(Value::as_f64).collect();
     let vector = vector.ok_or_else(|| wrong("is no vector"))?;
-    if (0..vector.len()).any(|k| k != axis && vector[k] != 0.0) {
+    let (last, across) = vector.split_last().ok_or_else(|| wrong("is empty"))?;
+    if across.iter().any(|b| *b != 0.0) {
         return Err(wrong(&format!(
-            "is {vector:?}: the exact solution wants it along axis {axis} alone"
+            "is {vector:?}: the exact solution wants it along the last axis alone"
         )));
     }
-    let found = vector.get(axis).copied();
-    found.ok_or_else(|| wrong("has too few numbers"))
+    Ok(*last)
 }
 
 /// The scene of a case with a patch of its own and then the user's, before it is run.

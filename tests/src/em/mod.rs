@@ -1,6 +1,7 @@
 //! References for electric and magnetic fields that share nothing with a solver.
 //!
 //! - [`dielectric`]: a dielectric sphere in a uniform field, Matsuzawa (2017), eqs 3.3 to 3.11.
+//! - [`axes`] in which a solution stands.
 //! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
 //! - [`coil`]: rings of current.
 //! - [`cylinder`]: a conducting cylinder in an axial alternating field, eqs 3.12 and 3.13;
@@ -12,6 +13,7 @@
 //!   [`switched`]: the same after a uniform field is switched on.
 //! - [`walls`]: which exact potential the walls of a scene hold.
 
+pub mod axes;
 pub mod bessel;
 pub mod coil;
 pub mod cylinder;
