@@ -67,7 +67,7 @@ verify: programs ## exact cases: error against run time (CASE=name LEVELS="1 2 3
 	  $(if $(PATCH),--patch $(PATCH)) --threads $(THREADS) --out build/verify
 
 STUDY ?= gmaw-300a
-stability: programs ## stiff and extreme cases: stable, refused, sub-stepped or detected (CASE=name)
+stability: programs build/gases/argon-iron.mcap ## stiff and extreme cases: stable, refused, sub-stepped or detected (CASE=name)
 	$(BIN)/stability $(if $(CASE),--case $(CASE)) --threads $(THREADS) --out build/stability
 
 validate: build/$(STUDY)/report.html ## a study against published experiments and simulations (STUDY=name)
