@@ -59,7 +59,7 @@ fn rule<'a>(scene: &Scene, stop: impl Into<Option<&'a AtomicBool>>) -> Rule<'a> 
 }
 
 /// How the stencils of a scene are made.
-fn form(scene: &Scene) -> Form {
+pub(crate) fn form(scene: &Scene) -> Form {
     Form {
         order: scene.method.order as u8,
         support: scene.method.support,

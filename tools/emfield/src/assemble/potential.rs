@@ -274,13 +274,10 @@ fn columns(
 ) -> (Found, Vec<Vector>) {
     let mut found = Found::default();
     let on_surface = |field| on_surface(cloud, field);
-    found.columns.push(Column::new("potential", "V", value));
-    found.columns.extend(Column::vector(
-        "electric_field",
-        "V/m",
-        inner,
-        &on_surface(beyond),
-    ));
+    let potential = Column::new("potential", "V", value);
+    found.columns.push(potential.without_laplacian());
+    let field = Column::vector("electric_field", "V/m", inner, &on_surface(beyond));
+    found.columns.extend(field.map(Column::without_laplacian));
     found.surface.extend(Column::vector(
         "electric_field_inner",
         "V/m",

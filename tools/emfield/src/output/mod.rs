@@ -23,9 +23,20 @@ pub struct Column {
     pub values: Vec<f64>,
     /// Values of the outer side of interfaces, one per surface point; empty where the quantity is continuous.
     pub beyond: Vec<f64>,
+    /// It has no Laplacian inside any medium.
+    pub harmonic: bool,
 }
 
 impl Column {
+    /// The same, known to have no Laplacian inside any medium.
+    #[must_use]
+    pub fn without_laplacian(self) -> Self {
+        Self {
+            harmonic: true,
+            ..self
+        }
+    }
+
     /// A continuous quantity.
     #[must_use]
     pub fn new(name: &str, unit: &'static str, values: Vec<f64>) -> Self {
@@ -34,6 +45,7 @@ impl Column {
             unit,
             values,
             beyond: Vec::new(),
+            harmonic: false,
         }
     }
 
@@ -50,6 +62,7 @@ impl Column {
             unit,
             values: values.iter().map(|v| v[k]).collect(),
             beyond: beyond.iter().map(|v| v[k]).collect(),
+            harmonic: false,
         })
     }
 }

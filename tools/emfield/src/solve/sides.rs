@@ -77,6 +77,14 @@ impl Form {
         self.harmonic && self.order > 2
     }
 
+    /// A plan for places between the points: the polynomial passes through no value.
+    pub(crate) fn between<const D: usize>(&self, wants: Wants) -> Plan {
+        Plan {
+            interpolating: false,
+            ..self.plan::<D>(wants)
+        }
+    }
+
     pub(super) fn plan<const D: usize>(&self, wants: Wants) -> Plan {
         let order = if wants.laplacian {
             self.order.max(2)
@@ -128,13 +136,10 @@ impl<const D: usize> Sides<D> {
         };
         let harmonic = |walls: bool| Harmonic { region, walls };
         let (own, wall) = if form.compares() {
-            let plan = Plan {
-                interpolating: false,
-                ..form.plan::<D>(Wants {
-                    value: true,
-                    ..gradient
-                })
-            };
+            let plan = form.between::<D>(Wants {
+                value: true,
+                ..gradient
+            });
             let own = mirror.stencils(&search, &plan, &harmonic(false))?;
             let wall = form.plan::<D>(gradient);
             let wall = mirror.stencils(&search, &wall, &harmonic(true))?;
