@@ -2,10 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::em_sphere_loops::{body, errors, loops_of};
+use super::em_sphere_loops::{coaxial, errors};
 use crate::case::{Case, Measurement, Target};
 use crate::em::frames::{measured, planned};
-use crate::em::sphere::Solution;
 use crate::lab::{Lab, LabError};
 
 /// The case.
@@ -117,10 +116,7 @@ impl Case for EmAxisymmetricSphere {
             self,
             (level, method),
             (&patch, spacing),
-            |run, points| {
-                let coils = loops_of(&scene, run)?;
-                errors(run, points, &Solution::of(body(run)?, coils))
-            },
+            |run, points| errors(run, points, coaxial(&scene, run)?),
         )
     }
 }

@@ -4,9 +4,11 @@ use serde_json::json;
 
 use super::em_sphere_loops::body;
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, measured, number, totals};
+use crate::em::axes::{Axes, vector};
+use crate::em::frames::{Points, measured, number, number_or, totals};
 use crate::em::sphere::anywhere::{Anywhere, Coil};
 use crate::heat::frames::greater;
+use crate::heat::property::at;
 use crate::lab::{Finished, Lab, LabError};
 
 /// The case.
@@ -58,21 +60,12 @@ impl Case for EmSphereAside {
 
 fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
     let ball = body(run)?;
-    let at = |key: &str| number(run, &format!("/eddy_currents/coils/0/loop/{key}"));
-    let three = |key: &str| -> Result<[f64; 3], LabError> {
-        Ok([
-            at(&format!("{key}/0"))?,
-            at(&format!("{key}/1"))?,
-            at(&format!("{key}/2"))?,
-        ])
-    };
-    let coil = Coil {
-        centre: three("centre_m")?,
-        axis: three("normal")?,
-        radius: at("radius_m")?,
-        current: at("current_a")?,
-    };
-    let exact = Anywhere::of(ball, vec![coil]);
+    let centre = vector(run, "/bodies/0/shape/sphere/centre_m")?;
+    let points = points.seen_from(Axes {
+        origin: centre,
+        ..Axes::default()
+    });
+    let exact = Anywhere::of(ball, coils(run, centre)?);
     let found = totals(run)?;
     let mut errors = Errors::new();
     for name in ["power_volume", "power_poynting"] {
@@ -106,4 +99,25 @@ fn errors(run: &Finished, points: &Points) -> Result<Errors, LabError> {
     }
     errors.insert("current_linf".to_owned(), worst / most);
     Ok(errors)
+}
+
+/// The loops of a scene, seen from the centre of its sphere.
+fn coils(run: &Finished, centre: [f64; 3]) -> Result<Vec<Coil>, LabError> {
+    let all = at(run, "/eddy_currents/coils")?;
+    let one = |n: usize| {
+        let key = |name: &str| format!("/eddy_currents/coils/{n}/loop/{name}");
+        let place = vector(run, &key("centre_m"))?;
+        let normal = match run.scene.pointer(&key("normal")) {
+            Some(_) => vector(run, &key("normal"))?,
+            None => [0.0, 0.0, 1.0],
+        };
+        let size = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        Ok(Coil {
+            centre: [0, 1, 2].map(|k| place[k] - centre[k]),
+            axis: normal.map(|x| x / size),
+            radius: number(run, &key("radius_m"))?,
+            current: number(run, &key("current_a"))? * number_or(run, &key("turns"), 1.0),
+        })
+    };
+    (0..all.as_array().map_or(0, Vec::len)).map(one).collect()
 }

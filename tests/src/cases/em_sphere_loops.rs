@@ -3,8 +3,9 @@
 use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, measured, number, number_or, totals};
-use crate::em::sphere::{Body, Loop, Solution, Sources};
+use crate::em::coaxial::{self, Coaxial};
+use crate::em::frames::{Points, measured, totals};
+use crate::em::sphere::{Body, Solution};
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
 
@@ -71,17 +72,16 @@ impl Case for EmSphereLoops {
             self,
             (level, method),
             (&patch, spacing),
-            |run, points| errors(run, points, &Solution::of(body(run)?, loops(run)?)),
+            |run, points| errors(run, points, coaxial(&run.scene, run)?),
         )
     }
 }
 
 /// Errors of force, heat, currents and flux density, and what they cost.
-pub(super) fn errors(
-    run: &Finished,
-    points: &Points,
-    exact: &Solution,
-) -> Result<Errors, LabError> {
+pub(super) fn errors(run: &Finished, points: &Points, scene: Coaxial) -> Result<Errors, LabError> {
+    let points = points.seen_from(scene.axes());
+    let radius = scene.body.radius;
+    let exact = Solution::of(scene.body, scene.sources);
     let found = totals(run)?;
     let mut errors = Errors::new();
     for (name, total, wanted) in [
@@ -96,7 +96,6 @@ pub(super) fn errors(
         let error = (found.get(total)? / wanted - 1.0).abs();
         errors.insert(name.to_owned(), error);
     }
-    let radius = radius(run)?;
     let current = points.phasors("current_density")?;
     let size = |j: &[crate::em::C; 3]| j.iter().map(|c| c.norm_sqr()).sum::<f64>().sqrt();
     // Coils of points have a current too.
@@ -111,7 +110,7 @@ pub(super) fn errors(
     errors.insert("largest_current".to_owned(), (largest / wanted - 1.0).abs());
     // Within 1.2 radii: no loop is nearer.
     let scale = exact.flux(0.0, -radius)[1].norm();
-    let flux = flux_error(points, exact, 1.2 * radius)? / scale;
+    let flux = flux_error(&points, &exact, 1.2 * radius)? / scale;
     errors.insert("flux_linf".to_owned(), flux);
     errors.insert("points".to_owned(), points.count() as f64);
     errors.insert("seconds".to_owned(), run.solver_s()?);
@@ -138,56 +137,19 @@ pub(super) fn flux_error(points: &Points, exact: &Solution, within: f64) -> Resu
     Ok(worst)
 }
 
-/// Radius of the sphere of a scene \[m\]; about an axis it is a disc.
-fn radius(run: &Finished) -> Result<f64, LabError> {
-    let disc = number_or(run, "/bodies/0/shape/disc/radius_m", 0.0);
-    if disc > 0.0 {
-        return Ok(disc);
-    }
-    number(run, "/bodies/0/shape/sphere/radius_m")
-}
-
 /// The sphere of a scene.
 pub(super) fn body(run: &Finished) -> Result<Body, LabError> {
-    Ok(Body {
-        radius: radius(run)?,
-        conductivity: number(run, "/bodies/0/conductivity_s_m")?,
-        frequency: number(run, "/eddy_currents/harmonic/frequency_hz")?,
-    })
+    coaxial::body(&run.scene).map_err(|what| unknown(run, what))
 }
 
-/// The loops of a run; a place has two numbers about an axis.
-pub(super) fn loops(run: &Finished) -> Result<Sources, LabError> {
-    loops_of(&run.scene, run)
+/// The sphere and the loops of a scene, whatever became of them in a run.
+pub(super) fn coaxial(scene: &Value, run: &Finished) -> Result<Coaxial, LabError> {
+    Coaxial::of(scene).map_err(|what| unknown(run, what))
 }
 
-/// The loops of a scene, whatever became of them in a run.
-pub(super) fn loops_of(scene: &Value, run: &Finished) -> Result<Sources, LabError> {
-    let coils = scene.pointer("/eddy_currents/coils");
-    let mut sources = Sources::default();
-    for coil in coils.and_then(Value::as_array).into_iter().flatten() {
-        let read = |key: &str| {
-            coil.pointer(&format!("/loop/{key}"))
-                .and_then(Value::as_f64)
-        };
-        let wanted = |key: &str| {
-            read(key).ok_or_else(|| LabError::Content {
-                path: run.artefact.clone(),
-                what: format!("a loop of its scene has no {key}"),
-            })
-        };
-        let one = Loop {
-            radius: wanted("radius_m")?,
-            height: match read("centre_m/2") {
-                Some(height) => height,
-                None => wanted("centre_m/1")?,
-            },
-            current: read("turns").unwrap_or(1.0) * wanted("current_a")?,
-        };
-        match read("wire_radius_m").unwrap_or(0.0) {
-            0.0 => sources.loops.push(one),
-            thick => sources.loops.extend(one.thick(thick)),
-        }
+fn unknown(run: &Finished, what: String) -> LabError {
+    LabError::Content {
+        path: run.artefact.clone(),
+        what,
     }
-    Ok(sources)
 }

@@ -70,7 +70,10 @@ fn square(field: [f64; 3], sheets: Option<[f64; 3]>) -> Result<[[f64; 3]; 3], &'
 }
 
 /// Three numbers of a scene.
-fn vector(run: &Finished, pointer: &str) -> Result<[f64; 3], LabError> {
+///
+/// # Errors
+/// When it has none.
+pub fn vector(run: &Finished, pointer: &str) -> Result<[f64; 3], LabError> {
     let found = at(run, pointer)?.as_array().into_iter().flatten();
     let found: Option<Vec<f64>> = found.map(Value::as_f64).collect();
     found

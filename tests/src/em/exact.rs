@@ -1,13 +1,14 @@
 //! Exact fields along the lines of a scene of `emfield` whose solution is known, and its totals.
 //!
 //! Known are a dielectric sphere whose dipole is imposed on the walls, and a conducting sphere among coaxial
-//! loops; both spheres lie about the origin. Columns are named as `emfield` names them.
+//! loops; the one lies about the origin, the other on the axis of the loops. Columns are named as `emfield` names them.
 
 use serde_json::{Value, json};
 
 use super::C;
+use super::coaxial::Coaxial;
 use super::dielectric::Sphere;
-use super::sphere::{Body, Loop, Solution, Sources};
+use super::sphere::Solution;
 use super::walls::amounts;
 
 /// A solution that is known.
@@ -17,12 +18,10 @@ pub enum Known {
     Dielectric(Sphere),
     /// A conducting sphere among loops.
     Conductor {
-        /// The fields.
+        /// The fields, seen from the centre of the sphere.
         solution: Box<Solution>,
-        /// Radius and conductivity.
-        body: Body,
-        /// Distance of the nearest wire from the origin \[m\]: the solution holds within.
-        reach: f64,
+        /// The sphere and the loops.
+        scene: Coaxial,
     },
 }
 
@@ -74,17 +73,18 @@ impl Known {
     /// Where none is known.
     pub fn of(scene: &Value) -> Result<Self, String> {
         let bodies = scene["bodies"].as_array().map_or(0, Vec::len);
-        let centre = scene
-            .pointer("/bodies/0/shape/sphere/centre_m")
-            .and_then(numbers);
-        let first = scene["geometry"] == "space" && bodies == 1;
-        if !first || centre.is_none_or(|c| c.iter().any(|x| x.abs() > 0.0)) {
-            return Err("known is one sphere in space about the origin".to_owned());
+        if scene["geometry"] != "space" || bodies != 1 {
+            return Err("known is one sphere in space".to_owned());
         }
-        match scene.get("electrostatics") {
-            Some(_) => Ok(Self::Dielectric(dielectric(scene)?)),
-            None => conductor(scene),
+        if scene.get("electrostatics").is_some() {
+            return Ok(Self::Dielectric(dielectric(scene)?));
         }
+        let scene = Coaxial::of(scene)?;
+        let solution = Solution::of(scene.body, scene.sources.clone());
+        Ok(Self::Conductor {
+            solution: Box::new(solution),
+            scene,
+        })
     }
 
     /// Where the solution comes from.
@@ -107,7 +107,7 @@ impl Known {
                 all.extend(vector("electric_field", "V/m", sphere.electric(p)));
                 all
             }
-            Self::Conductor { solution, body, .. } => currents(solution, body, p),
+            Self::Conductor { solution, scene } => currents(solution, scene, p),
         }
     }
 
@@ -147,11 +147,14 @@ impl Known {
     pub fn file(&self, scene: &Value) -> Result<Value, String> {
         let mut all = Vec::new();
         for (name, places) in lines(scene)? {
-            if let Self::Conductor { reach, .. } = self
-                && places.iter().any(|p| length(*p) >= *reach)
+            if let Self::Conductor { scene, .. } = self
+                && places
+                    .iter()
+                    .any(|p| length(scene.axes().place(*p)) >= scene.reach())
             {
                 return Err(format!(
-                    "line {name} leaves the ball within the nearest wire, {reach} m"
+                    "line {name} leaves the ball within the nearest wire, {} m",
+                    scene.reach()
                 ));
             }
             let rows: Vec<Vec<Entry>> = places.iter().map(|p| self.fields(*p)).collect();
@@ -178,6 +181,10 @@ impl Known {
 
 /// The sphere whose dipole the walls of a scene have.
 pub(crate) fn dielectric(scene: &Value) -> Result<Sphere, String> {
+    let centre = scene.pointer("/bodies/0/shape/sphere/centre_m");
+    if centre.and_then(numbers).is_none_or(|c| length(c) > 0.0) {
+        return Err("known is a dielectric sphere about the origin".to_owned());
+    }
     let around = number(scene, "/surroundings/relative_permittivity").unwrap_or(1.0);
     let alone = Sphere {
         radius: number(scene, "/bodies/0/shape/sphere/radius_m")?,
@@ -194,48 +201,9 @@ pub(crate) fn dielectric(scene: &Value) -> Result<Sphere, String> {
     })
 }
 
-fn conductor(scene: &Value) -> Result<Known, String> {
-    let body = Body {
-        radius: number(scene, "/bodies/0/shape/sphere/radius_m")?,
-        conductivity: number(scene, "/bodies/0/conductivity_s_m")?,
-        frequency: number(scene, "/eddy_currents/harmonic/frequency_hz")?,
-    };
-    let sources = loops(scene)?;
-    let far = sources.loops.iter().map(|l| l.radius.hypot(l.height));
-    Ok(Known::Conductor {
-        reach: far.fold(f64::INFINITY, f64::min),
-        solution: Box::new(Solution::of(body, sources)),
-        body,
-    })
-}
-
-/// The coaxial loops of a scene, thick ones as many thin ones.
-fn loops(scene: &Value) -> Result<Sources, String> {
-    let coils = scene
-        .pointer("/eddy_currents/coils")
-        .and_then(Value::as_array);
-    let mut sources = Sources::default();
-    for coil in coils.into_iter().flatten() {
-        let own = coil.get("loop").ok_or("known are loops alone")?;
-        let centre = numbers(&own["centre_m"]).filter(|c| c[0].hypot(c[1]) <= 0.0);
-        if own.get("normal").is_some() || own["phase_deg"].as_f64().is_some_and(|p| p.abs() > 0.0) {
-            return Err("known are coaxial loops in phase".to_owned());
-        }
-        let one = Loop {
-            radius: number(own, "/radius_m")?,
-            height: centre.ok_or("known are loops about z")?[2],
-            current: number(own, "/current_a")? * own["turns"].as_f64().unwrap_or(1.0),
-        };
-        match own["wire_radius_m"].as_f64() {
-            None => sources.loops.push(one),
-            Some(thick) => sources.loops.extend(one.thick(thick)),
-        }
-    }
-    Ok(sources)
-}
-
 /// Fields of the conducting sphere: what goes around the axis, and what lies in its planes.
-fn currents(solution: &Solution, body: &Body, p: [f64; 3]) -> Vec<Entry> {
+fn currents(solution: &Solution, scene: &Coaxial, p: [f64; 3]) -> Vec<Entry> {
+    let p = scene.axes().place(p);
     let rho = p[0].hypot(p[1]);
     let share = if rho > 0.0 {
         [p[0] / rho, p[1] / rho]
@@ -244,7 +212,7 @@ fn currents(solution: &Solution, body: &Body, p: [f64; 3]) -> Vec<Entry> {
     };
     let zero = C::new(0.0, 0.0);
     let around = |v: C| [v * -share[1], v * share[0], zero];
-    let inside = length(p) <= body.radius;
+    let inside = length(p) <= scene.body.radius;
     let potential = solution.potential(rho, p[2]);
     let [out, up] = solution.flux(rho, p[2]);
     let current = if inside {
@@ -268,7 +236,7 @@ fn currents(solution: &Solution, body: &Body, p: [f64; 3]) -> Vec<Entry> {
     all.push((
         "joule_heat".to_owned(),
         "W/m3",
-        current.norm_sqr() / body.conductivity,
+        current.norm_sqr() / scene.body.conductivity,
     ));
     all
 }

@@ -3,6 +3,7 @@
 //! - [`dielectric`]: a dielectric sphere in a uniform field, Matsuzawa (2017), eqs 3.3 to 3.11.
 //! - [`axes`] in which a solution stands.
 //! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
+//! - [`coaxial`]: a conducting sphere among loops, as a scene tells it.
 //! - [`coil`]: rings of current.
 //! - [`cylinder`]: a conducting cylinder in an axial alternating field, eqs 3.12 and 3.13;
 //!   [`diffusion`]: the same after its field is switched on.
@@ -15,6 +16,7 @@
 
 pub mod axes;
 pub mod bessel;
+pub mod coaxial;
 pub mod coil;
 pub mod cylinder;
 pub mod dielectric;
