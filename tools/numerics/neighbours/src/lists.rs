@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::grid::{Grid, Reach};
-use crate::sieve::{Candidates, Centre, LANES, Sieve, Sifting, on_this_machine};
+use crate::sieve::{AWAY, Candidates, Centre, LANES, Lanes, Sieve, Sifting, on_this_machine};
 
 /// Cells along x of which the neighbourhood is found at once: consecutive rows mostly share it.
 const LENGTH: usize = 3;
@@ -32,6 +32,11 @@ struct Brick {
     runs: Vec<Range<usize>>,
     /// Points in all runs.
     points: usize,
+    /// The points of all runs side by side, each axis a column, with [`LANES`] points far away behind
+    /// them; columns may be longer.
+    columns: [Vec<f64>; 3],
+    /// Their indices.
+    index: Vec<u32>,
 }
 
 impl Brick {
@@ -44,8 +49,56 @@ impl Brick {
             self.place = place;
             let first = [i - i % LENGTH, j, k];
             grid.runs_around(first, LENGTH, reach, &mut self.runs);
-            self.points = self.runs.iter().map(Range::len).sum();
+            self.pack(grid);
         }
+    }
+
+    /// Puts the points of the runs side by side, [`LANES`] at once: what is copied beyond the end of a
+    /// run is overwritten by the next one.
+    #[inline(always)]
+    fn pack(&mut self, grid: &Grid) {
+        self.points = self.runs.iter().map(Range::len).sum();
+        let end = self.points + 2 * LANES;
+        if self.index.len() < end {
+            self.columns
+                .iter_mut()
+                .for_each(|column| column.resize(end, AWAY));
+            self.index.resize(end, 0);
+        }
+        let [x, y, z] = self.columns.each_mut().map(|column| &mut column[..end]);
+        let index = &mut self.index[..end];
+        let mut used = 0;
+        for run in &self.runs {
+            for first in run.clone().step_by(LANES) {
+                // All hold as many.
+                if let (Some(lanes), Some(order), Some(x), Some(y), Some(z), Some(index)) = (
+                    grid.lanes(first),
+                    grid.order_from(first),
+                    x[used..].first_chunk_mut(),
+                    y[used..].first_chunk_mut(),
+                    z[used..].first_chunk_mut(),
+                    index[used..].first_chunk_mut(),
+                ) {
+                    (*x, *y, *z, *index) = (*lanes.x, *lanes.y, *lanes.z, *order);
+                }
+                used += LANES.min(run.end - first);
+            }
+        }
+        x[used..used + LANES].fill(AWAY);
+    }
+
+    /// The points side by side, the last ones far away.
+    #[inline(always)]
+    fn candidates(&self) -> impl Iterator<Item = Candidates<'_>> {
+        let vectors = self.points.div_ceil(LANES);
+        let [x, y, z] = self.columns.each_ref().map(|column| column.as_chunks().0);
+        let lanes = x[..vectors].iter().zip(y).zip(z);
+        lanes
+            .zip(self.index.as_chunks().0)
+            .map(|(((x, y), z), index)| Candidates {
+                lanes: Lanes { x, y, z },
+                index,
+            })
     }
 }
 
@@ -97,23 +150,13 @@ impl Chunk {
         self.hold(end);
         let (slots, squares) = (&mut self.index[used..end], &mut self.square[used..end]);
         let mut hits = 0;
-        for run in &self.brick.runs {
-            for first in run.clone().step_by(LANES) {
-                let count = run.end - first;
-                // All four hold as many.
-                if let (Some(lanes), Some(index), Some(slots), Some(squares)) = (
-                    grid.lanes(first),
-                    grid.order_from(first),
-                    slots[hits..].first_chunk_mut(),
-                    squares[hits..].first_chunk_mut(),
-                ) {
-                    let candidates = Candidates {
-                        lanes,
-                        index,
-                        count,
-                    };
-                    hits += sieve.sift(centre, candidates, slots, squares);
-                }
+        for candidates in self.brick.candidates() {
+            // Both hold as many.
+            if let (Some(slots), Some(squares)) = (
+                slots[hits..].first_chunk_mut(),
+                squares[hits..].first_chunk_mut(),
+            ) {
+                hits += sieve.sift(centre, candidates, slots, squares);
             }
         }
         used + hits

@@ -19,8 +19,6 @@ pub(crate) struct Candidates<'a> {
     pub(crate) lanes: Lanes<'a>,
     /// Their indices.
     pub(crate) index: &'a [u32; LANES],
-    /// How many of the lanes are candidates, at most [`LANES`].
-    pub(crate) count: usize,
 }
 
 /// Farther than any point.
@@ -58,11 +56,7 @@ impl Sieve for OneByOne {
     fn sift(
         self,
         Centre { point, radius, own }: Centre,
-        Candidates {
-            lanes,
-            index,
-            count,
-        }: Candidates<'_>,
+        Candidates { lanes, index }: Candidates<'_>,
         slots: &mut [u32; LANES],
         squares: &mut [f64; LANES],
     ) -> usize {
@@ -76,7 +70,7 @@ impl Sieve for OneByOne {
         });
         let mut hits = 0;
         // Written without a branch: every index is stored and the end moves on only for a near one.
-        for k in 0..count.min(LANES) {
+        for k in 0..LANES {
             (slots[hits % LANES], squares[hits % LANES]) = (index[k], all[k]);
             hits += usize::from((all[k] < radius * radius) & (index[k] != own));
         }
@@ -95,11 +89,7 @@ impl Sieve for Packed {
     fn sift(
         self,
         Centre { point, radius, own }: Centre,
-        Candidates {
-            lanes,
-            index,
-            count,
-        }: Candidates<'_>,
+        Candidates { lanes, index }: Candidates<'_>,
         slots: &mut [u32; LANES],
         squares: &mut [f64; LANES],
     ) -> usize {
@@ -120,7 +110,7 @@ impl Sieve for Packed {
             .cmp_lt_f64x8(square, simd.splat_f64x8(radius * radius))
             .0;
         let other = !simd.cmp_eq_u32x8(index, simd.splat_u32x8(own)).0;
-        let chosen = near & other & ((1_u16 << count.min(LANES)) - 1) as u8;
+        let chosen = near & other;
         *squares = pulp::cast(
             simd.avx512f
                 ._mm512_maskz_compress_pd(chosen, pulp::cast(square)),
@@ -172,9 +162,10 @@ mod tests {
     /// Neighbours of the third of some points, of which `count` are candidates.
     fn sift(sieve: impl Sieve, radius: f64, count: usize) -> Vec<(u32, f64)> {
         let wave = |step: f64| from_fn(|k| (step * (k + 1) as f64).sin());
-        let [x, y, z]: [[f64; LANES]; 3] = [0.9, 1.7, 2.3].map(wave);
+        let [mut x, y, z]: [[f64; LANES]; 3] = [0.9, 1.7, 2.3].map(wave);
         let index: [u32; LANES] = from_fn(|k| 100 - 3 * k as u32);
         let (point, own) = ([x[2], y[2], z[2]], index[2]);
+        x[count..].fill(AWAY);
         let (mut slots, mut squares) = ([0; LANES], [0.0; LANES]);
         let candidates = Candidates {
             lanes: Lanes {
@@ -183,7 +174,6 @@ mod tests {
                 z: &z,
             },
             index: &index,
-            count,
         };
         let centre = Centre { point, radius, own };
         let hits = sieve.sift(centre, candidates, &mut slots, &mut squares);
@@ -221,10 +211,10 @@ mod tests {
             return;
         };
         for radius in [1e-9, 0.3, 0.7, 1.0, 1.5, 10.0] {
-            for unused in [0, 1, 5, 12, 27] {
+            for count in 0..=LANES {
                 assert_eq!(
-                    sift(Packed(simd), radius, unused),
-                    sift(OneByOne, radius, unused)
+                    sift(Packed(simd), radius, count),
+                    sift(OneByOne, radius, count)
                 );
             }
         }
