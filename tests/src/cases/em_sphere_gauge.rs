@@ -54,6 +54,7 @@ impl Case for EmSphereGauge {
             Target::order("current_linf", 3.0).of("100-hz"),
             Target::error("power_volume", 2e-2).of(THIN),
             Target::error("power_poynting", 2e-2).of(THIN),
+            Target::error("current_linf", 2e-2).of(THIN),
         ]
     }
 

@@ -12,10 +12,14 @@
 //! V is sought at the points of conductors alone, by stencils of each of them alone. Each body, with all
 //! that it touches, has V up to a constant; its mean is zero. Unknown is `phi`, of which V is the rate:
 //! `V = j w phi` in a sinusoidal steady state.
+//!
+//! V is harmonic and as smooth as the body is wide, however thin the skin: its polynomials are those of places, not of
+//! offsets that follow a surface which bends. What its gradient errs comes many times enlarged into the currents, since
+//! `dA/dt` and `grad V` all but cancel in a thin skin.
 
 use std::ops::Range;
 
-use wls::{Cloud, Condition, Error, Row, Rules, Search, Stencils, Wants};
+use wls::{Cloud, Condition, Error, Metric, Row, Rules, Search, Stencils, Wants};
 
 use super::region::{Kind, Region};
 use super::sides::Form;
@@ -105,9 +109,11 @@ impl Charge {
         conductivity: &[f64],
         form: &Form,
     ) -> Result<Option<Self>, Error> {
+        let straight = region.metrics.iter().map(|metric| metric.straight());
+        let metrics: Vec<Metric<3>> = straight.collect();
         let cloud = Cloud {
             points: &region.places,
-            metrics: &region.metrics,
+            metrics: &metrics,
         };
         let search = Search::new(cloud)?;
         let form = form.for_potentials();

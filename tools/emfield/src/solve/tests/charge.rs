@@ -118,6 +118,37 @@ fn a_magnet_between_sheets_drives_what_a_solenoid_drives() {
 }
 
 #[test]
+fn quadratics_are_exact_in_layers_thinner_than_their_surface_bends() {
+    let (mut region, _) = shells(0.01, 0.25);
+    for metric in &mut region.metrics {
+        if let Some([x, y, z]) = metric.normal() {
+            let across = if z.abs() < 0.9 {
+                [-y, x, 0.0]
+            } else {
+                [0.0, -z, y]
+            };
+            let size = across.iter().map(|a| a * a).sum::<f64>().sqrt();
+            *metric = metric.bent(across.map(|a| a / size), [1.0, 1.0]);
+        }
+    }
+    let charge = Charge::new(&region, &[0.0, SIGMA], &FORM).unwrap().unwrap();
+    let phi = |q: usize| {
+        let x = region.places[charge.points[q] as usize];
+        x[0] * x[1] - 0.3 * x[2] * x[0] + 0.2 * x[2]
+    };
+    for i in charge.points.iter().map(|i| *i as usize) {
+        let x = region.places[i];
+        let mut left = [x[1] - 0.3 * x[2], x[0], 0.2 - 0.3 * x[0]];
+        for (q, w) in charge.gradient(i, Side::Inner) {
+            for k in 0..3 {
+                left[k] -= phi(q) * w[k];
+            }
+        }
+        assert!(left.iter().all(|x| x.abs() < 1e-9), "{x:?}: {left:?}");
+    }
+}
+
+#[test]
 fn no_current_leaves_the_ball() {
     let (region, _) = shells(0.15, 0.3);
     let (all, _, charge) = driven(&region, Origin::Sheets([0.0, 1.0, 0.0]));
