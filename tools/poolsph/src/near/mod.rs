@@ -141,18 +141,14 @@ impl Near {
             self.collect(state);
         }
         self.grid.bin(&self.places);
-        let members = self
-            .grid
-            .order()
-            .iter()
-            .map(|&k| self.candidates[k as usize]);
-        self.id.clear();
-        self.id.extend(members);
         self.position.clear();
         self.position.extend_from_slice(self.grid.sorted());
-        let roles = self.grid.order().iter().map(|&k| self.roles[k as usize]);
-        self.role.clear();
-        self.role.extend(roles);
+        let (candidates, roles) = (&self.candidates, &self.roles);
+        let order = || self.grid.order().par_iter().with_min_len(GRAIN);
+        let member = |&k: &u32| candidates[k as usize];
+        order().map(member).collect_into_vec(&mut self.id);
+        let role = |&k: &u32| roles[k as usize];
+        order().map(role).collect_into_vec(&mut self.role);
         self.liquid_count = self
             .role
             .iter()
@@ -165,9 +161,8 @@ impl Near {
                 [0.0; 3]
             }
         };
-        self.velocity.clear();
-        self.velocity
-            .extend(self.id.iter().zip(&self.role).map(moving));
+        let members = self.id.par_iter().zip(&self.role).with_min_len(GRAIN);
+        members.map(moving).collect_into_vec(&mut self.velocity);
         self.grid.renumber();
         self.force.clear();
         self.force.resize(self.id.len(), [0.0; 3]);
