@@ -2,7 +2,7 @@
 
 use run::{Failure, Fault};
 use shapes::frame::Vector;
-use wls::{Condition, Plan, Rules, Search, Stencils, Wants};
+use wls::{Condition, Plan, Reach, Rules, Search, Stencils, Wants};
 
 use super::Column;
 use crate::cloud::region::{Region as Ground, vector};
@@ -57,6 +57,21 @@ fn harmonic_form<const D: usize>(scene: &Scene) -> Option<Form> {
     (scene.electrostatics.is_some() && one_sided && straight && form.compares()).then_some(form)
 }
 
+/// Points for each coefficient of a harmonic polynomial between the points: fewer than equations take, since nothing
+/// has to be stable and an error grows with the order of the distance.
+const POINTS: f64 = 4.0 / 3.0;
+
+/// The support of a harmonic polynomial.
+fn nearest<const D: usize>(order: u8) -> Reach {
+    let order = usize::from(order);
+    let coefficients = if D == 2 {
+        2 * order + 1
+    } else {
+        (order + 1) * (order + 1)
+    };
+    Reach::Nearest((POINTS * coefficients as f64).ceil() as usize)
+}
+
 impl Samples {
     /// The probes and lines of a scene.
     ///
@@ -101,7 +116,11 @@ impl Samples {
             let stencils = Stencils::at(&search, &plan, &flat, &rules).map_err(failed)?;
             Ok::<_, Failure>(shares(cloud, &media, &stencils))
         };
-        let harmonic = harmonic_form::<D>(scene).map(|form| make(form.between::<D>(wants), true));
+        let harmonic = harmonic_form::<D>(scene).map(|form| {
+            let reach = nearest::<D>(form.order);
+            let plan = form.between::<D>(wants);
+            make(Plan { reach, ..plan }, true)
+        });
         let harmonic = harmonic.transpose()?.unwrap_or_default();
         let any = if harmonic.is_empty() || scene.eddy_currents.is_some() {
             let order = (scene.method.order as u8).max(2);

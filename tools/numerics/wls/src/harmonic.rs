@@ -19,6 +19,8 @@ pub(crate) struct Reduction {
     starts: Vec<usize>,
     /// Monomial and coefficient.
     parts: Vec<(usize, f64)>,
+    /// What harmonic polynomials obey, from which these came; empty for others.
+    obeyed: Vec<Coefficients>,
 }
 
 /// The polynomials of a fit.
@@ -72,12 +74,18 @@ impl Reduction {
     fn clear(&mut self) {
         self.starts.clear();
         self.parts.clear();
+        self.obeyed.clear();
     }
 
     /// Takes the polynomials that obey `rows`: for each monomial of degree two less than the order, in the order of
     /// the basis, its coefficient in the Laplacian.
     fn take<const D: usize>(&mut self, basis: &Basis<D>, rows: &[Coefficients]) {
+        // In round metrics every fit of an order has the same.
+        if !rows.is_empty() && self.obeyed == rows {
+            return;
+        }
         self.clear();
+        self.obeyed.extend_from_slice(rows);
         let exponents = basis.exponents();
         let degree = |e: &[u8; D]| e.iter().sum::<u8>();
         let low = exponents
