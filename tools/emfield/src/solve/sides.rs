@@ -77,10 +77,12 @@ impl Form {
         self.harmonic && self.order > 2
     }
 
-    /// A plan for places between the points: the polynomial passes through no value.
+    /// A plan for places between the points: the polynomial passes through no value. Where harmonic ones compare a fine
+    /// lattice with a coarse one, neither leads for its mere number of points.
     pub(crate) fn between<const D: usize>(&self, wants: Wants) -> Plan {
         Plan {
             interpolating: false,
+            by_room: self.compares(),
             ..self.plan::<D>(wants)
         }
     }

@@ -4,6 +4,7 @@ use crate::basis::Basis;
 use crate::functional::{Condition, Rows};
 use crate::harmonic::Over;
 use crate::ladder::{Bench, Work};
+use crate::metric::Metric;
 use crate::search::Target;
 
 impl<const D: usize> Bench<'_, D> {
@@ -60,12 +61,18 @@ impl<const D: usize> Bench<'_, D> {
     /// What the weights of points are multiplied by beside that of their distance; nothing where it is nothing.
     fn weigh(&self, (target, by_room): (&Target<D>, bool), order: u8, work: &mut Work<D>) {
         work.rooms.clear();
+        let metrics = self.search.cloud().metrics;
+        let level = |metric: &Metric<D>| metric.normal().is_none();
+        let neighbours = || work.support.neighbours.iter();
+        let by_room = by_room
+            || self.plan.by_room
+                && level(&target.metric)
+                && neighbours().all(|j| level(&metrics[*j as usize]));
         if !by_room && !target.metric.follows() {
             return;
         }
-        let metrics = self.search.cloud().metrics;
         let above = target.metric.above(order);
-        let points = work.support.neighbours.iter().zip(&work.support.offsets);
+        let points = neighbours().zip(&work.support.offsets);
         work.rooms.extend(points.map(|(j, s)| {
             let room = if by_room {
                 metrics[*j as usize].volume() / target.metric.volume()

@@ -25,6 +25,9 @@ pub struct Plan {
     pub positive: bool,
     /// The fit passes through the point's own value.
     pub interpolating: bool,
+    /// Points weigh by the room that each has, where no layers are near: those of a fine lattice beside a coarse one no more
+    /// than their share.
+    pub by_room: bool,
 }
 
 impl Plan {
@@ -44,6 +47,7 @@ impl Plan {
             wants,
             positive: false,
             interpolating: false,
+            by_room: false,
         }
     }
 

@@ -15,5 +15,6 @@ mod invariant;
 mod linear;
 mod orders;
 mod positive;
+mod room;
 mod singular;
 mod wedge;
