@@ -7,7 +7,8 @@
 //! where it would touch, and rests there.
 //!
 //! Print gives a droplet every 0.1 s and means 10 ms; 19 particles of volume d^3 carry the volume of
-//! the wire feed with a longer period, which the scene says.
+//! the wire feed with a longer period. Lattices of other spacings hold other volumes within the radius, so that a scene
+//! best says the feed, and droplets come as often as they carry it.
 
 use std::sync::Arc;
 
@@ -25,9 +26,15 @@ use crate::state::{Metal, Particle, Phase, State};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// Time between two droplets \[s\]; the first is born at time 0.
+    /// Time between two droplets \[s\]; the first is born at time 0. Where it is absent, `feed_m3_s` decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
-    pub period_s: f64,
+    pub period_s: Option<f64>,
+    /// Volume of wire that melts in a second \[m3/s\]: droplets come as often as they carry it, however many particles
+    /// they are at the spacing. Left aside where there is `period_s`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m3/s", "exclusiveMinimum" = 0.0))]
+    pub feed_m3_s: Option<f64>,
     /// Lattice points within this radius make a droplet \[m\].
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub radius_m: f64,
@@ -43,9 +50,21 @@ pub struct Parameters {
     pub temperature_k: Option<f64>,
 }
 
+impl Parameters {
+    /// Time between two droplets of particles of the spacing \[m\] \[s\]: T = N d^3 / V', N particles each, V' the feed.
+    #[must_use]
+    pub fn period(&self, spacing: f64) -> Option<f64> {
+        let volume = || shape(self.radius_m, spacing).len() as f64 * spacing.powi(3);
+        self.period_s
+            .or_else(|| self.feed_m3_s.map(|feed| volume() / feed))
+    }
+}
+
 /// The stage that makes and moves droplets.
 pub struct Droplets {
     parameters: Parameters,
+    /// Time between two \[s\].
+    period: f64,
     /// Places of the particles about the centre \[m\].
     shape: Vec<[f64; 3]>,
     temperature: f64,
@@ -84,6 +103,10 @@ impl Droplets {
         metal: Metal,
         caloric: Option<&Arc<Caloric>>,
     ) -> Result<Self, Fault> {
+        let Some(period) = parameters.period(metal.spacing) else {
+            let what = "has neither 'period_s' in s nor 'feed_m3_s' in m3/s, which say how often droplets come";
+            return Err(Fault::at("", what));
+        };
         let shape = shape(parameters.radius_m, metal.spacing);
         let (temperature, enthalpy) = match (parameters.temperature_k, caloric) {
             (_, None) => (0.0, 0.0),
@@ -106,6 +129,7 @@ impl Droplets {
         };
         Ok(Self {
             parameters,
+            period,
             shape,
             temperature,
             enthalpy,
@@ -125,7 +149,7 @@ impl Droplets {
     /// Number of droplets born until the time \[s\], its own moment included.
     fn due(&self, time: f64) -> u64 {
         // A millionth of a period decides, not the rounding of the time.
-        (time / self.parameters.period_s + 1e-6).floor() as u64 + 1
+        (time / self.period + 1e-6).floor() as u64 + 1
     }
 
     fn bear(&mut self, state: &mut State, axis: [f64; 3]) {
@@ -248,7 +272,7 @@ impl Stage for Droplets {
         while self.born < due {
             self.bear(state, place.position);
         }
-        let turns = end / self.parameters.period_s;
+        let turns = end / self.period;
         place.phase = (turns - (due - 1) as f64).clamp(0.0, 1.0);
         place.droplets = self.born;
         state.source = Some(place);
@@ -298,7 +322,8 @@ mod tests {
 
     fn parameters() -> Parameters {
         Parameters {
-            period_s: 1e-2,
+            period_s: Some(1e-2),
+            feed_m3_s: None,
             radius_m: 0.75e-3,
             height_m: 5e-3,
             speed_m_s: 1.56,
@@ -361,6 +386,42 @@ mod tests {
         assert_eq!(state.source.unwrap().droplets, 11);
         assert_eq!(state.droplet.iter().filter(|d| **d).count(), 11 * 19);
         assert!(state.source.unwrap().phase.abs() < 1e-9);
+    }
+
+    #[test]
+    fn droplets_of_any_spacing_carry_the_feed() {
+        let feed = 1.49e-7;
+        let parameters = Parameters {
+            period_s: None,
+            feed_m3_s: Some(feed),
+            ..parameters()
+        };
+        for spacing in [1e-3, 7e-4, 5e-4, 4e-4, 2.5e-4] {
+            let metal = Metal {
+                spacing,
+                smoothing_length: spacing,
+                ..METAL
+            };
+            let stage = Droplets::new(parameters, metal, None).unwrap();
+            let volume = stage.particles() as f64 * spacing.powi(3);
+            let supplied = stage.due(10.0) as f64 * volume;
+            assert!((supplied - 10.0 * feed).abs() < 1.001 * volume, "{spacing}");
+        }
+        // A period goes before.
+        assert_eq!(
+            Parameters {
+                period_s: Some(0.02),
+                ..parameters
+            }
+            .period(5e-4),
+            Some(0.02)
+        );
+        let silent = Parameters {
+            feed_m3_s: None,
+            ..parameters
+        };
+        let fault = Droplets::new(silent, METAL, None).err().unwrap();
+        assert!(fault.to_string().contains("feed_m3_s"), "{fault}");
     }
 
     #[test]

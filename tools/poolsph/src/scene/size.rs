@@ -84,14 +84,20 @@ fn droplets(scene: &Scene) -> Option<Fault> {
         let fault = crowd("/droplets/radius_m", [across.round(); 3], scene.spacing_m);
         return Some(fault);
     }
-    let born = (scene.time.end_s / droplets.period_s).floor() + 1.0;
+    let period = droplets.period(scene.spacing_m)?;
+    let born = (scene.time.end_s / period).floor() + 1.0;
     let all = born * each;
     (all > PARTICLES_MOST).then(|| {
         let what = format!(
-            "{:e} s gives {born:.1e} droplets until {} s, {all:.1e} particles; at most {PARTICLES_MOST:.0e}",
-            droplets.period_s, scene.time.end_s
+            "a droplet every {period:e} s gives {born:.1e} until {} s, {all:.1e} particles; at most {PARTICLES_MOST:.0e}",
+            scene.time.end_s
         );
-        Fault::at("/droplets/period_s", what)
+        let key = if droplets.period_s.is_some() {
+            "/droplets/period_s"
+        } else {
+            "/droplets/feed_m3_s"
+        };
+        Fault::at(key, what)
     })
 }
 
@@ -153,6 +159,9 @@ mod tests {
         };
         assert_eq!(droplets(1e-9, 7.5e-4)[0].0, "/droplets/period_s");
         assert_eq!(droplets(0.016, 1.0)[0].0, "/droplets/radius_m");
+        let fed = json!({"feed_m3_s": 10.0, "radius_m": 7.5e-4, "height_m": 1, "speed_m_s": 1});
+        let told = paths(&json!({"droplets": fed}));
+        assert_eq!(told[0].0, "/droplets/feed_m3_s");
     }
 
     #[test]
