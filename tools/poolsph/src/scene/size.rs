@@ -89,7 +89,7 @@ fn droplets(scene: &Scene) -> Option<Fault> {
     let all = born * each;
     (all > PARTICLES_MOST).then(|| {
         let what = format!(
-            "a droplet every {period:e} s gives {born:.1e} until {} s, {all:.1e} particles; at most {PARTICLES_MOST:.0e}",
+            "one every {period:e} s gives {born:.1e} droplets until {} s, {all:.1e} particles; at most {PARTICLES_MOST:.0e}",
             scene.time.end_s
         );
         let key = if droplets.period_s.is_some() {
