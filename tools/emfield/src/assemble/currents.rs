@@ -138,11 +138,7 @@ impl<'a, const D: usize> Setting<'a, D> {
             weights,
             unknown,
             source: source(scene, currents),
-            conductors: Conductors {
-                mu_sigma: media(scene, |m| {
-                    MU0 * m.relative_permeability * m.conductivity_s_m
-                }),
-            },
+            conductors: conductors(scene, unknown),
             region,
             scene,
             cloud,
@@ -310,5 +306,23 @@ impl<'a, const D: usize> Setting<'a, D> {
         let at = (self.cloud, size);
         super::report(("vector_potential", "V s/m"), &solved, at, session)?;
         Ok(x)
+    }
+}
+
+/// The conductors of a scene.
+fn conductors(scene: &Scene, unknown: Unknown) -> Conductors {
+    let conductivity = media(scene, |m| m.conductivity_s_m);
+    let conducting = conductivity.iter().filter(|s| **s > 0.0);
+    let least = conducting.fold(f64::INFINITY, |least, s| least.min(*s));
+    let over = |s: &f64| if *s > 0.0 { least / s } else { 0.0 };
+    Conductors {
+        mu_sigma: media(scene, |m| {
+            MU0 * m.relative_permeability * m.conductivity_s_m
+        }),
+        resistivity: if unknown == Unknown::Axial {
+            conductivity.iter().map(over).collect()
+        } else {
+            Vec::new()
+        },
     }
 }

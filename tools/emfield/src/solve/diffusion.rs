@@ -4,7 +4,7 @@
 //! exactly (`A_s`). In air `lap A = 0`, in a conductor `lap A - mu sigma (j w (A + A_s)) = 0`
 //! (Matsuzawa 2017, eqs 2.64, 2.65 and 2.69: with `div A = 0` and one permeability, the components do not
 //! mix and share one operator). On an interface `dA/dn` is continuous, from one-sided gradients: the
-//! second derivative jumps there.
+//! second derivative jumps there. Of `H_z` it is the electric field along the interface, `dH/dn / sigma`.
 
 use krylov::Rows;
 use num_complex::Complex;
@@ -32,6 +32,8 @@ pub enum Unknown {
 pub struct Conductors {
     /// `mu sigma` \[s/m2\]; 0 where nothing conducts.
     pub mu_sigma: Vec<f64>,
+    /// Resistivity over the greatest of all conductors, for `H_z`; empty for potentials, whose slopes are continuous.
+    pub resistivity: Vec<f64>,
 }
 
 impl Unknown {
@@ -46,6 +48,14 @@ impl Unknown {
 }
 
 impl Conductors {
+    /// What the slope on the side of a medium is multiplied by at its interfaces.
+    fn weight(&self, medium: u8) -> f64 {
+        self.resistivity
+            .get(medium as usize)
+            .copied()
+            .unwrap_or(1.0)
+    }
+
     /// What stands before the rate in the row of point `i`, `row(A) = at d(A + A_s)/dt`: inside a
     /// medium `mu sigma`; on an interface the shares of the Laplacians on both sides in the slopes;
     /// nothing where the unknown is held.
@@ -65,7 +75,9 @@ impl Conductors {
             Kind::Interface(face) => {
                 let face = &region.faces[face as usize];
                 let side = |medium: u8, stencils| {
-                    self.mu_sigma[medium as usize] * share_along(stencils, i, face.normal)
+                    self.weight(medium)
+                        * self.mu_sigma[medium as usize]
+                        * share_along(stencils, i, face.normal)
                 };
                 side(face.outer, &sides.outer) - side(face.inner, &sides.inner)
             }
@@ -107,9 +119,10 @@ impl Conductors {
             }
             match region.kinds[i] {
                 Kind::Interface(face) => {
-                    let n = region.faces[face as usize].normal;
-                    along_normal(&sides.inner, i, n, 1.0, &mut push);
-                    along_normal(&sides.outer, i, n, -1.0, &mut push);
+                    let face = &region.faces[face as usize];
+                    let [inner, outer] = [face.inner, face.outer].map(|m| self.weight(m));
+                    along_normal(&sides.inner, i, face.normal, inner, &mut push);
+                    along_normal(&sides.outer, i, face.normal, -outer, &mut push);
                 }
                 _ => {
                     let plain = sides.own.laplacian(i);
