@@ -16,9 +16,10 @@ use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{EddyCurrents, Scene};
-use crate::solve::diffusion::{self, Conductors, Unknown};
+use crate::solve::diffusion::{self, Axial, Conductors, Unknown};
 use crate::solve::eddy::{Drive, Solution, steady_change};
 use crate::solve::enclosed::Enclosed;
+use crate::solve::holes::Holes;
 use crate::solve::multipole::Multipoles;
 use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
@@ -129,6 +130,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         });
         let failed = |error: wls::Error| no_stencil("eddy currents", &error, (scene, cloud));
         let (sides, mut weights) = made.map_err(failed)?;
+        let conductors = conductors(scene, (&region, &sides), unknown);
         let coils = windings(scene, currents, cloud)?;
         let wound = || Windings::new(&region, &coils, &mut weights);
         Ok(Self {
@@ -138,7 +140,7 @@ impl<'a, const D: usize> Setting<'a, D> {
             weights,
             unknown,
             source: source(scene, currents),
-            conductors: conductors(scene, unknown),
+            conductors,
             region,
             scene,
             cloud,
@@ -310,19 +312,26 @@ impl<'a, const D: usize> Setting<'a, D> {
 }
 
 /// The conductors of a scene.
-fn conductors(scene: &Scene, unknown: Unknown) -> Conductors {
+fn conductors<const D: usize>(
+    scene: &Scene,
+    (region, sides): (&Region<D>, &Sides<D>),
+    unknown: Unknown,
+) -> Conductors {
     let conductivity = media(scene, |m| m.conductivity_s_m);
-    let conducting = conductivity.iter().filter(|s| **s > 0.0);
-    let least = conducting.fold(f64::INFINITY, |least, s| least.min(*s));
-    let over = |s: &f64| if *s > 0.0 { least / s } else { 0.0 };
+    let permeability = media(scene, |m| MU0 * m.relative_permeability);
+    let axial = || {
+        let conducting = conductivity.iter().filter(|s| **s > 0.0);
+        let least = conducting.fold(f64::INFINITY, |least, s| least.min(*s));
+        let over = |s: &f64| if *s > 0.0 { least / s } else { 0.0 };
+        Axial {
+            resistivity: conductivity.iter().map(over).collect(),
+            mu: permeability.iter().map(|mu| mu * least).collect(),
+            holes: Holes::of(region, sides, |m| conductivity[m as usize] > 0.0),
+        }
+    };
+    let both = permeability.iter().zip(&conductivity);
     Conductors {
-        mu_sigma: media(scene, |m| {
-            MU0 * m.relative_permeability * m.conductivity_s_m
-        }),
-        resistivity: if unknown == Unknown::Axial {
-            conductivity.iter().map(over).collect()
-        } else {
-            Vec::new()
-        },
+        mu_sigma: both.map(|(mu, s)| mu * s).collect(),
+        axial: (unknown == Unknown::Axial).then(axial),
     }
 }

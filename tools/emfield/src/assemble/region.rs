@@ -142,7 +142,7 @@ mod tests {
             let sides = Sides::new(&region, &form).unwrap();
             let conductors = Conductors {
                 mu_sigma: vec![0.0, 1.0, 1.0],
-                resistivity: Vec::new(),
+                axial: None,
             };
             let rows = conductors.rows(&region, &sides, Unknown::Potential);
             let rates = conductors.rates(&region, &sides, Unknown::Potential);

@@ -10,6 +10,7 @@ use krylov::Rows;
 use num_complex::Complex;
 
 use super::electrostatic::around;
+use super::holes::{Hole, Holes, Media};
 use super::region::{Kind, Region};
 use super::sides::{Sides, along_normal, share_along};
 
@@ -23,7 +24,7 @@ pub enum Unknown {
     Potential,
     /// `A_phi / r` about an axis of symmetry, which is smooth on it.
     Around,
-    /// `H_z` in a plane, held where nothing conducts and on interfaces with it.
+    /// `H_z` in a plane, held where nothing conducts and on interfaces with it, but for holes.
     Axial,
 }
 
@@ -32,8 +33,19 @@ pub enum Unknown {
 pub struct Conductors {
     /// `mu sigma` \[s/m2\]; 0 where nothing conducts.
     pub mu_sigma: Vec<f64>,
-    /// Resistivity over the greatest of all conductors, for `H_z`; empty for potentials, whose slopes are continuous.
+    /// What `H_z` needs beside; none for potentials, whose slopes are continuous.
+    pub axial: Option<Axial>,
+}
+
+/// Media and holes as `H_z` needs them.
+#[derive(Debug, Clone)]
+pub struct Axial {
+    /// Resistivity over the greatest of all conductors, by medium; 0 where nothing conducts.
     pub resistivity: Vec<f64>,
+    /// `mu` over the greatest resistivity \[s/m2\], by medium.
+    pub mu: Vec<f64>,
+    /// Holes that conductors enclose.
+    pub holes: Holes,
 }
 
 impl Unknown {
@@ -50,10 +62,19 @@ impl Unknown {
 impl Conductors {
     /// What the slope on the side of a medium is multiplied by at its interfaces.
     fn weight(&self, medium: u8) -> f64 {
-        self.resistivity
-            .get(medium as usize)
-            .copied()
-            .unwrap_or(1.0)
+        let axial = self.axial.as_ref();
+        axial.map_or(1.0, |axial| axial.resistivity[medium as usize])
+    }
+
+    /// The hole that point `i` belongs to, and what its law of induction needs.
+    fn hole(&self, i: usize) -> Option<(&Hole, Media<'_>)> {
+        let axial = self.axial.as_ref()?;
+        let media = Media {
+            mu_sigma: &self.mu_sigma,
+            resistivity: &axial.resistivity,
+            mu: &axial.mu,
+        };
+        axial.holes.at(i).map(|hole| (hole, media))
     }
 
     /// What stands before the rate in the row of point `i`, `row(A) = at d(A + A_s)/dt`: inside a
@@ -68,6 +89,14 @@ impl Conductors {
     ) -> f64 {
         if self.held(region, unknown, i) {
             return 0.0;
+        }
+        if let Some((hole, media)) = self.hole(i) {
+            let first = hole.first as usize == i;
+            return if first {
+                hole.rate((region, sides), media)
+            } else {
+                0.0
+            };
         }
         match region.kinds[i] {
             Kind::Inside(m) => self.mu_sigma[m as usize],
@@ -117,6 +146,15 @@ impl Conductors {
                 push(i, 1.0);
                 return;
             }
+            if let Some((hole, media)) = self.hole(i) {
+                if hole.first as usize == i {
+                    hole.row((region, sides), media, push);
+                } else {
+                    push(i, 1.0);
+                    push(hole.first as usize, -1.0);
+                }
+                return;
+            }
             match region.kinds[i] {
                 Kind::Interface(face) => {
                     let face = &region.faces[face as usize];
@@ -138,6 +176,9 @@ impl Conductors {
     /// Is the unknown given at point `i`?
     #[must_use]
     pub fn held<const D: usize>(&self, region: &Region<D>, unknown: Unknown, i: usize) -> bool {
+        if self.hole(i).is_some() {
+            return false;
+        }
         let conducts = |m: u8| self.mu_sigma[m as usize] > 0.0;
         match region.kinds[i] {
             Kind::Wall { .. } => true,

@@ -22,6 +22,7 @@ pub mod diffusion;
 pub mod eddy;
 pub mod electrostatic;
 pub mod enclosed;
+pub mod holes;
 pub mod march;
 mod mirror;
 pub mod multipole;

@@ -25,7 +25,7 @@ fn rates(scene: &str, order: u8) -> Vec<f64> {
         mu_sigma: (0..cloud.media)
             .map(|m| scene.medium(m).conductivity_s_m)
             .collect(),
-        resistivity: Vec::new(),
+        axial: None,
     };
     let rows = conductors.rows(&region, &sides, Unknown::Around);
     let rates = conductors.rates(&region, &sides, Unknown::Around);

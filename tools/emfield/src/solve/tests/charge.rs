@@ -45,7 +45,7 @@ fn ball(region: &Region<3>) -> (Charge, Coupled) {
     let charge = Charge::new(region, &conductivity, &FORM).unwrap().unwrap();
     let conductors = Conductors {
         mu_sigma: conductivity.map(|s| MU0 * s).to_vec(),
-        resistivity: Vec::new(),
+        axial: None,
     };
     let parts = Parts {
         region,

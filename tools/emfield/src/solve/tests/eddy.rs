@@ -39,7 +39,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
     let omega = std::f64::consts::TAU * frequency;
     let conductors = Conductors {
         mu_sigma: vec![0.0, MU0 * sigma],
-        resistivity: Vec::new(),
+        axial: None,
     };
     let source = coils();
     let drive = Drive {
@@ -110,7 +110,7 @@ fn where_nothing_conducts_nothing_is_driven() {
     let sides = Sides::new(&region, &Form::default()).unwrap();
     let conductors = Conductors {
         mu_sigma: vec![0.0, 0.0],
-        resistivity: Vec::new(),
+        axial: None,
     };
     assert!(conductors.none());
     let rates = conductors.rates(&region, &sides, Unknown::Potential);

@@ -19,7 +19,7 @@ fn switched_on(steps: u32) -> f64 {
     let sides = Sides::new(&region, &form).unwrap();
     let conductors = Conductors {
         mu_sigma: vec![0.0, 1.0],
-        resistivity: Vec::new(),
+        axial: None,
     };
     let held = |i| conductors.held(&region, Unknown::Axial, i).then_some([1.0]);
     let equations = Equations {
