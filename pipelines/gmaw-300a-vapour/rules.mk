@@ -22,3 +22,7 @@ build/gmaw-300a-vapour/report.html: build/gmaw-300a-vapour/arc.mcap build/gmaw-3
 	$(RERUN) $@ $^ -- $(BIN)/report page --study gmaw-300a-vapour --out $@ \
 	  --arc build/gmaw-300a-vapour/arc.mcap --pool build/gmaw-300a-vapour/pool.mcap \
 	  --mean build/gmaw-300a-vapour/mean.mcap --targets pipelines/gmaw-300a/targets.json
+
+.PHONY: validate-gmaw-300a-vapour
+validate-gmaw-300a-vapour: build/gmaw-300a-vapour/report.html ## the weld with iron vapour against published beads (as long; not part of validate)
+	$(BIN)/report validate --pool build/gmaw-300a-vapour/pool.mcap --targets pipelines/gmaw-300a/targets.json

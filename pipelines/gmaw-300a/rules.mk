@@ -20,3 +20,8 @@ build/gmaw-300a/report.html: build/gmaw-300a/arc.mcap build/gmaw-300a/pool.mcap 
 	$(RERUN) $@ $^ -- $(BIN)/report page --study gmaw-300a --out $@ \
 	  --arc build/gmaw-300a/arc.mcap --pool build/gmaw-300a/pool.mcap --mean build/gmaw-300a/mean.mcap \
 	  --targets pipelines/gmaw-300a/targets.json
+
+VALIDATED += gmaw-300a
+.PHONY: validate-gmaw-300a
+validate-gmaw-300a: build/gmaw-300a/report.html ## the weld against published beads (three quarters of an hour)
+	$(BIN)/report validate --pool build/gmaw-300a/pool.mcap --targets pipelines/gmaw-300a/targets.json

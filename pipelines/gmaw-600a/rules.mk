@@ -11,6 +11,7 @@ build/gmaw-600a/report.html: build/gmaw-600a/arc.mcap pipelines/gmaw-600a/target
 	$(RERUN) $@ $^ -- $(BIN)/report page --study gmaw-600a --out $@ \
 	  --arc gmaw=build/gmaw-600a/arc.mcap --targets pipelines/gmaw-600a/targets.json
 
+VALIDATED += gmaw-600a
 .PHONY: validate-gmaw-600a
 validate-gmaw-600a: build/gmaw-600a/report.html ## the gas metal arc of 600 A against published values
 	$(BIN)/report validate --arc gmaw=build/gmaw-600a/arc.mcap --targets pipelines/gmaw-600a/targets.json

@@ -22,6 +22,7 @@ build/saw-600a-arc/report.html: build/saw-600a-arc/dcep.mcap $(SAW_VARIANTS:%=bu
 	$(RERUN) $@ $^ -- $(BIN)/report page --study saw-600a-arc --out $@ \
 	  $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json
 
+VALIDATED += saw-600a-arc
 .PHONY: validate-saw-600a-arc
 validate-saw-600a-arc: build/saw-600a-arc/report.html ## the submerged arc against published values, row by row
 	$(BIN)/report validate $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json

@@ -11,6 +11,7 @@ build/tungsten-200a/report.html: build/tungsten-200a/arc.mcap pipelines/tungsten
 	$(RERUN) $@ $^ -- $(BIN)/report page --study tungsten-200a --out $@ \
 	  --arc tungsten=build/tungsten-200a/arc.mcap --targets pipelines/tungsten-200a/targets.json
 
+VALIDATED += tungsten-200a
 .PHONY: validate-tungsten-200a
 validate-tungsten-200a: build/tungsten-200a/report.html ## the tungsten arc against published bands
 	$(BIN)/report validate --arc tungsten=build/tungsten-200a/arc.mcap --targets pipelines/tungsten-200a/targets.json
