@@ -130,6 +130,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         });
         let failed = |error: wls::Error| no_stencil("eddy currents", &error, (scene, cloud));
         let (sides, mut weights) = made.map_err(failed)?;
+        super::supports("vector_potential", &sides.report(), session);
         let conductors = conductors(scene, (&region, &sides), unknown);
         let coils = windings(scene, currents, cloud)?;
         let wound = || Windings::new(&region, &coils, &mut weights);

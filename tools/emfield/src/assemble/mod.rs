@@ -82,6 +82,24 @@ fn low_order(scene: &Scene, unknowns: usize) -> Option<Form> {
     })
 }
 
+/// Keeps what had to be done for stencils beyond the usual, row by row as they were solved for.
+fn supports(name: &str, report: &wls::Report, session: &mut Session) {
+    for (what, count) in [
+        ("supports_enlarged", report.enlarged),
+        ("supports_by_room", report.by_room),
+        ("supports_by_singular_values", report.by_svd),
+        ("orders_lowered", report.lowered),
+        ("positive_made", report.positive_made),
+        ("positive_failed", report.positive_failed),
+    ] {
+        if count > 0 {
+            session.closing(&format!("{what}_{name}"), "1", count as f64);
+        }
+    }
+    let worst = report.worst_condition;
+    session.closing(&format!("worst_condition_{name}"), "1", worst);
+}
+
 /// Keeps what a solve says of itself; `size` of the solution at a point tells where it broke down.
 ///
 /// # Errors

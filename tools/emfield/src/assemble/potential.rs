@@ -126,6 +126,7 @@ pub fn electrostatics<const D: usize>(
             let sides = session
                 .timed("weights", || Sides::new(&region, &form))
                 .map_err(stencil)?;
+            super::supports("potential", &sides.report(), session);
             let equations = session.timed("assemble", || problem.rows(&region, &sides));
             let low = low.map(|low| {
                 let sides = session.timed("weights", || Sides::new(&region, &low))?;

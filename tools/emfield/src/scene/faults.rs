@@ -6,6 +6,7 @@ use run::Fault;
 use shapes::check::{self, Misfit};
 
 use super::currents::Region;
+use super::method::Interfaces;
 use super::output::Closed;
 use super::{BodyScene, Coil, Domain, EddyCurrents, Electrostatics, Geometry, Scene};
 
@@ -38,6 +39,7 @@ impl Scene {
             }
         }
         check_bodies(&self.bodies, dimensions, &mut misfits);
+        self.ways(&mut misfits);
         self.enclosures(&mut misfits);
         self.times(&mut misfits);
         if self.electrostatics.is_none() && self.eddy_currents.is_none() {
@@ -58,6 +60,28 @@ impl Scene {
             .collect();
         faults.extend(self.formulas());
         faults
+    }
+
+    /// Ways of forming derivatives that the equations asked for do not have.
+    fn ways(&self, misfits: &mut Vec<Misfit>) {
+        let smeared = matches!(self.method.interfaces, Interfaces::Smeared(_));
+        if smeared && self.eddy_currents.is_some() {
+            misfits.push(Misfit::at(
+                "/method/interfaces/smeared",
+                "is a way of electrostatics: eddy currents have one-sided slopes; leave \"interfaces\" away",
+            ));
+        }
+        let compared = self.electrostatics.is_some()
+            && !smeared
+            && self.geometry != Geometry::Axisymmetric
+            && self.method.order > 2;
+        if self.method.positive && compared && self.eddy_currents.is_none() {
+            let what = format!(
+                "order {} compares values with harmonic polynomials and has no weights of a Laplacian to make positive: take order 2",
+                self.method.order
+            );
+            misfits.push(Misfit::at("/method/positive", what));
+        }
     }
 
     /// Names and shapes of enclosing surfaces.

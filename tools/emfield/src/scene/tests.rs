@@ -76,6 +76,23 @@ fn faults_of_eddy_currents_are_located() {
 }
 
 #[test]
+fn ways_that_equations_do_not_have_are_refused() {
+    let with = |method: &str, more: &str| {
+        let new = format!(r#""method": {{{method}}}, {more}"electrostatics""#);
+        wrong(r#""electrostatics""#, &new)
+    };
+    let eddy = r#""eddy_currents": {"harmonic": {"frequency_hz": 50}, "applied_flux_density_t": [0, 0, 1]}, "#;
+    let smeared = r#""interfaces": {"smeared": {}}"#;
+    assert_eq!(with(smeared, ""), [""; 0]);
+    assert_eq!(with(smeared, eddy), ["/method/interfaces/smeared"]);
+    assert_eq!(with(r#""positive": true"#, ""), [""; 0]);
+    let quartics = r#""order": 4, "positive": true"#;
+    assert_eq!(with(quartics, ""), ["/method/positive"]);
+    let both = format!("{quartics}, {smeared}");
+    assert_eq!(with(&both, ""), [""; 0]);
+}
+
+#[test]
 fn peak_currents_are_root_mean_squares_too() {
     let text = r#"{"harmonic": {"frequency_hz": 50}, "amplitude": "peak"}"#;
     let currents: EddyCurrents = serde_json::from_str(text).unwrap();

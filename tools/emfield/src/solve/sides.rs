@@ -1,6 +1,6 @@
 //! Stencils that keep to one side of an interface.
 
-use wls::{Error, Plan, Reach, Search, Stencils, Wants};
+use wls::{Error, Plan, Reach, Report, Search, Stencils, Wants};
 
 use super::mirror::Mirror;
 use super::region::{Harmonic, Kind, Own, Region, Side};
@@ -165,6 +165,16 @@ impl<const D: usize> Sides<D> {
             inner: side(true)?,
             outer: side(false)?,
         })
+    }
+
+    /// What became of the rows of all of them.
+    #[must_use]
+    pub fn report(&self) -> Report {
+        let one_sided = self.inner.report().with(self.outer.report());
+        let all = self.own.report().with(&one_sided);
+        self.wall
+            .as_ref()
+            .map_or(all, |wall| all.with(wall.report()))
     }
 
     /// Gradient on walls.

@@ -85,7 +85,13 @@ where
             ..rule
         };
         let rule = (rule, vectors.clamp(20, 120));
-        joined(solved, minimal_residual(a, b, y, self, rule, scratch))
+        let first = solved.ending;
+        let mut both = joined(solved, minimal_residual(a, b, y, self, rule, scratch));
+        if both.ending == Ending::Spent {
+            // What the first way stood still at the second has not overcome.
+            both.ending = first;
+        }
+        both
     }
 
     fn stabilised<const C: usize>(

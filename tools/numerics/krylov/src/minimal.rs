@@ -151,7 +151,8 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
         products += 1;
         watch.note(now, products);
         // Cut short, a cycle tells nothing.
-        let idle = !rule.stopped() && (0..C).all(|c| watch.done(c) || now[c] > GAIN * before[c]);
+        let whole = steps == restart && !rule.stopped();
+        let idle = whole && (0..C).all(|c| watch.done(c) || now[c] > GAIN * before[c]);
         if idle && !watch.all_done() && watch.finite() {
             let rounding = (0..C).any(|c| now[c] > 10.0 * carried[c].max(1e-300) && !watch.done(c));
             let level = watch.relative().into_iter().fold(0.0, f64::max);
@@ -299,6 +300,28 @@ mod tests {
                 .history
                 .is_sorted_by(|a, b| b <= &(a * 1.001 + 1e-14))
         );
+    }
+
+    #[test]
+    fn products_that_are_spent_within_a_cycle_are_told_as_spent() {
+        let n = 50;
+        let a = Rows::gathered(n, 0.0, |i, row| row.push((((i + 1) % n) as u32, 1.0)));
+        let mut rhs = vec![[0.0]; n];
+        rhs[0] = [1.0];
+        let mut x = vec![[0.0]; n];
+        let rule = Rule {
+            products: 8,
+            ..Rule::default()
+        };
+        let solved = minimal_residual(
+            &a,
+            &rhs,
+            &mut x,
+            &mut Identity,
+            (rule, n),
+            &mut Scratch::default(),
+        );
+        assert!(matches!(solved.ending, Ending::Spent), "{}", solved.ending);
     }
 
     #[test]

@@ -46,4 +46,23 @@ impl Report {
             self.worst_condition = self.worst_condition.max(made.condition);
         }
     }
+
+    /// With the counts of another set.
+    #[must_use]
+    pub fn with(self, other: &Self) -> Self {
+        Self {
+            rows: self.rows + other.rows,
+            neighbours: self.neighbours + other.neighbours,
+            solved: self.solved + other.solved,
+            shared: self.shared + other.shared,
+            by_qr: self.by_qr + other.by_qr,
+            by_svd: self.by_svd + other.by_svd,
+            enlarged: self.enlarged + other.enlarged,
+            by_room: self.by_room + other.by_room,
+            lowered: self.lowered + other.lowered,
+            positive_made: self.positive_made + other.positive_made,
+            positive_failed: self.positive_failed + other.positive_failed,
+            worst_condition: self.worst_condition.max(other.worst_condition),
+        }
+    }
 }
