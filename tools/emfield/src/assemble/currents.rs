@@ -25,7 +25,7 @@ use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
 use crate::solve::sides::{Form, Sides};
 use crate::solve::winding::Windings;
-use crate::source::{MU0, Source};
+use crate::source::{MU0, Origin, Source};
 
 type C = Complex<f64>;
 
@@ -132,6 +132,10 @@ impl<'a, const D: usize> Setting<'a, D> {
         let (sides, mut weights) = made.map_err(failed)?;
         super::supports("vector_potential", &sides.report(), session);
         let conductors = conductors(scene, (&region, &sides), unknown);
+        let mut given = source(scene, currents);
+        if D == 2 && unknown == Unknown::Potential {
+            centre(&mut given, &region, &weights, &conductors);
+        }
         let coils = windings(scene, currents, cloud)?;
         let wound = || Windings::new(&region, &coils, &mut weights);
         Ok(Self {
@@ -140,7 +144,7 @@ impl<'a, const D: usize> Setting<'a, D> {
             sides,
             weights,
             unknown,
-            source: source(scene, currents),
+            source: given,
             conductors,
             region,
             scene,
@@ -309,6 +313,31 @@ impl<'a, const D: usize> Setting<'a, D> {
         let at = (self.cloud, size);
         super::report(("vector_potential", "V s/m"), &solved, at, session)?;
         Ok(x)
+    }
+}
+
+/// Counts the potential of a uniform field in a plane from the centre of what conducts, so that no current flows along a
+/// conductor as a whole, wherever it is: what carries it back is out of sight.
+fn centre<const D: usize>(
+    source: &mut Source,
+    region: &Region<D>,
+    weights: &[f64],
+    conductors: &Conductors,
+) {
+    let mut sums = [0.0; 3];
+    let mut whole = 0.0;
+    for (i, w) in weights.iter().enumerate() {
+        let share = w * conductors.mu_sigma[region.medium(i) as usize];
+        whole += share;
+        for (sum, x) in sums.iter_mut().zip(region.places[i]) {
+            *sum += share * x;
+        }
+    }
+    if whole > 0.0 {
+        let place = sums.map(|sum| sum / whole);
+        for uniform in &mut source.uniform {
+            uniform.origin = Origin::Solenoid(place);
+        }
     }
 }
 
