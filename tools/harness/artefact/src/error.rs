@@ -47,6 +47,16 @@ pub enum Error {
         /// Its length \[byte\].
         bytes: u64,
     },
+    /// The file ends before the record that says what it is.
+    #[error(
+        "{path}: truncated: it ends after {bytes} bytes, before it says what it is; nothing of it can be saved"
+    )]
+    NoStart {
+        /// The file.
+        path: PathBuf,
+        /// Its length \[byte\].
+        bytes: u64,
+    },
     /// A checksum differs.
     #[error("{path}: damaged: CRC of {place} is {found:08x}, recorded is {expected:08x}")]
     Crc {

@@ -11,9 +11,10 @@ use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::Header;
 use crate::message::{POINT_CLOUD, RECORD, time_s};
-use crate::recover::{header_of, index_of_part};
+use crate::recover::header_of;
 use crate::scrub::scrub;
-use crate::store::{ChunkPlace, Index, Store, Stored};
+use crate::store::{ChunkPlace, Store, Stored};
+use crate::survey::{Lost, Survey, survey};
 use crate::table::Record;
 
 type Chunk = Arc<Vec<Stored>>;
@@ -27,6 +28,7 @@ pub struct Reader {
     chunks: Vec<ChunkPlace>,
     metadata: BTreeMap<String, BTreeMap<String, String>>,
     last: Mutex<Option<(usize, Chunk)>>,
+    lost: Vec<Lost>,
     lost_bytes: u64,
 }
 
@@ -38,7 +40,12 @@ impl Reader {
     pub fn open(path: impl AsRef<Path>) -> Result<Self> {
         let store = Store::open(path.as_ref())?;
         let index = store.index()?;
-        Self::with_index(store, index, 0)
+        let whole = Survey {
+            index,
+            lost: Vec::new(),
+            lost_bytes: 0,
+        };
+        Self::with_survey(store, whole)
     }
 
     /// Opens a finished artefact of a kind and major version.
@@ -51,17 +58,18 @@ impl Reader {
         Ok(reader)
     }
 
-    /// Opens a file that was never finished up to its last whole chunk.
+    /// Opens all whole chunks of a file that was never finished or is damaged.
     ///
     /// # Errors
     /// When the file is foreign or holds no readable header.
     pub fn recover(path: impl AsRef<Path>) -> Result<Self> {
         let store = Store::open(path.as_ref())?;
-        let (index, lost) = index_of_part(&store)?;
-        Self::with_index(store, index, lost)
+        let whole = survey(&store)?;
+        Self::with_survey(store, whole)
     }
 
-    fn with_index(store: Store, index: Index, lost_bytes: u64) -> Result<Self> {
+    fn with_survey(store: Store, found: Survey) -> Result<Self> {
+        let index = found.index;
         let header = header_of(&store, &index)?;
         let channels = contents(&store, &index)?;
         Ok(Self {
@@ -71,7 +79,8 @@ impl Reader {
             chunks: index.chunks,
             metadata: index.metadata,
             last: Mutex::new(None),
-            lost_bytes,
+            lost: found.lost,
+            lost_bytes: found.lost_bytes,
         })
     }
 
@@ -110,6 +119,12 @@ impl Reader {
     #[must_use]
     pub fn header(&self) -> &Header {
         &self.header
+    }
+
+    /// Chunks left out by [`Reader::recover`] because they are not whole.
+    #[must_use]
+    pub fn lost(&self) -> &[Lost] {
+        &self.lost
     }
 
     /// Bytes behind the last whole chunk; 0 for a finished file.

@@ -1,106 +1,18 @@
-//! What can be saved of a file that was never finished, and how a run takes it up again.
+//! What can be saved of a file that was never finished or is damaged, and how a run takes it up again.
 
 use std::collections::BTreeMap;
 use std::path::Path;
-
-use mcap::MAGIC;
-use mcap::parse_record;
-use mcap::records::{Record, op};
 
 use crate::atomic::beside;
 use crate::error::{Error, Result};
 use crate::header::{Header, METADATA};
 use crate::message::{COLUMNS, Topic, UNITS};
-use crate::store::{ChannelInfo, ChunkPlace, Index, PREFIX, Store, Stored};
+use crate::store::{ChannelInfo, Index, Store, Stored};
+use crate::survey::{Lost, Step, Walk, survey};
 use crate::writer::{Position, Writer};
 
 /// Name of the metadata record of a file that was saved from a run that did not finish.
 pub const RECOVERED: &str = "fusionline.recovered";
-
-/// A chunk that was found whole, with its messages.
-struct Whole {
-    place: (u64, u64),
-    messages: Vec<Stored>,
-}
-
-/// Walks over the records from the start and stops at the first that is not whole.
-struct Walk<'a> {
-    store: &'a Store,
-    offset: u64,
-    index: Index,
-}
-
-impl<'a> Walk<'a> {
-    fn new(store: &'a Store) -> Self {
-        Self {
-            store,
-            offset: MAGIC.len() as u64,
-            index: Index::default(),
-        }
-    }
-
-    /// The next whole chunk; metadata and channels are learnt on the way.
-    fn next_chunk(&mut self) -> Result<Option<Whole>> {
-        while let Some((opcode, length)) = self.store.prefix_at(self.offset)? {
-            let (at, size) = (self.offset, PREFIX + length);
-            match opcode {
-                op::CHUNK => {
-                    let index = &mut self.index;
-                    // A chunk that was cut or overwritten ends what can be saved.
-                    let Ok(messages) = self.store.chunk(at, size, |record| index.learn(record))
-                    else {
-                        return Ok(None);
-                    };
-                    self.offset += size;
-                    return Ok(Some(Whole {
-                        place: (at, size),
-                        messages,
-                    }));
-                }
-                op::METADATA => {
-                    let Some((_, body)) = self.store.record_at(at)? else {
-                        return Ok(None);
-                    };
-                    if let Ok(record @ Record::Metadata(_)) = parse_record(opcode, &body) {
-                        self.index.learn(record);
-                    }
-                }
-                op::DATA_END => return Ok(None),
-                op::HEADER..=op::DATA_END => {}
-                _ => return Ok(None),
-            }
-            self.offset += size;
-        }
-        Ok(None)
-    }
-}
-
-/// The index of a file without an end, up to its last whole chunk, and the bytes that are lost.
-pub(crate) fn index_of_part(store: &Store) -> Result<(Index, u64)> {
-    let mut walk = Walk::new(store);
-    let mut chunks = Vec::new();
-    let mut saved = walk.offset;
-    while let Some(chunk) = walk.next_chunk()? {
-        let mut times: BTreeMap<u16, Vec<u64>> = BTreeMap::new();
-        for message in &chunk.messages {
-            times
-                .entry(message.channel)
-                .or_default()
-                .push(message.log_time);
-        }
-        let (offset, length) = chunk.place;
-        chunks.push(ChunkPlace {
-            offset,
-            length,
-            times,
-        });
-        saved = walk.offset;
-    }
-    let lost = store.bytes.saturating_sub(saved.max(walk.offset));
-    let mut index = walk.index;
-    index.chunks = chunks;
-    Ok((index, lost))
-}
 
 /// The header in an index.
 pub(crate) fn header_of(store: &Store, index: &Index) -> Result<Header> {
@@ -141,28 +53,24 @@ fn topic_of(store: &Store, info: &ChannelInfo) -> Result<Topic> {
     })
 }
 
-/// Copies whole chunks into `writer` until `wanted` messages are there (`None`: all of them).
-fn replay(store: &Store, writer: &mut Writer, wanted: Option<u64>) -> Result<u64> {
-    let mut walk = Walk::new(store);
+/// Copies the messages of a chunk into `writer`, but for those of unknown channels.
+fn replay(
+    store: &Store,
+    writer: &mut Writer,
+    channels: &BTreeMap<u16, ChannelInfo>,
+    messages: &[Stored],
+) -> Result<u64> {
     let mut done = 0;
-    while wanted.is_none_or(|n| done < n) {
-        let Some(chunk) = walk.next_chunk()? else {
-            break;
+    for message in messages {
+        let Some(info) = channels.get(&message.channel) else {
+            continue;
         };
-        for message in &chunk.messages {
-            let info = walk.index.channels.get(&message.channel).ok_or_else(|| {
-                store.damaged(
-                    format!("chunk at byte {}", chunk.place.0),
-                    "a message of an unknown channel",
-                )
-            })?;
-            let topic = topic_of(store, info)?;
-            writer.admit(&topic, message.log_time)?;
-            writer.put(&topic.channel, message.log_time, &message.data)?;
-            done += 1;
-        }
-        writer.end_chunk()?;
+        let topic = topic_of(store, info)?;
+        writer.admit(&topic, message.log_time)?;
+        writer.put(&topic.channel, message.log_time, &message.data)?;
+        done += 1;
     }
+    writer.end_chunk()?;
     Ok(done)
 }
 
@@ -178,10 +86,16 @@ impl Writer {
         let old = beside(path, ".part");
         let store = Store::open(&old)?;
         let mut walk = Walk::new(&store);
-        walk.next_chunk()?;
+        let mut step = walk.next_chunk()?;
         header.must_equal(&header_of(&store, &walk.index)?, &old)?;
         let mut writer = Self::begin(path, beside(path, ".part.resumed"), header)?;
-        let done = replay(&store, &mut writer, Some(position.messages))?;
+        let mut done = 0;
+        while done < position.messages {
+            // What is lost here cannot be taken up: the bytes would be others.
+            let Step::Whole(chunk) = step else { break };
+            done += replay(&store, &mut writer, &walk.index.channels, &chunk.messages)?;
+            step = walk.next_chunk()?;
+        }
         if done != position.messages {
             let what = format!(
                 "{done} messages are whole, the checkpoint wants {}",
@@ -195,38 +109,53 @@ impl Writer {
     }
 }
 
-/// What was saved of a file that was never finished.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What was saved of a file that was never finished or is damaged.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Saved {
     /// Messages in whole chunks.
     pub messages: u64,
-    /// Bytes behind the last whole chunk, which are lost.
+    /// Bytes behind the last record that has an end, which are lost.
     pub lost_bytes: u64,
+    /// What is lost before.
+    pub lost: Vec<Lost>,
 }
 
 /// Writes all that is whole in `from` to `to` as a finished file, whose metadata record
 /// [`RECOVERED`] says so. The file `from` stays as it is.
 ///
 /// # Errors
-/// When `from` has no readable header or `to` cannot be written.
+/// When `from` has no readable header or no whole chunk, or `to` cannot be written.
 pub fn recover(from: &Path, to: &Path) -> Result<Saved> {
     let store = Store::open(from)?;
-    let (index, lost_bytes) = index_of_part(&store)?;
+    let found = survey(&store)?;
+    let index = &found.index;
+    let header = header_of(&store, index)?;
+    if index.chunks.iter().all(|chunk| chunk.times.is_empty()) {
+        let mut what = "no message is whole: nothing can be saved".to_owned();
+        for lost in &found.lost {
+            what += &format!("\n  {lost}");
+        }
+        return Err(store.damaged("the data", what));
+    }
     // Not `to`.part: that may be the very file that is saved.
-    let part = beside(to, ".part.recovered");
-    let mut writer = Writer::begin(to, part, &header_of(&store, &index)?)?;
-    let messages = replay(&store, &mut writer, None)?;
-    let note = [
-        ("messages", messages.to_string()),
-        ("lost_bytes", lost_bytes.to_string()),
-    ];
-    writer.note(
-        RECOVERED,
-        note.map(|(key, value)| (key.to_owned(), value)).into(),
-    )?;
+    let mut writer = Writer::begin(to, beside(to, ".part.recovered"), &header)?;
+    let mut messages = 0;
+    for chunk in &index.chunks {
+        let stored = store.chunk(chunk.offset, chunk.length, |_| ())?;
+        messages += replay(&store, &mut writer, &index.channels, &stored)?;
+    }
+    let mut note = BTreeMap::from([
+        ("messages".to_owned(), messages.to_string()),
+        ("lost_bytes".to_owned(), found.lost_bytes.to_string()),
+    ]);
+    if !found.lost.is_empty() {
+        note.insert("lost_chunks".to_owned(), found.lost.len().to_string());
+    }
+    writer.note(RECOVERED, note)?;
     writer.finish()?;
     Ok(Saved {
         messages,
-        lost_bytes,
+        lost_bytes: found.lost_bytes,
+        lost: found.lost,
     })
 }

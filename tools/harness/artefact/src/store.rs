@@ -137,10 +137,25 @@ impl Store {
     }
 
     pub(crate) fn truncated(&self) -> Error {
-        Error::Truncated {
-            path: self.path.clone(),
-            bytes: self.bytes,
+        let (path, bytes) = (self.path.clone(), self.bytes);
+        if self.has_start() {
+            Error::Truncated { path, bytes }
+        } else {
+            Error::NoStart { path, bytes }
         }
+    }
+
+    /// Whether a metadata record is whole before the first chunk.
+    fn has_start(&self) -> bool {
+        let mut at = MAGIC.len() as u64;
+        while let Ok(Some((opcode, length))) = self.prefix_at(at) {
+            match opcode {
+                op::METADATA => return true,
+                op::HEADER => at += PREFIX + length,
+                _ => return false,
+            }
+        }
+        false
     }
 
     pub(crate) fn damaged(&self, place: impl Into<String>, what: impl ToString) -> Error {

@@ -235,6 +235,94 @@ fn what_a_killed_run_left_is_saved_and_read_as_it_is() {
     assert!(part.exists(), "the partial file stays");
 }
 
+/// Where each chunk begins, and how long it is.
+fn chunks(bytes: &[u8]) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let mut at = 8;
+    while at + 9 < bytes.len() {
+        let length = u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap()) as usize;
+        if bytes[at] == 6 {
+            found.push((at, 9 + length));
+        }
+        at += 9 + length;
+    }
+    found
+}
+
+#[test]
+fn a_flipped_byte_in_the_first_chunk_costs_that_chunk_alone() {
+    let folder = folder();
+    let path = sample(folder.path(), "pool.mcap", 0.0);
+    let whole = std::fs::read(&path).unwrap();
+    let (at, length) = chunks(&whole)[0];
+    let mut bytes = whole.clone();
+    bytes[at + length - 5] ^= 0x40;
+    let path = folder.path().join("bad.mcap");
+    std::fs::write(&path, &bytes).unwrap();
+    let all = artefact::Reader::open(folder.path().join("pool.mcap")).unwrap();
+
+    let told = artefact(&["recover", text(&path)]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    let saved = folder.path().join("bad.recovered.mcap");
+    let words = format!("lost: the chunk at byte {at} with 1 of /particles, 0 s to 0 s");
+    assert!(told.out.contains(&words), "{}", told.out);
+    assert_eq!(artefact(&["validate", text(&saved)]).code, 0);
+    let reader = artefact::Reader::open(&saved).unwrap();
+    assert_eq!(reader.count("/particles") + 1, all.count("/particles"));
+    for channel in ["/balance", "/surface"] {
+        assert_eq!(reader.count(channel), all.count(channel), "{channel}");
+    }
+    let told = artefact(&["info", text(&saved)]);
+    assert!(told.out.contains("1 damaged chunks"), "{}", told.out);
+
+    let out = folder.path().join("csv");
+    let told = artefact(&["export", text(&path), "--to", "csv", "--out", text(&out)]);
+    assert_eq!(told.code, 1, "{}{}", told.out, told.err);
+    assert!(told.err.contains("warning: "), "{}", told.err);
+    assert!(told.err.contains(&words), "{}", told.err);
+    for name in ["particles/particles_00000.csv", "balance.csv"] {
+        assert!(out.join(name).exists(), "{name}: {}", told.out);
+    }
+
+    // Without the end, too: then the indices behind the third chunk tell what was in it.
+    let (next, more) = chunks(&whole)[2];
+    let part = folder.path().join("cut.mcap.part");
+    let mut bytes = whole[..whole.len() - 20].to_vec();
+    bytes[next + more - 5] ^= 0x40;
+    std::fs::write(&part, &bytes).unwrap();
+    let told = artefact(&["recover", text(&part)]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    let words = format!("lost: the chunk at byte {next} with 1 of /particles, 0.5 s to 0.5 s");
+    assert!(told.out.contains(&words), "{}", told.out);
+    assert!(told.out.contains("4 messages saved"), "{}", told.out);
+}
+
+#[test]
+fn where_nothing_is_whole_nothing_is_written() {
+    let folder = folder();
+    let whole = std::fs::read(sample(folder.path(), "pool.mcap", 0.0)).unwrap();
+    let (at, length) = chunks(&whole)[0];
+    let mut bytes = whole[..at + length].to_vec();
+    bytes[at + length - 5] ^= 0x40;
+    let part = folder.path().join("bad.mcap.part");
+    std::fs::write(&part, &bytes).unwrap();
+    let told = artefact(&["recover", text(&part)]);
+    assert_eq!(told.code, 1, "{}", told.out);
+    assert!(told.err.contains("nothing can be saved"), "{}", told.err);
+    assert!(!folder.path().join("bad.recovered.mcap").exists());
+
+    // So short that it does not say what it is: nobody is sent to `recover` in vain.
+    let stub = folder.path().join("stub.mcap");
+    std::fs::write(&stub, &whole[..8]).unwrap();
+    for command in ["info", "recover"] {
+        let told = artefact(&[command, text(&stub)]);
+        assert_eq!(told.code, 1, "{}", told.out);
+        let words = "it ends after 8 bytes, before it says what it is";
+        assert!(told.err.contains(words), "{command}: {}", told.err);
+        assert!(!told.err.contains("'artefact recover'"), "{}", told.err);
+    }
+}
+
 #[test]
 fn verify_hash_compares_scene_patches_and_inputs() {
     let folder = folder();

@@ -66,6 +66,9 @@ fn header(reader: &Reader, streams: &mut Streams<'_>) -> Result<(), Trouble> {
             of("messages"),
             of("lost_bytes")
         )?;
+        if let Some(chunks) = note.get("lost_chunks") {
+            writeln!(out, "            {chunks} damaged chunks are left out")?;
+        }
     }
     Ok(())
 }

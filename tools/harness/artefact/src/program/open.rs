@@ -1,4 +1,4 @@
-//! Opens what the user names: finished artefacts, and partial files up to their last whole chunk.
+//! Opens what the user names: finished artefacts, and all that is whole of others.
 
 use std::path::Path;
 
@@ -24,7 +24,31 @@ pub(crate) fn open(path: &Path, streams: &mut Streams<'_>) -> Result<Reader, Tro
         path.display(),
         reader.lost_bytes()
     )?;
+    for lost in reader.lost() {
+        writeln!(streams.err, "  {lost}")?;
+    }
     Ok(reader)
+}
+
+/// Opens all that is whole of an artefact, and says whether that is all before its end.
+pub(crate) fn open_whole(
+    path: &Path,
+    streams: &mut Streams<'_>,
+) -> Result<(Reader, bool), Trouble> {
+    let reader = open(path, streams)?;
+    if path.extension().is_some_and(|e| e == "part") {
+        let whole = reader.lost().is_empty();
+        return Ok((reader, whole));
+    }
+    let Err(damage) = reader.scrub() else {
+        return Ok((reader, true));
+    };
+    writeln!(streams.err, "warning: {damage}")?;
+    let reader = Reader::recover(path)?;
+    for lost in reader.lost() {
+        writeln!(streams.err, "  {lost}")?;
+    }
+    Ok((reader, false))
 }
 
 /// The channels that are asked for, all when none is named.

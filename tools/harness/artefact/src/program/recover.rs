@@ -1,4 +1,5 @@
-//! `artefact recover`: what is whole of a file whose run was killed, as a proper file.
+//! `artefact recover`: what is whole of a file whose run was killed or that was damaged, as a proper
+//! file.
 
 use std::path::{Path, PathBuf};
 
@@ -9,11 +10,12 @@ use super::trouble::{Trouble, Verdict};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
   target/release/artefact recover build/gmaw-300a/pool.mcap.part
-writes build/gmaw-300a/pool.recovered.mcap with all messages up to the last whole chunk and a metadata
-record 'fusionline.recovered' that says so. The partial file stays: where a checkpoint stands beside
-it, the tool's --resume continues the run and loses nothing.")]
+writes build/gmaw-300a/pool.recovered.mcap with all messages of whole chunks and a metadata record
+'fusionline.recovered' that says so; what is lost is printed with its channels and times. The file
+itself stays: where a checkpoint stands beside it, the tool's --resume continues the run and loses
+nothing. Exit code 1 when nothing could be saved.")]
 pub(crate) struct Arguments {
-    /// The partial file NAME.mcap.part, or a truncated NAME.mcap.
+    /// The partial file NAME.mcap.part, or a truncated or damaged NAME.mcap.
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Where to write; by default NAME.recovered.mcap beside it.
@@ -47,6 +49,9 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
         saved.messages,
         saved.lost_bytes
     )?;
+    for lost in &saved.lost {
+        writeln!(streams.out, "  {lost}")?;
+    }
     Ok(Verdict::Good)
 }
 

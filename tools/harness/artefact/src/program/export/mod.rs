@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use artefact::{Channel, Reader};
 use clap::ValueEnum;
 
-use super::open::{channels, open};
+use super::open::{channels, open_whole};
 use super::sheet::{Form, Sheet};
 use super::trouble::{Trouble, Verdict, file_error};
 use super::{Source, Streams};
@@ -38,7 +38,8 @@ enum Target {
   target/release/artefact export build/gmaw-quick/arc.mcap --to csv --out build/csv
 Frames, tables and grids become one file per message, CHANNEL/CHANNEL_00012.vtu; records and other
 scalars become one file per channel with a row per message. Coordinates and units are those of the
-artefact (SI); ParaView shows units where they are stored as UNITS_LABEL.")]
+artefact (SI); ParaView shows units where they are stored as UNITS_LABEL. Of a damaged file all that
+is whole is written, what is lost is named, and the exit code is 1.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     source: Source,
@@ -57,7 +58,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Verdict, Trouble> {
-    let reader = open(&arguments.source.file, streams)?;
+    let (reader, whole) = open_whole(&arguments.source.file, streams)?;
     let channels = channels(&reader, &arguments.channel)?;
     let mut names: Vec<String> = Vec::new();
     for channel in &channels {
@@ -83,7 +84,7 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
         )?;
         names.push(name);
     }
-    Ok(Verdict::Good)
+    Ok(Verdict::from_good(whole))
 }
 
 /// The name of a channel as a file can bear it: `/section_x0/time_mean` is
