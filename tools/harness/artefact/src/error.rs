@@ -89,6 +89,16 @@ pub enum Error {
         /// Kind that the file states.
         found: String,
     },
+    /// A kind that none of our tools writes.
+    #[error("{path}: is of kind '{found}', known are {known}")]
+    UnknownKind {
+        /// The file.
+        path: PathBuf,
+        /// Kind that the file states.
+        found: String,
+        /// Kinds that are known.
+        known: String,
+    },
     /// A newer or older major version than the one understood.
     #[error("{path}: '{kind}' is of version {found}, this program reads version {supported}.x")]
     Version {

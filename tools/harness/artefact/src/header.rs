@@ -16,6 +16,15 @@ use crate::error::{Error, Result, io_error};
 /// Name of the metadata record that makes an MCAP file one of ours.
 pub const METADATA: &str = "fusionline";
 
+/// Kinds of artefacts that the stages write, each with its major version.
+pub const KINDS: [(&str, u32); 5] = [
+    ("arc-source", 1),
+    ("gas-table", 1),
+    ("mean-fields", 1),
+    ("particle-frames", 1),
+    ("point-fields", 1),
+];
+
 /// Version of an artefact kind. A newer minor version only adds; a newer major version breaks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Version {

@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use crate::contents::{Channel, Indexed, Place, contents};
 use crate::error::{Error, Result};
 use crate::frame::Frame;
-use crate::header::Header;
+use crate::header::{Header, KINDS};
 use crate::message::{POINT_CLOUD, RECORD, time_s};
 use crate::recover::header_of;
 use crate::scrub::scrub;
@@ -107,6 +107,21 @@ impl Reader {
             });
         }
         Ok(())
+    }
+
+    /// Refuses a kind that no stage writes, and a major version that is not the one known.
+    ///
+    /// # Errors
+    /// [`Error::UnknownKind`] or [`Error::Version`].
+    pub fn must_be_known(&self) -> Result<()> {
+        match KINDS.iter().find(|(kind, _)| *kind == self.header.kind) {
+            Some((kind, major)) => self.must_be(kind, *major),
+            None => Err(Error::UnknownKind {
+                path: self.store.path.clone(),
+                found: self.header.kind.clone(),
+                known: KINDS.map(|(kind, _)| kind).join(", "),
+            }),
+        }
     }
 
     /// The file.

@@ -212,7 +212,8 @@ impl Store {
             footer_at - footer.summary_start + FOOTER - 4,
         )?;
         let found = crc32fast::hash(&summary);
-        if found != footer.summary_crc {
+        // In MCAP a checksum of 0 says that there is none.
+        if footer.summary_crc != 0 && found != footer.summary_crc {
             return Err(Error::Crc {
                 path: self.path.clone(),
                 place: "the summary".to_owned(),

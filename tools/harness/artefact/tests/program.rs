@@ -298,6 +298,64 @@ fn a_flipped_byte_in_the_first_chunk_costs_that_chunk_alone() {
 }
 
 #[test]
+fn unknown_kinds_and_newer_majors_are_refused_by_every_command() {
+    let folder = folder();
+    let of = |name: &str, kind: &str, version: Version| {
+        let path = folder.path().join(name);
+        let kind = kind.to_owned();
+        let header = Header {
+            kind,
+            version,
+            ..header()
+        };
+        let mut writer = Writer::create(&path, &header).unwrap();
+        fill(&mut writer, 0.0);
+        writer.finish().unwrap();
+        path
+    };
+    let good = of("good.mcap", "particle-frames", Version::new(1, 7));
+    assert_eq!(artefact(&["info", text(&good)]).code, 0, "a newer minor");
+    let sauce = of("sauce.mcap", "arc-sauce", Version::new(1, 0));
+    let newer = of("newer.mcap", "particle-frames", Version::new(2, 0));
+    let out = folder.path().join("out");
+    for (path, words) in [
+        (&sauce, "is of kind 'arc-sauce', known are arc-source"),
+        (&newer, "is of version 2.0, this program reads version 1.x"),
+    ] {
+        for arguments in [
+            vec!["info", text(path)],
+            vec!["ls", text(path)],
+            vec!["validate", text(path)],
+            vec!["diff", text(&good), text(path)],
+            vec!["export", text(path), "--to", "csv", "--out", text(&out)],
+        ] {
+            let told = artefact(&arguments);
+            assert_eq!(told.code, 1, "{arguments:?}: {}{}", told.out, told.err);
+            let said = format!("{}{}", told.out, told.err);
+            assert!(said.contains(words), "{arguments:?}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_checksum_of_zero_is_none() {
+    let folder = folder();
+    let path = sample(folder.path(), "a.mcap", 0.0);
+    let mut bytes = std::fs::read(&path).unwrap();
+    // The last record before the summary: opcode 15, length 4, the checksum.
+    let end = [15, 4, 0, 0, 0, 0, 0, 0, 0];
+    let at = bytes.windows(9).rposition(|w| w == end).unwrap();
+    bytes[at + 9..at + 13].fill(0);
+    std::fs::write(&path, &bytes).unwrap();
+    let told = artefact(&["validate", text(&path)]);
+    assert_eq!(told.code, 0, "{}", told.out);
+    bytes[at + 9] = 1;
+    std::fs::write(&path, &bytes).unwrap();
+    let told = artefact(&["validate", text(&path)]);
+    assert_eq!(told.code, 1, "{}", told.out);
+}
+
+#[test]
 fn where_nothing_is_whole_nothing_is_written() {
     let folder = folder();
     let whole = std::fs::read(sample(folder.path(), "pool.mcap", 0.0)).unwrap();

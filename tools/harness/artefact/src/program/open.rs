@@ -15,9 +15,12 @@ pub(crate) fn is_json(path: &Path) -> bool {
 /// Opens an artefact; a partial file (`.part`) as far as it is whole, with a remark.
 pub(crate) fn open(path: &Path, streams: &mut Streams<'_>) -> Result<Reader, Trouble> {
     if path.extension().is_none_or(|e| e != "part") {
-        return Ok(Reader::open(path)?);
+        let reader = Reader::open(path)?;
+        reader.must_be_known()?;
+        return Ok(reader);
     }
     let reader = Reader::recover(path)?;
+    reader.must_be_known()?;
     writeln!(
         streams.err,
         "{}: not finished; read up to its last whole chunk, {} bytes lie behind it",

@@ -51,7 +51,7 @@ fn findings(path: &Path) -> (Vec<String>, String) {
         Ok(reader) => reader,
         Err(e) => return (vec![e.to_string()], String::new()),
     };
-    if let Err(e) = reader.scrub() {
+    if let Err(e) = reader.must_be_known().and_then(|()| reader.scrub()) {
         return (vec![e.to_string()], String::new());
     }
     let mut found = Vec::new();
