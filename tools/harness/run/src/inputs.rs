@@ -32,10 +32,15 @@ impl Inputs {
                 return Err(Failure::Usage(format!("--input {name}: given twice")));
             }
             if !path.is_file() {
+                let what = if path.is_dir() {
+                    "is a folder, wanted is a file"
+                } else if path.exists() {
+                    "is no regular file"
+                } else {
+                    "there is no such file"
+                };
                 let path = path.display();
-                return Err(Failure::Usage(format!(
-                    "--input {name}={path}: there is no such file"
-                )));
+                return Err(Failure::Usage(format!("--input {name}={path}: {what}")));
             }
             all.hashes
                 .insert(name.to_owned(), artefact::sha256_file(path)?);

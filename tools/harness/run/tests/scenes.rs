@@ -43,7 +43,7 @@ enum Shape {
 #[derive(Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Arc {
-    /// Welding current.
+    /// Welding current \[A\].
     #[schemars(range(min = 0.0, max = 2000.0))]
     current_a: f64,
     speed_m_s: Option<f64>,
@@ -184,12 +184,12 @@ fn wrong_types_tell_both() {
     expect(
         "[1, 1, 1]",
         "[1, 1]",
-        &["/shapes/0/box/max_m: [1,1] has 2 entries, wanted are at least 3"],
+        &["/shapes/0/box/max_m: [1,1] has 2 entries, wanted are exactly 3"],
     );
     expect(
         "[1, 1, 1]",
         "[1, 1, 1, 1]",
-        &["has 4 entries, wanted are at most 3"],
+        &["has 4 entries, wanted are exactly 3"],
     );
 }
 
@@ -203,7 +203,7 @@ fn missing_keys_are_named_with_their_meaning() {
     expect(
         r#""current_a": 300, "#,
         "",
-        &["scene.json:12:10: /arc: has no key 'current_a' in A (Welding current.)"],
+        &["scene.json:12:10: /arc: has no key 'current_a' in A (Welding current [A].)"],
     );
 }
 

@@ -259,7 +259,7 @@ fn usage_and_scene_faults_end_with_2() {
         "bad.json",
         r#"{"spacing_mm": 50, "length_m": -1}"#,
     );
-    let cases: [(&[&str], &[&str]); 9] = [
+    let cases: [(&[&str], &[&str]); 10] = [
         (&[], &["Usage: rod"]),
         (&["run", SCENE], &["--out"]),
         (
@@ -281,6 +281,10 @@ fn usage_and_scene_faults_end_with_2() {
         (
             &["run", SCENE, "--out", "x.mcap", "--input", "note=nothing"],
             &["note=nothing: there is no such file"],
+        ),
+        (
+            &["run", SCENE, "--out", "x.mcap", "--input", "note=/"],
+            &["note=/: is a folder, wanted is a file"],
         ),
         (
             &["run", SCENE, "--out", "x.mcap", "--resume"],

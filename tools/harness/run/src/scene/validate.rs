@@ -73,8 +73,12 @@ fn explain(schema: &Value, scene: &Value, error: &ValidationError<'_>, found: &m
             )));
         }
         Kind::Enum { options } => found.push(at(none_of(error.instance(), options))),
-        Kind::MinItems { limit } => found.push(at(entries(error.instance(), "at least", *limit))),
-        Kind::MaxItems { limit } => found.push(at(entries(error.instance(), "at most", *limit))),
+        Kind::MinItems { limit } => {
+            found.push(at(entries(error.instance(), "at least", *limit, node)))
+        }
+        Kind::MaxItems { limit } => {
+            found.push(at(entries(error.instance(), "at most", *limit, node)))
+        }
         Kind::Constant { expected_value } => {
             found.push(at(format!(
                 "is {}, wanted is {expected_value}",
@@ -96,13 +100,21 @@ fn missing(key: &str, node: Option<&Value>) -> String {
     let described = node
         .and_then(|n| n.pointer(&format!("/properties/{key}/description")))
         .and_then(Value::as_str)
-        .map(|text| format!(" ({})", text.lines().next().unwrap_or_default()))
+        .map(|text| format!(" ({})", plain(text.lines().next().unwrap_or_default())))
         .unwrap_or_default();
     let unit = unit_of(key).map(|u| format!(" in {u}")).unwrap_or_default();
     format!("has no key '{key}'{unit}{described}")
 }
 
-fn entries(list: &Value, word: &str, limit: u64) -> String {
+/// A description without the escapes that its documentation needs.
+fn plain(text: &str) -> String {
+    text.replace("\\[", "[").replace("\\]", "]")
+}
+
+fn entries(list: &Value, word: &str, limit: u64, node: Option<&Value>) -> String {
+    let bound = |key: &str| node?.get(key)?.as_u64();
+    let fixed = bound("minItems").is_some() && bound("minItems") == bound("maxItems");
+    let word = if fixed { "exactly" } else { word };
     let found = list.as_array().map_or(0, Vec::len);
     format!(
         "{} has {found} entries, wanted are {word} {limit}",
