@@ -87,10 +87,16 @@ impl Case for ArcMms {
             "potential_l2",
             "magnetic_l2",
         ];
+        let upwind = [
+            "upwind_temperature_l2",
+            "upwind_radial_velocity_l2",
+            "upwind_axial_velocity_l2",
+            "upwind_pressure_l2",
+            "upwind_potential_l2",
+            "upwind_magnetic_l2",
+        ];
         let mut targets = plasma::targets(&central, 5e-3, 1.9);
-        for quantity in ["upwind_radial_velocity_l2", "upwind_axial_velocity_l2"] {
-            targets.push(Target::order(quantity, 1.0));
-        }
+        targets.extend(plasma::targets(&upwind, 5e-3, 1.0));
         targets
     }
 

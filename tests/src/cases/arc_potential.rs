@@ -128,7 +128,11 @@ impl Case for ArcPotential {
     }
 
     fn targets(&self) -> Vec<Target> {
-        plasma::targets(&["potential_linf", "magnetic_linf"], 5e-3, 1.9)
+        let each = |method: &'static str| {
+            let targets = plasma::targets(&["potential_linf", "magnetic_linf"], 5e-3, 1.9);
+            targets.into_iter().map(move |target| target.of(method))
+        };
+        self.methods().iter().copied().flat_map(each).collect()
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {

@@ -54,12 +54,21 @@ impl Case for PoolRosenthal {
         let run = lab.run("poolsph", self.name(), &format!("level{level}"), &patch)?;
         let frames = Frames::read(&run.artefact, "temperature")?;
         let exact = Exact::of(&run)?;
-        let errors = errors(&exact, &frames, number(&run, "/bodies/0/temperature_k")?);
+        let start = number(&run, "/bodies/0/temperature_k")?;
+        let Some(errors) = errors(&exact, &frames, start) else {
+            return Err(LabError::Content {
+                path: run.artefact.clone(),
+                what: format!(
+                    "no particle is within {REACH} m of the spot at its end: it has left the plate"
+                ),
+            });
+        };
         measurement(run, frames.scalar[0].len(), errors)
     }
 }
 
-fn errors(exact: &Exact, frames: &Frames, start: f64) -> Errors {
+/// Errors about the spot; none where it has left the plate.
+fn errors(exact: &Exact, frames: &Frames, start: f64) -> Option<Errors> {
     let last = frames.time.len() - 1;
     let (places, rises) = (&frames.position[last], &frames.scalar[last]);
     let spot = exact.place(frames.time[last]);
@@ -68,16 +77,19 @@ fn errors(exact: &Exact, frames: &Frames, start: f64) -> Errors {
         square < REACH * REACH
     };
     let all: Vec<usize> = (0..places.len()).filter(|a| near(&places[*a])).collect();
+    if all.is_empty() {
+        return None;
+    }
     let stride = all.len().div_ceil(SAMPLES);
     let some = || all.iter().step_by(stride);
     let found: Vec<f64> = some().map(|a| rises[*a] - start).collect();
     let rise = |a: &usize| exact.rise(places[*a], frames.time[last]);
     let wanted: Vec<f64> = some().map(rise).collect();
     let (l2, linf) = relative(&found, &wanted);
-    Errors::from([
+    Some(Errors::from([
         ("temperature_l2".to_owned(), l2),
         ("temperature_linf".to_owned(), linf),
-    ])
+    ]))
 }
 
 /// The exact solution.
