@@ -46,7 +46,16 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
     std::fs::create_dir_all(&arguments.out)
         .map_err(|e| format!("{}: {e}", arguments.out.display()))?;
     let mut good = true;
-    for case in extreme::cases(Path::new("pipelines/stability")).map_err(|e| e.to_string())? {
+    let cases = extreme::cases(Path::new("pipelines/stability")).map_err(|e| e.to_string())?;
+    let strange = |name: &&String| cases.iter().all(|case| case.case != **name);
+    if let Some(stranger) = arguments.case.iter().find(strange) {
+        let names: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
+        return Err(format!(
+            "there is no case '{stranger}'; there are {}",
+            names.join(", ")
+        ));
+    }
+    for case in cases {
         if !arguments.case.is_empty() && !arguments.case.contains(&case.case) {
             continue;
         }

@@ -21,7 +21,7 @@ struct Arguments {
     #[arg(long, value_delimiter = ',')]
     case: Vec<String>,
     /// Resolutions, 1 is the coarsest.
-    #[arg(long, value_delimiter = ',', default_value = "1,2,3")]
+    #[arg(long, value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..))]
     levels: Vec<u32>,
     /// Where records and artefacts go.
     #[arg(long, default_value = "build/verify")]

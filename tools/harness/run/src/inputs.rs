@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use artefact::Reader;
+
 use crate::failure::Failure;
 use crate::scene::nearest;
 use crate::tool::Input;
@@ -21,10 +23,10 @@ impl Inputs {
         Self::default()
     }
 
-    /// Names and files; each file is read once for its hash.
+    /// Names and files; each file is read for its hash, and an artefact for its checksums.
     ///
     /// # Errors
-    /// When a name stands twice or a file cannot be read.
+    /// When a name stands twice, a file cannot be read, or an artefact is damaged anywhere.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a Path)>) -> Result<Self, Failure> {
         let mut all = Self::default();
         for (name, path) in files {
@@ -44,6 +46,10 @@ impl Inputs {
             }
             all.hashes
                 .insert(name.to_owned(), artefact::sha256_file(path)?);
+            // What is no artefact, or another kind of one, is told by who reads it.
+            if let Ok(artefact) = Reader::open(path) {
+                artefact.scrub()?;
+            }
         }
         Ok(all)
     }
