@@ -140,4 +140,5 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<Moments<3>>) {
 mod axis;
 mod charge;
 mod eddy;
+mod holes;
 mod march;

@@ -302,57 +302,32 @@ mod tests {
         );
     }
 
-    #[test]
-    fn products_that_are_spent_within_a_cycle_are_told_as_spent() {
-        let n = 50;
+    /// A shift round the ring of `n`, where no combination of less than `n` powers helps.
+    fn shifted(n: usize, rule: Rule, restart: usize) -> Solved {
         let a = Rows::gathered(n, 0.0, |i, row| row.push((((i + 1) % n) as u32, 1.0)));
         let mut rhs = vec![[0.0]; n];
         rhs[0] = [1.0];
         let mut x = vec![[0.0]; n];
+        let mut scratch = Scratch::default();
+        let how = (rule, restart);
+        minimal_residual(&a, &rhs, &mut x, &mut Identity, how, &mut scratch)
+    }
+
+    #[test]
+    fn products_that_are_spent_within_a_cycle_are_told_as_spent() {
         let rule = Rule {
             products: 8,
             ..Rule::default()
         };
-        let solved = minimal_residual(
-            &a,
-            &rhs,
-            &mut x,
-            &mut Identity,
-            (rule, n),
-            &mut Scratch::default(),
-        );
-        assert!(matches!(solved.ending, Ending::Spent), "{}", solved.ending);
+        let ending = shifted(50, rule, 50).ending;
+        assert!(matches!(ending, Ending::Spent), "{ending}");
     }
 
     #[test]
     fn restarts_that_gain_nothing_are_told() {
-        // A shift round the ring: no combination of less than n powers helps.
-        let n = 50;
-        let a = Rows::gathered(n, 0.0, |i, row| row.push((((i + 1) % n) as u32, 1.0)));
-        let mut rhs = vec![[0.0]; n];
-        rhs[0] = [1.0];
-        let mut x = vec![[0.0]; n];
-        let solved = minimal_residual(
-            &a,
-            &rhs,
-            &mut x,
-            &mut Identity,
-            (Rule::default(), 10),
-            &mut Scratch::default(),
-        );
-        assert!(
-            matches!(solved.ending, Ending::Stagnated(Stagnation::Plateau { .. })),
-            "{}",
-            solved.ending
-        );
-        let solved = minimal_residual(
-            &a,
-            &rhs,
-            &mut x,
-            &mut Identity,
-            (Rule::default(), n),
-            &mut Scratch::default(),
-        );
-        assert!(solved.converged());
+        let ending = shifted(50, Rule::default(), 10).ending;
+        let plateau = matches!(ending, Ending::Stagnated(Stagnation::Plateau { .. }));
+        assert!(plateau, "{ending}");
+        assert!(shifted(50, Rule::default(), 50).converged());
     }
 }
