@@ -11,13 +11,16 @@ use crate::lab::{Lab, LabError};
 pub(super) struct EmAxisymmetricSphere;
 
 /// Frequencies, and layers beside the surface over those at 100 kHz.
-const METHODS: &[&str] = &["100-khz", "30-khz", "1-mhz", THIN, REGIONS, LINEAR];
+const METHODS: &[&str] = &["100-khz", "30-khz", "1-mhz", THIN, REGIONS, LINEAR, IRON];
 
 /// At 100 kHz, with wires so thin that no rule for currents over their section stands between tool and reference.
 const THIN: &str = "100-khz-thin-wires";
 
 /// At 100 kHz, with coils that are regions of points instead of exact sources.
 const REGIONS: &str = "100-khz-coils-of-points";
+
+/// Of a hundred times the permeability, at 1 kHz, where the skin is as thin as at 100 kHz, with thin wires.
+const IRON: &str = "iron";
 
 /// At 100 kHz, with slopes of linear polynomials, on points half as far apart.
 const LINEAR: &str = "100-khz-linear";
@@ -55,7 +58,7 @@ impl Case for EmAxisymmetricSphere {
                 targets.push(Target::error(quantity, 5e-3).of(*method));
             }
         }
-        for method in ["100-khz", "30-khz", THIN] {
+        for method in ["100-khz", "30-khz", THIN, IRON] {
             targets.push(Target::error("flux_linf", 1e-3).of(method));
         }
         for quantity in ["lift_maxwell", "lift_coil", "power_poynting"] {
@@ -64,6 +67,10 @@ impl Case for EmAxisymmetricSphere {
         for quantity in ["lift_enclosed", "power_enclosed"] {
             targets.push(Target::error(quantity, 5e-4).of(THIN));
         }
+        for quantity in ["lift_volume", "lift_maxwell", "lift_coil", "power_volume"] {
+            targets.push(Target::order(quantity, 1.8).of(IRON));
+        }
+        targets.push(Target::order("flux_linf", 2.5).of(IRON));
         targets.push(Target::error("flux_linf", 2e-3).of(REGIONS));
         targets.push(Target::order("lift_enclosed", 1.5).of(THIN));
         targets.push(Target::order("flux_linf", 2.5).of(THIN));
@@ -93,13 +100,20 @@ impl Case for EmAxisymmetricSphere {
         let (frequency, first) = match method {
             "30-khz" => (3e4, 0.3),
             "1-mhz" => (1e6, 0.15),
+            IRON => (1e3, 0.3),
             _ => (1e5, 0.3),
         };
         let mut patch = json!({
             "points": {"spacing_m": spacing, "layers": {"first_m": first * spacing}},
             "eddy_currents": {"harmonic": {"frequency_hz": frequency}}
         });
-        if method == THIN {
+        if method == IRON {
+            let mut scene = planned(lab, self.name(), &patch)?;
+            let mut bodies = scene["bodies"].take();
+            bodies[0]["relative_permeability"] = json!(100.0);
+            patch["bodies"] = bodies;
+        }
+        if method == THIN || method == IRON {
             let mut scene = planned(lab, self.name(), &patch)?;
             let coils = scene["eddy_currents"]["coils"].take();
             patch["eddy_currents"]["coils"] = thin(coils);

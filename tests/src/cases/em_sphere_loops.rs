@@ -128,7 +128,10 @@ pub(super) fn flux_error(points: &Points, exact: &Solution, within: f64) -> Resu
         if rho.hypot(p[2]) > within {
             continue;
         }
-        let [away, along] = exact.flux(rho, p[2]);
+        // On the surface from within.
+        let on = (rho.hypot(p[2]) / exact.radius() - 1.0).abs() < 1e-9;
+        let inward = if on { 1.0 - 1e-9 } else { 1.0 };
+        let [away, along] = exact.flux(rho * inward, p[2] * inward);
         let share = |k: usize| if rho > 0.0 { p[k] / rho } else { 0.0 };
         let wanted = [away * share(0), away * share(1), along];
         let far = (0..3).map(|k| (b[k] - wanted[k]).norm_sqr()).sum::<f64>();

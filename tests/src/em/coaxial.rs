@@ -82,6 +82,10 @@ pub fn body(scene: &Value) -> Result<Body, String> {
     Ok(Body {
         radius: number(ball(scene)?, "/radius_m")?,
         conductivity: number(scene, "/bodies/0/conductivity_s_m")?,
+        permeability: scene
+            .pointer("/bodies/0/relative_permeability")
+            .and_then(Value::as_f64)
+            .unwrap_or(1.0),
         frequency: number(scene, "/eddy_currents/harmonic/frequency_hz")?,
     })
 }

@@ -2,9 +2,9 @@
 //!
 //! The potential is `A = A_phi(r, theta)` around the axis z. Outside, sources give
 //! `sum c_n r^n P_n^1`, the reaction `sum b_n r^(-n-1) P_n^1`; inside, `lap A = k^2 A` with
-//! `k^2 = j w mu sigma` has `sum a_n i_n(k r) P_n^1` with modified spherical Bessel functions. Where
-//! permeability is uniform, A and dA/dr are continuous, so that
-//! `a_n = (2n+1) c_n R^n / (k R i_{n-1}(k R))`, `b_n = (a_n i_n(k R) - c_n R^n) R^(n+1)`
+//! `k^2 = j w mu sigma` has `sum a_n i_n(k r) P_n^1` with modified spherical Bessel functions. A and
+//! `d(r A)/dr / mu` are continuous, so that with `q_n = i_n / i_{n-1}` at `x = k R` and mu over that outside
+//! `a_n i_{n-1}(x) ((x - n q_n) / mu + n q_n) = (2n+1) c_n R^n`, `b_n = (a_n i_n(x) - c_n R^n) R^(n+1)`
 //! (Smythe 1950, chapter XI; Brisley and Thornton 1963). `P_n^1 = -dP_n/d theta`.
 
 pub mod anywhere;
@@ -68,6 +68,8 @@ pub struct Body {
     pub radius: f64,
     /// Conductivity \[S/m\].
     pub conductivity: f64,
+    /// Permeability over that of vacuum, which is outside.
+    pub permeability: f64,
     /// Frequency \[Hz\].
     pub frequency: f64,
 }
@@ -108,12 +110,17 @@ impl Solution {
             .fold(0.5, f64::max);
         let terms = ((1e-17_f64.ln() / near.ln()) as usize + 10).min(4000);
         let w = 2.0 * PI * body.frequency;
-        let k = C::new(0.0, w * MU0 * body.conductivity).sqrt();
+        let mu = body.permeability;
+        let k = C::new(0.0, w * MU0 * mu * body.conductivity).sqrt();
         let x = k * body.radius;
         let given = given(&body, &sources, terms);
         let ratios = spherical_ratios(terms, x);
         let degree = |n: usize| 2.0 * (n + 1) as f64 + 1.0;
-        let within: Vec<C> = (0..terms).map(|n| degree(n) * given[n] / x).collect();
+        let own = |n: usize| {
+            let part = ratios[n] * (n + 1) as f64;
+            degree(n) * given[n] / ((x - part) / mu + part)
+        };
+        let within: Vec<C> = (0..terms).map(own).collect();
         let reaction = (0..terms).map(|n| within[n] * ratios[n] - given[n]);
         let reaction = reaction.collect();
         Self {
@@ -125,6 +132,12 @@ impl Solution {
             reaction,
             ratios,
         }
+    }
+
+    /// Radius of the sphere \[m\].
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.body.radius
     }
 
     fn omega(&self) -> f64 {
@@ -224,7 +237,7 @@ impl Solution {
     /// `int_0^R |u|^2 r^2 dr = R^2 Im(u' u*) / q` for `lap u = j q u` (after Lommel).
     #[must_use]
     pub fn power(&self) -> f64 {
-        let q = self.omega() * MU0 * self.body.conductivity;
+        let q = self.omega() * MU0 * self.body.permeability * self.body.conductivity;
         let radius = self.body.radius;
         let mut sum = 0.0;
         for n in 0..self.within.len() {

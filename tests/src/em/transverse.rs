@@ -8,14 +8,16 @@ use super::{C, MU0};
 /// The cylinder; its axis is that of z, the field acts along y. Phasors go as `exp(j w t)`.
 ///
 /// The potential is along z. In the field B of y alone it is `-B r cos`, with the cylinder `a I1(k r) cos` inside and
-/// `(-B r + b/r) cos` outside, `k^2 = j w mu sigma` (Smythe 1950, chapter XI). Where permeability is uniform, A and
-/// dA/dr are continuous: with `I1(z) + z I1'(z) = z I0(z)`, `a = -2 B / (k I0(k R))`.
+/// `(-B r + b/r) cos` outside, `k^2 = j w mu sigma` (Smythe 1950, chapter XI). A and `dA/dr / mu` are continuous: with
+/// `z I1'(z) = z I0(z) - I1(z)` and `p = I1(k R)`, `a = -2 B R mu / (mu p + k R I0(k R) - p)`, mu over that of vacuum.
 #[derive(Debug, Clone, Copy)]
 pub struct Transverse {
     /// Radius \[m\].
     pub radius: f64,
     /// Conductivity \[S/m\].
     pub conductivity: f64,
+    /// Permeability over that of vacuum, which is outside.
+    pub permeability: f64,
     /// Frequency \[Hz\].
     pub frequency: f64,
     /// Flux density along y far away \[T\].
@@ -28,21 +30,28 @@ impl Transverse {
     }
 
     fn wave_number(&self) -> C {
-        C::new(0.0, self.omega() * self.conductivity * MU0).sqrt()
+        C::new(
+            0.0,
+            self.omega() * self.conductivity * self.permeability * MU0,
+        )
+        .sqrt()
     }
 
     /// A over cos, and its derivative along r.
     fn radial(&self, r: f64) -> [C; 2] {
         let k = self.wave_number();
         let around = k * self.radius;
-        let first = |r: f64| ratio_i((1, k * r), (0, around)) * (-2.0 * self.flux) / k;
+        let mu = self.permeability;
+        let rim = ratio_i((1, around), (0, around));
+        let inner = -2.0 * self.flux * self.radius * mu / (rim * mu + around - rim);
+        let first = |r: f64| ratio_i((1, k * r), (0, around)) * inner;
         if r > self.radius {
             let reaction = (first(self.radius) + self.flux * self.radius) * self.radius;
             let slope = -reaction / (r * r) - self.flux;
             return [reaction / r - self.flux * r, slope];
         }
         // I1' = I0 - I1/z, which is 1/2 on the axis.
-        let zeroth = ratio_i((0, k * r), (0, around)) * (-2.0 * self.flux);
+        let zeroth = ratio_i((0, k * r), (0, around)) * inner * k;
         let value = first(r);
         let slope = if r > 0.0 {
             zeroth - value / r
@@ -89,7 +98,7 @@ impl Transverse {
     pub fn power(&self) -> f64 {
         let [value, slope] = self.radial(self.radius);
         let integral = self.radius * (slope * value.conj()).im;
-        self.omega() * PI / MU0 * integral
+        self.omega() * PI / (MU0 * self.permeability) * integral
     }
 
     /// What a frequency so low that the reaction does not count would give \[W/m\]:
@@ -109,9 +118,37 @@ mod tests {
         Transverse {
             radius: 0.01,
             conductivity: 1e7,
+            permeability: 1.0,
             frequency,
             flux: 0.02,
         }
+    }
+
+    #[test]
+    fn at_low_frequency_a_permeable_bar_draws_the_field_in() {
+        // B = 2 mu / (mu + 1) times that far away (Jackson 1999, section 5.11, in a plane).
+        for mu in [0.5, 20.0, 1e3] {
+            let b = Transverse {
+                permeability: mu,
+                ..bar(1e-6)
+            };
+            let inside = b.field(0.002, 0.003);
+            let wanted = 2.0 * mu / (mu + 1.0) * b.flux;
+            assert!(
+                (inside[1] - wanted).norm() < 1e-6 * wanted && inside[0].norm() < 1e-6 * wanted
+            );
+        }
+    }
+
+    #[test]
+    fn the_field_along_the_surface_is_continuous_over_the_permeability() {
+        let b = Transverse {
+            permeability: 50.0,
+            ..bar(400.0)
+        };
+        let [low, high] = [1.0 - 1e-12, 1.0 + 1e-12].map(|s| b.radial(s * b.radius));
+        assert!((low[0] - high[0]).norm() < 1e-9 * high[0].norm());
+        assert!((low[1] / 50.0 - high[1]).norm() < 1e-9 * high[1].norm());
     }
 
     #[test]

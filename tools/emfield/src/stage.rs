@@ -51,6 +51,7 @@ impl Tool for EmField {
         let cloud = Cloud::new(scene)?;
         if let Some(currents) = &scene.eddy_currents {
             assemble::windings(scene, currents, &cloud)?;
+            assemble::magnets(scene, currents)?;
         }
         if let Some(electrostatics) = &scene.electrostatics {
             assemble::shorts(scene, electrostatics, &cloud)?;

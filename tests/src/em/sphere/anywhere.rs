@@ -104,7 +104,7 @@ impl Anywhere {
     /// Joule heat \[W\].
     #[must_use]
     pub fn power(&self) -> f64 {
-        let q = self.unit.omega() * MU0 * self.body.conductivity;
+        let q = self.unit.omega() * MU0 * self.body.permeability * self.body.conductivity;
         let radius = self.body.radius;
         let mut energy = [0.0; TERMS];
         for (a, f) in &self.nodes {
@@ -266,6 +266,7 @@ mod tests {
         Body {
             radius: 2.5e-3,
             conductivity: 1e7,
+            permeability: 1.0,
             frequency: 1e5,
         }
     }

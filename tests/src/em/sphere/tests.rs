@@ -5,6 +5,7 @@ fn levitated(frequency: f64) -> Solution {
     let body = Body {
         radius: 2.5e-3,
         conductivity: 1e7,
+        permeability: 1.0,
         frequency,
     };
     let one = |k: u32| Loop {
@@ -96,11 +97,47 @@ fn the_potential_and_its_curl_are_continuous() {
 }
 
 #[test]
+fn a_permeable_sphere_draws_a_slow_field_in() {
+    // B = 3 mu / (mu + 2) times that far away (Jackson 1999, section 5.11).
+    for mu in [0.1, 30.0, 1e4] {
+        let body = Body {
+            radius: 0.01,
+            conductivity: 1.0,
+            permeability: mu,
+            frequency: 1e-3,
+        };
+        let sources = Sources {
+            loops: Vec::new(),
+            uniform: 0.02,
+        };
+        let s = Solution::of(body, sources);
+        let [away, along] = s.flux(0.003, -0.004);
+        near(along.re, 0.02 * 3.0 * mu / (mu + 2.0), 1e-6);
+        assert!(away.norm() < 1e-6 * along.norm());
+    }
+}
+
+#[test]
+fn the_field_along_a_permeable_surface_is_continuous_over_the_permeability() {
+    let body = Body {
+        permeability: 40.0,
+        ..levitated(3e4).body
+    };
+    let s = Solution::of(body, levitated(3e4).sources);
+    let [low, high] = [1.0 - 1e-12, 1.0 + 1e-12].map(|part| s.radial_total(part * body.radius));
+    for (low, high) in low.iter().zip(&high).take(8) {
+        assert!((low[0] - high[0]).norm() < 1e-9 * high[0].norm());
+        assert!((low[1] / 40.0 - high[1]).norm() < 1e-9 * high[1].norm().max(high[0].norm()));
+    }
+}
+
+#[test]
 fn a_loop_has_its_field_on_the_axis() {
     // Biot and Savart: mu0 I b^2 / (2 ((z-h)^2 + b^2)^(3/2)), with a sphere that hardly conducts.
     let body = Body {
         radius: 1.0,
         conductivity: 1e-6,
+        permeability: 1.0,
         frequency: 1.0,
     };
     let one = Loop {
@@ -128,6 +165,7 @@ fn a_uniform_field_has_the_polarisability_of_landau() {
     let body = Body {
         radius: 0.01,
         conductivity: 5e7,
+        permeability: 1.0,
         frequency: 800.0,
     };
     let sources = Sources {

@@ -15,9 +15,9 @@ use crate::output::Doubt;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Geometry, Scene};
 use crate::solve::diffusion::Unknown;
-use crate::solve::eddy::Fields;
-use crate::solve::totals::{Totals, spread};
-use crate::source::{MU0, minus};
+use crate::solve::eddy::{Beyond, Fields};
+use crate::solve::totals::{Acting, Totals, spread};
+use crate::source::minus;
 use crate::surface::traction::{EPS0, stress};
 
 /// Difference of two ways over the size of the force from which it is told.
@@ -228,11 +228,14 @@ fn charged(scene: &Scene, one: &Closed, (ways, all): (&Ways, &Pulled)) -> Option
 }
 
 impl<const D: usize> Setting<'_, D> {
-    /// A doubt about the force on all conductors; none where a wall counts as a part of one, whose surface lacks that.
-    pub(super) fn doubt(&self, fields: &Fields, totals: &Totals) -> Option<Doubt> {
-        let conducts = |m: u8| self.conductors.mu_sigma[m as usize] > 0.0;
-        let walled =
-            |class: &Class| matches!(class, Class::Outer { medium, .. } if conducts(*medium));
+    /// A doubt about the force on all bodies; none where a wall counts as a part of one, whose surface lacks that.
+    pub(super) fn doubt(
+        &self,
+        fields: &Fields,
+        (totals, acting): (&Totals, Acting<'_>),
+    ) -> Option<Doubt> {
+        let acts = |m: u8| acting.acts[m as usize];
+        let walled = |class: &Class| matches!(class, Class::Outer { medium, .. } if acts(*medium));
         if self.unknown == Unknown::Axial || self.cloud.class.iter().any(walled) {
             return None;
         }
@@ -252,7 +255,11 @@ impl<const D: usize> Setting<'_, D> {
         }
         let doubt = |ways: Vec<(String, Vector)>, gross: f64| {
             let all = Ways {
-                of: "all conductors",
+                of: if acting.permeable.is_some() {
+                    "all bodies"
+                } else {
+                    "all conductors"
+                },
                 ways,
                 gross,
                 largest: 0.0,
@@ -262,22 +269,29 @@ impl<const D: usize> Setting<'_, D> {
         };
         // The stress is that of the sources too, whose sum over points is not nothing. Beside them weak currents are noise.
         let all = [volume.clone(), stress].into_iter().chain(coil.clone());
-        let most = self.stresses(fields);
+        let most = self.stresses(fields, acting);
         let found = doubt(all.collect(), gross.max(most));
         let pair = || doubt(vec![volume, coil?], gross);
         found.or_else(|| (gross > WEAK * most).then(pair).flatten())
     }
 
-    /// What the stresses on surfaces of conductors come to without their directions \[N\].
-    fn stresses(&self, fields: &Fields) -> f64 {
-        let conducts = |m: u8| self.conductors.mu_sigma[m as usize] > 0.0;
-        let outer = self.cloud.surface.iter();
-        let outer = outer.filter(|s| conducts(s.inner) != conducts(s.outer));
-        let square = |s: &SurfacePoint| -> f64 {
-            let flux = fields.flux[s.point as usize];
-            s.area * flux.iter().map(C::norm_sqr).sum::<f64>()
+    /// What the stresses on surfaces of bodies come to without their directions, from without \[N\].
+    fn stresses(&self, fields: &Fields, acting: Acting<'_>) -> f64 {
+        let square = |(s, beyond): (&SurfacePoint, &Beyond)| -> f64 {
+            let [a, b] = [s.inner, s.outer].map(|m| acting.acts[m as usize]);
+            if a == b {
+                return 0.0;
+            }
+            let (flux, other) = if a {
+                (beyond.flux, s.outer)
+            } else {
+                (fields.flux[s.point as usize], s.inner)
+            };
+            let square: f64 = flux.iter().map(C::norm_sqr).sum();
+            s.area * square / (2.0 * acting.permeability[other as usize])
         };
-        outer.map(square).sum::<f64>() / (2.0 * MU0)
+        let outer = self.cloud.surface.iter().zip(&fields.beyond);
+        outer.map(square).sum()
     }
 }
 

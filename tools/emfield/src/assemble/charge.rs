@@ -9,7 +9,7 @@ use crate::scene::currents::OuterReaction;
 use crate::solve::at_rate::AtRate;
 use crate::solve::charge::{Charge, Side};
 use crate::solve::coupled::{Coupled, Parts};
-use crate::solve::eddy::Drive;
+use crate::solve::drive::Drive;
 use crate::solve::multipole::Multipoles;
 use crate::solve::region::Kind;
 
@@ -110,7 +110,7 @@ impl<const D: usize> Setting<'_, D> {
         driven.resize(coupled.len(), C::default());
         let unknowns = 0..coupled.points.len();
         let pull: Vec<C> = unknowns.map(|p| coupled.pull(p, &source)).collect();
-        let right = coupled.right(&driven, 1.0, (&pull, &self.wound()));
+        let right = coupled.right(&driven, 1.0, (&pull, &self.given_rows()));
         let mut x = vec![C::default(); coupled.len()];
         let stop = session.interrupt();
         let rule = super::rule(self.scene, &*stop);

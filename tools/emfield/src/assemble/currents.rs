@@ -3,7 +3,6 @@
 use krylov::System;
 use num_complex::Complex;
 use run::{Failure, Session};
-use shapes::frame::Vector;
 
 use super::broken::unsolvable;
 use super::drive::{source, unknown};
@@ -17,10 +16,12 @@ use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{EddyCurrents, Scene};
 use crate::solve::diffusion::{self, Axial, Conductors, Unknown};
-use crate::solve::eddy::{Drive, Solution, steady_change};
+use crate::solve::drive::Drive;
+use crate::solve::eddy::{Solution, steady_change};
 use crate::solve::enclosed::Enclosed;
 use crate::solve::holes::Holes;
 use crate::solve::multipole::Multipoles;
+use crate::solve::permeable::Permeable;
 use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
 use crate::solve::sides::{Form, Sides};
@@ -156,10 +157,8 @@ impl<'a, const D: usize> Setting<'a, D> {
 
     /// Conductivity times volume by point, up to a factor: what the square of a rate is weighted with in the heat.
     pub(super) fn heating(&self) -> Vec<f64> {
-        let weight = |(i, w): (usize, &f64)| {
-            let medium = self.region.medium(i) as usize;
-            w.max(0.0) * self.conductors.mu_sigma[medium]
-        };
+        let weight =
+            |(i, w): (usize, &f64)| w.max(0.0) * self.conductors.current(self.region.medium(i));
         self.weights.iter().enumerate().map(weight).collect()
     }
 
@@ -211,72 +210,6 @@ impl<'a, const D: usize> Setting<'a, D> {
         }
     }
 
-    /// What sources give of the unknowns, by point.
-    pub(super) fn drive<const K: usize>(&self) -> Drive<K> {
-        let mut held = [C::default(); K];
-        if self.unknown == Unknown::Axial {
-            let applied = self.source.uniform.iter().map(|u| u.flux[2]).sum::<C>();
-            held[0] = applied / MU0;
-        }
-        Drive {
-            omega: self.omega.unwrap_or(0.0),
-            source: self.given(&self.source, &self.cloud.position),
-            held,
-        }
-    }
-
-    /// What sources give of the unknown at places in space.
-    pub(super) fn given<const K: usize>(&self, source: &Source, places: &[Vector]) -> Vec<[C; K]> {
-        let zero = C::default();
-        match self.unknown {
-            Unknown::Axial => vec![[zero; K]; places.len()],
-            Unknown::Around => {
-                let a = source.potential(places);
-                let at = |(x, a): (&Vector, [C; 3])| {
-                    let mut value = [zero; K];
-                    value[0] = if x[0] > 0.0 {
-                        a[1] / x[0]
-                    } else {
-                        // A = r B_z / 2 beside the axis.
-                        source.flux_at(*x)[2] * 0.5
-                    };
-                    value
-                };
-                places.iter().zip(a).map(at).collect()
-            }
-            Unknown::Potential if K == 1 => {
-                let mut source = source.clone();
-                // Of a uniform field in the plane the z component carries all, not half.
-                for uniform in &mut source.uniform {
-                    uniform.flux = uniform.flux.map(|b| b * 2.0);
-                }
-                let a = source.potential(places);
-                a.into_iter().map(|a| [a[2]; K]).collect()
-            }
-            Unknown::Potential => {
-                let a = source.potential(places);
-                a.into_iter()
-                    .map(|a| std::array::from_fn(|k| a[k]))
-                    .collect()
-            }
-        }
-    }
-
-    /// Right sides that currents in coils of points make; none where there are no such coils.
-    pub(super) fn wound<const K: usize>(&self) -> Vec<[C; K]> {
-        let Some(windings) = &self.windings else {
-            return Vec::new();
-        };
-        let mu = MU0 * self.scene.surroundings.relative_permeability;
-        let (region, unknown) = (&self.region, self.unknown);
-        let mut right = windings.right::<D, K>((region, &self.sides), unknown);
-        if self.currents.outer == OuterReaction::Multipole {
-            windings.open(region, unknown, &mut right);
-        }
-        right.as_flattened_mut().iter_mut().for_each(|r| *r *= mu);
-        right
-    }
-
     pub(super) fn solve<const K: usize>(
         &self,
         drive: &Drive<K>,
@@ -289,14 +222,17 @@ impl<'a, const D: usize> Setting<'a, D> {
         });
         let at = (region, self.unknown);
         let mut right = drive.right(&self.conductors, at, &rates);
-        for (right, given) in right.iter_mut().zip(self.wound::<K>()) {
+        for (right, given) in right.iter_mut().zip(self.given_rows::<K>()) {
             for (right, given) in right.iter_mut().zip(given) {
                 *right += given;
             }
         }
         let pairs = if self.currents.outer == OuterReaction::Multipole {
             let multipoles = Multipoles::new(region, &self.weights);
-            drive.pairs(&self.conductors, at, &multipoles, &mut right)
+            let mut pairs = drive.pairs(&self.conductors, at, &multipoles, &mut right);
+            let bound = self.bound(&multipoles, &mut right);
+            pairs.extend(drive.bound(&bound, &mut right));
+            pairs
         } else {
             Vec::new()
         };
@@ -327,7 +263,7 @@ fn centre<const D: usize>(
     let mut sums = [0.0; 3];
     let mut whole = 0.0;
     for (i, w) in weights.iter().enumerate() {
-        let share = w * conductors.mu_sigma[region.medium(i) as usize];
+        let share = w * conductors.current(region.medium(i));
         whole += share;
         for (sum, x) in sums.iter_mut().zip(region.places[i]) {
             *sum += share * x;
@@ -360,8 +296,10 @@ fn conductors<const D: usize>(
         }
     };
     let both = permeability.iter().zip(&conductivity);
+    let permeable = || Permeable::of(region, &permeability);
     Conductors {
         mu_sigma: both.map(|(mu, s)| mu * s).collect(),
         axial: (unknown == Unknown::Axial).then(axial),
+        permeable: (unknown != Unknown::Axial).then(permeable).flatten(),
     }
 }

@@ -57,9 +57,9 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
     let own = scene.surroundings.relative_permeability;
     faults.extend(vacuum(own, currents));
     for (k, body) in scene.bodies.iter().enumerate() {
-        if unknown != Unknown::Axial && (body.relative_permeability - own).abs() > 1e-12 * own {
+        if scene.geometry == Geometry::Space && scene.magnetic(k + 1) {
             let what = format!(
-                "{} differs from {own} of the surroundings: only one permeability is computed",
+                "{} differs from {own} of the surroundings: only one permeability is computed in space",
                 body.relative_permeability
             );
             faults.push(Fault::at(

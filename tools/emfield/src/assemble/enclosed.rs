@@ -15,7 +15,7 @@ use crate::solve::eddy::{Fields, Solution, cross_mean};
 use crate::solve::enclosed::Enclosed;
 use crate::solve::region::Region;
 use crate::solve::sides::Form;
-use crate::solve::totals::{Totals, spread};
+use crate::solve::totals::{Acting, Totals, spread};
 use crate::source::{MU0, Source, minus};
 use crate::surface::traction::EPS0;
 
@@ -154,7 +154,7 @@ impl<const D: usize> Setting<'_, D> {
         &self,
         solution: Solution<'_, K>,
         (fields, totals): (&Fields, &Totals),
-        (source, conducts): (&Source, &[bool]),
+        (source, acting): (&Source, Acting<'_>),
         all: &mut Found,
     ) {
         for one in &self.enclosed {
@@ -163,7 +163,7 @@ impl<const D: usize> Setting<'_, D> {
             let mu = MU0 * medium.relative_permeability;
             let (stress, heat) = self.stress(one, solution.found, source);
             let kept = |i: usize| surface.within[i];
-            let bodies = Totals::bodies(&self.region, fields, &self.weights, (conducts, kept));
+            let bodies = Totals::bodies(&self.region, fields, &self.weights, (acting, kept));
             let mut ways = vec![
                 stress.map(|f| f / mu),
                 bodies.force_volume,

@@ -9,9 +9,10 @@ use crate::output::{Column, Found};
 use crate::scene::Geometry;
 use crate::solve::diffusion::Unknown;
 use crate::solve::eddy::{Fields, Media, Solution};
-use crate::solve::region::Region;
+use crate::solve::permeable::traction;
+use crate::solve::region::{Face, Region};
 use crate::solve::sides::Sides;
-use crate::solve::totals::{self, Totals};
+use crate::solve::totals::{Acting, Totals};
 use crate::solve::winding::Windings;
 use crate::source::{MU0, Source};
 
@@ -40,8 +41,9 @@ impl<const D: usize> Setting<'_, D> {
         driven: Driven<'_>,
     ) -> Found {
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
+        let permeability = media(self.scene, |m| MU0 * m.relative_permeability);
         let media = Media {
-            permeability: &media(self.scene, |m| MU0 * m.relative_permeability),
+            permeability: &permeability,
             conductivity: &conductivity,
             flux: driven.flux,
         };
@@ -70,16 +72,61 @@ impl<const D: usize> Setting<'_, D> {
             let name = ("vector_potential", "Wb/m");
             self.vector(columns, name, &fields.potential, &[]);
         }
-        self.vector(columns, ("magnetic_flux_density", "T"), &fields.flux, &[]);
+        self.flux(&fields, columns);
         if conductivity.iter().any(|s| *s > 0.0) || driven.windings.is_some() {
             self.currents(&fields, columns);
         }
-        let conducts: Vec<bool> = conductivity.iter().map(|s| *s > 0.0).collect();
-        let totals = self.totals(&fields, (driven, &conducts), &mut all);
-        let with = (driven.source, conducts.as_slice());
-        self.enclosed(solution, (&fields, &totals), with, &mut all);
-        all.doubts.extend(self.doubt(&fields, &totals));
+        if self.magnetic() {
+            all.surface.extend(self.pulls(&fields, &permeability));
+        }
+        let acts: Vec<bool> = (0..=self.scene.bodies.len())
+            .map(|m| self.acts(m))
+            .collect();
+        let acting = Acting {
+            acts: &acts,
+            permeability: &permeability,
+            permeable: self.conductors.permeable.as_ref(),
+        };
+        let totals = self.totals(&fields, (driven, acting), &mut all);
+        self.enclosed(
+            solution,
+            (&fields, &totals),
+            (driven.source, acting),
+            &mut all,
+        );
+        all.doubts.extend(self.doubt(&fields, (&totals, acting)));
         all
+    }
+
+    /// Flux density, which jumps where permeability does.
+    fn flux(&self, fields: &Fields, columns: &mut Vec<Column>) {
+        let mut beyond: Vec<[C; 3]> = Vec::new();
+        if self.magnetic() {
+            beyond.extend(fields.beyond.iter().map(|b| b.flux));
+        }
+        let name = ("magnetic_flux_density", "T");
+        self.vector(columns, name, &fields.flux, &beyond);
+    }
+
+    /// Whether permeability is not uniform.
+    fn magnetic(&self) -> bool {
+        (0..=self.scene.bodies.len()).any(|m| self.scene.magnetic(m))
+    }
+
+    /// Whether a magnetic field acts on a medium.
+    fn acts(&self, medium: usize) -> bool {
+        self.scene.medium(medium).conductivity_s_m > 0.0 || self.scene.magnetic(medium)
+    }
+
+    /// Traction where permeability jumps, by surface point.
+    fn pulls(&self, fields: &Fields, permeability: &[f64]) -> [Column; 3] {
+        let pull = |face: &Face<D>| {
+            let both = [face.inner, face.outer].map(|m| permeability[m as usize]);
+            let normal = self.region.raise(face.normal);
+            traction(fields.flux[face.point as usize], normal, both)
+        };
+        let pulls: Vec<Vector> = self.region.faces.iter().map(pull).collect();
+        Column::vector("magnetic_traction", "Pa", &pulls, &[])
     }
 
     /// Endings of columns and what they hold: phasors have two parts, fields of a march are real.
@@ -129,7 +176,7 @@ impl<const D: usize> Setting<'_, D> {
     fn totals(
         &self,
         fields: &Fields,
-        (driven, conducts): (Driven<'_>, &[bool]),
+        (driven, acting): (Driven<'_>, Acting<'_>),
         all: &mut Found,
     ) -> Totals {
         let plane = self.scene.geometry == Geometry::Plane;
@@ -146,12 +193,14 @@ impl<const D: usize> Setting<'_, D> {
         };
         if self.unknown == Unknown::Axial {
             // A field along z pulls at no coil, and what flows in through a wall is not told apart.
-            let (pull, heat) = totals::volume(fields, &self.weights, |_| true);
-            force("force_volume", pull);
-            all.totals.push(("power_volume".to_owned(), watt, heat));
+            let all_points = |_: usize| true;
+            let found = Totals::bodies(&self.region, fields, &self.weights, (acting, all_points));
+            force("force_volume", found.force_volume);
+            all.totals
+                .push(("power_volume".to_owned(), watt, found.heat_volume));
             return Totals {
-                force_volume: pull,
-                heat_volume: heat,
+                force_volume: found.force_volume,
+                heat_volume: found.heat_volume,
                 ..Totals::default()
             };
         }
@@ -159,7 +208,7 @@ impl<const D: usize> Setting<'_, D> {
             &self.region,
             fields,
             &self.weights,
-            ((driven.source, driven.windings), conducts),
+            ((driven.source, driven.windings), acting),
         );
         force("force_volume", found.force_volume);
         force("force_maxwell", found.force_stress);

@@ -18,7 +18,8 @@ use crate::scene::currents::{OuterReaction, Transient};
 use crate::scene::{EddyCurrents, Scene};
 use crate::solve::alone::{Alone, Equations};
 use crate::solve::charged::Charged;
-use crate::solve::eddy::{Drive, Solution, pairs};
+use crate::solve::drive::{Drive, pairs};
+use crate::solve::eddy::Solution;
 use crate::solve::march::{March, Stage, State, slope};
 use crate::solve::multipole::Multipoles;
 use crate::solve::sides::{Form, Sides};
@@ -178,12 +179,13 @@ fn stage<'a, const D: usize, const K: usize>(
     (charges, slope): (Option<&'a Charges>, f64),
     session: &mut Session,
 ) -> Result<Box<dyn Stage + 'a>, Failure> {
-    let given: Vec<[f64; K]> = setting.wound().iter().map(|g| g.map(|g| g.re)).collect();
+    let given = setting.given_rows::<K>();
     let Some(charges) = charges else {
         let equations = equations(setting, drive, given, session)?;
         let made = session.timed("factorise", || Alone::new(equations, slope));
         return Ok(Box::new(made.map_err(|error| failed(&error))?));
     };
+    let given: Vec<[f64; K]> = given.iter().map(|g| g.map(|g| g.re)).collect();
     let source: Vec<[f64; K]> = drive.source.iter().map(|a| a.map(|a| a.re)).collect();
     let with = (slope, super::options(setting.scene));
     let made = session.timed("factorise", || {
@@ -197,7 +199,7 @@ fn stage<'a, const D: usize, const K: usize>(
 fn equations<const D: usize, const K: usize>(
     setting: &Setting<'_, D>,
     drive: &Drive<K>,
-    given: Vec<[f64; K]>,
+    mut given: Vec<[C; K]>,
     session: &mut Session,
 ) -> Result<Equations<K>, Failure> {
     let (region, sides, unknown) = (&setting.region, &setting.sides, setting.unknown);
@@ -217,18 +219,23 @@ fn equations<const D: usize, const K: usize>(
         let held = conductors.held(region, unknown, i);
         held.then(|| drive.held.map(|h| h.re))
     };
+    let open = setting.currents.outer == OuterReaction::Multipole;
+    let multipoles = open.then(|| Multipoles::new(region, &setting.weights));
+    let bound = multipoles
+        .iter()
+        .flat_map(|all| setting.bound(all, &mut given));
+    let bound = bound.collect();
     Ok(Equations {
         low: low.map_err(unfit)?,
         rates: session.timed("assemble", || conductors.rates(region, sides, unknown)),
         rows: session.timed("assemble", || conductors.rows(region, sides, unknown)),
         held: (0..region.len()).map(held).collect(),
-        given,
-        pairs: if setting.currents.outer == OuterReaction::Multipole {
-            let multipoles = Multipoles::new(region, &setting.weights);
-            pairs(conductors, (region, unknown), &multipoles)
-        } else {
-            Vec::new()
-        },
+        given: given.iter().map(|g| g.map(|g| g.re)).collect(),
+        pairs: multipoles
+            .iter()
+            .flat_map(|all| pairs(conductors, (region, unknown), all))
+            .collect(),
+        bound,
         options: super::options(setting.scene),
     })
 }

@@ -8,8 +8,10 @@ mod currents;
 pub mod drive;
 mod enclosed;
 mod enclosing;
+mod given;
 mod growth;
 mod magnetic;
+mod magnets;
 mod march;
 mod potential;
 mod region;
@@ -30,6 +32,7 @@ use crate::solve::sides::Form;
 
 pub use currents::eddy_currents;
 pub use enclosing::enclosing;
+pub use magnets::magnets;
 pub use march::march;
 pub use potential::electrostatics;
 pub(crate) use region::region;

@@ -143,6 +143,7 @@ mod tests {
             let conductors = Conductors {
                 mu_sigma: vec![0.0, 1.0, 1.0],
                 axial: None,
+                permeable: None,
             };
             let rows = conductors.rows(&region, &sides, Unknown::Potential);
             let rates = conductors.rates(&region, &sides, Unknown::Potential);

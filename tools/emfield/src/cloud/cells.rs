@@ -18,14 +18,17 @@ use crate::scene::Scene;
 /// Samples per spacing along an axis, in two and three dimensions.
 const SAMPLES: [f64; 2] = [8.0, 4.0];
 
-/// Fills the cells of conductors and coils of a scene with eddy currents.
+/// Fills the cells of conductors, magnets and coils of a scene with eddy currents.
 pub(super) fn fill(scene: &Scene, region: &Region, columns: &[Column], cloud: &mut Cloud) {
     if scene.eddy_currents.is_none() {
         return;
     }
     let mut cells = vec![Cell::default(); cloud.len()];
     for medium in 0..cloud.media {
-        if scene.medium(medium).conductivity_s_m > 0.0 || scene.carries(medium) {
+        if scene.medium(medium).conductivity_s_m > 0.0
+            || scene.magnetic(medium)
+            || scene.carries(medium)
+        {
             Conductor::new(region, columns, medium as u8).share_out(cloud, &mut cells);
         }
     }

@@ -74,6 +74,14 @@ impl Scene {
             .any(|r| Some(&r.body) == name)
     }
 
+    /// Whether a medium has another permeability than the surroundings, and potentials are computed, whose slopes know it.
+    #[must_use]
+    pub fn magnetic(&self, number: usize) -> bool {
+        let own = self.medium(number).relative_permeability;
+        let around = self.surroundings.relative_permeability;
+        (own - around).abs() > 1e-12 * around
+    }
+
     /// Name of a medium.
     #[must_use]
     pub fn medium_name(&self, number: usize) -> &str {

@@ -5,6 +5,7 @@
 use krylov::{Error, Options, Pair, Rows, Rule, Solved, System};
 
 use super::march::Stage;
+use super::permeable::Bound;
 
 /// The rows of a stage whatever its slope, and what drives it.
 #[derive(Debug, Clone)]
@@ -21,6 +22,8 @@ pub struct Equations<const K: usize> {
     pub given: Vec<[f64; K]>,
     /// Pairs `(u, v)` of columns: `u` times the sum of `v d(A + A_s)/dt` is added to the rows.
     pub pairs: Vec<(Vec<f64>, Vec<f64>)>,
+    /// Multipoles of bound currents; none where permeability is uniform.
+    pub bound: Vec<Bound>,
     /// How they are solved.
     pub options: Options,
 }
@@ -46,7 +49,13 @@ impl<const K: usize> Equations<K> {
         let pair = |(u, v): &(Vec<f64>, Vec<f64>)| {
             Pair::new(u.iter().copied(), v.iter().map(|v| slope * v))
         };
-        self.pairs.iter().map(pair).collect()
+        let bound = |bound: &Bound| {
+            let both = bound.value.iter().zip(&bound.rate);
+            let moments = both.map(|(value, rate)| -(value + slope * rate));
+            Pair::new(bound.walls.iter().copied(), moments)
+        };
+        let pairs = self.pairs.iter().map(pair);
+        pairs.chain(self.bound.iter().map(bound)).collect()
     }
 }
 
@@ -84,14 +93,16 @@ impl<const K: usize> Stage for Alone<K> {
                 *right += given * wave;
             }
         }
-        for (u, v) in &equations.pairs {
+        let bound = equations.bound.iter().map(|b| (&b.walls, &b.rate, 1.0));
+        let pairs = equations.pairs.iter().map(|(u, v)| (u, v, -1.0));
+        for (u, v, sign) in pairs.chain(bound) {
             let moment: [f64; K] = std::array::from_fn(|k| {
                 let parts = v.iter().zip(driven);
                 parts.map(|(v, driven)| v * driven[k]).sum()
             });
             for (right, u) in right.iter_mut().zip(u) {
                 for (right, moment) in right.iter_mut().zip(moment) {
-                    *right -= u * moment;
+                    *right += sign * u * moment;
                 }
             }
         }

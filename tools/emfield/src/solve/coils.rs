@@ -7,6 +7,7 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::eddy::{Fields, cross_mean};
+use super::permeable::Permeable;
 use super::region::Region;
 use super::winding::{self, Windings};
 use crate::source::{Loop, Source, Wire, cross, minus};
@@ -28,8 +29,30 @@ struct Part<const D: usize> {
 
 /// Opposite of the force on the coils \[N\], \[N/m\] in a plane; about an axis only that along it.
 pub(super) fn force<const D: usize>(
-    region: &Region<D>,
-    weights: &[f64],
+    (region, weights): (&Region<D>, &[f64]),
+    fields: &Fields,
+    (source, windings): (&Source, Option<&Windings>),
+    permeable: Option<&Permeable>,
+) -> [f64; 3] {
+    let currents = on_coils((region, weights), fields, (source, windings));
+    let Some(permeable) = permeable else {
+        return currents;
+    };
+    let wound = windings.map(|windings| field(region, wound_parts(region, windings)));
+    let flux = |place: [f64; 3]| {
+        let own = source.flux_at(place);
+        let more = wound
+            .as_ref()
+            .map_or([C::default(); 3], |wound| wound(place));
+        std::array::from_fn(|k| own[k] + more[k])
+    };
+    let magnets = permeable.pull((region, weights), &fields.flux, &flux);
+    std::array::from_fn(|k| currents[k] + magnets[k])
+}
+
+/// That of the currents found.
+fn on_coils<const D: usize>(
+    (region, weights): (&Region<D>, &[f64]),
     fields: &Fields,
     (source, windings): (&Source, Option<&Windings>),
 ) -> [f64; 3] {
@@ -51,23 +74,14 @@ pub(super) fn force<const D: usize>(
     let Some(windings) = windings else {
         return force;
     };
-    let more = wound(region, &parts, windings);
+    let more = wound(region, parts, windings);
     std::array::from_fn(|k| force[k] + more[k])
 }
 
 /// The same on coils that are regions of points.
-fn wound<const D: usize>(region: &Region<D>, parts: &[Part<D>], windings: &Windings) -> [f64; 3] {
+fn wound<const D: usize>(region: &Region<D>, parts: Vec<Part<D>>, windings: &Windings) -> [f64; 3] {
     let coil: Vec<winding::Part> = windings.parts(region).collect();
-    let field: Box<dyn Fn([f64; 3]) -> [C; 3] + Sync> = if region.axial {
-        let rings: Vec<Loop> = parts.iter().map(ring).collect();
-        Box::new(move |place| sum(rings.iter().map(|r| (r.current, r.flux(place)))))
-    } else if D == 2 {
-        let lines: Vec<Wire> = parts.iter().map(line).collect();
-        Box::new(move |place| sum(lines.iter().map(|l| (l.current, l.flux(place)))))
-    } else {
-        let currents = moments(parts);
-        Box::new(move |place| biot_savart(&currents, place))
-    };
+    let field = field(region, parts);
     let on = |part: &winding::Part| cross_mean(part.moment, field(part.place));
     let force = opposite(coil.par_iter().map(on).collect());
     if region.axial {
@@ -75,6 +89,32 @@ fn wound<const D: usize>(region: &Region<D>, parts: &[Part<D>], windings: &Windi
     } else {
         force
     }
+}
+
+/// The flux density of currents at a place in space.
+fn field<const D: usize>(
+    region: &Region<D>,
+    parts: Vec<Part<D>>,
+) -> Box<dyn Fn([f64; 3]) -> [C; 3] + Sync> {
+    if region.axial {
+        let rings: Vec<Loop> = parts.iter().map(ring).collect();
+        Box::new(move |place| sum(rings.iter().map(|r| (r.current, r.flux(place)))))
+    } else if D == 2 {
+        let lines: Vec<Wire> = parts.iter().map(line).collect();
+        Box::new(move |place| sum(lines.iter().map(|l| (l.current, l.flux(place)))))
+    } else {
+        let currents = moments(&parts);
+        Box::new(move |place| biot_savart(&currents, place))
+    }
+}
+
+/// Coils that are regions of points, as parts.
+fn wound_parts<const D: usize>(region: &Region<D>, windings: &Windings) -> Vec<Part<D>> {
+    let part = |part: winding::Part| Part {
+        place: region.lower(part.place),
+        moment: part.moment,
+    };
+    windings.parts(region).map(part).collect()
 }
 
 /// A turn of a part about an axis.

@@ -1,16 +1,18 @@
-//! Eddy currents: diffusion of a potential or field where permeability is uniform.
+//! Eddy currents: diffusion of a potential or field.
 //!
 //! The unknown is the reaction of the bodies alone; what coils and distant magnets give is known
 //! exactly (`A_s`). In air `lap A = 0`, in a conductor `lap A - mu sigma (j w (A + A_s)) = 0`
 //! (Matsuzawa 2017, eqs 2.64, 2.65 and 2.69: with `div A = 0` and one permeability, the components do not
 //! mix and share one operator). On an interface `dA/dn` is continuous, from one-sided gradients: the
-//! second derivative jumps there. Of `H_z` it is the electric field along the interface, `dH/dn / sigma`.
+//! second derivative jumps there. Of `H_z` it is the electric field along the interface, `dH/dn / sigma`; between media of
+//! different permeability see [`super::permeable`].
 
 use krylov::Rows;
 use num_complex::Complex;
 
 use super::electrostatic::around;
 use super::holes::{Hole, Holes, Media};
+use super::permeable::Permeable;
 use super::region::{Kind, Region};
 use super::sides::{Sides, along_normal, share_along};
 
@@ -33,8 +35,10 @@ pub enum Unknown {
 pub struct Conductors {
     /// `mu sigma` \[s/m2\]; 0 where nothing conducts.
     pub mu_sigma: Vec<f64>,
-    /// What `H_z` needs beside; none for potentials, whose slopes are continuous.
+    /// What `H_z` needs beside; none for potentials.
     pub axial: Option<Axial>,
+    /// What potentials need beside; none where permeability is uniform.
+    pub permeable: Option<Permeable>,
 }
 
 /// Media and holes as `H_z` needs them.
@@ -62,8 +66,20 @@ impl Unknown {
 impl Conductors {
     /// What the slope on the side of a medium is multiplied by at its interfaces.
     fn weight(&self, medium: u8) -> f64 {
-        let axial = self.axial.as_ref();
-        axial.map_or(1.0, |axial| axial.resistivity[medium as usize])
+        match (&self.axial, &self.permeable) {
+            (Some(axial), _) => axial.resistivity[medium as usize],
+            (None, Some(permeable)) => permeable.weight(medium),
+            (None, None) => 1.0,
+        }
+    }
+
+    /// `mu sigma` of a medium with the permeability of the surroundings: what a rate makes of current, in potentials far
+    /// away \[s/m2\].
+    #[must_use]
+    pub fn current(&self, medium: u8) -> f64 {
+        let own = self.mu_sigma[medium as usize];
+        let permeable = self.permeable.as_ref();
+        permeable.map_or(own, |permeable| permeable.weight(medium) * own)
     }
 
     /// The hole that point `i` belongs to, and what its law of induction needs.
@@ -156,9 +172,12 @@ impl Conductors {
                 return;
             }
             match region.kinds[i] {
-                Kind::Interface(face) => {
-                    let face = &region.faces[face as usize];
+                Kind::Interface(number) => {
+                    let face = &region.faces[number as usize];
                     let [inner, outer] = [face.inner, face.outer].map(|m| self.weight(m));
+                    if let (Some(permeable), Unknown::Around) = (&self.permeable, unknown) {
+                        push(i, permeable.turning(region, number));
+                    }
                     along_normal(&sides.inner, i, face.normal, inner, &mut push);
                     along_normal(&sides.outer, i, face.normal, -outer, &mut push);
                 }

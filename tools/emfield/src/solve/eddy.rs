@@ -1,15 +1,14 @@
-//! Eddy currents in a sinusoidal steady state: right sides, and the fields of a solution.
+//! The fields of a solution of eddy currents.
 //!
 //! Phasors are rms values of `exp(j w t)`; in a march in time fields are real. In a conductor `J = -j w sigma (A + A_s)` (Matsuzawa 2017,
 //! eq. 2.65, here without charge on surfaces; [`super::charge`] has that), `B = B_s + curl A` (2.67), the mean force density is
 //! `Re(J x B*)` (2.68), the heat `|J|^2 / sigma`.
 
-use krylov::Pair;
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::diffusion::{Conductors, Unknown};
-use super::multipole::Multipoles;
+use super::diffusion::Unknown;
+use super::permeable::beyond;
 use super::region::{Face, Region};
 use super::sides::Sides;
 use super::winding::{Windings, component};
@@ -18,101 +17,6 @@ use super::winding::{Windings, component};
 type C = Complex<f64>;
 
 const NONE: [C; 3] = [Complex::new(0.0, 0.0); 3];
-
-/// What drives currents in a sinusoidal steady state.
-#[derive(Debug, Clone)]
-pub struct Drive<const K: usize> {
-    /// Angular frequency \[rad/s\].
-    pub omega: f64,
-    /// What sources give of the unknown, by point: `A_s` \[V s/m\], `A_s / r`; nothing of `H_z`.
-    pub source: Vec<[C; K]>,
-    /// What the unknown is held at where it is held; zero for a reaction.
-    pub held: [C; K],
-}
-
-impl<const K: usize> Drive<K> {
-    /// Right sides: `j w mu sigma A_s` in conductors; `rates` are [`Conductors::rates`].
-    #[must_use]
-    pub fn right<const D: usize>(
-        &self,
-        conductors: &Conductors,
-        (region, unknown): (&Region<D>, Unknown),
-        rates: &[f64],
-    ) -> Vec<[C; K]> {
-        (0..region.len())
-            .map(|i| {
-                if conductors.held(region, unknown, i) {
-                    return self.held;
-                }
-                let rate = C::new(0.0, self.omega * rates[i]);
-                self.source[i].map(|a| rate * a)
-            })
-            .collect()
-    }
-
-    /// Puts the multipoles of the currents into the rows of walls: low-rank pairs, and what the
-    /// sources give through them on the right side.
-    #[must_use]
-    pub fn pairs<const D: usize>(
-        &self,
-        conductors: &Conductors,
-        (region, unknown): (&Region<D>, Unknown),
-        multipoles: &Multipoles,
-        right: &mut [[C; K]],
-    ) -> Vec<Pair<C>> {
-        let mut found = Vec::new();
-        for (u, v) in each_pair(conductors, (region, unknown), multipoles) {
-            let v: Vec<C> = v.iter().map(|v| C::new(0.0, self.omega * v)).collect();
-            let mut given = [C::new(0.0, 0.0); K];
-            for (v, source) in v.iter().zip(&self.source) {
-                for k in 0..K {
-                    given[k] += v * source[k];
-                }
-            }
-            for (right, u) in right.iter_mut().zip(u) {
-                for k in 0..K {
-                    right[k] -= given[k] * *u;
-                }
-            }
-            found.push(Pair::new(u.iter().map(|u| C::from(*u)), v));
-        }
-        found
-    }
-}
-
-/// What the multipoles of the currents put into the rows of walls: `u` times the sum of
-/// `v d(A + A_s)/dt`, for each pair `(u, v)`.
-#[must_use]
-pub fn pairs<const D: usize>(
-    conductors: &Conductors,
-    at: (&Region<D>, Unknown),
-    multipoles: &Multipoles,
-) -> Vec<(Vec<f64>, Vec<f64>)> {
-    let pairs = each_pair(conductors, at, multipoles);
-    pairs.map(|(u, v)| (u.to_vec(), v)).collect()
-}
-
-/// [`pairs`], one after another: there is not room for all at once where there are many points.
-fn each_pair<'a, const D: usize>(
-    conductors: &'a Conductors,
-    (region, unknown): (&'a Region<D>, Unknown),
-    multipoles: &'a Multipoles,
-) -> impl Iterator<Item = (&'a [f64], Vec<f64>)> {
-    let weight = move |(i, moment): (usize, &f64)| {
-        // The unknown is A over the distance from the axis.
-        let arm = if unknown == Unknown::Around {
-            region.places[i][0]
-        } else {
-            1.0
-        };
-        conductors.mu_sigma[region.medium(i) as usize] * moment * arm
-    };
-    let each = multipoles.moments.iter().zip(&multipoles.fields);
-    each.map(move |(moment, field)| {
-        let v = moment.iter().enumerate().map(weight).collect();
-        (field.as_slice(), v)
-    })
-}
 
 /// Fields of a solution, by point, in space: of an axisymmetric scene away from the axis, around it
 /// and along it.
@@ -141,6 +45,8 @@ pub struct Fields {
 pub struct Beyond {
     /// Electric field \[V/m\].
     pub electric: [C; 3],
+    /// Flux density \[T\].
+    pub flux: [C; 3],
     /// Current density \[A/m2\].
     pub current: [C; 3],
     /// Mean force density \[N/m3\].
@@ -156,6 +62,7 @@ impl Beyond {
         let square: f64 = electric.iter().map(C::norm_sqr).sum();
         Self {
             electric,
+            flux,
             current,
             force: cross_mean(current, flux),
             heat: sigma * square,
@@ -279,7 +186,9 @@ impl Fields {
                 Unknown::Axial if a > 0.0 => self.current[i].map(|j| j / a),
                 _ => self.electric[i],
             };
-            Beyond::new(electric, self.flux[i], b)
+            let both = [face.inner, face.outer].map(|m| media.permeability[m as usize]);
+            let flux = beyond(self.flux[i], region.raise(face.normal), both);
+            Beyond::new(electric, flux, b)
         };
         region.faces.iter().map(face).collect()
     }
@@ -293,8 +202,7 @@ impl Fields {
     ) {
         for ((face, beyond), change) in region.faces.iter().zip(&mut self.beyond).zip(change) {
             let sigma = media.conductivity[face.outer as usize];
-            let flux = self.flux[face.point as usize];
-            *beyond = Beyond::new(change.map(|rate| -rate), flux, sigma);
+            *beyond = Beyond::new(change.map(|rate| -rate), beyond.flux, sigma);
         }
     }
 }
@@ -331,15 +239,20 @@ impl Fields {
             self.current[i] = current;
             self.force[i] = cross_mean(current, self.flux[i]);
         }
-        for ((beyond, face), current) in self
+        for ((other, face), current) in self
             .beyond
             .iter_mut()
             .zip(&region.faces)
             .zip(&windings.beyond)
         {
+            let i = face.point as usize;
+            if carries(&windings.own[i]) {
+                let both = [face.inner, face.outer].map(|m| media.permeability[m as usize]);
+                other.flux = beyond(self.flux[i], region.raise(face.normal), both);
+            }
             if carries(current) {
-                beyond.current = *current;
-                beyond.force = cross_mean(*current, self.flux[face.point as usize]);
+                other.current = *current;
+                other.force = cross_mean(*current, other.flux);
             }
         }
     }

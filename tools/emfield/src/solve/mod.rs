@@ -2,10 +2,10 @@
 //!
 //! - [`region`]: what a point is; [`sides`]: stencils that keep to one side of an interface, mirrored about an axis
 //!   of symmetry.
-//! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`eddy`] what drives
-//!   them and the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
+//! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`drive`] what drives
+//!   them, [`eddy`] the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
-//! - [`winding`]: coils that are regions of points.
+//! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`at_rate`] their solution at a
 //!   [`rate`] of change, by [`block`]s and in [`balance`].
 //! - [`march`]: the same in time, each stage of A [`alone`] or [`charged`].
@@ -19,6 +19,7 @@ pub mod charged;
 mod coils;
 pub mod coupled;
 pub mod diffusion;
+pub mod drive;
 pub mod eddy;
 pub mod electrostatic;
 pub mod enclosed;
@@ -26,6 +27,7 @@ pub mod holes;
 pub mod march;
 mod mirror;
 pub mod multipole;
+pub mod permeable;
 pub mod quadrature;
 pub mod rate;
 pub mod region;

@@ -7,6 +7,10 @@ use super::region::{Kind, Region};
 /// a point of the wall.
 #[derive(Debug, Clone)]
 pub struct Multipoles {
+    /// About this place in the coordinates of the points \[m\]; `[0; 3]` beyond them.
+    centre: [f64; 3],
+    /// Volume for which each point stands \[m3; m2 in a plane\].
+    pub weights: Vec<f64>,
     /// By multipole and point: moment per current (zero where nothing conducts).
     pub moments: Vec<Vec<f64>>,
     /// By multipole and point: `A` of a unit moment, over `mu`; zero off the walls.
@@ -22,11 +26,7 @@ impl Multipoles {
         if region.axial {
             centre[0] = 0.0;
         }
-        let kind: fn(&[f64]) -> Vec<[f64; 2]> = match (D, region.axial) {
-            (3, _) => solid,
-            (_, true) => coaxial,
-            _ => plane,
-        };
+        let kind = kind(region);
         let count = kind(&[1.0; 3][..D]).len();
         let [mut moments, mut fields] = [(); 2].map(|()| vec![vec![0.0; region.len()]; count]);
         let off = |p: [f64; D]| -> [f64; D] { std::array::from_fn(|k| p[k] - centre[k]) };
@@ -42,7 +42,44 @@ impl Multipoles {
                 }
             }
         }
-        Self { moments, fields }
+        Self {
+            centre: std::array::from_fn(|k| if k < D { centre[k] } else { 0.0 }),
+            weights: weights.to_vec(),
+            moments,
+            fields,
+        }
+    }
+
+    /// Each regular harmonic at a place, with its gradient.
+    #[must_use]
+    pub fn regular<const D: usize>(&self, region: &Region<D>, i: usize) -> Vec<(f64, [f64; D])> {
+        let kind = kind(region);
+        let off: [f64; D] = std::array::from_fn(|k| region.places[i][k] - self.centre[k]);
+        let step = region.metrics[i].spacing();
+        let mut found: Vec<(f64, [f64; D])> = kind(&off).iter().map(|h| (h[0], [0.0; D])).collect();
+        for axis in 0..D {
+            // Exact for polynomials of up to the sixth degree.
+            for (n, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
+                let at = |n: f64| {
+                    let mut beside = off;
+                    beside[axis] += n * step;
+                    kind(&beside)
+                };
+                for ((found, up), down) in found.iter_mut().zip(at(n)).zip(at(-n)) {
+                    found.1[axis] += weight * (up[0] - down[0]) / (60.0 * step);
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Regular harmonics at a place and the irregular ones that belong to them.
+fn kind<const D: usize>(region: &Region<D>) -> fn(&[f64]) -> Vec<[f64; 2]> {
+    match (D, region.axial) {
+        (3, _) => solid,
+        (_, true) => coaxial,
+        _ => plane,
     }
 }
 

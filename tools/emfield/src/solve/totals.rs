@@ -4,19 +4,31 @@ use num_complex::Complex;
 
 use super::coils;
 use super::eddy::{Fields, cross_mean};
+use super::permeable::{Permeable, traction};
 use super::region::Region;
 use super::winding::Windings;
-use crate::source::{MU0, Source, minus};
+use crate::source::{Source, minus};
 
 /// A complex number.
 type C = Complex<f64>;
 
-/// Totals of all conductors.
+/// Media on which magnetic fields act.
+#[derive(Debug, Clone, Copy)]
+pub struct Acting<'a> {
+    /// Whether a medium conducts, or has another permeability than the surroundings.
+    pub acts: &'a [bool],
+    /// Permeability by medium \[H/m\].
+    pub permeability: &'a [f64],
+    /// Where permeability is not uniform.
+    pub permeable: Option<&'a Permeable>,
+}
+
+/// Totals of all conductors and magnets.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Totals {
-    /// Force by the volume integral of `J x B` \[N\].
+    /// Force by the volume integral of `J x B` and tractions where permeability jumps \[N\].
     pub force_volume: [f64; 3],
-    /// Force by Maxwell's stress on the surfaces of the conductors \[N\].
+    /// Force by Maxwell's stress on the surfaces of the bodies, from without \[N\].
     pub force_stress: [f64; 3],
     /// Opposite of the force on the coils in the field of the currents (Biot and Savart) \[N\].
     pub force_coil: [f64; 3],
@@ -34,21 +46,22 @@ impl Totals {
         region: &Region<D>,
         fields: &Fields,
         weights: &[f64],
-        (coils, conducts): ((&Source, Option<&Windings>), &[bool]),
+        (coils, acting): ((&Source, Option<&Windings>), Acting<'_>),
     ) -> Self {
+        let permeable = acting.permeable;
         Self {
-            force_coil: coils::force(region, weights, fields, coils),
-            ..Self::bodies(region, fields, weights, (conducts, |_| true))
+            force_coil: coils::force((region, weights), fields, coils, permeable),
+            ..Self::bodies(region, fields, weights, (acting, |_| true))
         }
     }
 
-    /// The same of those conductors whose points are `kept`, but for the force on coils.
+    /// The same of those bodies whose points are `kept`, but for the force on coils.
     #[must_use]
     pub fn bodies<const D: usize>(
         region: &Region<D>,
         fields: &Fields,
         weights: &[f64],
-        (conducts, kept): (&[bool], impl Fn(usize) -> bool),
+        (acting, kept): (Acting<'_>, impl Fn(usize) -> bool),
     ) -> Self {
         let (force_volume, heat_volume) = volume(fields, weights, &kept);
         let mut found = Self {
@@ -57,23 +70,35 @@ impl Totals {
             ..Self::default()
         };
         for (face, beyond) in region.faces.iter().zip(&fields.beyond) {
-            let [a, b] = [face.inner, face.outer].map(|m| conducts[m as usize]);
-            if a == b {
-                continue;
-            }
-            let sign = if a { face.area } else { -face.area };
+            let [a, b] = [face.inner, face.outer].map(|m| acting.acts[m as usize]);
+            let both = [face.inner, face.outer].map(|m| acting.permeability[m as usize]);
             let i = face.point as usize;
             if !kept(i) {
                 continue;
             }
             let n = region.raise(face.normal);
-            let b = fields.flux[i];
+            if both[0].to_bits() != both[1].to_bits() {
+                let pull = traction(fields.flux[i], n, both);
+                for (sum, pull) in found.force_volume.iter_mut().zip(pull) {
+                    *sum += face.area * pull;
+                }
+            }
+            if a == b {
+                continue;
+            }
+            let sign = if a { face.area } else { -face.area };
+            // On the side of what does not act.
+            let (b, mu) = if a {
+                (beyond.flux, both[1])
+            } else {
+                (fields.flux[i], both[0])
+            };
             let square: f64 = b.iter().map(C::norm_sqr).sum();
             let normal: C = (0..3).map(|k| b[k].conj() * n[k]).sum();
             for k in 0..3 {
                 // T n = (B (B* n) - |B|^2 n / 2) / mu.
                 let pull = (b[k] * normal).re - 0.5 * square * n[k];
-                found.force_stress[k] += sign * pull / MU0;
+                found.force_stress[k] += sign * pull / mu;
             }
             // E x H* through the surface.
             let electric = if a {
@@ -83,7 +108,7 @@ impl Totals {
             };
             let inward = cross_mean(electric, b);
             let flow: f64 = (0..3).map(|k| inward[k] * n[k]).sum();
-            found.heat_surface -= sign * flow / MU0;
+            found.heat_surface -= sign * flow / mu;
         }
         if region.axial {
             // Radial forces of a full turn cancel.
@@ -116,7 +141,7 @@ pub fn spread(forces: &[[f64; 3]]) -> f64 {
 
 /// Force and heat of the conductors whose points are `kept`.
 #[must_use]
-pub fn volume(fields: &Fields, weights: &[f64], kept: impl Fn(usize) -> bool) -> ([f64; 3], f64) {
+fn volume(fields: &Fields, weights: &[f64], kept: impl Fn(usize) -> bool) -> ([f64; 3], f64) {
     let mut force = [0.0; 3];
     let mut heat = 0.0;
     for (i, w) in weights.iter().enumerate().filter(|(i, _)| kept(*i)) {

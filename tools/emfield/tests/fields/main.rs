@@ -5,6 +5,7 @@
 mod coils;
 mod doubts;
 mod enclosures;
+mod magnets;
 
 use std::path::{Path, PathBuf};
 

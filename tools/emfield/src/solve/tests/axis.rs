@@ -26,6 +26,7 @@ fn rates(scene: &str, order: u8) -> Vec<f64> {
             .map(|m| scene.medium(m).conductivity_s_m)
             .collect(),
         axial: None,
+        permeable: None,
     };
     let rows = conductors.rows(&region, &sides, Unknown::Around);
     let rates = conductors.rates(&region, &sides, Unknown::Around);

@@ -46,6 +46,7 @@ fn ball(region: &Region<3>) -> (Charge, Coupled) {
     let conductors = Conductors {
         mu_sigma: conductivity.map(|s| MU0 * s).to_vec(),
         axial: None,
+        permeable: None,
     };
     let parts = Parts {
         region,

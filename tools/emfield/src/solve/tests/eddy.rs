@@ -3,11 +3,12 @@ use num_complex::Complex;
 use krylov::{Options, Rule, System};
 
 use super::super::diffusion::{Conductors, Unknown, shift};
-use super::super::eddy::{Drive, Fields, Media, Solution, steady_change};
+use super::super::drive::Drive;
+use super::super::eddy::{Fields, Media, Solution, steady_change};
 use super::super::multipole::Multipoles;
 use super::super::quadrature;
 use super::super::sides::{Form, Sides};
-use super::super::totals::Totals;
+use super::super::totals::{Acting, Totals};
 use super::shells;
 use crate::source::{Loop, MU0, Source};
 
@@ -40,6 +41,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
     let conductors = Conductors {
         mu_sigma: vec![0.0, MU0 * sigma],
         axial: None,
+        permeable: None,
     };
     let source = coils();
     let drive = Drive {
@@ -49,14 +51,10 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
     };
     let weights = quadrature::weights(&region, &cells, &form).unwrap();
     let rates = conductors.rates(&region, &sides, Unknown::Potential);
-    let mut right = drive.right(&conductors, (&region, Unknown::Potential), &rates);
+    let at = (&region, Unknown::Potential);
+    let mut right = drive.right(&conductors, at, &rates);
     let multipoles = Multipoles::new(&region, &weights);
-    let pairs = drive.pairs(
-        &conductors,
-        (&region, Unknown::Potential),
-        &multipoles,
-        &mut right,
-    );
+    let pairs = drive.pairs(&conductors, at, &multipoles, &mut right);
     let rows = conductors.rows(&region, &sides, Unknown::Potential);
     let shift = shift(&rates, omega);
     let mut system = System::new(rows, shift, Options::default()).unwrap();
@@ -83,8 +81,12 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
         },
         &media,
     );
-    let conducts = [false, true];
-    Totals::of(&region, &fields, &weights, ((&source, None), &conducts))
+    let acting = Acting {
+        acts: &[false, true],
+        permeability: &[MU0, MU0],
+        permeable: None,
+    };
+    Totals::of(&region, &fields, &weights, ((&source, None), acting))
 }
 
 #[test]
@@ -111,6 +113,7 @@ fn where_nothing_conducts_nothing_is_driven() {
     let conductors = Conductors {
         mu_sigma: vec![0.0, 0.0],
         axial: None,
+        permeable: None,
     };
     assert!(conductors.none());
     let rates = conductors.rates(&region, &sides, Unknown::Potential);

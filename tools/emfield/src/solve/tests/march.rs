@@ -20,9 +20,11 @@ fn switched_on(steps: u32) -> f64 {
     let conductors = Conductors {
         mu_sigma: vec![0.0, 1.0],
         axial: None,
+        permeable: None,
     };
     let held = |i| conductors.held(&region, Unknown::Axial, i).then_some([1.0]);
     let equations = Equations {
+        bound: Vec::new(),
         rates: conductors.rates(&region, &sides, Unknown::Axial),
         rows: conductors.rows(&region, &sides, Unknown::Axial),
         low: None,
