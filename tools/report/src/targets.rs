@@ -4,9 +4,13 @@
 //! values. A row with a tolerance is judged, a row without one is shown for comparison only. The bead of an experiment is frozen:
 //! while nothing of the weld has frozen, its measures are shown but nothing is judged.
 
+mod check;
+
 use std::path::Path;
 
 use artefact::Record;
+use run::Failure;
+use run::scene::{Merged, located};
 use serde::Deserialize;
 
 use crate::weld::Stretch;
@@ -80,12 +84,19 @@ pub(crate) struct Targets {
 }
 
 impl Targets {
-    /// Reads a targets file (kind `targets`, version 1).
+    /// Reads a targets file (kind `targets`, version 1) for arcs with these balances.
     ///
     /// # Errors
-    /// When the file cannot be read, is of another kind or version, or does not fit.
-    pub(crate) fn read(path: &Path) -> artefact::Result<Self> {
-        artefact::json_artefact(path, "targets", 1)
+    /// When the file cannot be read, is of another kind or version, or does not fit; every target
+    /// whose measure is not known, whose unit is not that of the measure, or whose tolerance is negative.
+    pub(crate) fn read(path: &Path, arcs: &Balances) -> Result<Self, Failure> {
+        let targets: Self = artefact::json_artefact(path, "targets", 1)?;
+        let faults = check::faults(&targets, arcs);
+        if faults.is_empty() {
+            return Ok(targets);
+        }
+        let places = Merged::read(path)?;
+        Err(Failure::Scene(located(faults, &places)))
     }
 }
 
@@ -352,7 +363,7 @@ mod tests {
             .collect();
         assert!(!files.is_empty());
         for path in files {
-            let targets = Targets::read(&path).unwrap();
+            let targets = Targets::read(&path, &[]).unwrap();
             for row in compare(&targets, Some(&stretch(2e-3, true)), &[]) {
                 // What an arc tells stands in its file.
                 let of_arc = row.target.measure.contains('/');

@@ -16,7 +16,6 @@ pub(crate) fn run(
     arcs: &[(String, PathBuf)],
     targets: &Path,
 ) -> Result<ExitCode, Failure> {
-    let targets = Targets::read(targets)?;
     let stretch = match pool {
         Some(pool) => {
             let reader = Reader::open_kind(pool, "particle-frames", 1)?;
@@ -29,6 +28,7 @@ pub(crate) fn run(
         let reader = Reader::open_kind(path, "arc-source", 1)?;
         balances.push((name.clone(), reader.record("/balance")?));
     }
+    let targets = Targets::read(targets, &balances)?;
     let rows = compare(&targets, stretch.as_ref(), &balances);
     let text = table(&rows);
     let mut out = std::io::stdout().lock();

@@ -3,7 +3,7 @@
 use artefact::{Frame, Reader};
 use serde::Deserialize;
 
-use crate::measure::bead::{self, Bead};
+use crate::measure::bead::{self, Bead, measure_of};
 use crate::measure::section::{Metal, Plane, SUPPORT, Section};
 use crate::measure::spatter;
 
@@ -266,7 +266,7 @@ impl Stretch {
         let mut values: Vec<f64> = self
             .beads
             .iter()
-            .map(|(_, bead)| named(bead, name))
+            .map(|(_, bead)| Some(measure_of(name)?.of(bead)))
             .collect::<Option<_>>()?;
         values.sort_by(f64::total_cmp);
         let (low, high) = (*values.first()?, *values.last()?);
@@ -299,20 +299,6 @@ impl Stretch {
             |a: &&(f64, Bead), b: &&(f64, Bead)| a.1.penetration.total_cmp(&b.1.penetration);
         self.beads.iter().max_by(deepest).map(|b| b.0)
     }
-}
-
-fn named(bead: &Bead, name: &str) -> Option<f64> {
-    Some(match name {
-        "penetration" => bead.penetration,
-        "fused_width" => bead.fused_width,
-        "fused_half_width" => bead.fused_half_width,
-        "reinforcement" => bead.reinforcement,
-        "bead_width" => bead.bead_width,
-        "area_above" => bead.area_above,
-        "area_below" => bead.area_below,
-        "dilution" => bead.dilution(),
-        _ => return None,
-    })
 }
 
 fn flags(frame: &Frame, name: &str) -> artefact::Result<Vec<bool>> {

@@ -126,6 +126,68 @@ fn validation_ends_with_one_where_a_tolerance_is_missed() {
 }
 
 #[test]
+fn targets_that_cannot_be_meant_are_refused_with_their_places() {
+    let folder = folder("targets");
+    let arc = folder.join("arc.mcap");
+    sample::arc(&arc);
+    let targets = folder.join("targets.json");
+    let row = |measure: &str, unit: &str, tolerance: f64| {
+        format!(
+            "{{\"measure\": \"{measure}\", \"title\": \"t\", \"value\": 1, \"unit\": \"{unit}\", \
+             \"source\": \"s\", \"kind\": \"experiment\", \"tolerance\": {tolerance}}}"
+        )
+    };
+    let rows = [
+        row("penetration", "mm", 1.0),
+        row("dilution", "1", -0.5),
+        row("penetraton", "m", 1.0),
+        row("beauty", "1", 1.0),
+        row("arc/power_w", "kW", 1.0),
+        row("arc/powr_w", "W", 1.0),
+        row("other/power_w", "kW", 1.0),
+    ];
+    let head = "{\"kind\": \"targets\", \"version\": \"1.0\", \"targets\": [\n";
+    std::fs::write(&targets, format!("{head}{}\n]}}", rows.join(",\n"))).unwrap();
+    let (file, arc) = (targets.display().to_string(), arc.display().to_string());
+    let out = folder.join("x.html").display().to_string();
+    for words in [
+        vec!["validate", "--arc", &arc, "--targets", &file],
+        vec![
+            "page",
+            "--study",
+            "s",
+            "--out",
+            &out,
+            "--arc",
+            &arc,
+            "--targets",
+            &file,
+        ],
+    ] {
+        let output = report(&words);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        let faults: Vec<&str> = said.lines().collect();
+        let wanted = [
+            "/targets/0/unit: is \"mm\", 'penetration' is in \"m\"",
+            "/targets/1/tolerance: -0.5 1 is out of range: at least 0",
+            "/targets/2/measure: 'penetraton' is not a known measure; did you mean 'penetration'?",
+            "/targets/3/measure: 'beauty' is not a known measure; known are: penetration, ",
+            "/targets/4/unit: is \"kW\", 'arc/power_w' is in \"W\"",
+            "/targets/5/measure: 'arc/powr_w' is not a known measure; did you mean 'arc/power_w'?",
+        ];
+        assert_eq!(faults.len(), wanted.len(), "{said}");
+        for (index, (fault, wanted)) in faults.iter().zip(wanted).enumerate() {
+            let place = format!("targets.json:{}:", index + 2);
+            assert!(
+                fault.contains(&place) && fault.contains(wanted),
+                "{fault}\n{wanted}"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_file_of_another_kind_is_refused_by_name() {
     let folder = folder("kind");
     sample::arc(&folder.join("arc.mcap"));

@@ -46,6 +46,44 @@ impl Bead {
     }
 }
 
+/// A measure as targets name it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Named {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Its unit.
+    pub(crate) unit: &'static str,
+    value: fn(&Bead) -> f64,
+}
+
+impl Named {
+    /// Its value of a bead, in its unit.
+    pub(crate) fn of(self, bead: &Bead) -> f64 {
+        (self.value)(bead)
+    }
+}
+
+/// Every measure of a bead.
+pub(crate) const MEASURES: [Named; 8] = [
+    named("penetration", "m", |b| b.penetration),
+    named("fused_width", "m", |b| b.fused_width),
+    named("fused_half_width", "m", |b| b.fused_half_width),
+    named("reinforcement", "m", |b| b.reinforcement),
+    named("bead_width", "m", |b| b.bead_width),
+    named("area_above", "m2", |b| b.area_above),
+    named("area_below", "m2", |b| b.area_below),
+    named("dilution", "1", Bead::dilution),
+];
+
+const fn named(name: &'static str, unit: &'static str, value: fn(&Bead) -> f64) -> Named {
+    Named { name, unit, value }
+}
+
+/// The measure of that name.
+pub(crate) fn measure_of(name: &str) -> Option<Named> {
+    MEASURES.into_iter().find(|measure| measure.name == name)
+}
+
 /// Measures a section; `centre` is the weld's centre plane and `spacing` the particle spacing \[m\].
 pub(crate) fn measure(section: &Section, centre: f64, spacing: f64) -> Bead {
     let rows = section.up.len();

@@ -39,7 +39,7 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     let pool = open(&files.pool, "particle-frames")?;
     let mean = open(&files.mean, "mean-fields")?;
     let targets = match &files.targets {
-        Some(path) => Some(Targets::read(path)?),
+        Some(path) => Some(Targets::read(path, &balances)?),
         None => None,
     };
     let records = beside(files);

@@ -19,7 +19,7 @@ use crate::failure::Failure;
 pub use fault::{Fault, located};
 pub use migrate::Migration;
 pub use schema::{schema_of, schema_text};
-pub(crate) use suggest::nearest;
+pub use suggest::nearest;
 
 use origin::Document;
 pub use patch::Merged;

@@ -1,11 +1,13 @@
 //! JSON Merge Patches (RFC 7386) that remember which file set each value.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde_json::{Map, Value};
 
 use super::fault::{Fault, Spot};
 use super::origin::{Document, Place, escaped};
+use crate::failure::Failure;
 
 /// A scene with its patches applied; every value knows its file.
 #[derive(Debug)]
@@ -27,6 +29,14 @@ impl Merged {
             origins,
             documents: vec![document],
         }
+    }
+
+    /// Reads a JSON file for the places of its values, to locate faults in what is no scene.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is not JSON.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        Document::read(path).map(Self::new)
     }
 
     /// The merged JSON.

@@ -105,7 +105,8 @@ pub(crate) fn instead_of(key: &str, value: Option<&Value>, known: &[&str]) -> Op
 }
 
 /// The known word nearest to a word, if one is near.
-pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+#[must_use]
+pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let stem = |key: &str| unit_of(key).map_or(0, |_| 1);
     known
         .iter()
