@@ -11,6 +11,7 @@ use crate::frames::{self, Plate};
 use crate::grid::Section;
 use crate::mean::{self, Cells, Smoothing};
 use crate::phase::{self, Source};
+use crate::profile::{self, Profile, Rings};
 use crate::scene::Scene;
 
 /// Most grid points of all sections and phases: some 3 GB.
@@ -59,6 +60,16 @@ pub enum AverageError {
         /// Phases.
         phases: usize,
     },
+    /// A profile of no ring, or of more places than a machine holds.
+    #[error(
+        "{radius_m} m of rings {spacing_m} m wide: wanted is one ring at least, and at most {POINTS_MOST:.0e} places"
+    )]
+    Rings {
+        /// Radius of the profile \[m\].
+        radius_m: f64,
+        /// Width of a ring \[m\].
+        spacing_m: f64,
+    },
     /// A frame at a moment for which the source has no place.
     #[error(
         "channel '{channel}' does not tell where the source is at {time_s} s, the time of a frame"
@@ -80,6 +91,8 @@ pub struct Plan {
     pub smoothing: Smoothing,
     /// The sections.
     pub sections: Vec<Section>,
+    /// The rings of the profile, where the scene asks for one.
+    pub rings: Option<Rings>,
     /// The source over time; empty at rest.
     pub track: Vec<Source>,
     /// Number of phases; 1 without.
@@ -140,6 +153,7 @@ impl Plan {
         Ok(Self {
             smoothing,
             sections: scene.sections(spacing),
+            rings: rings(scene, spacing)?,
             phases,
             period: scene.phases.and_then(|_| phase::period(&counted)),
             track,
@@ -158,7 +172,9 @@ impl Plan {
     pub fn ensemble_bytes(&self) -> u64 {
         let points: usize = self.sections.iter().map(Section::len).sum();
         let kinds = self.phases + 1;
-        (points * kinds * size_of::<crate::ensemble::Point>()) as u64
+        let rings = self.rings.as_ref().map_or(0, |r| r.places.len() + r.len());
+        let moments = rings * size_of::<crate::ensemble::Moments>();
+        (points * kinds * size_of::<crate::ensemble::Point>() + moments) as u64
     }
 
     /// Memory of one frame: columns, cells and copies \[byte\].
@@ -186,6 +202,25 @@ fn fits(scene: &Scene, spacing: f64, phases: usize) -> Result<(), AverageError> 
     Ok(())
 }
 
+/// The rings that the scene asks for.
+fn rings(scene: &Scene, spacing_m: f64) -> Result<Option<Rings>, AverageError> {
+    let Some(radius_m) = scene.profile.map(|p| p.radius_m) else {
+        return Ok(None);
+    };
+    let refused = AverageError::Rings {
+        radius_m,
+        spacing_m,
+    };
+    if profile::wanted(radius_m, spacing_m) > POINTS_MOST {
+        return Err(refused);
+    }
+    let rings = Rings::new(radius_m, spacing_m);
+    if rings.is_empty() {
+        return Err(refused);
+    }
+    Ok(Some(rings))
+}
+
 /// A frame in the frame of reference of the averages.
 #[derive(Debug)]
 pub struct Seen {
@@ -202,6 +237,8 @@ pub struct Seen {
 pub struct Averages {
     /// One per section of the plan.
     pub ensembles: Vec<Ensemble>,
+    /// The surface over the distance from the axis, where the scene asks for it.
+    pub profile: Option<Profile>,
     /// Number of different droplet periods in each phase, and in all.
     pub drops: (Vec<usize>, usize),
 }
@@ -226,6 +263,7 @@ impl<'a> Averaging<'a> {
                 .iter()
                 .map(|s| Ensemble::new(plan.phases, s.len()))
                 .collect(),
+            profile: plan.rings.as_ref().map(Profile::new),
             drops: (vec![0; plan.phases], 0),
         };
         Self {
@@ -273,6 +311,9 @@ impl<'a> Averaging<'a> {
         for (section, ensemble) in self.plan.sections.iter().zip(&mut self.averages.ensembles) {
             let samples = mean::section(&seen.cloud, &cells, section, smoothing);
             ensemble.add(seen.phase, &samples);
+        }
+        if let (Some(rings), Some(profile)) = (&self.plan.rings, &mut self.averages.profile) {
+            profile.add(rings, &seen.cloud, &cells, smoothing);
         }
     }
 

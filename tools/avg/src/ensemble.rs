@@ -21,6 +21,15 @@ impl Moments {
         self.squares += off * (value - self.mean);
     }
 
+    /// Standard deviation of the values; 0 with fewer than two.
+    #[must_use]
+    pub fn deviation(&self) -> f64 {
+        if self.count < 2 {
+            return 0.0;
+        }
+        (self.squares / (f64::from(self.count) - 1.0)).sqrt()
+    }
+
     /// Standard error of the mean; 0 with fewer than two values.
     #[must_use]
     pub fn standard_error(&self) -> f64 {

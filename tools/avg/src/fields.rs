@@ -4,7 +4,8 @@
 //! phase in the droplet period (without phases there is none of these), and a channel
 //! `NAME/time_mean` with the mean over all frames. Where a column has no frame behind it, its value is 0 and
 //! the count that belongs to it (`frames_metal`, `frames_liquid`) is 0. Grids that move with the source
-//! stand in the frame of reference `source`, others in `world`.
+//! stand in the frame of reference `source`, others in `world`. The surface over the distance from the axis
+//! ([`crate::profile`]) is the channel `/profile`, where the scene asks for it.
 
 use artefact::Table;
 
@@ -13,6 +14,9 @@ use crate::ensemble::{Ensemble, Moments, Point};
 use crate::grid::{Cut, Section};
 
 const AXES: [&str; 3] = ["x_m", "y_m", "z_m"];
+
+/// Name of the channel of the surface over the distance from the axis.
+pub const PROFILE: &str = "profile";
 
 /// A table with its channel and log time \[s\].
 pub type Placed = (String, f64, Table);
@@ -33,6 +37,10 @@ pub fn tables(plan: &Plan, averages: &Averages) -> Vec<Placed> {
             mean = mean.attribute("period_s", "s", period);
         }
         all.push((format!("/{}/time_mean", section.name), 0.0, mean));
+    }
+    if let (Some(rings), Some(profile)) = (&plan.rings, &averages.profile) {
+        let table = at_source(plan, profile.table(rings, &plan.smoothing));
+        all.push((format!("/{PROFILE}"), 0.0, table));
     }
     all
 }
@@ -56,7 +64,12 @@ fn phases(plan: &Plan, section: &Section, means: (&Ensemble, &Averages)) -> Vec<
 
 /// A grid in its frame of reference, as precise as the frames.
 fn placed(plan: &Plan, section: &Section, points: &[Point]) -> Table {
-    let table = table(section, points, plan.temperature).in_precision(plan.precision);
+    let table = table(section, points, plan.temperature);
+    at_source(plan, table.in_precision(plan.precision))
+}
+
+/// A table in the frame of reference of the averages.
+fn at_source(plan: &Plan, table: Table) -> Table {
     if plan.track.is_empty() {
         table
     } else {

@@ -20,6 +20,8 @@ pub mod frames;
 pub mod grid;
 pub mod mean;
 pub mod phase;
+pub mod profile;
 pub mod resume;
 pub mod scene;
 pub mod stage;
+pub mod surface;

@@ -111,6 +111,11 @@ impl Cells {
         flat.bin(&shadow);
         Self { space, flat }
     }
+
+    /// The shadows on the plan, at height 0.
+    pub(crate) fn flat(&self) -> &Grid {
+        &self.flat
+    }
 }
 
 /// Kernel means of `cloud` at every point of `section`. Each point gathers in the order of the

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::fields::PROFILE;
 use crate::grid::{Cut, Section};
 
 /// A scene of averages. Lengths are in the frame of reference of the averages: with `follow`, x and
@@ -39,6 +40,9 @@ pub struct Scene {
     /// The sections, each a channel of the output.
     #[schemars(length(min = 1))]
     pub sections: Vec<Cutting>,
+    /// The surface over the distance from the source, for an arc above it: the channel `/profile`; absent: none.
+    #[serde(default)]
+    pub profile: Option<Round>,
 }
 
 fn pool() -> String {
@@ -92,6 +96,16 @@ pub struct Landed {
     /// Greatest distance between neighbours in the chain \[m\]; 1.5 particle diameters is good.
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub link_m: f64,
+}
+
+/// The height of the surface, averaged over the angle around the source and over all frames, in rings as wide as
+/// the spacing. Liquid in flight is surface too, unless the scene has `landed`.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Round {
+    /// Radius of the outermost ring \[m\]; metal should reach as far on all sides.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    pub radius_m: f64,
 }
 
 /// A section: a name, how it is cut, and its extent.
@@ -181,6 +195,10 @@ impl Scene {
                     found.push((format!("/sections/{i}/{key}"), what));
                 }
             }
+            if self.profile.is_some() && section.name == PROFILE {
+                let what = "is the name of the channel that the key 'profile' asks for";
+                found.push((format!("/sections/{i}/name"), what.to_owned()));
+            }
             if self.sections[..i].iter().any(|s| s.name == section.name) {
                 let what = format!("'{}' is the name of two sections", section.name);
                 found.push((format!("/sections/{i}/name"), what));
@@ -222,6 +240,7 @@ mod tests {
     fn absent_keys_are_absent_physics() {
         let s = scene(SMALL).unwrap();
         assert!(s.follow.is_none() && s.phases.is_none() && s.landed.is_none());
+        assert!(s.profile.is_none());
         assert_eq!(s.channel, "/pool");
         assert!(s.faults().is_empty());
         assert_eq!(s.sections(0.5)[0].axes, [1, 2]);
@@ -241,6 +260,11 @@ mod tests {
             .map(|f| f.0)
             .collect();
         assert_eq!(paths, ["/time/to_s", "/phases"]);
+        let named = SMALL.replace("x0", "profile");
+        assert!(scene(&named).unwrap().faults().is_empty());
+        let both = named.replacen('{', r#"{"profile": {"radius_m": 1},"#, 1);
+        let faults = scene(&both).unwrap().faults();
+        assert_eq!(faults[0].0, "/sections/0/name");
     }
 
     #[test]

@@ -28,7 +28,7 @@ impl Tool for Avg {
          --input frames=build/gmaw-300a/pool.mcap --out build/gmaw-300a/mean.mcap";
     const SCENE_KIND: &'static str = "avg.scene";
     const ARTEFACT_KIND: &'static str = "mean-fields";
-    const ARTEFACT_VERSION: Version = Version::new(1, 1);
+    const ARTEFACT_VERSION: Version = Version::new(1, 2);
     const INPUTS: &'static [Input] = &[Input {
         name: "frames",
         what: "particle frames to average (particle-frames 1.x)",
@@ -108,6 +108,7 @@ fn failure(error: AverageError) -> Failure {
         AverageError::TooMany { section, .. } => {
             Fault::at(&format!("/sections/{section}"), text).into()
         }
+        AverageError::Rings { .. } => Fault::at("/profile/radius_m", text).into(),
         AverageError::NoSource { .. } => Failure::Other(text),
     }
 }
@@ -128,6 +129,10 @@ fn shown(plan: &Plan, scene: &Scene) -> Shown {
         shown = shown.column("temperature", "K");
     } else {
         shown = shown.left_out("temperature", "the frames carry none");
+    }
+    match &plan.rings {
+        Some(rings) => shown = shown.count("rings of the profile", rings.len() as u64),
+        None => shown = shown.left_out("profile", "the scene names no 'profile'"),
     }
     if scene.follow.is_none() {
         shown = shown.left_out("moving frame of reference", "the scene names no 'follow'");
@@ -155,6 +160,11 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
         ));
     }
     session.closing("frames", "1", plan.frames.len() as f64);
+    if let (Some(rings), Some(profile)) = (&plan.rings, &averages.profile) {
+        let [net, below] = profile.volumes(rings);
+        session.closing("profile_net_volume", "m3", net);
+        session.closing("profile_depression", "m3", below);
+    }
     if plan.phases > 1 {
         session.closing("frames_least_in_a_phase", "1", f64::from(least));
         session.closing("drops", "1", averages.drops.1 as f64);

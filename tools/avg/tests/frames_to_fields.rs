@@ -218,6 +218,55 @@ fn at_rest_nothing_is_asked_of_a_source() {
     assert_eq!(table.frame_id(), "world");
 }
 
+/// All tables as text, by channel.
+fn told(reader: &Reader) -> std::collections::BTreeMap<String, Vec<String>> {
+    let tables = reader.channels().into_iter().map(|c| c.name);
+    let tables = tables.filter(|name| !name.ends_with("/attributes"));
+    let all = |name: String| {
+        let each = (0..reader.count(&name)).map(|k| reader.table_at(&name, k).unwrap());
+        let each = each.map(|table| format!("{table:?}")).collect();
+        (name, each)
+    };
+    tables.map(all).collect()
+}
+
+#[test]
+fn a_profile_is_a_channel_more_and_changes_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let (from, to) = (folder.path().join("a.mcap"), folder.path().join("b.mcap"));
+    write(&from, 1, &|_, _| ([0.0; 3], 300.0));
+    let plain = told(&average(&from, &to, &scene()).unwrap());
+    let mut scene = scene();
+    scene.profile = Some(serde_json::from_value(json!({"radius_m": 2e-3})).unwrap());
+    let more = average(&from, &to, &scene).unwrap();
+    assert!(!plain.contains_key("/profile") && plain.len() == 4);
+    let mut rest = told(&more);
+    assert!(rest.remove("/profile").is_some());
+    assert!(rest == plain, "other tables than without a profile");
+    // The block is level, 4 mm thick, and as wide as the profile on all sides of the source.
+    let table = more.table("/profile").unwrap();
+    assert_eq!((table.len(), table.frame_id()), (4, "source"));
+    for (height, share) in [("height_m", 0.0), ("metal_share", 1.0)] {
+        for found in table.values(height).unwrap() {
+            assert!((found - share).abs() < 0.01 * D, "{height} {found}");
+        }
+    }
+    assert!((table.scalar("frames").unwrap() - 4.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_profile_of_no_ring_or_too_many_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (from, to) = (folder.path().join("a.mcap"), folder.path().join("b.mcap"));
+    write(&from, 1, &|_, _| ([0.0; 3], 300.0));
+    for radius in [0.9 * D, 1e3] {
+        let mut scene = scene();
+        scene.profile = Some(serde_json::from_value(json!({"radius_m": radius})).unwrap());
+        let said = average(&from, &to, &scene).unwrap_err().to_string();
+        assert!(said.contains("one ring at least"), "{said}");
+    }
+}
+
 #[test]
 fn the_means_are_as_wide_as_the_frames() {
     let folder = tempfile::tempdir().unwrap();

@@ -77,6 +77,7 @@ fn study() -> tempfile::TempDir {
     write_frames(&folder.path().join("pool.mcap"));
     let scene = json!({
         "kind": "avg.scene", "version": 1, "follow": {}, "phases": {"count": 4},
+        "profile": {"radius_m": 2e-3},
         "sections": [
             {"name": "section_x0", "first_m": [-3e-3, 3e-3], "second_m": [-3e-3, 0.5e-3],
              "cut": {"plane": {"normal": "x", "half_thickness_m": D}}},
