@@ -186,15 +186,53 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(e.exit_code()).unwrap_or(2));
         }
     };
-    let done = match &line.action {
+    let done = complete(&line.action).and_then(|()| write(&line.action));
+    done.unwrap_or_else(|failure| run::report_failure("report", &failure))
+}
+
+/// Refuses command lines that name nothing to report on, or no file to write to.
+fn complete(action: &Action) -> Result<(), Failure> {
+    let (wanted, given, out) = match action {
+        Action::Page(f) => {
+            let given = !f.arc.is_empty() || f.pool.is_some() || f.mean.is_some();
+            ("--arc, --pool or --mean", given, Some(&f.out))
+        }
+        Action::Index(f) => {
+            let folders = [&f.verify, &f.stability, &f.bench, &f.studies];
+            let given = folders.iter().any(|folder| folder.is_some());
+            (
+                "--verify, --stability, --bench or --studies",
+                given,
+                Some(&f.out),
+            )
+        }
+        Action::Validate { pool, arc, .. } => {
+            let given = pool.is_some() || !arc.is_empty();
+            ("--pool or --arc", given, None)
+        }
+        Action::Heat(f) => ("--frames", true, Some(&f.out)),
+        Action::Field(f) => ("--fields", true, Some(&f.out)),
+        Action::Gas(f) => ("--table", true, Some(&f.out)),
+    };
+    if !given {
+        let what = format!("there is nothing to report on: name at least one of {wanted}");
+        return Err(Failure::Usage(what));
+    }
+    match out.map(|out| artefact::must_be_replaceable(out)) {
+        Some(Err(no_place)) => Err(Failure::Usage(format!("--out {no_place}"))),
+        _ => Ok(()),
+    }
+}
+
+fn write(action: &Action) -> Result<ExitCode, Failure> {
+    match action {
         Action::Page(files) => page::write(files).map(|()| ExitCode::SUCCESS),
         Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
         Action::Field(files) => page::field::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),
-    };
-    done.unwrap_or_else(|failure| run::report_failure("report", &failure))
+    }
 }
 
 /// Writes a page, with the folder that it lies in.

@@ -3,9 +3,10 @@
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::Write;
+use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 
-use crate::error::{Result, io_error};
+use crate::error::{Error, Result, io_error};
 
 /// `path` with `suffix` appended to its name.
 #[must_use]
@@ -15,11 +16,39 @@ pub fn beside(path: &Path, suffix: &str) -> PathBuf {
     name.into()
 }
 
+/// Refuses to put a file where something stands that is no file, as a rename would replace a device or a
+/// pipe, and fail at a folder only when all work is done.
+///
+/// # Errors
+/// [`Error::NoPlace`] with what stands there.
+pub fn must_be_replaceable(path: &Path) -> Result<()> {
+    let Ok(found) = fs::metadata(path) else {
+        return Ok(());
+    };
+    let kind = found.file_type();
+    let what = if kind.is_file() {
+        return Ok(());
+    } else if kind.is_dir() {
+        "a folder"
+    } else if kind.is_fifo() {
+        "a pipe"
+    } else if kind.is_socket() {
+        "a socket"
+    } else {
+        "a device"
+    };
+    Err(Error::NoPlace {
+        path: path.to_owned(),
+        what,
+    })
+}
+
 /// Writes `bytes` to `path` so that a reader sees the old file or the new one, never a part.
 ///
 /// # Errors
-/// When the system refuses; the old file is then untouched.
+/// When the system refuses, or what stands there is no file; it is then untouched.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
+    must_be_replaceable(path)?;
     let part = beside(path, ".part");
     let written = write_synced(&part, bytes);
     if written.is_err() {

@@ -31,6 +31,28 @@ pub enum Error {
         /// The MCAP magic in hexadecimal.
         expected: String,
     },
+    /// A JSON file in the place of an artefact.
+    #[error(
+        "{path}: not an artefact: it is a JSON file{}, wanted is an MCAP file{}",
+        .kind.as_ref().map(|k| format!(" of kind '{k}'")).unwrap_or_default(),
+        .meant.as_ref().map(|m| format!("; did you mean {}?", m.display())).unwrap_or_default()
+    )]
+    IsJson {
+        /// The file.
+        path: PathBuf,
+        /// Kind that it states, if it does.
+        kind: Option<String>,
+        /// The artefact that it is the record of, if it is one.
+        meant: Option<PathBuf>,
+    },
+    /// What stands where a file is to be written is no file.
+    #[error("{path}: is {what}, wanted is the name of a file to write")]
+    NoPlace {
+        /// Where the file is to be written.
+        path: PathBuf,
+        /// What stands there: "a folder", "a device", ...
+        what: &'static str,
+    },
     /// An MCAP file that no tool of ours wrote.
     #[error("{path}: an MCAP file, but not one of ours: it has no metadata record 'fusionline'")]
     NotOurs {

@@ -54,6 +54,28 @@ pub fn json_artefact<T: DeserializeOwned>(
     parse(path, &text)
 }
 
+/// The error for a JSON file where an artefact is wanted; `None` for any other file.
+pub(crate) fn mistaken(path: &Path) -> Option<Error> {
+    // The longest JSON artefacts are gas tables of some MB: what is longer is no file of ours.
+    if std::fs::metadata(path).ok()?.len() > 1 << 26 {
+        return None;
+    }
+    let text = std::fs::read_to_string(path).ok()?;
+    let value: serde_json::Value = serde_json::from_str(&text).ok()?;
+    if !value.is_object() && !value.is_array() {
+        return None;
+    }
+    let artefact = || {
+        let stem = path.file_name()?.to_str()?.strip_suffix(".run.json")?;
+        Some(path.with_file_name(format!("{stem}.mcap")))
+    };
+    Some(Error::IsJson {
+        path: path.to_owned(),
+        kind: value["kind"].as_str().map(str::to_owned),
+        meant: artefact().filter(|a| a.is_file()),
+    })
+}
+
 fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T> {
     serde_json::from_str(text).map_err(|e| json_error(path, &e))
 }

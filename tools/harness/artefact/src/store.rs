@@ -11,6 +11,7 @@ use mcap::{MAGIC, McapError, parse_record};
 
 use crate::error::{Error, Result, io_error};
 use crate::header::hexadecimal;
+use crate::json;
 
 /// Opcode and length before each record \[byte\].
 pub(crate) const PREFIX: u64 = 9;
@@ -94,8 +95,18 @@ pub(crate) struct Store {
 impl Store {
     /// Opens a file that begins as an MCAP file does.
     pub(crate) fn open(path: &Path) -> Result<Self> {
+        let found = std::fs::metadata(path).map_err(io_error(path, "open"))?;
+        if !found.is_file() {
+            // To open a pipe would wait for ever.
+            let what = if found.is_dir() {
+                "it is a folder"
+            } else {
+                "it is no regular file"
+            };
+            return Err(io_error(path, "open")(std::io::Error::other(what)));
+        }
         let file = File::open(path).map_err(io_error(path, "open"))?;
-        let bytes = file.metadata().map_err(io_error(path, "open"))?.len();
+        let bytes = found.len();
         let store = Self {
             path: path.to_owned(),
             file,
@@ -105,6 +116,9 @@ impl Store {
         if head != MAGIC {
             if !head.is_empty() && MAGIC.starts_with(&head) {
                 return Err(store.truncated());
+            }
+            if let Some(json) = json::mistaken(path) {
+                return Err(json);
             }
             return Err(Error::Foreign {
                 path: path.to_owned(),

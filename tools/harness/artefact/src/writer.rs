@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use mcap::records::MessageHeader;
 use serde::{Deserialize, Serialize};
 
-use crate::atomic::beside;
+use crate::atomic::{beside, must_be_replaceable};
 use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::{Header, METADATA};
@@ -72,13 +72,14 @@ impl Writer {
     /// Begins `path`.part with `header`.
     ///
     /// # Errors
-    /// When the file cannot be created or written.
+    /// When the file cannot be created or written, or what bears its name is no file.
     pub fn create(path: impl AsRef<Path>, header: &Header) -> Result<Self> {
         let path = path.as_ref();
         Self::begin(path, beside(path, ".part"), header)
     }
 
     pub(crate) fn begin(path: &Path, part: PathBuf, header: &Header) -> Result<Self> {
+        must_be_replaceable(path)?;
         Ok(Self {
             path: path.to_owned(),
             part: Part::create(part, header)?,

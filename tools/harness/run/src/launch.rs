@@ -127,6 +127,7 @@ fn title<T: Tool>(scene: &Path) -> String {
 
 fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     let (start, began) = (machine::now(), Instant::now());
+    may_be_written(&run.out)?;
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study)?;
     let (mut session, told) = open::<T>(run, &ready.header, (began, ready.read))?;
@@ -177,12 +178,6 @@ fn open<T: Tool>(
     header: &Header,
     (began, read): (Instant, Duration),
 ) -> Result<(Session, Option<String>), Failure> {
-    if run.out.is_dir() {
-        return Err(Failure::Usage(format!(
-            "--out {}: is a folder",
-            run.out.display()
-        )));
-    }
     let checkpoint = beside(&run.out, ".checkpoint");
     if run.resume && !checkpoint.exists() {
         let what = format!(
@@ -211,6 +206,23 @@ fn open<T: Tool>(
         interrupt: Interrupt::listen()?,
     })?;
     Ok((session, told))
+}
+
+/// Refuses names that cannot or should not be those of an artefact, before any work is done.
+fn may_be_written(out: &Path) -> Result<(), Failure> {
+    let refused = |what: String| Err(Failure::Usage(format!("--out {what}")));
+    if let Err(no_place) = artefact::must_be_replaceable(out) {
+        return refused(no_place.to_string());
+    }
+    if out.extension().is_some_and(|e| e == "mcap") {
+        return Ok(());
+    }
+    let meant = out.with_extension("mcap");
+    refused(format!(
+        "{}: an artefact is an MCAP file, and its name ends in .mcap: {}",
+        out.display(),
+        meant.display()
+    ))
 }
 
 /// Makes the folder of the artefact.
