@@ -7,6 +7,7 @@
 //!
 //! - [`case`] says what a case is, [`lab`] runs tools, [`norms`] measures, [`study`] turns three
 //!   resolutions into a record of error against run time.
+//! - [`keep`] writes records whole or not at all.
 //! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction,
 //!   [`em`] those for electric and magnetic fields.
 
@@ -17,6 +18,7 @@ pub mod cases;
 pub mod em;
 pub mod extreme;
 pub mod heat;
+pub mod keep;
 pub mod lab;
 pub mod norms;
 mod particles;

@@ -15,6 +15,7 @@ use verification::bench::absence::{Absence, Bench, absences};
 use verification::bench::fields::Fields;
 use verification::bench::others::{self, Others};
 use verification::bench::{Record, Stand, benches, in_order};
+use verification::keep::keep;
 use verification::lab::Lab;
 use verification::speed;
 
@@ -173,8 +174,7 @@ fn time_scenes(stand: &Stand, scenes: &[String]) -> Result<(), String> {
 fn write(out: &Path, name: &str, record: &impl Serialize, table: &str) -> Result<(), String> {
     print!("{table}");
     let path = out.join(format!("{name}.json"));
-    let text = serde_json::to_string_pretty(record).map_err(|e| at(&path, e))?;
-    std::fs::write(&path, text + "\n").map_err(|e| at(&path, e))
+    keep(&path, record)
 }
 
 fn at(path: &Path, error: impl std::fmt::Display) -> String {

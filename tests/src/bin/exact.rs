@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use verification::em::exact::Known;
+use verification::keep::keep;
 use verification::lab::read_json;
 
 /// Writes the exact fields along the lines of a scene, for the report to draw beside those found.
@@ -40,9 +41,8 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     };
     let known = Known::of(&scene).and_then(|known| known.file(&scene));
     let file = known.map_err(|e| at(&arguments.scene, &e))?;
-    let text = serde_json::to_string_pretty(&file).map_err(|e| e.to_string())?;
     if let Some(folder) = arguments.out.parent() {
         std::fs::create_dir_all(folder).map_err(|e| at(folder, &e))?;
     }
-    std::fs::write(&arguments.out, text + "\n").map_err(|e| at(&arguments.out, &e))
+    keep(&arguments.out, &file)
 }

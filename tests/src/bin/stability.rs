@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use verification::extreme;
+use verification::{extreme, keep::keep};
 
 /// Runs the stiff and extreme cases of pipelines/stability and writes one record each.
 ///
@@ -64,8 +64,7 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
         print!("{}", record.table());
         good &= record.holds;
         let path = arguments.out.join(format!("{}.json", case.case));
-        let text = serde_json::to_string_pretty(&record).map_err(|e| e.to_string())?;
-        std::fs::write(&path, text + "\n").map_err(|e| format!("{}: {e}", path.display()))?;
+        keep(&path, &record)?;
     }
     Ok(good)
 }

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use verification::{cases, lab::Lab, study};
+use verification::{cases, keep::keep, lab::Lab, study};
 
 /// Runs exact cases over several resolutions and writes one record each.
 ///
@@ -94,9 +94,7 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
                 print!("{}", study.table());
                 good &= study.holds;
                 let path = lab.out.join(format!("{}.json", case.name()));
-                let text = serde_json::to_string_pretty(&study).map_err(|e| e.to_string())?;
-                std::fs::write(&path, text + "\n")
-                    .map_err(|e| format!("{}: {e}", path.display()))?;
+                keep(&path, &study)?;
             }
             Err(error) => {
                 good = false;
