@@ -5,6 +5,7 @@ use run::{Failure, Session};
 
 use crate::case::{GAS, HeatCase, PotentialCase};
 use crate::fields::magnetic::AtCentre;
+use crate::grid::Grid;
 use crate::heat::balance::Balance;
 use crate::scene::Sample;
 use crate::solver::{Arc, Electric};
@@ -109,7 +110,7 @@ pub(crate) fn role(arc: &Arc, material: f64) -> f64 {
     }
 }
 
-/// Lorentz force in the base metal against radius and depth.
+/// Lorentz force in the base metal against radius and depth below the surface of each column.
 fn lorentz(arc: &Arc) -> Option<Table> {
     let Electric {
         potential,
@@ -128,14 +129,37 @@ fn lorentz(arc: &Arc) -> Option<Table> {
             let metal = |j: usize| arc.case.material[grid.cell(i, j)] == base.material;
             let at = |j: usize| match metal(j) {
                 true => part(&magnetic.at_centre(grid, potential, i, j)),
-                // Above a pool that is pressed down there is no metal.
                 false => 0.0,
             };
-            values.extend((0..above).rev().map(at));
+            match base.above[i] {
+                Some(top) if top != above => {
+                    let column: Vec<f64> = (0..top).map(at).collect();
+                    let sunk = |d: &f64| below(grid, &column, grid.zf[top] - d);
+                    values.extend(depth.iter().map(sunk));
+                }
+                _ => values.extend((0..above).rev().map(at)),
+            }
         }
         table = table.column(name, unit, values);
     }
     Some(table)
+}
+
+/// What a column holds at height `z` \[m\], by its values from the bottom of the domain to its surface: linear between the
+/// middles of cells, held above the last of them, zero below the domain.
+fn below(grid: &Grid, column: &[f64], z: f64) -> f64 {
+    let after = grid.zc.partition_point(|centre| *centre <= z);
+    let Some(last) = column.len().checked_sub(1).filter(|_| z >= grid.zf[0]) else {
+        return 0.0;
+    };
+    if after == 0 {
+        return column[0];
+    }
+    if after > last {
+        return column[last];
+    }
+    let part = (z - grid.zc[after - 1]) / (grid.zc[after] - grid.zc[after - 1]);
+    column[after - 1] + part * (column[after] - column[after - 1])
 }
 
 /// Currents, voltages, powers and the heat balance.

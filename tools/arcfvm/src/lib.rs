@@ -32,6 +32,7 @@ pub mod surface;
 pub mod transport;
 pub mod vaporising;
 
+use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 use run::{Estimate, Failure, Fault, Input, Inputs, Plan, Session, Tool};
@@ -73,7 +74,7 @@ impl Tool for ArcFvm {
         },
         Input {
             name: "surface",
-            what: "surface of a body with a profile (surface-profile 1.x)",
+            what: "surface of a body with a profile (mean-fields 1.2 of avg, or surface-profile 1.x)",
             required: false,
         },
         Input {
@@ -85,7 +86,12 @@ impl Tool for ArcFvm {
     type Scene = Scene;
 
     fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
-        Ok(plan::plan(scene, &case(scene, inputs)?))
+        let (scene, case) = problem(scene, inputs)?;
+        let plan = plan::plan(&scene, &case);
+        Ok(match pool::told(&scene, &case) {
+            Some(told) => plan.note(told),
+            None => plan,
+        })
     }
 
     fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
@@ -110,8 +116,10 @@ impl Tool for ArcFvm {
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
         let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
-        if let Some(path) = inputs.get("start") {
-            start::take(&mut arc, path)?;
+        if let Some(path) = inputs.get("start")
+            && let Some(told) = start::take(&mut arc, path)?
+        {
+            session.note(told);
         }
         march::march(&mut arc, &scene.iterate, session)?;
         let balance = arc.settle();
@@ -123,16 +131,22 @@ impl Tool for ArcFvm {
     }
 }
 
-/// Reads the inputs that the scene asks for and assembles the problem.
+/// The problem of a scene and its inputs.
 fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
+    Ok(problem(scene, inputs)?.1)
+}
+
+/// Reads the inputs that the scene asks for and assembles the problem; with the surface of the inputs in the scene.
+fn problem<'a>(scene: &'a Scene, inputs: &Inputs) -> Result<(Cow<'a, Scene>, Case), Failure> {
     let gas = match (&scene.gas, inputs.get("gas")) {
         (Gas::Table(_), Some(path)) => Some(GasFile::read(path)?),
         _ => None,
     };
-    let case = match inputs.get("surface") {
-        Some(path) => assemble(&pool::deform(scene, path)?, gas.as_ref()),
-        None => assemble(scene, gas.as_ref()),
-    }?;
+    let scene = match inputs.get("surface") {
+        Some(path) => Cow::Owned(pool::deform(scene, path)?),
+        None => Cow::Borrowed(scene),
+    };
+    let case = assemble(&scene, gas.as_ref())?;
     let driven = case.potential.as_ref().and_then(|p| p.driven);
     if scene.iterate.continuation.is_some() && driven.is_none() {
         let what = "wants a total_current_a at one of the edges: there is no current to follow";
@@ -141,5 +155,5 @@ fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
             what,
         )]));
     }
-    Ok(case)
+    Ok((scene, case))
 }

@@ -3,11 +3,17 @@
 //! Every value is interpolated linearly between the four cell centres around its place. Of these,
 //! temperatures and potentials take only those of the same kind of body, where there are any: the
 //! surface of an electrode stays sharp.
+//!
+//! The file has velocities in the middle of cells, each the mean of those at its faces. On the grid of
+//! the file, with the same bodies, the velocities at the faces follow from them one after another,
+//! from a wall or an inlet on: a solution is taken as it was, and holds.
 
 use artefact::{Reader, Table};
 use run::Failure;
 
-use crate::frames::role;
+use crate::fields::flow::{Face, Flow};
+use crate::frames::{by_height, role};
+use crate::grid::Grid;
 use crate::solver::Arc;
 
 /// The fields of another solution.
@@ -56,6 +62,21 @@ impl Other {
         ]
     }
 
+    /// Whether it has the grid and the bodies of `arc`.
+    fn stands_on(&self, arc: &Arc) -> bool {
+        let grid = &arc.case.grid;
+        let near = |a: &[f64], b: &[f64]| {
+            let slack = 1e-9 * (b[b.len() - 1] - b[0]);
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < slack)
+        };
+        let material = |i, j| arc.case.material[grid.cell(i, j)] as f64;
+        let bodies = by_height(arc, |i, j| role(arc, material(i, j)));
+        let same = |kinds: &[f64]| kinds.iter().zip(&bodies).all(|(a, b)| (a - b).abs() < 0.5);
+        near(&self.radius, &grid.rc)
+            && near(&self.height, &grid.zc)
+            && self.column("material").is_some_and(same)
+    }
+
     fn column(&self, name: &str) -> Option<&[f64]> {
         self.table.values(name).ok()
     }
@@ -82,11 +103,11 @@ impl Other {
 }
 
 /// Takes temperature, flow, potential, iron vapour and the speed of the wire from the artefact at `path`; what it
-/// does not hold stays as it is.
+/// does not hold stays as it is. Says so where the grid or the bodies are others than those of the file.
 ///
 /// # Errors
 /// When the file is no `arc-source` or has no fields.
-pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<(), Failure> {
+pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Failure> {
     let other = Other::read(path)?;
     let record = Reader::open_kind(path, "arc-source", 1)?.record("/balance")?;
     let kinds: Vec<f64> = (0..arc.case.grid.len())
@@ -114,34 +135,134 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<(), Failure> {
         for (k, v) in electric.potential.value.iter_mut().enumerate() {
             *v = other.value_within(column, centre(k), kinds[k]);
         }
-        if let Ok(drive) = record.get("voltage_column_v") {
-            electric.potential.drive = drive;
+        if let (Ok(drive), Some(current)) = (record.get("voltage_column_v"), electric.setup.driven)
+        {
+            electric.potential.drive = drive.copysign(current);
         }
     }
     let flow = ["radial_velocity_m_s", "axial_velocity_m_s", "pressure_pa"];
+    let same = other.stands_on(arc);
     if let [Some(u), Some(w), Some(p)] = flow.map(|name| other.column(name)) {
-        arc.take_flow(&|which, r, z| other.value([u, w, p][which], r, z));
+        let centres = same.then_some([u, w]);
+        arc.take_flow(&|which, r, z| other.value([u, w, p][which], r, z), centres);
     }
     if arc.feed > 0.0 {
         arc.feed = record.get("wire_feed_m_s").unwrap_or(arc.feed);
     }
-    Ok(())
+    Ok((!same).then(|| {
+        let path = path.display();
+        format!("the start in {path} has another grid or other bodies: it is interpolated")
+    }))
 }
 
 impl Arc {
-    /// Takes velocities and pressure from a function of which (radial, axial, pressure) and place.
-    fn take_flow(&mut self, value: &dyn Fn(usize, f64, f64) -> f64) {
+    /// Takes velocities and pressure from a function of which (radial, axial, pressure) and place; with `centres`,
+    /// the velocities in the middle of its own cells, heights fastest, those at the faces follow from them.
+    fn take_flow(&mut self, value: &dyn Fn(usize, f64, f64) -> f64, centres: Option<[&[f64]; 2]>) {
         self.take_properties();
         if let Some(flowing) = &mut self.flowing {
             let density = &self.properties.density;
-            flowing.flow.take(&self.case.grid, density, value);
+            let flow = &mut flowing.flow;
+            flow.take(&self.case.grid, density, value);
+            if let Some(centres) = centres {
+                unmix_all(&self.case.grid, flow, centres);
+                flow.carry(&self.case.grid, density);
+            }
         }
+    }
+}
+
+/// Velocities at faces from those in the middle of cells, row by row and column by column.
+fn unmix_all(grid: &Grid, flow: &mut Flow, [radial, axial]: [&[f64]; 2]) {
+    for j in 0..grid.nz {
+        let at = |i: usize| grid.radial_face(i, j);
+        let centres: Vec<f64> = (0..grid.nr).map(|i| radial[i * grid.nz + j]).collect();
+        let solved: Vec<bool> = (0..=grid.nr)
+            .map(|i| flow.radial_kind[at(i)] == Face::Solved)
+            .collect();
+        let mut line: Vec<f64> = (0..=grid.nr).map(|i| flow.radial[at(i)]).collect();
+        unmix(&mut line, &solved, &centres);
+        for (i, u) in line.into_iter().enumerate() {
+            flow.radial[at(i)] = u;
+        }
+    }
+    for i in 0..grid.nr {
+        let at = |j: usize| grid.axial_face(i, j);
+        let centres = &axial[i * grid.nz..(i + 1) * grid.nz];
+        let solved: Vec<bool> = (0..=grid.nz)
+            .map(|j| flow.axial_kind[at(j)] == Face::Solved)
+            .collect();
+        let mut line: Vec<f64> = (0..=grid.nz).map(|j| flow.axial[at(j)]).collect();
+        unmix(&mut line, &solved, centres);
+        for (j, w) in line.into_iter().enumerate() {
+            flow.axial[at(j)] = w;
+        }
+    }
+}
+
+/// Closure of a line between two known faces, as part of its greatest velocity, up to which they belong together.
+const CLOSED: f64 = 1e-9;
+
+/// Values at the faces of a line from the means of each two, `centre`, from a known face on. A stretch between two
+/// known faces that the means do not lead from one to the other stays as it is: they belong to other walls or inlets.
+fn unmix(face: &mut [f64], solved: &[bool], centre: &[f64]) {
+    let mut from = 0;
+    while from < face.len() {
+        if !solved[from] {
+            from += 1;
+            continue;
+        }
+        let length = solved[from..].iter().take_while(|s| **s).count();
+        let to = from + length;
+        if from > 0 {
+            let mut found = Vec::with_capacity(length);
+            let mut last = face[from - 1];
+            for c in &centre[from - 1..to - 1] {
+                last = 2.0 * c - last;
+                found.push(last);
+            }
+            let scale = found.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+            let closes = |end: f64| (2.0 * centre[to - 1] - last - end).abs() <= CLOSED * scale;
+            if to == face.len() || closes(face[to]) {
+                face[from..to].copy_from_slice(&found);
+            }
+        } else if to < face.len() {
+            for k in (from..to).rev() {
+                face[k] = 2.0 * centre[k] - face[k + 1];
+            }
+        }
+        from = to;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn faces_follow_from_the_middle_of_cells_where_they_belong_together() {
+        let exact = [0.0, 3.0, -1.0, 4.0, 0.0, 0.0, 2.0, 5.0];
+        let centre: Vec<f64> = exact.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect();
+        let solved = [false, true, true, true, false, false, true, true];
+        let mut face = exact;
+        let clear = |face: &mut [f64; 8]| {
+            for (u, s) in face.iter_mut().zip(solved) {
+                *u = if s { 0.5 } else { *u };
+            }
+        };
+        clear(&mut face);
+        unmix(&mut face, &solved, &centre);
+        assert_eq!(face.to_vec(), exact);
+        // Backwards from the only known face, which is the last.
+        let mut back = [0.5, 0.5, 0.5, 4.0];
+        unmix(&mut back, &[true, true, true, false], &centre);
+        assert_eq!(back.to_vec(), exact[..4].to_vec());
+        // Another inlet: the stretch before it stays, the one after it follows from it.
+        clear(&mut face);
+        face[4] = 1.0;
+        unmix(&mut face, &solved, &centre);
+        assert_eq!(face.to_vec(), [0.0, 0.5, 0.5, 0.5, 1.0, 0.0, 2.0, 5.0]);
+    }
 
     #[test]
     fn a_bilinear_field_is_met_and_held_beyond_the_ends() {

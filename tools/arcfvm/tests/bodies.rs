@@ -281,6 +281,29 @@ fn a_pit_takes_up_in_its_columns_what_its_walls_take_up() {
 }
 
 #[test]
+fn the_volume_of_a_pool_is_met_the_better_the_finer_the_cells() {
+    let bowl = |r: f64| 0.002 + 125.0 * r * r;
+    let radius: Vec<f64> = (0..=100).map(|i| 4e-5 * f64::from(i)).collect();
+    let height: Vec<f64> = radius.iter().map(|r| bowl(*r)).collect();
+    let exact = 0.5 * std::f64::consts::PI * 16e-6 * 0.002;
+    let mut worst = Vec::new();
+    for spacing in [4e-4, 2e-4, 1e-4] {
+        let mut scene = pressed(&json!({"r_m": radius, "z_m": height}));
+        scene["grid"] = json!({"r": spacing, "z": spacing});
+        let case = case(&scene).unwrap();
+        let base = case.base.unwrap();
+        let rings = base.above.iter().zip(&case.grid.ring);
+        let hollow = rings.map(|(row, ring)| ring * (0.004 - case.grid.zf[row.unwrap()]));
+        worst.push((hollow.sum::<f64>() / exact - 1.0).abs());
+    }
+    println!("{worst:?}");
+    assert!(
+        worst[0] < 0.1 && worst[1] < 0.05 && worst[2] < 0.02,
+        "{worst:?}"
+    );
+}
+
+#[test]
 fn a_profile_without_a_surface_asks_for_the_input() {
     let told = case(&pressed(&Value::Null)).unwrap_err();
     assert!(told.contains("--input surface=FILE"), "{told}");
