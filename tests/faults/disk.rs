@@ -5,7 +5,7 @@ use std::process::Command;
 
 use artefact::{Checkpoint, Error, Reader, beside, write_atomically};
 
-use crate::workplace::{Place, header, program, told};
+use crate::workplace::{Place, header, program, root, told};
 
 #[test]
 fn a_full_disk_fails_the_run_and_keeps_the_old_file() {
@@ -15,7 +15,12 @@ fn a_full_disk_fails_the_run_and_keeps_the_old_file() {
     symlink("/dev/full", beside(&out, ".part")).unwrap();
     place.average_to(&frames, &out).must(
         1,
-        &["mean.mcap.part", "cannot write", "No space left on device"],
+        &[
+            "mean.mcap.part",
+            "cannot write",
+            "No space left on device",
+            "nothing is kept: make room",
+        ],
     );
     assert_eq!(std::fs::read(&out).unwrap(), b"an older result");
 }
@@ -89,6 +94,48 @@ fn a_folder_that_cannot_be_written_is_named() {
         .must(1, &["readonly", "Permission denied"]);
     let error = write_atomically(&folder.join("a.json"), b"{}").unwrap_err();
     assert!(matches!(error, Error::Io { .. }));
+}
+
+#[test]
+fn the_plan_tells_the_size_of_frames_and_what_a_cold_weld_cannot_tell() {
+    let weld = root().join("pipelines/gmaw-300a/pool.json");
+    let place = Place::new();
+    // Without what needs an arc, and at a coarse spacing.
+    let bare = r#"{"spacing_m": 1e-3, "gas_shear": null, "lorentz": null, "arc_pressure": null, "arc": null,
+        "time": {"end_s": 1.0}, "output": {"particles_interval_s": 0.1, "precision": "f32",
+        "pool": {"from_s": 0.5, "interval_s": 0.01, "beside_m": 0.005, "behind_m": 0.01, "ahead_m": 0.005}}}"#;
+    let bare = place.file("bare.json", bare);
+    let mut check = Command::new(program("poolsph"));
+    check.arg("check").arg(&weld).arg("--patch").arg(&bare);
+    let said = told(&mut check);
+    said.must(
+        0,
+        &[
+            "output               at most ",
+            "/particles                   11 x ",
+            "/pool                        51 x ",
+            "time                 at least ",
+            "with the 0 liquid particles of the start; steps last longer once there is a pool",
+        ],
+    );
+    // The frames of a run without heat are those that are told: no particle comes or melts.
+    let tank = root().join("pipelines/verify/pool-hydrostatic/scene.json");
+    let short = place.file(
+        "short.json",
+        r#"{"time": {"end_s": 0.01}, "output": {"particles_interval_s": 0.001}}"#,
+    );
+    let mut check = Command::new(program("poolsph"));
+    check.arg("check").arg(&tank).arg("--patch").arg(&short);
+    let said = told(&mut check);
+    assert!(said.out.contains(" x "), "{}", said.out);
+    let line = said.out.lines().find(|l| l.contains("/particles")).unwrap();
+    let frames: usize = line.split_whitespace().nth(1).unwrap().parse().unwrap();
+    let out = place.path("tank.mcap");
+    let mut run = Command::new(program("poolsph"));
+    run.arg("run").arg(&tank).arg("--patch").arg(&short);
+    told(run.arg("-q").arg("--out").arg(&out)).must(0, &[]);
+    let reader = Reader::open(&out).unwrap();
+    assert_eq!(reader.count("/particles"), frames);
 }
 
 #[test]

@@ -33,6 +33,10 @@ impl Tool for PoolSph {
         trial::estimate(scene, inputs).map(Some)
     }
 
+    fn grows(scene: &Scene) -> Option<&'static str> {
+        trial::grows(scene)
+    }
+
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
         simulate::run(scene, inputs, session)
     }

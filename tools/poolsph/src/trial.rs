@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use run::{Estimate, Failure, Inputs, duration};
 
 use crate::assemble::{Assembled, assemble};
-use crate::scene::Scene;
+use crate::scene::{Scene, StartState};
 
 /// Steps ahead of those that are timed: they fill the lists.
 const WARM: u64 = 2;
@@ -46,6 +46,14 @@ pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failu
             state.liquid()
         ),
     })
+}
+
+/// Why steps become longer than those that are timed: a pool that is still to melt.
+pub(crate) fn grows(scene: &Scene) -> Option<&'static str> {
+    let melts = scene.heat.as_ref().is_some_and(|h| h.melting.is_some()) && scene.flow.is_some();
+    let fed = scene.arc.is_some() || scene.droplets.is_some();
+    let dry = scene.bodies.iter().all(|b| b.state != StartState::Liquid);
+    (melts && fed && dry).then_some("steps last longer once there is a pool")
 }
 
 /// Milliseconds with digits where they are few.

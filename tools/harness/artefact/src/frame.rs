@@ -125,6 +125,12 @@ impl Frame {
         self.len() == 0
     }
 
+    /// Bytes of a row, as they lie in the file before they are compressed.
+    #[must_use]
+    pub fn row_bytes(&self) -> usize {
+        self.columns.iter().map(|c| c.values.width()).sum()
+    }
+
     /// All columns in file order.
     #[must_use]
     pub fn columns(&self) -> &[Column] {

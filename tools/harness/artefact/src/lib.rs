@@ -59,7 +59,7 @@ mod tables;
 mod values;
 mod writer;
 
-pub use atomic::{beside, must_be_replaceable, write_atomically};
+pub use atomic::{beside, free_bytes, must_be_replaceable, write_atomically};
 pub use checkpoint::Checkpoint;
 pub use contents::Channel;
 pub use error::{Error, Result};

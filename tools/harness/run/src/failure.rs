@@ -49,6 +49,14 @@ pub enum Failure {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The disk is full: what happened, what is kept and how to go on.
+    #[error("{failure}\n{advice}")]
+    Full {
+        /// What the system refused.
+        failure: Box<Failure>,
+        /// What is kept, and how to go on.
+        advice: String,
+    },
     /// Anything else that went wrong.
     #[error("{0}")]
     Other(String),
@@ -62,6 +70,20 @@ impl Failure {
             Self::Usage(_) | Self::Scene(_) => 2,
             Self::Interrupted { .. } => 130,
             _ => 1,
+        }
+    }
+
+    /// Whether the disk, a quota or a limit on files leaves no room.
+    pub(crate) fn is_full(&self) -> bool {
+        use std::io::ErrorKind;
+        match self {
+            Self::Io { source, .. } | Self::Artefact(artefact::Error::Io { source, .. }) => {
+                matches!(
+                    source.kind(),
+                    ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge
+                )
+            }
+            _ => false,
         }
     }
 

@@ -13,9 +13,9 @@ use crate::console::{Level, data, line};
 use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::interrupt::Interrupt;
-use crate::leftover::make_way;
+use crate::leftover::{advised, make_way};
 use crate::machine;
-use crate::plan::{Plan, duration};
+use crate::plan::{Plan, bytes, duration};
 use crate::progress::Style;
 use crate::record::RunRecord;
 use crate::scene::{Loaded, Merged, load, located, schema_of, schema_text};
@@ -117,7 +117,8 @@ fn check<T: Tool>(study: &Study) -> Result<ExitCode, Failure> {
     let ready = prepare::<T>(study)?;
     // The scene is good whether or not its time can be told.
     let estimate = guarded(|| T::estimate(&ready.scene, &ready.inputs));
-    let plan = ready.plan.estimate(estimate.ok().flatten());
+    let grows = T::grows(&ready.scene);
+    let plan = ready.plan.estimate(estimate.ok().flatten(), grows);
     print(&format!("{}\n{plan}", title::<T>(&study.scene)))
 }
 
@@ -130,7 +131,8 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     may_be_written(&run.out)?;
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study)?;
-    let (mut session, told) = open::<T>(run, &ready.header, (began, ready.read))?;
+    let opened = open::<T>(run, &ready.header, (began, ready.read));
+    let (mut session, told) = opened.map_err(|failure| advised(failure, &run.out))?;
     if run.level() > Level::Quiet {
         head::<T>(run, &ready);
     }
@@ -138,11 +140,15 @@ fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
     if let Some(told) = told {
         session.note(told);
     }
+    if let Some(tight) = tight(&ready.plan, &run.out) {
+        session.note(tight);
+    }
     let awake = Awake::keep();
     let ended = guarded(|| T::run(&ready.scene, &ready.inputs, &mut session));
     drop(awake);
     let ended = ended.map_err(|failure| placed(failure, &ready.merged));
     let (ledger, ended) = session.end(ended);
+    let ended = ended.map_err(|failure| advised(failure, &run.out));
     let record = RunRecord::new(
         &run.out,
         &ready.header,
@@ -223,6 +229,15 @@ fn may_be_written(out: &Path) -> Result<(), Failure> {
         out.display(),
         meant.display()
     ))
+}
+
+/// What to say where the disk has less room than the output may take.
+fn tight(plan: &Plan, out: &Path) -> Option<String> {
+    let (wanted, free) = (plan.output_bytes(), artefact::free_bytes(out)?);
+    (wanted > free).then(|| {
+        let (wanted, free) = (bytes(wanted), bytes(free));
+        format!("the output may take {wanted} before it is compressed, the disk has {free} free")
+    })
 }
 
 /// Makes the folder of the artefact.

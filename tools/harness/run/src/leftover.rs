@@ -35,6 +35,33 @@ pub(crate) fn make_way(out: &Path, header: &Header) -> Result<Option<String>, Fa
     )))
 }
 
+/// Says of a run that a full disk ended what is kept of it, and how to go on.
+pub(crate) fn advised(failure: Failure, out: &Path) -> Failure {
+    if !failure.is_full() {
+        return failure;
+    }
+    let (checkpoint, part) = (beside(out, ".checkpoint"), beside(out, ".part"));
+    let advice = if checkpoint.exists() {
+        format!(
+            "kept are {} and {}: make room, then go on to the same bytes with --resume",
+            checkpoint.display(),
+            part.display()
+        )
+    } else if part.is_file() {
+        let part = part.display();
+        format!(
+            "kept are the whole frames in {part} ('artefact recover {part}' saves them): make room, or name an --out \
+             on a larger disk, then run again from the start"
+        )
+    } else {
+        "nothing is kept: make room, or name an --out on a larger disk, then run again".to_owned()
+    };
+    Failure::Full {
+        failure: Box::new(failure),
+        advice,
+    }
+}
+
 fn both_ways(path: &Path, checkpoint: &Checkpoint) -> String {
     let ledger: Ledger = checkpoint.json(LEDGER).unwrap_or_default();
     let path = path.display();

@@ -12,10 +12,20 @@ pub struct Plan {
     pub(crate) counts: Vec<(String, u64)>,
     pub(crate) columns: Vec<(String, String)>,
     pub(crate) memory: Vec<Bytes>,
+    pub(crate) output: Vec<Output>,
     pub(crate) limits: Vec<Limit>,
     pub(crate) left_out: Vec<LeftOut>,
     pub(crate) notes: Vec<String>,
     pub(crate) estimate: Option<Estimate>,
+    pub(crate) grows: Option<&'static str>,
+}
+
+/// Messages of a channel, and their bytes before they are compressed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Output {
+    pub(crate) channel: String,
+    pub(crate) messages: u64,
+    pub(crate) bytes: u64,
 }
 
 /// How long a run will take, told by `TOOL check`.
@@ -65,6 +75,24 @@ impl Plan {
         self
     }
 
+    /// Adds a channel of the artefact: how many messages it will hold, and at most how many bytes all of
+    /// them are before they are compressed: `.output("/particles", 101, 101 * 52_000 * 40)`.
+    #[must_use]
+    pub fn output(mut self, channel: &str, messages: u64, bytes: u64) -> Self {
+        self.output.push(Output {
+            channel: channel.to_owned(),
+            messages,
+            bytes,
+        });
+        self
+    }
+
+    /// Bytes of all output before it is compressed, at most.
+    pub(crate) fn output_bytes(&self) -> u64 {
+        let all = self.output.iter().map(|output| output.bytes);
+        all.fold(0, u64::saturating_add)
+    }
+
     /// Adds a stability limit: `.limit("step_viscosity", 1.2e-4, "s")`.
     #[must_use]
     pub fn limit(mut self, name: &str, value: f64, unit: &str) -> Self {
@@ -93,9 +121,32 @@ impl Plan {
         self
     }
 
-    /// Sets the estimated run time.
-    pub(crate) fn estimate(mut self, estimate: Option<Estimate>) -> Self {
+    /// What is said of the output: the whole, and each channel.
+    fn output_rows(&self) -> Vec<(&'static str, String)> {
+        let channel = |output: &Output| {
+            let Output {
+                channel,
+                messages,
+                bytes: all,
+            } = output;
+            let each = bytes(all / (*messages).max(1));
+            ("", format!("{channel:<28} {messages} x {each}"))
+        };
+        let whole = format!("at most {}, less as compressed", bytes(self.output_bytes()));
+        let head = (!self.output.is_empty()).then_some(("output", whole));
+        head.into_iter()
+            .chain(self.output.iter().map(channel))
+            .collect()
+    }
+
+    /// Sets the estimated run time, and why it is only the least where it is.
+    pub(crate) fn estimate(
+        mut self,
+        estimate: Option<Estimate>,
+        grows: Option<&'static str>,
+    ) -> Self {
         self.estimate = estimate;
+        self.grows = grows;
         self
     }
 }
@@ -123,6 +174,9 @@ impl fmt::Display for Plan {
                 row("", format!("{:<28} {}", part.name, bytes(part.bytes)))?;
             }
         }
+        for (name, text) in self.output_rows() {
+            row(name, text)?;
+        }
         for limit in &self.limits {
             row(
                 "limit",
@@ -137,7 +191,14 @@ impl fmt::Display for Plan {
         }
         match &self.estimate {
             Some(Estimate { seconds, basis }) => {
-                row("time", format!("about {} ({basis})", duration(*seconds)))
+                let told = duration(*seconds);
+                row(
+                    "time",
+                    match self.grows {
+                        None => format!("about {told} ({basis})"),
+                        Some(why) => format!("at least {told} ({basis}; {why})"),
+                    },
+                )
             }
             None => Ok(()),
         }

@@ -65,6 +65,13 @@ pub trait Tool {
         Ok(None)
     }
 
+    /// Why the steps of a run will last longer than those that [`Tool::estimate`] took, where they will:
+    /// `check` then gives the time as the least.
+    #[must_use]
+    fn grows(_scene: &Self::Scene) -> Option<&'static str> {
+        None
+    }
+
     /// Runs. The plan has been made and found good before.
     ///
     /// # Errors

@@ -507,6 +507,48 @@ fn resumed(folder: &Path) -> Vec<u8> {
 }
 
 #[test]
+fn a_full_disk_says_what_is_kept_and_the_run_goes_on_to_the_same_bytes() {
+    let folder = temp();
+    let much = r#"{"spacing_m": 0.002, "diffusivity_m2_s": 0.001,
+        "time": {"step_s": 1e-3, "steps": 8000, "table_steps": 8}}"#;
+    let much = patch(folder.path(), "much.json", much);
+    let words = |out| ["run", SCENE, "--out", out, "--patch", &much, "-q"];
+    let (code, _, stderr) = finished(folder.path(), &words("whole.mcap"));
+    assert_eq!(code, Some(0), "{stderr}");
+    let whole = std::fs::read(folder.path().join("whole.mcap")).expect("bytes");
+    // Files of this shell may have half the size, in blocks of 512 bytes; the signal is ignored.
+    let script = format!(
+        "trap '' 25; ulimit -f {}; exec \"$0\" \"$@\"",
+        whole.len() / 1024
+    );
+    let Output { status, stderr, .. } = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", &script])
+        .arg(program())
+        .args(words("cut.mcap"))
+        .args(["--checkpoint-s", "0"])
+        .output()
+        .expect("a shell");
+    let stderr = String::from_utf8_lossy(&stderr);
+    assert_eq!(status.code(), Some(1), "{stderr}");
+    for part in [
+        "cut.mcap.part: cannot write",
+        "kept are cut.mcap.checkpoint and cut.mcap.part",
+        "--resume",
+    ] {
+        assert!(stderr.contains(part), "{part} is not in\n{stderr}");
+    }
+    let told = record(folder.path(), "cut.run.json");
+    assert_eq!(told["outcome"], "failed");
+    let mut again = words("cut.mcap").to_vec();
+    again.push("--resume");
+    let (code, _, stderr) = finished(folder.path(), &again);
+    assert_eq!(code, Some(0), "{stderr}");
+    let found = std::fs::read(folder.path().join("cut.mcap")).expect("bytes");
+    assert!(found == whole, "other bytes");
+}
+
+#[test]
 fn an_interrupted_run_ends_with_130_and_goes_on_to_the_same_bytes() {
     let folder = temp();
     for name in ["-INT", "-TERM"] {
