@@ -134,7 +134,11 @@ pub(crate) fn current(scene: &Scene, grid: &Grid, faults: &mut Faults) -> Edges<
                     .map(|(j, (_, f))| j.map(|j| PotentialEdge::Current(j * f.area)))
                     .collect()
             }
-            (None, None, Some(_)) => {
+            (None, None, Some(current)) => {
+                if current.abs() <= 0.0 {
+                    let what = "0 A drives nothing: wanted is another current, or no key 'current' for an arc without one";
+                    faults.add(&format!("{at}/total_current_a"), what);
+                }
                 let driven =
                     |along: &f64| covers(c.over_m, *along).then_some(PotentialEdge::Driven);
                 faces.iter().map(|(along, _)| driven(along)).collect()

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use mcap::MAGIC;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -25,7 +26,7 @@ pub fn json_artefact<T: DeserializeOwned>(
     major: u32,
 ) -> Result<T> {
     let path = path.as_ref();
-    let text = std::fs::read_to_string(path).map_err(io_error(path, "read"))?;
+    let text = json_text(path)?;
     let envelope: Envelope = parse(path, &text)?;
     if envelope.kind != kind {
         return Err(Error::Kind {
@@ -52,6 +53,43 @@ pub fn json_artefact<T: DeserializeOwned>(
         });
     }
     parse(path, &text)
+}
+
+/// Reads the text of a JSON file; a byte order mark before it is no part of it.
+///
+/// # Errors
+/// When the file cannot be read or is no text in UTF-8, with line and column, and what it is where that
+/// can be told.
+pub fn json_text(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(io_error(path, "read"))?;
+    let wrong = |line, column, what: String| Error::Json {
+        path: path.to_owned(),
+        line,
+        column,
+        what,
+    };
+    let bytes = match bytes.strip_prefix(b"\xef\xbb\xbf") {
+        Some(rest) => rest,
+        None => &bytes,
+    };
+    if bytes.starts_with(MAGIC) {
+        return Err(wrong(1, 1, "is an MCAP file, wanted is JSON".to_owned()));
+    }
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(wrong(1, 1, "is in UTF-16, wanted is UTF-8".to_owned()));
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.to_owned()),
+        Err(e) => {
+            let (before, after) = bytes.split_at(e.valid_up_to());
+            let line = 1 + before.iter().filter(|b| **b == b'\n').count();
+            let tail = before.rsplit(|b| *b == b'\n').next().unwrap_or_default();
+            let column = 1 + String::from_utf8_lossy(tail).chars().count();
+            let byte = after.first().copied().unwrap_or_default();
+            let what = format!("is no text: byte {byte:#04x} is not UTF-8; wanted is JSON");
+            Err(wrong(line, column, what))
+        }
+    }
 }
 
 /// The error for a JSON file where an artefact is wanted; `None` for any other file.

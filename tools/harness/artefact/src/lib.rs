@@ -65,7 +65,7 @@ pub use contents::Channel;
 pub use error::{Error, Result};
 pub use frame::{Column, Frame};
 pub use header::{Header, Identity, KINDS, METADATA, Version, canonical, sha256, sha256_file};
-pub use json::{json_artefact, json_error};
+pub use json::{json_artefact, json_error, json_text};
 pub use lattice::even_step;
 pub use message::{GRID, POINT_CLOUD, RECORD, TABLE};
 pub use reader::Reader;

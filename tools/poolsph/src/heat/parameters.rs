@@ -141,10 +141,12 @@ impl Parameters {
     /// A fault at the key that is wrong.
     pub fn caloric(&self) -> Result<Arc<Caloric>, Fault> {
         let span = FORMULA_RANGE;
-        let key = "/thermal_conductivity_w_m_k";
-        let (conductivity, first) = table(&self.thermal_conductivity_w_m_k, key, span)?;
-        let key = "/specific_heat_j_kg_k";
-        let (specific_heat, second) = table(&self.specific_heat_j_kg_k, key, span)?;
+        let property = &self.thermal_conductivity_w_m_k;
+        let of = ("/thermal_conductivity_w_m_k", "W/(m K)");
+        let (conductivity, first) = positive(property, of, span)?;
+        let property = &self.specific_heat_j_kg_k;
+        let of = ("/specific_heat_j_kg_k", "J/(kg K)");
+        let (specific_heat, second) = positive(property, of, span)?;
         let range = (first.0.max(second.0), first.1.min(second.1));
         if range.0 >= range.1 {
             let what = "has no temperature in common with the thermal conductivity";
@@ -167,6 +169,25 @@ impl Parameters {
         };
         let planes = |names: &[Face]| names.iter().map(|face| faces.plane(*face)).collect();
         (planes(&faces.mirror), planes(&faces.open))
+    }
+}
+
+/// As [`table`], for a property above zero; told are its key and unit.
+fn positive(
+    property: &Property,
+    (at, unit): (&str, &str),
+    span: (f64, f64),
+) -> Result<(Table, (f64, f64)), Fault> {
+    property.compile_positive(at, &["T"], unit)?;
+    let (table, range) = table(property, at, span)?;
+    let rows = table.nodes().iter().zip(table.values());
+    match rows.into_iter().find(|(_, value)| **value <= 0.0) {
+        // Numbers and rows were refused at their own places: a formula is left.
+        Some((t, value)) => {
+            let what = format!("gives {value} {unit} at {t} K, out of range: above 0 {unit}");
+            Err(Fault::at(&format!("{at}/expr"), what))
+        }
+        None => Ok((table, range)),
     }
 }
 

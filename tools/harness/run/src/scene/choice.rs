@@ -1,5 +1,7 @@
 //! A value that fits none of the forms it may have: which form was meant, and what to say.
 
+use std::cmp::Reverse;
+
 use jsonschema::ValidationError;
 use jsonschema::error::ValidationErrorKind as Kind;
 use serde_json::Value;
@@ -39,7 +41,10 @@ pub(super) fn best_branch<'a>(
     let fewest = left.iter().map(|branch| weight(branch)).min()?;
     let mut best = left.into_iter().filter(|branch| weight(branch) == fewest);
     let first = best.next();
-    if best.next().is_some() && fewest > (1, 1) {
+    // Where each form lacks one key, none of them is the one that was meant.
+    let lacks = |e: &ValidationError<'_>| matches!(e.kind(), Kind::Required { .. });
+    let all_lack = first.is_some_and(|branch| branch.iter().all(lacks));
+    if best.next().is_some() && (fewest > (1, 1) || all_lack) {
         None
     } else {
         first
@@ -76,7 +81,11 @@ pub(super) fn no_form(schema: &Value, path: &str, found: &Value, node: Option<&V
         match forms.as_slice() {
             [only] if !found.is_object() => format!("is {shown} ({kind}), wanted is {only}"),
             [only] => format!("{shown} does not fit {only}"),
-            all => format!("{shown} fits none of: {}", all.join(" | ")),
+            all => format!(
+                "{shown} fits none of: {}{}",
+                all.join(" | "),
+                keys_and_nearest(schema, found, &branches)
+            ),
         },
     )
 }
@@ -86,16 +95,10 @@ fn branches<'a>(schema: &'a Value, node: Option<&'a Value>) -> Vec<&'a Value> {
     let all = node
         .and_then(|n| n.get("anyOf").or_else(|| n.get("oneOf")))
         .and_then(Value::as_array);
-    let followed = |branch: &'a Value| match branch.get("$ref").and_then(Value::as_str) {
-        Some(reference) => schema
-            .pointer(reference.trim_start_matches('#'))
-            .unwrap_or(branch),
-        None => branch,
-    };
     let absence = Value::from("null");
     all.into_iter()
         .flatten()
-        .map(followed)
+        .map(|branch| followed(schema, branch))
         .filter(|branch| branch.get("type") != Some(&absence))
         .collect()
 }
@@ -118,6 +121,77 @@ fn mistyped_tag(path: &str, found: &Value, branches: &[&Value]) -> Option<Fault>
         };
         Some(Fault::of_key(path, key, format!("unknown key; {}", hint?)))
     })
+}
+
+/// Which keys an object has, and which form has most of them.
+fn keys_and_nearest(schema: &Value, found: &Value, branches: &[&Value]) -> String {
+    let Some(object) = found.as_object() else {
+        return String::new();
+    };
+    if object.is_empty() {
+        return "; it has no key".to_owned();
+    }
+    let own: Vec<String> = object.keys().map(|key| format!("'{key}'")).collect();
+    let own = format!("; it has {}", own.join(", "));
+    // Of those with the most of its keys, the one with the fewest others.
+    let weight = |branch: &Value| {
+        let known = keys_of(schema, branch, 2);
+        let shared = object.keys().filter(|key| known.contains(*key)).count();
+        (shared, Reverse(known.len()))
+    };
+    let most = branches.iter().map(|b| weight(b)).max();
+    let mut best = branches.iter().filter(|b| Some(weight(b)) == most);
+    match (most, best.next(), best.next()) {
+        (Some((1.., _)), Some(branch), None) => {
+            format!("{own}; nearest is {}", spread(schema, branch))
+        }
+        _ => own,
+    }
+}
+
+/// A schema with its reference followed.
+fn followed<'a>(schema: &'a Value, node: &'a Value) -> &'a Value {
+    match node.get("$ref").and_then(Value::as_str) {
+        Some(reference) => schema
+            .pointer(reference.trim_start_matches('#'))
+            .unwrap_or(node),
+        None => node,
+    }
+}
+
+/// Keys of a form and, to some depth, of the objects in it: `{"box": {"min_m", "max_m"}}` has three.
+fn keys_of(schema: &Value, node: &Value, depth: usize) -> Vec<String> {
+    let properties = followed(schema, node)
+        .get("properties")
+        .and_then(Value::as_object);
+    let mut keys = Vec::new();
+    for (key, child) in properties.into_iter().flatten() {
+        keys.push(key.clone());
+        if depth > 1 {
+            keys.extend(keys_of(schema, child, depth - 1));
+        }
+    }
+    keys
+}
+
+/// A form with the keys of the objects in it: `{"box": {"min_m", "max_m"}}`.
+fn spread(schema: &Value, branch: &Value) -> String {
+    let properties = branch.get("properties").and_then(Value::as_object);
+    let one = |(key, child): (&String, &Value)| {
+        let inner = keys_of(schema, child, 1);
+        let constant = child.get("const");
+        match constant {
+            Some(value) => format!("\"{key}\": {value}"),
+            None if inner.is_empty() => format!("\"{key}\""),
+            None => format!("\"{key}\": {{\"{}\"}}", inner.join("\", \"")),
+        }
+    };
+    let all: Vec<String> = properties.into_iter().flatten().map(one).collect();
+    if all.is_empty() {
+        form(branch)
+    } else {
+        format!("{{{}}}", all.join(", "))
+    }
 }
 
 /// A form in a few words: tag, constant, keys, title or type.

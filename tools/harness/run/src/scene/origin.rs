@@ -30,8 +30,22 @@ pub(crate) struct Document {
 impl Document {
     /// Reads and parses a file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|e| Failure::Usage(format!("{}: cannot read: {e}", path.display())))?;
+        let text = artefact::json_text(path).map_err(|e| match e {
+            artefact::Error::Json {
+                path,
+                line,
+                column,
+                what,
+            } => {
+                let spot = Spot {
+                    file: path,
+                    line,
+                    column,
+                };
+                Failure::from(Fault::in_text(spot, what))
+            }
+            other => Failure::Usage(other.to_string()),
+        })?;
         Self::parse(path, text)
     }
 
