@@ -5,6 +5,9 @@ use artefact::Record;
 use crate::stage::Figure;
 use crate::state::{Phase, State};
 
+/// An energy balance that closes to this part is good.
+pub const CLOSES: f64 = 5e-3;
+
 /// Conserved totals at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balance {
@@ -166,6 +169,18 @@ impl Balance {
     }
 }
 
+/// What to warn of where the energy does not close, by (in - out - stored) over the larger of in and out.
+#[must_use]
+pub fn unclosed(closure: f64) -> Option<String> {
+    // A closure that is no number closes nothing.
+    let closes = closure.abs() <= CLOSES;
+    (!closes).then(|| {
+        format!(
+            "the energy balance is open by {closure:.1e} of the energy put in or lost, at most {CLOSES:.0e} is good"
+        )
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -226,6 +241,16 @@ mod tests {
         assert!(closed.abs() < 1e-15);
         let (_, _, open) = Balance::of(&state(900.0), &figures).closure(start).unwrap();
         assert!((open - 0.3 / 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_open_energy_balance_is_warned_of() {
+        for closed in [0.0, 4.9e-3, -5e-3] {
+            assert_eq!(unclosed(closed), None);
+        }
+        for open in [5.1e-3, -0.2, f64::NAN] {
+            assert!(unclosed(open).is_some_and(|text| text.contains("5e-3")));
+        }
     }
 
     #[test]

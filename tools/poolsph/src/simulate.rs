@@ -3,7 +3,7 @@
 use run::{Failure, Fault, Inputs, Plan, Session};
 
 use crate::assemble::{Assembled, assemble};
-use crate::balance::{Balance, Start};
+use crate::balance::{Balance, Start, unclosed};
 use crate::frames::{self, SourceNote};
 use crate::resume;
 use crate::scene::{Scene, due};
@@ -185,6 +185,11 @@ impl<'a> Simulation<'a> {
         let totals = Balance::of(state, &march.figures());
         for (name, unit, value) in totals.closing(self.start) {
             session.closing(name, unit, value);
+        }
+        if let Some((_, _, closure)) = totals.closure(self.start)
+            && let Some(warning) = unclosed(closure)
+        {
+            session.warn(warning);
         }
         for (name, bytes) in state.memory() {
             session.memory(name, bytes as u64);

@@ -96,6 +96,34 @@ fn threads_do_not_show_and_totals_close() {
     assert!(closing(&record, "energy_stored_j").abs() > 1.0);
 }
 
+#[test]
+fn a_weld_closes_its_energy_while_it_melts_and_flows() {
+    let folder = folder();
+    let mut weld = scene();
+    let metal = json!({"min_m": [-4e-3, -4e-3, -2e-3], "max_m": [4e-3, 4e-3, 0]});
+    weld["bodies"] = json!([{"shape": {"box": metal}, "state": "solid", "temperature_k": 1500}]);
+    weld["source"] = json!({"start_m": [0, -2e-3, 0], "velocity_m_s": [0, 0.05, 0]});
+    weld["arc"] = json!({"flux_w_m2": {"expr": "8e7*exp(-(r/2e-3)^2)"}});
+    weld["flow_start"] = json!({"liquid_particles": 120});
+    weld["droplets"] = json!({"feed_m3_s": 1.5e-7, "radius_m": 7.5e-4, "height_m": 4e-3, "speed_m_s": 1.0,
+        "temperature_k": 2100});
+    weld["time"] = json!({"step_s": 1e-4, "end_s": 0.08});
+    weld["output"] = json!({"particles_interval_s": 0.02});
+    let out = folder.path().join("weld.mcap");
+    finished(&write(folder.path(), "weld.json", &weld), &out, &[]);
+    let record = record(&out);
+    assert_eq!(record["warnings"], json!([]));
+    assert!(closing(&record, "energy_balance").abs() < 5e-3);
+    assert!(closing(&record, "energy_in_j") > 10.0 && closing(&record, "mass_droplets_kg") > 0.0);
+    let liquid = record["history"].as_array().unwrap().iter();
+    let liquid = liquid
+        .filter(|h| h["name"] == "phase_liquid_particles")
+        .flat_map(|h| h["values"].as_array().unwrap())
+        .filter_map(Value::as_f64)
+        .fold(0.0, f64::max);
+    assert!(liquid >= 120.0, "{liquid}");
+}
+
 /// Starts a run, lets it take some steps, interrupts it and takes it up.
 #[test]
 fn an_interrupted_run_ends_in_the_same_bytes() {

@@ -374,3 +374,31 @@ fn a_melting_front_follows_neumann() {
         "no convergence: {coarse} {fine}"
     );
 }
+
+#[test]
+fn the_flow_starts_with_120_liquid_particles_and_not_with_119() {
+    let metal = metal(1000.0, 1e-3);
+    let melting = Melting {
+        point: 1000.0,
+        latent_heat: 200.0,
+    };
+    let caloric = Arc::new(plain(1.0, 1.0, Some(melting)));
+    for (liquid, flows) in [(0, false), (119, false), (120, true), (130, true)] {
+        let mut state = lattice(metal, [13, 10, 1], &caloric, |_| 999.0);
+        for enthalpy in &mut state.enthalpy[..liquid] {
+            // Half of the latent heat and a little.
+            *enthalpy = caloric.enthalpy(1000.0) + 100.0 + 1e-6;
+        }
+        let start = FlowStart {
+            liquid_particles: 120,
+        };
+        let mut stage = Phase::new(caloric.clone(), Some(start));
+        stage.advance(&mut state, 1e-4).unwrap();
+        assert_eq!(state.flowing, flows, "{liquid} particles are liquid");
+        assert_eq!(state.liquid(), liquid);
+        // What flows goes on to flow when some of it freezes.
+        state.enthalpy.fill(0.0);
+        stage.advance(&mut state, 1e-4).unwrap();
+        assert_eq!((state.flowing, state.liquid()), (flows, 0));
+    }
+}
