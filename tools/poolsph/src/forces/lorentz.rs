@@ -2,7 +2,8 @@
 //!
 //! The arc gives j x B over the distance from its axis and the depth in a flat plate. The depth of a
 //! particle is taken from the surface above it: the mean height of the surface particles within the
-//! support of the kernel, seen from above.
+//! support of the kernel, seen from above. These lie up to half a spacing inside the surface, so that depths are short
+//! by that much.
 
 use rayon::prelude::*;
 use schemars::JsonSchema;

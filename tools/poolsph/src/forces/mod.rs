@@ -8,4 +8,6 @@ pub mod marangoni;
 pub mod tension;
 
 #[cfg(test)]
+mod arc_tests;
+#[cfg(test)]
 mod tests;
