@@ -8,6 +8,7 @@ use crate::heat::granular::Granular;
 use crate::heat::{Contact, Surfaces};
 use crate::material::Material;
 use crate::mixture::Molar;
+use crate::scene::Surface;
 
 /// Index of the gas among the materials.
 pub const GAS: usize = 0;
@@ -251,6 +252,8 @@ pub struct Base {
     pub material: usize,
     /// Row above its highest cell, by column; nothing where a column holds none of it, `[nr]`.
     pub above: Vec<Option<usize>>,
+    /// The curve that its highest cells follow, where they are not level.
+    pub curve: Option<Surface>,
 }
 
 impl Base {

@@ -196,9 +196,51 @@ fn between(known: &[(f64, f64)], height: f64) -> f64 {
     v0 + (v1 - v0) * (height - z0) / (z1 - z0)
 }
 
-/// Temperature of the gas at `height` over column `i`, from that of the metal upward \[K\].
+/// A place beside a surface that bends, and the direction along the surface there, outwards.
+struct Beside {
+    /// Radius and height \[m\].
+    place: [f64; 2],
+    /// Parts along radius and height.
+    along: [f64; 2],
+}
+
+/// The place at `height` \[m\] from the curve that the cells of the metal follow, along its normal; nothing where
+/// the metal is level.
+fn beside(arc: &Arc, i: usize, height: f64) -> Option<Beside> {
+    let grid = &arc.case.grid;
+    let curve = arc.case.base.as_ref()?.curve.as_ref()?;
+    let (r, width) = (grid.rc[i], grid.rf[i + 1] - grid.rf[i]);
+    let slope = (curve.height(grid.rf[i + 1]) - curve.height(grid.rf[i])) / width;
+    let length = slope.hypot(1.0);
+    let along = [1.0 / length, slope / length];
+    Some(Beside {
+        place: [
+            (r - height * along[1]).abs(),
+            curve.height(r) + height * along[0],
+        ],
+        along,
+    })
+}
+
+/// A value of cells `(i, j)` at a place, linear between the four middles around it.
+fn bilinear(arc: &Arc, [r, z]: [f64; 2], value: impl Fn(usize, usize) -> f64) -> f64 {
+    let grid = &arc.case.grid;
+    let part = |at: &[f64], x: f64| {
+        let k = at.partition_point(|a| *a <= x).clamp(1, at.len() - 1) - 1;
+        (k, ((x - at[k]) / (at[k + 1] - at[k])).clamp(0.0, 1.0))
+    };
+    let ((i, u), (j, v)) = (part(&grid.rc, r), part(&grid.zc, z));
+    let row = |j: usize| value(i, j) + u * (value(i + 1, j) - value(i, j));
+    row(j) + v * (row(j + 1) - row(j))
+}
+
+/// Temperature of the gas at `height` over column `i`, from that of the metal upward \[K\]; over a surface that
+/// bends, at that distance from it.
 fn gas_temperature(arc: &Arc, i: usize, row: usize, height: f64) -> f64 {
     let (grid, t) = (&arc.case.grid, arc.temperature());
+    if let Some(beside) = beside(arc, i, height) {
+        return bilinear(arc, beside.place, |i, j| t[grid.cell(i, j)]);
+    }
     let surface = grid.zf[row];
     let mut known = vec![(0.0, t[grid.cell(i, row - 1)])];
     let gas = (row..grid.nz).take_while(|j| arc.case.material[grid.cell(i, *j)] == GAS);
@@ -206,16 +248,26 @@ fn gas_temperature(arc: &Arc, i: usize, row: usize, height: f64) -> f64 {
     between(&known, height)
 }
 
-/// Radial velocity of the gas at `height` over column `i`, zero on the surface \[m/s\].
+/// Radial velocity of the gas at `height` over column `i`, zero on the surface \[m/s\]; over a surface that bends,
+/// the velocity along it at that distance from it.
 fn gas_velocity(arc: &Arc, i: usize, row: usize, height: f64) -> f64 {
     let grid = &arc.case.grid;
     let Some(flowing) = &arc.flowing else {
         return 0.0;
     };
-    let at = |j: usize| {
+    let radial = |i: usize, j: usize| {
         let face = grid.radial_face(i, j);
         0.5 * (flowing.flow.radial[face] + flowing.flow.radial[face + 1])
     };
+    if let Some(beside) = beside(arc, i, height) {
+        let axial = |i: usize, j: usize| {
+            let face = grid.axial_face(i, j);
+            0.5 * (flowing.flow.axial[face] + flowing.flow.axial[face + grid.nr])
+        };
+        let [r, z] = beside.along;
+        return bilinear(arc, beside.place, |i, j| r * radial(i, j) + z * axial(i, j));
+    }
+    let at = |j: usize| radial(i, j);
     let surface = grid.zf[row];
     let mut known = vec![(0.0, 0.0)];
     let gas = (row..grid.nz).take_while(|j| arc.case.material[grid.cell(i, *j)] == GAS);

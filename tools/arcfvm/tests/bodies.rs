@@ -281,6 +281,34 @@ fn a_pit_takes_up_in_its_columns_what_its_walls_take_up() {
 }
 
 #[test]
+fn gas_over_a_slope_is_sampled_along_its_normal() {
+    let (slope, height): (f64, f64) = (0.4, 9e-4);
+    let mut scene = pressed(&json!({"r_m": [0, 0.01], "z_m": [0.002, 0.002 + 0.01 * slope]}));
+    scene["start"] = json!({"temperature_k": {"expr": "1000 + 2e5*z - 3e4*r"}});
+    scene["sample"] = json!({"temperature_height_m": height, "velocity_height_m": height});
+    let settings = Settings::from(&read(&scene).iterate);
+    let mut arc = Arc::new(case(&scene).unwrap(), settings);
+    let flow = &mut arc.flowing.as_mut().unwrap().flow;
+    flow.radial.fill(3.0);
+    flow.axial.fill(4.0);
+    arc.settle();
+    let table = arcfvm::surface::table(&arc, &read(&scene).sample).unwrap();
+    let length = slope.hypot(1.0);
+    let radius = table.values("radius_m").unwrap();
+    let found = table.values("gas_temperature_k").unwrap();
+    let speed = table.values("gas_radial_velocity_m_s").unwrap();
+    // Beyond the middle of the first and the last cell the field is level.
+    for k in 1..radius.len() - 1 {
+        let r = radius[k] - height * slope / length;
+        let z = 0.002 + slope * radius[k] + height / length;
+        let exact = 1000.0 + 2e5 * z - 3e4 * r;
+        assert!((found[k] - exact).abs() < 1e-6, "{} for {exact}", found[k]);
+        assert!((speed[k] - (3.0 + 4.0 * slope) / length).abs() < 1e-12);
+    }
+    assert!(radius.len() > 15);
+}
+
+#[test]
 fn the_volume_of_a_pool_is_met_the_better_the_finer_the_cells() {
     let bowl = |r: f64| 0.002 + 125.0 * r * r;
     let radius: Vec<f64> = (0..=100).map(|i| 4e-5 * f64::from(i)).collect();

@@ -91,17 +91,23 @@ impl Layout {
     }
 
     /// The body of `material`, if there is room above it on the axis.
-    pub(crate) fn base(&self, material: usize) -> Option<Base> {
+    pub(crate) fn base(&self, material: usize, bodies: &[(&String, &Body)]) -> Option<Base> {
         let grid = &self.grid;
         let last = |i: usize| {
             let mut rows = (0..grid.nz).rev();
             rows.find(|j| self.material[grid.cell(i, *j)] == material)
         };
         let above = |i: usize| last(i).map(|j| j + 1).filter(|j| *j < grid.nz);
-        let base = Base {
+        let mut base = Base {
             material,
             above: (0..grid.nr).map(above).collect(),
+            curve: None,
         };
+        if let Shape::Profile(profile) = &bodies[material - 1].1.shape
+            && base.is_deformed()
+        {
+            base.curve.clone_from(&profile.top);
+        }
         base.above[0].is_some().then_some(base)
     }
 

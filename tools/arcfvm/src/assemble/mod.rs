@@ -105,7 +105,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     let parts = (&layout, &electrodes, flow.as_ref());
     let vapour = vapour::vapour(scene, gas, parts, &mut faults);
     faults.none()?;
-    let base = electrodes.base.and_then(|m| layout.base(m));
+    let base = electrodes.base.and_then(|m| layout.base(m, &bodies));
     Ok(Case {
         material: layout.material,
         materials,
