@@ -8,6 +8,8 @@
     reason = "a test may fail, and says what it skips"
 )]
 
+mod layout;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
