@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+mod study;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -50,6 +52,37 @@ fn a_touched_scene_wakes_nothing_and_a_changed_one_does() {
         std::fs::read_to_string(folder.join("out")).unwrap(),
         "250 A"
     );
+}
+
+#[test]
+fn names_may_have_spaces() {
+    let folder = tempfile::tempdir().unwrap();
+    let make = || {
+        let status = Command::new(script())
+            .current_dir(folder.path())
+            .args(["a b/out put", "my scene", "--", "sh", "-c"])
+            .arg("cp 'my scene' 'a b/out put'; echo run >> log")
+            .status();
+        assert!(status.unwrap().success());
+    };
+    for (text, runs_so_far) in [("300 A", 1), ("300 A", 1), ("250 A", 2)] {
+        std::fs::write(folder.path().join("my scene"), text).unwrap();
+        make();
+        assert_eq!(runs(folder.path()), runs_so_far);
+    }
+    let made = std::fs::read_to_string(folder.path().join("a b/out put"));
+    assert_eq!(made.unwrap(), "250 A");
+}
+
+#[test]
+fn a_prerequisite_that_is_not_there_is_a_failure() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = Command::new(script())
+        .current_dir(folder.path())
+        .args(["out", "absent", "--", "touch", "out"])
+        .output()
+        .unwrap();
+    assert!(!made.status.success() && !folder.path().join("out").exists());
 }
 
 #[test]
