@@ -51,6 +51,13 @@ fn a_flipped_byte_is_found_by_its_checksum() {
     let frames = place.file("pool.mcap", &bytes);
     tell("artefact", &validate).must(1, &["damaged: CRC of the summary"]);
     keeps_the_old_output(&place, &frames, &["damaged", "summary"]);
+    // Without its index nothing can be exported; what is advised saves all of it.
+    let out = place.path("csv");
+    let mut export = std::process::Command::new(program("artefact"));
+    export.arg("export").arg(&frames).args(["--to", "csv"]);
+    let advice = format!("'artefact recover {}' saves", frames.display());
+    told(export.arg("--out").arg(&out)).must(1, &["CRC of the summary", &advice]);
+    tell("artefact", &["recover".as_ref(), frames.as_os_str()]).must(0, &["10 messages saved"]);
 }
 
 #[test]

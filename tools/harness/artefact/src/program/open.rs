@@ -15,7 +15,7 @@ pub(crate) fn is_json(path: &Path) -> bool {
 /// Opens an artefact; a partial file (`.part`) as far as it is whole, with a remark.
 pub(crate) fn open(path: &Path, streams: &mut Streams<'_>) -> Result<Reader, Trouble> {
     if path.extension().is_none_or(|e| e != "part") {
-        let reader = Reader::open(path)?;
+        let reader = Reader::open(path).map_err(|e| damaged(e, path))?;
         reader.must_be_known()?;
         return Ok(reader);
     }
@@ -31,6 +31,19 @@ pub(crate) fn open(path: &Path, streams: &mut Streams<'_>) -> Result<Reader, Tro
         writeln!(streams.err, "  {lost}")?;
     }
     Ok(reader)
+}
+
+/// Advises to save what is whole where a file is damaged.
+fn damaged(error: artefact::Error, path: &Path) -> Trouble {
+    match error {
+        artefact::Error::Crc { .. } | artefact::Error::Damaged { .. } => {
+            let path = path.display();
+            Trouble::Damaged(format!(
+                "{error}; 'artefact recover {path}' saves what is whole"
+            ))
+        }
+        other => other.into(),
+    }
 }
 
 /// Opens all that is whole of an artefact, and says whether that is all before its end.

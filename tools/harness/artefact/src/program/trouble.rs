@@ -26,6 +26,9 @@ pub(crate) enum Trouble {
     /// A file that cannot be read or is damaged.
     #[error(transparent)]
     Artefact(#[from] artefact::Error),
+    /// A file that is damaged, of which more may be whole.
+    #[error("{0}")]
+    Damaged(String),
     /// A file that cannot be written or read.
     #[error("{path}: cannot {action}: {source}")]
     File {
