@@ -182,6 +182,23 @@ fn the_force_in_a_pool_counts_its_depth_from_the_surface_above() {
 }
 
 #[test]
+fn the_arc_of_the_study_stands_over_the_pool_that_it_is_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let surface = folder.path().join("mean.mcap");
+    let pool = |r: f64| if r < 1e-3 { -1.9e-3 } else { 1.1e-3 };
+    write(&surface, (5e-4, 15), pool, 1.0);
+    let output = Command::new(env!("CARGO_BIN_EXE_arcfvm"))
+        .current_dir(root())
+        .args(["check", "pipelines/gmaw-300a/arc.json", "--patch"])
+        .arg("pipelines/gmaw-two-pass/arc.patch.json")
+        .args(["--input", "gas=pipelines/gases/argon-1atm.json", "--input"])
+        .arg(format!("surface={}", surface.display()))
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+}
+
+#[test]
 fn what_is_no_pool_of_this_arc_is_refused_with_figures() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

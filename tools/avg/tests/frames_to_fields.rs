@@ -318,10 +318,16 @@ fn the_scenes_of_the_studies_are_valid_as_they_are_and_patched() {
     let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines");
     let whole = studies.join("gmaw-300a/avg.json");
     let quick = studies.join("gmaw-quick/avg.patch.json");
-    for (patches, from_s) in [(vec![], 8.0), (vec![quick], 0.6)] {
+    let profile = studies.join("gmaw-two-pass/avg.patch.json");
+    for (patches, from_s) in [
+        (vec![], 8.0),
+        (vec![quick.clone()], 0.6),
+        (vec![quick, profile], 0.6),
+    ] {
         let scene: Scene = run::scene::load(&whole, &patches, &schema, expected)
             .unwrap()
             .scene;
+        assert_eq!(scene.profile.is_some(), patches.len() == 2);
         assert!(scene.faults().is_empty());
         assert!((scene.time.unwrap().from_s - from_s).abs() < 1e-12);
     }

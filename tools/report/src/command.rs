@@ -26,6 +26,9 @@ struct Line {
 enum Action {
     /// One page about a study; it shows what there is of it.
     Page(PageFiles),
+    /// One page about an arc and a pool that were computed in turns, each from what the other left.
+    #[command(after_help = PASSES)]
+    Passes(PassesFiles),
     /// One page about a study of heat conduction, of one run or of several.
     #[command(after_help = HEAT)]
     Heat(HeatFiles),
@@ -72,6 +75,30 @@ pub(crate) struct PageFiles {
     /// Published values.
     #[arg(long)]
     pub(crate) targets: Option<PathBuf>,
+}
+
+const PASSES: &str = "Example, from the repository root:\n  \
+    target/release/report passes --study gmaw-two-pass --out build/gmaw-two-pass/report.html \\\n    \
+    --arc first=build/gmaw-300a/arc.mcap --arc second=build/gmaw-two-pass/arc.mcap";
+
+/// Files of a page about passes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PassesFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Arc source of a pass, and what the page calls the pass; once for each.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) arc: Vec<(String, PathBuf)>,
+    /// Particle frames of the pool of a pass.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) pool: Vec<(String, PathBuf)>,
+    /// Mean fields of the pool of a pass.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) mean: Vec<(String, PathBuf)>,
 }
 
 const HEAT: &str = "Example, from the repository root:\n  \
@@ -197,6 +224,10 @@ fn complete(action: &Action) -> Result<(), Failure> {
             let given = !f.arc.is_empty() || f.pool.is_some() || f.mean.is_some();
             ("--arc, --pool or --mean", given, Some(&f.out))
         }
+        Action::Passes(f) => {
+            let given = !f.arc.is_empty() || !f.pool.is_empty() || !f.mean.is_empty();
+            ("--arc, --pool or --mean", given, Some(&f.out))
+        }
         Action::Index(f) => {
             let folders = [&f.verify, &f.stability, &f.bench, &f.studies];
             let given = folders.iter().any(|folder| folder.is_some());
@@ -227,6 +258,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
 fn write(action: &Action) -> Result<ExitCode, Failure> {
     match action {
         Action::Page(files) => page::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Passes(files) => page::passes::write(files).map(|()| ExitCode::SUCCESS),
         Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
         Action::Field(files) => page::field::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),

@@ -90,6 +90,60 @@ fn what_is_absent_has_no_section() {
 }
 
 #[test]
+fn passes_stand_beside_each_other() {
+    let folder = folder("passes");
+    for (pass, end) in [("first", 8.0), ("second", 6.0)] {
+        let at = |what: &str| folder.join(format!("{pass}-{what}.mcap"));
+        sample::weld(&at("pool"), (end, 2), true);
+        sample::profile(&at("mean"), 1e-4 * end);
+        sample::arc(&at("arc"));
+    }
+    let out = folder.join("report.html").display().to_string();
+    let mut words = ["passes", "--study", "two", "--out", &out]
+        .map(str::to_owned)
+        .to_vec();
+    for (kind, pass) in [
+        ("arc", "first"),
+        ("arc", "second"),
+        ("pool", "first"),
+        ("pool", "second"),
+        ("mean", "first"),
+        ("mean", "second"),
+    ] {
+        let file = folder.join(format!("{pass}-{kind}.mcap"));
+        words.extend([format!("--{kind}"), format!("{pass}={}", file.display())]);
+    }
+    let output = report(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let html = std::fs::read_to_string(&out).unwrap();
+    for heading in [
+        "The surface of the pool",
+        "What the arc does to it",
+        "What comes of it",
+        "The arcs beside each other",
+        "How it was computed",
+    ] {
+        assert!(html.contains(&format!(">{heading}</h2>")), "{heading}");
+    }
+    // Two pools of 0.8 and 0.6 mm, and both beads 3 mm deep.
+    let row = |words: &str| {
+        let rows = html.split("<tr").find(|row| row.contains(words));
+        rows.unwrap_or_else(|| panic!("no row of {words}"))
+            .to_owned()
+    };
+    assert!(
+        row("penetration below").matches("3.000").count() == 2,
+        "{}",
+        row("penetration below")
+    );
+    assert!(html.contains("0.8000") && html.contains("0.6000"), "depths");
+    assert!(html.contains("pool: second"));
+    let output = report(&["passes", "--study", "two", "--out", &out]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
 fn a_young_weld_is_measured_but_not_judged() {
     let folder = folder("young");
     sample::weld(&folder.join("pool.mcap"), (1.0, 2), true);

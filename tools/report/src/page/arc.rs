@@ -179,7 +179,7 @@ fn heat(table: &Table) -> Vec<Curve<'_>> {
 }
 
 /// Radius beyond which heat flux and current are below a hundredth of their peaks \[m\].
-fn reach(table: &Table, radius: &[f64]) -> f64 {
+pub(super) fn reach(table: &Table, radius: &[f64]) -> f64 {
     let last = radius.last().copied().unwrap_or(0.0);
     let ends = [
         "heat_flux_total_w_m2",

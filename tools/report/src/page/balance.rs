@@ -90,7 +90,7 @@ fn push(figures: &mut Vec<String>, plot: &Plot, caption: &str) {
 }
 
 /// `energy_in_arc_j` reads "in: arc".
-fn readable(name: &str) -> String {
+pub(super) fn readable(name: &str) -> String {
     let bare = name
         .trim_end_matches("_j")
         .trim_end_matches("_kg")

@@ -11,6 +11,7 @@ pub(crate) mod field;
 pub(crate) mod gas;
 pub(crate) mod heat;
 mod mean;
+pub(crate) mod passes;
 mod runs;
 
 use artefact::Reader;

@@ -157,6 +157,25 @@ pub(crate) fn means(path: &Path) {
     );
 }
 
+/// A level pool `depth` below the plate.
+#[allow(dead_code, reason = "not every test has a pool")]
+pub(crate) fn profile(path: &Path, depth: f64) {
+    let mut writer = Writer::create(path, &header("mean-fields", "avg")).unwrap();
+    let column = |value: f64| (0..10).map(move |_| value);
+    let radius = |off: f64| (0..10).map(move |i| (f64::from(i) + off) * D);
+    let table = Table::new(10)
+        .column("radius_m", "m", radius(0.5))
+        .column("outer_radius_m", "m", radius(1.0))
+        .column("height_m", "m", column(-depth))
+        .column("height_spread_angle_m", "m", column(1e-5))
+        .column("height_spread_time_m", "m", column(2e-5))
+        .column("metal_share", "1", column(1.0))
+        .attribute("net_volume_m3", "m3", -1e-8)
+        .attribute("depression_m3", "m3", 1e-8);
+    writer.table("/profile", 0.0, &table).unwrap();
+    writer.finish().unwrap();
+}
+
 /// Velocity in the two axes, temperature, liquid, metal.
 type Point = ([f64; 2], f64, bool, bool);
 
