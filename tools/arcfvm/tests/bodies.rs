@@ -338,3 +338,46 @@ fn a_profile_without_a_surface_asks_for_the_input() {
     let told = case(&pressed(&json!({"r_m": [1, 1], "z_m": [0, 0]}))).unwrap_err();
     assert!(told.contains("do not rise"), "{told}");
 }
+
+/// Heat flux \[W/m2\] from 5000 K through 6 mm of gas of 0.5 W/(m K) into a plate of 300 K on cells of `size`.
+fn through_film(size: f64, film: &Value) -> f64 {
+    let mut heat =
+        json!({"edges": {"bottom": [{"temperature_k": 300}], "top": [{"temperature_k": 5000}]}});
+    let keys = film.as_object().unwrap().clone();
+    heat.as_object_mut().unwrap().extend(keys);
+    let mut lower = plate([0.0, 0.002]);
+    lower["material"]["thermal_conductivity_w_m_k"] = json!(1e6);
+    lower.as_object_mut().unwrap().remove("electrode");
+    lower["anode"] = json!({"work_function_v": 4.5, "emissivity": 0});
+    let mut arc = solve(&json!({
+        "kind": "arcfvm.scene", "version": 1, "title": "a film of gas",
+        "domain": {"r_m": [0, 0.01], "z_m": [0, 0.008]}, "grid": {"r": 0.005, "z": size},
+        "gas": {"given": {"thermal_conductivity_w_m_k": 0.5, "specific_heat_j_kg_k": 1000}},
+        "bodies": {"lower": lower},
+        "heat": heat,
+        "start": {"temperature_k": 1000},
+        "iterate": {"tolerance": 1e-8, "most": 3000}
+    }));
+    arc.settle().unwrap().electrodes[0].convection / (std::f64::consts::PI * 1e-4)
+}
+
+/// Half cells: gas is all that is crossed. Centres: as much of the way again as the film is thick.
+#[test]
+fn a_film_of_given_thickness_lets_the_same_heat_through_on_any_cells() {
+    for (way, further) in [("half_cells", 0.0), ("centres", 0.7e-3)] {
+        let exact = 0.5 * 4700.0 / (6e-3 + further);
+        for size in [2e-3, 1e-3, 5e-4, 2e-4] {
+            let found = through_film(size, &json!({"film": way, "film_m": 0.7e-3}));
+            let error = (found / exact - 1.0).abs();
+            assert!(error < 1e-5, "{way} {size}: {found} {exact}");
+        }
+    }
+    // Without a thickness the film of the source is half a cell.
+    for size in [2e-3, 5e-4] {
+        let film = through_film(size, &json!({"film": "centres"}));
+        let given = through_film(size, &json!({"film": "centres", "film_m": 0.5 * size}));
+        assert!((film / given - 1.0).abs() < 1e-9, "{film} {given}");
+        let exact = 0.5 * 4700.0 / (6e-3 + 0.5 * size);
+        assert!((film / exact - 1.0).abs() < 1e-5, "{film} {exact}");
+    }
+}

@@ -17,7 +17,7 @@ use crate::case::{
 };
 use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
-use crate::heat::{Surfaces, contacts};
+use crate::heat::Surfaces;
 use crate::material::{Material, REFERENCE_K};
 use crate::scene::{Body, Current, Film, Heat, Moving, Scene, SheathAt, SheathKeeps};
 use electrodes::Electrodes;
@@ -291,14 +291,20 @@ fn surfaces(layout: &Layout, all: &Electrodes, heat: Option<&Heat>) -> Option<Su
             electrodes.push(electrode.clone());
         }
     }
-    let contacts = contacts(&layout.grid, &layout.material, |m| index[m]);
-    (!electrodes.is_empty()).then_some(Surfaces {
+    if electrodes.is_empty() {
+        return None;
+    }
+    let mut surfaces = Surfaces {
         electrodes,
-        contacts,
+        contacts: Vec::new(),
         absorbed: heat.and_then(|h| h.absorbed_radiation),
         electrode_of: index,
         film: heat.map_or(Film::default(), |h| h.film),
-    })
+        film_depth: heat.and_then(|h| h.film_m),
+        layers: Vec::new(),
+    };
+    surfaces.renew(&layout.grid, &layout.material);
+    Some(surfaces)
 }
 
 /// Moving bodies; beyond the edge of the domain they are as warm as the edge is, or as the room.

@@ -17,7 +17,6 @@ use crate::fields::{Solver, Unsolved};
 use crate::heat::{Contact, FaceIndex, Surfaces};
 use crate::properties::Properties;
 use crate::residual::Unbalanced;
-use crate::scene::Film;
 use crate::transport::{dirichlet, hybrid};
 
 /// Factor on the relaxation of a cell whose changes alternate.
@@ -148,27 +147,8 @@ impl Energy {
                 self.axial[grid.axial_face(i, j)] = series(south, north, grid.ring[i]);
             }
         }
-        for contact in surfaces.iter().flat_map(|s| &s.contacts) {
-            let iron = properties.iron_at(contact.gas);
-            let way = surfaces.map_or(Film::default(), |s| s.film);
-            let conductance = self.film(case, contact, (way, kappa[contact.metal]), iron);
-            match contact.face {
-                FaceIndex::Radial(face) => self.radial[face] = conductance,
-                FaceIndex::Axial(face) => self.axial[face] = conductance,
-            }
-        }
-    }
-
-    /// Gas at the mean of both temperatures in series with half a metal cell, or all the way between the
-    /// centres (eqs 5.17, 5.18).
-    fn film(&self, case: &Case, contact: &Contact, (way, metal): (Film, f64), iron: f64) -> f64 {
-        let film = 0.5 * (self.temperature[contact.gas] + self.temperature[contact.metal]);
-        let [r, z] = contact.place;
-        let law = case.of(contact.gas).thermal_conductivity.as_ref();
-        let gas = law.map_or(0.0, |l| l.within(r, z, film, iron));
-        match way {
-            Film::HalfCells => contact.area / (contact.gas_half / gas + contact.metal_half / metal),
-            Film::Centres => contact.area * gas / (contact.gas_half + contact.metal_half),
+        if let Some(surfaces) = surfaces {
+            self.conduct_surfaces(case, surfaces, properties);
         }
     }
 

@@ -3,6 +3,7 @@
 pub mod edge_shear;
 pub mod energy;
 pub mod energy_edges;
+mod energy_film;
 mod faces;
 pub mod flow;
 pub mod linear;

@@ -3,6 +3,7 @@
 pub mod balance;
 pub mod electrode;
 pub mod evaporation;
+pub mod film;
 pub mod granular;
 pub mod motion;
 pub mod radiation;
@@ -10,6 +11,7 @@ pub mod sources;
 pub mod vapour;
 
 pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
+pub use film::Layer;
 
 use crate::case::GAS;
 use crate::grid::Grid;
@@ -60,12 +62,22 @@ pub struct Surfaces {
     pub electrode_of: Vec<Option<usize>>,
     /// Way of the heat from the gas into them.
     pub film: Film,
+    /// Thickness of the film of gas on them \[m\]; none: half a cell.
+    pub film_depth: Option<f64>,
+    /// The film of each contact, if it has a thickness; else empty.
+    pub layers: Vec<Layer>,
 }
 
 impl Surfaces {
     /// Takes the faces of `material` anew.
     pub fn renew(&mut self, grid: &Grid, material: &[usize]) {
         self.contacts = contacts(grid, material, |m| self.electrode_of[m]);
+        self.layers.clear();
+        if let Some(depth) = self.film_depth {
+            let layers = self.contacts.iter();
+            let layers = layers.map(|contact| Layer::new(grid, material, contact, depth));
+            self.layers.extend(layers);
+        }
     }
 }
 

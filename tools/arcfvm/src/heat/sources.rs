@@ -158,10 +158,13 @@ impl Sources {
             self.stale = false;
         }
         for (n, contact) in surfaces.contacts.iter().enumerate() {
-            let electrode = reads.electrode(surfaces, contact);
+            let electrode = reads.electrode(surfaces, n);
             let current = reads.potential.map_or(0.0, |p| current(p, contact));
             let t = reads.temperature[contact.metal];
-            let gas = reads.temperature[contact.gas];
+            let layer = surfaces.layers.get(n);
+            let gas = layer.map_or(reads.temperature[contact.gas], |layer| {
+                layer.at(t, reads.temperature)
+            });
             let parts = electrode.heat(current, t, gas);
             let into_gas = electrode.into_gas(current, gas);
             self.contacts[n] = ContactHeat {

@@ -35,13 +35,10 @@ struct Carried {
 }
 
 impl Reads<'_> {
-    /// The electrode of a contact: one whose ionisation voltage is that of the gas beside it, linear in the
-    /// fraction of iron (Komen 2019, text under eq. 5.21).
-    pub(crate) fn electrode<'s>(
-        &self,
-        surfaces: &'s Surfaces,
-        contact: &Contact,
-    ) -> Cow<'s, Electrode> {
+    /// The electrode of contact `n`: one whose ionisation voltage is that of the gas beside it, linear in the
+    /// fraction of iron (Komen 2019, text under eq. 5.21), at the edge of the film where that has a thickness.
+    pub(crate) fn electrode<'s>(&self, surfaces: &'s Surfaces, n: usize) -> Cow<'s, Electrode> {
+        let contact = &surfaces.contacts[n];
         let electrode = &surfaces.electrodes[contact.electrode];
         let Some(Vapours { setup, vapour }) = self.vapour else {
             return Cow::Borrowed(electrode);
@@ -49,7 +46,11 @@ impl Reads<'_> {
         let Some(iron) = setup.ionisation else {
             return Cow::Borrowed(electrode);
         };
-        let fraction = iron.fraction(setup.molar, vapour.iron[contact.gas]);
+        let own = vapour.iron[contact.gas];
+        let surface = vapour.passed.get(n).map_or(own, |passed| passed.surface);
+        let layer = surfaces.layers.get(n);
+        let beside = layer.map_or(own, |layer| layer.at(surface, &vapour.iron));
+        let fraction = iron.fraction(setup.molar, beside);
         Cow::Owned(electrode.beside(fraction, iron.voltage))
     }
 

@@ -179,6 +179,10 @@ pub struct Heat {
     /// Way of the heat from the gas into an electrode.
     #[serde(default)]
     pub film: Film,
+    /// Thickness of the film: the gas at this distance from an electrode heats it and, by its iron, tells the
+    /// ionisation voltage (Komen 2019: 5e-5 m on its grid); absent: half a gas cell, on any grid.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub film_m: Option<f64>,
 }
 
 /// Way of the heat from gas into an electrode, at film temperature (Komen 2019, eq. 5.17).
