@@ -146,6 +146,9 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Fai
         let centres = same.then_some([u, w]);
         arc.take_flow(&|which, r, z| other.value([u, w, p][which], r, z), centres);
     }
+    // The first flow already wants the mass of the vapour.
+    arc.settle_vapour();
+    arc.blow();
     if arc.feed > 0.0 {
         arc.feed = record.get("wire_feed_m_s").unwrap_or(arc.feed);
     }

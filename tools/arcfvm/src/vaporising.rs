@@ -98,7 +98,7 @@ impl Arc {
     }
 
     /// Gives the flow the mass of the vapour, where it adds to the gas.
-    fn blow(&mut self) {
+    pub(crate) fn blow(&mut self) {
         let Self {
             heating,
             vaporising,

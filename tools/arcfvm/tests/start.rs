@@ -109,6 +109,31 @@ fn a_solution_holds_from_its_first_iterations_on() {
 }
 
 #[test]
+fn a_flow_that_vapour_drives_holds_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let steps = |out: &str, start: &[String]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_arcfvm"));
+        let command = command
+            .current_dir(root())
+            .args([
+                "run",
+                "pipelines/verify/arc-evaporation/scene.json",
+                "--out",
+            ])
+            .arg(folder.join(out))
+            .args(["--threads", "1", "-q"])
+            .args(start);
+        assert_eq!(command.status().unwrap().code(), Some(0));
+        record(folder, out).0
+    };
+    let cold = steps("cold.mcap", &[]);
+    let start = format!("start={}", folder.join("cold.mcap").display());
+    let again = steps("again.mcap", &["--input".to_owned(), start]);
+    assert!(cold > 50 && again <= 5, "{cold} {again}");
+}
+
+#[test]
 fn a_start_on_another_grid_is_interpolated_and_told() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
