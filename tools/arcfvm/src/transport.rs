@@ -38,6 +38,14 @@ pub fn unbalanced(c: &mut Coefficients, outflow: f64, own: f64) {
     c.source += outflow.max(0.0) * own;
 }
 
+/// A cell that all of its sides flow out of faster than they conduct keeps its `own` value, where nothing else
+/// gives it an equation; `outflow` is what leaves it.
+pub fn kept(c: &mut Coefficients, outflow: f64, own: f64) {
+    if c.centre <= 0.0 {
+        unbalanced(c, outflow - c.centre, own);
+    }
+}
+
 /// Harmonic mean of two values with distances to the face between them.
 #[must_use]
 #[inline]
@@ -53,6 +61,22 @@ pub fn harmonic(value_p: f64, distance_p: f64, value_e: f64, distance_e: f64) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cell_without_an_equation_keeps_its_value() {
+        let mut empty = Coefficients {
+            source: 6.0,
+            ..Coefficients::default()
+        };
+        kept(&mut empty, 3.0, 500.0);
+        assert!((empty.source / empty.centre - 502.0).abs() < 1e-12);
+        let mut whole = Coefficients {
+            centre: 2.0,
+            ..Coefficients::default()
+        };
+        kept(&mut whole, 3.0, 500.0);
+        assert!((whole.centre - 2.0).abs() < 1e-12 && whole.source.abs() < 1e-12);
+    }
 
     /// Steady 1-D convection and diffusion between phi = 0 and phi = 1 (eq. 3.35), walls on nodes'
     /// half distance; returns the largest error.

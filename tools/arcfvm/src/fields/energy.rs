@@ -17,7 +17,7 @@ use crate::fields::{Solver, Unsolved};
 use crate::heat::{Contact, FaceIndex, Surfaces};
 use crate::properties::Properties;
 use crate::residual::Unbalanced;
-use crate::transport::{dirichlet, hybrid};
+use crate::transport::{dirichlet, hybrid, kept};
 
 /// Factor on the relaxation of a cell whose changes alternate.
 const CALMER: f64 = 0.7;
@@ -174,7 +174,7 @@ impl Energy {
         let (grid, h) = (&case.grid, &properties.enthalpy);
         let k = grid.cell(i, j);
         let here = (self.temperature[k], h[k]);
-        let slope = || {
+        let specific_heat = || {
             case.of(k)
                 .enthalpy
                 .as_ref()
@@ -187,7 +187,7 @@ impl Energy {
             match face.beyond {
                 Beyond::Cell(n) => {
                     let there = (self.temperature[n], h[n]);
-                    *side = self.link(&face, hybrid, || capacity(here, there, slope));
+                    *side = self.link(&face, hybrid, || capacity(here, there, specific_heat));
                     c.source -= self.mixed(&face, hybrid);
                 }
                 Beyond::Edge(edge) => {
@@ -204,6 +204,8 @@ impl Energy {
         let [value, slope] = self.source[k];
         c.source += value - slope * here.0;
         c.centre += sides.iter().sum::<f64>() - slope;
+        let out: f64 = faces.iter().map(|face| face.mass_out.max(0.0)).sum();
+        kept(&mut c, out * capacity(here, here, specific_heat), here.0);
         c
     }
 
