@@ -27,10 +27,20 @@ pub(super) struct Charged {
     pub(super) beyond: Vec<[C; 3]>,
 }
 
-/// What charges are computed with.
+/// What equations in which components mix are made of: those of charges, and of bodies of another permeability in space.
 pub(super) struct Charges {
+    /// Stencils of phi; of no point where charges are not computed.
     pub(super) stencils: Charge,
     pub(super) equations: Coupled,
+    /// Right sides without rates, by point; none where there are none.
+    pub(super) given: Vec<[C; 3]>,
+}
+
+impl Charges {
+    /// Whether any charges are sought.
+    pub(super) fn charged(&self) -> bool {
+        !self.stencils.is_empty()
+    }
 }
 
 /// How far the electric field on the surfaces of conductors points out of them.
@@ -53,7 +63,8 @@ impl Lack {
 }
 
 impl<const D: usize> Setting<'_, D> {
-    /// Stencils and equations of charges, where the scene computes them and something conducts.
+    /// Stencils and equations of charges, where the scene computes them and something conducts, and of bodies of another
+    /// permeability in space.
     ///
     /// # Errors
     /// Where a stencil cannot be made.
@@ -61,17 +72,22 @@ impl<const D: usize> Setting<'_, D> {
         let (Some(region), Some(sides)) = (self.in_space(), self.sides_in_space()) else {
             return Ok(None);
         };
-        if !self.currents.charged(self.scene.geometry) {
+        let charged = self.currents.charged(self.scene.geometry);
+        let permeable = self.conductors.permeable.as_ref();
+        if !charged && permeable.is_none() {
             return Ok(None);
         }
-        let conductivity = media(self.scene, |m| m.conductivity_s_m);
+        let conductivity = media(self.scene, |m| match charged {
+            true => m.conductivity_s_m,
+            false => 0.0,
+        });
         let form = super::form(self.scene);
         let made = session.timed("weights", || Charge::new(region, &conductivity, &form));
-        let made = made
+        let stencils = made
             .map_err(|error| no_stencil("electric potential", &error, (self.scene, self.cloud)))?;
-        let Some(stencils) = made else {
+        if stencils.is_empty() && permeable.is_none() {
             return Ok(None);
-        };
+        }
         let parts = Parts {
             region,
             sides,
@@ -79,14 +95,20 @@ impl<const D: usize> Setting<'_, D> {
             conductivity: &conductivity,
             charge: &stencils,
         };
-        let equations = session.timed("assemble", || {
-            let open = self.currents.outer == OuterReaction::Multipole;
-            let multipoles = open.then(|| Multipoles::new(&self.region, &self.weights));
-            Coupled::new(&parts, multipoles.as_ref())
-        });
+        let open = self.currents.outer == OuterReaction::Multipole;
+        let multipoles = open.then(|| Multipoles::new(region, &self.weights));
+        let equations = session.timed("assemble", || Coupled::new(&parts, multipoles.as_ref()));
+        let mut given = self.given_rows();
+        if let (Some(permeable), Some(multipoles)) = (permeable, &multipoles) {
+            let far = permeable.far(region, multipoles, &self.source);
+            for (given, far) in given.iter_mut().zip(far) {
+                *given = std::array::from_fn(|k| given[k] + far[k]);
+            }
+        }
         Ok(Some(Charges {
             stencils,
             equations,
+            given,
         }))
     }
 
@@ -96,10 +118,11 @@ impl<const D: usize> Setting<'_, D> {
     /// Where the solve breaks down.
     pub(super) fn coupled<const K: usize>(
         &self,
-        coupled: &Coupled,
+        charges: &Charges,
         drive: &Drive<K>,
         session: &mut Session,
     ) -> Result<(Vec<[C; K]>, Vec<C>), Failure> {
+        let coupled = &charges.equations;
         let rate = C::new(0.0, drive.omega);
         let options = super::options(self.scene);
         let failed = |error| Failure::Other(format!("eddy currents: {error}"));
@@ -110,7 +133,7 @@ impl<const D: usize> Setting<'_, D> {
         driven.resize(coupled.len(), C::default());
         let unknowns = 0..coupled.points.len();
         let pull: Vec<C> = unknowns.map(|p| coupled.pull(p, &source)).collect();
-        let right = coupled.right(&driven, 1.0, (&pull, &self.given_rows()));
+        let right = coupled.right(&driven, 1.0, (&pull, &charges.given));
         let mut x = vec![C::default(); coupled.len()];
         let stop = session.interrupt();
         let rule = super::rule(self.scene, &*stop);

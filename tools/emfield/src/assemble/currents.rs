@@ -5,6 +5,7 @@ use num_complex::Complex;
 use run::{Failure, Session};
 
 use super::broken::unsolvable;
+use super::charge::Charges;
 use super::drive::{source, unknown};
 use super::enclosed::enclosed;
 use super::magnetic::Driven;
@@ -66,10 +67,10 @@ pub fn eddy_currents<const D: usize, const K: usize>(
     let charges = setting.charges(session)?;
     let (found, phi) = match &charges {
         None => (setting.solve(&drive, session)?, Vec::new()),
-        Some(charges) => setting.coupled(&charges.equations, &drive, session)?,
+        Some(charges) => setting.coupled(charges, &drive, session)?,
     };
     let mut change = steady_change(drive.omega, &found, &drive.source);
-    let charged = charges.map(|charges| {
+    let charged = charges.filter(Charges::charged).map(|charges| {
         let rate = C::new(0.0, drive.omega);
         let voltage: Vec<C> = phi.iter().map(|phi| rate * phi).collect();
         setting.charged(&charges.stencils, (&voltage, &voltage), &mut change)

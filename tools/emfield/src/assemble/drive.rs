@@ -56,18 +56,6 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
     faults.extend(magnet(scene, currents));
     let own = scene.surroundings.relative_permeability;
     faults.extend(vacuum(own, currents));
-    for (k, body) in scene.bodies.iter().enumerate() {
-        if scene.geometry == Geometry::Space && scene.magnetic(k + 1) {
-            let what = format!(
-                "{} differs from {own} of the surroundings: only one permeability is computed in space",
-                body.relative_permeability
-            );
-            faults.push(Fault::at(
-                &format!("/bodies/{k}/relative_permeability"),
-                what,
-            ));
-        }
-    }
     if let (Unknown::Axial, Some(b)) = (unknown, &currents.applied_flux_density_t) {
         let at = "/eddy_currents/applied_flux_density_t";
         if b[0] != 0.0 || b[1] != 0.0 {

@@ -179,17 +179,16 @@ fn stage<'a, const D: usize, const K: usize>(
     (charges, slope): (Option<&'a Charges>, f64),
     session: &mut Session,
 ) -> Result<Box<dyn Stage + 'a>, Failure> {
-    let given = setting.given_rows::<K>();
     let Some(charges) = charges else {
-        let equations = equations(setting, drive, given, session)?;
+        let equations = equations(setting, drive, session)?;
         let made = session.timed("factorise", || Alone::new(equations, slope));
         return Ok(Box::new(made.map_err(|error| failed(&error))?));
     };
-    let given: Vec<[f64; K]> = given.iter().map(|g| g.map(|g| g.re)).collect();
+    let given: Vec<[f64; 3]> = charges.given.iter().map(|g| g.map(|g| g.re)).collect();
     let source: Vec<[f64; K]> = drive.source.iter().map(|a| a.map(|a| a.re)).collect();
     let with = (slope, super::options(setting.scene));
     let made = session.timed("factorise", || {
-        let driven = (&spread(&source)[..], spread(&given));
+        let driven = (&spread(&source)[..], given);
         Charged::new(&charges.equations, driven, with)
     });
     Ok(Box::new(made.map_err(|error| failed(&error))?))
@@ -199,9 +198,9 @@ fn stage<'a, const D: usize, const K: usize>(
 fn equations<const D: usize, const K: usize>(
     setting: &Setting<'_, D>,
     drive: &Drive<K>,
-    mut given: Vec<[C; K]>,
     session: &mut Session,
 ) -> Result<Equations<K>, Failure> {
+    let mut given = setting.given_rows::<K>();
     let (region, sides, unknown) = (&setting.region, &setting.sides, setting.unknown);
     let conductors = &setting.conductors;
     let low = super::low_order(setting.scene, region.len()).map(|low| {
@@ -266,7 +265,8 @@ impl<const D: usize, const K: usize> View<'_, D, K> {
         let source: Vec<[C; K]> = drive.source.iter().map(|a| a.map(|a| a * wave)).collect();
         let flux: Vec<[C; 3]> = self.flux.iter().map(|b| b.map(|b| b * wave)).collect();
         let mut change = real(&state.change);
-        let charged = self.charges.map(|charges| {
+        let charges = self.charges.filter(|charges| charges.charged());
+        let charged = charges.map(|charges| {
             let potential = |phi: &[f64]| -> Vec<C> {
                 let whole = charges.equations.whole(phi);
                 whole.into_iter().map(C::from).collect()

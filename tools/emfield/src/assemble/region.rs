@@ -72,6 +72,7 @@ pub(crate) fn region<const D: usize>(
                 area: s.area,
             })
             .collect(),
+        still: still(scene),
         ..Region::default()
     };
     let mut faces = 0;
@@ -110,6 +111,16 @@ pub(crate) fn region<const D: usize>(
         region.wall_normals.push(std::array::from_fn(|k| normal[k]));
     }
     region
+}
+
+/// Media in which no current flows, where permeability mixes the components of potentials.
+fn still(scene: &Scene) -> Vec<bool> {
+    let magnetic = (1..=scene.bodies.len()).any(|m| scene.magnetic(m));
+    if scene.eddy_currents.is_none() || scene.geometry != Geometry::Space || !magnetic {
+        return Vec::new();
+    }
+    let quiet = |m: usize| scene.medium(m).conductivity_s_m == 0.0 && !scene.carries(m);
+    (0..=scene.bodies.len()).map(quiet).collect()
 }
 
 #[cfg(test)]

@@ -8,21 +8,17 @@
 //! on the surface: the charges are corrected by `k / 2` times the potential found first.
 
 use krylov::{
-    Ending, Error, Inverse, Method, Operator, Options, Rule, Scratch, Solved, Stagnation,
-    minimal_residual,
+    Ending, Error, Method, Operator, Options, Rule, Scratch, Solved, Stagnation, minimal_residual,
 };
 use rayon::prelude::*;
 
 use super::balance::Balance;
-use super::block::Block;
-use super::coupled::{Coupled, add, ones};
+use super::coupled::{Coupled, ROWS, add, ones};
+use super::factors::{Approximate, Factors};
 use super::rate::Rate;
 
 /// Bytes of a basis of minimal residuals, about.
 const MEMORY: usize = 600 << 20;
-
-/// Rows that one task gathers.
-const ROWS: usize = 512;
 
 /// The equations at a rate, with factors of their parts.
 pub struct AtRate<S: Rate> {
@@ -41,29 +37,10 @@ impl<S: Rate> AtRate<S> {
     /// # Errors
     /// Where a coefficient is no number, or a part is singular.
     pub fn new(coupled: &Coupled, rate: S, options: &Options) -> Result<Self, Error> {
-        let mut hold = vec![0.0; coupled.points.len()];
-        for body in &coupled.bodies {
-            for p in body.clone() {
-                hold[p] = coupled.hold[p] * body.len() as f64;
-            }
-        }
-        // Multigrid serves the rows of phi badly: one-sided slopes.
-        let own = match options.method {
-            Method::Chosen if coupled.points.len() <= options.rescue => Options {
-                method: Method::Direct,
-                ..*options
-            },
-            _ => *options,
-        };
         Ok(Self {
             rate,
             balance: Balance::new(coupled, rate),
-            factors: Factors {
-                potential: potential(coupled, rate, options)?,
-                charge: Block::new(&coupled.poisson, &hold, &own)?,
-                a: [(); 2].map(|()| vec![[S::ZERO; 3]; coupled.points()]),
-                phi: [(); 2].map(|()| vec![[S::ZERO; 1]; coupled.points.len()]),
-            },
+            factors: Factors::new(coupled, rate, options)?,
             options: *options,
             rescued: false,
             scratch: Scratch::default(),
@@ -75,7 +52,7 @@ impl<S: Rate> AtRate<S> {
     /// # Errors
     /// As for [`Self::new`].
     pub fn pace(&mut self, coupled: &Coupled, rate: S) -> Result<(), Error> {
-        self.factors.potential = potential(coupled, rate, &self.options)?;
+        self.factors.pace(coupled, rate, &self.options)?;
         self.balance = Balance::new(coupled, rate);
         self.rate = rate;
         Ok(())
@@ -95,7 +72,7 @@ impl<S: Rate> AtRate<S> {
             method: Method::Direct,
             ..self.options
         };
-        self.factors.potential = potential(coupled, self.rate, &options)?;
+        self.factors.pace(coupled, self.rate, &options)?;
         (self.options, self.rescued) = (options, true);
         Ok(())
     }
@@ -155,17 +132,12 @@ impl<S: Rate> AtRate<S> {
     }
 }
 
-fn potential<S: Rate>(coupled: &Coupled, rate: S, options: &Options) -> Result<S::Block, Error> {
-    let shift: Vec<S> = coupled.rates.iter().map(|r| rate.times_real(*r)).collect();
-    S::block(&coupled.rows, &shift, options)
-}
-
 /// All rows.
 #[derive(Clone, Copy)]
-struct Whole<'a, S> {
-    coupled: &'a Coupled,
-    rate: S,
-    balance: &'a Balance<S>,
+pub(super) struct Whole<'a, S> {
+    pub(super) coupled: &'a Coupled,
+    pub(super) rate: S,
+    pub(super) balance: &'a Balance<S>,
 }
 
 impl<S: Rate> Operator<S> for Whole<'_, S> {
@@ -179,29 +151,17 @@ impl<S: Rate> Operator<S> for Whole<'_, S> {
         let (out_a, out_phi) = out.split_at_mut(3 * coupled.points());
         let a = a.as_chunks::<3>().0;
         let out_a = out_a.as_chunks_mut::<3>().0;
-        let row = |(i, out): (usize, &mut [[S; K]; 3])| {
-            let mut own = [[S::ZERO; K]; 3];
-            for (j, w) in coupled.rows.pairs(i) {
-                for (own, a) in own.iter_mut().zip(&a[j]) {
-                    add(own, a, w);
-                }
-            }
-            let moved = coupled.moved(i, (a, phi));
-            for k in 0..3 {
-                for c in 0..K {
-                    out[k][c] = own[k][c] + rate * moved[k][c];
-                }
-            }
-        };
-        let rows = out_a.par_iter_mut().with_min_len(ROWS);
-        rows.enumerate().for_each(row);
+        coupled.rows_of_a(rate, (a, phi), out_a);
         for pair in &coupled.pairs {
-            let moment = pair.moment(&coupled.points, (a, phi));
+            let mut moment = pair.moment((a, phi)).map(|m| m.map(|m| rate * m));
+            if let Some(still) = pair.still(a) {
+                let sum = moment.as_flattened_mut().iter_mut();
+                sum.zip(still.as_flattened())
+                    .for_each(|(sum, still)| *sum += *still);
+            }
             for (i, u) in &pair.walls {
                 for (out, moment) in out_a[*i as usize].iter_mut().zip(moment) {
-                    for (out, moment) in out.iter_mut().zip(moment) {
-                        *out += (rate * moment).times_real(*u);
-                    }
+                    add(out, &moment, *u);
                 }
             }
         }
@@ -234,62 +194,6 @@ impl<S: Rate> Whole<'_, S> {
             }
             for p in body.clone() {
                 add(&mut out[p], &total, coupled.hold[p]);
-            }
-        }
-    }
-}
-
-/// Factors of the rows of A and of those of phi, and scratch.
-struct Factors<S: Rate> {
-    potential: S::Block,
-    charge: Block<f64>,
-    a: [Vec<[S; 3]>; 2],
-    phi: [Vec<[S; 1]>; 2],
-}
-
-/// Solves for A, then for the charges that it asks for.
-struct Approximate<'a, S: Rate> {
-    whole: Whole<'a, S>,
-    factors: &'a mut Factors<S>,
-}
-
-impl<S: Rate> Inverse<S> for Approximate<'_, S> {
-    fn invert<const K: usize>(&mut self, given: &[[S; K]], found: &mut [[S; K]]) {
-        let Whole {
-            coupled, balance, ..
-        } = self.whole;
-        let root = self.whole.rate.root();
-        let start = 3 * coupled.points();
-        let Factors {
-            potential,
-            charge,
-            a: [a, b],
-            phi: [phi, rest],
-        } = &mut *self.factors;
-        for c in 0..K {
-            let rows = given[..start].as_chunks::<3>().0;
-            for (a, given) in a.iter_mut().zip(rows) {
-                *a = given.map(|g| g[c]);
-            }
-            balance.back(coupled, (a, |p| given[start + p][c]));
-            potential.invert(a, b);
-            for (p, rest) in rest.iter_mut().enumerate() {
-                *rest = [given[start + p][c] - coupled.pull(p, b)];
-            }
-            S::invert(charge, rest, phi);
-            for body in &coupled.bodies {
-                let on = || body.clone().filter(|p| coupled.skin[*p] != 0.0);
-                let count = on().count().max(1) as f64;
-                let mean = on().map(|p| phi[p][0]).sum::<S>();
-                let mean = mean.times_real(1.0 / count);
-                for p in on() {
-                    rest[p][0] += root * (phi[p][0] - mean).times_real(coupled.skin[p]);
-                }
-            }
-            S::invert(charge, rest, phi);
-            let all = b.as_flattened().iter().chain(phi.as_flattened());
-            for (found, own) in found.iter_mut().zip(all) {
-                found[c] = *own;
             }
         }
     }

@@ -23,11 +23,16 @@ where
     f64: Coefficient<S>,
     f32: Coefficient<S>,
 {
-    /// Factors of `rows + diag(shift)`.
+    /// Factors of `rows + diag(shift)`, where these are fluxes by the given `sizes`: multiplied by them, rows of many
+    /// neighbours add up to about what passes the border of these.
     ///
     /// # Errors
     /// Where a coefficient is no number, or the rows are singular.
-    pub fn new(rows: &Rows<f64>, shift: &[S], options: &Options) -> Result<Self, Error> {
+    pub fn new(
+        (rows, sizes): (&Rows<f64>, &[f64]),
+        shift: &[S],
+        options: &Options,
+    ) -> Result<Self, Error> {
         let n = rows.len();
         let direct = match options.method {
             Method::Direct => true,
@@ -47,11 +52,9 @@ where
                 _ => Grids::default(),
             };
             let rows = rows.permuted(&order);
-            // Laplacians have negative diagonals and slopes positive ones: summed up as they are, rows would cancel in
-            // the coarse equations.
-            let sign = |i: usize| if rows.diagonal(i) < 0.0 { -1.0 } else { 1.0 };
-            let signs = (0..n).map(sign).collect();
-            let made = Multigrid::<f64, S>::of_fluxes(&rows, &mixed, (&order, signs), grids)?;
+            let mut fluxes = vec![0.0; n];
+            order.forth(sizes, &mut fluxes);
+            let made = Multigrid::<f64, S>::of_fluxes(&rows, &mixed, (&order, fluxes), grids)?;
             way = Way::Grids(Box::new(made));
         }
         Ok(Self {

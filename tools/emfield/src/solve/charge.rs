@@ -100,15 +100,11 @@ pub struct Charge {
 }
 
 impl Charge {
-    /// Finds the conductors and makes their stencils; none where nothing conducts.
+    /// Finds the conductors and makes their stencils.
     ///
     /// # Errors
     /// Where points are alone, coincide or lie in a plane.
-    pub fn new(
-        region: &Region<3>,
-        conductivity: &[f64],
-        form: &Form,
-    ) -> Result<Option<Self>, Error> {
+    pub fn new(region: &Region<3>, conductivity: &[f64], form: &Form) -> Result<Self, Error> {
         let straight = region.metrics.iter().map(|metric| metric.straight());
         let metrics: Vec<Metric<3>> = straight.collect();
         let cloud = Cloud {
@@ -136,14 +132,14 @@ impl Charge {
         for (p, i) in points.iter().enumerate() {
             unknown[*i as usize] = p as u32;
         }
-        Ok((!points.is_empty()).then_some(Self {
+        Ok(Self {
             points,
             bodies,
             unknown,
             within,
             inner,
             outer,
-        }))
+        })
     }
 
     /// Number of unknowns.

@@ -1,12 +1,12 @@
 //! A and V together in space, whatever the rate of change.
 //!
 //! Unknown are the reaction A at all points and `phi`, of which V is the rate, at those of conductors ([`super::charge`]).
-//! With permeability uniform and `div A = 0` (Matsuzawa 2017, eqs 2.64 to 2.66 and 2.69):
+//! With `div A = 0` (Matsuzawa 2017, eqs 2.64 to 2.66 and 2.69):
 //!
 //! - in air: `lap A = 0`;
 //! - in a conductor: `lap A - mu sigma d(A + A_s + grad phi)/dt = 0` and `lap phi = 0`;
-//! - on an interface: `dA/dn` is continuous, from one-sided gradients that know the Laplacian of
-//!   their side; on the surface of a conductor `n.grad phi = -n.(A + A_s)`.
+//! - on an interface: `dA/dn` is continuous where permeability is ([`super::magnetised`] where it jumps), from one-sided
+//!   gradients that know the Laplacian of their side; on the surface of a conductor `n.grad phi = -n.(A + A_s)`.
 //!
 //! The rows of `phi` hold at each instant, since all have been zero before anything was switched on: a jump of `A_s`
 //! makes one of `phi`, where V has none. `A` and `phi` add up to the unknown of a diffusion, `A + grad phi`, whose normal
@@ -20,14 +20,20 @@
 //! spread over the body, instead of leaving it at a point.
 
 use krylov::Rows;
+use rayon::prelude::*;
 
 use super::balance::Surface;
 use super::charge::{Charge, Side};
 use super::diffusion::Conductors;
+use super::magnetised::Magnetised;
+use super::moments::Pair;
 use super::multipole::Multipoles;
 use super::rate::Rate;
 use super::region::{Kind, Region};
 use super::sides::{Sides, share_along};
+
+/// Rows that one task gathers.
+pub(super) const ROWS: usize = 512;
 
 /// Extents of a body over the length that holds its constant.
 const HOLD: f64 = 3.0;
@@ -47,35 +53,6 @@ pub struct Parts<'a> {
     pub charge: &'a Charge,
 }
 
-/// A multipole of the currents, which stands in the rows of walls.
-#[derive(Debug, Clone)]
-pub(super) struct Pair {
-    /// Points of walls, and what a unit moment gives there.
-    pub(super) walls: Vec<(u32, f64)>,
-    /// What the rate of `A + A_s` at the point of each unknown adds to the moment.
-    potential: Vec<f64>,
-    /// What that of phi of each unknown adds along each axis.
-    charge: Vec<[f64; 3]>,
-}
-
-impl Pair {
-    /// The moment of rates at the points and of phi.
-    pub(super) fn moment<S: Rate, const K: usize>(
-        &self,
-        points: &[u32],
-        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
-    ) -> [[S; K]; 3] {
-        let mut moment = [[S::ZERO; K]; 3];
-        for (p, i) in points.iter().enumerate() {
-            for (k, sum) in moment.iter_mut().enumerate() {
-                add(sum, &a[*i as usize][k], self.potential[p]);
-                add(sum, &phi[p], self.charge[p][k]);
-            }
-        }
-        moment
-    }
-}
-
 /// The equations. Unknowns: three of A for each point, then those of phi, over [`Self::length`].
 #[derive(Debug, Clone)]
 pub struct Coupled {
@@ -89,7 +66,7 @@ pub struct Coupled {
     pub rows: Rows<f64>,
     /// What stands before the rate of A in them, with its sign.
     pub rates: Vec<f64>,
-    /// What they have been multiplied by.
+    /// What right sides in them are multiplied by.
     even: Vec<f64>,
     /// Starts of the rows of `drag`.
     starts: Vec<usize>,
@@ -106,6 +83,8 @@ pub struct Coupled {
     /// Surfaces of conductors.
     pub surfaces: Vec<Surface>,
     pub(super) pairs: Vec<Pair>,
+    /// What rows have beside where permeability is not uniform.
+    pub(super) magnetised: Option<Magnetised>,
 }
 
 impl Coupled {
@@ -115,9 +94,10 @@ impl Coupled {
         use super::diffusion::Unknown::Potential;
         let Parts { region, sides, .. } = *parts;
         let (n, m) = (region.len(), parts.charge.len());
-        let mut rows = parts.conductors.rows(region, sides, Potential);
+        let smooth = parts.conductors.smooth();
+        let mut rows = smooth.rows(region, sides, Potential);
         let even: Vec<f64> = (0..n).map(|i| even(rows.values_mut(i))).collect();
-        let rates = parts.conductors.rates(region, sides, Potential);
+        let rates = smooth.rates(region, sides, Potential);
         let mut made = Self {
             points: parts.charge.points.clone(),
             bodies: parts.charge.bodies.clone(),
@@ -133,6 +113,7 @@ impl Coupled {
             skin: vec![0.0; m],
             surfaces: Vec::new(),
             pairs: Vec::new(),
+            magnetised: None,
         };
         let extents: Vec<f64> = made.bodies.iter().map(|b| extent(parts, b)).collect();
         made.length = extents.iter().copied().fold(0.0, f64::max);
@@ -140,12 +121,12 @@ impl Coupled {
             made.dragged(parts, i);
         }
         made.potential(parts, &extents);
-        for (moment, field) in multipoles
-            .iter()
-            .flat_map(|l| l.moments.iter().zip(&l.fields))
-        {
-            let pair = made.pair(parts, (moment, field));
-            made.pairs.push(pair);
+        if let Some(multipoles) = multipoles {
+            made.pairs = Pair::all(parts, multipoles, (&made.even, made.length));
+        }
+        made.magnetised = Magnetised::of(parts, &made.even);
+        if let Some(magnetised) = &made.magnetised {
+            made.even.clone_from(&magnetised.even);
         }
         made
     }
@@ -154,8 +135,12 @@ impl Coupled {
     fn dragged(&mut self, parts: &Parts<'_>, i: usize) {
         let scale = self.even[i] * self.length;
         let mut add = |side: Side, rate: f64| {
+            let mixed = Magnetised::dragged(parts, (i, side == Side::Inner), scale);
             for (q, w) in parts.charge.gradient(i, side) {
-                self.drag.push((q as u32, w.map(|w| -rate * scale * w)));
+                let own = w.map(|w| -rate * scale * w);
+                let beside = mixed.as_ref().map_or([0.0; 3], |mixed| mixed(w));
+                let all = std::array::from_fn(|k| own[k] + beside[k]);
+                self.drag.push((q as u32, all));
             }
         };
         let mu_sigma = |m: u8| parts.conductors.mu_sigma[m as usize];
@@ -209,28 +194,6 @@ impl Coupled {
         }
     }
 
-    /// The rows of walls for one multipole.
-    fn pair(&self, parts: &Parts<'_>, (moment, field): (&[f64], &[f64])) -> Pair {
-        let far = field.iter().enumerate().filter(|(_, f)| **f != 0.0);
-        let mut pair = Pair {
-            walls: far.map(|(i, f)| (i as u32, f * self.even[i])).collect(),
-            potential: vec![0.0; self.points.len()],
-            charge: vec![[0.0; 3]; self.points.len()],
-        };
-        for (p, i) in self.points.iter().enumerate() {
-            let i = *i as usize;
-            let mu_sigma = parts.conductors.mu_sigma[parts.region.medium(i) as usize];
-            let weight = mu_sigma * moment[i];
-            pair.potential[p] = weight;
-            for (q, w) in parts.charge.gradient(i, Side::Inner) {
-                for (sum, w) in pair.charge[q].iter_mut().zip(w) {
-                    *sum += weight * (self.length * w);
-                }
-            }
-        }
-        pair
-    }
-
     /// Number of points.
     #[must_use]
     pub fn points(&self) -> usize {
@@ -267,6 +230,34 @@ impl Coupled {
         sum
     }
 
+    /// The rows of A of values at a rate, without multipoles; without phi where none is given.
+    pub(super) fn rows_of_a<S: Rate, const K: usize>(
+        &self,
+        rate: S,
+        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
+        out: &mut [[[S; K]; 3]],
+    ) {
+        let row = |(i, out): (usize, &mut [[S; K]; 3])| {
+            let mut own = [[S::ZERO; K]; 3];
+            for (j, w) in self.rows.pairs(i) {
+                for (own, a) in own.iter_mut().zip(&a[j]) {
+                    add(own, a, w);
+                }
+            }
+            let moved = self.moved(i, (a, phi));
+            for k in 0..3 {
+                for c in 0..K {
+                    out[k][c] = own[k][c] + rate * moved[k][c];
+                }
+            }
+        };
+        let rows = out.par_iter_mut().with_min_len(ROWS);
+        rows.enumerate().for_each(row);
+        if let Some(magnetised) = &self.magnetised {
+            magnetised.apply((a, rate), out);
+        }
+    }
+
     /// What a potential by point adds to the row of unknown `p` of phi.
     #[must_use]
     pub fn pull<S: Rate>(&self, p: usize, potential: &[[S; 3]]) -> S {
@@ -294,8 +285,15 @@ impl Coupled {
                 *right += given.times_real(even * wave);
             }
         }
+        if let Some(magnetised) = &self.magnetised {
+            for (i, right) in right.iter_mut().enumerate() {
+                for (right, [moved]) in right.iter_mut().zip(magnetised.moved(i, &a[i])) {
+                    *right -= moved;
+                }
+            }
+        }
         for pair in &self.pairs {
-            let moment = pair.moment(&self.points, (a, phi));
+            let moment = pair.moment((a, phi));
             for (i, u) in &pair.walls {
                 for (right, [moment]) in right[*i as usize].iter_mut().zip(moment) {
                     *right -= moment.times_real(*u);

@@ -65,11 +65,20 @@ impl Unknown {
 
 impl Conductors {
     /// What the slope on the side of a medium is multiplied by at its interfaces.
-    fn weight(&self, medium: u8) -> f64 {
+    pub(super) fn weight(&self, medium: u8) -> f64 {
         match (&self.axial, &self.permeable) {
             (Some(axial), _) => axial.resistivity[medium as usize],
             (None, Some(permeable)) => permeable.weight(medium),
             (None, None) => 1.0,
+        }
+    }
+
+    /// The same where slopes are continuous, whatever the permeability.
+    #[must_use]
+    pub fn smooth(&self) -> Self {
+        Self {
+            permeable: None,
+            ..self.clone()
         }
     }
 

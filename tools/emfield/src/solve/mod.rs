@@ -5,15 +5,17 @@
 //! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`drive`] what drives
 //!   them, [`eddy`] the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
-//! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability.
+//! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability, [`magnetised`] in space, [`bound`] what walls
+//!   know of these there.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`at_rate`] their solution at a
-//!   [`rate`] of change, by [`block`]s and in [`balance`].
+//!   [`rate`] of change, by [`block`]s, [`factors`] and in [`balance`], [`moments`] what walls know of the currents.
 //! - [`march`]: the same in time, each stage of A [`alone`] or [`charged`].
 
 pub mod alone;
 pub mod at_rate;
 pub mod balance;
 pub mod block;
+mod bound;
 pub mod charge;
 pub mod charged;
 mod coils;
@@ -23,9 +25,12 @@ pub mod drive;
 pub mod eddy;
 pub mod electrostatic;
 pub mod enclosed;
+mod factors;
 pub mod holes;
+pub mod magnetised;
 pub mod march;
 mod mirror;
+mod moments;
 pub mod multipole;
 pub mod permeable;
 pub mod quadrature;

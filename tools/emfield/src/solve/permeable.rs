@@ -5,7 +5,8 @@
 //! continuous (Jackson 1999, section 5.8). Since `n x curl A = grad(n.A) - dA/dn` with n held,
 //!
 //! - in a plane `nu dA/dn` is;
-//! - about an axis, with `u = A / r`, `nu (du/dn + 2 (n_r / r) u)` is.
+//! - about an axis, with `u = A / r`, `nu (du/dn + 2 (n_r / r) u)` is;
+//! - in space the components mix: [`super::magnetised`].
 //!
 //! Sources have no sheets of current there: of `A = A_s + a` they put `(nu_a - nu_b) n x B_s` into the row of a.
 //!
@@ -75,7 +76,7 @@ impl Permeable {
     }
 
     /// `nu_a - nu_b` of a face.
-    fn jump<const D: usize>(&self, face: &Face<D>) -> f64 {
+    pub(super) fn jump<const D: usize>(&self, face: &Face<D>) -> f64 {
         self.weight(face.inner) - self.weight(face.outer)
     }
 
@@ -229,7 +230,7 @@ impl Permeable {
     }
 
     /// Points of magnetised media with `(1 - nu)` times the volume for which each stands.
-    fn magnets<'a, const D: usize>(
+    pub(super) fn magnets<'a, const D: usize>(
         &'a self,
         region: &'a Region<D>,
         weights: &'a [f64],

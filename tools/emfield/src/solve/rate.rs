@@ -14,11 +14,15 @@ pub trait Rate: Scalar {
     #[must_use]
     fn root(self) -> Self;
 
-    /// Factors of `rows + diag(shift)`.
+    /// Factors of `rows + diag(shift)`, fluxes by the given sizes.
     ///
     /// # Errors
     /// Where a coefficient is no number, or the rows are singular.
-    fn block(rows: &Rows<f64>, shift: &[Self], options: &Options) -> Result<Self::Block, Error>;
+    fn block(
+        rows: (&Rows<f64>, &[f64]),
+        shift: &[Self],
+        options: &Options,
+    ) -> Result<Self::Block, Error>;
 
     /// Applies real factors.
     fn invert(block: &mut Block<f64>, given: &[[Self; 1]], found: &mut [[Self; 1]]);
@@ -31,7 +35,11 @@ impl Rate for f64 {
         self.sqrt()
     }
 
-    fn block(rows: &Rows<f64>, shift: &[Self], options: &Options) -> Result<Self::Block, Error> {
+    fn block(
+        rows: (&Rows<f64>, &[f64]),
+        shift: &[Self],
+        options: &Options,
+    ) -> Result<Self::Block, Error> {
         Block::new(rows, shift, options)
     }
 
@@ -47,7 +55,11 @@ impl Rate for Complex<f64> {
         self.sqrt()
     }
 
-    fn block(rows: &Rows<f64>, shift: &[Self], options: &Options) -> Result<Self::Block, Error> {
+    fn block(
+        rows: (&Rows<f64>, &[f64]),
+        shift: &[Self],
+        options: &Options,
+    ) -> Result<Self::Block, Error> {
         Block::new(rows, shift, options)
     }
 

@@ -155,6 +155,7 @@ impl<const D: usize> Sides<D> {
                 region,
                 inner,
                 harmonic: form.harmonic,
+                still: form.order > 2,
                 around: form.around,
             };
             mirror.stencils(&search, &form.plan::<D>(gradient), &rules)

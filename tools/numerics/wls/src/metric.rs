@@ -138,6 +138,12 @@ impl<const D: usize> Metric<D> {
         }
     }
 
+    /// How many times as wide as thick layers are; 1 where all directions are alike.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.layer.map_or(1.0, |layer| layer.ratio)
+    }
+
     /// The greater principal curvature \[1/m\].
     fn most_curved(&self) -> f64 {
         let bend = self.layer.as_ref().and_then(|l| l.bend.as_ref());

@@ -42,7 +42,7 @@ fn applied(region: &Region<3>, origin: Origin) -> Vec<[C; 3]> {
 fn ball(region: &Region<3>) -> (Charge, Coupled) {
     let sides = Sides::new(region, &FORM).unwrap();
     let conductivity = [0.0, SIGMA];
-    let charge = Charge::new(region, &conductivity, &FORM).unwrap().unwrap();
+    let charge = Charge::new(region, &conductivity, &FORM).unwrap();
     let conductors = Conductors {
         mu_sigma: conductivity.map(|s| MU0 * s).to_vec(),
         axial: None,
@@ -133,7 +133,7 @@ fn quadratics_are_exact_in_layers_thinner_than_their_surface_bends() {
             *metric = metric.bent(across.map(|a| a / size), [1.0, 1.0]);
         }
     }
-    let charge = Charge::new(&region, &[0.0, SIGMA], &FORM).unwrap().unwrap();
+    let charge = Charge::new(&region, &[0.0, SIGMA], &FORM).unwrap();
     let phi = |q: usize| {
         let x = region.places[charge.points[q] as usize];
         x[0] * x[1] - 0.3 * x[2] * x[0] + 0.2 * x[2]
@@ -253,7 +253,7 @@ fn charges_follow_what_rises_with_second_order_in_time() {
 #[test]
 fn bodies_apart_have_constants_of_their_own() {
     let (mut region, _) = shells(0.3, 0.5);
-    let one = Charge::new(&region, &[0.0, 1.0], &FORM).unwrap().unwrap();
+    let one = Charge::new(&region, &[0.0, 1.0], &FORM).unwrap();
     assert_eq!(one.bodies, vec![0..one.len()]);
     assert_eq!(
         one.len(),
@@ -265,7 +265,7 @@ fn bodies_apart_have_constants_of_their_own() {
             .count()
     );
     // Nothing conducts: no unknowns.
-    assert!(Charge::new(&region, &[0.0, 0.0], &FORM).unwrap().is_none());
+    assert!(Charge::new(&region, &[0.0, 0.0], &FORM).unwrap().is_empty());
     // A second ball beside the first.
     let first = region.clone();
     let far = 20.0;
@@ -287,6 +287,6 @@ fn bodies_apart_have_constants_of_their_own() {
         face.point += first.len() as u32;
         region.faces.push(face);
     }
-    let two = Charge::new(&region, &[0.0, 1.0], &FORM).unwrap().unwrap();
+    let two = Charge::new(&region, &[0.0, 1.0], &FORM).unwrap();
     assert_eq!(two.bodies, vec![0..one.len(), one.len()..2 * one.len()]);
 }
