@@ -5,10 +5,10 @@
 //! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`drive`] what drives
 //!   them, [`eddy`] the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
-//! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability, [`magnetised`] in space, [`bound`] what walls
+//! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability, [`magnetised`] in space, `bound` what walls
 //!   know of these there.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`at_rate`] their solution at a
-//!   [`rate`] of change, by [`block`]s, [`factors`] and in [`balance`], [`moments`] what walls know of the currents.
+//!   [`rate`] of change, by [`block`]s, `factors` and in [`balance`], `moments` what walls know of the currents.
 //! - [`march`]: the same in time, each stage of A [`alone`] or [`charged`].
 
 pub mod alone;
