@@ -22,7 +22,7 @@ mod winding;
 
 use std::sync::atomic::AtomicBool;
 
-use krylov::{Ending, Grids, Method, Options, Rule, Solved};
+use krylov::{Ending, Grids, Keep, Method, Options, Rule, Solved};
 use run::{Failure, Session};
 
 use crate::cloud::Cloud;
@@ -39,6 +39,12 @@ pub(crate) use region::region;
 pub use shorts::shorts;
 pub use winding::windings;
 
+/// What incomplete factors by size have.
+const LARGE: Keep = Keep::Threshold {
+    drop: 1e-2,
+    fill: 2.0,
+};
+
 /// How the systems of a scene are solved.
 fn options(scene: &Scene) -> Options {
     Options {
@@ -46,6 +52,8 @@ fn options(scene: &Scene) -> Options {
             Way::Auto => Method::Chosen,
             Way::Direct => Method::Direct,
             Way::Iterative => Method::Multigrid(Grids::default()),
+            Way::Ilu0 => Method::Incomplete(Keep::PATTERN),
+            Way::Ilut => Method::Incomplete(LARGE),
         },
         ..Options::default()
     }
@@ -77,7 +85,7 @@ fn low_order(scene: &Scene, unknowns: usize) -> Option<Form> {
     let direct = match scene.solver.way {
         Way::Auto => unknowns <= Options::default().direct,
         Way::Direct => true,
-        Way::Iterative => false,
+        Way::Iterative | Way::Ilu0 | Way::Ilut => false,
     };
     (scene.method.order > 2 && !direct).then_some(Form {
         order: 2,

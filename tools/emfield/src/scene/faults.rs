@@ -6,7 +6,7 @@ use run::Fault;
 use shapes::check::{self, Misfit};
 
 use super::currents::Region;
-use super::method::Interfaces;
+use super::method::{Interfaces, Way};
 use super::output::Closed;
 use super::{BodyScene, Coil, Domain, EddyCurrents, Electrostatics, Geometry, Scene};
 
@@ -69,6 +69,16 @@ impl Scene {
             misfits.push(Misfit::at(
                 "/method/interfaces/smeared",
                 "is a way of electrostatics: eddy currents have one-sided slopes; leave \"interfaces\" away",
+            ));
+        }
+        let incomplete = matches!(self.solver.way, Way::Ilu0 | Way::Ilut);
+        let magnetic = (1..=self.bodies.len()).any(|m| self.magnetic(m));
+        let currents = self.eddy_currents.as_ref();
+        let together = currents.is_some_and(|c| c.charged(self.geometry) || magnetic);
+        if incomplete && together && self.geometry == Geometry::Space {
+            misfits.push(Misfit::at(
+                "/solver/way",
+                "incomplete factors serve one operator: potentials of charges and bodies of another permeability in space are solved for part by part; take \"auto\", or \"potential\": \"none\" of \"eddy_currents\" without such bodies",
             ));
         }
         let compared = self.electrostatics.is_some()

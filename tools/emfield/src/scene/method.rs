@@ -77,6 +77,10 @@ pub enum Way {
     Direct,
     /// BiCGStab(2) with algebraic multigrid.
     Iterative,
+    /// BiCGStab(2) with incomplete factors that have the entries of the matrix, ILU(0), as in the paper.
+    Ilu0,
+    /// BiCGStab(2) with incomplete factors that have up to twice as many, ILUT.
+    Ilut,
 }
 
 /// How equations are solved.

@@ -1,14 +1,20 @@
 //! Sparse matrices and preconditioned Krylov solvers.
 //!
-//! Made for the equations of meshless conduction: in each row a positive diagonal, off-diagonals
-//! that are not positive, and a row sum that is not negative (positive where a value is given or
-//! heat is stored). Coefficients may jump by nine orders between neighbours.
+//! Two families. Symmetric conduction, with positive diagonals, off-diagonals that are not positive and coefficients that
+//! may jump by nine orders between neighbours:
 //!
-//! - [`Sparse`]: rows over a shared [`Pattern`], the diagonal apart.
-//! - [`conjugate_gradient`] for symmetric, [`gmres`] for other matrices. Both are flexible: the
-//!   preconditioner may differ from call to call.
-//! - [`Jacobi`] (the diagonal), [`Scaled`] (columns scaled by known factors) and [`Aggregation`]
-//!   (algebraic multigrid), whose iteration count hardly knows the number of unknowns or the jumps.
+//! - [`Sparse`]: rows over a shared [`Pattern`], the diagonal apart;
+//! - [`conjugate_gradient`] for symmetric, [`gmres`] for other matrices, flexible both: the preconditioner may differ from
+//!   call to call;
+//! - [`Jacobi`] (the diagonal), [`Scaled`] (columns scaled by known factors) and [`Aggregation`] (algebraic multigrid),
+//!   whose iteration count hardly knows the number of unknowns or the jumps.
+//!
+//! Unsymmetric rows of scattered points, real, or real with a complex diagonal, for one or three columns at once:
+//!
+//! - [`System`]: [`Rows`] scaled and reordered ([`Order`]), a [`Method`] chosen, multipoles as low-rank [`Pair`]s;
+//! - [`bicgstab2`] (Sleijpen and Fokkema 1993), and [`minimal_residual`] where its short recurrence stagnates;
+//! - [`Incomplete`] factors (ILU(0) and ILUT, in single precision), [`Multigrid`] smoothed by them, sparse [`Direct`] factors;
+//! - [`Solved`] with the history of residuals, and an [`Ending`] that says why a solve stagnated or broke down.
 //!
 //! Sums run over chunks whose size depends on the length alone and whose results are added in
 //! order, and smoothing runs over blocks of fixed size: results are bitwise independent of the
