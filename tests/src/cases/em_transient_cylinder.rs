@@ -28,7 +28,7 @@ impl Case for EmTransientCylinder {
     fn targets(&self) -> Vec<Target> {
         vec![
             Target::error("field_linf", 2e-3),
-            Target::order("field_linf", 1.8),
+            Target::order("field_linf", 1.95),
         ]
     }
 

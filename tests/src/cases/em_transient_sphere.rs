@@ -28,8 +28,8 @@ impl Case for EmTransientSphere {
         vec![
             Target::error("potential_linf", 2e-3),
             Target::error("flux_linf", 5e-3),
-            Target::order("potential_linf", 1.8),
-            Target::order("flux_linf", 1.8),
+            Target::order("potential_linf", 1.95),
+            Target::order("flux_linf", 1.95),
         ]
     }
 
