@@ -1,10 +1,18 @@
 //! Names that cannot be those of an output or an input: folders, pipes, devices, other formats, nothing.
 
 use std::os::unix::fs::FileTypeExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::workplace::{Place, header, program, tell, told};
+
+/// A pipe with a name.
+fn pipe(place: &Place) -> PathBuf {
+    let pipe = place.path("pipe.mcap");
+    let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    pipe
+}
 
 #[test]
 fn an_artefact_takes_the_place_of_files_only() {
@@ -15,14 +23,7 @@ fn an_artefact_takes_the_place_of_files_only() {
     place
         .average_to(&frames, &folder)
         .must(2, &["--out", "folder.mcap: is a folder"]);
-    let pipe = place.path("pipe.mcap");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
+    let pipe = pipe(&place);
     place
         .average_to(&frames, &pipe)
         .must(2, &["--out", "pipe.mcap: is a pipe"]);
@@ -89,14 +90,7 @@ fn artefacts_are_not_read_from_folders_and_pipes() {
     let place = Place::new();
     let folder = place.path("");
     tell("artefact", &["info".as_ref(), folder.as_os_str()]).must(1, &["it is a folder"]);
-    let pipe = place.path("pipe.mcap");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
+    let pipe = pipe(&place);
     tell("artefact", &["info".as_ref(), pipe.as_os_str()]).must(1, &["no regular file"]);
 }
 
