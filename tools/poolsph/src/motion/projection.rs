@@ -36,6 +36,11 @@ use crate::sweep::{GRAIN, carried, middle, summed, summed_double};
 /// disordered clouds are somewhat stiffer.
 const STEP: f64 = 0.87;
 
+/// Momentum of the first sweep, as of accelerated gradients that are two sweeps old: the last pressure
+/// is near, and what it lacks is smooth. From 1, the start of a cold solution, the same falls take
+/// longer.
+const MOMENTUM: f64 = 3.0;
+
 /// Least diagonal in parts of the lattice's: a particle at the edge of another's reach must not
 /// answer with a pressure without bound, which would strike when the two come closer.
 const DIAGONAL_LEAST: f64 = 0.1;
@@ -136,7 +141,7 @@ impl Projection {
         let dt = step.dt;
         self.prepare(near, dt);
         self.start(near, predicted, step);
-        let mut momentum = 1.0_f64;
+        let mut momentum = MOMENTUM;
         let liquid = near.liquid_count().max(1) as f64;
         while solved.sweeps < tolerance.sweeps_max {
             self.accelerate(near);
@@ -149,7 +154,7 @@ impl Projection {
             }
             let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
             let (weight, next) = if sum.turn > 0.0 {
-                (0.0, 1.0)
+                (0.0, MOMENTUM)
             } else {
                 ((momentum - 1.0) / next, next)
             };
