@@ -3,7 +3,8 @@
 //! Of the vertical part, dA n_z is the area that the particle has as seen from above: the force on the
 //! pool is that of the arc's table however torn the surface is, and nothing presses on what lies
 //! hidden below an overhang. Sideways, walls are pressed and undersides are not: a slab with both its faces free would
-//! else feel no sideways force at all, however it is inclined.
+//! else feel no sideways force at all, however it is inclined. What a particle has of the plan lies around it, and
+//! takes the pressure there; its wall lies before it on the surface.
 //!
 //! Komen (2019, section 4.4.1) takes the pressure from the gas speed by Bernoulli's law and finds it
 //! too small; here it is the arc's own, at the same distance from the axis.
@@ -15,10 +16,6 @@ use crate::near::{Role, plus};
 use crate::source::arc::Radial;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Column, Metal, State};
-
-/// A wall whose normal points down by this much is out of reach. It is above zero for the scatter of normals: half of
-/// the patches of an upright wall look down a little.
-const LEAN: f64 = 0.2;
 
 /// The pressure of the arc (key `arc_pressure`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,11 +41,6 @@ impl ArcPressure {
     }
 }
 
-/// The part of a patch that the arc reaches from above, by the upward part of its normal.
-fn reached(upward: f64) -> f64 {
-    (1.0 + upward / LEAN).clamp(0.0, 1.0)
-}
-
 impl Stage for ArcPressure {
     fn name(&self) -> &'static str {
         "arc_pressure"
@@ -69,13 +61,17 @@ impl Stage for ArcPressure {
             if near.role[k] != Role::Liquid || patch.area.max(patch.seen) <= 0.0 {
                 continue;
             }
-            let (r, _) = axis.around(near.position[k]);
-            let pressure = self.pressure.at(r);
-            let [x, y, z] = patch.normal;
-            let side = reached(z) * patch.area;
-            let area = [side * x, side * y, patch.seen];
-            near.force[k] = plus(near.force[k], -pressure / self.volume, area);
-            self.pressed += pressure * patch.seen;
+            let x = near.position[k];
+            let [above, beside] = [x, patch.foot(x)].map(|x| self.pressure.at(axis.around(x).0));
+            let side = beside * patch.reached() * patch.area;
+            let down = above * patch.seen;
+            let [nx, ny, _] = patch.normal;
+            near.force[k] = plus(
+                near.force[k],
+                -1.0 / self.volume,
+                [side * nx, side * ny, down],
+            );
+            self.pressed += down;
         }
         Ok(())
     }

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! u_r = (x u_x + y u_y)/r; the square root in print loses the sign. The shear acts along the
-//! surface: what of the direction outwards points along the normal is taken off.
+//! surface: what of the direction outwards points along the normal is taken off. r is that of the surface, half a spacing
+//! from the particle; undersides are out of reach.
 
 use run::Fault;
 use run::property::{Curve, Property};
@@ -105,11 +106,11 @@ impl Stage for GasShear {
             if near.role[k] != Role::Liquid || patch.area <= 0.0 {
                 continue;
             }
-            let (r, [x, y]) = axis.around(near.position[k]);
+            let (r, [x, y]) = axis.around(patch.foot(near.position[k]));
             let outward = [x, y, 0.0];
             let stress = self.stress(r, dot(near.velocity[k], outward))?;
             let along = plus(outward, -dot(outward, patch.normal), patch.normal);
-            let per_volume = stress * patch.area / self.metal.volume();
+            let per_volume = stress * patch.reached() * patch.area / self.metal.volume();
             near.force[k] = plus(near.force[k], per_volume, along);
         }
         Ok(())

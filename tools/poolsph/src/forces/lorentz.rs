@@ -1,9 +1,9 @@
 //! The Lorentz force of the arc's current in the metal (Komen 2019, eq. 4.1 and section 4.2.1).
 //!
 //! The arc gives j x B over the distance from its axis and the depth in a flat plate. The depth of a
-//! particle is taken from the surface above it: the mean height of the surface particles within the
-//! support of the kernel, seen from above. These lie up to half a spacing inside the surface, so that depths are short
-//! by that much.
+//! particle is taken from the surface above it. What looks upwards is shared among the corners of squares of the plan, as
+//! wide as the support of the kernel: bilinear by its place on the surface, by as much area as would be seen of it from
+//! above. Between the corners the mean height is bilinear. Of evenly spread particles both keep a plane as it is.
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -41,58 +41,72 @@ impl Lorentz {
                 edge: metal.support(),
                 origin: [0.0; 2],
                 side: 0,
-                cells: Vec::new(),
+                corners: Vec::new(),
             },
         }
     }
 }
 
-/// Heights of the surface by squares of the plan, around the axis.
+/// Heights of the surface at the corners of squares of the plan, around the axis.
 struct Heights {
     edge: f64,
     origin: [f64; 2],
-    /// Squares along each side.
+    /// Corners along each side.
     side: usize,
     /// Area and area times height.
-    cells: Vec<(f64, f64)>,
+    corners: Vec<(f64, f64)>,
 }
 
+/// A corner of a square, and the bilinear weight that it has at a place inside.
+type Corner = (usize, f64);
+
 impl Heights {
-    /// Sums the surface of the copy within `reach` \[m\] of the axis into squares.
+    /// Sums the surface of the copy within `reach` \[m\] of the axis.
     fn measure(&mut self, near: &Near, surface: &[Patch], axis: Place, reach: f64) {
-        self.side = (2.0 * reach / self.edge) as usize + 1;
-        self.origin = [axis.position[0] - reach, axis.position[1] - reach];
-        self.cells.clear();
-        self.cells.resize(self.side * self.side, (0.0, 0.0));
+        self.side = (2.0 * reach / self.edge) as usize + 2;
+        self.origin = [0, 1].map(|k| axis.position[k] - reach);
+        self.corners.clear();
+        self.corners.resize(self.side * self.side, (0.0, 0.0));
         for (x, &id) in near.position.iter().zip(&near.id) {
             let patch = &surface[id as usize];
-            if patch.area <= 0.0 || patch.normal[2] <= UPWARD {
+            let up = patch.normal[2];
+            if patch.area <= 0.0 || up <= UPWARD {
                 continue;
             }
-            if let Some([i, j]) = self.square(*x) {
-                let cell = &mut self.cells[j * self.side + i];
-                cell.0 += patch.area;
-                cell.1 += patch.area * x[2];
+            let foot = patch.foot(*x);
+            for (k, weight) in self.around(foot).into_iter().flatten() {
+                let area = weight * up * patch.area;
+                self.corners[k].0 += area;
+                self.corners[k].1 += area * foot[2];
             }
         }
     }
 
-    fn square(&self, x: [f64; 3]) -> Option<[usize; 2]> {
-        let along = [0, 1].map(|k| ((x[k] - self.origin[k]) / self.edge).floor());
-        let inside = along.iter().all(|c| *c >= 0.0 && *c < self.side as f64);
-        inside.then(|| along.map(|c| c as usize))
+    /// The corners of the square at `x`; `None` beyond the last.
+    fn around(&self, x: [f64; 3]) -> Option<[Corner; 4]> {
+        let along = [0, 1].map(|k| (x[k] - self.origin[k]) / self.edge);
+        let last = (self.side - 1) as f64;
+        if !along.iter().all(|c| *c >= 0.0 && *c < last) {
+            return None;
+        }
+        let [p, q] = along.map(f64::fract);
+        let [i, j] = along.map(|c| c as usize);
+        let at = j * self.side + i;
+        Some([
+            (at, (1.0 - p) * (1.0 - q)),
+            (at + 1, p * (1.0 - q)),
+            (at + self.side, (1.0 - p) * q),
+            (at + self.side + 1, p * q),
+        ])
     }
 
-    /// Height of the surface above `x` \[m\]: the mean of the square and those around it.
+    /// Height of the surface above `x` \[m\]: the mean of the corners around by weight and area. `None` where there is no
+    /// surface within an edge.
     fn above(&self, x: [f64; 3]) -> Option<f64> {
-        let [i, j] = self.square(x)?;
         let (mut area, mut moment) = (0.0, 0.0);
-        for row in j.saturating_sub(1)..=(j + 1).min(self.side - 1) {
-            for column in i.saturating_sub(1)..=(i + 1).min(self.side - 1) {
-                let cell = self.cells[row * self.side + column];
-                area += cell.0;
-                moment += cell.1;
-            }
+        for (k, weight) in self.around(x)? {
+            area += weight * self.corners[k].0;
+            moment += weight * self.corners[k].1;
         }
         (area > 0.0).then(|| moment / area)
     }
@@ -131,7 +145,7 @@ impl Stage for Lorentz {
     }
 
     fn bytes(&self) -> usize {
-        16 * self.heights.cells.capacity()
+        16 * self.heights.corners.capacity()
     }
 }
 
@@ -155,7 +169,7 @@ mod tests {
         for (k, force) in near.force.iter().enumerate() {
             let x = near.position[k];
             let expected = match near.role[k] {
-                Role::Liquid => [-1e6 * x[0], -1e6 * x[1], -1e7 * (-0.5 * d - x[2])],
+                Role::Liquid => [-1e6 * x[0], -1e6 * x[1], 1e7 * x[2]],
                 _ => [0.0; 3],
             };
             for (found, expected) in force.iter().zip(expected) {

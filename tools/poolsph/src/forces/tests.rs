@@ -39,12 +39,13 @@ pub(crate) fn pool(temperature: impl Fn([f64; 3]) -> f64) -> State {
     state
 }
 
-/// Gives the particles of the top layer the area `each` \[m2\] and a normal upwards.
+/// Gives the particles of the top layer the area `each` \[m2\] and a normal upwards, half a spacing below the surface.
 pub(crate) fn on_top(state: &mut State, each: f64) {
     for a in 0..state.len() {
         if state.position[a][2] > -state.metal.spacing {
             state.surface[a].area = each;
             state.surface[a].normal = [0.0, 0.0, 1.0];
+            state.surface[a].depth = 0.5 * state.metal.spacing;
         }
     }
 }

@@ -242,23 +242,24 @@ impl Arc {
         })
     }
 
-    /// Distance of particle `a` from the axis \[m\] and area that the arc falls on \[m2\]; `None`
-    /// where it does not reach.
+    /// Distance from the axis \[m\] and area that the arc falls on \[m2\] of particle `a`; `None`
+    /// where it does not reach. What a particle has of the plan lies around it; its whole area lies before it on the
+    /// surface.
     fn lit(&self, state: &State, a: usize) -> Option<(f64, f64)> {
-        let axis = state.source.map_or([0.0; 3], |source| source.position);
-        let [x, y, _] = state.position[a];
-        let (dx, dy) = (x - axis[0], y - axis[1]);
-        let square = dx * dx + dy * dy;
-        if square > self.reach * self.reach || state.wall[a] || state.phase[a] == Phase::Flying {
+        let patch = &state.surface[a];
+        if patch.area.max(patch.seen) <= 0.0 || state.wall[a] || state.phase[a] == Phase::Flying {
             return None;
         }
-        let patch = &state.surface[a];
-        let area = match self.onto {
-            Onto::Projected => patch.seen,
-            Onto::Area if patch.normal[2] > 0.0 => patch.area,
-            Onto::Area => 0.0,
+        let axis = state.source.map_or([0.0; 3], |source| source.position);
+        let ([x, y, _], area) = match self.onto {
+            Onto::Projected => (state.position[a], patch.seen),
+            Onto::Area if patch.normal[2] > 0.0 => (patch.foot(state.position[a]), patch.area),
+            Onto::Area => return None,
         };
-        (area > 0.0).then(|| (square.sqrt(), area))
+        let (dx, dy) = (x - axis[0], y - axis[1]);
+        let square = dx * dx + dy * dy;
+        let within = square <= self.reach * self.reach && area > 0.0;
+        within.then(|| (square.sqrt(), area))
     }
 
     /// Heats particle `a` for `dt` \[s\], in as many parts as it takes.

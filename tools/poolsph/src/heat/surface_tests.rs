@@ -101,6 +101,16 @@ fn a_sphere_takes_what_is_prescribed() {
     let ratio =
         put(state, Onto::Projected) / (2.0 * PI * 25.0 * (1.0 - (-radius * radius / 50.0).exp()));
     assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
+    // On its whole area: q dA, dA = r dr / cos of the slope.
+    let state = body([20; 3], |x| dot(x, x).sqrt() < radius);
+    let n = 2000;
+    let ring = |k: i32| {
+        let r = (f64::from(k) + 0.5) * radius / f64::from(n);
+        let flux = (-r * r / 50.0).exp();
+        2.0 * PI * r * flux / (1.0 - (r / radius).powi(2)).sqrt() * radius / f64::from(n)
+    };
+    let ratio = put(state, Onto::Area) / (0..n).map(ring).sum::<f64>();
+    assert!((ratio - 1.0).abs() < 0.01, "area {ratio}");
 }
 
 #[test]

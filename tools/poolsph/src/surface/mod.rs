@@ -29,6 +29,10 @@ use crate::near::{Role, minus, plus, squared};
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Column, Metal, Phase, State};
 
+/// A wall whose normal points down by this much is out of reach of the arc. It is above zero for the scatter of
+/// normals: half of the patches of an upright wall look down a little.
+const LEAN: f64 = 0.2;
+
 /// What the surface is at a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Patch {
@@ -45,6 +49,20 @@ pub struct Patch {
 }
 
 impl Patch {
+    /// The place on the surface that belongs to a particle at `x` \[m\]: tables of what acts on the area are read there.
+    #[must_use]
+    #[inline]
+    pub fn foot(&self, x: [f64; 3]) -> [f64; 3] {
+        plus(x, self.depth, self.normal)
+    }
+
+    /// The part of the area that the arc reaches from above: all of what looks upwards, nothing of what looks down.
+    #[must_use]
+    #[inline]
+    pub fn reached(&self) -> f64 {
+        (1.0 + self.normal[2] / LEAN).clamp(0.0, 1.0)
+    }
+
     /// All numbers, for a checkpoint.
     #[must_use]
     pub fn save(&self) -> [f64; 9] {
