@@ -12,7 +12,6 @@ use crate::frame::Frame;
 use crate::header::{Header, KINDS};
 use crate::message::{POINT_CLOUD, RECORD, time_s};
 use crate::recover::header_of;
-use crate::scrub::scrub;
 use crate::store::{ChunkPlace, Store, Stored};
 use crate::survey::{Lost, Survey, survey};
 use crate::table::Record;
@@ -171,14 +170,6 @@ impl Reader {
         } else {
             &[]
         })
-    }
-
-    /// Compares every byte of a finished file with the checksums in it.
-    ///
-    /// # Errors
-    /// [`Error::Crc`] or [`Error::Damaged`], naming the place.
-    pub fn scrub(&self) -> Result<()> {
-        scrub(&self.store)
     }
 
     /// All channels, sorted by name.

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use artefact::{
     Checkpoint, Error, Frame, Header, Precision, Reader, Record, Table, Values, Version, Writer,
-    beside, recover,
+    beside, recover, sha256_file,
 };
 use proptest::prelude::*;
 
@@ -326,12 +326,23 @@ fn each_byte(flip: impl Fn(usize) -> u8, look: impl Fn(&Path, &[Message], &str))
 }
 
 #[test]
+fn one_reading_gives_the_hash_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.mcap");
+    small(&path);
+    let hash = Reader::open(&path).unwrap().scrub_and_hash().unwrap();
+    assert_eq!(hash, sha256_file(&path).unwrap());
+}
+
+#[test]
 fn every_single_byte_of_a_file_is_guarded() {
     each_byte(
         |_| 0x10,
         |path, _, byte| {
             let found = Reader::open(path).and_then(|reader| reader.scrub());
             assert!(found.is_err(), "{byte}");
+            let hash = Reader::open(path).and_then(|reader| reader.scrub_and_hash());
+            assert!(hash.is_err(), "{byte}");
         },
     );
 }

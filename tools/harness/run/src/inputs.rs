@@ -23,7 +23,7 @@ impl Inputs {
         Self::default()
     }
 
-    /// Names and files; each file is read for its hash, and an artefact for its checksums.
+    /// Names and files; each file is read once, for its hash and an artefact for its checksums.
     ///
     /// # Errors
     /// When a name stands twice, a file cannot be read, or an artefact is damaged anywhere.
@@ -44,12 +44,12 @@ impl Inputs {
                 let path = path.display();
                 return Err(Failure::Usage(format!("--input {name}={path}: {what}")));
             }
-            all.hashes
-                .insert(name.to_owned(), artefact::sha256_file(path)?);
             // What is no artefact, or another kind of one, is told by who reads it.
-            if let Ok(artefact) = Reader::open(path) {
-                artefact.scrub()?;
-            }
+            let hash = match Reader::open(path) {
+                Ok(artefact) => artefact.scrub_and_hash()?,
+                Err(_) => artefact::sha256_file(path)?,
+            };
+            all.hashes.insert(name.to_owned(), hash);
         }
         Ok(all)
     }
