@@ -18,7 +18,7 @@ use crate::forces::tension::Tension;
 use crate::frames::{Layout, PlateNote};
 use crate::heat::{self, Caloric, Conduction};
 use crate::march::March;
-use crate::motion::Motion;
+use crate::motion::{self, Law, Motion};
 use crate::scene::{Scene, StartState};
 use crate::source::Path;
 use crate::source::arc::ArcSource;
@@ -196,8 +196,9 @@ impl<'a> Source<'a> {
         })?;
         self.heat(&mut parts, held)?;
         self.forces(&mut parts)?;
-        parts.when("flow", scene.flow, |flow| {
-            Ok(Box::new(Motion::new(flow, scene.metal())))
+        parts.when("flow", scene.flow.as_ref(), |flow| {
+            let law = self.viscosity(flow)?;
+            Ok(Box::new(Motion::new(flow.clone(), law, scene.metal())))
         })?;
         let surface = columns(&parts).contains(&Column::Surface);
         if surface {
@@ -235,12 +236,12 @@ impl<'a> Source<'a> {
 
     fn forces(&self, parts: &mut Parts) -> Result<(), Failure> {
         let (scene, metal) = (self.scene, self.scene.metal());
-        let flow = scene.flow;
+        let flow = scene.flow.as_ref();
         parts.when("marangoni", scene.marangoni, |marangoni| {
             Ok(Box::new(Marangoni::new(marangoni)))
         })?;
         parts.when("gas_shear", scene.gas_shear.as_ref(), |shear| {
-            let viscosity = flow.map_or(0.0, |flow| flow.viscosity_pa_s);
+            let viscosity = flow.map_or(Ok(Law::Uniform(0.0)), |flow| self.viscosity(flow))?;
             let stage = GasShear::new(shear, self.gas()?, viscosity, metal)
                 .map_err(|fault| fault.within("/gas_shear"))?;
             Ok(Box::new(stage))
@@ -263,6 +264,15 @@ impl<'a> Source<'a> {
         parts.when("tension", scene.tension, |tension| {
             Ok(Box::new(Tension::new(tension, metal)))
         })
+    }
+
+    fn viscosity(&self, flow: &motion::Parameters) -> Result<Law, Fault> {
+        let law = Law::of(
+            &flow.viscosity_pa_s,
+            "/viscosity_pa_s",
+            self.caloric.as_deref(),
+        );
+        law.map_err(|fault| fault.within("/flow"))
     }
 
     fn arc(&self) -> Result<&ArcSource, Failure> {

@@ -8,6 +8,7 @@ use run::property::Property;
 use super::arc_pressure::ArcPressure;
 use super::gas_shear::{Gas, GasShear, Parameters};
 use super::lorentz::Lorentz;
+use crate::motion::Law;
 use crate::near::{Role, dot};
 use crate::source::Place;
 use crate::source::arc::{self, Radial};
@@ -166,7 +167,7 @@ fn sheared(state: &mut State) -> f64 {
         gas_viscosity_pa_s: Property::Constant(2e-4),
     };
     // Liquid too stiff to yield.
-    let mut stage = GasShear::new(&parameters, gas, 1e9, METAL).unwrap();
+    let mut stage = GasShear::new(&parameters, gas, Law::Uniform(1e9), METAL).unwrap();
     stage.advance(state, 1e-4).unwrap();
     sum(state, |x, f| {
         let r = x[0].hypot(x[1]).max(1e-12);

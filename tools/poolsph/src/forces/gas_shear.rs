@@ -16,6 +16,7 @@ use run::property::{Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::motion::Law;
 use crate::near::{Role, dot, plus};
 use crate::source::arc::Radial;
 use crate::stage::{Stage, StageError};
@@ -45,19 +46,19 @@ pub struct Gas {
 pub struct GasShear {
     gas: Gas,
     gas_viscosity: Curve,
-    viscosity: f64,
+    viscosity: Law,
     metal: Metal,
 }
 
 impl GasShear {
-    /// Shear on liquid of `viscosity` \[Pa s\].
+    /// Shear on liquid of a `viscosity`.
     ///
     /// # Errors
     /// A fault at the key that is wrong.
     pub fn new(
         parameters: &Parameters,
         gas: Gas,
-        viscosity: f64,
+        viscosity: Law,
         metal: Metal,
     ) -> Result<Self, Fault> {
         let gas_viscosity = parameters
@@ -71,8 +72,8 @@ impl GasShear {
         })
     }
 
-    /// tau \[Pa\] at the distance `r` \[m\] on liquid that moves outwards with `speed` \[m/s\].
-    fn stress(&self, r: f64, speed: f64) -> Result<f64, StageError> {
+    /// tau \[Pa\] at the distance `r` \[m\] on liquid of the viscosity `own` \[Pa s\] that moves outwards with `speed` \[m/s\].
+    fn stress(&self, r: f64, own: f64, speed: f64) -> Result<f64, StageError> {
         // Beyond the table the gas rests and is cold: no shear.
         let kelvin = self.gas.temperature.at(r);
         if kelvin <= 0.0 {
@@ -82,8 +83,8 @@ impl GasShear {
             .gas_viscosity
             .at_temperature(kelvin)
             .map_err(|e| StageError::Data(format!("viscosity of the gas: {e}")))?;
-        let resistance = 0.5 * gas * self.metal.spacing + self.viscosity * self.gas.height;
-        Ok(gas * self.viscosity * (self.gas.speed.at(r) - speed) / resistance)
+        let resistance = 0.5 * gas * self.metal.spacing + own * self.gas.height;
+        Ok(gas * own * (self.gas.speed.at(r) - speed) / resistance)
     }
 }
 
@@ -108,7 +109,8 @@ impl Stage for GasShear {
             }
             let (r, [x, y]) = axis.around(patch.foot(near.position[k]));
             let outward = [x, y, 0.0];
-            let stress = self.stress(r, dot(near.velocity[k], outward))?;
+            let own = self.viscosity.at(&state.temperature, near.id[k] as usize);
+            let stress = self.stress(r, own, dot(near.velocity[k], outward))?;
             let along = plus(outward, -dot(outward, patch.normal), patch.normal);
             let per_volume = stress * patch.reached() * patch.area / self.metal.volume();
             near.force[k] = plus(near.force[k], per_volume, along);
@@ -132,7 +134,7 @@ mod tests {
         let parameters = Parameters {
             gas_viscosity_pa_s: Property::Constant(2e-4),
         };
-        GasShear::new(&parameters, gas, viscosity, metal).unwrap()
+        GasShear::new(&parameters, gas, Law::Uniform(viscosity), metal).unwrap()
     }
 
     #[test]
@@ -160,7 +162,7 @@ mod tests {
     fn one_stress_crosses_both_layers() {
         let metal = pool(|_| 0.0).metal;
         let stage = stage(metal, 4e-3);
-        let tau = stage.stress(1e-3, 0.2).unwrap();
+        let tau = stage.stress(1e-3, 4e-3, 0.2).unwrap();
         let wall = 50.0 - tau * 3e-5 / 2e-4;
         let inside = wall - tau * 0.5 * metal.spacing / 4e-3;
         assert!((inside - 0.2).abs() < 1e-12);

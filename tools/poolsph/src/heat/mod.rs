@@ -22,6 +22,7 @@ pub use cathode::Cathode;
 pub use conduction::Conduction;
 pub use film::GasFilm;
 pub use losses::{LossParameters, Losses, Where};
+pub(crate) use parameters::table;
 pub use parameters::{Face, Faces, MeltingParameters, Parameters};
 pub use phase::{FlowStart, Phase};
 pub use vapour::{Evaporation, GasLayer};

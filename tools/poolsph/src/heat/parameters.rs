@@ -192,7 +192,7 @@ fn positive(
 }
 
 /// A property of the temperature as a table, and where it holds \[K\]; a formula is taken over `span`.
-pub(super) fn table(
+pub(crate) fn table(
     property: &Property,
     at: &str,
     span: (f64, f64),

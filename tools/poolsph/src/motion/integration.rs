@@ -2,11 +2,13 @@
 //! correction by the pressure, new positions.
 
 use rayon::prelude::*;
+use run::property::Property;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::around::Around;
 use super::homogenising::Homogenising;
+use super::law::Law;
 use super::noise::Noise;
 use super::projection::Projection;
 use super::step::{Solved, Step, Tolerance};
@@ -36,12 +38,12 @@ pub enum Method {
 }
 
 /// How the liquid moves.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// Dynamic viscosity mu \[Pa s\].
-    #[schemars(range(min = 0.0), extend("x-unit" = "Pa s"))]
-    pub viscosity_pa_s: f64,
+    /// Dynamic viscosity mu \[Pa s\], a number or that of the temperature T.
+    #[schemars(extend("x-unit" = "Pa s"))]
+    pub viscosity_pa_s: Property,
     /// Acceleration of gravity \[m/s2\]; z points up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s2"))]
@@ -95,14 +97,14 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motion of `metal`.
+    /// The motion of `metal` with a viscosity by `law`, that of the parameters.
     #[must_use]
-    pub fn new(parameters: Parameters, metal: Metal) -> Self {
+    pub fn new(parameters: Parameters, law: Law, metal: Metal) -> Self {
         let gravity = parameters.gravity_m_s2.unwrap_or_default();
         Self {
-            parameters,
-            viscosity: Viscosity::new(parameters.viscosity_pa_s, metal),
+            viscosity: Viscosity::new(law, metal),
             noise: Noise::new(squared(gravity).sqrt(), metal),
+            parameters,
             around: Around::default(),
             projection: Projection::new(metal),
             homogenising: Homogenising::new(metal),
@@ -127,8 +129,8 @@ impl Motion {
                 _ => [0.0; 3],
             })
             .collect_into_vec(&mut self.predicted);
-        let viscous = self.parameters.viscosity_pa_s > 0.0;
-        if viscous || self.noise.acts() {
+        let viscous = self.viscosity.acts();
+        if (viscous && self.viscosity.uniform()) || self.noise.acts() {
             self.around.sum(near, &near.velocity);
         }
         if viscous {
@@ -276,6 +278,7 @@ impl Stage for Motion {
         if state.near.is_empty() {
             return Ok(());
         }
+        self.viscosity.take(&state.near, &state.temperature)?;
         self.substeps = self.divide(state, dt)?;
         self.projection.pressure.clear();
         let start = |&id: &u32| self.multiplier.get(id as usize).copied().unwrap_or(0.0) as f32;
@@ -327,6 +330,7 @@ impl Stage for Motion {
         self.projection.bytes()
             + self.homogenising.bytes()
             + self.noise.bytes()
+            + self.viscosity.bytes()
             + self.around.bytes()
             + 24 * self.predicted.capacity()
             + 16 * self.carried.capacity()

@@ -4,12 +4,14 @@ pub mod around;
 pub mod homogenising;
 pub mod integration;
 pub mod lattice;
+pub mod law;
 pub mod noise;
 pub mod projection;
 pub mod step;
 pub mod viscosity;
 
 pub use integration::{Method, Motion, Parameters};
+pub use law::Law;
 
 #[cfg(test)]
 mod tests;

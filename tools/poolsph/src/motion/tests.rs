@@ -82,7 +82,11 @@ fn march(method: Method, gravity: bool, tension: bool) -> March {
         gravity_m_s2: gravity.then_some([0.0, 0.0, -9.8]),
         ..parameters(method)
     };
-    after.push(Box::new(Motion::new(parameters, METAL)));
+    after.push(Box::new(Motion::new(
+        parameters,
+        Law::Uniform(0.004),
+        METAL,
+    )));
     March::new(Vec::new(), after, 1e-4)
 }
 
@@ -149,7 +153,7 @@ fn a_parabola_feels_its_curvature() {
     let mut change = vec![[0.0; 3]; near.len()];
     let mut around = around::Around::default();
     around.sum(near, &near.velocity);
-    viscosity::Viscosity::new(0.004, METAL).apply(near, &around, 1.0, &mut change);
+    viscosity::Viscosity::new(Law::Uniform(0.004), METAL).apply(near, &around, 1.0, &mut change);
     let exact = 2.0 * slope * 0.004 / METAL.density;
     let inner = |x: &[f64; 3]| x.iter().all(|x| (x / METAL.spacing - 4.0).abs() < 2.0);
     let mut seen = 0;
@@ -263,4 +267,76 @@ fn what_has_frozen_too_densely_does_not_burst() {
         // No particle crosses more of its diameter than one step may.
         assert!(fastest < 0.4 * METAL.spacing / 1e-4, "{fastest} m/s");
     }
+}
+
+/// Layers of the gap of a Couette flow.
+const GAP: i32 = 24;
+
+/// A viscosity over the temperature, which here is the layer, one node on either side of each.
+fn layers(mu: impl Fn(i32) -> f64) -> Law {
+    let nodes: Vec<f64> = (0..GAP)
+        .flat_map(|k| [-0.25, 0.25].map(|part| f64::from(k) + part))
+        .collect();
+    let values = (0..GAP).flat_map(|k| [mu(k); 2]).collect();
+    let mu = props::Table::new(nodes, values).unwrap();
+    let range = (-1.0, f64::from(GAP));
+    Law::OfTemperature { mu, range }
+}
+
+/// Velocity across the gap, by layer, where the stress in liquid of the viscosity `mu` by layer has become steady; the two
+/// layers at either end keep `exact`.
+fn sheared(mu: impl Fn(i32) -> f64, exact: impl Fn(i32) -> f64) -> Vec<f64> {
+    let mut state = block([6, 6, GAP], |_| Phase::Liquid, |_| [0.0; 3]);
+    let layer = |x: [f64; 3]| (x[2] / METAL.spacing - 0.5).round() as i32;
+    state.temperature = state
+        .position
+        .iter()
+        .map(|x| f64::from(layer(*x)))
+        .collect();
+    state.gather();
+    let near = &mut state.near;
+    let mut viscosity = viscosity::Viscosity::new(layers(mu), METAL);
+    viscosity.take(near, &state.temperature).unwrap();
+    let around = around::Around::default();
+    let layers: Vec<i32> = near.position.iter().map(|x| layer(*x)).collect();
+    let hold = |u: &mut [[f64; 3]]| {
+        for (u, &k) in u.iter_mut().zip(&layers) {
+            if !(2..GAP - 2).contains(&k) {
+                u[0] = exact(k);
+            }
+        }
+    };
+    hold(&mut near.velocity);
+    for _ in 0..6000 {
+        let mut predicted = near.velocity.clone();
+        viscosity.apply(near, &around, viscosity.limit(), &mut predicted);
+        hold(&mut predicted);
+        near.velocity = predicted;
+    }
+    let mut mean = vec![0.0; GAP as usize];
+    for (u, k) in near.velocity.iter().zip(layers) {
+        mean[k as usize] += u[0] / 36.0;
+    }
+    mean
+}
+
+#[test]
+fn one_stress_crosses_a_gap_whose_viscosity_varies() {
+    // mu u' is constant: with mu linear across the gap u goes with its logarithm.
+    let mu = |k: i32| 0.002 * (1.0 + 4.0 * f64::from(k) / f64::from(GAP - 1));
+    let smooth = |k: i32| (mu(k) / 0.002).ln() / 5.0_f64.ln();
+    // Two layers, the thin one below: the slopes are as the inverses.
+    let two = |k: i32| if k < GAP / 2 { 0.002 } else { 0.02 };
+    let bent = |k: i32| {
+        let z = f64::from(k) - f64::from(GAP - 1) / 2.0;
+        if z < 0.0 { 10.0 * z / 132.0 } else { z / 132.0 }
+    };
+    let off = |found: Vec<f64>, exact: &dyn Fn(i32) -> f64| {
+        let each = found.iter().zip(0..).map(|(u, k)| (u - exact(k)).abs());
+        each.fold(0.0, f64::max)
+    };
+    let found = off(sheared(mu, smooth), &smooth);
+    assert!(found < 1e-3, "{found}");
+    let found = off(sheared(two, bent), &bent);
+    assert!(found < 1e-3, "{found}");
 }

@@ -80,7 +80,10 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
         })
     };
     let mut faults: Vec<Fault> = needs.into_iter().flat_map(missing).collect();
-    let weightless = scene.flow.is_some_and(|flow| flow.gravity_m_s2.is_none());
+    let weightless = scene
+        .flow
+        .as_ref()
+        .is_some_and(|flow| flow.gravity_m_s2.is_none());
     if scene.buoyancy.is_some() && weightless {
         let what = "means nothing without the key 'gravity_m_s2' in 'flow'";
         faults.push(Fault::at("/buoyancy", what));
