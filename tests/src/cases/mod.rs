@@ -1,6 +1,7 @@
 //! One file per exact solution.
 
 mod arc_column;
+mod arc_electrons;
 mod arc_elenbaas;
 mod arc_evaporation;
 mod arc_mms;
@@ -50,6 +51,7 @@ use crate::case::Case;
 pub fn all() -> Vec<Box<dyn Case>> {
     vec![
         Box::new(arc_column::ArcColumn),
+        Box::new(arc_electrons::ArcElectrons),
         Box::new(arc_elenbaas::ArcElenbaas),
         Box::new(arc_evaporation::ArcEvaporation),
         Box::new(arc_mms::ArcMms),

@@ -8,7 +8,7 @@ use crate::heat::granular::Granular;
 use crate::heat::{Contact, Surfaces};
 use crate::material::Material;
 use crate::mixture::Molar;
-use crate::scene::Surface;
+use crate::scene::{Electrons, Surface};
 
 /// Index of the gas among the materials.
 pub const GAS: usize = 0;
@@ -163,6 +163,8 @@ pub struct HeatCase {
     pub plates: Vec<MovingPlate>,
     /// Granular flux that boils into the cavity.
     pub granular: Option<Granular>,
+    /// What electrons carry through the gas.
+    pub electrons: Option<Electrons>,
 }
 
 impl HeatCase {

@@ -257,6 +257,9 @@ fn heat(arc: &Arc, balance: &Balance, record: Record) -> Record {
         .with("heat_edges_w", "W", balance.edges)
         .with("heat_flow_w", "W", balance.flow)
         .with("heat_drops_w", "W", balance.drops);
+    if let Some(electrons) = balance.electrons {
+        record = record.with("heat_electrons_w", "W", electrons);
+    }
     let names = arc.case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
     let names = names.iter().flat_map(|s| &s.electrodes).map(|e| &e.name);
     for (name, one) in names.zip(&balance.electrodes) {

@@ -334,6 +334,9 @@ impl Arc {
             wire.carry(case, *feed, &mut energy.mass_axial);
         }
         energy.conduct(case, setup.surfaces.as_ref(), properties);
+        if let Some(electric) = electric {
+            energy.drift(case, &electric.potential);
+        }
         if let Some(v) = vaporising {
             energy.mix(case, setup, &v.setup, &v.vapour);
         }

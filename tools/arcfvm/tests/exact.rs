@@ -183,3 +183,70 @@ fn a_scene_that_contradicts_itself_names_every_place() {
         assert!(told.contains(place), "{place} is not in:\n{told}");
     }
 }
+
+/// A rod above a plate, both at given temperatures at their far ends, in gas that conducts heat and 80 A.
+fn between_metals(electrons: &str) -> Arc {
+    solve(&format!(
+        r#"{BOX}, "gas": {{"given": {{"electric_conductivity_s_m": 3000,
+            "thermal_conductivity_w_m_k": 1.5, "specific_heat_j_kg_k": 1000}}}},
+        "bodies": {{
+            "plate": {{"shape": {{"ring": {{"r_m": [0, 0.01], "z_m": [0, 0.004]}}}},
+                "material": {{"electric_conductivity_s_m": 1e6, "thermal_conductivity_w_m_k": 90,
+                    "specific_heat_j_kg_k": 600}},
+                "anode": {{"work_function_v": 4.5, "emissivity": 0.4}}}},
+            "rod": {{"shape": {{"ring": {{"r_m": [0, 0.003], "z_m": [0.012, 0.02]}}}},
+                "material": {{"electric_conductivity_s_m": 1e6, "thermal_conductivity_w_m_k": 90,
+                    "specific_heat_j_kg_k": 600}},
+                "cathode": {{"work_function_v": 2.6, "ionisation_voltage_v": 15.7,
+                    "richardson_a_m2_k2": 3e4, "emissivity": 0.4}}}}}},
+        "current": {{"edges": {{"bottom": [{{"voltage_v": 0}}],
+            "top": [{{"over_m": [0, 0.003], "total_current_a": -80}}]}}}},
+        "heat": {{"edges": {{"bottom": [{{"temperature_k": 300}}], "outer": [{{"temperature_k": 300}}],
+            "top": [{{"temperature_k": 2500}}]}} {electrons}}}"#
+    ))
+}
+
+#[test]
+fn electrons_carry_heat_from_a_hot_cathode_to_a_cold_anode() {
+    let mut still = between_metals("");
+    let mut moving = between_metals(r#", "electrons": "enthalpy""#);
+    let [without, with] = [&mut still, &mut moving].map(|arc| arc.settle().unwrap());
+    assert!(without.electrons.is_none());
+    assert!(without.closure().abs() < 1e-6 * without.joule);
+    assert!(
+        with.closure().abs() < 1e-6 * with.joule,
+        "{}",
+        with.closure()
+    );
+    // From one metal to the other: 80 A of 5/2 k/e between their temperatures.
+    let grid = &moving.case.grid;
+    let beside = |arc: &Arc, z: f64| arc.temperature()[grid.cell(0, grid.row_of(z))];
+    let brought = with.electrons.unwrap();
+    let [cathode, anode] = [0.0125, 0.0035].map(|z| beside(&moving, z));
+    let scale = 80.0 * arcfvm::fields::electrons::ENTHALPY;
+    assert!(
+        (brought - scale * (cathode - anode)).abs() < 0.1 * brought.abs(),
+        "{brought} {cathode} {anode}"
+    );
+    // They leave a hot rod for a cold plate: gas is warmer all the way.
+    for z in [0.0045, 0.0085, 0.0115] {
+        assert!(beside(&moving, z) > 1.01 * beside(&still, z), "{z}");
+    }
+    // The plate takes up by conduction what they lose on their way.
+    assert!(with.electrodes[0].convection > without.electrodes[0].convection);
+}
+
+#[test]
+fn electrons_at_rest_carry_nothing() {
+    let column = |electrons: &str| {
+        let arc = solve(&format!(
+            r#"{BOX}, "gas": {{"given": {{"electric_conductivity_s_m": 100,
+                "thermal_conductivity_w_m_k": 0.5, "specific_heat_j_kg_k": 1000}}}},
+            "current": {{"edges": {{"bottom": [{{"voltage_v": 0}}], "top": [{{"voltage_v": 0}}]}}}},
+            "heat": {{"edges": {{"bottom": [{{"temperature_k": 300}}], "top": [{{"temperature_k": 900}}]}},
+                "source_w_m3": 1e6 {electrons}}}"#
+        ));
+        arc.temperature().to_vec()
+    };
+    assert_eq!(column(""), column(r#", "electrons": "enthalpy""#));
+}

@@ -19,7 +19,7 @@ use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::Surfaces;
 use crate::material::{Material, REFERENCE_K};
-use crate::scene::{Body, Current, Film, Heat, Moving, Scene, SheathAt, SheathKeeps};
+use crate::scene::{self, Body, Current, Film, Heat, Moving, Scene, SheathAt, SheathKeeps};
 use electrodes::Electrodes;
 pub use gas::GasFile;
 use layout::Layout;
@@ -101,6 +101,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
             &mut faults,
         ),
         surfaces: surfaces(&layout, &electrodes, Some(heat)),
+        electrons: carriers(scene, heat, &mut faults),
     });
     let parts = (&layout, &electrodes, flow.as_ref());
     let vapour = vapour::vapour(scene, gas, parts, &mut faults);
@@ -280,6 +281,14 @@ fn electrons(current: &Current, gas: &Material, faults: &mut Faults) {
         let what = "electron_density wants a gas table with the column electron_density_1_m3";
         faults.add("/current/sheath_keeps", what);
     }
+}
+
+/// What electrons carry, which wants a current.
+fn carriers(scene: &Scene, heat: &Heat, faults: &mut Faults) -> Option<scene::Electrons> {
+    if heat.electrons.is_some() && scene.current.is_none() {
+        faults.add("/heat/electrons", "wants a current that electrons carry");
+    }
+    heat.electrons
 }
 
 fn surfaces(layout: &Layout, all: &Electrodes, heat: Option<&Heat>) -> Option<Surfaces> {

@@ -9,6 +9,7 @@
 use relax::{Coefficients, FivePoint, Outcome};
 
 use crate::case::{Case, GAS, HeatCase, HeatEdge, VapourCase};
+use crate::fields::electrons::{Carried, Drift, Nothing};
 use crate::fields::energy_edges::{Beyond, FaceOf, Side, edge_of};
 use crate::fields::faces::Carriers;
 use crate::fields::mixing::{Mixed, Mixing};
@@ -49,6 +50,8 @@ pub struct Energy {
     pub source: Vec<[f64; 2]>,
     /// Mixing with vapour, where there is any.
     mixing: Option<Mixing>,
+    /// Electrons that carry heat, where they do.
+    pub(crate) electrons: Option<Drift>,
     on_electrode: Vec<bool>,
     /// Calmness of each cell, times the under-relaxation: falls where changes alternate.
     pub(crate) calm: Vec<f64>,
@@ -106,6 +109,11 @@ impl Energy {
         let grid = &case.grid;
         Self {
             mixing: case.vapour.as_ref().map(|_| Mixing::new(case)),
+            electrons: case
+                .heat
+                .as_ref()
+                .and_then(|h| h.electrons)
+                .map(|_| Drift::new(case)),
             on_electrode: on_electrode(case),
             calm: vec![1.0; grid.len()],
             last: vec![0.0; grid.len()],
@@ -168,8 +176,8 @@ impl Energy {
         case: &Case,
         heat: &HeatCase,
         properties: &Properties,
-        i: usize,
-        j: usize,
+        carried: &impl Carried,
+        (i, j): (usize, usize),
     ) -> Coefficients {
         let (grid, h) = (&case.grid, &properties.enthalpy);
         let k = grid.cell(i, j);
@@ -187,11 +195,13 @@ impl Energy {
             match face.beyond {
                 Beyond::Cell(n) => {
                     let there = (self.temperature[n], h[n]);
-                    *side = self.link(&face, hybrid, || capacity(here, there, specific_heat));
+                    *side = self.link(carried, &face, hybrid, || {
+                        capacity(here, there, specific_heat)
+                    });
                     c.source -= self.mixed(&face, hybrid);
                 }
                 Beyond::Edge(edge) => {
-                    let (a, t) = self.edge(case, heat, edge, face, here);
+                    let (a, t) = self.edge(case, heat, carried, (edge, face), here);
                     c.centre += a;
                     c.source += a * t - self.mixed(&face, dirichlet);
                     if let HeatEdge::Flux(flux) = *edge_of(heat, edge) {
@@ -205,7 +215,9 @@ impl Energy {
         c.source += value - slope * here.0;
         c.centre += sides.iter().sum::<f64>() - slope;
         let out: f64 = faces.iter().map(|face| face.mass_out.max(0.0)).sum();
-        kept(&mut c, out * capacity(here, here, specific_heat), here.0);
+        let with_electrons: f64 = faces.iter().map(|face| carried.out(face).max(0.0)).sum();
+        let out = out * capacity(here, here, specific_heat) + with_electrons;
+        kept(&mut c, out, here.0);
         c
     }
 
@@ -214,8 +226,8 @@ impl Energy {
         &self,
         case: &Case,
         heat: &HeatCase,
-        edge: Side,
-        face: FaceOf,
+        carried: &impl Carried,
+        (edge, face): (Side, FaceOf),
         here: (f64, f64),
     ) -> (f64, f64) {
         let HeatEdge::Temperature(t) = *edge_of(heat, edge) else {
@@ -226,25 +238,22 @@ impl Energy {
         };
         let there = (t, enthalpy.at(t));
         let slope = || enthalpy.slope(here.0);
-        let a = self.link(&face, dirichlet, || capacity(here, there, slope));
+        let a = self.link(carried, &face, dirichlet, || capacity(here, there, slope));
         (a, t)
     }
 
     /// The scheme's coefficient of a face in W/K.
     fn link(
         &self,
+        carried: &impl Carried,
         face: &FaceOf,
         scheme: fn(f64, f64) -> f64,
         capacity: impl FnOnce() -> f64,
     ) -> f64 {
-        if face.mass_out == 0.0 {
-            return face.conductance;
-        }
-        let capacity = match &self.mixing {
+        carried.link(face, scheme, || match &self.mixing {
             Some(mixing) => mixing.at(face).capacity,
             None => capacity(),
-        };
-        scheme(face.mass_out, face.conductance / capacity) * capacity
+        })
     }
 
     /// Heat that leaves through a face with the mixing of gas and vapour \[W\].
@@ -320,7 +329,12 @@ impl Energy {
         step: Step,
     ) -> Result<EnergyResidual, Unsolved> {
         let mut equation = std::mem::replace(&mut self.equation, FivePoint::new(0, 0));
-        equation.fill(|i, j| self.equation(case, heat, properties, i, j));
+        match &self.electrons {
+            Some(drift) => {
+                equation.fill(|i, j| self.equation(case, heat, properties, drift, (i, j)));
+            }
+            None => equation.fill(|i, j| self.equation(case, heat, properties, &Nothing, (i, j))),
+        }
         self.equation = equation;
         self.equation.residual(&self.temperature, &mut self.scratch);
         let unbalanced = Unbalanced::of(&self.scratch, case.grid.nr);

@@ -1,6 +1,7 @@
 //! Heat through the edges of the domain.
 
 use crate::case::{Case, HeatCase, HeatEdge};
+use crate::fields::electrons::{Carried, Nothing};
 use crate::fields::energy::Energy;
 use crate::heat::FaceIndex;
 use crate::properties::Properties;
@@ -23,23 +24,32 @@ impl Energy {
         case: &Case,
         heat: &HeatCase,
         properties: &Properties,
+        carried: &impl Carried,
         (edge, face): (Side, FaceOf),
-        all: &mut EdgeHeat,
-    ) {
+    ) -> EdgeHeat {
         let here = (self.temperature[face.own], properties.enthalpy[face.own]);
-        let (a, t) = self.edge(case, heat, edge, face, here);
-        let exchange = a * (t - here.0) - self.mixed(&face, dirichlet);
+        let (a, t) = self.edge(case, heat, carried, (edge, face), here);
+        // Electrons pass a given temperature with that, else with the cell's own.
+        let electrons = match *edge_of(heat, edge) {
+            HeatEdge::Temperature(_) => carried.out(&face),
+            HeatEdge::Insulated | HeatEdge::Flux(_) => 0.0,
+        };
+        let exchange = (a + electrons) * (t - here.0) - self.mixed(&face, dirichlet);
         let flux = match *edge_of(heat, edge) {
             HeatEdge::Flux(flux) => flux * face.area,
             _ => 0.0,
         };
-        all.size += exchange.abs() + flux.abs();
-        all.conduction += flux;
+        let mut through = EdgeHeat {
+            size: exchange.abs() + flux.abs(),
+            conduction: flux,
+            flow: 0.0,
+        };
         if face.mass_out == 0.0 {
-            all.conduction += exchange;
+            through.conduction += exchange;
         } else {
-            all.flow += exchange - face.mass_out * here.1;
+            through.flow = exchange - face.mass_out * here.1;
         }
+        through
     }
 
     /// Heat through all edges.
@@ -52,7 +62,17 @@ impl Energy {
             for i in (0..grid.nr).filter(|i| whole || *i == 0 || *i + 1 == grid.nr) {
                 for face in self.faces(case, i, j) {
                     if let Beyond::Edge(edge) = face.beyond {
-                        self.through_edge(case, heat, properties, (edge, face), &mut all);
+                        let part = match &self.electrons {
+                            Some(drift) => {
+                                self.through_edge(case, heat, properties, drift, (edge, face))
+                            }
+                            None => {
+                                self.through_edge(case, heat, properties, &Nothing, (edge, face))
+                            }
+                        };
+                        all.size += part.size;
+                        all.conduction += part.conduction;
+                        all.flow += part.flow;
                     }
                 }
             }

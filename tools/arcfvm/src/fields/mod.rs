@@ -1,6 +1,7 @@
 //! The fields: each owns its columns, its equation and its solver.
 
 pub mod edge_shear;
+pub mod electrons;
 pub mod energy;
 pub mod energy_edges;
 mod energy_film;

@@ -63,6 +63,8 @@ pub struct Balance {
     pub flow: f64,
     /// With drops from the wire.
     pub drops: f64,
+    /// With electrons into the gas, where they carry heat.
+    pub electrons: Option<f64>,
 }
 
 impl Balance {
@@ -91,6 +93,7 @@ impl Balance {
             edges: through.conduction,
             flow: through.flow,
             drops: -drops,
+            electrons: energy.carried(case, heat),
         }
     }
 
@@ -101,7 +104,9 @@ impl Balance {
         let surface = |e: &ElectrodeHeat| e.sum() - e.convection - e.joule + e.into_gas;
         let surfaces: f64 = self.electrodes.iter().map(surface).sum();
         let inner = self.joule + self.given + self.radiation + surfaces;
-        inner + self.vapour + self.granular + self.plate + self.edges + self.flow + self.drops
+        let inner = inner + self.vapour + self.granular;
+        let known = inner + self.plate + self.edges + self.flow + self.drops;
+        known + self.electrons.unwrap_or(0.0)
     }
 }
 

@@ -183,6 +183,16 @@ pub struct Heat {
     /// ionisation voltage (Komen 2019: 5e-5 m on its grid); absent: half a gas cell, on any grid.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub film_m: Option<f64>,
+    /// What electrons carry through the gas; absent: no heat (Komen 2019, eq. 5.8).
+    pub electrons: Option<Electrons>,
+}
+
+/// What electrons carry through the gas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Electrons {
+    /// Their enthalpy, against the current: heat of 5/2 k/e j . grad T (Hsu, Etemadi and Pfender 1983).
+    Enthalpy,
 }
 
 /// Way of the heat from gas into an electrode, at film temperature (Komen 2019, eq. 5.17).
