@@ -95,10 +95,12 @@ pub fn told(
     trail: &Trail,
 ) -> String {
     let Some((n, part)) = residuals.farthest(tolerance, stop) else {
-        let greatest = residuals.named().max_by(|a, b| a.1.total_cmp(&b.1));
-        let (name, worst) = greatest.unwrap_or(("residual", 0.0));
+        let most = residuals.named().max_by(|a, b| a.1.total_cmp(&b.1));
+        let (name, worst) = most.unwrap_or(("residual", 0.0));
+        let why = elsewhere(arc, &greatest(arc));
+        let why = why.unwrap_or_else(|| others(residuals, name, tolerance));
         return format!(
-            "{name} {worst:.1e}, wanted {tolerance:.1e}: {}",
+            "{name} {worst:.1e}, wanted {tolerance:.1e}: {}; {why}",
             trail.told()
         );
     };
@@ -128,10 +130,26 @@ pub fn told(
     }
     let greatest = greatest(arc);
     let why = cell.and_then(|k| at_cell(arc, k, &greatest));
-    if let Some(why) = why.or_else(|| elsewhere(arc, &greatest)) {
-        text += &format!("; {why}");
-    }
-    text
+    let why = why.or_else(|| elsewhere(arc, &greatest));
+    let why = why.unwrap_or_else(|| others(residuals, &format!("residual_{name}"), tolerance));
+    text + &format!("; {why}")
+}
+
+/// Where nothing stands out: the equations beside the one called `name` that do not hold either.
+fn others(residuals: &Residuals, name: &str, tolerance: f64) -> String {
+    let also: Vec<String> = residuals
+        .named()
+        .filter(|(other, part)| *other != name && *part > tolerance)
+        .map(|(other, part)| format!("{} {part:.1e}", other.trim_start_matches("residual_")))
+        .collect();
+    let also = match also.as_slice() {
+        [] => "every other equation holds".to_owned(),
+        some => format!(
+            "of their scales are out of balance too: {}",
+            some.join(", ")
+        ),
+    };
+    format!("no property jumps in any cell, and {also}")
 }
 
 /// What a jump is looked for in.
@@ -216,6 +234,21 @@ mod tests {
             trail.push(value(k));
         }
         trail.told()
+    }
+
+    #[test]
+    fn where_nothing_stands_out_the_other_equations_are_told() {
+        let residuals = Residuals {
+            charge: Some(2e-9),
+            force: Some(3e-4),
+            heat: Some(5e-3),
+            feed: Some(2e-4),
+            ..Residuals::default()
+        };
+        let told = others(&residuals, "residual_heat", 1e-5);
+        assert!(told.ends_with("too: force 3.0e-4, feed 2.0e-4"), "{told}");
+        let told = others(&residuals, "residual_heat", 1e-3);
+        assert!(told.ends_with("every other equation holds"), "{told}");
     }
 
     #[test]
