@@ -60,6 +60,9 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     for (name, why) in &assembled.left_out {
         plan = plan.left_out(name, why);
     }
+    for note in crate::scene::notes(scene) {
+        plan = plan.note(note);
+    }
     Ok(plan)
 }
 

@@ -42,8 +42,36 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         faults.push(Fault::at("/smoothing_length_m", what));
     }
     faults.extend(dependences(scene));
-    faults.extend(super::size::faults(scene));
+    let sizes = super::size::faults(scene);
+    if sizes.is_empty() {
+        faults.extend(crowded(scene));
+    }
+    faults.extend(sizes);
     faults
+}
+
+/// Droplets that are born into each other.
+fn crowded(scene: &Scene) -> Option<Fault> {
+    let droplets = scene.droplets?;
+    let period = droplets.period(scene.spacing_m)?;
+    let (step, speed) = (scene.time.step_s, droplets.speed_m_s);
+    let fallen = speed * period.max(step);
+    let high = 2.0 * droplets.radius_m;
+    let key = match droplets.period_s {
+        Some(_) => "period_s",
+        None => "feed_m3_s",
+    };
+    let what = if period < step {
+        format!("a droplet every {period:.3e} s, more often than steps of {step} s")
+    } else if fallen < high {
+        format!(
+            "a droplet every {period:.3e} s, in which the one before it falls {fallen:.3e} m at {speed} m/s: less than the \
+             {high} m that it is high"
+        )
+    } else {
+        return None;
+    };
+    Some(Fault::at(&format!("/droplets/{key}"), what))
 }
 
 /// Keys that mean nothing without another.
@@ -89,4 +117,45 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
         faults.push(Fault::at("/buoyancy", what));
     }
     faults
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn told(droplets: serde_json::Value) -> Option<String> {
+        let scene = json!({
+            "spacing_m": 5e-4,
+            "time": {"step_s": 1e-4, "end_s": 2.0},
+            "density_kg_m3": 7850,
+            "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "liquid"}],
+            "flow": {"viscosity_pa_s": 0.004},
+            "source": {"start_m": [0, 0, 0], "velocity_m_s": [0, 0.005, 0]},
+            "droplets": droplets,
+            "output": {"particles_interval_s": 0.1}
+        });
+        let scene: Scene = serde_json::from_value(scene).unwrap();
+        faults(&scene).first().map(ToString::to_string)
+    }
+
+    #[test]
+    fn droplets_are_not_born_into_each_other() {
+        let drop = |key: &str, value: f64| {
+            told(json!({key: value, "radius_m": 7.5e-4, "height_m": 0.015, "speed_m_s": 1.5}))
+        };
+        assert!(drop("period_s", 0.01).is_none());
+        assert!(drop("period_s", 1.01e-3).is_none());
+        let one = drop("period_s", 9e-4).unwrap();
+        assert!(
+            one.contains("/droplets/period_s") && one.contains("1.350e-3 m"),
+            "{one}"
+        );
+        let one = drop("feed_m3_s", 1e-4).unwrap();
+        assert!(
+            one.contains("/droplets/feed_m3_s") && one.contains("more often"),
+            "{one}"
+        );
+    }
 }

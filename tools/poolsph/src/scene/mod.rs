@@ -2,6 +2,7 @@
 
 mod body;
 mod check;
+mod odd;
 mod output;
 mod size;
 
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
+pub use odd::notes;
 pub use output::{FloatWidth, Output, PoolOutput, due};
 
 use crate::domain::{bounds, droplet};

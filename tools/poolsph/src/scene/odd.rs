@@ -1,0 +1,187 @@
+//! What a scene may say and hardly means, told before it runs.
+
+use super::Scene;
+use super::body::StartState;
+
+/// Notes on what will not happen although the scene names it.
+#[must_use]
+pub fn notes(scene: &Scene) -> Vec<String> {
+    let mut notes = Vec::new();
+    notes.extend(astray(scene));
+    notes.extend(unwritten(scene));
+    notes.extend(outside(scene));
+    notes.extend(still(scene));
+    notes
+}
+
+/// The source beside the bodies, seen from above.
+fn astray(scene: &Scene) -> Option<String> {
+    let source = scene.source?;
+    let end = scene.time.end_s;
+    let (min, max) = around(scene)?;
+    // The times between which it is within the bodies along both axes.
+    let (mut enters, mut leaves) = (0.0_f64, f64::INFINITY);
+    for axis in 0..2 {
+        let (x, u) = (source.start_m[axis], source.velocity_m_s[axis]);
+        if u == 0.0 {
+            if x < min[axis] || x > max[axis] {
+                leaves = f64::NEG_INFINITY;
+            }
+            continue;
+        }
+        let [a, b] = [min[axis], max[axis]].map(|edge| (edge - x) / u);
+        enters = enters.max(a.min(b));
+        leaves = leaves.min(a.max(b));
+    }
+    if leaves < enters || enters > end {
+        Some("the source is never above a body".to_owned())
+    } else if leaves < end {
+        Some(format!(
+            "the source leaves the bodies at {leaves:.4} s, before the end at {end} s"
+        ))
+    } else if enters > 0.0 {
+        Some(format!("the source is above no body before {enters:.4} s"))
+    } else {
+        None
+    }
+}
+
+/// The box around all bodies \[m\].
+fn around(scene: &Scene) -> Option<([f64; 3], [f64; 3])> {
+    let boxes = scene.bodies.iter().map(|body| body.shape.bounds());
+    boxes.reduce(|(a, b), (c, d)| {
+        let low = std::array::from_fn(|k| a[k].min(c[k]));
+        let high = std::array::from_fn(|k| b[k].max(d[k]));
+        (low, high)
+    })
+}
+
+/// Output that never comes.
+fn unwritten(scene: &Scene) -> Vec<String> {
+    let (end, output) = (scene.time.end_s, &scene.output);
+    let mut notes = Vec::new();
+    let mut rare = |key: &str, what: &str, interval: f64| {
+        if interval > end {
+            notes.push(format!(
+                "{what} of the start alone are written: {key} is {interval} s, the end at {end} s"
+            ));
+        }
+    };
+    rare(
+        "particles_interval_s",
+        "particles",
+        output.particles_interval_s,
+    );
+    if let Some(interval) = output.balance_interval_s {
+        rare("balance_interval_s", "balances", interval);
+    }
+    if let Some(pool) = output.pool.filter(|pool| pool.from_s > end) {
+        notes.push(format!(
+            "/pool stays empty: it begins at {} s, the end is at {end} s",
+            pool.from_s
+        ));
+    }
+    notes
+}
+
+/// Bodies that the bounds cut.
+fn outside(scene: &Scene) -> Vec<String> {
+    let Some(bounds) = scene.bounds else {
+        return Vec::new();
+    };
+    let cut = |(low, high): ([f64; 3], [f64; 3])| {
+        (0..3).any(|k| low[k] < bounds.min_m[k] || high[k] > bounds.max_m[k])
+    };
+    let bodies = scene.bodies.iter().enumerate();
+    bodies
+        .filter(|(_, body)| cut(body.shape.bounds()))
+        .map(|(i, _)| format!("body {i} reaches out of 'bounds': liquid there is caught at once"))
+        .collect()
+}
+
+/// A flow in which nothing can flow.
+fn still(scene: &Scene) -> Option<String> {
+    let liquid = scene
+        .bodies
+        .iter()
+        .any(|body| body.state == StartState::Liquid);
+    let melts = scene
+        .heat
+        .as_ref()
+        .is_some_and(|heat| heat.melting.is_some());
+    let fed = scene.droplets.is_some();
+    (scene.flow.is_some() && !liquid && !melts && !fed)
+        .then(|| "nothing will move: no body is liquid, none can melt, no droplets come".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    fn told(patch: &Value) -> Vec<String> {
+        let mut scene = json!({
+            "spacing_m": 1e-3,
+            "time": {"step_s": 1e-4, "end_s": 2.0},
+            "density_kg_m3": 7850,
+            "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "liquid"}],
+            "flow": {"viscosity_pa_s": 0.004},
+            "output": {"particles_interval_s": 0.1}
+        });
+        for (key, value) in patch.as_object().unwrap() {
+            scene[key] = value.clone();
+        }
+        notes(&serde_json::from_value(scene).unwrap())
+    }
+
+    fn source(start: [f64; 2], velocity: [f64; 2]) -> Vec<String> {
+        let [[x, y], [u, v]] = [start, velocity];
+        told(&json!({"source": {"start_m": [x, y, 0], "velocity_m_s": [u, v, 0]}}))
+    }
+
+    #[test]
+    fn what_means_what_it_says_needs_no_note() {
+        assert!(told(&json!({})).is_empty());
+        assert!(source([0.005, 0.0], [0.0, 0.01]).is_empty());
+    }
+
+    #[test]
+    fn a_source_beside_the_metal_is_told() {
+        for (start, velocity) in [
+            ([0.5, 0.0], [0.0, 0.0]),
+            ([0.5, 0.0], [0.1, 0.0]),
+            ([-0.1, 0.0], [0.01, 0.01]),
+        ] {
+            assert!(
+                source(start, velocity)[0].contains("never above"),
+                "{start:?}"
+            );
+        }
+        assert!(source([0.005, 0.0], [0.0, 0.04])[0].contains("at 0.5000 s"));
+        assert!(source([0.005, -0.01], [0.0, 0.01])[0].contains("before 1.0000 s"));
+    }
+
+    #[test]
+    fn output_that_never_comes_is_told() {
+        let pool = json!({"from_s": 3.0, "interval_s": 0.1, "beside_m": 1.0, "behind_m": 1.0, "ahead_m": 1.0});
+        let rare = told(&json!({"output":
+            {"particles_interval_s": 5.0, "balance_interval_s": 4.0, "pool": pool}}));
+        assert_eq!(rare.len(), 3, "{rare:?}");
+        assert!(rare[0].contains("5 s") && rare[1].contains("4 s") && rare[2].contains("3 s"));
+    }
+
+    #[test]
+    fn bodies_that_bounds_cut_are_told() {
+        let bounds =
+            |high: f64| told(&json!({"bounds": {"min_m": [0, 0, 0], "max_m": [1, 1, high]}}));
+        assert!(bounds(0.005).is_empty());
+        assert!(bounds(0.004)[0].contains("body 0"));
+    }
+
+    #[test]
+    fn a_flow_without_liquid_is_told() {
+        let solid = json!([{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "solid"}]);
+        assert!(told(&json!({"bodies": solid}))[0].contains("nothing will move"));
+    }
+}
