@@ -1,5 +1,6 @@
 //! What `arcfvm check` tells before anything runs.
 
+use artefact::Table;
 use run::Plan;
 
 use crate::case::{Case, GAS};
@@ -65,6 +66,38 @@ pub(crate) fn plan(scene: &Scene, case: &Case) -> Plan {
     }
     if case.heat.as_ref().is_some_and(|h| h.granular.is_some()) {
         plan = plan.column("slag", "1");
+    }
+    output(scene, case, plan)
+}
+
+/// Columns that `/surface` has at most.
+const SURFACE: usize = 24;
+
+/// The tables of the artefact, all of them JSON at the most.
+fn output(scene: &Scene, case: &Case, mut plan: Plan) -> Plan {
+    let grid = &case.grid;
+    let bytes = |rows: usize, columns: usize| {
+        let none = vec![0.0; rows];
+        let table = (0..columns).fold(Table::new(rows), |table, _| {
+            table.column("", "", none.iter().copied())
+        });
+        table.most_bytes() as u64
+    };
+    let solved = [
+        (scene.heat.is_some(), HEAT.len()),
+        (scene.flow.is_some(), FLOW.len()),
+        (scene.current.is_some(), CURRENT.len()),
+        // The density of electrons beside what is solved for.
+        (scene.vapour.is_some(), VAPOUR.len() + 1),
+    ];
+    let solved: usize = solved.iter().filter(|part| part.0).map(|part| part.1).sum();
+    // The cells' places, slag and material.
+    plan = plan.output("/plasma", 1, bytes(grid.len(), solved + 4));
+    if let Some(base) = &case.base {
+        plan = plan.output("/surface", 1, bytes(grid.nr, SURFACE));
+        if scene.current.is_some() {
+            plan = plan.output("/lorentz", 1, bytes(grid.nr * base.top(), 4));
+        }
     }
     plan
 }

@@ -12,6 +12,7 @@ use artefact::Table;
 use crate::average::{Averages, Plan};
 use crate::ensemble::{Ensemble, Moments, Point};
 use crate::grid::{Cut, Section};
+use crate::profile::Profile;
 
 const AXES: [&str; 3] = ["x_m", "y_m", "z_m"];
 
@@ -41,6 +42,26 @@ pub fn tables(plan: &Plan, averages: &Averages) -> Vec<Placed> {
     if let (Some(rings), Some(profile)) = (&plan.rings, &averages.profile) {
         let table = at_source(plan, profile.table(rings, &plan.smoothing));
         all.push((format!("/{PROFILE}"), 0.0, table));
+    }
+    all
+}
+
+/// Channels of the averages with the number of their messages, and at most their bytes before they are compressed.
+#[must_use]
+pub fn volume(plan: &Plan) -> Vec<(String, u64, u64)> {
+    let mut all = Vec::new();
+    for section in &plan.sections {
+        let points = vec![Point::default(); section.len()];
+        let each = placed(plan, section, &points).most_bytes() as u64;
+        let phases = plan.phases as u64;
+        if phases > 1 {
+            all.push((format!("/{}", section.name), phases, phases * each));
+        }
+        all.push((format!("/{}/time_mean", section.name), 1, each));
+    }
+    if let Some(rings) = &plan.rings {
+        let empty = Profile::new(rings).table(rings, &plan.smoothing);
+        all.push((format!("/{PROFILE}"), 1, empty.most_bytes() as u64));
     }
     all
 }

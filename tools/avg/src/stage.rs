@@ -125,6 +125,9 @@ fn shown(plan: &Plan, scene: &Scene) -> Shown {
         .column("velocity", "m/s")
         .memory("ensembles", plan.ensemble_bytes())
         .memory("one frame", plan.frame_bytes());
+    for (channel, messages, bytes) in fields::volume(plan) {
+        shown = shown.output(&channel, messages, bytes);
+    }
     if plan.temperature {
         shown = shown.column("temperature", "K");
     } else {

@@ -13,6 +13,7 @@ use crate::lattice::Lattice;
 use crate::message::{ATTRIBUTES, AXES, COLUMNS, FRAME_ID, GRID, RECORD, TABLE, Topic};
 use crate::reader::Reader;
 use crate::table::{Quantity, Record, Series, Table};
+use crate::values::Precision;
 use crate::writer::Writer;
 
 impl Writer {
@@ -48,6 +49,27 @@ impl Writer {
             self.put(beside, time, &text)?;
         }
         self.end_chunk()
+    }
+}
+
+/// Longest number of a JSON text, with what parts it from the next \[byte\]: `-1.2345678901234567e-308,`.
+const NUMBER: usize = 26;
+/// What a series or a message has beside its numbers, at most \[byte\].
+const NAMES: usize = 200;
+
+impl Table {
+    /// Bytes of the message that holds such a table, at most, before they are compressed; the values do not matter.
+    #[must_use]
+    pub fn most_bytes(&self) -> usize {
+        let series = self.columns.len() + self.axes.len() + self.attributes.len() + 1;
+        // The axes of a packed grid stand once, with its channel.
+        let along: usize = self.axes.iter().map(|axis| axis.values.len()).sum();
+        let (width, along) = match (Lattice::of(self), self.precision()) {
+            (Some(_), Precision::F32) => (4, 0),
+            (Some(_), Precision::F64) => (8, 0),
+            (None, _) => (NUMBER, along),
+        };
+        series * NAMES + along * NUMBER + self.columns.len() * self.len() * width
     }
 }
 
@@ -148,4 +170,38 @@ impl Reader {
 
 fn at(channel: &str) -> String {
     format!("metadata of channel '{channel}'")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grid of numbers that take the most digits.
+    fn long(y: &[f64]) -> Table {
+        let x = [0.1, 0.2, 0.3];
+        let values = vec![-1.234_567_890_123_456_7e-308; 3 * y.len()];
+        Table::grid(&[("x_m", "m", &x), ("y_m", "m", y)])
+            .column("temperature_k", "K", values.clone())
+            .column("velocity_x_m_s", "m/s", values)
+            .attribute("phase_time_s", "s", -1.234_567_890_123_456_7e-308)
+    }
+
+    #[test]
+    fn no_message_is_longer_than_told() {
+        let mut y: Vec<f64> = (0..400).map(|k| 0.5 * f64::from(k)).collect();
+        let even = long(&y);
+        for table in [even.clone(), even.in_precision(Precision::F32)] {
+            let lattice = Lattice::of(&table).unwrap();
+            let found = grid::encode(&table, &lattice, 0).len();
+            let told = table.most_bytes();
+            assert!((found..found + 6 * NAMES).contains(&told), "{found} {told}");
+        }
+        y[3] = 1.6;
+        let uneven = long(&y);
+        assert!(Lattice::of(&uneven).is_none());
+        let found = serde_json::to_vec(&uneven).unwrap().len();
+        let told = uneven.most_bytes();
+        let most = found * 3 / 2;
+        assert!((found..most).contains(&told), "{found} {told}");
+    }
 }
