@@ -67,15 +67,26 @@ where
         scratch: &mut Scratch<S>,
     ) -> Solved {
         let solved = self.stabilised(a, b, y, rule, scratch);
-        let weak = matches!(
-            solved.ending,
-            Ending::Stagnated(Stagnation::Plateau { .. })
-                | Ending::BrokenDown(Breakdown::Shadow | Breakdown::Polynomial)
-        );
-        if !weak || matches!(self, Self::Direct(_)) || solved.products >= rule.products {
+        if weak(&solved) && !matches!(self, Self::Direct(_)) {
+            self.minimal(a, b, (y, solved), rule, scratch)
+        } else {
+            solved
+        }
+    }
+
+    /// Goes on where short recurrences stood still, with the products that are left: for eigenvalues about zero they fail
+    /// where minimal residuals do not.
+    pub(crate) fn minimal<const C: usize>(
+        &mut self,
+        a: &impl Operator<S>,
+        b: &[[S; C]],
+        (y, solved): (&mut [[S; C]], Solved),
+        rule: Rule,
+        scratch: &mut Scratch<S>,
+    ) -> Solved {
+        if solved.products >= rule.products {
             return solved;
         }
-        // Eigenvalues about zero: short recurrences fail where minimal residuals do not.
         if solved.worst() > 1.0 {
             y.fill([S::ZERO; C]);
         }
@@ -94,7 +105,8 @@ where
         both
     }
 
-    fn stabilised<const C: usize>(
+    /// Short recurrences.
+    pub(crate) fn stabilised<const C: usize>(
         &mut self,
         a: &impl Operator<S>,
         b: &[[S; C]],
@@ -131,6 +143,15 @@ where
             Self::Complex(factors) => factors.solve(rhs, out),
         }
     }
+}
+
+/// Did short recurrences stand still?
+pub(crate) fn weak(solved: &Solved) -> bool {
+    matches!(
+        solved.ending,
+        Ending::Stagnated(Stagnation::Plateau { .. })
+            | Ending::BrokenDown(Breakdown::Shadow | Breakdown::Polynomial)
+    )
 }
 
 /// A second solve after a first.

@@ -40,6 +40,7 @@ mod minimal;
 mod multigrid;
 mod operator;
 mod order;
+mod rescue;
 mod rows;
 mod scalar;
 mod sparse;

@@ -1,6 +1,6 @@
 //! A system of equations made ready for solving: rows scaled and reordered, a method chosen.
 
-use crate::factors::{Factors, joined};
+use crate::factors::Factors;
 use crate::lowrank::{LowRank, Ties};
 use crate::{
     Coefficient, Direct, Ending, Error, Grids, Keep, Order, Pair, Rows, Rule, Scalar, Scratch,
@@ -10,8 +10,8 @@ use crate::{
 /// How a system is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Method {
-    /// Directly up to [`Options::direct`] unknowns, by multigrid beyond; directly also where the
-    /// iteration stagnates and there are not more than [`Options::rescue`] unknowns.
+    /// Directly up to [`Options::direct`] unknowns, by multigrid beyond. Where that stands still, by incomplete factors by
+    /// size; where these do not serve either and there are not more than [`Options::rescue`] unknowns, directly.
     #[default]
     Chosen,
     /// BiCGStab(2) and algebraic multigrid.
@@ -54,16 +54,16 @@ impl Default for Options {
 /// residuals are those of the divided rows; rows that hold nothing but their diagonal (given
 /// values) are met exactly from the start.
 pub struct System<T, S: Scalar> {
-    options: Options,
-    order: Order,
-    rows: Rows<T>,
-    shift: Vec<S>,
+    pub(crate) options: Options,
+    pub(crate) order: Order,
+    pub(crate) rows: Rows<T>,
+    pub(crate) shift: Vec<S>,
     /// Factors of the rows, in the new order.
     scale: Vec<f64>,
-    factors: Factors<T, S>,
+    pub(crate) factors: Factors<T, S>,
     scratch: Scratch<S>,
     vectors: Scratch<S>,
-    rescued: bool,
+    pub(crate) rescued: bool,
 }
 
 impl<T: Scalar, S: Unknown<T>> System<T, S> {
@@ -108,7 +108,7 @@ impl<T: Scalar, S: Unknown<T>> System<T, S> {
         self.rows.is_empty()
     }
 
-    /// Has an iteration failed, so that sparse factors took its place?
+    /// Has multigrid stood still, so that incomplete or sparse factors took its place?
     #[must_use]
     pub fn rescued(&self) -> bool {
         self.rescued
@@ -250,24 +250,15 @@ where
         }
         let ties = Ties::new(pairs, &self.order, &self.scale);
         self.given(&ties, b, y);
-        let mut solved = self.run(&ties, b, y, rule);
-        let failed = matches!(solved.ending, Ending::Stagnated(_) | Ending::BrokenDown(_));
-        let direct = matches!(self.factors, Factors::Direct(_));
-        let rounding = matches!(
-            solved.ending,
-            Ending::Stagnated(Stagnation::Rounding { .. })
-        );
-        let chosen = self.options.method == Method::Chosen && n <= self.options.rescue;
-        if failed
-            && !direct
-            && !rounding
-            && chosen
-            && let Ok(factors) = Direct::new(&self.rows, &self.shift)
-        {
-            self.factors = Factors::Direct(Box::new(factors));
-            self.rescued = true;
-            y.fill([S::ZERO; C]);
-            solved = joined(solved, self.run(&ties, b, y, rule));
+        let mut solved = if self.options.method == Method::Chosen {
+            self.choose(&ties, b, y, rule)
+        } else {
+            self.run(&ties, |factors, a, scratch| {
+                factors.solve(a, b, y, rule, scratch)
+            })
+        };
+        if matches!(solved.ending, Ending::Stagnated(Stagnation::Plateau { .. })) {
+            solved.ending = self.explained(solved.ending);
         }
         self.order.back(y, solution);
         self.vectors = vectors;
@@ -285,12 +276,15 @@ where
         }
     }
 
-    fn run<const C: usize>(
+    /// Does `work` with the factors, the matrix and scratch.
+    pub(crate) fn run(
         &mut self,
         ties: &Ties<S>,
-        b: &[[S; C]],
-        y: &mut [[S; C]],
-        rule: Rule,
+        work: impl FnOnce(
+            &mut Factors<T, S>,
+            &LowRank<'_, Shifted<'_, T, S>, S>,
+            &mut Scratch<S>,
+        ) -> Solved,
     ) -> Solved {
         let sparse = Shifted {
             rows: &self.rows,
@@ -300,11 +294,7 @@ where
             sparse: &sparse,
             ties,
         };
-        let mut solved = self.factors.solve(&whole, b, y, rule, &mut self.scratch);
-        if matches!(solved.ending, Ending::Stagnated(Stagnation::Plateau { .. })) {
-            solved.ending = self.explained(solved.ending);
-        }
-        solved
+        work(&mut self.factors, &whole, &mut self.scratch)
     }
 
     /// Why a residual does not fall.
@@ -314,13 +304,17 @@ where
             Factors::Real(factors) => factors.growth::<S>(),
             Factors::Complex(factors) => factors.growth::<S>(),
         };
-        // Of a Laplacian with rows of largest entry one, the inverse grows with the points across.
-        let usual = (self.rows.len() as f64).max(10.0);
-        if growth > usual {
+        if growth > self.usual_growth() {
             Ending::Stagnated(Stagnation::Preconditioner { growth })
         } else {
             ending
         }
+    }
+
+    /// Largest entry of the inverse applied to ones: of a Laplacian with rows of largest entry one, it grows with the points
+    /// across.
+    pub(crate) fn usual_growth(&self) -> f64 {
+        (self.rows.len() as f64).max(10.0)
     }
 }
 

@@ -229,6 +229,35 @@ fn a_ball_that_hardly_conducts_is_rescued() {
 }
 
 #[test]
+fn incomplete_factors_take_over_where_multigrid_stands_still() {
+    // Coarse equations of a ball that conducts a million times better than the real one.
+    let equations = Cloud::ball(18, 1e-2).build();
+    let low = Cloud::ball(18, 1e4).build().rows;
+    let options = Options {
+        rescue: 0,
+        ..Options::default()
+    };
+    for method in [Method::Multigrid(Grids::default()), Method::Chosen] {
+        let rows = equations.rows.clone();
+        let options = Options { method, ..options };
+        let mut system =
+            System::<f64, C64>::with_low_order(rows, Vec::new(), low.clone(), options).unwrap();
+        let mut x = vec![[C64::ZERO; 3]; equations.rhs.len()];
+        let solved = system.solve(&equations.rhs, &mut x, Rule::default());
+        println!(
+            "{method:?} {} {} {}",
+            solved.products,
+            solved.ending,
+            system.rescued()
+        );
+        let chosen = method == Method::Chosen;
+        assert_eq!(system.rescued(), chosen);
+        assert_eq!(solved.converged(), chosen, "{}", solved.ending);
+        assert!(!chosen || left(&equations, &x) < 1e-6);
+    }
+}
+
+#[test]
 fn a_constant_that_nothing_fixes_is_told() {
     // No wall: every row adds up to zero; a right side that is not in reach.
     let n = 3000;
