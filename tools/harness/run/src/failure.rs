@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::scene::Fault;
+use crate::fault::Fault;
 
 /// Why a run ended without a result.
 #[derive(Debug, Error)]

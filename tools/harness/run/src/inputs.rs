@@ -7,7 +7,17 @@ use artefact::Reader;
 
 use crate::failure::Failure;
 use crate::scene::nearest;
-use crate::tool::Input;
+
+/// An input file that a stage reads, given as `--input NAME=FILE`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Input {
+    /// Name on the command line and in the header of the artefact.
+    pub name: &'static str,
+    /// What it is, for `--help`: "gas table (gas-table 1.x)".
+    pub what: &'static str,
+    /// Whether a run without it is refused before anything else.
+    pub required: bool,
+}
 
 /// The input files of a run, by name, with their hashes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -5,21 +5,10 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
-use crate::inputs::Inputs;
+use crate::inputs::{Input, Inputs};
 use crate::plan::{Estimate, Plan};
 use crate::scene::{Expected, Migration};
 use crate::session::Session;
-
-/// An input file that a stage reads, given as `--input NAME=FILE`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Input {
-    /// Name on the command line and in the header of the artefact.
-    pub name: &'static str,
-    /// What it is, for `--help`: "gas table (gas-table 1.x)".
-    pub what: &'static str,
-    /// Whether a run without it is refused before anything else.
-    pub required: bool,
-}
 
 /// A stage: reads a scene and inputs, writes one artefact.
 pub trait Tool {

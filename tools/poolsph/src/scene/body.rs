@@ -1,7 +1,7 @@
 //! Bodies in a scene.
 
+use run::Fault;
 use run::property::Property;
-use run::scene::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

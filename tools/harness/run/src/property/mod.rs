@@ -1,6 +1,7 @@
 //! Properties as a person states them: a number, a table over temperature, or an expression.
 
 mod expression;
+mod operation;
 mod parser;
 
 use schemars::JsonSchema;
@@ -9,7 +10,7 @@ use thiserror::Error;
 
 pub use expression::Expression;
 
-use crate::scene::Fault;
+use crate::fault::Fault;
 
 /// What a property can depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

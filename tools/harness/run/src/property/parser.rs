@@ -3,7 +3,7 @@
 //! sum = term (("+" | "-") term)*; term = sign (("*" | "/") sign)*; sign = ("-" | "+")* power;
 //! power = atom ("^" sign)?; atom = number | name | name "(" sum ("," sum)* ")" | "(" sum ")".
 
-use super::expression::{CONSTANTS, DEPTH, ONE, Operation, TWO, VARIABLES};
+use super::operation::{CONSTANTS, DEPTH, ONE, Operation, TWO, VARIABLES};
 
 /// Deepest nesting of parentheses.
 const NESTED: usize = 64;

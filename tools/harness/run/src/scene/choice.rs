@@ -6,9 +6,9 @@ use jsonschema::ValidationError;
 use jsonschema::error::ValidationErrorKind as Kind;
 use serde_json::Value;
 
-use super::fault::Fault;
 use super::suggest::instead_of;
-use super::validate::{none_of, show, type_of};
+use super::words::{none_of, show, type_of};
+use crate::fault::Fault;
 
 /// The branch of a choice that the person meant: not excluded by type or tag, with fewest faults.
 pub(super) fn best_branch<'a>(

@@ -3,9 +3,9 @@
 use serde_json::{Map, Value};
 
 use super::Expected;
-use super::fault::{Fault, located};
-use super::patch::Merged;
+use super::patch::{Merged, located};
 use crate::failure::Failure;
+use crate::fault::Fault;
 
 /// The step from a version of a scene to the next.
 ///

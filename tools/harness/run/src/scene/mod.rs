@@ -1,13 +1,13 @@
 //! From scene files to a typed scene: reading, patching, validating, locating every fault.
 
 mod choice;
-mod fault;
 mod migrate;
 mod origin;
 mod patch;
 mod schema;
 mod suggest;
 mod validate;
+mod words;
 
 use std::path::{Path, PathBuf};
 
@@ -16,13 +16,13 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::failure::Failure;
-pub use fault::{Fault, located};
+use crate::fault::Fault;
 pub use migrate::Migration;
 pub use schema::{schema_of, schema_text};
 pub use suggest::nearest;
 
 use origin::Document;
-pub use patch::Merged;
+pub use patch::{Merged, located};
 
 /// Kind and version that a tool reads.
 #[derive(Debug, Clone, Copy)]

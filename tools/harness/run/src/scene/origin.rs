@@ -8,8 +8,8 @@ use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 use serde_json::Value;
 
-use super::fault::{Fault, Spot};
 use crate::failure::Failure;
+use crate::fault::{Fault, Spot};
 
 /// Where a value stands: offset of its key (if it has one) and of itself \[byte\].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use serde_json::{Map, Value};
 
-use super::fault::{Fault, Spot};
 use super::origin::{Document, Place, escaped};
 use crate::failure::Failure;
+use crate::fault::{Fault, Spot};
 
 /// A scene with its patches applied; every value knows its file.
 #[derive(Debug)]
@@ -95,6 +95,19 @@ impl Merged {
             None => self.spot(pointer),
         }
     }
+}
+
+/// Adds file, line and column to each fault, and sorts by them.
+#[must_use]
+pub fn located(faults: Vec<Fault>, merged: &Merged) -> Vec<Fault> {
+    let place = |path: &str, key: Option<&str>| match key {
+        Some(key) => merged.key_spot(path, key),
+        None => merged.spot(path),
+    };
+    let mut faults: Vec<Fault> = faults.into_iter().map(|f| f.placed(place)).collect();
+    faults.sort_by(|a, b| a.spot().cmp(&b.spot()));
+    faults.dedup();
+    faults
 }
 
 struct Merge<'a> {

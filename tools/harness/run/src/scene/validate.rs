@@ -5,8 +5,9 @@ use jsonschema::{JsonType, ValidationError};
 use serde_json::{Map, Value};
 
 use super::choice::{best_branch, no_form};
-use super::fault::Fault;
-use super::suggest::{instead_of, nearest, unit_of};
+use super::suggest::{instead_of, unit_of};
+use super::words::{none_of, show, type_of};
+use crate::fault::Fault;
 
 /// All faults of `scene` against `schema`.
 pub(crate) fn faults(schema: &Value, scene: &Value) -> Vec<Fault> {
@@ -122,21 +123,6 @@ fn entries(list: &Value, word: &str, limit: u64, node: Option<&Value>) -> String
     )
 }
 
-pub(super) fn none_of(found: &Value, options: &Value) -> String {
-    let words: Vec<&str> = options
-        .as_array()
-        .into_iter()
-        .flatten()
-        .filter_map(Value::as_str)
-        .collect();
-    let hint = found
-        .as_str()
-        .and_then(|word| nearest(word, &words))
-        .map(|meant| format!("; did you mean \"{meant}\"?"))
-        .unwrap_or_default();
-    format!("{} is none of {options}{hint}", show(found))
-}
-
 /// The schema that holds the keyword at `keyword`.
 fn parent_node<'a>(schema: &'a Value, keyword: &str) -> Option<&'a Value> {
     let end = keyword.rfind('/')?;
@@ -201,25 +187,5 @@ fn wanted(kind: &TypeKind) -> String {
             .map(name)
             .collect::<Vec<_>>()
             .join(" or "),
-    }
-}
-
-pub(super) fn type_of(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "null",
-        Value::Bool(_) => "true or false",
-        Value::Number(_) => "a number",
-        Value::String(_) => "a text",
-        Value::Array(_) => "a list",
-        Value::Object(_) => "an object",
-    }
-}
-
-/// A value, shortened where it is long.
-pub(super) fn show(value: &Value) -> String {
-    let text = value.to_string();
-    match text.char_indices().nth(60) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text,
     }
 }

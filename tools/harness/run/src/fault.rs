@@ -3,8 +3,6 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use super::patch::Merged;
-
 /// File, line and column, from 1.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Spot {
@@ -65,6 +63,19 @@ impl Fault {
         self.path = format!("{prefix}{}", self.path);
         self
     }
+
+    /// The fault at the place that `place` finds for its path and key, unless it has one.
+    pub(crate) fn placed(mut self, place: impl FnOnce(&str, Option<&str>) -> Spot) -> Self {
+        if self.spot.is_none() {
+            self.spot = Some(place(&self.path, self.key.as_deref()));
+        }
+        self
+    }
+
+    /// Where it is, once it has been placed.
+    pub(crate) fn spot(&self) -> Option<&Spot> {
+        self.spot.as_ref()
+    }
 }
 
 impl fmt::Display for Fault {
@@ -78,20 +89,4 @@ impl fmt::Display for Fault {
             (None, path) => write!(f, "{path}: {}", self.what),
         }
     }
-}
-
-/// Adds file, line and column to each fault, and sorts by them.
-#[must_use]
-pub fn located(mut faults: Vec<Fault>, merged: &Merged) -> Vec<Fault> {
-    for fault in &mut faults {
-        if fault.spot.is_none() {
-            fault.spot = Some(match &fault.key {
-                Some(key) => merged.key_spot(&fault.path, key),
-                None => merged.spot(&fault.path),
-            });
-        }
-    }
-    faults.sort_by(|a, b| a.spot.cmp(&b.spot));
-    faults.dedup();
-    faults
 }
