@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::header::Version;
+use crate::version::Version;
 
 /// Why an artefact, a checkpoint or a JSON artefact could not be written or read.
 #[derive(Debug, Error)]

@@ -1,17 +1,16 @@
 //! Who wrote a file, from what: the metadata record `fusionline`.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Result, io_error};
+use crate::version::Version;
 
 /// Name of the metadata record that makes an MCAP file one of ours.
 pub const METADATA: &str = "fusionline";
@@ -24,42 +23,6 @@ pub const KINDS: [(&str, u32); 5] = [
     ("particle-frames", 1),
     ("point-fields", 1),
 ];
-
-/// Version of an artefact kind. A newer minor version only adds; a newer major version breaks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Version {
-    /// Breaks readers.
-    pub major: u32,
-    /// Only adds.
-    pub minor: u32,
-}
-
-impl Version {
-    /// A version from its two numbers.
-    #[must_use]
-    pub const fn new(major: u32, minor: u32) -> Self {
-        Self { major, minor }
-    }
-}
-
-impl fmt::Display for Version {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.major, self.minor)
-    }
-}
-
-impl FromStr for Version {
-    type Err = String;
-
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
-        let wrong = || format!("'{text}' is not a version: major.minor, for example 1.0");
-        let (major, minor) = text.split_once('.').ok_or_else(wrong)?;
-        Ok(Self {
-            major: major.parse().map_err(|_| wrong())?,
-            minor: minor.parse().map_err(|_| wrong())?,
-        })
-    }
-}
 
 /// Who wrote a file, from what. Two runs with equal headers write equal bytes.
 #[derive(Debug, Clone, PartialEq)]
@@ -271,7 +234,7 @@ pub fn sha256_file(path: &Path) -> Result<String> {
 }
 
 pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
-    use fmt::Write;
+    use std::fmt::Write;
     bytes
         .iter()
         .fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {

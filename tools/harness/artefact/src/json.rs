@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::{Error, Result, io_error};
-use crate::header::Version;
+use crate::version::Version;
 
 #[derive(Deserialize)]
 struct Envelope {

@@ -6,9 +6,9 @@ use artefact::json_error;
 use serde_json::Value;
 
 use super::Streams;
+use super::schema::schema_faults;
 use super::sheet::{Sheet, short};
 use super::trouble::{Trouble, file_error};
-use super::validate::schema_faults;
 
 /// Schemas of our JSON files by kind.
 const SCHEMAS: [(&str, &str); 10] = [

@@ -8,6 +8,7 @@ mod json;
 mod ls;
 mod open;
 mod recover;
+mod schema;
 mod sheet;
 mod trouble;
 mod validate;
