@@ -12,12 +12,9 @@ use artefact::Table;
 use crate::average::{Averages, Plan};
 use crate::ensemble::{Ensemble, Moments, Point};
 use crate::grid::{Cut, Section};
-use crate::profile::Profile;
+use crate::profile::{PROFILE, Profile};
 
 const AXES: [&str; 3] = ["x_m", "y_m", "z_m"];
-
-/// Name of the channel of the surface over the distance from the axis.
-pub const PROFILE: &str = "profile";
 
 /// A table with its channel and log time \[s\].
 pub type Placed = (String, f64, Table);

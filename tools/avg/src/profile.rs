@@ -21,6 +21,9 @@ use crate::ensemble::Moments;
 use crate::mean::{Cells, Smoothing};
 use crate::surface;
 
+/// Name of the channel of the surface over the distance from the axis.
+pub const PROFILE: &str = "profile";
+
 /// Fewest places of a ring.
 const PLACES_LEAST: f64 = 8.0;
 /// Places on the way of one spacing along a ring.

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::fields::PROFILE;
 use crate::grid::{Cut, Section};
+use crate::profile::PROFILE;
 
 /// A scene of averages. Lengths are in the frame of reference of the averages: with `follow`, x and
 /// y count from the source; z counts from the original surface of the plate.

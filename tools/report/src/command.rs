@@ -1,11 +1,14 @@
 //! The command line of `report`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use run::Failure;
 
+use crate::files::{
+    FieldFiles, Folders, GasFiles, HeatFiles, PageFiles, PassesFiles, perhaps_named,
+};
 use crate::{index, page, validate};
 
 /// Pictures, plots and tables from artefacts and records, as self-contained HTML pages.
@@ -54,153 +57,21 @@ enum Action {
     },
 }
 
-/// Files of a study page.
-#[derive(Debug, clap::Args)]
-pub(crate) struct PageFiles {
-    /// Name of the study.
-    #[arg(long)]
-    pub(crate) study: String,
-    /// The page to write.
-    #[arg(long)]
-    pub(crate) out: PathBuf,
-    /// Arc source; of several, what the page calls each.
-    #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named)]
-    pub(crate) arc: Vec<(String, PathBuf)>,
-    /// Particle frames of the pool.
-    #[arg(long)]
-    pub(crate) pool: Option<PathBuf>,
-    /// Mean fields.
-    #[arg(long)]
-    pub(crate) mean: Option<PathBuf>,
-    /// Published values.
-    #[arg(long)]
-    pub(crate) targets: Option<PathBuf>,
-}
-
 const PASSES: &str = "Example, from the repository root:\n  \
     target/release/report passes --study gmaw-two-pass --out build/gmaw-two-pass/report.html \\\n    \
     --arc first=build/gmaw-300a/arc.mcap --arc second=build/gmaw-two-pass/arc.mcap";
-
-/// Files of a page about passes.
-#[derive(Debug, clap::Args)]
-pub(crate) struct PassesFiles {
-    /// Name of the study.
-    #[arg(long)]
-    pub(crate) study: String,
-    /// The page to write.
-    #[arg(long)]
-    pub(crate) out: PathBuf,
-    /// Arc source of a pass, and what the page calls the pass; once for each.
-    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) arc: Vec<(String, PathBuf)>,
-    /// Particle frames of the pool of a pass.
-    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) pool: Vec<(String, PathBuf)>,
-    /// Mean fields of the pool of a pass.
-    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) mean: Vec<(String, PathBuf)>,
-}
 
 const HEAT: &str = "Example, from the repository root:\n  \
     target/release/report heat --study fgm-shock --out build/fgm-shock/report.html \\\n    \
     --frames 1023=build/fgm-shock/disc-1023.mcap --frames 1073=build/fgm-shock/disc-1073.mcap";
 
-/// Files of a page about heat.
-#[derive(Debug, clap::Args)]
-pub(crate) struct HeatFiles {
-    /// Name of the study.
-    #[arg(long)]
-    pub(crate) study: String,
-    /// The page to write.
-    #[arg(long)]
-    pub(crate) out: PathBuf,
-    /// Points of a run, and what the page calls it; once for each run.
-    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) frames: Vec<(String, PathBuf)>,
-}
-
 const FIELD: &str = "Example, from the repository root:\n  \
     target/release/report field --study levitation-field --out build/levitation-field/report.html \\\n    \
     --fields drop=build/levitation-field/fields.mcap --exact drop=build/levitation-field/exact.json";
 
-/// Files of a page about electric and magnetic fields.
-#[derive(Debug, clap::Args)]
-pub(crate) struct FieldFiles {
-    /// Name of the study.
-    #[arg(long)]
-    pub(crate) study: String,
-    /// The page to write.
-    #[arg(long)]
-    pub(crate) out: PathBuf,
-    /// Points of a run, and what the page calls it; once for each run.
-    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) fields: Vec<(String, PathBuf)>,
-    /// The exact solution of the run of that name along its lines.
-    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) exact: Vec<(String, PathBuf)>,
-}
-
 const GAS: &str = "Example, from the repository root:\n  \
     target/release/report gas --study gases --out build/gases/report.html \\\n    \
     --table argon=build/gases/argon.mcap --reference argon=pipelines/gases/reference-argon.json";
-
-/// Files of a page about gases.
-#[derive(Debug, clap::Args)]
-pub(crate) struct GasFiles {
-    /// Name of the study.
-    #[arg(long)]
-    pub(crate) study: String,
-    /// The page to write.
-    #[arg(long)]
-    pub(crate) out: PathBuf,
-    /// A gas table, and what the page calls it; once for each gas.
-    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) table: Vec<(String, PathBuf)>,
-    /// Published properties of the gas, or of the NAME/VARIANT, of that name.
-    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
-    pub(crate) reference: Vec<(String, PathBuf)>,
-    /// The gas of that name with another value of an uncertain input, and what the page calls it.
-    #[arg(long, value_name = "NAME/VARIANT=FILE", value_parser = named)]
-    pub(crate) variant: Vec<(String, PathBuf)>,
-}
-
-/// A file with the name that is given to it.
-fn named(word: &str) -> Result<(String, PathBuf), String> {
-    match word.split_once('=') {
-        Some((name, file)) if !name.is_empty() && !file.is_empty() => {
-            Ok((name.to_owned(), PathBuf::from(file)))
-        }
-        _ => Err("wanted is NAME=FILE".to_owned()),
-    }
-}
-
-/// A file that may have a name; without one it is called as its kind is.
-fn perhaps_named(word: &str) -> Result<(String, PathBuf), String> {
-    if word.is_empty() {
-        return Err("wanted is FILE or NAME=FILE".to_owned());
-    }
-    Ok(named(word).unwrap_or_else(|_| ("arc".to_owned(), PathBuf::from(word))))
-}
-
-/// Folders of the index.
-#[derive(Debug, clap::Args)]
-pub(crate) struct Folders {
-    /// The page to write.
-    #[arg(long)]
-    pub(crate) out: PathBuf,
-    /// Records of exact cases.
-    #[arg(long)]
-    pub(crate) verify: Option<PathBuf>,
-    /// Records of extreme cases.
-    #[arg(long)]
-    pub(crate) stability: Option<PathBuf>,
-    /// Records of speed.
-    #[arg(long)]
-    pub(crate) bench: Option<PathBuf>,
-    /// Where each study has a folder with its report.
-    #[arg(long)]
-    pub(crate) studies: Option<PathBuf>,
-}
 
 /// The whole program.
 #[must_use]
@@ -265,16 +136,4 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),
     }
-}
-
-/// Writes a page, with the folder that it lies in.
-pub(crate) fn save(path: &Path, html: &str) -> Result<(), Failure> {
-    if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder).map_err(|source| Failure::Io {
-            path: folder.to_owned(),
-            action: "create",
-            source,
-        })?;
-    }
-    Ok(artefact::write_atomically(path, html.as_bytes())?)
 }

@@ -9,6 +9,7 @@
 pub mod command;
 mod draw;
 mod field;
+mod files;
 mod gas;
 mod heat;
 mod html;

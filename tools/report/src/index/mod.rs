@@ -15,7 +15,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use self::cost::{Cost, Prices};
-use crate::command::{Folders, save};
+use crate::files::{Folders, save};
 use crate::html::{Page, escape, note, paragraph};
 use crate::records::RunRecord;
 

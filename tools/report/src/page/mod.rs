@@ -17,7 +17,7 @@ mod runs;
 use artefact::Reader;
 use run::Failure;
 
-use crate::command::{PageFiles, save};
+use crate::files::{PageFiles, save};
 use crate::html::{Page, escape, paragraph};
 use crate::records::RunRecord;
 use crate::targets::Targets;

@@ -7,7 +7,7 @@ use run::Failure;
 
 use super::balance::readable;
 use super::{Named, arc, arcs, lead, runs};
-use crate::command::{PassesFiles, save};
+use crate::files::{PassesFiles, save};
 use crate::html::{Page, Rows, escape, figure, paragraph, side_by_side};
 use crate::plot::{Line, Plot};
 use crate::records::{RunRecord, figure as digits};

@@ -11,9 +11,9 @@ use artefact::Reader;
 use run::Failure;
 
 use super::{Named, lead, runs};
-use crate::command::{FieldFiles, save};
 use crate::field::Points;
 use crate::field::exact::Exact;
+use crate::files::{FieldFiles, save};
 use crate::html::Page;
 use crate::records::RunRecord;
 

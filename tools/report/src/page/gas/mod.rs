@@ -8,7 +8,7 @@ use artefact::Reader;
 use run::Failure;
 
 use super::{Named, lead, runs};
-use crate::command::{GasFiles, save};
+use crate::files::{GasFiles, save};
 use crate::gas::Gas;
 use crate::gas::reference::Reference;
 use crate::html::Page;

@@ -9,7 +9,7 @@ use artefact::Reader;
 use run::Failure;
 
 use super::{Named, lead, runs};
-use crate::command::{HeatFiles, save};
+use crate::files::{HeatFiles, save};
 use crate::heat::Points;
 use crate::html::Page;
 use crate::records::RunRecord;

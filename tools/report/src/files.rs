@@ -1,0 +1,149 @@
+//! The files that each page is made from, as the command line names them, and the page that is written.
+
+use std::path::{Path, PathBuf};
+
+use run::Failure;
+
+/// Files of a study page.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PageFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Arc source; of several, what the page calls each.
+    #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named)]
+    pub(crate) arc: Vec<(String, PathBuf)>,
+    /// Particle frames of the pool.
+    #[arg(long)]
+    pub(crate) pool: Option<PathBuf>,
+    /// Mean fields.
+    #[arg(long)]
+    pub(crate) mean: Option<PathBuf>,
+    /// Published values.
+    #[arg(long)]
+    pub(crate) targets: Option<PathBuf>,
+}
+
+/// Files of a page about passes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PassesFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Arc source of a pass, and what the page calls the pass; once for each.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) arc: Vec<(String, PathBuf)>,
+    /// Particle frames of the pool of a pass.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) pool: Vec<(String, PathBuf)>,
+    /// Mean fields of the pool of a pass.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) mean: Vec<(String, PathBuf)>,
+}
+
+/// Files of a page about heat.
+#[derive(Debug, clap::Args)]
+pub(crate) struct HeatFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Points of a run, and what the page calls it; once for each run.
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) frames: Vec<(String, PathBuf)>,
+}
+
+/// Files of a page about electric and magnetic fields.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FieldFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Points of a run, and what the page calls it; once for each run.
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) fields: Vec<(String, PathBuf)>,
+    /// The exact solution of the run of that name along its lines.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) exact: Vec<(String, PathBuf)>,
+}
+
+/// Files of a page about gases.
+#[derive(Debug, clap::Args)]
+pub(crate) struct GasFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// A gas table, and what the page calls it; once for each gas.
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) table: Vec<(String, PathBuf)>,
+    /// Published properties of the gas, or of the NAME/VARIANT, of that name.
+    #[arg(long, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) reference: Vec<(String, PathBuf)>,
+    /// The gas of that name with another value of an uncertain input, and what the page calls it.
+    #[arg(long, value_name = "NAME/VARIANT=FILE", value_parser = named)]
+    pub(crate) variant: Vec<(String, PathBuf)>,
+}
+
+/// Folders of the index.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Folders {
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Records of exact cases.
+    #[arg(long)]
+    pub(crate) verify: Option<PathBuf>,
+    /// Records of extreme cases.
+    #[arg(long)]
+    pub(crate) stability: Option<PathBuf>,
+    /// Records of speed.
+    #[arg(long)]
+    pub(crate) bench: Option<PathBuf>,
+    /// Where each study has a folder with its report.
+    #[arg(long)]
+    pub(crate) studies: Option<PathBuf>,
+}
+
+/// A file with the name that is given to it.
+fn named(word: &str) -> Result<(String, PathBuf), String> {
+    match word.split_once('=') {
+        Some((name, file)) if !name.is_empty() && !file.is_empty() => {
+            Ok((name.to_owned(), PathBuf::from(file)))
+        }
+        _ => Err("wanted is NAME=FILE".to_owned()),
+    }
+}
+
+/// A file that may have a name; without one it is called as its kind is.
+pub(crate) fn perhaps_named(word: &str) -> Result<(String, PathBuf), String> {
+    if word.is_empty() {
+        return Err("wanted is FILE or NAME=FILE".to_owned());
+    }
+    Ok(named(word).unwrap_or_else(|_| ("arc".to_owned(), PathBuf::from(word))))
+}
+
+/// Writes a page, with the folder that it lies in.
+pub(crate) fn save(path: &Path, html: &str) -> Result<(), Failure> {
+    if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(|source| Failure::Io {
+            path: folder.to_owned(),
+            action: "create",
+            source,
+        })?;
+    }
+    Ok(artefact::write_atomically(path, html.as_bytes())?)
+}
