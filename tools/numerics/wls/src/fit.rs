@@ -5,10 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::basis::{Basis, TERMS};
 use crate::factor::{self, Factor};
 use crate::harmonic::{Over, Reduction};
-use crate::moments::{Coefficients, Points};
+use crate::moments::{Coefficients, Points, ROWS};
 
-/// Functionals of one fit at most: value, three first and six second derivatives, Laplacian.
-pub(crate) const ROWS: usize = 11;
 /// Up to this condition number the normal equations with one correction are exact to rounding.
 const NORMAL: f64 = 3e3;
 /// Corrections at most.

@@ -1,6 +1,6 @@
 //! Whether weights are such as equations can be made of.
 
-use crate::ladder::{Bench, Work};
+use crate::bench::{Bench, Work};
 use crate::search::Target;
 
 /// Weights of an operator, in units of the least spacing, sum up to this at most: some tens are

@@ -36,6 +36,7 @@
 //! ```
 
 mod basis;
+mod bench;
 mod error;
 mod factor;
 mod fit;
@@ -52,6 +53,7 @@ mod positive;
 mod report;
 mod search;
 mod stencils;
+mod supports;
 mod sweep;
 mod weight;
 

@@ -1,9 +1,9 @@
 //! A fit is loaded with its support, its conditions and what is asked of it.
 
 use crate::basis::Basis;
+use crate::bench::{Bench, Work};
 use crate::functional::{Condition, Rows};
 use crate::harmonic::Over;
-use crate::ladder::{Bench, Work};
 use crate::metric::Metric;
 use crate::search::Target;
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::search::{Aim, Target};
-use crate::sweep::{Found, Supports};
+use crate::supports::{Found, Supports};
 
 /// Offsets that differ by less than this part of a spacing are equal.
 const EQUAL: f64 = 1e-12;

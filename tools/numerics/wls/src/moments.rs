@@ -3,6 +3,9 @@
 use crate::basis::{Basis, LANES, Lanes, MOMENTS, TERMS, monomials};
 use crate::weight::quartic;
 
+/// Functionals of one fit at most: value, three first and six second derivatives, Laplacian.
+pub(crate) const ROWS: usize = 11;
+
 /// Vectors in the space of the monomials.
 pub(crate) type Coefficients = [f64; TERMS];
 
@@ -105,7 +108,7 @@ impl<const D: usize> Points<D> {
     ) {
         let many = basis.len();
         let mut values = [[0.0; LANES]; TERMS];
-        let mut sums = [[[0.0; LANES]; TERMS]; crate::fit::ROWS];
+        let mut sums = [[[0.0; LANES]; TERMS]; ROWS];
         for (chunk, (s, weight)) in self.chunks().enumerate() {
             monomials::<D>(basis.order(), &[1.0; LANES], s, &mut values);
             let used = LANES.min(self.count - LANES * chunk);

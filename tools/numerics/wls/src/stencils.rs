@@ -4,12 +4,8 @@ use std::ops::{Add, Mul};
 
 use rayon::prelude::*;
 
-use crate::error::Error;
 use crate::functional::Columns;
-use crate::plan::{Plan, Rules};
 use crate::report::Report;
-use crate::search::Search;
-use crate::sweep;
 
 /// What weights can act on: numbers, complex numbers, vectors.
 pub trait Field: Copy + Default + Add<Output = Self> + Mul<f64, Output = Self> {}
@@ -96,33 +92,6 @@ pub struct Stencils<const D: usize> {
 }
 
 impl<const D: usize> Stencils<D> {
-    /// Makes the rows of all points of the cloud that the `rules` want.
-    ///
-    /// # Errors
-    /// Where points coincide, where a point is alone, or where its neighbours lie so that no order
-    /// serves; and where the plan is none.
-    pub fn build(
-        search: &Search<'_, D>,
-        plan: &Plan,
-        rules: &impl Rules<D>,
-    ) -> Result<Self, Error> {
-        sweep::over_points(search, plan, rules)
-    }
-
-    /// Makes a row at each of the `places` \[m\], with the spacing of the nearest point. In the
-    /// `rules`, a row is a place.
-    ///
-    /// # Errors
-    /// As [`Stencils::build`].
-    pub fn at(
-        search: &Search<'_, D>,
-        plan: &Plan,
-        places: &[[f64; D]],
-        rules: &impl Rules<D>,
-    ) -> Result<Self, Error> {
-        sweep::over_places(search, plan, places, rules)
-    }
-
     /// The same where point `j` carries the value of point `origin[j]`, as an image beyond a plane of symmetry does;
     /// a row may then have a point more than once. Points that stand for themselves come first, and their rows stay.
     #[must_use]

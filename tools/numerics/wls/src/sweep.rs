@@ -2,37 +2,21 @@
 
 use rayon::prelude::*;
 
-use crate::basis::Basis;
+use crate::bench::{Bench, Work};
 use crate::error::Error;
-use crate::functional::{Columns, Condition};
-use crate::ladder::{Bench, Made, Work};
+use crate::functional::Condition;
+use crate::ladder::Made;
 use crate::memo::{self, Group};
 use crate::plan::{Plan, Rules};
 use crate::report::Report;
 use crate::search::{Aim, Search, Target};
 use crate::stencils::{Spot, Stencils};
+use crate::supports::{Found, Supports};
 
 /// Leaves of the tree that make a parcel of parallel work.
 const LEAVES: usize = 16;
 /// Solutions that make one.
 const SOLUTIONS: usize = 64;
-
-/// The support of one row, among those of a parcel.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Found {
-    pub(crate) row: u32,
-    pub(crate) count: u32,
-    /// First neighbour in the array of all.
-    pub(crate) start: usize,
-    pub(crate) radius: f64,
-    pub(crate) hash: u64,
-    /// It may share weights: no conditions of its own, unless its polynomial is harmonic.
-    pub(crate) free: bool,
-    /// Its polynomial is harmonic.
-    pub(crate) harmonic: bool,
-    /// How often the support was enlarged.
-    pub(crate) times: u32,
-}
 
 /// Rows close to each other, and how often their supports are enlarged.
 struct Batch {
@@ -49,13 +33,6 @@ struct Strays {
     alone: Vec<usize>,
 }
 
-/// Supports of a cloud, in the order of the tree.
-#[derive(Debug, Default)]
-pub(crate) struct Supports {
-    pub(crate) found: Vec<Found>,
-    pub(crate) neighbours: Vec<u32>,
-}
-
 /// The weights of one group, and the support where it is another one than was found.
 struct Solution {
     made: Made,
@@ -66,58 +43,70 @@ struct Solution {
     extra: bool,
 }
 
-pub(crate) fn over_points<const D: usize>(
-    search: &Search<'_, D>,
-    plan: &Plan,
-    rules: &dyn Rules<D>,
-) -> Result<Stencils<D>, Error> {
-    let target = |row: usize| straightened(search.target(row), rules);
-    let leaves = search.tree().leaves();
-    let batches = leaves
-        .iter()
-        .map(|leaf| {
-            let rows = search.tree().order()[leaf.clone()].iter().copied();
-            Batch {
-                rows: rows.filter(|&row| rules.wanted(row as usize)).collect(),
-                times: 0,
-            }
-        })
-        .collect::<Vec<_>>();
-    let bench = bench(search, plan, rules)?;
-    bench.sweep(batches, search.cloud().points.len(), &target)
-}
-
-pub(crate) fn over_places<const D: usize>(
-    search: &Search<'_, D>,
-    plan: &Plan,
-    places: &[[f64; D]],
-    rules: &dyn Rules<D>,
-) -> Result<Stencils<D>, Error> {
-    if let Some(point) = places.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        return Err(Error::NotFinite {
-            point,
-            place: places[point].to_vec(),
-        });
+impl<const D: usize> Stencils<D> {
+    /// Makes the rows of all points of the cloud that the `rules` want.
+    ///
+    /// # Errors
+    /// Where points coincide, where a point is alone, or where its neighbours lie so that no order
+    /// serves; and where the plan is none.
+    pub fn build(
+        search: &Search<'_, D>,
+        plan: &Plan,
+        rules: &impl Rules<D>,
+    ) -> Result<Self, Error> {
+        let target = |row: usize| straightened(search.target(row), rules);
+        let leaves = search.tree().leaves();
+        let batches = leaves
+            .iter()
+            .map(|leaf| {
+                let rows = search.tree().order()[leaf.clone()].iter().copied();
+                Batch {
+                    rows: rows.filter(|&row| rules.wanted(row as usize)).collect(),
+                    times: 0,
+                }
+            })
+            .collect::<Vec<_>>();
+        let bench = Bench::new(search, plan, rules)?;
+        bench.sweep(batches, search.cloud().points.len(), &target)
     }
-    let target = |row: usize| {
-        let nearest = search.nearest(places[row]);
-        let target = Target {
-            row,
-            place: places[row],
-            metric: search.cloud().metrics[nearest],
-            own: false,
+
+    /// Makes a row at each of the `places` \[m\], with the spacing of the nearest point. In the
+    /// `rules`, a row is a place.
+    ///
+    /// # Errors
+    /// As [`Stencils::build`].
+    pub fn at(
+        search: &Search<'_, D>,
+        plan: &Plan,
+        places: &[[f64; D]],
+        rules: &impl Rules<D>,
+    ) -> Result<Self, Error> {
+        if let Some(point) = places.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+            return Err(Error::NotFinite {
+                point,
+                place: places[point].to_vec(),
+            });
+        }
+        let target = |row: usize| {
+            let nearest = search.nearest(places[row]);
+            let target = Target {
+                row,
+                place: places[row],
+                metric: search.cloud().metrics[nearest],
+                own: false,
+            };
+            straightened(target, rules)
         };
-        straightened(target, rules)
-    };
-    let batches = (0..places.len() as u32)
-        .filter(|&row| rules.wanted(row as usize))
-        .map(|row| Batch {
-            rows: vec![row],
-            times: 0,
-        })
-        .collect::<Vec<_>>();
-    let bench = bench(search, plan, rules)?;
-    bench.sweep(batches, places.len(), &target)
+        let batches = (0..places.len() as u32)
+            .filter(|&row| rules.wanted(row as usize))
+            .map(|row| Batch {
+                rows: vec![row],
+                times: 0,
+            })
+            .collect::<Vec<_>>();
+        let bench = Bench::new(search, plan, rules)?;
+        bench.sweep(batches, places.len(), &target)
+    }
 }
 
 /// A row, its coordinates straight where its polynomial must be harmonic.
@@ -133,21 +122,6 @@ fn straightened<const D: usize>(target: Target<D>, rules: &dyn Rules<D>) -> Targ
         target.metric
     };
     Target { metric, ..target }
-}
-
-fn bench<'a, const D: usize>(
-    search: &'a Search<'a, D>,
-    plan: &'a Plan,
-    rules: &'a dyn Rules<D>,
-) -> Result<Bench<'a, D>, Error> {
-    plan.check::<D>()?;
-    Ok(Bench {
-        search,
-        plan,
-        rules,
-        columns: Columns::new::<D>(plan.wants),
-        bases: (1..=plan.order.max(2)).map(Basis::new).collect(),
-    })
 }
 
 impl Strays {

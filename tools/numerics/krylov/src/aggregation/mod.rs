@@ -11,14 +11,15 @@ mod dense;
 mod groups;
 mod quality;
 mod rows;
+mod view;
 
 use crate::jacobi::positive;
 use crate::sums::{add_norm, dot, update};
 use crate::{Error, Linear, Precondition, Sparse};
 use coarse::Groups;
 use dense::Dense;
-use groups::{Graph, View};
 use rows::{Balance, Rows};
+use view::{Graph, View};
 
 /// A matrix of at most this many rows is factorised.
 const COARSEST: usize = 96;

@@ -1,6 +1,6 @@
 //! The quality of a group of rows.
 
-use super::groups::View;
+use super::view::View;
 use crate::grouping::NONE;
 
 /// Most rows of a group.
