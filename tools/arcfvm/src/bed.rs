@@ -2,8 +2,8 @@
 
 use artefact::Record;
 
-use crate::case::GAS;
 use crate::heat::granular::Granular;
+use crate::material::GAS;
 use crate::solver::Arc;
 
 /// Sizes and heats of the bed.

@@ -6,12 +6,9 @@ use crate::grid::Grid;
 use crate::heat::evaporation::Evaporating;
 use crate::heat::granular::Granular;
 use crate::heat::{Contact, Surfaces};
-use crate::material::Material;
+use crate::material::{GAS, Material};
 use crate::mixture::Molar;
 use crate::scene::{Electrons, Surface};
-
-/// Index of the gas among the materials.
-pub const GAS: usize = 0;
 
 /// One value per face of the four sides of the domain.
 #[derive(Debug, Clone, PartialEq)]

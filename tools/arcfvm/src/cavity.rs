@@ -1,6 +1,6 @@
 //! What changes when slag boils into the cavity or comes back: cells, faces, sheath and walls.
 
-use crate::case::GAS;
+use crate::material::GAS;
 use crate::solver::Arc;
 
 /// Iterations between two looks at what boils.

@@ -3,10 +3,11 @@
 use artefact::{Record, Table};
 use run::{Failure, Session};
 
-use crate::case::{GAS, HeatCase, PotentialCase};
+use crate::case::{HeatCase, PotentialCase};
 use crate::fields::magnetic::AtCentre;
 use crate::grid::Grid;
 use crate::heat::balance::Balance;
+use crate::material::GAS;
 use crate::scene::Sample;
 use crate::solver::{Arc, Electric};
 use crate::{bed, iron, surface};
@@ -31,15 +32,6 @@ pub fn write(
     session.record("/balance", 0.0, &record(arc, balance))
 }
 
-/// Values of every cell in the order of a grid table, the height running fastest.
-pub(crate) fn by_height(arc: &Arc, value: impl Fn(usize, usize) -> f64) -> Vec<f64> {
-    let grid = &arc.case.grid;
-    (0..grid.nr)
-        .flat_map(|i| (0..grid.nz).map(move |j| (i, j)))
-        .map(|(i, j)| value(i, j))
-        .collect()
-}
-
 /// Fields of every cell.
 fn plasma(arc: &Arc) -> Table {
     let grid = &arc.case.grid;
@@ -47,7 +39,7 @@ fn plasma(arc: &Arc) -> Table {
     let cell = |i: usize, j: usize| grid.cell(i, j);
     if arc.heating.is_some() {
         let t = arc.temperature();
-        table = table.column("temperature_k", "K", by_height(arc, |i, j| t[cell(i, j)]));
+        table = table.column("temperature_k", "K", grid.by_height(|i, j| t[cell(i, j)]));
     }
     if let Some(flowing) = &arc.flowing {
         let flow = &flowing.flow;
@@ -61,27 +53,27 @@ fn plasma(arc: &Arc) -> Table {
         };
         let pressure = |i, j| flow.pressure[cell(i, j)];
         table = table
-            .column("radial_velocity_m_s", "m/s", by_height(arc, radial))
-            .column("axial_velocity_m_s", "m/s", by_height(arc, axial))
-            .column("pressure_pa", "Pa", by_height(arc, pressure));
+            .column("radial_velocity_m_s", "m/s", grid.by_height(radial))
+            .column("axial_velocity_m_s", "m/s", grid.by_height(axial))
+            .column("pressure_pa", "Pa", grid.by_height(pressure));
     }
     if let Some(electric) = &arc.electric {
         let value = |i, j| electric.potential.value[cell(i, j)];
-        table = table.column("potential_v", "V", by_height(arc, value));
+        table = table.column("potential_v", "V", grid.by_height(value));
         for (name, unit, part) in PARTS {
             let value = |i, j| part(&electric.magnetic.at_centre(grid, &electric.potential, i, j));
-            table = table.column(name, unit, by_height(arc, value));
+            table = table.column(name, unit, grid.by_height(value));
         }
     }
     table = iron::plasma(arc, table);
     if let Some(slag) = bed::slag(arc) {
-        table = table.column("slag", "1", by_height(arc, |i, j| slag[cell(i, j)]));
+        table = table.column("slag", "1", grid.by_height(|i, j| slag[cell(i, j)]));
     }
     let material = |i, j| arc.case.material[cell(i, j)] as f64;
     table.column(
         "material",
         "1",
-        by_height(arc, |i, j| role(arc, material(i, j))),
+        grid.by_height(|i, j| role(arc, material(i, j))),
     )
 }
 

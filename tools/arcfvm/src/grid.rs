@@ -225,6 +225,14 @@ impl Grid {
         self.ring[i] * self.dz[j]
     }
 
+    /// Values of every cell in the order of a grid table, the height running fastest.
+    pub(crate) fn by_height(&self, value: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+        (0..self.nr)
+            .flat_map(|i| (0..self.nz).map(move |j| (i, j)))
+            .map(|(i, j)| value(i, j))
+            .collect()
+    }
+
     /// The row whose cells hold height `z`.
     #[must_use]
     pub fn row_of(&self, z: f64) -> usize {

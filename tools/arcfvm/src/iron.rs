@@ -2,9 +2,8 @@
 
 use artefact::{Record, Table};
 
-use crate::case::GAS;
-use crate::frames::by_height;
 use crate::heat::balance::Balance;
+use crate::material::GAS;
 use crate::residual::part;
 use crate::solver::Arc;
 
@@ -13,11 +12,11 @@ pub(crate) fn plasma(arc: &Arc, mut table: Table) -> Table {
     let grid = &arc.case.grid;
     if let Some(vaporising) = &arc.vaporising {
         let iron = &vaporising.vapour.iron;
-        let values = by_height(arc, |i, j| iron[grid.cell(i, j)]);
+        let values = grid.by_height(|i, j| iron[grid.cell(i, j)]);
         table = table.column("iron_mass_fraction", "1", values);
     }
     if let Some(law) = &arc.case.materials[GAS].electron_density {
-        let values = by_height(arc, |i, j| {
+        let values = grid.by_height(|i, j| {
             let k = grid.cell(i, j);
             if arc.case.material[k] != GAS {
                 return 0.0;

@@ -7,6 +7,8 @@ use props::{Integral, Surface, Table};
 
 use crate::mixture::Mixed;
 
+/// Index of the gas among the materials.
+pub const GAS: usize = 0;
 /// Temperature at which every enthalpy is zero \[K\].
 pub const REFERENCE_K: f64 = 300.0;
 

@@ -3,7 +3,8 @@
 use artefact::Table;
 use run::Plan;
 
-use crate::case::{Case, GAS};
+use crate::case::Case;
+use crate::material::GAS;
 use crate::scene::Scene;
 
 /// Columns of 8 bytes per cell: state, equation, solver and its hierarchy, measured by count.

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::case::{Case, GAS};
-use crate::material::{Law, Material};
+use crate::case::Case;
+use crate::material::{GAS, Law, Material};
 
 /// Smallest electric conductivity \[S/m\]: far below any gas, so that the potential is defined
 /// everywhere.

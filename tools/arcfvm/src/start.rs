@@ -12,7 +12,7 @@ use artefact::{Reader, Table};
 use run::Failure;
 
 use crate::fields::flow::{Face, Flow};
-use crate::frames::{by_height, role};
+use crate::frames::role;
 use crate::grid::Grid;
 use crate::solver::Arc;
 
@@ -70,7 +70,7 @@ impl Other {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < slack)
         };
         let material = |i, j| arc.case.material[grid.cell(i, j)] as f64;
-        let bodies = by_height(arc, |i, j| role(arc, material(i, j)));
+        let bodies = arc.case.grid.by_height(|i, j| role(arc, material(i, j)));
         let same = |kinds: &[f64]| kinds.iter().zip(&bodies).all(|(a, b)| (a - b).abs() < 0.5);
         near(&self.radius, &grid.rc)
             && near(&self.height, &grid.zc)

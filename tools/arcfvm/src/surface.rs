@@ -2,11 +2,12 @@
 
 use artefact::Table;
 
-use crate::case::{Base, GAS};
+use crate::case::Base;
 use crate::heat::Surfaces;
 use crate::heat::balance::Balance;
 use crate::heat::sources::ContactHeat;
 use crate::iron;
+use crate::material::GAS;
 use crate::scene::Sample;
 use crate::solver::Arc;
 

@@ -4,9 +4,9 @@ use run::property::Property;
 
 use crate::assemble::layout::{Layout, each};
 use crate::assemble::{Faults, PLACE, value};
-use crate::case::{Edges, FlowEdge, GAS, HeatEdge, PotentialEdge, VapourEdge};
+use crate::case::{Edges, FlowEdge, HeatEdge, PotentialEdge, VapourEdge};
 use crate::grid::Grid;
-use crate::material::REFERENCE_K;
+use crate::material::{GAS, REFERENCE_K};
 use crate::scene::{Scene, Sides};
 
 /// A face of the edge: its middle, its area, and the cell inside.

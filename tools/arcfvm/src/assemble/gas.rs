@@ -7,9 +7,10 @@ use props::{Integral, Surface, Table};
 use run::Failure;
 use serde::Deserialize;
 
+use crate::diffusion::{Pure, diffusion};
 use crate::error::Error;
 use crate::material::{Enthalpy, Law, Material};
-use crate::mixture::{Mixed, Molar, Pure, diffusion};
+use crate::mixture::{Mixed, Molar};
 use crate::scene::{BeyondTable, Diffusion};
 
 /// Temperature to which a table is extended at least \[K\].

@@ -2,9 +2,8 @@
 
 use crate::assemble::Faults;
 use crate::assemble::layout::Layout;
-use crate::case::GAS;
 use crate::heat::granular::Granular;
-use crate::material::{Law, Melting};
+use crate::material::{GAS, Law, Melting};
 use crate::scene::{self, Body, Scene};
 
 /// The granular body of the scene, if heat is solved and there is one.

@@ -1,8 +1,9 @@
 //! The grid and which body fills each cell.
 
 use crate::assemble::Faults;
-use crate::case::{Base, GAS};
+use crate::case::Base;
 use crate::grid::{Grid, Spacing, faces, wanted};
+use crate::material::GAS;
 use crate::scene::{Body, Profile, Scene, Shape, Sides, SpacingScene};
 
 /// Most cells of a scene.

@@ -12,13 +12,12 @@ use run::property::{Arguments, Curve, Property};
 use run::{Failure, Fault};
 
 use crate::case::{
-    Case, Edges, FeedRule, FlowCase, GAS, Gravity, HeatCase, HeatEdge, MovingPlate, PotentialCase,
-    Wire,
+    Case, Edges, FeedRule, FlowCase, Gravity, HeatCase, HeatEdge, MovingPlate, PotentialCase, Wire,
 };
 use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::Surfaces;
-use crate::material::{Material, REFERENCE_K};
+use crate::material::{GAS, Material, REFERENCE_K};
 use crate::scene::{self, Body, Current, Film, Heat, Moving, Scene, SheathAt, SheathKeeps};
 use electrodes::Electrodes;
 pub use gas::GasFile;

@@ -11,11 +11,11 @@
 //! Bodies hold no such enthalpy: what crosses their surfaces and the edges is an item of the balance.
 //! Komen (2019), eqs 3.6 and 5.8, has no such term.
 
-use crate::case::{Case, GAS, HeatCase, HeatEdge};
-use crate::fields::energy::Energy;
-use crate::fields::energy_edges::{Beyond, FaceOf, edge_of};
+use crate::case::Case;
+use crate::fields::faces::{Beyond, FaceOf};
 use crate::fields::potential::Potential;
 use crate::heat::FaceIndex;
+use crate::material::GAS;
 
 /// Enthalpy of an electron over its charge and temperature, 5/2 k/e \[V/K\].
 pub const ENTHALPY: f64 = 2.5 * 1.380_649e-23 / 1.602_176_634e-19;
@@ -82,7 +82,8 @@ impl Drift {
         }
     }
 
-    fn follow(&mut self, case: &Case, potential: &Potential) {
+    /// Takes the electrons of a current.
+    pub(crate) fn follow(&mut self, case: &Case, potential: &Potential) {
         for (gas, material) in self.gas.iter_mut().zip(&case.material) {
             *gas = *material == GAS;
         }
@@ -98,8 +99,13 @@ impl Drift {
     }
 
     /// Whether there is gas on this side of a face and a body on the other.
-    fn at_body(&self, face: &FaceOf) -> bool {
+    pub(crate) fn at_body(&self, face: &FaceOf) -> bool {
         matches!(face.beyond, Beyond::Cell(n) if self.gas[face.own] && !self.gas[n])
+    }
+
+    /// Whether a cell is gas.
+    pub(crate) fn in_gas(&self, k: usize) -> bool {
+        self.gas[k]
     }
 }
 
@@ -132,51 +138,6 @@ impl Carried for Drift {
             face.mass_out * capacity()
         };
         scheme(mass + out, face.conductance)
-    }
-}
-
-impl Energy {
-    /// Takes the electrons of the present current, where they carry heat; after [`Energy::conduct`].
-    pub(crate) fn drift(&mut self, case: &Case, potential: &Potential) {
-        let Some(mut drift) = self.electrons.take() else {
-            return;
-        };
-        drift.follow(case, potential);
-        let grid = &case.grid;
-        for k in 0..grid.len() {
-            for face in self.faces(case, k % grid.nr, k / grid.nr) {
-                if drift.at_body(&face) {
-                    let conductance = match face.at {
-                        FaceIndex::Radial(at) => &mut self.radial[at],
-                        FaceIndex::Axial(at) => &mut self.axial[at],
-                    };
-                    *conductance = conductance.max(drift.out(&face));
-                }
-            }
-        }
-        self.electrons = Some(drift);
-    }
-
-    /// Heat that electrons bring into the gas at bodies and edges, less what they take out \[W\].
-    #[must_use]
-    pub fn carried(&self, case: &Case, heat: &HeatCase) -> Option<f64> {
-        let drift = self.electrons.as_ref()?;
-        let grid = &case.grid;
-        let mut all = 0.0;
-        for k in (0..grid.len()).filter(|k| drift.gas[*k]) {
-            for face in self.faces(case, k % grid.nr, k / grid.nr) {
-                let passing = match face.beyond {
-                    Beyond::Cell(n) if drift.gas[n] => continue,
-                    Beyond::Cell(n) => self.temperature[n],
-                    Beyond::Edge(edge) => match *edge_of(heat, edge) {
-                        HeatEdge::Temperature(t) => t,
-                        HeatEdge::Insulated | HeatEdge::Flux(_) => self.temperature[k],
-                    },
-                };
-                all -= drift.out(&face) * passing;
-            }
-        }
-        Some(all)
     }
 }
 

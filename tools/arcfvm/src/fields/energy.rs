@@ -8,14 +8,14 @@
 
 use relax::{Coefficients, FivePoint, Outcome};
 
-use crate::case::{Case, GAS, HeatCase, HeatEdge, VapourCase};
+use crate::case::{Case, HeatCase, HeatEdge, VapourCase};
 use crate::fields::electrons::{Carried, Drift, Nothing};
-use crate::fields::energy_edges::{Beyond, FaceOf, Side, edge_of};
-use crate::fields::faces::Carriers;
+use crate::fields::faces::{Beyond, Carriers, FaceOf, Side, edge_of};
 use crate::fields::mixing::{Mixed, Mixing};
 use crate::fields::vapour::Vapour;
 use crate::fields::{Solver, Unsolved};
 use crate::heat::{Contact, FaceIndex, Surfaces};
+use crate::material::GAS;
 use crate::properties::Properties;
 use crate::residual::Unbalanced;
 use crate::transport::{dirichlet, hybrid, kept};

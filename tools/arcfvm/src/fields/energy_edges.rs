@@ -3,7 +3,7 @@
 use crate::case::{Case, HeatCase, HeatEdge};
 use crate::fields::electrons::{Carried, Nothing};
 use crate::fields::energy::Energy;
-use crate::heat::FaceIndex;
+use crate::fields::faces::{Beyond, FaceOf, Side, edge_of};
 use crate::properties::Properties;
 use crate::transport::dirichlet;
 
@@ -78,43 +78,5 @@ impl Energy {
             }
         }
         all
-    }
-}
-
-/// A side of the domain with the index along it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Side {
-    Inner(usize),
-    Outer(usize),
-    Bottom(usize),
-    Top(usize),
-}
-
-/// What lies beyond a face.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Beyond {
-    Cell(usize),
-    Edge(Side),
-}
-
-/// A face as its cell sees it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct FaceOf {
-    pub(crate) own: usize,
-    pub(crate) beyond: Beyond,
-    pub(crate) at: FaceIndex,
-    /// Whether the face lies at the smaller radius or height of its cell.
-    pub(crate) before: bool,
-    pub(crate) mass_out: f64,
-    pub(crate) conductance: f64,
-    pub(crate) area: f64,
-}
-
-pub(crate) fn edge_of(heat: &HeatCase, side: Side) -> &HeatEdge {
-    match side {
-        Side::Inner(j) => &heat.edges.inner[j],
-        Side::Outer(j) => &heat.edges.outer[j],
-        Side::Bottom(i) => &heat.edges.bottom[i],
-        Side::Top(i) => &heat.edges.top[i],
     }
 }

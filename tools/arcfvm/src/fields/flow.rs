@@ -1,7 +1,8 @@
 //! Velocities, pressure and mass fluxes on the staggered grid.
 
-use crate::case::{Case, FlowCase, FlowEdge, GAS, HeatEdge, VapourEdge};
+use crate::case::{Case, FlowCase, FlowEdge, HeatEdge, VapourEdge};
 use crate::grid::Grid;
+use crate::material::GAS;
 
 /// Whether a face velocity is solved.
 #[derive(Debug, Clone, Copy, PartialEq)]

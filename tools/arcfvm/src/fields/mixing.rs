@@ -13,11 +13,11 @@
 //! and cools nothing. Komen (2019), eq. 5.8, leaves out this part, which heats or cools gas wherever iron
 //! diffuses against the flow.
 
-use crate::case::{Case, GAS, HeatCase, HeatEdge, VapourCase, VapourEdge};
-use crate::fields::energy_edges::{Beyond, FaceOf, edge_of};
+use crate::case::{Case, HeatCase, HeatEdge, VapourCase, VapourEdge};
+use crate::fields::faces::{Beyond, FaceOf, edge_of};
 use crate::fields::vapour::{self, Vapour};
 use crate::heat::FaceIndex;
-use crate::material::Enthalpy;
+use crate::material::{Enthalpy, GAS};
 
 /// Difference of temperature below which the slope tells the specific heat \[K\].
 const NEAR_K: f64 = 1e-3;

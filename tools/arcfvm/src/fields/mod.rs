@@ -4,6 +4,7 @@ pub mod edge_shear;
 pub mod electrons;
 pub mod energy;
 pub mod energy_edges;
+mod energy_electrons;
 mod energy_film;
 mod faces;
 pub mod flow;

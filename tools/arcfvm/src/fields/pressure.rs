@@ -7,12 +7,13 @@
 
 use relax::{Coefficients, FivePoint, Outcome};
 
-use crate::case::{Case, FlowCase, GAS};
+use crate::case::{Case, FlowCase};
 use crate::fields::flow::{Face, Flow};
 use crate::fields::momentum_axial::AxialMomentum;
 use crate::fields::momentum_radial::RadialMomentum;
 use crate::fields::{Solver, Unsolved};
 use crate::grid::Grid;
+use crate::material::GAS;
 use crate::residual::Unbalanced;
 
 /// How velocity corrections follow the pressure correction.

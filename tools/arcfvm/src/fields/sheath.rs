@@ -1,9 +1,8 @@
 //! The sheath rule: gas close to an electrode conducts as the gas just beyond (Komen 2019, section
 //! 5.2.3 and fig. 5.12), since the cold layer on a metal is no barrier to the current in truth.
 
-use crate::case::GAS;
 use crate::grid::Grid;
-use crate::material::{Law, Material};
+use crate::material::{GAS, Law, Material};
 
 /// Gas close to electrodes, and where each of its cells takes its conductivity from.
 #[derive(Debug, Clone, PartialEq)]

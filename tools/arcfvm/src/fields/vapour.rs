@@ -14,13 +14,13 @@
 
 use relax::{Coefficients, FivePoint};
 
-use crate::case::{Case, GAS, VapourCase, VapourEdge};
-use crate::fields::energy_edges::{Beyond, FaceOf, Side};
-use crate::fields::faces::Carriers;
+use crate::case::{Case, VapourCase, VapourEdge};
+use crate::fields::faces::{Beyond, Carriers, FaceOf, Side};
 use crate::fields::flow::Flow;
 use crate::fields::{Solver, Unsolved};
 use crate::heat::Contact;
 use crate::heat::evaporation::{Evaporated, Evaporating, Film};
+use crate::material::GAS;
 use crate::properties::Properties;
 use crate::transport::{dirichlet, hybrid};
 

@@ -8,9 +8,9 @@
 //! between centres conducts at film temperature as far as it lies within d. Half a cell thick, it is the
 //! film of the source.
 
-use crate::case::GAS;
 use crate::grid::Grid;
 use crate::heat::{Contact, FaceIndex};
+use crate::material::GAS;
 
 /// Part of its thickness by which a film may miss the middle of a cell.
 const ROUNDING: f64 = 1e-9;

@@ -5,8 +5,8 @@
 //! cavity; it is slag again once it is colder, or cut off. A cell that has changed to and fro changes
 //! again only some way beyond the boiling point, so that the front comes to rest.
 
-use crate::case::GAS;
 use crate::grid::Grid;
+use crate::material::GAS;
 
 /// How much farther beyond the boiling point a cell has to be for each change before \[K\].
 const RELUCTANCE_K: f64 = 20.0;

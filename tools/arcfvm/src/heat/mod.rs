@@ -7,14 +7,15 @@ pub mod film;
 pub mod granular;
 pub mod motion;
 pub mod radiation;
+pub mod reads;
 pub mod sources;
 pub mod vapour;
 
 pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
 pub use film::Layer;
 
-use crate::case::GAS;
 use crate::grid::Grid;
+use crate::material::GAS;
 use crate::scene::Film;
 
 /// A face between the gas and a metal with electrode heat.

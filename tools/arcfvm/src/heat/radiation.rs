@@ -73,9 +73,9 @@ pub fn absorbed(grid: &Grid, contacts: &[&Contact], emission: &[f64], absorbed: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::GAS;
     use crate::grid::{Spacing, faces};
     use crate::heat::contacts;
+    use crate::material::GAS;
 
     #[test]
     fn a_point_on_the_axis_lights_a_plane_as_the_cosine_over_the_square() {

@@ -1,10 +1,8 @@
 //! Heat into every cell, and the parts that it is made of (Komen 2019, eq. 5.8).
 
-use crate::case::{Case, HeatCase};
 use crate::fields::potential::Potential;
-use crate::heat::vapour::Vapours;
+use crate::heat::reads::Reads;
 use crate::heat::{Contact, FaceIndex, SurfaceHeat, Surfaces, radiation};
-use crate::properties::Properties;
 
 /// Heat of one contact \[W/m2\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -47,23 +45,6 @@ pub struct Sources {
     pub joule: f64,
     /// Heat that vapour brings into the gas \[W\].
     pub vapour: f64,
-}
-
-/// What the sources read.
-#[derive(Debug, Clone, Copy)]
-pub struct Reads<'a> {
-    /// The problem.
-    pub case: &'a Case,
-    /// The heat's setup.
-    pub heat: &'a HeatCase,
-    /// Properties.
-    pub properties: &'a Properties,
-    /// Currents, where there are any.
-    pub potential: Option<&'a Potential>,
-    /// Temperature \[K\].
-    pub temperature: &'a [f64],
-    /// Iron vapour, where there is any.
-    pub vapour: Option<Vapours<'a>>,
 }
 
 /// Current density through a contact \[A/m2\].

@@ -8,19 +8,9 @@
 
 use std::borrow::Cow;
 
-use crate::case::VapourCase;
-use crate::fields::vapour::Vapour;
-use crate::heat::sources::{Reads, Sources};
+use crate::heat::reads::{Reads, Vapours};
+use crate::heat::sources::Sources;
 use crate::heat::{Contact, Electrode, Surfaces};
-
-/// The vapour that surfaces meet.
-#[derive(Debug, Clone, Copy)]
-pub struct Vapours<'a> {
-    /// The problem.
-    pub setup: &'a VapourCase,
-    /// Its state.
-    pub vapour: &'a Vapour,
-}
 
 /// Heat with the vapour of one contact.
 struct Carried {

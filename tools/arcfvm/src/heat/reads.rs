@@ -1,0 +1,32 @@
+//! What the heat sources read.
+
+use crate::case::{Case, HeatCase, VapourCase};
+use crate::fields::potential::Potential;
+use crate::fields::vapour::Vapour;
+use crate::properties::Properties;
+
+/// What the sources read.
+#[derive(Debug, Clone, Copy)]
+pub struct Reads<'a> {
+    /// The problem.
+    pub case: &'a Case,
+    /// The heat's setup.
+    pub heat: &'a HeatCase,
+    /// Properties.
+    pub properties: &'a Properties,
+    /// Currents, where there are any.
+    pub potential: Option<&'a Potential>,
+    /// Temperature \[K\].
+    pub temperature: &'a [f64],
+    /// Iron vapour, where there is any.
+    pub vapour: Option<Vapours<'a>>,
+}
+
+/// The vapour that surfaces meet.
+#[derive(Debug, Clone, Copy)]
+pub struct Vapours<'a> {
+    /// The problem.
+    pub setup: &'a VapourCase,
+    /// Its state.
+    pub vapour: &'a Vapour,
+}
