@@ -9,7 +9,7 @@ use crate::assemble;
 use crate::cloud::Cloud;
 use crate::output::{self, Doubt, Found, Samples};
 use crate::scene::{EddyCurrents, Geometry, Scene};
-use crate::solve::diffusion::Unknown;
+use crate::solve::unknown::Unknown;
 use crate::surface::enclosing::Enclosing;
 
 /// Electric and magnetic fields on points.

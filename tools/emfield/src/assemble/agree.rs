@@ -8,15 +8,16 @@
 use num_complex::Complex;
 use shapes::frame::{Vector, length};
 
-use super::currents::Setting;
 use super::enclosed::Closed;
+use super::forces::{seen, unit};
+use super::setting::Setting;
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::output::Doubt;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Geometry, Scene};
-use crate::solve::diffusion::Unknown;
 use crate::solve::eddy::{Beyond, Fields};
 use crate::solve::totals::{Acting, Totals, spread};
+use crate::solve::unknown::Unknown;
 use crate::source::minus;
 use crate::surface::traction::{EPS0, stress};
 
@@ -83,24 +84,6 @@ impl Ways<'_> {
                 told(self.at.into()),
             ),
         })
-    }
-}
-
-/// The unit of a force of a scene.
-pub(super) fn unit(geometry: Geometry) -> &'static str {
-    match geometry {
-        Geometry::Plane => "N/m",
-        Geometry::Axisymmetric | Geometry::Space => "N",
-    }
-}
-
-/// The components of a force that a scene has: nothing pulls along an endless bar, and those across an axis cancel.
-pub(super) fn seen(geometry: Geometry, force: Vector) -> Vector {
-    let [x, y, z] = force;
-    match geometry {
-        Geometry::Plane => [x, y, 0.0],
-        Geometry::Axisymmetric => [0.0, 0.0, z],
-        Geometry::Space => force,
     }
 }
 
@@ -297,13 +280,6 @@ impl<const D: usize> Setting<'_, D> {
 
 /// A complex number.
 type C = Complex<f64>;
-
-/// The root of the mean square of fields over areas.
-pub(super) fn strength(fields: &[[C; 3]], areas: &[f64]) -> f64 {
-    let square = |f: &[C; 3]| f.iter().map(C::norm_sqr).sum::<f64>();
-    let sum: f64 = fields.iter().zip(areas).map(|(f, a)| a * square(f)).sum();
-    (sum / areas.iter().sum::<f64>()).sqrt()
-}
 
 #[cfg(test)]
 mod tests {

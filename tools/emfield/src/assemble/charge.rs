@@ -3,14 +3,15 @@
 use num_complex::Complex;
 use run::{Failure, Session};
 
-use super::currents::{Setting, media};
+use super::setting::{Setting, media};
 use super::unfit::no_stencil;
 use crate::scene::currents::OuterReaction;
 use crate::solve::at_rate::AtRate;
 use crate::solve::charge::{Charge, Side};
-use crate::solve::coupled::{Coupled, Parts};
+use crate::solve::coupled::Coupled;
 use crate::solve::drive::Drive;
 use crate::solve::multipole::Multipoles;
+use crate::solve::parts::Parts;
 use crate::solve::region::Kind;
 
 type C = Complex<f64>;

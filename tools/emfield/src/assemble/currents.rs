@@ -10,46 +10,27 @@ use super::drive::{source, unknown};
 use super::enclosed::enclosed;
 use super::magnetic::Driven;
 use super::region::region;
+use super::setting::{Setting, media};
 use super::unfit::no_stencil;
 use super::winding::windings;
 use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{EddyCurrents, Scene};
-use crate::solve::diffusion::{self, Axial, Conductors, Unknown};
+use crate::solve::diffusion::{self, Axial, Conductors};
 use crate::solve::drive::Drive;
 use crate::solve::eddy::{Solution, steady_change};
-use crate::solve::enclosed::Enclosed;
 use crate::solve::holes::Holes;
 use crate::solve::multipole::Multipoles;
 use crate::solve::permeable::Permeable;
 use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
 use crate::solve::sides::{Form, Sides};
+use crate::solve::unknown::Unknown;
 use crate::solve::winding::Windings;
 use crate::source::{MU0, Origin, Source};
 
 type C = Complex<f64>;
-
-/// What currents of a scene in `D` coordinates are computed with.
-pub(super) struct Setting<'a, const D: usize> {
-    pub(super) scene: &'a Scene,
-    pub(super) cloud: &'a Cloud,
-    pub(super) currents: &'a EddyCurrents,
-    /// Angular frequency \[rad/s\]; none in a march in time.
-    pub(super) omega: Option<f64>,
-    pub(super) unknown: Unknown,
-    pub(super) source: Source,
-    pub(super) region: Region<D>,
-    pub(super) sides: Sides<D>,
-    pub(super) conductors: Conductors,
-    /// Weights of points in integrals over conductors.
-    pub(super) weights: Vec<f64>,
-    /// Currents that are given in coils of points, where there are some.
-    pub(super) windings: Option<Windings>,
-    /// Surfaces around bodies.
-    pub(super) enclosed: Vec<Enclosed<D>>,
-}
 
 /// Solves the sinusoidal eddy currents of a scene in `D` coordinates with `K` unknowns a point: 3 in space, else 1.
 ///
@@ -90,13 +71,6 @@ pub fn eddy_currents<const D: usize, const K: usize>(
         };
         setting.found(solution, charged.as_ref(), driven)
     }))
-}
-
-/// A property of all media.
-pub(super) fn media(scene: &Scene, of: impl Fn(crate::scene::Medium) -> f64) -> Vec<f64> {
-    (0..=scene.bodies.len())
-        .map(|m| of(scene.medium(m)))
-        .collect()
 }
 
 /// A cell in as many coordinates as the equations have.

@@ -7,7 +7,7 @@ use shapes::frame::direction;
 use crate::cloud::region::vector;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Coil, EddyCurrents, ElectricPotential, Geometry, Magnet, Scene};
-use crate::solve::diffusion::Unknown;
+use crate::solve::unknown::Unknown;
 use crate::source::{Loop, Origin, Segment, Source, Uniform, Wire};
 
 type C = Complex<f64>;

@@ -5,9 +5,9 @@ use run::{Failure, Session};
 use shapes::frame::Vector;
 
 use super::about::about;
-use super::agree::{seen, strength, unit};
-use super::currents::Setting;
 use super::enclosing::enclosing;
+use super::forces::{seen, strength, unit};
+use super::setting::Setting;
 use crate::cloud::Cloud;
 use crate::output::Found;
 use crate::scene::{Geometry, Scene};

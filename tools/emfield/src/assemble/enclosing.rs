@@ -11,7 +11,7 @@ use crate::cloud::region::Region as Ground;
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::scene::output::{Closed, Enclosure};
 use crate::scene::{Geometry, Scene};
-use crate::solve::diffusion::Unknown;
+use crate::solve::unknown::Unknown;
 use crate::source::Source;
 use crate::surface::enclosing::Enclosing;
 

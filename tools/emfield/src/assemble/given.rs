@@ -3,12 +3,12 @@
 use num_complex::Complex;
 use shapes::frame::Vector;
 
-use super::currents::Setting;
+use super::setting::Setting;
 use crate::scene::currents::OuterReaction;
-use crate::solve::diffusion::Unknown;
 use crate::solve::drive::Drive;
 use crate::solve::multipole::Multipoles;
 use crate::solve::permeable::Bound;
+use crate::solve::unknown::Unknown;
 use crate::source::{MU0, Source};
 
 type C = Complex<f64>;

@@ -4,15 +4,15 @@ use num_complex::Complex;
 use shapes::frame::Vector;
 
 use super::charge::Charged;
-use super::currents::{Setting, media};
+use super::setting::{Setting, media};
 use crate::output::{Column, Found};
 use crate::scene::Geometry;
-use crate::solve::diffusion::Unknown;
 use crate::solve::eddy::{Fields, Media, Solution};
 use crate::solve::permeable::traction;
 use crate::solve::region::{Face, Region};
 use crate::solve::sides::Sides;
 use crate::solve::totals::{Acting, Totals};
+use crate::solve::unknown::Unknown;
 use crate::solve::winding::Windings;
 use crate::source::{MU0, Source};
 

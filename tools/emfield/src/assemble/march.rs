@@ -7,9 +7,9 @@ use run::property::{Arguments, Curve, Property};
 use run::{Failure, Session};
 
 use super::charge::{Charges, Lack, spread};
-use super::currents::Setting;
 use super::growth::Growth;
 use super::magnetic::Driven;
+use super::setting::Setting;
 use super::steps::Steps;
 use super::unfit::no_stencil;
 use crate::cloud::Cloud;

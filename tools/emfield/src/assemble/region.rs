@@ -126,8 +126,9 @@ fn still(scene: &Scene) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::diffusion::{Conductors, Unknown};
+    use crate::solve::diffusion::Conductors;
     use crate::solve::sides::{Form, Sides};
+    use crate::solve::unknown::Unknown;
 
     /// What stands before the own value and before its rate in a row of an interface have opposite signs, or the value
     /// grows by itself: slopes of quartics on boxes of a few spacings leaned on their own points with the sign of others.

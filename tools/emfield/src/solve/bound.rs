@@ -4,9 +4,9 @@
 use num_complex::Complex;
 
 use super::charge::Side;
-use super::coupled::{Parts, add};
 use super::magnetised::{Mix, mixed};
 use super::multipole::Multipoles;
+use super::parts::{Parts, add};
 use super::permeable::Permeable;
 use super::rate::Rate;
 use super::region::Region;

@@ -22,36 +22,18 @@
 use krylov::Rows;
 use rayon::prelude::*;
 
-use super::balance::Surface;
-use super::charge::{Charge, Side};
-use super::diffusion::Conductors;
+use super::charge::Side;
 use super::magnetised::Magnetised;
 use super::moments::Pair;
 use super::multipole::Multipoles;
+use super::parts::{Parts, ROWS, add, ones};
 use super::rate::Rate;
-use super::region::{Kind, Region};
-use super::sides::{Sides, share_along};
-
-/// Rows that one task gathers.
-pub(super) const ROWS: usize = 512;
+use super::region::Kind;
+use super::sides::share_along;
+use super::skin::Surface;
 
 /// Extents of a body over the length that holds its constant.
 const HOLD: f64 = 3.0;
-
-/// What the equations are made of.
-#[derive(Debug, Clone, Copy)]
-pub struct Parts<'a> {
-    /// Points.
-    pub region: &'a Region<3>,
-    /// Stencils of A.
-    pub sides: &'a Sides<3>,
-    /// `mu sigma` by medium.
-    pub conductors: &'a Conductors,
-    /// Conductivity by medium \[S/m\].
-    pub conductivity: &'a [f64],
-    /// Stencils of phi.
-    pub charge: &'a Charge,
-}
 
 /// The equations. Unknowns: three of A for each point, then those of phi, over [`Self::length`].
 #[derive(Debug, Clone)]
@@ -91,7 +73,7 @@ impl Coupled {
     /// Makes the equations.
     #[must_use]
     pub fn new(parts: &Parts<'_>, multipoles: Option<&Multipoles>) -> Self {
-        use super::diffusion::Unknown::Potential;
+        use super::unknown::Unknown::Potential;
         let Parts { region, sides, .. } = *parts;
         let (n, m) = (region.len(), parts.charge.len());
         let smooth = parts.conductors.smooth();
@@ -347,11 +329,6 @@ fn skin(parts: &Parts<'_>, i: usize) -> f64 {
     }
 }
 
-/// Numbers as rows of one column.
-pub(super) fn ones<S>(values: &[S]) -> &[[S; 1]] {
-    values.as_chunks::<1>().0
-}
-
 /// Divides a row by its largest coefficient; the factor.
 fn even(row: &mut [f64]) -> f64 {
     let largest = row.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
@@ -373,11 +350,4 @@ fn extent(parts: &Parts<'_>, body: &std::ops::Range<usize>) -> f64 {
     }
     let square: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum();
     0.5 * square.sqrt()
-}
-
-/// Adds `w x` to a sum, column by column.
-pub(super) fn add<S: Rate, const K: usize>(sum: &mut [S; K], x: &[S; K], w: f64) {
-    for (sum, x) in sum.iter_mut().zip(x) {
-        *sum += x.times_real(w);
-    }
 }

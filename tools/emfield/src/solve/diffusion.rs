@@ -15,20 +15,10 @@ use super::holes::{Hole, Holes, Media};
 use super::permeable::Permeable;
 use super::region::{Kind, Region};
 use super::sides::{Sides, along_normal, share_along};
+use super::unknown::Unknown;
 
 /// A complex number.
 type C = Complex<f64>;
-
-/// What the unknown is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unknown {
-    /// Cartesian components of A: three in space, `A_z` in a plane.
-    Potential,
-    /// `A_phi / r` about an axis of symmetry, which is smooth on it.
-    Around,
-    /// `H_z` in a plane, held where nothing conducts and on interfaces with it, but for holes.
-    Axial,
-}
 
 /// Conductors by medium.
 #[derive(Debug, Clone, Default)]
@@ -50,17 +40,6 @@ pub struct Axial {
     pub mu: Vec<f64>,
     /// Holes that conductors enclose.
     pub holes: Holes,
-}
-
-impl Unknown {
-    /// How many times `1/r d/dr` its equation has about an axis, beside the Laplacian in r and z.
-    #[must_use]
-    pub fn around(self) -> f64 {
-        match self {
-            Self::Around => 3.0,
-            Self::Potential | Self::Axial => 1.0,
-        }
-    }
 }
 
 impl Conductors {

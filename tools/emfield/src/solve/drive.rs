@@ -3,10 +3,11 @@
 use krylov::Pair;
 use num_complex::Complex;
 
-use super::diffusion::{Conductors, Unknown};
+use super::diffusion::Conductors;
 use super::multipole::Multipoles;
 use super::permeable::Bound;
 use super::region::Region;
+use super::unknown::Unknown;
 
 /// A complex number.
 type C = Complex<f64>;

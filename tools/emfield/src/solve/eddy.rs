@@ -7,11 +7,11 @@
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::diffusion::Unknown;
 use super::permeable::beyond;
 use super::region::{Face, Region};
 use super::sides::Sides;
-use super::winding::{Windings, component};
+use super::unknown::{Unknown, along, component, local};
+use super::winding::Windings;
 
 /// A complex number.
 type C = Complex<f64>;
@@ -256,45 +256,6 @@ impl Fields {
             }
         }
     }
-}
-
-/// A value of the unknown as a vector in space; nothing of `H_z`.
-pub(super) fn along<const D: usize, const K: usize>(
-    unknown: Unknown,
-    place: &[f64; D],
-    value: &[C; K],
-) -> [C; 3] {
-    let zero = C::new(0.0, 0.0);
-    match unknown {
-        Unknown::Potential if K == 3 => std::array::from_fn(|k| value[k]),
-        Unknown::Potential => [zero, zero, value[0]],
-        Unknown::Around => [zero, value[0] * place[0], zero],
-        Unknown::Axial => NONE,
-    }
-}
-
-/// Potential of all, and curl of the reaction, in space; `H_z` as it is.
-pub(super) fn local<const D: usize, const K: usize>(
-    unknown: Unknown,
-    place: &[f64; D],
-    (total, reaction): (&[C; K], &[C; K]),
-    slopes: &[[C; D]; K],
-) -> ([C; 3], [C; 3]) {
-    let zero = C::new(0.0, 0.0);
-    let curl = match unknown {
-        Unknown::Potential if K == 3 => {
-            let d = |of: usize, along: usize| slopes[of][along];
-            [d(2, 1) - d(1, 2), d(0, 2) - d(2, 0), d(1, 0) - d(0, 1)]
-        }
-        Unknown::Potential => [slopes[0][1], -slopes[0][0], zero],
-        Unknown::Around => {
-            let r = place[0];
-            let axial = reaction[0] * 2.0 + slopes[0][0] * r;
-            [-slopes[0][1] * r, zero, axial]
-        }
-        Unknown::Axial => [zero, zero, total[0]],
-    };
-    (along(unknown, place, total), curl)
 }
 
 /// `Re(a x b*)`.

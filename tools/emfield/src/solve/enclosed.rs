@@ -8,11 +8,10 @@ use num_complex::Complex;
 use rayon::prelude::*;
 use wls::{Condition, Error, Plan, Rules, Search, Stencils, Wants};
 
-use super::diffusion::Unknown;
-use super::eddy::{along, local};
 use super::mirror::Mirror;
 use super::region::Region;
 use super::sides::Form;
+use super::unknown::{Unknown, along, local};
 use crate::surface::enclosing::Enclosing;
 
 /// A complex number.

@@ -2,11 +2,12 @@
 
 use krylov::{Error, Inverse, Method, Options, Rows};
 
-use super::at_rate::Whole;
 use super::block::Block;
-use super::coupled::{Coupled, ones};
+use super::coupled::Coupled;
 use super::magnetised::Magnetised;
+use super::parts::ones;
 use super::rate::Rate;
+use super::whole::Whole;
 
 /// Factors of the rows of A.
 struct Potential<S: Rate> {

@@ -15,12 +15,13 @@
 
 use krylov::Rows;
 
-use super::coupled::{Parts, add};
-use super::diffusion::{Conductors, Unknown};
+use super::diffusion::Conductors;
+use super::parts::{Parts, add};
 use super::permeable::Permeable;
 use super::rate::Rate;
 use super::region::{Face, Kind, Region};
 use super::sides::Sides;
+use super::unknown::Unknown;
 
 /// What mixes the components at a point.
 pub(super) type Mix = [[f64; 3]; 3];

@@ -2,13 +2,14 @@
 //!
 //! - [`region`]: what a point is; [`sides`]: stencils that keep to one side of an interface, mirrored about an axis
 //!   of symmetry.
-//! - [`electrostatic`]: potentials. [`diffusion`]: the operator of eddy currents, [`drive`] what drives
+//! - [`electrostatic`]: potentials. [`unknown`] of eddy currents, [`diffusion`]: their operator, [`drive`] what drives
 //!   them, [`eddy`] the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
 //! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability, [`magnetised`] in space, `bound` what walls
 //!   know of these there.
-//! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, [`at_rate`] their solution at a
-//!   [`rate`] of change, by [`block`]s, `factors` and in [`balance`], `moments` what walls know of the currents.
+//! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, made of [`parts`] and with [`skin`],
+//!   [`at_rate`] their solution at a [`rate`] of change as a `whole`, by [`block`]s, `factors` and in [`balance`],
+//!   `moments` what walls know of the currents.
 //! - [`march`]: the same in time, each stage of A [`alone`] or [`charged`].
 
 pub mod alone;
@@ -32,12 +33,16 @@ pub mod march;
 mod mirror;
 mod moments;
 pub mod multipole;
+pub mod parts;
 pub mod permeable;
 pub mod quadrature;
 pub mod rate;
 pub mod region;
 pub mod sides;
+pub mod skin;
 pub mod totals;
+pub mod unknown;
+mod whole;
 pub mod winding;
 
 #[cfg(test)]

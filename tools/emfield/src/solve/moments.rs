@@ -2,8 +2,8 @@
 
 use super::bound::Bound;
 use super::charge::Side;
-use super::coupled::{Parts, add};
 use super::multipole::Multipoles;
+use super::parts::{Parts, add};
 use super::rate::Rate;
 
 /// A multipole of the currents, which stands in the rows of walls.

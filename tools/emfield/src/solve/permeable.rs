@@ -16,12 +16,10 @@
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::diffusion::Unknown;
-use super::eddy::local;
 use super::multipole::Multipoles;
 use super::region::{Face, Kind, Region};
 use super::sides::Sides;
-use super::winding::component;
+use super::unknown::{Unknown, component, local};
 use crate::source::{Source, cross, dot};
 
 /// A complex number.

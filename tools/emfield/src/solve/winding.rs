@@ -14,9 +14,9 @@ use std::f64::consts::{PI, TAU};
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::diffusion::Unknown;
 use super::region::{Kind, Region};
 use super::sides::{Sides, share_along};
+use super::unknown::{Unknown, component};
 use crate::source::{Loop, MU0, Wire, cross, dot, minus};
 
 /// A complex number.
@@ -209,20 +209,5 @@ impl Part {
             let share = (4.0 * PI * dot(d, d).sqrt()).recip();
             self.moment.map(|m| m * share)
         }
-    }
-}
-
-/// A current or potential in space as the unknown has it: over the distance from an axis of symmetry.
-pub(super) fn component<const D: usize, const K: usize>(
-    unknown: Unknown,
-    place: &[f64; D],
-    vector: &[C; 3],
-) -> [C; K] {
-    match unknown {
-        Unknown::Potential if K == 3 => std::array::from_fn(|k| vector[k]),
-        Unknown::Potential => [vector[2]; K],
-        Unknown::Around if vector[1] == ZERO => [ZERO; K],
-        Unknown::Around => [vector[1] / place[0]; K],
-        Unknown::Axial => [ZERO; K],
     }
 }

@@ -1,10 +1,11 @@
 use krylov::{Options, Rule, System};
 use nalgebra::DMatrix;
 
-use super::super::diffusion::{Conductors, Unknown};
+use super::super::diffusion::Conductors;
 use super::super::electrostatic::{Held, Problem};
 use super::super::region::Kind;
 use super::super::sides::{Form, Sides};
+use super::super::unknown::Unknown;
 use crate::assemble::region;
 use crate::cloud::Cloud;
 use crate::scene::Scene;

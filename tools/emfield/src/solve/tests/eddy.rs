@@ -2,13 +2,14 @@ use num_complex::Complex;
 
 use krylov::{Options, Rule, System};
 
-use super::super::diffusion::{Conductors, Unknown, shift};
+use super::super::diffusion::{Conductors, shift};
 use super::super::drive::Drive;
 use super::super::eddy::{Fields, Media, Solution, steady_change};
 use super::super::multipole::Multipoles;
 use super::super::quadrature;
 use super::super::sides::{Form, Sides};
 use super::super::totals::{Acting, Totals};
+use super::super::unknown::Unknown;
 use super::shells;
 use crate::source::{Loop, MU0, Source};
 

@@ -3,9 +3,10 @@ use std::convert::Infallible;
 use krylov::{Options, Rule};
 
 use super::super::alone::{Alone, Equations};
-use super::super::diffusion::{Conductors, Unknown};
+use super::super::diffusion::Conductors;
 use super::super::march::{March, slope};
 use super::super::sides::{Form, Sides};
+use super::super::unknown::Unknown;
 use super::rings;
 
 /// `H_z` on the axis of a cylinder of radius 1 and `mu sigma = 1` at the time 0.1 after a field of 1 was
