@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -154,4 +154,146 @@ fn the_top_level_keeps_its_names() {
             "'{name}' does not belong at the top level"
         );
     }
+}
+
+/// Files of a crate by the path of their module; `lib.rs` and `main.rs` stand apart.
+fn modules(source: &Path) -> BTreeMap<Vec<String>, PathBuf> {
+    let mut found = Vec::new();
+    sources(source, &mut found);
+    let module = |path: &PathBuf| {
+        let inside = path.strip_prefix(source).unwrap().with_extension("");
+        let mut parts: Vec<String> = inside
+            .iter()
+            .map(|part| part.to_str().unwrap().to_owned())
+            .collect();
+        parts.pop_if(|last| last == "mod");
+        let apart = parts.len() == 1 && (parts[0] == "lib" || parts[0] == "main");
+        (!apart).then(|| (parts, path.clone()))
+    };
+    found.iter().filter_map(module).collect()
+}
+
+/// The text of a path at the start of `code`, with the braces of a group.
+fn path(code: &str) -> &str {
+    let mut depth = 0_i32;
+    let end = code.find(|c: char| {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        !(c.is_alphanumeric() || "_:{}".contains(c) || (c == ',' && depth > 0)) || depth < 0
+    });
+    &code[..end.unwrap_or(code.len())]
+}
+
+/// Paths of the crate that a file names, its tests aside, from the root of the crate.
+fn named(module: &[String], text: &str) -> Vec<Vec<String>> {
+    let text = text.split("#[cfg(test)]").next().unwrap();
+    let code: String = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .flat_map(str::chars)
+        .filter(|c| !c.is_whitespace())
+        .collect();
+    let parts = |words: &str| -> Vec<String> {
+        let words = words.split("::").filter(|word| !word.is_empty());
+        words.map(str::to_owned).collect()
+    };
+    let mut all = Vec::new();
+    let mut name = |base: &[String], rest: &str| {
+        let (stem, items) = rest.split_once('{').unwrap_or((rest, ""));
+        for item in items.trim_end_matches('}').split(',') {
+            all.push([base, &parts(stem), &parts(item)].concat());
+        }
+    };
+    for (at, word) in code.match_indices("crate::") {
+        name(&[], path(&code[at + word.len()..]));
+    }
+    for (at, word) in code.match_indices("usesuper::") {
+        let rest = path(&code[at + word.len()..]);
+        let below = rest.trim_start_matches("super::");
+        let ups = 1 + (rest.len() - below.len()) / "super::".len();
+        name(&module[..module.len() - ups], below);
+    }
+    all
+}
+
+/// Modules that each module needs: those that hold what it names, but for the ones that it lies in.
+fn needs(source: &Path) -> BTreeMap<Vec<String>, BTreeSet<Vec<String>>> {
+    let modules = modules(source);
+    let holder = |path: &Vec<String>| {
+        let mut holders = (1..=path.len()).rev().map(|n| path[..n].to_vec());
+        holders.find(|part| modules.contains_key(part))
+    };
+    let own = |(module, file): (&Vec<String>, &PathBuf)| {
+        let text = std::fs::read_to_string(file).unwrap();
+        let paths = named(module, &text);
+        let held = paths.iter().filter_map(holder);
+        let others = held.filter(|other| !module.starts_with(other));
+        (module.clone(), others.collect())
+    };
+    modules.iter().map(own).collect()
+}
+
+/// A way from a module back to itself.
+fn circle(needs: &BTreeMap<Vec<String>, BTreeSet<Vec<String>>>) -> Option<String> {
+    let mut left = needs.clone();
+    // What needs nothing that is left is in no circle.
+    while let Some(free) = left
+        .iter()
+        .find(|(_, others)| others.iter().all(|other| !left.contains_key(other)))
+        .map(|(module, _)| module.clone())
+    {
+        left.remove(&free);
+    }
+    let mut at = left.keys().next()?.clone();
+    let mut way = Vec::new();
+    while !way.contains(&at) {
+        let next = left[&at].iter().find(|other| left.contains_key(*other));
+        way.push(std::mem::replace(&mut at, next?.clone()));
+    }
+    way.push(at.clone());
+    let names = way.iter().skip_while(|module| **module != at);
+    Some(names.map(|m| m.join("::")).collect::<Vec<_>>().join(" -> "))
+}
+
+#[test]
+fn no_file_needs_itself_by_way_of_others() {
+    let mut crates = Vec::new();
+    for folder in ["tools", "tools/numerics", "tools/harness"] {
+        for entry in std::fs::read_dir(root().join(folder)).unwrap() {
+            let source = entry.unwrap().path().join("src");
+            if source.is_dir() {
+                crates.push(source);
+            }
+        }
+    }
+    assert!(crates.len() > 12, "{crates:?}");
+    let found: Vec<String> = crates
+        .iter()
+        .filter_map(|source| Some(format!("{}: {}", source.display(), circle(&needs(source))?)))
+        .collect();
+    assert!(found.is_empty(), "circles: {found:#?}");
+}
+
+#[test]
+fn a_circle_of_files_is_found() {
+    let module = |name: &str| vec![name.to_owned()];
+    assert_eq!(
+        named(
+            &module("a"),
+            "use crate::b::{C, d::E};\nuse super::f;\n// use crate::g;\n"
+        ),
+        [vec!["b", "C"], vec!["b", "d", "E"], vec!["f"]]
+    );
+    let tied = |pairs: &[(&str, &str)]| {
+        let mut needs = BTreeMap::new();
+        for name in ["a", "b", "c"] {
+            let others = pairs.iter().filter(|(from, _)| *from == name);
+            needs.insert(module(name), others.map(|(_, to)| module(to)).collect());
+        }
+        circle(&needs)
+    };
+    assert_eq!(tied(&[("a", "b"), ("b", "c"), ("a", "c")]), None);
+    assert_eq!(
+        tied(&[("a", "b"), ("b", "c"), ("c", "b")]).unwrap(),
+        "b -> c -> b"
+    );
 }

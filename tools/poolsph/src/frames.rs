@@ -4,7 +4,6 @@ use artefact::{Frame, Precision};
 use run::{Failure, Session};
 use serde::Serialize;
 
-use crate::assemble::Assembled;
 use crate::scene::{FloatWidth, PoolOutput, Scene};
 use crate::state::{Column, Phase, State};
 
@@ -135,7 +134,11 @@ impl Layout {
 
 /// Channels of frames with the number of their messages, and at most their bytes before they are compressed.
 #[must_use]
-pub fn volume(scene: &Scene, run: &Assembled) -> Vec<(&'static str, u64, u64)> {
+pub fn volume(
+    scene: &Scene,
+    state: &State,
+    (layout, plate): (&Layout, &PlateNote),
+) -> Vec<(&'static str, u64, u64)> {
     let (end, d) = (scene.time.end_s, scene.spacing_m);
     // All droplets are born at the last frame.
     let born = scene.droplets.map_or(0.0, |droplets| {
@@ -143,22 +146,22 @@ pub fn volume(scene: &Scene, run: &Assembled) -> Vec<(&'static str, u64, u64)> {
         let each = (2.0 * droplets.radius_m / d).powi(3) * std::f64::consts::FRAC_PI_6;
         each * (end / period)
     });
-    let row = run.layout.frame(&run.state, &[]).row_bytes() as f64;
+    let row = layout.frame(state, &[]).row_bytes() as f64;
     let bytes = |frames: f64, particles: f64| (frames * particles * row) as u64;
     let count = |from: f64, interval: f64| {
         let interval = interval.max(scene.time.step_s);
         ((end - from).max(0.0) / interval).floor() + 1.0
     };
-    let all = run.state.len() as f64 + 0.5 * born;
+    let all = state.len() as f64 + 0.5 * born;
     let frames = count(0.0, scene.output.particles_interval_s);
     let mut channels = vec![("/particles", frames as u64, bytes(frames, all))];
     if let Some(pool) = scene.output.pool.filter(|pool| pool.from_s <= end) {
         // The part of the plate that the box covers; drops may all lie in it.
-        let size = |axis: usize| (run.plate.max_m[axis] - run.plate.min_m[axis]).max(d);
+        let size = |axis: usize| (plate.max_m[axis] - plate.min_m[axis]).max(d);
         let part = |reach: f64, axis: usize| (reach / size(axis)).min(1.0);
         let share = part(2.0 * pool.beside_m, 0) * part(pool.behind_m + pool.ahead_m, 1);
         let frames = count(pool.from_s, pool.interval_s);
-        let inside = share * run.state.len() as f64 + born;
+        let inside = share * state.len() as f64 + born;
         channels.push(("/pool", frames as u64, bytes(frames, inside)));
     }
     channels

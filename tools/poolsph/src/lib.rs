@@ -8,7 +8,7 @@ pub mod frames;
 pub mod heat;
 pub mod march;
 pub mod motion;
-pub mod near;
+pub mod patch;
 pub mod rest;
 pub mod resume;
 pub mod scene;
@@ -16,9 +16,12 @@ pub mod simulate;
 pub mod source;
 pub mod stage;
 pub mod state;
+
 pub mod surface;
 mod sweep;
 pub mod tool;
 mod trial;
+pub mod vector;
 
+pub use state::near;
 pub use tool::PoolSph;

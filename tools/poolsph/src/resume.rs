@@ -4,8 +4,8 @@ use artefact::{Checkpoint, Result};
 
 use crate::balance::Start;
 use crate::march::March;
+use crate::patch::Patch;
 use crate::state::{Phase, State};
-use crate::surface::Patch;
 
 /// Puts all that the rest of a run depends on into a checkpoint.
 ///

@@ -54,7 +54,9 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     for (name, bytes) in state.memory() {
         plan = plan.memory(name, bytes as u64);
     }
-    for (channel, messages, bytes) in frames::volume(scene, &assembled) {
+    for (channel, messages, bytes) in
+        frames::volume(scene, state, (&assembled.layout, &assembled.plate))
+    {
         plan = plan.output(channel, messages, bytes);
     }
     for (name, why) in &assembled.left_out {

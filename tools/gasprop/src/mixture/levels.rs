@@ -5,7 +5,7 @@
 //! With means weighted by g exp(-E/kT), the energy is the mean of E and the heat capacity is its variance over kT^2: the
 //! exact derivatives of the same sum.
 
-use super::species::Internal;
+use super::internal::Internal;
 use crate::constants::BOLTZMANN;
 
 /// Levels of a species: energy above the ground state in J, and statistical weight.

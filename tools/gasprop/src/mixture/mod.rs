@@ -12,6 +12,7 @@
 mod balance;
 mod basis;
 mod composition;
+mod internal;
 mod levels;
 pub mod library;
 mod nasa9;
@@ -19,8 +20,9 @@ pub mod species;
 mod system;
 pub mod thermodynamics;
 
+pub use internal::Internal;
 pub use library::{DataError, Library};
-pub use species::{Element, Internal, Kind, Species, UnknownElement};
+pub use species::{Element, Kind, Species, UnknownElement};
 pub use thermodynamics::Thermodynamics;
 
 use thiserror::Error;

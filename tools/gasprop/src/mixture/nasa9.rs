@@ -14,7 +14,7 @@
 //! cp/R = limit + (cp/R at the end - limit) (T_end/T)^2, with H, S and cp continuous. It stays bounded, so a
 //! molecule's Q grows like a power of T and its share falls as the plasma thins out.
 
-use super::species::Internal;
+use super::internal::Internal;
 use crate::constants::{BOLTZMANN, GAS_CONSTANT, PLANCK};
 
 /// Standard pressure of the fits, Pa.

@@ -89,7 +89,7 @@ impl Stage for ArcPressure {
 mod tests {
     use super::*;
     use crate::forces::tests::{on_top, pool};
-    use crate::surface::Patch;
+    use crate::patch::Patch;
 
     fn pressed(shape: impl Fn(&mut Patch)) -> ([f64; 3], f64) {
         let mut state = pool(|_| 1800.0);

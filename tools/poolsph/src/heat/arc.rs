@@ -30,8 +30,9 @@ use super::caloric::Caloric;
 use super::cathode::{Cathode, Emitter};
 use super::chunks::Chunks;
 use super::film::{Film, GasFilm};
-use super::flux::{Flux, Law, column};
+use super::flux::{Flux, Law};
 use super::ledger::Sum;
+use super::radial::column;
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, Phase, State};
 

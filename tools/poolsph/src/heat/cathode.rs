@@ -13,7 +13,7 @@ use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::flux::column;
+use super::radial::column;
 
 /// e / k_B \[K/V\].
 const KELVIN_PER_VOLT: f64 = 1.602_176_634e-19 / 1.380_649e-23;

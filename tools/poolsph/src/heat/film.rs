@@ -20,8 +20,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::caloric::Caloric;
-use super::flux::column;
 use super::parameters::table;
+use super::radial::column;
 
 /// Most turns of the search for the temperature of the surface.
 const TURNS: usize = 60;

@@ -14,6 +14,7 @@ mod losses;
 mod open;
 mod parameters;
 mod phase;
+mod radial;
 mod vapour;
 
 pub use arc::{Arc, ArcParameters, Onto, Part};

@@ -204,7 +204,7 @@ fn radiation_and_vapour_have_their_size() {
     };
     let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)));
     losses.advance(&mut state, 1e-3).unwrap();
-    let up = |p: &crate::surface::Patch| {
+    let up = |p: &crate::patch::Patch| {
         if p.normal[2] > 0.5_f64.sqrt() {
             p.area
         } else {

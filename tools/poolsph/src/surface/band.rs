@@ -3,11 +3,11 @@
 use kernels::CubicSpline;
 use rayon::prelude::*;
 
-use super::Patch;
 use super::area::Polygon;
 use super::columns::Columns;
 use super::{Cloud, tangents};
 use crate::near::{dot, minus, squared};
+use crate::patch::Patch;
 use crate::sweep::summed;
 
 /// A particle deeper than this many spacings is not of the band.

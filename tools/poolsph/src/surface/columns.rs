@@ -21,7 +21,7 @@ use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
 
-use super::Patch;
+use crate::patch::Patch;
 
 /// Columns per spacing.
 const FINE: f64 = 3.0;

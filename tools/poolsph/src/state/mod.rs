@@ -3,9 +3,11 @@
 //! A column that no stage needs stays empty: [`State::new`] is told the union
 //! of what the stages declare. Particles keep their index for life; new ones are appended.
 
-use crate::near::Near;
+pub mod near;
+
+use crate::patch::Patch;
 use crate::source::Place;
-use crate::surface::Patch;
+use near::Near;
 
 /// The one metal and the lattice that its particles start on.
 #[derive(Debug, Clone, Copy, PartialEq)]
