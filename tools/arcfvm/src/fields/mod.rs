@@ -13,6 +13,7 @@ pub mod magnetic;
 mod mixing;
 pub mod momentum_axial;
 pub mod momentum_radial;
+mod momentum_side;
 pub mod multigrid;
 pub mod potential;
 pub mod pressure;

@@ -11,7 +11,8 @@ use relax::Coefficients;
 use crate::case::{Case, FlowCase, FlowEdge};
 use crate::fields::edge_shear::Rows;
 use crate::fields::flow::{Face, Flow};
-use crate::transport::{dirichlet, hybrid, unbalanced};
+use crate::fields::momentum_side::{Across, Half, Side, corner_viscosity};
+use crate::transport::{hybrid, unbalanced};
 
 /// What the axial momentum equation reads.
 pub struct AxialMomentum<'a> {
@@ -27,16 +28,6 @@ pub struct AxialMomentum<'a> {
     pub density: &'a [f64],
     /// Lorentz force at axial faces \[N/m3\].
     pub lorentz: Option<&'a [f64]>,
-}
-
-/// What lies beyond one radial side of the cell.
-#[derive(Default)]
-struct Beyond {
-    neighbour: f64,
-    centre: f64,
-    source: f64,
-    /// Mass that leaves through the open parts \[kg/s\].
-    outflow: f64,
 }
 
 impl AxialMomentum<'_> {
@@ -71,7 +62,7 @@ impl AxialMomentum<'_> {
             c.centre += (-flow.mass_axial[face]).max(0.0);
             (grid.zf[j], open(self.setup.edges.top[i]))
         };
-        let (west, east) = (self.beyond(i, j, false), self.beyond(i, j, true));
+        let (west, east) = (self.side(i, j, false), self.side(i, j, true));
         (c.west, c.east) = (west.neighbour, east.neighbour);
         c.centre += c.east + c.west + c.south + c.north + west.centre + east.centre;
         c.source = west.source + east.source + ring * (below - above);
@@ -103,44 +94,16 @@ impl AxialMomentum<'_> {
         force + self.setup.force.as_ref().map_or(0.0, |f| f[1][face])
     }
 
-    /// Harmonic mean over the gas cells around the corner of face `j` and the columns `i`, `other`.
-    fn corner_viscosity(&self, i: usize, j: usize, other: usize) -> f64 {
-        let grid = &self.case.grid;
-        let (mut count, mut sum) = (0.0, 0.0);
-        for row in j.saturating_sub(1)..=j.min(grid.nz - 1) {
-            for column in [i, other] {
-                if self.case.is_gas(column, row) {
-                    count += 1.0;
-                    sum += 1.0 / self.viscosity[grid.cell(column, row)];
-                }
-            }
-        }
-        count / sum
-    }
-
-    /// The eastern or western side: each half of it, in the scalar cells `j - 1` and `j`, may open
-    /// to gas, meet a wall, or be an edge of the domain.
-    fn beyond(&self, i: usize, j: usize, east: bool) -> Beyond {
+    /// The eastern or western side, its halves in the scalar cells `j - 1` and `j`.
+    fn side(&self, i: usize, j: usize, east: bool) -> Side {
         let (grid, flow) = (&self.case.grid, self.flow);
         let (at, sign) = if east { (i + 1, 1.0) } else { (i, -1.0) };
         let inside = if east { i + 1 < grid.nr } else { i > 0 };
-        let mut all = Beyond::default();
-        let (mut open_flux, mut open_area) = (0.0, 0.0);
-        for row in j.saturating_sub(1)..=j.min(grid.nz - 1) {
-            // The axis has no area.
-            let area = PI * grid.rf[at] * grid.dz[row];
-            let flux = 0.5 * sign * flow.mass_radial[grid.radial_face(at, row)];
-            let wall = self.viscosity[grid.cell(i, row)] * area / (0.5 * grid.dr[i]);
-            all.outflow += flux;
+        let column = if east { i + 1 } else { i.wrapping_sub(1) };
+        let rows = j.saturating_sub(1)..=j.min(grid.nz - 1);
+        let across = |row: usize| {
             if inside {
-                let column = if east { i + 1 } else { i - 1 };
-                if self.case.is_gas(column, row) {
-                    open_flux += flux;
-                    open_area += area;
-                } else {
-                    all.centre += wall;
-                }
-                continue;
+                return Across::inside(self.case.is_gas(column, row));
             }
             let edge = if east {
                 self.setup.edges.outer[row]
@@ -150,31 +113,25 @@ impl AxialMomentum<'_> {
             match edge {
                 FlowEdge::Velocity([_, own]) => {
                     let value = self.at_corner(j, east).unwrap_or(own);
-                    let a = dirichlet(flux, wall);
-                    all.centre += a;
-                    let columns = self.columns(i, j, row, value);
-                    let viscosity =
-                        columns.map_or(self.viscosity[grid.cell(i, row)], |c| c.edge_viscosity());
-                    let excess = columns.map_or(0.0, |c| c.excess());
-                    let cross = sign * viscosity * self.cross(at, j);
-                    all.source += a * value + area * (excess + cross);
+                    Across::Moves(value, self.columns(i, j, row, value))
                 }
-                FlowEdge::Open(_) => {
-                    // No slope of this velocity along the outflow; the other part of the shear stays.
-                    all.centre += (-flux).max(0.0);
-                    let viscosity = self.viscosity[grid.cell(i, row)];
-                    all.source += sign * viscosity * area * self.cross(at, j);
-                }
-                FlowEdge::Slip => {}
+                FlowEdge::Open(_) => Across::Open,
+                FlowEdge::Slip => Across::Slip,
             }
-        }
-        if open_area > 0.0 {
-            let column = if east { i + 1 } else { i - 1 };
-            let shear = self.corner_viscosity(i, j, column) * open_area;
-            all.neighbour = hybrid(open_flux, shear / (grid.rc[column] - grid.rc[i]).abs());
-            all.source += sign * shear * self.cross(at, j);
-        }
-        all
+        };
+        let halves = rows.clone().map(|row| Half {
+            // The axis has no area.
+            area: PI * grid.rf[at] * grid.dz[row],
+            flux: 0.5 * sign * flow.mass_radial[grid.radial_face(at, row)],
+            viscosity: self.viscosity[grid.cell(i, row)],
+            depth: 0.5 * grid.dr[i],
+            across: across(row),
+        });
+        Side::of(sign * self.cross(at, j), halves, || {
+            let cells = rows.flat_map(|row| [i, column].map(|column| (column, row)));
+            let viscosity = corner_viscosity(self.case, self.viscosity, cells);
+            (viscosity, (grid.rc[column] - grid.rc[i]).abs())
+        })
     }
 
     /// The given velocity of the outer or inner edge at axial face `j`, where it is given on both

@@ -13,7 +13,8 @@ use relax::Coefficients;
 use crate::case::{Case, FlowCase, FlowEdge};
 use crate::fields::edge_shear::Rows;
 use crate::fields::flow::{Face, Flow};
-use crate::transport::{dirichlet, hybrid, unbalanced};
+use crate::fields::momentum_side::{Across, Half, Side, corner_viscosity};
+use crate::transport::{hybrid, unbalanced};
 
 /// What the radial momentum equation reads.
 pub struct RadialMomentum<'a> {
@@ -27,16 +28,6 @@ pub struct RadialMomentum<'a> {
     pub viscosity: &'a [f64],
     /// Lorentz force at radial faces \[N/m3\].
     pub lorentz: Option<&'a [f64]>,
-}
-
-/// What lies beyond one axial side of the cell.
-#[derive(Default)]
-struct Beyond {
-    neighbour: f64,
-    centre: f64,
-    source: f64,
-    /// Mass that leaves through the open parts \[kg/s\].
-    outflow: f64,
 }
 
 impl RadialMomentum<'_> {
@@ -71,7 +62,7 @@ impl RadialMomentum<'_> {
                 pressure_beyond = p;
             }
         }
-        let (south, north) = (self.beyond(i, j, false), self.beyond(i, j, true));
+        let (south, north) = (self.side(i, j, false), self.side(i, j, true));
         (c.south, c.north) = (south.neighbour, north.neighbour);
         let mean = self.mean_viscosity(i, j);
         // The integral of u / r for u in proportion to r, as at the axis.
@@ -107,43 +98,16 @@ impl RadialMomentum<'_> {
         2.0 * west * east / (west + east)
     }
 
-    /// Harmonic mean over the gas cells around the corner of face `i` and the rows `j`, `other`.
-    fn corner_viscosity(&self, i: usize, j: usize, other: usize) -> f64 {
-        let grid = &self.case.grid;
-        let (mut count, mut sum) = (0.0, 0.0);
-        for column in i - 1..=i.min(grid.nr - 1) {
-            for row in [j, other] {
-                if self.case.is_gas(column, row) {
-                    count += 1.0;
-                    sum += 1.0 / self.viscosity[grid.cell(column, row)];
-                }
-            }
-        }
-        count / sum
-    }
-
-    /// The northern or southern side: each half of it, in the scalar cells `i - 1` and `i`, may
-    /// open to gas, meet a wall, or be an edge of the domain.
-    fn beyond(&self, i: usize, j: usize, north: bool) -> Beyond {
+    /// The northern or southern side, its halves in the scalar cells `i - 1` and `i`.
+    fn side(&self, i: usize, j: usize, north: bool) -> Side {
         let (grid, flow) = (&self.case.grid, self.flow);
         let (at, sign) = if north { (j + 1, 1.0) } else { (j, -1.0) };
         let inside = if north { j + 1 < grid.nz } else { j > 0 };
-        let mut all = Beyond::default();
-        let (mut open_flux, mut open_area) = (0.0, 0.0);
-        for column in i - 1..=i.min(grid.nr - 1) {
-            let area = PI * (grid.rf[i] * grid.rf[i] - grid.rc[column] * grid.rc[column]).abs();
-            let flux = 0.5 * sign * flow.mass_axial[grid.axial_face(column, at)];
-            let wall = self.viscosity[grid.cell(column, j)] * area / (0.5 * grid.dz[j]);
-            all.outflow += flux;
+        let row = if north { j + 1 } else { j.wrapping_sub(1) };
+        let columns = i - 1..=i.min(grid.nr - 1);
+        let across = |column: usize| {
             if inside {
-                let row = if north { j + 1 } else { j - 1 };
-                if self.case.is_gas(column, row) {
-                    open_flux += flux;
-                    open_area += area;
-                } else {
-                    all.centre += wall;
-                }
-                continue;
+                return Across::inside(self.case.is_gas(column, row));
             }
             let edge = if north {
                 self.setup.edges.top[column]
@@ -153,31 +117,27 @@ impl RadialMomentum<'_> {
             match edge {
                 FlowEdge::Velocity([own, _]) => {
                     let value = self.at_corner(i, north).unwrap_or(own);
-                    let a = dirichlet(flux, wall);
-                    all.centre += a;
-                    let rows = self.rows(i, j, column, value);
-                    let viscosity =
-                        rows.map_or(self.viscosity[grid.cell(column, j)], |r| r.edge_viscosity());
-                    let excess = rows.map_or(0.0, |r| r.excess());
-                    let cross = sign * viscosity * self.cross(i, at);
-                    all.source += a * value + area * (excess + cross);
+                    Across::Moves(value, self.rows(i, j, column, value))
                 }
-                FlowEdge::Open(_) => {
-                    // No slope of this velocity along the outflow; the other part of the shear stays.
-                    all.centre += (-flux).max(0.0);
-                    let viscosity = self.viscosity[grid.cell(column, j)];
-                    all.source += sign * viscosity * area * self.cross(i, at);
-                }
-                FlowEdge::Slip => {}
+                FlowEdge::Open(_) => Across::Open,
+                FlowEdge::Slip => Across::Slip,
             }
-        }
-        if open_area > 0.0 {
-            let row = if north { j + 1 } else { j - 1 };
-            let shear = self.corner_viscosity(i, j, row) * open_area;
-            all.neighbour = hybrid(open_flux, shear / (grid.zc[row] - grid.zc[j]).abs());
-            all.source += sign * shear * self.cross(i, at);
-        }
-        all
+        };
+        let halves = columns.clone().map(|column| {
+            let area = PI * (grid.rf[i] * grid.rf[i] - grid.rc[column] * grid.rc[column]).abs();
+            Half {
+                area,
+                flux: 0.5 * sign * flow.mass_axial[grid.axial_face(column, at)],
+                viscosity: self.viscosity[grid.cell(column, j)],
+                depth: 0.5 * grid.dz[j],
+                across: across(column),
+            }
+        });
+        Side::of(sign * self.cross(i, at), halves, || {
+            let cells = columns.flat_map(|column| [j, row].map(|row| (column, row)));
+            let viscosity = corner_viscosity(self.case, self.viscosity, cells);
+            (viscosity, (grid.zc[row] - grid.zc[j]).abs())
+        })
     }
 
     /// The given velocity of the upper or lower edge at radial face `i`, where it is given on both
