@@ -22,5 +22,7 @@ pub const PERMITTIVITY: f64 = 8.854_187_812_8e-12;
 pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// The electron-volt, J.
 pub const ELECTRON_VOLT: f64 = ELEMENTARY_CHARGE;
+/// Rydberg's constant as an energy R, J.
+pub const RYDBERG: f64 = 2.179_872_361_103_5e-18;
 /// One standard atmosphere, Pa.
 pub const ATMOSPHERE: f64 = 101_325.0;

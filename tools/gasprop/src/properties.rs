@@ -118,7 +118,10 @@ impl Gas {
             .map(|(name, x)| (name.clone(), *x))
             .collect();
         let with_iron = scene.iron_mole_fraction.is_some();
-        let mixture = Mixture::new(&library, &base, with_iron)?;
+        let mut mixture = Mixture::new(&library, &base, with_iron)?;
+        if let Some(last) = scene.uncertain.and_then(|given| given.filled_to_shell) {
+            mixture = mixture.with_shells(last);
+        }
         let radiation = match scene.radiation {
             Some(_) => Some(Radiation::new(library.data(), &mixture.species)?),
             None => None,

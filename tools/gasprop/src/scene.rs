@@ -94,6 +94,12 @@ pub struct Uncertain {
     #[serde(default)]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub iron_charge_exchange_factor: Option<f64>,
+    /// Excited shells of neutral atoms are filled up to the one of this principal quantum number, those of ions
+    /// accordingly farther, and no level lies above; absent: the levels that lists of spectra hold. Fields of ions
+    /// leave argon at 1 atm 9 shells at 9,500 K and 6 from 14,500 K on (Inglis and Teller 1939).
+    #[serde(default)]
+    #[schemars(range(min = 5, max = 30))]
+    pub filled_to_shell: Option<u32>,
 }
 
 /// What the table must meet.

@@ -16,6 +16,7 @@ mod internal;
 mod levels;
 pub mod library;
 mod nasa9;
+mod shells;
 pub mod species;
 mod system;
 pub mod thermodynamics;
@@ -227,6 +228,14 @@ impl Mixture {
     #[must_use]
     pub fn with_lowering(mut self, lowering: Lowering) -> Self {
         self.lowering = lowering;
+        self
+    }
+
+    /// The same mixture with the excited shells of neutral atoms filled up to number `last`, those of ions accordingly
+    /// farther, and no level above (`shells.rs` says how); without this, with the levels that lists of spectra hold.
+    #[must_use]
+    pub fn with_shells(mut self, last: u32) -> Self {
+        self.species = shells::filled(&self.species, last);
         self
     }
 

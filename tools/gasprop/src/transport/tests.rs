@@ -35,15 +35,21 @@ fn at(transport: &Transport, mixture: &Mixture, t: f64, pressure: f64, x: f64) -
 
 #[test]
 fn argon_meets_its_reference() {
-    // The reference's own pressure is 1.0133 times its label; its charges lower the energies of ionisation.
+    // The reference's own pressure is 1.0133 times its label; its charges lower the energies of ionisation. With the
+    // levels of the lists, and with 7 shells of levels, all columns hold; with 6 shells viscosity errs by 3.2 %.
     let library = library();
     let argon = mixture(&library, &[("Ar", 1.0)], false).with_lowering(Lowering::DebyeHueckel);
-    let transport = transport(&library, &argon);
+    meets_reference(&library, &argon);
+    meets_reference(&library, &argon.with_shells(7));
+}
+
+fn meets_reference(library: &Library, argon: &Mixture) {
+    let transport = transport(library, argon);
     let rows = library.data()["reference_argon_1atm"]["data"].clone();
     let rows: Vec<[f64; 6]> = serde_json::from_value(rows).unwrap();
     let mut kappas = Vec::new();
     for [t, _, _, viscosity, kappa, sigma] in rows {
-        let found = at(&transport, &argon, t, 1.0133 * ATMOSPHERE, 0.0);
+        let found = at(&transport, argon, t, 1.0133 * ATMOSPHERE, 0.0);
         assert!(
             (found.viscosity / viscosity - 1.0).abs() < 0.03,
             "viscosity at {t}"
