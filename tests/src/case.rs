@@ -7,6 +7,9 @@ use crate::lab::{Finished, Lab, LabError};
 /// Errors by quantity, for example `temperature_linf`.
 pub type Errors = BTreeMap<String, f64>;
 
+/// What a measurement took, by name, for example `iterations`: bound as errors are, and no error.
+pub type Costs = BTreeMap<String, f64>;
+
 /// What a target asks for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bound {
@@ -144,17 +147,35 @@ pub struct Measurement {
     pub runs: Vec<Finished>,
     /// Errors measured on the artefacts of these runs.
     pub errors: Errors,
+    /// What they took.
+    pub costs: Costs,
 }
 
 impl Measurement {
     /// A measurement of one run.
     #[must_use]
     pub fn of(run: Finished, points: u64, spacing_m: f64, errors: Errors) -> Self {
+        Self::over(vec![run], points, spacing_m, errors)
+    }
+
+    /// A measurement of several runs.
+    #[must_use]
+    pub fn over(runs: Vec<Finished>, points: u64, spacing_m: f64, errors: Errors) -> Self {
         Self {
             points,
             spacing_m,
-            runs: vec![run],
+            runs,
             errors,
+            costs: Costs::new(),
+        }
+    }
+
+    /// With what it took.
+    #[must_use]
+    pub fn at_costs<const N: usize>(self, costs: [(&str, f64); N]) -> Self {
+        Self {
+            costs: costs.map(|(name, cost)| (name.to_owned(), cost)).into(),
+            ..self
         }
     }
 }

@@ -88,10 +88,10 @@ impl Case for EmCylinderAc {
         let errors = Errors::from([
             ("field_linf".to_owned(), linf),
             ("field_local".to_owned(), local),
-            ("points".to_owned(), points.count() as f64),
             ("power".to_owned(), (heat / power - 1.0).abs()),
         ]);
-        Ok(Measurement::of(run, points.count(), spacing, errors))
+        let count = points.count();
+        Ok(Measurement::of(run, count, spacing, errors).at_costs([("points", count as f64)]))
     }
 }
 

@@ -107,9 +107,9 @@ impl Case for EmDielectricSphere {
         let mut errors = errors(&points, &beyond(&run)?, &exact, spacing)?;
         errors.insert("traction_linf".to_owned(), traction(&run, &exact)?);
         let iterations = closing(&run, "products_potential");
-        errors.insert("iterations".to_owned(), iterations);
-        errors.insert("points".to_owned(), points.count() as f64);
-        Ok(Measurement::of(run, points.count(), spacing, errors))
+        let count = points.count();
+        let costs = [("iterations", iterations), ("points", count as f64)];
+        Ok(Measurement::of(run, count, spacing, errors).at_costs(costs))
     }
 }
 

@@ -67,17 +67,24 @@ impl Case for EmSphereLoops {
             "output": {"enclosures": [{"name": "around", "spacing_m": 2.0 * spacing,
                 "surface": {"around": {"body": "drop", "distance_m": 7e-4}}}]}
         });
-        measured(
+        let found = measured(
             lab,
             self,
             (level, method),
             (&patch, spacing),
             |run, points| errors(run, points, coaxial(&run.scene, run)?),
-        )
+        )?;
+        let run = &found.runs[0];
+        let costs = [
+            ("points", found.points as f64),
+            ("seconds", run.solver_s()?),
+            ("bytes", run.peak_memory_bytes().unwrap_or(0) as f64),
+        ];
+        Ok(found.at_costs(costs))
     }
 }
 
-/// Errors of force, heat, currents and flux density, and what they cost.
+/// Errors of force, heat, currents and flux density.
 pub(super) fn errors(run: &Finished, points: &Points, scene: Coaxial) -> Result<Errors, LabError> {
     let points = points.seen_from(scene.axes());
     let radius = scene.body.radius;
@@ -112,10 +119,6 @@ pub(super) fn errors(run: &Finished, points: &Points, scene: Coaxial) -> Result<
     let scale = exact.flux(0.0, -radius)[1].norm();
     let flux = flux_error(&points, &exact, 1.2 * radius)? / scale;
     errors.insert("flux_linf".to_owned(), flux);
-    errors.insert("points".to_owned(), points.count() as f64);
-    errors.insert("seconds".to_owned(), run.solver_s()?);
-    let bytes = run.peak_memory_bytes().unwrap_or(0);
-    errors.insert("bytes".to_owned(), bytes as f64);
     Ok(errors)
 }
 

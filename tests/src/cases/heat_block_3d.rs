@@ -79,12 +79,7 @@ impl Case for HeatBlock3d {
                 all.push(run);
             }
         }
-        Ok(Measurement {
-            points,
-            spacing_m: spacing,
-            runs: all,
-            errors,
-        })
+        Ok(Measurement::over(all, points, spacing, errors))
     }
 }
 

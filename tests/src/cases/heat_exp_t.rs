@@ -62,12 +62,7 @@ impl Case for HeatExpT {
             points = frames.points();
             all.push(run);
         }
-        Ok(Measurement {
-            points,
-            spacing_m: spacing,
-            runs: all,
-            errors,
-        })
+        Ok(Measurement::over(all, points, spacing, errors))
     }
 }
 

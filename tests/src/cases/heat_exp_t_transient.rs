@@ -78,12 +78,7 @@ impl Case for HeatExpTTransient {
             points = frames.points();
             all.push(run);
         }
-        Ok(Measurement {
-            points,
-            spacing_m: spacing,
-            runs: all,
-            errors,
-        })
+        Ok(Measurement::over(all, points, spacing, errors))
     }
 }
 

@@ -63,12 +63,7 @@ impl Case for HeatExpX {
             points = frames.points();
             all.push(run);
         }
-        Ok(Measurement {
-            points,
-            spacing_m: spacing,
-            runs: all,
-            errors,
-        })
+        Ok(Measurement::over(all, points, spacing, errors))
     }
 }
 

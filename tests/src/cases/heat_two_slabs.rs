@@ -98,12 +98,7 @@ impl Case for HeatTwoSlabs {
             points = frames.points();
             all.push(run);
         }
-        Ok(Measurement {
-            points,
-            spacing_m: spacing,
-            runs: all,
-            errors,
-        })
+        Ok(Measurement::over(all, points, spacing, errors))
     }
 }
 

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::case::{Case, Errors, Measurement};
+use crate::case::{Case, Costs, Errors, Measurement};
 use crate::lab::{Lab, LabError};
 use crate::norms::observed_order;
 use repeat::{Repeated, in_turns};
@@ -33,6 +33,8 @@ pub struct Level {
     peak_memory_bytes: Option<u64>,
     threads: usize,
     errors: Errors,
+    #[serde(skip_serializing_if = "Costs::is_empty")]
+    costs: Costs,
 }
 
 /// One method over its resolutions.
@@ -190,6 +192,7 @@ fn level(taken: Taken, threads: usize) -> Level {
             .max(),
         threads,
         errors: measured.errors,
+        costs: measured.costs,
     }
 }
 
@@ -226,7 +229,7 @@ impl Series {
                 "  {:>9} points {:>9.4} s x{} ",
                 level.points, level.run_time_s, level.repeats
             );
-            for (quantity, error) in &level.errors {
+            for (quantity, error) in level.errors.iter().chain(&level.costs) {
                 text += &format!("  {quantity} {error:.3e}");
             }
             text.push('\n');

@@ -145,8 +145,10 @@ fn level(series: &Series, wanted: Option<u32>) -> Option<&Level> {
     }
 }
 
+/// An error or a cost of a level.
 fn error(level: &Level, quantity: &str) -> Option<f64> {
-    level.errors.get(quantity).copied()
+    let found = level.errors.get(quantity);
+    found.or_else(|| level.costs.get(quantity)).copied()
 }
 
 impl Verdict {
@@ -195,6 +197,7 @@ mod tests {
             peak_memory_bytes: None,
             threads: 1,
             errors: [("a".to_owned(), error)].into(),
+            costs: [("iterations".to_owned(), 10.0 * f64::from(level))].into(),
         };
         Series {
             method: method.to_owned(),
@@ -235,6 +238,9 @@ mod tests {
         assert_eq!(holds(coarse.of("exact"), &[1, 2]), Some(true));
         let absent = Target::error("a", 1.0).at_level(3);
         assert_eq!(holds(absent.clone(), &[1, 2]), None);
+        let cost = |most| Target::error("iterations", most);
+        assert_eq!(holds(cost(20.0), &[1, 2]), Some(true));
+        assert_eq!(holds(cost(19.0), &[1, 2]), Some(false));
         // A level that was asked for and is not there is no excuse.
         assert_eq!(holds(absent, &[1, 2, 3]), Some(false));
     }

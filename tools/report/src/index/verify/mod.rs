@@ -233,7 +233,7 @@ fn targets(study: &Study) -> String {
 }
 
 fn levels(study: &Study) -> String {
-    let quantities = study.quantities();
+    let (quantities, costs) = (study.quantities(), study.costs());
     let mut head: Vec<String> = [
         "Method",
         "#Points",
@@ -250,6 +250,7 @@ fn levels(study: &Study) -> String {
     head.extend(
         quantities
             .iter()
+            .chain(&costs)
             .map(|q| format!("#{}", q.replace('_', " "))),
     );
     let mut table = Rows::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
@@ -272,11 +273,19 @@ fn levels(study: &Study) -> String {
                     .iter()
                     .map(|q| error(q).map_or_else(dash, digits)),
             );
+            let cost = |name: &&str| {
+                level
+                    .costs
+                    .get(*name)
+                    .map_or_else(dash, |cost| digits(*cost))
+            };
+            cells.extend(costs.iter().map(cost));
             table.row(cells);
         }
         let mut cells = vec![format!("{}, order", escape(&series.method))];
         cells.resize(fixed, String::new());
         cells.extend(quantities.iter().map(|q| order(&series.order, q)));
+        cells.resize(fixed + quantities.len() + costs.len(), String::new());
         table.row(cells);
     }
     format!(
@@ -293,7 +302,7 @@ mod tests {
         let level = |n: u32, error: f64| {
             serde_json::json!({"level": n, "points": 100 * n, "spacing_m": 1.0 / f64::from(n), "steps": 1,
                 "run_time_s": 0.1, "run_time_least_s": 0.05, "run_time_greatest_s": 0.2, "repeats": 5,
-                "threads": 2, "errors": {"a_linf": error, "b_l2": error}})
+                "threads": 2, "errors": {"a_linf": error, "b_l2": error}, "costs": {"iterations": 17}})
         };
         let series = |name: String| {
             serde_json::json!({"method": name, "levels": [level(1, 1e-2), level(2, 2.5e-3)],
@@ -337,5 +346,14 @@ mod tests {
         assert!(html.contains(">b l2</text>"));
         let table = summary(&[study(1)]);
         assert!(table.contains("1 of 2 met"));
+    }
+
+    #[test]
+    fn what_a_run_takes_is_no_error() {
+        assert!(!summary(&[study(1)]).contains("iterations"));
+        let html = section(&study(2), &Prices::default());
+        let (plots, levels) = html.split_once("<summary>").unwrap();
+        assert!(!plots.contains("iterations"));
+        assert!(levels.contains("iterations</th>") && levels.contains(">17.00</td>"), "{levels}");
     }
 }

@@ -1,6 +1,6 @@
 //! What `make verify` writes, as far as a page needs it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
@@ -29,6 +29,9 @@ pub(super) struct Level {
     #[serde(default)]
     pub(super) threads: u64,
     pub(super) errors: BTreeMap<String, Option<f64>>,
+    /// What they took, by name.
+    #[serde(default)]
+    pub(super) costs: BTreeMap<String, f64>,
 }
 
 /// A target and what was found.
@@ -118,6 +121,13 @@ impl Study {
         first
             .map(|l| l.errors.keys().map(String::as_str).collect())
             .unwrap_or_default()
+    }
+
+    /// What runs took, by name, as far as the record tells.
+    pub(super) fn costs(&self) -> Vec<&str> {
+        let levels = self.all().flat_map(|series| &series.levels);
+        let names = levels.flat_map(|level| level.costs.keys().map(String::as_str));
+        names.collect::<BTreeSet<_>>().into_iter().collect()
     }
 }
 
