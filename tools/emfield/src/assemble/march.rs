@@ -1,7 +1,7 @@
 //! Eddy currents of a scene in time: from rest to the end.
 
 use artefact::Checkpoint;
-use krylov::{Ending, Solved};
+use krylov::{Ending, Rescue, Solved};
 use num_complex::Complex;
 use run::property::{Arguments, Curve, Property};
 use run::{Failure, Session};
@@ -96,7 +96,7 @@ pub fn march<const D: usize, const K: usize>(
     let mut growth = Growth::new(setting.heating());
     let (mut taken, mut effort) = (0, Effort::default());
     if let Some(mut checkpoint) = session.restored() {
-        (taken, effort) = restore((&mut march, &mut growth), &mut checkpoint)?;
+        (taken, length, effort) = restore((&mut march, &mut growth), &steps, &mut checkpoint)?;
     } else {
         write(0.0, view.fields(march.state(), (0.0, length)).0, session)?;
     }
@@ -306,37 +306,51 @@ fn save(
     checkpoint.put_f64("effort", &[effort.residual, largest, worst.0]);
     let (last, most, rises) = growth.seen;
     checkpoint.put_f64("growth", &[last, most, f64::from(rises)]);
-    checkpoint.put_u8("rescued", &[u8::from(march.rescued())]);
+    let rescued = match march.rescued() {
+        None => 0,
+        Some(Rescue::Direct) => 1,
+        Some(Rescue::Incomplete) => 2,
+    };
+    checkpoint.put_u8("rescued", &[rescued]);
     checkpoint.put_f64("unknown", &march.state().unknown);
     checkpoint.put_f64("total", &march.state().total);
     Ok(())
 }
 
-/// Takes back what [`save`] put.
+/// Takes back what [`save`] put: the steps taken, the length of the last one \[s\] and the effort.
 fn restore(
     (march, growth): (&mut March<'_>, &mut Growth),
+    steps: &Steps,
     checkpoint: &mut Checkpoint,
-) -> Result<(u64, Effort), Failure> {
+) -> Result<(u64, f64, Effort), Failure> {
+    let lacks = |what: &str| Failure::Other(format!("the checkpoint lacks a part{what}"));
     let wanted = march.state().unknown.len();
     let mut column = |name: &str| -> Result<Vec<f64>, Failure> {
         let values = checkpoint.f64(name)?;
-        if values.len() == wanted {
-            Ok(values)
-        } else {
-            Err(Failure::Other(format!(
-                "the checkpoint lacks a part of \"{name}\""
-            )))
-        }
+        let whole = values.len() == wanted;
+        whole
+            .then_some(values)
+            .ok_or_else(|| lacks(&format!(" of \"{name}\"")))
     };
     let reached = (column("unknown")?, column("total")?);
-    let rescued = checkpoint.u8("rescued")?.first().is_some_and(|r| *r != 0);
+    let (count, effort) = (checkpoint.u64("count")?, checkpoint.f64("effort")?);
+    let (&[taken, products, place], &[residual, largest, worst]) = (&count[..], &effort[..]) else {
+        return Err(lacks(""));
+    };
+    let rescued = match checkpoint.u8("rescued")?[..] {
+        [0] => None,
+        [1] => Some(Rescue::Direct),
+        [2] => Some(Rescue::Incomplete),
+        _ => return Err(lacks(" of \"rescued\"")),
+    };
+    // What was rescued are the equations of the last step.
+    let last = steps.step(taken.max(1) - 1).1;
+    if last.to_bits() != steps.step(0).1.to_bits() {
+        march.pace(last).map_err(|error| failed(&error))?;
+    }
     march
         .restore(reached, rescued)
         .map_err(|error| failed(&error))?;
-    let (count, effort) = (checkpoint.u64("count")?, checkpoint.f64("effort")?);
-    let (&[taken, products, place], &[residual, largest, worst]) = (&count[..], &effort[..]) else {
-        return Err(Failure::Other("the checkpoint lacks a part".to_owned()));
-    };
     if let &[last, most, rises] = &checkpoint.f64("growth")?[..] {
         growth.seen = (last, most, rises as u32);
     }
@@ -348,5 +362,5 @@ fn restore(
             worst: (worst, place as usize),
         },
     };
-    Ok((taken, effort))
+    Ok((taken, last, effort))
 }

@@ -2,7 +2,7 @@
 //!
 //! `row(A) = k d(A + A_s)/dt` with `k` from [`super::diffusion::Conductors::rates`].
 
-use krylov::{Error, Options, Pair, Rows, Rule, Solved, System};
+use krylov::{Error, Options, Pair, Rescue, Rows, Rule, Solved, System};
 
 use super::march::Stage;
 use super::permeable::Bound;
@@ -78,6 +78,14 @@ impl<const K: usize> Stage for Alone<K> {
         self.system = self.equations.system(slope)?;
         self.pairs = self.equations.implicit(slope);
         Ok(())
+    }
+
+    fn rescued(&self) -> Option<Rescue> {
+        self.system.rescued()
+    }
+
+    fn rescue(&mut self, way: Rescue) -> Result<(), Error> {
+        self.system.rescue(way)
     }
 
     fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved {

@@ -1,6 +1,6 @@
 //! The stage of a march of A and V together.
 
-use krylov::{Error, Options, Rule, Solved};
+use krylov::{Error, Options, Rescue, Rule, Solved};
 
 use super::at_rate::AtRate;
 use super::coupled::Coupled;
@@ -41,11 +41,12 @@ impl Stage for Charged<'_> {
         self.factors.pace(self.coupled, slope)
     }
 
-    fn rescued(&self) -> bool {
-        self.factors.rescued()
+    fn rescued(&self) -> Option<Rescue> {
+        self.factors.rescued().then_some(Rescue::Direct)
     }
 
-    fn rescue(&mut self) -> Result<(), Error> {
+    /// The rows of A are only ever factorised.
+    fn rescue(&mut self, _: Rescue) -> Result<(), Error> {
         self.factors.rescue(self.coupled)
     }
 

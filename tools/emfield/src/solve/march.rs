@@ -10,7 +10,7 @@
 //! only. `gamma` times that of the first and `1 - gamma` times that of the last stage is the slope at the end of the
 //! parabola through the values at start, first and last stage: of second order.
 
-use krylov::{Error, Rule, Solved};
+use krylov::{Error, Rescue, Rule, Solved};
 
 /// `1 - 1/sqrt(2)`: with it the method is of second order and the last stage is the next state.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -29,18 +29,14 @@ pub trait Stage {
     /// Where they cannot be factorised.
     fn pace(&mut self, slope: f64) -> Result<(), Error>;
 
-    /// Whether it came to be solved in another way than it began, because that did not serve.
-    fn rescued(&self) -> bool {
-        false
-    }
+    /// In which other way than it began it came to be solved, because that did not serve.
+    fn rescued(&self) -> Option<Rescue>;
 
-    /// Goes over to that other way.
+    /// Goes over to another way.
     ///
     /// # Errors
     /// Where the equations cannot be factorised.
-    fn rescue(&mut self) -> Result<(), Error> {
-        Ok(())
-    }
+    fn rescue(&mut self, way: Rescue) -> Result<(), Error>;
 
     /// Solves them for `unknown`, which is the first guess: its rate is `slope` times it and what is `driven`; the
     /// sources are `wave` times themselves.
@@ -104,9 +100,9 @@ impl<'a> March<'a> {
         &self.state
     }
 
-    /// Whether stages came to be solved in another way than they began.
+    /// In which other way than they began stages came to be solved.
     #[must_use]
-    pub fn rescued(&self) -> bool {
+    pub fn rescued(&self) -> Option<Rescue> {
         self.stage.rescued()
     }
 
@@ -117,10 +113,10 @@ impl<'a> March<'a> {
     pub fn restore(
         &mut self,
         (unknown, total): (Vec<f64>, Vec<f64>),
-        rescued: bool,
+        rescued: Option<Rescue>,
     ) -> Result<(), Error> {
         (self.state.unknown, self.state.total) = (unknown, total);
-        if rescued { self.stage.rescue() } else { Ok(()) }
+        rescued.map_or(Ok(()), |way| self.stage.rescue(way))
     }
 
     /// Makes a step that begins at `time` \[s\]; the sources follow `wave`.

@@ -61,6 +61,7 @@ pub use minimal::minimal_residual;
 pub use multigrid::{Grids, Multigrid};
 pub use operator::{Identity, Inverse, Operator, Shifted};
 pub use order::Order;
+pub use rescue::Rescue;
 pub use rows::Rows;
 pub use scalar::{Coefficient, Scalar};
 pub use sparse::{Pattern, Sparse};

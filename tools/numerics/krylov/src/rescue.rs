@@ -8,7 +8,7 @@
 use crate::factors::{Factors, joined, weak};
 use crate::lowrank::Ties;
 use crate::{
-    Coefficient, Direct, Ending, Incomplete, Keep, Rule, Scalar, Solved, Stagnation, System,
+    Coefficient, Direct, Ending, Error, Incomplete, Keep, Rule, Scalar, Solved, Stagnation, System,
 };
 
 /// Most products that incomplete factors take.
@@ -19,6 +19,15 @@ const KEEP: Keep = Keep::Threshold {
     drop: 1e-2,
     fill: 1.0,
 };
+
+/// What took the place of multigrid where that stood still.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rescue {
+    /// Incomplete factors by size.
+    Incomplete,
+    /// Sparse factors.
+    Direct,
+}
 
 /// Are sparse factors to be tried?
 fn failed(solved: &Solved) -> bool {
@@ -34,6 +43,24 @@ where
     T: Coefficient<S> + Scalar,
     f32: Coefficient<S> + Coefficient<T>,
 {
+    /// Goes over to what multigrid was replaced by in another system of the same equations: what is solved from here on
+    /// has the bits that it had there.
+    ///
+    /// # Errors
+    /// Where sparse factors are asked for and the equations are singular.
+    pub fn rescue(&mut self, way: Rescue) -> Result<(), Error> {
+        self.factors = match way {
+            Rescue::Incomplete => Factors::Real(self.incomplete_factors()),
+            Rescue::Direct => Factors::Direct(Box::new(Direct::new(&self.rows, &self.shift)?)),
+        };
+        self.rescued = Some(way);
+        Ok(())
+    }
+
+    fn incomplete_factors(&self) -> Incomplete<f32> {
+        Incomplete::new(&self.rows, &self.shift, &self.order, KEEP)
+    }
+
     /// Solves by what serves.
     pub(crate) fn choose<const C: usize>(
         &mut self,
@@ -60,7 +87,7 @@ where
             && let Ok(factors) = Direct::new(&self.rows, &self.shift)
         {
             self.factors = Factors::Direct(Box::new(factors));
-            self.rescued = true;
+            self.rescued = Some(Rescue::Direct);
             y.fill([S::ZERO; C]);
             let last = self.run(ties, |factors, a, scratch| {
                 factors.solve(a, b, y, rule, scratch)
@@ -83,7 +110,7 @@ where
         if left == 0 || matches!(self.factors, Factors::Real(_)) {
             return Err(solved);
         }
-        let factors = Incomplete::new(&self.rows, &self.shift, &self.order, KEEP);
+        let factors = self.incomplete_factors();
         if factors.growth::<S>() > self.usual_growth() {
             return Err(solved);
         }
@@ -101,7 +128,7 @@ where
         });
         let mut both = joined(solved, next);
         if both.converged() || both.ending == Ending::Stopped {
-            self.rescued = true;
+            self.rescued = Some(Rescue::Incomplete);
             return Ok(both);
         }
         self.factors = grids;

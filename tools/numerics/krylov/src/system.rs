@@ -3,8 +3,8 @@
 use crate::factors::Factors;
 use crate::lowrank::{LowRank, Ties};
 use crate::{
-    Coefficient, Direct, Ending, Error, Grids, Keep, Order, Pair, Rows, Rule, Scalar, Scratch,
-    Shifted, Sides, Solved, Stagnation, Unknown,
+    Coefficient, Direct, Ending, Error, Grids, Keep, Order, Pair, Rescue, Rows, Rule, Scalar,
+    Scratch, Shifted, Sides, Solved, Stagnation, Unknown,
 };
 
 /// How a system is solved.
@@ -63,7 +63,7 @@ pub struct System<T, S: Scalar> {
     pub(crate) factors: Factors<T, S>,
     scratch: Scratch<S>,
     vectors: Scratch<S>,
-    pub(crate) rescued: bool,
+    pub(crate) rescued: Option<Rescue>,
 }
 
 impl<T: Scalar, S: Unknown<T>> System<T, S> {
@@ -108,9 +108,9 @@ impl<T: Scalar, S: Unknown<T>> System<T, S> {
         self.rows.is_empty()
     }
 
-    /// Has multigrid stood still, so that incomplete or sparse factors took its place?
+    /// What took the place of multigrid, if that stood still.
     #[must_use]
-    pub fn rescued(&self) -> bool {
+    pub fn rescued(&self) -> Option<Rescue> {
         self.rescued
     }
 
@@ -222,7 +222,7 @@ where
             factors,
             scratch: Scratch::default(),
             vectors: Scratch::default(),
-            rescued: false,
+            rescued: None,
         })
     }
 
