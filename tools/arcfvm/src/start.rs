@@ -2,7 +2,7 @@
 //!
 //! Every value is interpolated linearly between the four cell centres around its place. Of these,
 //! temperatures and potentials take only those of the same kind of body, where there are any: the
-//! surface of an electrode stays sharp.
+//! surface of an electrode stays sharp. Flux has boiled where it had in the file: the nearest cell there tells.
 //!
 //! The file has velocities in the middle of cells, each the mean of those at its faces. On the grid of
 //! the file, with the same bodies, the velocities at the faces follow from them one after another,
@@ -11,6 +11,7 @@
 use artefact::{Reader, Table};
 use run::Failure;
 
+use crate::bed;
 use crate::fields::flow::{Face, Flow};
 use crate::frames::role;
 use crate::grid::Grid;
@@ -110,6 +111,7 @@ impl Other {
 pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Failure> {
     let other = Other::read(path)?;
     let record = Reader::open_kind(path, "arc-source", 1)?.record("/balance")?;
+    take_bed(arc, &other);
     let kinds: Vec<f64> = (0..arc.case.grid.len())
         .map(|k| role(arc, arc.case.material[k] as f64))
         .collect();
@@ -156,6 +158,26 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Fai
         let path = path.display();
         format!("the start in {path} has another grid or other bodies: it is interpolated")
     }))
+}
+
+/// Lets the bed of flux be gas where it is in the other solution, if that has one.
+fn take_bed(arc: &mut Arc, other: &Other) {
+    let (Some(granular), Some(kinds)) = (bed::granular(arc), other.column("material")) else {
+        return;
+    };
+    let own = role(arc, granular.material as f64);
+    if !kinds.iter().any(|kind| (kind - own).abs() < 0.5) {
+        return;
+    }
+    let grid = &arc.case.grid;
+    let gas = |k: &usize| {
+        let nodes = other.around(grid.rc[k % grid.nr], grid.zc[k / grid.nr]);
+        let nearest = nodes.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        u8::from(nearest.is_some_and(|(node, _)| kinds[*node] < 0.5))
+    };
+    let boiled: Vec<u8> = granular.cells.iter().map(gas).collect();
+    let changes = vec![0; boiled.len()];
+    arc.restore_bed(&boiled, changes);
 }
 
 impl Arc {

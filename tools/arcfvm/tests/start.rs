@@ -133,6 +133,35 @@ fn a_flow_that_vapour_drives_holds_too() {
     assert!(cold > 50 && again <= 5, "{cold} {again}");
 }
 
+/// A bed begins boiled as far as it had: its cavity holds, where a cold one grows anew.
+#[test]
+fn a_bed_that_boiled_is_not_cold_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let steps = |out: &str, start: &[String]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_arcfvm"));
+        let command = command
+            .current_dir(root())
+            .args(["run", "pipelines/stability/bed/arc.json", "--out"])
+            .arg(folder.join(out))
+            .args(["--threads", "1", "-q"])
+            .args(start);
+        assert_eq!(command.status().unwrap().code(), Some(0));
+        record(folder, out).0
+    };
+    let cold = steps("cold.mcap", &[]);
+    let start = format!("start={}", folder.join("cold.mcap").display());
+    let again = steps("again.mcap", &["--input".to_owned(), start]);
+    let cavities = ["cold.mcap", "again.mcap"].map(|out| balance(folder, out, "cavity_volume_m3"));
+    assert!(cavities[0] > 0.0, "nothing boiled");
+    assert!(
+        (cavities[1] / cavities[0] - 1.0).abs() < 1e-9,
+        "{cavities:?}"
+    );
+    assert!(again < cold / 2, "{cold} {again}");
+    assert!(apart(folder, ["cold.mcap", "again.mcap"], "temperature_k") < 1e-3);
+}
+
 #[test]
 fn a_start_on_another_grid_is_interpolated_and_told() {
     let folder = tempfile::tempdir().unwrap();
