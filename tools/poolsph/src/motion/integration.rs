@@ -129,16 +129,13 @@ impl Motion {
                 _ => [0.0; 3],
             })
             .collect_into_vec(&mut self.predicted);
-        let viscous = self.viscosity.acts();
-        if (viscous && self.viscosity.uniform()) || self.noise.acts() {
-            self.around.sum(near, &near.velocity);
-        }
-        if viscous {
-            let predicted = &mut self.predicted;
-            self.viscosity.apply(near, &self.around, dt, predicted);
-        }
         let (around, predicted) = (&mut self.around, &mut self.predicted);
-        self.noise.damp(near, around, dt, predicted);
+        if self.viscosity.acts() || self.noise.acts() {
+            around.sum(near, &near.velocity);
+            self.viscosity.apply(near, around, dt, predicted);
+            self.noise
+                .damp(near, around, (&self.viscosity, dt), predicted);
+        }
     }
 
     fn substep(&mut self, near: &mut Near, step: Step) {

@@ -13,12 +13,13 @@
 //! the shortest waves decay as fast as a particle falls by its own diameter, and those of many
 //! spacings hardly: a wave k has L = 0.14 (k d)^2 for h = d, so that the rate goes with (k d)^4. L is
 //! symmetric: momentum is kept, and energy can only fall. Without gravity nothing is packed and nothing
-//! damped.
+//! damped. What viscosity takes back ([`Viscosity::spared`]) is of the same form and goes the same way.
 
 use rayon::prelude::*;
 
 use super::around::Around;
 use super::lattice::Lattice;
+use super::viscosity::Viscosity;
 use crate::near::{Near, plus};
 use crate::state::Metal;
 use crate::sweep::GRAIN;
@@ -53,18 +54,28 @@ impl Noise {
         self.rate > 0.0
     }
 
-    /// Adds what `near.velocity` loses in `dt` \[s\] to `predicted`; `around` holds the sums of this
-    /// velocity, and then those of L u.
-    pub fn damp(&mut self, near: &Near, around: &mut Around, dt: f64, predicted: &mut [[f64; 3]]) {
-        if !self.acts() {
-            return;
-        }
-        let part = -(self.rate * dt).min(PART);
+    /// Adds to `predicted` what `near.velocity` loses in `dt` \[s\], and what `viscosity` gives back of what it
+    /// took; `around` holds the sums of this velocity, and then those of L u with the rates of both.
+    pub fn damp(
+        &mut self,
+        near: &Near,
+        around: &mut Around,
+        (viscosity, dt): (&Viscosity, f64),
+        predicted: &mut [[f64; 3]],
+    ) {
+        let (lost, volume) = ((self.rate * dt).min(PART), self.volume);
         self.first.clear();
         self.first.resize(near.len(), [0.0; 3]);
-        difference(&near.velocity, around, self.volume, &mut self.first);
+        let rows = self.first.par_iter_mut().zip(&around.sums).enumerate();
+        rows.with_min_len(GRAIN).for_each(|(a, (first, sum))| {
+            let part = dt * viscosity.spared(near, sum[3], a) - lost;
+            *first = difference(&near.velocity[a], sum, part * volume);
+        });
         around.sum(near, &self.first);
-        difference(&self.first, around, part * self.volume, predicted);
+        let rows = predicted.par_iter_mut().zip(&self.first).zip(&around.sums);
+        rows.with_min_len(GRAIN).for_each(|((out, own), sum)| {
+            *out = plus(*out, 1.0, difference(own, sum, volume));
+        });
     }
 
     /// Bytes held.
@@ -74,18 +85,16 @@ impl Noise {
     }
 }
 
-/// Adds `scale sum W (u_a - u_b)` over liquid pairs to `out`.
-fn difference(field: &[[f64; 3]], around: &Around, scale: f64, out: &mut [[f64; 3]]) {
-    let rows = out.par_iter_mut().zip(field).zip(&around.sums);
-    rows.with_min_len(GRAIN).for_each(|((out, own), sum)| {
-        let difference = std::array::from_fn(|i| sum[3] * own[i] - sum[i]);
-        *out = plus(*out, scale, difference);
-    });
+/// `scale` times the sum of W (u_a - u_b) over liquid neighbours, from the `sum` of W u_b and W.
+#[inline]
+fn difference(own: &[f64; 3], sum: &[f64; 4], scale: f64) -> [f64; 3] {
+    std::array::from_fn(|i| scale * (sum[3] * own[i] - sum[i]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::Law;
     use crate::state::{Particle, Phase, State};
 
     const METAL: Metal = Metal {
@@ -116,7 +125,8 @@ mod tests {
         let mut change = vec![[0.0; 3]; state.near.len()];
         let mut around = Around::default();
         around.sum(&state.near, &state.near.velocity);
-        noise.damp(&state.near, &mut around, 1.0, &mut change);
+        let none = Viscosity::new(Law::Uniform(0.0), METAL);
+        noise.damp(&state.near, &mut around, (&none, 1.0), &mut change);
         for x in change.iter_mut().flatten() {
             *x *= 1e6;
         }

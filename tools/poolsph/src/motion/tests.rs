@@ -3,6 +3,7 @@
 use super::*;
 use crate::forces::tension::{self, Tension};
 use crate::march::March;
+use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, Metal, Particle, Phase, State};
 
@@ -151,9 +152,7 @@ fn a_parabola_feels_its_curvature() {
     state.gather();
     let near = &state.near;
     let mut change = vec![[0.0; 3]; near.len()];
-    let mut around = around::Around::default();
-    around.sum(near, &near.velocity);
-    viscosity::Viscosity::new(Law::Uniform(0.004), METAL).apply(near, &around, 1.0, &mut change);
+    viscous(near, &mut change);
     let exact = 2.0 * slope * 0.004 / METAL.density;
     let inner = |x: &[f64; 3]| x.iter().all(|x| (x / METAL.spacing - 4.0).abs() < 2.0);
     let mut seen = 0;
@@ -166,6 +165,84 @@ fn a_parabola_feels_its_curvature() {
         seen += 1;
     }
     assert_eq!(seen, 64);
+}
+
+/// Adds the viscous acceleration of the velocities in `near` to `change`.
+fn viscous(near: &Near, change: &mut [[f64; 3]]) {
+    let mut around = around::Around::default();
+    around.sum(near, &near.velocity);
+    let mut viscosity = viscosity::Viscosity::new(Law::Uniform(0.004), METAL);
+    viscosity.apply(near, &around, 1.0, change);
+    noise::Noise::new(0.0, METAL).damp(near, &mut around, (&viscosity, 1.0), change);
+}
+
+#[test]
+fn viscosity_spares_single_particles() {
+    // A wave has L = l, and loses what is taken from its kernel mean: l (1 - l) where it was l.
+    let sign = |x: f64| {
+        if (x / METAL.spacing) as i32 % 2 == 0 {
+            1.0
+        } else {
+            -1.0
+        }
+    };
+    let mut state = block(
+        [12, 12, 12],
+        |_| Phase::Liquid,
+        |x| [sign(x[0]), sign(x[0]) * sign(x[1]), 0.0],
+    );
+    state.gather();
+    let near = &state.near;
+    let mut change = vec![[0.0; 3]; near.len()];
+    viscous(near, &mut change);
+    let w = |r: f64| near.kernel.value(r * METAL.spacing);
+    let [edge, face, room] = [1.0_f64, 2.0, 3.0].map(|square| w(square.sqrt()));
+    let number = w(0.0) + 6.0 * edge + 12.0 * face + 8.0 * room;
+    // Twice the weight of the neighbours of the other sign.
+    let one = 2.0 * (2.0 * edge + 8.0 * face + 8.0 * room) / number;
+    let two = 2.0 * (4.0 * edge + 8.0 * face) / number;
+    let moment = (6.0 * edge + 24.0 * face + 24.0 * room) * METAL.spacing.powi(2);
+    let rate = 6.0 * 0.004 / (METAL.density * moment) * number;
+    let inner = |x: &[f64; 3]| x.iter().all(|x| (x / METAL.spacing - 6.0).abs() < 1.6);
+    let mut seen = 0;
+    for a in (0..near.len()).filter(|a| inner(&near.position[*a])) {
+        for (axis, l) in [one, two].into_iter().enumerate() {
+            let found = change[a][axis] / near.velocity[a][axis];
+            let exact = -rate * l * (1.0 - l);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+        }
+        seen += 1;
+    }
+    assert_eq!(seen, 64);
+}
+
+#[test]
+fn shear_between_walls_feels_viscosity_whole() {
+    // Beside a wall L is one-sided, and nothing is given back there: a shear that is steady stays so.
+    let wall = |k: i32| !(2..10).contains(&k);
+    let mut state = block(
+        [8, 8, 12],
+        |[_, _, k]| {
+            if wall(k) { Phase::Solid } else { Phase::Liquid }
+        },
+        |x| [x[2], 0.0, 0.0],
+    );
+    state.gather();
+    let near = &state.near;
+    let mut change = vec![[0.0; 3]; near.len()];
+    viscous(near, &mut change);
+    let inner = |x: &[f64; 3]| x[..2].iter().all(|x| (x / METAL.spacing - 4.0).abs() < 1.0);
+    let column = (0..near.len()).filter(|a| inner(&near.position[*a]));
+    let mut beside = 0;
+    for a in column.filter(|a| near.role[*a] == Role::Liquid) {
+        let layer = (near.position[a][2] / METAL.spacing) as i32;
+        if (4..8).contains(&layer) {
+            assert!(change[a][0].abs() < 1e-12, "{:?} in {layer}", change[a]);
+        } else {
+            beside += 1;
+        }
+    }
+    assert_eq!(beside, 16);
 }
 
 #[test]

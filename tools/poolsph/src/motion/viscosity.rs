@@ -14,11 +14,19 @@
 //! Eq. 3.99 prints the arithmetic mean of both viscosities, eq. 5.32 the harmonic one. The harmonic mean is that of two
 //! layers in series: where the viscosity jumps, the stress comes out as on either side of it, and the thin side alone
 //! tells how fast a stiff one drags it. Where the viscosity is smooth both are of second order.
+//!
+//! Viscosity acts on what the particles resolve. With L of [`super::noise`] the equation above is -c L u, and what is
+//! taken is -c L (u - L u): the same to second order, where u - L u is the kernel mean, and next to nothing for single
+//! particles, whose motion is none of the flow's. Damped by viscosity they lock into layers, which carry part of what
+//! the surface pulls like a solid: a drop of 14 particles along the edge of its cube read 1.15 of its pressure at
+//! 0.02 Pa s, one of 15 read 0.90. L is at most 1, but for the small negative lobes of the kernel's transform, so that no motion
+//! gains energy. What is given back, c L L u, is summed together with the damping of [`super::noise`].
 
 use kernels::CubicSpline;
 use rayon::prelude::*;
 
 use super::around::Around;
+use super::lattice::Lattice;
 use super::law::Law;
 use crate::near::{Near, Role, minus, plus};
 use crate::stage::StageError;
@@ -33,10 +41,12 @@ pub struct Viscosity {
     scale: f64,
     /// Largest explicit step \[s\].
     limit: f64,
+    /// 1/nu \[1/m3\].
+    number: f64,
     /// mu of each particle \[Pa s\], `[m]` in the order of [`Near`]; empty where it is the same for all.
     each: Vec<f64>,
-    /// Sum of mu_ab (u_b - u_a) W_ab.
-    sums: Vec<[f64; 3]>,
+    /// Sum of mu_ab (u_b - u_a) W_ab, and the smallest mu_ab of the row \[Pa s\].
+    sums: Vec<([f64; 3], f64)>,
 }
 
 impl Viscosity {
@@ -65,6 +75,7 @@ impl Viscosity {
             },
             law,
             limit: 1.0 / (largest * number),
+            number: Lattice::of(metal).number,
             each: Vec::new(),
             sums: Vec::new(),
         }
@@ -105,7 +116,7 @@ impl Viscosity {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        8 * self.each.capacity() + 24 * self.sums.capacity()
+        8 * self.each.capacity() + 32 * self.sums.capacity()
     }
 
     /// Largest explicit step that damps every mode without overshoot \[s\].
@@ -117,11 +128,27 @@ impl Viscosity {
     /// Adds `dt` times the viscous acceleration of `near.velocity` to `predicted`; `around` holds the
     /// sums of this velocity, which one viscosity for all goes by. The velocity of solid neighbours is zero.
     pub fn apply(&mut self, near: &Near, around: &Around, dt: f64, predicted: &mut [[f64; 3]]) {
-        if self.uniform() {
-            self.same(near, around, dt, predicted);
-        } else {
-            self.pairs(near, dt, predicted);
+        match self.law {
+            _ if !self.acts() => {}
+            Law::Uniform(_) => self.same(near, around, dt, predicted),
+            Law::OfTemperature { .. } => self.pairs(near, dt, predicted),
         }
+    }
+
+    /// c \[1/s\] of particle `a`, the rate at which L L u is given back, with the smallest mu around it as of the last
+    /// [`Viscosity::apply`]; `liquid` is the sum of W over its liquid neighbours. Zero beside a wall, which is no part
+    /// of L.
+    #[must_use]
+    pub fn spared(&self, near: &Near, liquid: f64, a: usize) -> f64 {
+        let walls = near.number[a] - near.kernel.value(0.0) - liquid;
+        if !self.acts() || near.role[a] != Role::Liquid || walls > 1e-9 * self.number {
+            return 0.0;
+        }
+        let mu = match self.law {
+            Law::Uniform(_) => 1.0,
+            Law::OfTemperature { .. } => self.sums[a].1,
+        };
+        mu * self.scale * self.number
     }
 
     fn same(&self, near: &Near, around: &Around, dt: f64, predicted: &mut [[f64; 3]]) {
@@ -144,9 +171,9 @@ impl Viscosity {
 
     fn pairs(&mut self, near: &Near, dt: f64, predicted: &mut [[f64; 3]]) {
         let (each, scale) = (&self.each, self.scale);
-        self.sums.resize(near.len(), [0.0; 3]);
-        near.each_row(&mut self.sums, |a, row, out| {
-            *out = [0.0; 3];
+        self.sums.resize(near.len(), ([0.0; 3], 0.0));
+        near.each_row(&mut self.sums, |a, row, (out, least)| {
+            (*out, *least) = ([0.0; 3], each[a]);
             if near.role[a] != Role::Liquid {
                 return;
             }
@@ -158,9 +185,11 @@ impl Viscosity {
                     _ => own,
                 };
                 *out = plus(*out, w * mean, minus(near.velocity[b], near.velocity[a]));
+                *least = least.min(mean);
             }
         });
         let sums = self.sums.par_iter().with_min_len(GRAIN);
-        (predicted.par_iter_mut().zip(sums)).for_each(|(u, sum)| *u = plus(*u, dt * scale, *sum));
+        (predicted.par_iter_mut().zip(sums))
+            .for_each(|(u, (sum, _))| *u = plus(*u, dt * scale, *sum));
     }
 }
