@@ -354,6 +354,9 @@ mod tests {
         let html = section(&study(2), &Prices::default());
         let (plots, levels) = html.split_once("<summary>").unwrap();
         assert!(!plots.contains("iterations"));
-        assert!(levels.contains("iterations</th>") && levels.contains(">17.00</td>"), "{levels}");
+        assert!(
+            levels.contains("iterations</th>") && levels.contains(">17.00</td>"),
+            "{levels}"
+        );
     }
 }
