@@ -30,7 +30,7 @@ impl<'a> Course<'a> {
         let driven = arc.case.potential.as_ref().and_then(|p| p.driven);
         let mut course = Self {
             rule,
-            pace: Pace::new(rule.velocity_relaxation, rule.temperature_relaxation),
+            pace: Pace::new(rule.velocity(), rule.temperature_relaxation),
             trail: Trail::default(),
             steps: Steps::new(rule.continuation.as_ref(), driven.unwrap_or(0.0)),
         };
@@ -71,10 +71,7 @@ impl<'a> Course<'a> {
         let at = arc.iteration as f64;
         if let Some(current) = self.steps.watch(arc, residuals) {
             session.history("current", "A", at, current);
-            self.pace = Pace::new(
-                self.rule.velocity_relaxation,
-                self.rule.temperature_relaxation,
-            );
+            self.pace = Pace::new(self.rule.velocity(), self.rule.temperature_relaxation);
             self.pace.set(arc);
         } else if self.pace.watch(residuals.worst()) {
             self.pace.set(arc);

@@ -76,8 +76,8 @@ impl From<&Iterate> for Settings {
             pressure: Solver::new(pressure, true),
             energy: Solver::new(energy, false),
             flow: Relaxation {
-                velocity: scene.velocity_relaxation,
-                pressure: scene.pressure_relaxation,
+                velocity: scene.velocity(),
+                pressure: scene.pressure(),
                 coupling: match scene.coupling {
                     Coupling::Simple => pressure::Coupling::Simple,
                     Coupling::Simplec => pressure::Coupling::Simplec,

@@ -18,12 +18,12 @@ pub struct Iterate {
     pub stop: Stop,
     /// Currents that are followed first; absent: that of the scene from the start.
     pub continuation: Option<Continuation>,
-    /// Under-relaxation of the velocities.
+    /// Under-relaxation of the velocities; absent: 0.95, with SIMPLE 0.7.
     #[schemars(range(min = 0.01, max = 0.99))]
-    pub velocity_relaxation: f64,
-    /// Under-relaxation of the pressure.
+    pub velocity_relaxation: Option<f64>,
+    /// Under-relaxation of the pressure; absent: 1, with SIMPLE what that of the velocities leaves of 1.
     #[schemars(range(min = 0.01, max = 1.0))]
-    pub pressure_relaxation: f64,
+    pub pressure_relaxation: Option<f64>,
     /// Under-relaxation of the temperature.
     #[schemars(range(min = 0.01, max = 1.0))]
     pub temperature_relaxation: f64,
@@ -43,13 +43,34 @@ impl Default for Iterate {
             tolerance: 1e-6,
             stop: Stop::default(),
             continuation: None,
-            velocity_relaxation: 0.95,
-            pressure_relaxation: 1.0,
+            velocity_relaxation: None,
+            pressure_relaxation: None,
             temperature_relaxation: 0.99,
             temperature_step_k: 2000.0,
             coupling: Coupling::Simplec,
             solver: LinearSolver::Multigrid,
         }
+    }
+}
+
+impl Iterate {
+    /// Under-relaxation of the velocities. SIMPLE leaves out what neighbours answer to a change of pressure: with the 0.95
+    /// of SIMPLEC it diverges (Patankar 1980, section 6.7).
+    #[must_use]
+    pub fn velocity(&self) -> f64 {
+        self.velocity_relaxation.unwrap_or(match self.coupling {
+            Coupling::Simple => 0.7,
+            Coupling::Simplec => 0.95,
+        })
+    }
+
+    /// Under-relaxation of the pressure; with SIMPLE the two make 1 (Ferziger and Peric 2002, section 7.3.4).
+    #[must_use]
+    pub fn pressure(&self) -> f64 {
+        self.pressure_relaxation.unwrap_or(match self.coupling {
+            Coupling::Simple => 1.0 - self.velocity(),
+            Coupling::Simplec => 1.0,
+        })
     }
 }
 
@@ -84,4 +105,28 @@ pub enum LinearSolver {
     Incomplete,
     /// Krylov methods preconditioned by algebraic multigrid.
     Multigrid,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relaxation_follows_the_coupling_unless_it_is_given() {
+        let read = |text: &str| serde_json::from_str::<Iterate>(text).unwrap();
+        let is = |text: &str, [velocity, pressure]: [f64; 2]| {
+            let scene = read(text);
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-15;
+            assert!(
+                near(scene.velocity(), velocity) && near(scene.pressure(), pressure),
+                "{text}"
+            );
+        };
+        is("{}", [0.95, 1.0]);
+        is(r#"{"coupling": "simple"}"#, [0.7, 0.3]);
+        is(
+            r#"{"coupling": "simple", "velocity_relaxation": 0.5, "pressure_relaxation": 0.8}"#,
+            [0.5, 0.8],
+        );
+    }
 }
