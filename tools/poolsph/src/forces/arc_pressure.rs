@@ -12,10 +12,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::near::{Role, plus};
+use crate::near::Role;
 use crate::source::arc::Radial;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Column, Metal, State};
+use crate::vector::plus;
 
 /// The pressure of the arc (key `arc_pressure`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -9,12 +9,13 @@ use super::arc_pressure::ArcPressure;
 use super::gas_shear::{Gas, GasShear, Parameters};
 use super::lorentz::Lorentz;
 use crate::motion::Law;
-use crate::near::{Role, dot};
+use crate::near::Role;
 use crate::source::Place;
 use crate::source::arc::{self, Radial};
 use crate::stage::Stage;
 use crate::state::{Column, Metal, Particle, Phase, State};
 use crate::surface::Surface;
+use crate::vector::dot;
 
 const METAL: Metal = Metal {
     density: 1.0,

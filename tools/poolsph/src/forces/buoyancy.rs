@@ -6,9 +6,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::near::{Role, plus};
+use crate::near::Role;
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, Metal, State};
+use crate::vector::plus;
 
 /// Expansion of the liquid (key `buoyancy`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

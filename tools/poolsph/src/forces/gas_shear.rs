@@ -17,10 +17,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::Law;
-use crate::near::{Role, dot, plus};
+use crate::near::Role;
 use crate::source::arc::Radial;
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, Metal, State};
+use crate::vector::{dot, plus};
 
 /// Shear by the gas (key `gas_shear`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

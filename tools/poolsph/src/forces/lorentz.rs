@@ -9,11 +9,12 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::near::{Near, Role, plus};
+use crate::near::{Near, Role};
 use crate::patch::Patch;
 use crate::source::{Place, arc};
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, Metal, State};
+use crate::vector::plus;
 
 /// A patch that looks upwards at least this much is surface seen from above.
 const UPWARD: f64 = 0.3;

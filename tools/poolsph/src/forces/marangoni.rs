@@ -11,9 +11,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::near::{Near, Role, Row, dot, minus, plus};
+use crate::near::{Near, Role, Row};
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, State};
+use crate::vector::{dot, minus, plus};
 
 /// Dependence of the surface tension on the temperature (key `marangoni`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -25,9 +25,10 @@ use serde::{Deserialize, Serialize};
 use neighbours::ROWS;
 
 use crate::motion::lattice::Lattice;
-use crate::near::{Near, Role, dot, minus, plus, squared};
+use crate::near::{Near, Role};
 use crate::stage::{Limit, Stage, StageError};
 use crate::state::{Metal, State};
+use crate::vector::{dot, minus, plus, squared};
 
 /// Kernel means of the force (Komen 2019, section 4.2.1).
 const SMOOTHINGS: u32 = 3;

@@ -3,9 +3,9 @@
 use kernels::CubicSpline;
 
 use super::caloric::Caloric;
-use crate::near::squared;
 use crate::stage::StageError;
 use crate::state::{Metal, State};
+use crate::vector::squared;
 
 /// The error of a temperature beyond the range of the properties.
 pub(crate) fn outside(state: &State, a: usize, temperature: f64, caloric: &Caloric) -> StageError {

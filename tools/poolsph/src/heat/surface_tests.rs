@@ -7,10 +7,10 @@ use run::property::{Formula, Property};
 
 use super::caloric::tests::plain;
 use super::*;
-use crate::near::dot;
 use crate::stage::Stage;
 use crate::state::{self, Column, Metal, Particle, State};
 use crate::surface::Surface;
+use crate::vector::dot;
 
 pub(super) const METAL: Metal = Metal {
     density: 1.0,

@@ -31,8 +31,9 @@ use neighbours::ROWS;
 
 use super::lattice::Lattice;
 use super::step::{Solved, Step, Tolerance};
-use crate::near::{Near, Role, minus, plus, squared};
+use crate::near::{Near, Role};
 use crate::state::Metal;
+use crate::vector::{minus, plus, squared};
 
 /// s: half of what the stiffest mode of the lattice would stand.
 const STRIDE: f64 = 0.5;

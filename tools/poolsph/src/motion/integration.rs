@@ -13,10 +13,11 @@ use super::noise::Noise;
 use super::projection::Projection;
 use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
-use crate::near::{Near, Role, plus, squared};
+use crate::near::{Near, Role};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, State};
 use crate::sweep::GRAIN;
+use crate::vector::{plus, squared};
 
 /// A particle may cross this part of its diameter in one substep.
 const COURANT: f64 = 0.4;

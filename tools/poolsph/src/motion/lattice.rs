@@ -6,8 +6,8 @@
 
 use kernels::CubicSpline;
 
-use crate::near::{plus, squared};
 use crate::state::Metal;
+use crate::vector::{plus, squared};
 
 /// Waves per axis that the search for the stiffest mode tries.
 const WAVES: u32 = 9;

@@ -20,9 +20,10 @@ use rayon::prelude::*;
 use super::around::Around;
 use super::lattice::Lattice;
 use super::viscosity::Viscosity;
-use crate::near::{Near, plus};
+use crate::near::Near;
 use crate::state::Metal;
 use crate::sweep::GRAIN;
+use crate::vector::plus;
 
 /// Largest part of a mode that a step may take.
 const PART: f64 = 0.5;

@@ -28,9 +28,10 @@ use neighbours::ROWS;
 
 use super::lattice::Lattice;
 use super::step::{Solved, Step, Tolerance};
-use crate::near::{Near, Role, dot, minus, plus, squared};
+use crate::near::{Near, Role};
 use crate::state::Metal;
 use crate::sweep::{GRAIN, carried, middle, summed, summed_double};
+use crate::vector::{dot, minus, plus, squared};
 
 /// Step of the gradient in parts of what the stiffest mode of the filled lattice allows;
 /// disordered clouds are somewhat stiffer.

@@ -28,10 +28,11 @@ use rayon::prelude::*;
 use super::around::Around;
 use super::lattice::Lattice;
 use super::law::Law;
-use crate::near::{Near, Role, minus, plus};
+use crate::near::{Near, Role};
 use crate::stage::StageError;
 use crate::state::Metal;
 use crate::sweep::GRAIN;
+use crate::vector::{minus, plus};
 
 /// Newtonian viscosity of the liquid.
 #[derive(Debug, Clone)]

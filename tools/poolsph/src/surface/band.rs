@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use super::area::Polygon;
 use super::columns::Columns;
 use super::{Cloud, tangents};
-use crate::near::{dot, minus, squared};
 use crate::patch::Patch;
 use crate::sweep::summed;
+use crate::vector::{dot, minus, squared};
 
 /// A particle deeper than this many spacings is not of the band.
 const BAND: f64 = 1.75;

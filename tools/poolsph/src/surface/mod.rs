@@ -25,10 +25,11 @@ use rayon::prelude::*;
 
 use self::band::Band;
 use self::depth::Depth;
-use crate::near::{Role, minus, plus, squared};
+use crate::near::Role;
 use crate::patch::Patch;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Column, Metal, Phase, State};
+use crate::vector::{minus, plus, squared};
 
 /// The surface as a stage.
 pub struct Surface {

@@ -1,8 +1,8 @@
 //! Areas of a plane, a tilted plane and a sphere, for aligned, turned and jittered lattices.
 
 use super::*;
-use crate::near::dot;
 use crate::state::Particle;
+use crate::vector::dot;
 
 const METAL: Metal = Metal {
     density: 7850.0,

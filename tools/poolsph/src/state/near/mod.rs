@@ -12,7 +12,6 @@ use rayon::prelude::*;
 
 use self::pairs::rows;
 pub use self::pairs::{PairChunk, Row};
-pub use crate::vector::{dot, minus, plus, squared};
 
 use crate::state::{Metal, Phase, State};
 

@@ -4,7 +4,7 @@ use kernels::CubicSpline;
 use neighbours::{Chunk, Lists, ROWS};
 use rayon::prelude::*;
 
-use super::{minus, squared};
+use crate::vector::{minus, squared};
 
 /// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists; buffers may
 /// be longer.
