@@ -180,6 +180,22 @@ impl Lab {
         patch: &Value,
         inputs: &[(&str, &Path)],
     ) -> Result<Finished, LabError> {
+        let scene = Path::new("pipelines/verify").join(case).join("scene.json");
+        self.run_scene(tool, (&scene, case), label, patch, inputs)
+    }
+
+    /// As [`Lab::run_with`], of another scene in the repository, for `case`.
+    ///
+    /// # Errors
+    /// When the tool cannot be started, fails or does not converge.
+    pub fn run_scene(
+        &self,
+        tool: &str,
+        (scene, case): (&Path, &str),
+        label: &str,
+        patch: &Value,
+        inputs: &[(&str, &Path)],
+    ) -> Result<Finished, LabError> {
         let folder = self.out.join(case);
         std::fs::create_dir_all(&folder).map_err(|source| LabError::Io {
             path: folder.clone(),
@@ -187,14 +203,9 @@ impl Lab {
         })?;
         let patch_file = folder.join(format!("{label}.patch.json"));
         write(&patch_file, &patch.to_string())?;
-        let scene = self
-            .root
-            .join("pipelines/verify")
-            .join(case)
-            .join("scene.json");
         let artefact = folder.join(format!("{label}.mcap"));
         let mut command: Vec<OsString> = vec![self.programs.join(tool).into(), "run".into()];
-        command.push(scene.into());
+        command.push(self.root.join(scene).into());
         let patches = std::iter::once(&patch_file).chain(&self.patch);
         for patch in patches {
             command.extend(["--patch".into(), patch.into()]);
