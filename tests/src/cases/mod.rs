@@ -1,6 +1,8 @@
 //! One file per exact solution.
 
+mod arc_cells;
 mod arc_column;
+mod arc_electrode;
 mod arc_electrons;
 mod arc_elenbaas;
 mod arc_evaporation;
@@ -50,7 +52,9 @@ use crate::case::Case;
 #[must_use]
 pub fn all() -> Vec<Box<dyn Case>> {
     vec![
+        Box::new(arc_cells::ArcCells),
         Box::new(arc_column::ArcColumn),
+        Box::new(arc_electrode::ArcElectrode),
         Box::new(arc_electrons::ArcElectrons),
         Box::new(arc_elenbaas::ArcElenbaas),
         Box::new(arc_evaporation::ArcEvaporation),

@@ -13,6 +13,7 @@ pub mod fields;
 pub mod frames;
 pub mod grid;
 pub mod heat;
+mod heat_step;
 mod iron;
 mod limits;
 pub mod march;

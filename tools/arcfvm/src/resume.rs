@@ -43,6 +43,10 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_f64("last_change", &heating.energy.last);
         c.put_u8("alternations", &heating.energy.alternations);
         c.put_f64("absorbed", heating.sources.absorbed());
+        let surfaces = heating.energy.surface_temperatures();
+        if !surfaces.is_empty() {
+            c.put_f64("surfaces", &surfaces);
+        }
         groups(c, "energy", &heating.energy.solver)?;
     }
     Ok(())
@@ -87,6 +91,9 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         heating.energy.last = c.f64("last_change")?;
         heating.energy.alternations = c.u8("alternations")?;
         heating.sources.restore(c.f64("absorbed")?);
+        if !heating.energy.skins.is_empty() {
+            heating.energy.restore_surfaces(&c.f64("surfaces")?);
+        }
         regroup(c, "energy", nr, &mut heating.energy.solver)?;
     }
     Ok(())

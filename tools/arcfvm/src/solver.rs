@@ -2,14 +2,13 @@
 
 use crate::case::{Case, FlowCase, HeatCase, PotentialCase};
 use crate::error::Error;
-use crate::fields::energy::{Energy, Step};
+use crate::fields::energy::Energy;
 use crate::fields::flow::Flow;
 use crate::fields::magnetic::Magnetic;
 use crate::fields::potential::Potential;
 use crate::fields::pressure::{FlowProperties, FlowResidual, FlowSolver};
 use crate::fields::vapour::Vapour;
 use crate::heat::balance::Balance;
-use crate::heat::reads::Reads;
 use crate::heat::sources::Sources;
 use crate::limits::check;
 use crate::properties::Properties;
@@ -17,12 +16,8 @@ use crate::residual::{Residuals, Unbalanced, part};
 use crate::settings::Settings;
 use crate::vaporising::Vaporising;
 
-/// Iterations between two looks at which surface sees which gas shine.
-const VIEW_EVERY: usize = 20;
 /// Relaxation of the speed of the wire.
 const FEED_RELAXATION: f64 = 0.1;
-/// Temperature that no arc reaches \[K\].
-const ABSURD_K: f64 = 1e5;
 /// Speed that no gas here reaches \[m/s\].
 const ABSURD_M_S: f64 = 1e5;
 
@@ -168,6 +163,9 @@ impl Arc {
             let (part, found) = clock.timed("current", || self.solve_current())?;
             (residuals.charge, residuals.unbalanced[0]) = (Some(part), Some(found));
         }
+        if self.iteration == 1 {
+            self.begin_surfaces();
+        }
         if self.flowing.is_some() {
             let [force, mass] = clock.timed("flow", || self.solve_flow())?;
             (residuals.force, residuals.unbalanced[1]) = (Some(force.0), Some(force.1));
@@ -303,93 +301,5 @@ impl Arc {
             (part(force.amount, forces), force),
             (part(mass.amount, throughput), mass),
         ])
-    }
-
-    fn take_sources(&mut self) {
-        let Self {
-            case,
-            properties,
-            electric,
-            flowing,
-            heating,
-            vaporising,
-            iteration,
-            feed,
-            ..
-        } = self;
-        let Some(Heating {
-            setup,
-            energy,
-            sources,
-        }) = heating
-        else {
-            return;
-        };
-        if let Some(flowing) = flowing {
-            energy
-                .mass_radial
-                .copy_from_slice(&flowing.flow.mass_radial);
-            energy.mass_axial.copy_from_slice(&flowing.flow.mass_axial);
-        }
-        if let Some(wire) = case.wire {
-            wire.carry(case, *feed, &mut energy.mass_axial);
-        }
-        energy.conduct(case, setup.surfaces.as_ref(), properties);
-        if let Some(electric) = electric {
-            energy.drift(case, &electric.potential);
-        }
-        if let Some(v) = vaporising {
-            energy.mix(case, setup, &v.setup, &v.vapour);
-        }
-        let reads = Reads {
-            case,
-            heat: setup,
-            properties,
-            potential: electric.as_ref().map(|e| &e.potential),
-            temperature: &energy.temperature,
-            vapour: vaporising.as_ref().map(Vaporising::read),
-        };
-        let view = *iteration % VIEW_EVERY == 1 || self.settings.view_always;
-        sources.update(reads, view, &mut energy.source);
-    }
-
-    fn solve_heat(&mut self) -> Result<(f64, Unbalanced, usize), Error> {
-        let Self {
-            case,
-            properties,
-            heating,
-            iteration,
-            settings,
-            ..
-        } = self;
-        let Some(Heating {
-            setup,
-            energy,
-            sources,
-        }) = heating
-        else {
-            return Ok((0.0, Unbalanced::default(), 0));
-        };
-        let scale = sources.size() + energy.edges(case, setup, properties).size;
-        let step = Step {
-            relaxation: settings.heat_relaxation,
-            limit: settings.heat_step,
-        };
-        let found = energy
-            .solve(case, setup, properties, step)
-            .map_err(|e| Error::solver("energy", *iteration, case, &e))?;
-        check(
-            case,
-            "temperature",
-            "K",
-            *iteration,
-            &energy.temperature,
-            ABSURD_K,
-        )?;
-        if let Some(k) = energy.temperature.iter().position(|t| *t <= 0.0) {
-            let what = format!("temperature {} K", energy.temperature[k]);
-            return Err(Error::diverged("energy", *iteration, case.place(k), what));
-        }
-        Ok((part(found.heat.amount, scale), found.heat, found.limited))
     }
 }

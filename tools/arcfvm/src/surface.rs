@@ -121,7 +121,8 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
         rows.iter().map(column).collect()
     };
     let per = |value: &dyn Fn(&ContactHeat) -> f64| over(&|n| value(&found[n]));
-    let convection = over(&|n| heating.energy.convection(&surfaces.contacts[n]));
+    let gas = |n: usize| heating.energy.convection(&surfaces.contacts[n]) - found[n].held;
+    let convection = over(&gas);
     let rest = per(&|f| f.absorbed + f.parts.sum());
     let total = convection.iter().zip(rest).map(|(q, rest)| q + rest);
     let table = gas_columns(arc, sample, &rows)
@@ -157,24 +158,23 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
 
 /// Radius, gas, pressure and temperature of the metal.
 fn gas_columns(arc: &Arc, sample: &Sample, rows: &[Column]) -> Table {
-    let (grid, t) = (&arc.case.grid, arc.temperature());
+    let grid = &arc.case.grid;
     let of = |value: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
         rows.iter().map(|c| value(c.i, c.row)).collect()
     };
-    let temperature =
-        |i: usize, row: usize| gas_temperature(arc, i, row, sample.temperature_height_m);
+    let temperature = |c: &Column| gas_temperature(arc, c, sample.temperature_height_m);
     let velocity = |i: usize, row: usize| gas_velocity(arc, i, row, sample.velocity_height_m);
     let flow = arc.flowing.as_ref().map(|f| &f.flow);
     let pressure = |i: usize, row: usize| flow.map_or(0.0, |f| f.pressure[grid.cell(i, row)]);
     let mut table = Table::new(rows.len())
         .column("radius_m", "m", of(&|i, _| grid.rc[i]))
-        .column("gas_temperature_k", "K", of(&temperature))
+        .column("gas_temperature_k", "K", rows.iter().map(temperature))
         .column("gas_radial_velocity_m_s", "m/s", of(&velocity))
         .column("arc_pressure_pa", "Pa", of(&pressure))
         .column(
             "surface_temperature_k",
             "K",
-            of(&|i, row| t[grid.cell(i, row - 1)]),
+            rows.iter().map(|c| surface_temperature(arc, c)),
         );
     if arc.case.base.as_ref().is_some_and(Base::is_deformed) {
         table = table.column("surface_height_m", "m", of(&|_, row| grid.zf[row]));
@@ -182,6 +182,23 @@ fn gas_columns(arc: &Arc, sample: &Sample, rows: &[Column]) -> Table {
     table
         .attribute("gas_temperature_height_m", "m", sample.temperature_height_m)
         .attribute("gas_velocity_height_m", "m", sample.velocity_height_m)
+}
+
+/// Temperature of the level surface of a column \[K\].
+fn surface_temperature(arc: &Arc, column: &Column) -> f64 {
+    let grid = &arc.case.grid;
+    let metal = arc.temperature()[grid.cell(column.i, column.row - 1)];
+    let Some((surfaces, heating)) = surfaces(arc).zip(arc.heating.as_ref()) else {
+        return metal;
+    };
+    let contacts = column
+        .contacts
+        .iter()
+        .map(|n| (*n, &surfaces.0.contacts[*n]));
+    let mut level = contacts.filter(|(_, contact)| contact.normal[1] > 0.0);
+    level.next().map_or(metal, |(n, contact)| {
+        heating.energy.skin(n, contact).temperature
+    })
 }
 
 /// Linear between the known values `(height, value)`, held beyond the ends.
@@ -237,13 +254,14 @@ fn bilinear(arc: &Arc, [r, z]: [f64; 2], value: impl Fn(usize, usize) -> f64) ->
 
 /// Temperature of the gas at `height` over column `i`, from that of the metal upward \[K\]; over a surface that
 /// bends, at that distance from it.
-fn gas_temperature(arc: &Arc, i: usize, row: usize, height: f64) -> f64 {
+fn gas_temperature(arc: &Arc, column: &Column, height: f64) -> f64 {
+    let (i, row) = (column.i, column.row);
     let (grid, t) = (&arc.case.grid, arc.temperature());
     if let Some(beside) = beside(arc, i, height) {
         return bilinear(arc, beside.place, |i, j| t[grid.cell(i, j)]);
     }
     let surface = grid.zf[row];
-    let mut known = vec![(0.0, t[grid.cell(i, row - 1)])];
+    let mut known = vec![(0.0, surface_temperature(arc, column))];
     let gas = (row..grid.nz).take_while(|j| arc.case.material[grid.cell(i, *j)] == GAS);
     known.extend(gas.map(|j| (grid.zc[j] - surface, t[grid.cell(i, j)])));
     between(&known, height)

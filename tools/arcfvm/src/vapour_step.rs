@@ -34,19 +34,19 @@ impl Arc {
         let Some(Vaporising { setup, vapour }) = vaporising else {
             return;
         };
-        let (contacts, temperature) = match heating {
+        let (contacts, at) = match heating {
             Some(Heating {
                 setup: heat,
                 energy,
                 ..
             }) => (
                 heat.surfaces.as_ref().map(|s| s.contacts.as_slice()),
-                &energy.temperature,
+                (energy.skins.as_slice(), energy.temperature.as_slice()),
             ),
-            None => (None, &case.start),
+            None => (None, (&[][..], case.start.as_slice())),
         };
         let contacts = contacts.unwrap_or(&setup.contacts);
-        vapour.evaporate(case, setup, contacts, temperature);
+        vapour.evaporate(case, setup, contacts, at);
     }
 
     /// Solves for the iron; returns its residual.

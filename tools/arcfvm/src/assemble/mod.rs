@@ -18,7 +18,9 @@ use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::Surfaces;
 use crate::material::{GAS, Material, REFERENCE_K};
-use crate::scene::{self, Body, Current, Film, Heat, Moving, Scene, SheathAt, SheathKeeps};
+use crate::scene::{
+    self, Body, Current, ElectrodeAt, Film, Heat, Moving, Scene, SheathAt, SheathKeeps,
+};
 use electrodes::Electrodes;
 pub use gas::GasFile;
 use layout::Layout;
@@ -307,6 +309,7 @@ fn surfaces(layout: &Layout, all: &Electrodes, heat: Option<&Heat>) -> Option<Su
         contacts: Vec::new(),
         absorbed: heat.and_then(|h| h.absorbed_radiation),
         electrode_of: index,
+        at: heat.map_or(ElectrodeAt::default(), |h| h.electrode_at),
         film: heat.map_or(Film::default(), |h| h.film),
         film_depth: heat.and_then(|h| h.film_m),
         layers: Vec::new(),

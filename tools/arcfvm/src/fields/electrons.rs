@@ -103,6 +103,14 @@ impl Drift {
         matches!(face.beyond, Beyond::Cell(n) if self.gas[face.own] && !self.gas[n])
     }
 
+    /// Heat through a face, outward or upward \[W/K\].
+    pub(crate) fn through(&self, face: FaceIndex) -> f64 {
+        match face {
+            FaceIndex::Radial(at) => self.radial[at],
+            FaceIndex::Axial(at) => self.axial[at],
+        }
+    }
+
     /// Whether a cell is gas.
     pub(crate) fn in_gas(&self, k: usize) -> bool {
         self.gas[k]
@@ -111,10 +119,7 @@ impl Drift {
 
 impl Carried for Drift {
     fn out(&self, face: &FaceOf) -> f64 {
-        let outward = match face.at {
-            FaceIndex::Radial(at) => self.radial[at],
-            FaceIndex::Axial(at) => self.axial[at],
-        };
+        let outward = self.through(face.at);
         match (self.gas[face.own], face.before) {
             (false, _) => 0.0,
             (true, true) => -outward,

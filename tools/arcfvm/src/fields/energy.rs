@@ -14,7 +14,7 @@ use crate::fields::faces::{Beyond, Carriers, FaceOf, Side, edge_of};
 use crate::fields::mixing::{Mixed, Mixing};
 use crate::fields::vapour::Vapour;
 use crate::fields::{Solver, Unsolved};
-use crate::heat::{Contact, FaceIndex, Surfaces};
+use crate::heat::{Contact, FaceIndex, Skin, Surfaces};
 use crate::material::GAS;
 use crate::properties::Properties;
 use crate::residual::Unbalanced;
@@ -52,6 +52,8 @@ pub struct Energy {
     mixing: Option<Mixing>,
     /// Electrons that carry heat, where they do.
     pub(crate) electrons: Option<Drift>,
+    /// Surfaces of electrodes, where they have temperatures of their own.
+    pub(crate) skins: Vec<Skin>,
     on_electrode: Vec<bool>,
     /// Calmness of each cell, times the under-relaxation: falls where changes alternate.
     pub(crate) calm: Vec<f64>,
@@ -92,11 +94,14 @@ fn capacity(here: (f64, f64), there: (f64, f64), slope: impl Fn() -> f64) -> f64
     if dt.abs() > 1e-3 { dh / dt } else { slope() }
 }
 
+fn surfaces_of(case: &Case) -> Option<&Surfaces> {
+    case.heat.as_ref().and_then(|h| h.surfaces.as_ref())
+}
+
 /// Gas cells that touch an electrode.
 fn on_electrode(case: &Case) -> Vec<bool> {
     let mut on_electrode = vec![false; case.grid.len()];
-    let surfaces = case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
-    for contact in surfaces.iter().flat_map(|s| &s.contacts) {
+    for contact in surfaces_of(case).iter().flat_map(|s| &s.contacts) {
         on_electrode[contact.gas] = true;
     }
     on_electrode
@@ -114,6 +119,7 @@ impl Energy {
                 .as_ref()
                 .and_then(|h| h.electrons)
                 .map(|_| Drift::new(case)),
+            skins: Skin::all(surfaces_of(case), &[], &case.start),
             on_electrode: on_electrode(case),
             calm: vec![1.0; grid.len()],
             last: vec![0.0; grid.len()],
@@ -132,6 +138,7 @@ impl Energy {
 
     /// Takes the surfaces of `case` anew.
     pub(crate) fn touch(&mut self, case: &Case) {
+        self.skins = Skin::all(surfaces_of(case), &self.skins, &self.temperature);
         self.on_electrode = on_electrode(case);
     }
 
@@ -156,19 +163,25 @@ impl Energy {
             }
         }
         if let Some(surfaces) = surfaces {
+            self.resist(case, surfaces, properties);
             self.conduct_surfaces(case, surfaces, properties);
         }
     }
 
-    /// Heat flux from the gas into the metal of a contact \[W/m2\].
+    /// Heat flux between the middles of gas and metal of a contact \[W/m2\].
     #[must_use]
     pub fn convection(&self, contact: &Contact) -> f64 {
-        let conductance = match contact.face {
+        let difference = self.temperature[contact.gas] - self.temperature[contact.metal];
+        self.conductance(contact) * difference / contact.area
+    }
+
+    /// Conductance between the middles on both sides of a contact \[W/K\].
+    #[must_use]
+    pub fn conductance(&self, contact: &Contact) -> f64 {
+        match contact.face {
             FaceIndex::Radial(face) => self.radial[face],
             FaceIndex::Axial(face) => self.axial[face],
-        };
-        let difference = self.temperature[contact.gas] - self.temperature[contact.metal];
-        conductance * difference / contact.area
+        }
     }
 
     fn equation(

@@ -48,6 +48,7 @@ impl Energy {
                 all -= drift.out(&face) * passing;
             }
         }
-        Some(all)
+        let beyond: f64 = self.electrons_beyond(heat).map(|(_, w)| w).sum();
+        Some(all - beyond)
     }
 }

@@ -6,6 +6,7 @@ pub mod energy;
 pub mod energy_edges;
 mod energy_electrons;
 mod energy_film;
+mod energy_skin;
 mod faces;
 pub mod flow;
 pub mod linear;

@@ -18,8 +18,8 @@ use crate::case::{Case, VapourCase, VapourEdge};
 use crate::fields::faces::{Beyond, Carriers, FaceOf, Side};
 use crate::fields::flow::Flow;
 use crate::fields::{Solver, Unsolved};
-use crate::heat::Contact;
 use crate::heat::evaporation::{Evaporated, Evaporating, Film};
+use crate::heat::{Contact, Skin};
 use crate::material::GAS;
 use crate::properties::Properties;
 use crate::transport::{dirichlet, hybrid};
@@ -126,18 +126,19 @@ impl Vapour {
         }
     }
 
-    /// What evaporates at each of `contacts` at `temperature` \[K\].
+    /// What evaporates at each of `contacts`, whose surfaces are `skins`, at `temperature` \[K\].
     pub fn evaporate(
         &mut self,
         case: &Case,
         setup: &VapourCase,
         contacts: &[Contact],
-        temperature: &[f64],
+        (skins, temperature): (&[Skin], &[f64]),
     ) {
         self.passed.clear();
         self.gathers.fill([0.0; 2]);
-        for contact in contacts {
-            let passed = self.pass(case, setup, contact, temperature);
+        for (n, contact) in contacts.iter().enumerate() {
+            let surface = Skin::of(skins, n, contact, temperature).temperature;
+            let passed = self.pass(case, setup, contact, (surface, temperature));
             self.passed.push(passed);
             let gathers = &mut self.gathers[contact.gas];
             gathers[0] += contact.area * passed.coefficient;
@@ -145,13 +146,14 @@ impl Vapour {
         }
     }
 
-    /// What passes one contact; nothing where its metal does not evaporate: the gas there is that of the cell.
-    fn pass(
+    /// What passes one contact with its surface at `surface` \[K\]; nothing where its metal does not evaporate: the gas
+    /// there is that of the cell.
+    pub(crate) fn pass(
         &self,
         case: &Case,
         setup: &VapourCase,
         contact: &Contact,
-        temperature: &[f64],
+        (surface, temperature): (f64, &[f64]),
     ) -> Evaporated {
         let iron = self.iron[contact.gas];
         let Some(metal) = &setup.metals[contact.electrode] else {
@@ -160,11 +162,11 @@ impl Vapour {
                 ..Evaporated::default()
             };
         };
-        let film = film(case, setup, contact, temperature, iron);
-        metal.pass(temperature[contact.metal], film)
+        let at = [surface, temperature[contact.gas]];
+        metal.pass(surface, film(case, setup, contact, at, iron))
     }
 
-    /// Slope with the temperature of the metal of the heat that vapour takes off a contact
+    /// Slope with the temperature of the surface of the heat that vapour takes off a contact
     /// \[W/(m2 K)\], never negative.
     #[must_use]
     pub fn slope(
@@ -172,16 +174,14 @@ impl Vapour {
         case: &Case,
         setup: &VapourCase,
         contact: &Contact,
-        temperature: &[f64],
+        (surface, temperature): (f64, &[f64]),
     ) -> f64 {
         let Some(metal) = &setup.metals[contact.electrode] else {
             return 0.0;
         };
-        let film = film(case, setup, contact, temperature, self.iron[contact.gas]);
-        let (t, step) = (
-            temperature[contact.metal],
-            1e-4 * temperature[contact.metal],
-        );
+        let at = [surface, temperature[contact.gas]];
+        let film = film(case, setup, contact, at, self.iron[contact.gas]);
+        let (t, step) = (surface, 1e-4 * surface);
         let flux = |t: f64| metal.pass(t, film).off();
         let slope = (flux(t + step) - flux(t - step)) / (2.0 * step);
         metal.latent_heat * slope.max(0.0)
@@ -338,10 +338,10 @@ fn film(
     case: &Case,
     setup: &VapourCase,
     contact: &Contact,
-    temperature: &[f64],
+    [surface, beside]: [f64; 2],
     iron: f64,
 ) -> Film {
-    let t = 0.5 * (temperature[contact.gas] + temperature[contact.metal]);
+    let t = 0.5 * (beside + surface);
     let ([r, z], gas) = (contact.place, case.of(contact.gas));
     let at =
         |law: &Option<crate::material::Law>| law.as_ref().map_or(0.0, |l| l.within(r, z, t, iron));
@@ -352,7 +352,7 @@ fn film(
         molar: setup.molar,
         adds: setup.adds,
         vents: setup.vents,
-        returning: setup.returns_hot.then(|| temperature[contact.gas]),
+        returning: setup.returns_hot.then_some(beside),
     }
 }
 

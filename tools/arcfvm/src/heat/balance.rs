@@ -119,7 +119,7 @@ pub fn electrodes(heat: &HeatCase, energy: &Energy, sources: &Sources) -> Vec<El
     let mut all = vec![ElectrodeHeat::default(); surfaces.electrodes.len()];
     for (contact, found) in surfaces.contacts.iter().zip(&sources.contacts) {
         let one = &mut all[contact.electrode];
-        one.convection += energy.convection(contact) * contact.area;
+        one.convection += (energy.convection(contact) - found.held) * contact.area;
         one.radiation += found.absorbed * contact.area;
         one.electron += found.parts.electron * contact.area;
         one.ion += found.parts.ion * contact.area;

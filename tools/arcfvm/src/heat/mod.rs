@@ -1,5 +1,6 @@
 //! Heat at the surfaces of the electrodes (Komen 2019, eqs 5.16 to 5.21) and what moves with metal.
 
+mod answer;
 pub mod balance;
 pub mod electrode;
 pub mod evaporation;
@@ -8,15 +9,17 @@ pub mod granular;
 pub mod motion;
 pub mod radiation;
 pub mod reads;
+pub mod skin;
 pub mod sources;
 pub mod vapour;
 
 pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
 pub use film::Layer;
+pub use skin::Skin;
 
 use crate::grid::Grid;
 use crate::material::GAS;
-use crate::scene::Film;
+use crate::scene::{ElectrodeAt, Film};
 
 /// A face between the gas and a metal with electrode heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +64,8 @@ pub struct Surfaces {
     pub absorbed: Option<f64>,
     /// The electrode that each material is.
     pub electrode_of: Vec<Option<usize>>,
+    /// Where they answer.
+    pub at: ElectrodeAt,
     /// Way of the heat from the gas into them.
     pub film: Film,
     /// Thickness of the film of gas on them \[m\]; none: half a cell.

@@ -3,6 +3,7 @@
 use crate::case::{Case, HeatCase, VapourCase};
 use crate::fields::potential::Potential;
 use crate::fields::vapour::Vapour;
+use crate::heat::{Contact, Skin};
 use crate::properties::Properties;
 
 /// What the sources read.
@@ -18,8 +19,18 @@ pub struct Reads<'a> {
     pub potential: Option<&'a Potential>,
     /// Temperature \[K\].
     pub temperature: &'a [f64],
+    /// Surfaces of the electrodes; none: the middles of their cells.
+    pub skins: &'a [Skin],
     /// Iron vapour, where there is any.
     pub vapour: Option<Vapours<'a>>,
+}
+
+impl Reads<'_> {
+    /// The surface of contact `n`.
+    #[must_use]
+    pub fn skin(&self, n: usize, contact: &Contact) -> Skin {
+        Skin::of(self.skins, n, contact, self.temperature)
+    }
 }
 
 /// The vapour that surfaces meet.

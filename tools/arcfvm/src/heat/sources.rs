@@ -2,7 +2,7 @@
 
 use crate::fields::potential::Potential;
 use crate::heat::reads::Reads;
-use crate::heat::{Contact, FaceIndex, SurfaceHeat, Surfaces, radiation};
+use crate::heat::{Contact, FaceIndex, Skin, SurfaceHeat, Surfaces, radiation};
 
 /// Heat of one contact \[W/m2\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,6 +21,8 @@ pub struct ContactHeat {
     pub layer: f64,
     /// Ionisation voltage beside a cathode \[V\].
     pub ionisation: f64,
+    /// What the surface takes up and does not pass on into the metal: the gas loses less.
+    pub held: f64,
 }
 
 /// The heat sources of one iteration.
@@ -48,7 +50,7 @@ pub struct Sources {
 }
 
 /// Current density through a contact \[A/m2\].
-fn current(potential: &Potential, contact: &Contact) -> f64 {
+pub(crate) fn current(potential: &Potential, contact: &Contact) -> f64 {
     let current = match contact.face {
         FaceIndex::Radial(face) => potential.radial[face],
         FaceIndex::Axial(face) => potential.axial[face],
@@ -57,9 +59,8 @@ fn current(potential: &Potential, contact: &Contact) -> f64 {
 }
 
 impl Sources {
-    /// Works out all sources and writes value and slope of each cell to `out`; `view` renews how
-    /// the surfaces see the radiation.
-    pub fn update(&mut self, reads: Reads<'_>, view: bool, out: &mut [[f64; 2]]) {
+    /// Works out all sources and writes value and slope of each cell to `out`.
+    pub fn update(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
         out.fill([0.0; 2]);
         self.joule = 0.0;
         if let Some(potential) = reads.potential {
@@ -79,7 +80,7 @@ impl Sources {
         self.shine(reads, out);
         self.warm_bed(reads, out);
         if let Some(surfaces) = &reads.heat.surfaces {
-            self.surfaces(reads, surfaces, view, out);
+            self.surfaces(reads, surfaces, out);
             if let Some(vapours) = reads.vapour {
                 self.vapour = self.take_vapour(reads, surfaces, vapours, out);
             }
@@ -107,12 +108,11 @@ impl Sources {
     }
 
     fn shine(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
-        let (case, emission) = (reads.case, &reads.properties.emission);
-        self.emission.resize(emission.len(), 0.0);
-        for (k, value) in emission.iter().enumerate() {
+        let case = reads.case;
+        self.emit(reads);
+        for (k, value) in reads.properties.emission.iter().enumerate() {
             let (i, j) = (k % case.grid.nr, k / case.grid.nr);
             let volume = case.grid.volume(i, j);
-            self.emission[k] = value * volume;
             let Some(law) = case.of(k).net_emission.as_ref().filter(|_| *value > 0.0) else {
                 continue;
             };
@@ -124,28 +124,26 @@ impl Sources {
         }
     }
 
-    fn surfaces(
-        &mut self,
-        reads: Reads<'_>,
-        surfaces: &Surfaces,
-        view: bool,
-        out: &mut [[f64; 2]],
-    ) {
+    /// Radiation of each cell.
+    fn emit(&mut self, reads: Reads<'_>) {
+        let grid = &reads.case.grid;
+        let cells = reads.properties.emission.iter().enumerate();
+        let power = cells.map(|(k, value)| value * grid.volume(k % grid.nr, k / grid.nr));
+        self.emission.clear();
+        self.emission.extend(power);
+    }
+
+    fn surfaces(&mut self, reads: Reads<'_>, surfaces: &Surfaces, out: &mut [[f64; 2]]) {
         let count = surfaces.contacts.len();
         self.contacts.resize(count, ContactHeat::default());
-        self.absorbed.resize(count, 0.0);
-        if view || self.stale {
-            self.view(reads, surfaces);
-            self.stale = false;
-        }
         for (n, contact) in surfaces.contacts.iter().enumerate() {
             let electrode = reads.electrode(surfaces, n);
             let current = reads.potential.map_or(0.0, |p| current(p, contact));
-            let t = reads.temperature[contact.metal];
-            let layer = surfaces.layers.get(n);
-            let gas = layer.map_or(reads.temperature[contact.gas], |layer| {
-                layer.at(t, reads.temperature)
-            });
+            let skin = reads.skin(n, contact);
+            let t = skin.temperature;
+            let gas = skin
+                .edge
+                .unwrap_or_else(|| reads.gas_beside(surfaces, n, t));
             let parts = electrode.heat(current, t, gas);
             let into_gas = electrode.into_gas(current, gas);
             self.contacts[n] = ContactHeat {
@@ -156,11 +154,42 @@ impl Sources {
                 into_gas,
                 layer: electrode.layer(current, parts),
                 ionisation: electrode.ionisation(),
+                held: 0.0,
             };
             out[contact.gas][0] += contact.area * into_gas;
-            let cell = &mut out[contact.metal];
-            cell[0] += contact.area * (parts.sum() + self.absorbed[n]);
-            cell[1] += contact.area * electrode.slope(current, t, gas);
+            let heat = parts.sum() + self.absorbed[n];
+            let slope = electrode.slope(current, t, gas);
+            self.take_up(out, contact, (n, skin), [heat, slope]);
+        }
+    }
+
+    /// Shares out what a surface takes up, value and slope, between metal and gas.
+    pub(crate) fn take_up(
+        &mut self,
+        out: &mut [[f64; 2]],
+        contact: &Contact,
+        (n, skin): (usize, Skin),
+        [heat, slope]: [f64; 2],
+    ) {
+        let held = (1.0 - skin.share) * heat;
+        self.contacts[n].held += held;
+        let [metal, gas] = skin.slopes(slope);
+        out[contact.metal][0] += contact.area * (skin.share * heat);
+        out[contact.metal][1] += contact.area * metal;
+        out[contact.gas][0] += contact.area * held;
+        out[contact.gas][1] += contact.area * gas;
+    }
+
+    /// Works out what each contact absorbs, where `anew` or what surfaces there are has changed.
+    pub(crate) fn look(&mut self, reads: Reads<'_>, anew: bool) {
+        let Some(surfaces) = &reads.heat.surfaces else {
+            return;
+        };
+        self.absorbed.resize(surfaces.contacts.len(), 0.0);
+        if anew || self.stale {
+            self.emit(reads);
+            self.view(reads, surfaces);
+            self.stale = false;
         }
     }
 

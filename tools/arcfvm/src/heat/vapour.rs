@@ -8,14 +8,15 @@
 
 use std::borrow::Cow;
 
+use crate::heat::evaporation::Evaporated;
 use crate::heat::reads::{Reads, Vapours};
 use crate::heat::sources::Sources;
 use crate::heat::{Contact, Electrode, Surfaces};
 
 /// Heat with the vapour of one contact.
-struct Carried {
+pub(crate) struct Carried {
     /// Into the metal \[W/m2\].
-    metal: f64,
+    pub(crate) metal: f64,
     /// Into the gas, less what is displaced \[W/m2\].
     gas: f64,
     /// Slope of the latter with the temperature of the gas \[W/(m2 K)\], never positive.
@@ -44,15 +45,18 @@ impl Reads<'_> {
         Cow::Owned(electrode.beside(fraction, iron.voltage))
     }
 
-    fn carried(&self, of: Vapours<'_>, contact: &Contact, n: usize) -> Option<Carried> {
+    /// Heat with what passes a contact whose surface is at `surface` \[K\].
+    pub(crate) fn carried(
+        &self,
+        of: Vapours<'_>,
+        contact: &Contact,
+        passed: &Evaporated,
+        surface: f64,
+    ) -> Option<Carried> {
         let Vapours { setup, vapour } = of;
         let metal = setup.metals[contact.electrode].as_ref()?;
         let law = self.case.of(contact.gas).enthalpy.as_ref()?;
-        let (surface, gas) = (
-            self.temperature[contact.metal],
-            self.temperature[contact.gas],
-        );
-        let passed = &vapour.passed[n];
+        let gas = self.temperature[contact.gas];
         let (flux, iron) = (passed.flux, vapour.iron[contact.gas]);
         let held = if setup.adds { iron } else { 0.0 };
         let displaced = law.within(gas, held);
@@ -83,15 +87,15 @@ impl Sources {
     ) -> f64 {
         let mut enters = 0.0;
         for (n, contact) in surfaces.contacts.iter().enumerate() {
-            let Some(carried) = reads.carried(of, contact, n) else {
+            let skin = reads.skin(n, contact);
+            let passed = &of.vapour.passed[n];
+            let Some(carried) = reads.carried(of, contact, passed, skin.temperature) else {
                 continue;
             };
-            let slope = of
-                .vapour
-                .slope(reads.case, of.setup, contact, reads.temperature);
+            let at = (skin.temperature, reads.temperature);
+            let slope = of.vapour.slope(reads.case, of.setup, contact, at);
             self.contacts[n].parts.vapour += carried.metal;
-            out[contact.metal][0] += contact.area * carried.metal;
-            out[contact.metal][1] -= contact.area * slope;
+            self.take_up(out, contact, (n, skin), [carried.metal, -slope]);
             out[contact.gas][0] += contact.area * carried.gas;
             out[contact.gas][1] += contact.area * carried.slope;
             enters += contact.area * carried.enters;

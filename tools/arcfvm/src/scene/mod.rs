@@ -176,6 +176,9 @@ pub struct Heat {
     /// none.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub absorbed_radiation: Option<f64>,
+    /// Temperature of the metal at which electrodes emit, shine and evaporate.
+    #[serde(default)]
+    pub electrode_at: ElectrodeAt,
     /// Way of the heat from the gas into an electrode.
     #[serde(default)]
     pub film: Film,
@@ -193,6 +196,18 @@ pub struct Heat {
 pub enum Electrons {
     /// Their enthalpy, against the current: heat of 5/2 k/e j . grad T (Hsu, Etemadi and Pfender 1983).
     Enthalpy,
+}
+
+/// Temperature of the metal at which electrodes emit, shine and evaporate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ElectrodeAt {
+    /// That of the surface, found from its balance with half a cell of metal; the edge of a film within the first cell
+    /// of gas is as warm as what reaches it.
+    #[default]
+    Surface,
+    /// That of the middle of the cell at the surface, as in Komen (2019): what comes out follows the cells.
+    Centre,
 }
 
 /// Way of the heat from gas into an electrode, at film temperature (Komen 2019, eq. 5.17).

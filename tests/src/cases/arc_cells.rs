@@ -1,0 +1,234 @@
+//! `arc-cells`: what pools consume of the arcs of two studies, on three grids.
+
+use std::path::Path;
+
+use artefact::{Reader, Table};
+use serde_json::{Value, json};
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::lab::{Finished, Lab, LabError};
+use crate::plasma::Plasma;
+
+/// The case.
+pub(super) struct ArcCells;
+
+/// Column of the surface and name of what the pool reads: heat, pressure, and the gas that drags it, at the height where
+/// it reads the shear.
+const READ: [(&str, &str); 3] = [
+    ("heat_flux_total_w_m2", "heat"),
+    ("arc_pressure_pa", "pressure"),
+    ("gas_radial_velocity_m_s", "gas_velocity"),
+];
+/// Items of the balance that are compared.
+const TOTALS: [(&str, &str); 4] = [
+    ("voltage_v", "voltage"),
+    ("base_input_w", "all_heat"),
+    ("base_ion_w", "ions"),
+    ("wire_total_w", "wire"),
+];
+/// Radius within which the pool is heated and pressed \[m\].
+const WITHIN_M: f64 = 4e-3;
+
+/// An arc of a study.
+struct Study {
+    scene: &'static str,
+    gas: &'static str,
+    /// How much smaller the cells of each grid are than those of the one before; the third is that of the study.
+    finer: f64,
+    /// Grid of cells so many times as wide as those of the study.
+    grid: fn(f64) -> Value,
+}
+
+impl Study {
+    fn of(method: &str) -> Self {
+        match method {
+            // Cells of 0.4 mm leave a cavity of 136, beside whose wall a cell of flux melts and freezes.
+            "submerged" => Self {
+                scene: "pipelines/saw-600a-arc/arc.json",
+                gas: "pipelines/gases/co-iron.json",
+                finer: 1.5,
+                grid: |times| json!({"r": 1e-4 * times, "z": 1e-4 * times}),
+            },
+            // The columns of the study; rows at the plate down to an eighth of its own.
+            "argon-wall" => Self {
+                grid: |times| {
+                    let near = 1.25e-5 * times;
+                    json!({"z": {
+                        "at_m": [-0.005, -0.001, -0.0002, 0, 0.0002, 0.001, 0.006, 0.010, 0.020],
+                        "spacing_m": [5e-4, 1e-4, near, near, near, 1e-4, 1e-4, 2e-4, 7e-4]
+                    }})
+                },
+                ..Self::of("argon")
+            },
+            _ => Self {
+                scene: "pipelines/gmaw-300a/arc.json",
+                gas: "pipelines/gases/argon.json",
+                finer: 2.0,
+                grid: |times| {
+                    let all = |sizes: &[f64]| sizes.iter().map(|s| s * times).collect::<Vec<_>>();
+                    json!({
+                        "r": {"at_m": [0, 0.004, 0.025], "spacing_m": all(&[1e-4, 1e-4, 8e-4])},
+                        "z": {
+                            "at_m": [-0.005, -0.001, 0.006, 0.010, 0.020],
+                            "spacing_m": all(&[5e-4, 1e-4, 1e-4, 2e-4, 7e-4])
+                        }
+                    })
+                },
+            },
+        }
+    }
+
+    fn run(
+        &self,
+        lab: &Lab,
+        times: f64,
+        (method, label): (&str, &str),
+    ) -> Result<Finished, LabError> {
+        let table = Path::new(self.gas);
+        let name = table.file_stem().unwrap_or_default().to_string_lossy();
+        let gas = lab.run_scene("gasprop", (table, ArcCells.name()), &name, &json!({}), &[])?;
+        let patch = json!({"grid": (self.grid)(times), "heat": {"electrode_at": "surface"}});
+        let scene = (Path::new(self.scene), ArcCells.name());
+        let inputs: [(&str, &Path); 1] = [("gas", &gas.artefact)];
+        lab.run_scene(
+            "arcfvm",
+            scene,
+            &format!("{method}-{label}"),
+            &patch,
+            &inputs,
+        )
+    }
+}
+
+/// Values of a column of `table` at `radius` \[m\], linear in between.
+fn at(table: &Table, column: &str, radius: f64) -> Result<f64, LabError> {
+    let (r, values) = (table.values("radius_m")?, table.values(column)?);
+    let after = r.partition_point(|own| *own < radius).clamp(1, r.len() - 1);
+    let share = (radius - r[after - 1]) / (r[after] - r[after - 1]);
+    Ok(values[after - 1] + share * (values[after] - values[after - 1]))
+}
+
+/// Integral over the rings of the difference between two surfaces over that of the finer one.
+fn difference(coarse: &Table, fine: &Table, column: &str) -> Result<f64, LabError> {
+    let radius = coarse.values("radius_m")?;
+    let (mut apart, mut whole, mut inner) = (0.0, 0.0, 0.0);
+    for r in radius.iter().filter(|r| **r < WITHIN_M) {
+        // Cells reach from one face to the next, their middles halfway.
+        let outer = 2.0 * r - inner;
+        let ring = outer * outer - inner * inner;
+        let (here, there) = (at(coarse, column, *r)?, at(fine, column, *r)?);
+        apart += ring * (here - there).abs();
+        whole += ring * there.abs();
+        inner = outer;
+    }
+    Ok(apart / whole)
+}
+
+impl Case for ArcCells {
+    fn name(&self) -> &'static str {
+        "arc-cells"
+    }
+
+    fn tool(&self) -> &'static str {
+        "arcfvm"
+    }
+
+    fn reference(&self) -> &'static str {
+        "the arcs of gmaw-300a and saw-600a-arc on finer cells: 0.4, 0.2, 0.1 mm, rows of 50, 25, 12.5 um at the plate, and 0.225, 0.15, 0.1 mm"
+    }
+
+    fn methods(&self) -> &'static [&'static str] {
+        &["argon", "argon-wall", "submerged"]
+    }
+
+    /// A third difference would take a fourth grid.
+    fn levels(&self, _: &str, asked: &[u32]) -> Vec<u32> {
+        asked.iter().copied().filter(|level| *level <= 2).collect()
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        let argon = [
+            ("heat", 0.05),
+            ("pressure", 0.08),
+            ("voltage", 0.015),
+            ("all_heat", 0.01),
+            ("ions", 0.01),
+            ("wire", 0.05),
+        ];
+        let submerged = [
+            ("heat", 0.02),
+            ("pressure", 0.02),
+            ("voltage", 0.01),
+            ("all_heat", 0.01),
+            ("ions", 0.015),
+            ("wire", 0.03),
+        ];
+        let mut all = vec![Target::order("pressure", 1.0), Target::order("wire", 0.9)];
+        all.extend(argon.map(|(name, most)| Target::error(name, most)));
+        let wall = [("heat", 0.01), ("gas_velocity", 0.08), ("all_heat", 0.005)];
+        all.push(Target::order("gas_velocity", 0.5).of("argon-wall"));
+        all.extend(wall.map(|(name, most)| Target::error(name, most).of("argon-wall")));
+        all.extend(submerged.map(|(name, most)| Target::error(name, most).of("submerged")));
+        all
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let study = Study::of(method);
+        // Level 1 is two steps from the grid of the study.
+        let steps = 3_u32.saturating_sub(level);
+        let times = (0..steps).fold(1.0, |times, _| times * study.finer);
+        let own = study.run(lab, times, (method, &format!("grid{level}")))?;
+        let finer = study.run(
+            lab,
+            times / study.finer,
+            (method, &format!("beside{level}")),
+        )?;
+        let open = |run: &Finished| Reader::open_kind(&run.artefact, "arc-source", 1);
+        let (coarse, fine) = (open(&own)?, open(&finer)?);
+        let mut errors = Errors::new();
+        let [here, there] = [&coarse, &fine].map(|reader| reader.table("/surface"));
+        let (here, there) = (here?, there?);
+        for (column, name) in READ {
+            errors.insert(name.to_owned(), difference(&here, &there, column)?);
+        }
+        let [here, there] = [&coarse, &fine].map(|reader| reader.record("/balance"));
+        let (here, there) = (here?, there?);
+        for (item, name) in TOTALS {
+            errors.insert(
+                name.to_owned(),
+                (here.get(item)? / there.get(item)? - 1.0).abs(),
+            );
+        }
+        let cells = Plasma::read(&own)?.cells();
+        Ok(Measurement::of(own, cells, 1e-4 * times, errors))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn surface(n: usize, value: impl Fn(f64) -> f64) -> Table {
+        let size = WITHIN_M / n as f64;
+        let radius: Vec<f64> = (0..n).map(|k| (k as f64 + 0.5) * size).collect();
+        let values: Vec<f64> = radius.iter().map(|r| value(*r)).collect();
+        Table::new(n)
+            .column("radius_m", "m", radius)
+            .column("heat", "W/m2", values)
+    }
+
+    #[test]
+    fn a_surface_a_tenth_too_hot_differs_by_a_tenth() {
+        let fine = surface(80, |r| 1.0 + r);
+        let coarse = surface(40, |r| 1.1 * (1.0 + r));
+        assert!((difference(&coarse, &fine, "heat").unwrap() - 0.1).abs() < 1e-9);
+    }
+
+    #[test]
+    fn rings_weigh_by_their_area() {
+        // 1 within half of the radius, a quarter of the area; the other 0.
+        let step = |r: f64| f64::from(u8::from(r < 0.5 * WITHIN_M));
+        let (fine, coarse) = (surface(80, |_| 1.0), surface(40, step));
+        assert!((difference(&coarse, &fine, "heat").unwrap() - 0.75).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,173 @@
+//! Heat within an iteration: how it is carried, the surfaces that answer to it, what warms each cell, and the solve.
+
+use crate::error::Error;
+use crate::fields::energy::Step;
+use crate::heat::Contact;
+use crate::heat::reads::Reads;
+use crate::limits::check;
+use crate::residual::{Unbalanced, part};
+use crate::solver::{Arc, Heating};
+use crate::vaporising::Vaporising;
+
+/// Rounds of conduction and surfaces after which neither changes.
+const ROUNDS: usize = 8;
+/// Iterations between two looks at which surface sees which gas shine.
+const VIEW_EVERY: usize = 20;
+/// Temperature that no arc reaches \[K\].
+const ABSURD_K: f64 = 1e5;
+
+impl Arc {
+    /// Heat into every cell at the last temperatures.
+    pub(crate) fn take_sources(&mut self) {
+        if self.heating.is_none() {
+            return;
+        }
+        self.carry_heat();
+        self.settle_surfaces();
+        self.warm();
+    }
+
+    /// Finds surfaces that have temperatures of their own where nothing but those of the middles is known yet: what the
+    /// film conducts goes with them, and they with that.
+    pub(crate) fn begin_surfaces(&mut self) {
+        let own = |h: &Heating| !h.energy.skins.is_empty();
+        if self.heating.as_ref().is_some_and(own) {
+            for _ in 0..ROUNDS {
+                self.carry_heat();
+                self.settle_surfaces();
+            }
+        }
+    }
+
+    /// What conducts and carries heat.
+    fn carry_heat(&mut self) {
+        let Self {
+            case,
+            properties,
+            electric,
+            flowing,
+            heating,
+            vaporising,
+            feed,
+            ..
+        } = self;
+        let Some(Heating { setup, energy, .. }) = heating else {
+            return;
+        };
+        if let Some(flowing) = flowing {
+            energy
+                .mass_radial
+                .copy_from_slice(&flowing.flow.mass_radial);
+            energy.mass_axial.copy_from_slice(&flowing.flow.mass_axial);
+        }
+        if let Some(wire) = case.wire {
+            wire.carry(case, *feed, &mut energy.mass_axial);
+        }
+        energy.conduct(case, setup.surfaces.as_ref(), properties);
+        if let Some(electric) = electric {
+            energy.drift(case, &electric.potential);
+        }
+        if let Some(v) = vaporising {
+            energy.mix(case, setup, &v.setup, &v.vapour);
+        }
+    }
+
+    /// What surfaces absorb and, where they have temperatures of their own, those, with what evaporates at them.
+    fn settle_surfaces(&mut self) {
+        let anew = self.iteration % VIEW_EVERY == 1 || self.settings.view_always;
+        let Some(Heating {
+            setup,
+            energy,
+            sources,
+        }) = &mut self.heating
+        else {
+            return;
+        };
+        let mut skins = std::mem::take(&mut energy.skins);
+        let reads = Reads {
+            case: &self.case,
+            heat: setup,
+            properties: &self.properties,
+            potential: self.electric.as_ref().map(|e| &e.potential),
+            temperature: &energy.temperature,
+            skins: &[],
+            vapour: self.vaporising.as_ref().map(Vaporising::read),
+        };
+        sources.look(reads, anew);
+        if let Some(surfaces) = &setup.surfaces {
+            let through = |contact: &Contact| energy.conductance(contact) / contact.area;
+            reads.settle(surfaces, sources.absorbed(), through, &mut skins);
+        }
+        energy.skins = skins;
+        if !energy.skins.is_empty() {
+            self.evaporate();
+        }
+    }
+
+    /// What warms each cell.
+    fn warm(&mut self) {
+        let Some(Heating {
+            setup,
+            energy,
+            sources,
+        }) = &mut self.heating
+        else {
+            return;
+        };
+        let reads = Reads {
+            case: &self.case,
+            heat: setup,
+            properties: &self.properties,
+            potential: self.electric.as_ref().map(|e| &e.potential),
+            temperature: &energy.temperature,
+            skins: &energy.skins,
+            vapour: self.vaporising.as_ref().map(Vaporising::read),
+        };
+        sources.update(reads, &mut energy.source);
+        energy.pass_surfaces(setup);
+    }
+
+    /// One solve of the energy; returns its residual, the worst cell and how many cells were limited.
+    ///
+    /// # Errors
+    /// When temperatures leave the numbers.
+    pub(crate) fn solve_heat(&mut self) -> Result<(f64, Unbalanced, usize), Error> {
+        let Self {
+            case,
+            properties,
+            heating,
+            iteration,
+            settings,
+            ..
+        } = self;
+        let Some(Heating {
+            setup,
+            energy,
+            sources,
+        }) = heating
+        else {
+            return Ok((0.0, Unbalanced::default(), 0));
+        };
+        let scale = sources.size() + energy.edges(case, setup, properties).size;
+        let step = Step {
+            relaxation: settings.heat_relaxation,
+            limit: settings.heat_step,
+        };
+        let found = energy
+            .solve(case, setup, properties, step)
+            .map_err(|e| Error::solver("energy", *iteration, case, &e))?;
+        check(
+            case,
+            "temperature",
+            "K",
+            *iteration,
+            &energy.temperature,
+            ABSURD_K,
+        )?;
+        if let Some(k) = energy.temperature.iter().position(|t| *t <= 0.0) {
+            let what = format!("temperature {} K", energy.temperature[k]);
+            return Err(Error::diverged("energy", *iteration, case.place(k), what));
+        }
+        Ok((part(found.heat.amount, scale), found.heat, found.limited))
+    }
+}
