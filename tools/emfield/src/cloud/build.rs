@@ -179,14 +179,7 @@ impl Builder {
                     }
                     if let Some(point) = self.outer(seed.place, seed.spacing, 0) {
                         let media = [self.medium_at_wall(&seed), 0];
-                        columns.push(Column {
-                            foot: 0,
-                            seed,
-                            point,
-                            solid: None,
-                            media,
-                            side: [Vec::new(), Vec::new()],
-                        });
+                        columns.push(Column::bare(seed, point, None, media));
                     }
                 }
             }

@@ -41,14 +41,7 @@ impl Builder {
                     continue;
                 }
                 let point = self.interface(&seed, media);
-                columns.push(Column {
-                    foot: 0,
-                    seed,
-                    point,
-                    solid: Some(k),
-                    media,
-                    side: [Vec::new(), Vec::new()],
-                });
+                columns.push(Column::bare(seed, point, Some(k), media));
             }
             self.give(&crowded, &mut columns[before..]);
             let inside = self.region.solids[k].body.bounds();
@@ -160,7 +153,7 @@ impl Builder {
 
     /// Whether the surface of another body passes through that of body `k` near a place on it: Newton's method along the
     /// surface finds the crossing, while the least distance of a gap stays.
-    fn cross(&self, mut x: Vector, k: usize, other: usize) -> bool {
+    pub(super) fn cross(&self, mut x: Vector, k: usize, other: usize) -> bool {
         let [own, other] = [k, other].map(|k| &self.region.solids[k].body);
         let spacing = self.region.solids[k].spacing;
         let step = SAME * spacing;

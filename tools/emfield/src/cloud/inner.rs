@@ -35,6 +35,7 @@ impl Builder {
                 thin: false,
             });
         }
+        self.find_gaps(columns, plans);
         for group in columns.chunk_by_mut(|a, b| a.solid == b.solid) {
             let (spacing, plan) = match group[0].solid {
                 Some(k) => (self.region.solids[k].spacing, plans[k].clone()),
@@ -70,11 +71,12 @@ impl Builder {
                 );
             }
         }
+        self.gaps(columns);
         self.cloud.counts.layers = self.cloud.len() - before;
         self.widest = self.sizes.iter().copied().fold(0.0, f64::max);
     }
 
-    fn layered(&mut self, point: &Layered) {
+    pub(super) fn layered(&mut self, point: &Layered) {
         let metric = metric(point.normal, [point.across, point.along], point.foot);
         let spacing = if metric == Metric::Round {
             (point.across * point.along).sqrt()

@@ -8,9 +8,11 @@ use super::surface::Seed;
 use crate::scene::Layers;
 
 /// Points nearer than this part of the local spacing, across and along the surface, are too close.
-const TOO_CLOSE: f64 = 0.6;
+pub(super) const TOO_CLOSE: f64 = 0.6;
 /// Reach of the patch of a surface point over its spacing.
 const PATCH: f64 = 0.9;
+/// Part of a gap's width from its side that belongs to the points across it: both sides overlap.
+const OVER: f64 = 0.6;
 
 /// Thickness of the layers of one side, from the surface outward \[m\].
 pub(crate) fn thicknesses(layers: &Layers, spacing: f64, count: Option<usize>) -> Vec<f64> {
@@ -30,6 +32,15 @@ pub(crate) fn thicknesses(layers: &Layers, spacing: f64, count: Option<usize>) -
     }
 }
 
+/// A narrow gap before a point of a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    /// How far it is across, along the normal of the surface \[m\].
+    pub(crate) width: f64,
+    /// Unit normal of the surface beyond, back into the gap.
+    pub(crate) back: Vector,
+}
+
 /// A surface point with the points along its normal, inside and outside.
 #[derive(Debug, Clone)]
 pub(crate) struct Column {
@@ -44,9 +55,30 @@ pub(crate) struct Column {
     pub(crate) media: [u8; 2],
     /// Numbers and distances of its points inside and outside.
     pub(crate) side: [Vec<(u32, f64)>; 2],
+    /// Narrow gaps inside and outside, in place of layers.
+    pub(crate) gap: [Option<Gap>; 2],
 }
 
 impl Column {
+    /// A column without points but that of the surface.
+    pub(crate) fn bare(seed: Seed, point: u32, solid: Option<usize>, media: [u8; 2]) -> Self {
+        Self {
+            seed,
+            point,
+            foot: 0,
+            solid,
+            media,
+            side: [Vec::new(), Vec::new()],
+            gap: [None; 2],
+        }
+    }
+
+    /// Unit vector away from the surface on one side.
+    pub(crate) fn way(&self, side: usize) -> Vector {
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        self.seed.normal.map(|n| sign * n)
+    }
+
     /// How far its points reach \[m\].
     pub(crate) fn height(&self, side: usize) -> f64 {
         self.side[side].last().map_or(0.0, |last| last.1)
@@ -101,7 +133,7 @@ impl Ground<'_> {
     ) -> Vec<Layered> {
         let mut added: Vec<Layered> = Vec::new();
         let mut away = 0.0;
-        let mut growing = vec![true; columns.len()];
+        let mut growing: Vec<bool> = columns.iter().map(|c| c.gap[side].is_none()).collect();
         for (k, thickness) in thicknesses.iter().enumerate() {
             away += thickness;
             let next = thicknesses.get(k + 1).unwrap_or(thickness);
@@ -208,9 +240,10 @@ impl<'a> Standing<'a> {
         };
         let side = usize::from(d > 0.0);
         let seed = &column.seed;
-        let margin = match column.last(side) {
-            0.0 => TOO_CLOSE * seed.spacing,
-            last => 0.55 * last,
+        let height = match (&column.gap[side], column.last(side)) {
+            (Some(gap), _) => OVER * gap.width,
+            (None, 0.0) => TOO_CLOSE * seed.spacing,
+            (None, last) => column.height(side) + 0.55 * last,
         };
         let away = difference(x, seed.place);
         let up = dot(away, seed.normal);
@@ -218,7 +251,7 @@ impl<'a> Standing<'a> {
         let wide = column
             .widening(side, d.abs())
             .powf(1.0 / (dimensions - 1) as f64);
-        d.abs() < column.height(side) + margin && level < PATCH * seed.spacing * wide.max(TOO_CLOSE)
+        d.abs() < height && level < PATCH * seed.spacing * wide.max(TOO_CLOSE)
     }
 }
 

@@ -3,15 +3,18 @@
 //! A cloud is all that the equations know of geometry: where points are, how far apart, to which medium they belong or
 //! which media they part, how much of a conductor each stands for. See [`Cloud`].
 
+mod areas;
 mod build;
 mod cells;
 mod faces;
+mod gaps;
 mod inner;
 mod jitter;
 mod lattice;
 mod layers;
 mod occupied;
 pub mod region;
+mod seed;
 mod surface;
 
 pub use surface::Curvature;
@@ -81,7 +84,8 @@ pub struct SurfacePoint {
     pub outer: u8,
     /// From the inner medium to the outer one.
     pub normal: Vector,
-    /// Area \[m2\]; length per metre of depth in a plane; of the full turn where the scene is axisymmetric.
+    /// Area \[m2\]; length per metre of depth in a plane; of the full turn where the scene is axisymmetric. In space, where
+    /// points stand closer here than there, the weight of the point in sums over the surface.
     pub area: f64,
 }
 

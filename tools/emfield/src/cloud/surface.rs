@@ -7,58 +7,11 @@ use shapes::surface::{Piece, pieces};
 use shapes::{Body, Kind};
 
 use super::occupied::Occupied;
+pub use super::seed::Curvature;
+pub(crate) use super::seed::Seed;
+use super::seed::aside;
+use super::{Cell, areas};
 
-/// A point on a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Seed {
-    pub(crate) place: Vector,
-    /// Out of the body.
-    pub(crate) normal: Vector,
-    /// Area \[m2\]; length \[m\] in two dimensions.
-    pub(crate) area: f64,
-    /// Distance of its neighbours, about \[m\].
-    pub(crate) spacing: f64,
-    pub(crate) curvature: Curvature,
-}
-
-/// How a surface bends at a place.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Curvature {
-    /// Unit direction along the surface, that of the first curvature.
-    pub along: Vector,
-    /// Principal curvatures \[1/m\], positive where the body is convex.
-    pub principal: [f64; 2],
-}
-
-impl Curvature {
-    /// Sum of the principal curvatures \[1/m\].
-    pub(crate) fn sum(&self) -> f64 {
-        self.principal[0] + self.principal[1]
-    }
-
-    /// How far the surface leaves its tangent plane within one spacing \[m\].
-    pub(crate) fn bow(&self, spacing: f64) -> f64 {
-        let most = self.principal.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
-        0.5 * most * spacing * spacing
-    }
-
-    /// How areas change with the signed distance from the surface, over the area on it.
-    pub(crate) fn widening(&self, away: f64) -> f64 {
-        let [a, b] = self.principal;
-        ((1.0 + away * a) * (1.0 + away * b)).max(0.0)
-    }
-
-    /// That of the parallel surface at a signed distance \[m\].
-    pub(crate) fn beside(&self, away: f64) -> Self {
-        Self {
-            principal: self.principal.map(|k| k / (1.0 + away * k).max(SHRUNK)),
-            ..*self
-        }
-    }
-}
-
-/// Parallel surfaces shrink to this at most, in lengths.
-const SHRUNK: f64 = 0.6;
 /// Pieces per spacing from which points are chosen, over those that shapes make by themselves.
 const FINER: f64 = 2.0;
 /// Pieces per spacing along a curve: points stand as evenly as these are fine.
@@ -170,7 +123,7 @@ fn seed(piece: &Piece, area: f64, spacing: f64) -> Seed {
 }
 
 /// Points chosen among pieces in a scattered order, none nearer to another than the packing allows; each takes the
-/// area of the pieces nearest to it.
+/// area of the pieces nearest to it; where points stand closer here than there, its weight in sums.
 fn spread(
     pieces: &[Piece],
     (spacing, least): (f64, f64),
@@ -201,6 +154,7 @@ fn spread(
             seeds.push(seed(piece, 0.0, own));
         }
     }
+    let mut parts = vec![Cell::default(); if least < spacing { seeds.len() } else { 0 }];
     for (piece, own) in pieces.iter().zip(&wanted) {
         let mut radius = PACKING * own;
         while radius < 4.0 * spacing {
@@ -213,28 +167,20 @@ fn spread(
                 false
             });
             if let Some((_, k)) = best {
-                seeds[k as usize].area += piece.area;
+                let seed = &mut seeds[k as usize];
+                seed.area += piece.area;
+                if let Some(part) = parts.get_mut(k as usize) {
+                    let way = difference(piece.place, seed.place);
+                    part.add(piece.area, way, [[0.0; 3]; 3]);
+                }
                 break;
             }
             radius *= 1.5;
         }
     }
+    areas::weigh(&mut seeds, &parts, &set, spacing);
     seeds.retain(|s| s.area > 0.0);
     seeds
-}
-
-/// A direction across another.
-fn aside(normal: Vector) -> Vector {
-    let least = (0..3).fold(0, |m, k| {
-        if normal[k].abs() < normal[m].abs() {
-            k
-        } else {
-            m
-        }
-    });
-    let mut axis = [0.0; 3];
-    axis[least] = 1.0;
-    direction(cross(axis, normal))
 }
 
 /// Principal curvatures: from the turning of the normal.

@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::Shape;
 
-/// Layers of points along the normals of a surface.
+/// Layers of points along the normals of a surface. Gaps between bodies narrower than three of the first layers have points
+/// at their quarters instead.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layers {
