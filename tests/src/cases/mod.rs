@@ -21,6 +21,7 @@ mod em_ring_coil;
 mod em_sphere_aside;
 mod em_sphere_gauge;
 mod em_sphere_loops;
+mod em_sphere_pair;
 mod em_sphere_pull;
 mod em_sphere_uniform_ac;
 mod em_transient_cylinder;
@@ -67,6 +68,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_wire_joule::ArcWireJoule),
         Box::new(em_dielectric_sphere::EmDielectricSphere),
         Box::new(em_sphere_pull::EmSpherePull),
+        Box::new(em_sphere_pair::EmSpherePair),
         Box::new(em_ring_coil::EmRingCoil),
         Box::new(em_cylinder_ac::EmCylinderAc),
         Box::new(em_planar_az::EmPlanarAz),

@@ -9,6 +9,7 @@
 //!   [`diffusion`]: the same after its field is switched on.
 //! - [`exact`]: fields along the lines of a scene whose solution is known.
 //! - [`frames`] reads runs and scenes.
+//! - [`pair`]: two conducting spheres at given potentials.
 //! - [`transverse`]: a conducting cylinder in an alternating field across it.
 //! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field;
 //!   [`switched`]: the same after a uniform field is switched on.
@@ -23,6 +24,7 @@ pub mod dielectric;
 pub mod diffusion;
 pub mod exact;
 pub mod frames;
+pub mod pair;
 pub mod sphere;
 pub mod switched;
 pub mod transverse;
