@@ -15,6 +15,7 @@ fn at() -> Arguments {
         temperature: 1800.0,
         time: 0.125,
         fraction: 0.25,
+        flux_density: 1.25,
     }
 }
 

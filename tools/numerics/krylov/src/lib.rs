@@ -16,6 +16,8 @@
 //! - [`Incomplete`] factors (ILU(0) and ILUT, in single precision), [`Multigrid`] smoothed by them, sparse [`Direct`] factors;
 //! - [`Solved`] with the history of residuals, and an [`Ending`] that says why a solve stagnated or broke down.
 //!
+//! Fixed points of what is not linear: [`Anderson`].
+//!
 //! Sums run over chunks whose size depends on the length alone and whose results are added in
 //! order, and smoothing runs over blocks of fixed size: results are bitwise independent of the
 //! number of threads.
@@ -26,6 +28,7 @@
 )]
 
 mod aggregation;
+mod anderson;
 mod columns;
 mod conjugate;
 mod direct;
@@ -50,6 +53,7 @@ mod system;
 mod unknown;
 
 pub use aggregation::Aggregation;
+pub use anderson::Anderson;
 pub use conjugate::conjugate_gradient;
 pub use direct::Direct;
 pub use ending::{Breakdown, Ending, Rule, Solved, Stagnation};

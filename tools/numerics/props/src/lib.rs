@@ -5,7 +5,7 @@
 //! [`Integral`] is `F(x)`, the exact (piecewise quadratic) integral of a positive table from its
 //! first node, continued beyond the ends with the end value; [`Integral::inverse`] undoes it, so
 //! that an enthalpy `h(T)` made from a specific heat gives back `T` to rounding. A [`Surface`] is a row of
-//! tables, linear in a second variable between them.
+//! tables, linear in a second variable between them. [`Odd`] is a rising function that is smooth between its nodes.
 //!
 //! ```
 //! let cp = props::Table::new(vec![300.0, 1300.0], vec![500.0, 600.0]).unwrap();
@@ -15,10 +15,12 @@
 //! ```
 
 mod integral;
+mod monotone;
 mod surface;
 mod table;
 
 pub use integral::Integral;
+pub use monotone::{Local, Odd};
 pub use surface::Surface;
 pub use table::{Outside, Table};
 

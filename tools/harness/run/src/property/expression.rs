@@ -18,7 +18,7 @@ impl PartialEq for Expression {
 }
 
 impl Expression {
-    /// Compiles a formula that may use the variables in `names` (of x, y, z, r, T, t, Y), `pi`, `e`
+    /// Compiles a formula that may use the variables in `names` (of x, y, z, r, T, t, Y, B), `pi`, `e`
     /// and the functions of the usual names, `min`, `max`, `atan2`, `hypot`, `mod`, `step`, and
     /// `if(c, a, b)`: a where c > 0, else b.
     ///
@@ -35,7 +35,16 @@ impl Expression {
     #[must_use]
     #[inline]
     pub fn value(&self, at: &Arguments) -> f64 {
-        let variables = [at.x, at.y, at.z, at.r, at.temperature, at.time, at.fraction];
+        let variables = [
+            at.x,
+            at.y,
+            at.z,
+            at.r,
+            at.temperature,
+            at.time,
+            at.fraction,
+            at.flux_density,
+        ];
         let mut stack = [0.0; DEPTH];
         let mut top = 0;
         for operation in &self.operations {

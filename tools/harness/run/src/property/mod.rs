@@ -29,6 +29,8 @@ pub struct Arguments {
     pub time: f64,
     /// Mass fraction of what a gas carries.
     pub fraction: f64,
+    /// Magnetic flux density \[T\].
+    pub flux_density: f64,
 }
 
 impl Arguments {

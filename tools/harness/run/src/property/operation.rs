@@ -18,7 +18,7 @@ pub(super) enum Operation {
     Choose,
 }
 
-pub(super) const VARIABLES: [&str; 7] = ["x", "y", "z", "r", "T", "t", "Y"];
+pub(super) const VARIABLES: [&str; 8] = ["x", "y", "z", "r", "T", "t", "Y", "B"];
 pub(super) const CONSTANTS: [(&str, f64); 2] =
     [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
 pub(super) type Function1 = (&'static str, fn(f64) -> f64);
