@@ -211,7 +211,7 @@ mod tests {
         let pair = pair(0.01);
         let formula = pair.formula("(x^2 + y^2)", 40);
         let read = Property::read(&json!({"expr": formula})).unwrap();
-        for place in [[3.0, 0.0, 0.0], [0.0, -2.0, 2.5], [1.0, 1.0, -3.0]] {
+        for place in [[3.0_f64, 0.0, 0.0], [0.0, -2.0, 2.5], [1.0, 1.0, -3.0]] {
             let exact = pair.potential(place[0].hypot(place[1]), place[2]);
             let found = read.value(&At::place(place));
             assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
