@@ -108,9 +108,11 @@ fn solve<const D: usize, const K: usize>(
             tell(doubts, session);
             return Ok(());
         }
-        found.join(assemble::eddy_currents::<D, K>(
-            scene, currents, cloud, session,
-        )?);
+        let made = match currents.standing {
+            Some(_) => assemble::standing::<D, K>(scene, currents, cloud, session)?,
+            None => assemble::eddy_currents::<D, K>(scene, currents, cloud, session)?,
+        };
+        found.join(made);
     }
     session.stopped()?;
     tell(std::mem::take(&mut found.doubts), session);

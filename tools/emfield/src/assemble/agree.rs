@@ -271,7 +271,7 @@ impl<const D: usize> Setting<'_, D> {
                 (fields.flux[s.point as usize], s.inner)
             };
             let square: f64 = flux.iter().map(C::norm_sqr).sum();
-            s.area * square / (2.0 * acting.permeability[other as usize])
+            s.area * square / (2.0 * acting.laws[other as usize].permeability(square.sqrt()))
         };
         let outer = self.cloud.surface.iter().zip(&fields.beyond);
         outer.map(square).sum()

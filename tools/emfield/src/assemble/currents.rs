@@ -10,17 +10,19 @@ use super::drive::{source, unknown};
 use super::enclosed::enclosed;
 use super::magnetic::Driven;
 use super::region::region;
-use super::setting::{Setting, media};
+use super::setting::{Setting, laws, media};
 use super::unfit::no_stencil;
 use super::winding::windings;
 use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{EddyCurrents, Scene};
+use crate::solve::curved::level;
 use crate::solve::diffusion::{self, Axial, Conductors};
 use crate::solve::drive::Drive;
 use crate::solve::eddy::{Solution, steady_change};
 use crate::solve::holes::Holes;
+use crate::solve::magnetisation::Law;
 use crate::solve::multipole::Multipoles;
 use crate::solve::permeable::Permeable;
 use crate::solve::quadrature::{self, Moments};
@@ -107,7 +109,8 @@ impl<'a, const D: usize> Setting<'a, D> {
         let failed = |error: wls::Error| no_stencil("eddy currents", &error, (scene, cloud));
         let (sides, mut weights) = made.map_err(failed)?;
         super::supports("vector_potential", &sides.report(), session);
-        let conductors = conductors(scene, (&region, &sides), unknown);
+        let laws = laws(scene)?;
+        let conductors = conductors((scene, &laws), (&region, &sides), unknown);
         let mut given = source(scene, currents);
         if D == 2 && unknown == Unknown::Potential {
             centre(&mut given, &region, &weights, &conductors);
@@ -122,6 +125,7 @@ impl<'a, const D: usize> Setting<'a, D> {
             unknown,
             source: given,
             conductors,
+            laws,
             region,
             scene,
             cloud,
@@ -158,7 +162,7 @@ impl<'a, const D: usize> Setting<'a, D> {
     }
 
     /// Says where layers are too thick for the skin of a conductor.
-    fn warn(&self, session: &mut Session) {
+    pub(super) fn warn(&self, session: &mut Session) {
         self.warn_walls(session);
         let Some(omega) = self.omega else {
             return;
@@ -254,12 +258,17 @@ fn centre<const D: usize>(
 
 /// The conductors of a scene.
 fn conductors<const D: usize>(
-    scene: &Scene,
+    (scene, laws): (&Scene, &[Law]),
     (region, sides): (&Region<D>, &Sides<D>),
     unknown: Unknown,
 ) -> Conductors {
     let conductivity = media(scene, |m| m.conductivity_s_m);
-    let permeability = media(scene, |m| MU0 * m.relative_permeability);
+    let around = MU0 * scene.surroundings.relative_permeability;
+    let permeability = laws.iter().map(|law| match law {
+        Law::Constant(mu) => *mu,
+        Law::Curve(curve) => around / level(curve, around),
+    });
+    let permeability: Vec<f64> = permeability.collect();
     let axial = || {
         let conducting = conductivity.iter().filter(|s| **s > 0.0);
         let least = conducting.fold(f64::INFINITY, |least, s| least.min(*s));
@@ -271,7 +280,11 @@ fn conductors<const D: usize>(
         }
     };
     let both = permeability.iter().zip(&conductivity);
-    let permeable = || Permeable::of(region, &permeability);
+    let saturates = laws.iter().any(|law| law.constant().is_none());
+    let permeable = || match saturates {
+        true => Some(Permeable::new(region, &permeability)),
+        false => Permeable::of(region, &permeability),
+    };
     Conductors {
         mu_sigma: both.map(|(mu, s)| mu * s).collect(),
         axial: (unknown == Unknown::Axial).then(axial),

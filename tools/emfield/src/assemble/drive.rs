@@ -32,7 +32,7 @@ pub fn unknown(scene: &Scene, currents: &EddyCurrents) -> Unknown {
 pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
     let mut faults = Vec::new();
     let unknown = unknown(scene, currents);
-    if currents.transient.is_some() {
+    if currents.harmonic.is_none() {
         let lead = |coil: &Coil| match coil {
             Coil::Loop(l) => ("loop", l.phase_deg),
             Coil::Segments(s) => ("segments", s.phase_deg),
@@ -47,6 +47,7 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
             }
         }
     }
+    faults.extend(saturating((scene, currents), unknown));
     let left_out = currents.potential == Some(ElectricPotential::Conductors)
         && !currents.charged(scene.geometry);
     if left_out {
@@ -74,6 +75,20 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
         }
     }
     faults
+}
+
+/// Curves of magnetisation where fields are sinusoids, or where H is sought.
+fn saturating((scene, currents): (&Scene, &EddyCurrents), unknown: Unknown) -> Vec<Fault> {
+    let why = if currents.harmonic.is_some() {
+        "a curve of magnetisation has no sinusoidal steady state, as the field of a sinusoidal current is no sinusoid: give a number, march with \"transient\", or take \"static\" where nothing changes"
+    } else if unknown == Unknown::Axial {
+        "a curve of magnetisation has a place where the field lies in the plane: along z H is sought, whose equation has one permeability; give a number"
+    } else {
+        return Vec::new();
+    };
+    let saturates = (0..scene.bodies.len()).filter(|k| scene.saturates(k + 1));
+    let at = |k: usize| Fault::at(&format!("/bodies/{k}/relative_permeability"), why);
+    saturates.map(at).collect()
 }
 
 /// Coils whose exact field is that in vacuum, in surroundings of another permeability.

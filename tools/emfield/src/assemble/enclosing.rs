@@ -167,6 +167,12 @@ impl Finder<'_> {
             let name = name(first);
             return Err(format!("the surface lies in {name}, which conducts"));
         }
+        if self.scene.eddy_currents.is_some() && self.scene.saturates(first as usize) {
+            let name = name(first);
+            return Err(format!(
+                "the surface lies in {name}, whose permeability depends on the field: Maxwell's stress is known outside of it"
+            ));
+        }
         if self.scene.carries(first as usize) {
             return Err(format!("the surface lies in the coil {}", name(first)));
         }

@@ -8,13 +8,13 @@ use super::setting::{Setting, media};
 use crate::output::{Column, Found};
 use crate::scene::Geometry;
 use crate::solve::eddy::{Fields, Media, Solution};
-use crate::solve::permeable::traction;
+use crate::solve::magnetisation::traction;
 use crate::solve::region::{Face, Region};
 use crate::solve::sides::Sides;
 use crate::solve::totals::{Acting, Totals};
 use crate::solve::unknown::Unknown;
 use crate::solve::winding::Windings;
-use crate::source::{MU0, Source};
+use crate::source::Source;
 
 type C = Complex<f64>;
 
@@ -41,9 +41,8 @@ impl<const D: usize> Setting<'_, D> {
         driven: Driven<'_>,
     ) -> Found {
         let conductivity = media(self.scene, |m| m.conductivity_s_m);
-        let permeability = media(self.scene, |m| MU0 * m.relative_permeability);
         let media = Media {
-            permeability: &permeability,
+            laws: &self.laws,
             conductivity: &conductivity,
             flux: driven.flux,
         };
@@ -77,14 +76,14 @@ impl<const D: usize> Setting<'_, D> {
             self.currents(&fields, columns);
         }
         if self.magnetic() {
-            all.surface.extend(self.pulls(&fields, &permeability));
+            all.surface.extend(self.pulls(&fields));
         }
         let acts: Vec<bool> = (0..=self.scene.bodies.len())
             .map(|m| self.acts(m))
             .collect();
         let acting = Acting {
             acts: &acts,
-            permeability: &permeability,
+            laws: &self.laws,
             permeable: self.conductors.permeable.as_ref(),
         };
         let totals = self.totals(&fields, (driven, acting), &mut all);
@@ -119,11 +118,11 @@ impl<const D: usize> Setting<'_, D> {
     }
 
     /// Traction where permeability jumps, by surface point.
-    fn pulls(&self, fields: &Fields, permeability: &[f64]) -> [Column; 3] {
+    fn pulls(&self, fields: &Fields) -> [Column; 3] {
         let pull = |face: &Face<D>| {
-            let both = [face.inner, face.outer].map(|m| permeability[m as usize]);
             let normal = self.region.raise(face.normal);
-            traction(fields.flux[face.point as usize], normal, both)
+            let flux = fields.flux[face.point as usize];
+            traction((&self.laws, face), flux, normal)
         };
         let pulls: Vec<Vector> = self.region.faces.iter().map(pull).collect();
         Column::vector("magnetic_traction", "Pa", &pulls, &[])

@@ -24,7 +24,9 @@ pub fn magnets(scene: &Scene, currents: &EddyCurrents) -> Result<(), Vec<Fault>>
         if magnetic(k + 1) && scene.carries(k + 1) {
             let what = format!(
                 "{}: {} is a coil, whose current is given where the permeability is that of the surroundings, {}",
-                body.relative_permeability, body.name, scene.surroundings.relative_permeability
+                body.relative_permeability.initial(),
+                body.name,
+                scene.surroundings.relative_permeability
             );
             let at = format!("/bodies/{k}/relative_permeability");
             faults.push(Fault::at(&at, what));

@@ -9,6 +9,7 @@ use run::{Failure, Session};
 use super::charge::{Charges, Lack, spread};
 use super::growth::Growth;
 use super::magnetic::Driven;
+use super::saturated;
 use super::setting::Setting;
 use super::steps::Steps;
 use super::unfit::no_stencil;
@@ -20,7 +21,7 @@ use crate::solve::alone::{Alone, Equations};
 use crate::solve::charged::Charged;
 use crate::solve::drive::{Drive, pairs};
 use crate::solve::eddy::Solution;
-use crate::solve::march::{March, Stage, State, slope};
+use crate::solve::march::{March, Settled, Stage, State, slope};
 use crate::solve::multipole::Multipoles;
 use crate::solve::sides::{Form, Sides};
 
@@ -35,6 +36,8 @@ struct Effort {
     products: u64,
     residual: f64,
     lack: Lack,
+    /// Before the march was resumed.
+    settled: Settled,
 }
 
 impl Effort {
@@ -77,8 +80,7 @@ pub fn march<const D: usize, const K: usize>(
     mut write: impl FnMut(f64, Found, &mut Session) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let setting: Setting<'_, D> = Setting::new(scene, currents, cloud, session)?;
-    let steps = Steps::new(transient, &scene.output);
-    let wave = Wave::new(transient)?;
+    let (steps, wave) = (Steps::new(transient, &scene.output), Wave::new(transient)?);
     let drive = session.timed("source", || setting.drive::<K>());
     let flux = setting.source.flux(&cloud.position);
     let charges = setting.charges(session)?;
@@ -135,6 +137,7 @@ pub fn march<const D: usize, const K: usize>(
     }
     setting.tell(effort.lack, session);
     close(&steps, effort, session);
+    setting.told(march.settled().map(|s| s.with(effort.settled)), session);
     Ok(())
 }
 
@@ -173,8 +176,8 @@ impl Wave {
 ///
 /// # Errors
 /// Where stencils cannot be made, or the equations have no solution.
-fn stage<'a, const D: usize, const K: usize>(
-    setting: &Setting<'_, D>,
+pub(super) fn stage<'a, const D: usize, const K: usize>(
+    setting: &'a Setting<'_, D>,
     drive: &Drive<K>,
     (charges, slope): (Option<&'a Charges>, f64),
     session: &mut Session,
@@ -182,7 +185,8 @@ fn stage<'a, const D: usize, const K: usize>(
     let Some(charges) = charges else {
         let equations = equations(setting, drive, session)?;
         let made = session.timed("factorise", || Alone::new(equations, slope));
-        return Ok(Box::new(made.map_err(|error| failed(&error))?));
+        let alone = Box::new(made.map_err(|error| failed(&error))?);
+        return Ok(setting.saturated::<K>(alone, session));
     };
     let given: Vec<[f64; 3]> = charges.given.iter().map(|g| g.map(|g| g.re)).collect();
     let source: Vec<[f64; K]> = drive.source.iter().map(|a| a.map(|a| a.re)).collect();
@@ -191,7 +195,8 @@ fn stage<'a, const D: usize, const K: usize>(
         let driven = (&spread(&source)[..], given);
         Charged::new(&charges.equations, driven, with)
     });
-    Ok(Box::new(made.map_err(|error| failed(&error))?))
+    let charged = Box::new(made.map_err(|error| failed(&error))?);
+    Ok(setting.saturated::<K>(charged, session))
 }
 
 /// The equations of A alone, and what drives them.
@@ -244,18 +249,18 @@ fn failed(error: &dyn std::fmt::Display) -> Failure {
 }
 
 /// What fields of a state are made from.
-struct View<'a, const D: usize, const K: usize> {
-    setting: &'a Setting<'a, D>,
-    drive: &'a Drive<K>,
+pub(super) struct View<'a, const D: usize, const K: usize> {
+    pub(super) setting: &'a Setting<'a, D>,
+    pub(super) drive: &'a Drive<K>,
     /// Flux density of the sources where their wave is 1 \[T\].
-    flux: &'a [[C; 3]],
-    charges: Option<&'a Charges>,
+    pub(super) flux: &'a [[C; 3]],
+    pub(super) charges: Option<&'a Charges>,
 }
 
 impl<const D: usize, const K: usize> View<'_, D, K> {
     /// Columns and totals of a state, with the wave then and the step before it \[s\]; and how far fields point out of
     /// conductors.
-    fn fields(&self, state: &State, (wave, step): (f64, f64)) -> (Found, Lack) {
+    pub(super) fn fields(&self, state: &State, (wave, step): (f64, f64)) -> (Found, Lack) {
         let Self { setting, drive, .. } = *self;
         let real = |values: &[f64]| -> Vec<[C; K]> {
             let points = values.as_chunks::<K>().0.iter();
@@ -312,6 +317,9 @@ fn save(
         Some(Rescue::Incomplete) => 2,
     };
     checkpoint.put_u8("rescued", &[rescued]);
+    if let Some(settled) = march.settled() {
+        saturated::save(settled.with(effort.settled), checkpoint);
+    }
     checkpoint.put_f64("unknown", &march.state().unknown);
     checkpoint.put_f64("total", &march.state().total);
     Ok(())
@@ -354,7 +362,12 @@ fn restore(
     if let &[last, most, rises] = &checkpoint.f64("growth")?[..] {
         growth.seen = (last, most, rises as u32);
     }
+    let settled = match march.settled() {
+        Some(_) => saturated::restored(checkpoint)?,
+        None => Settled::default(),
+    };
     let effort = Effort {
+        settled,
         products,
         residual,
         lack: Lack {

@@ -16,8 +16,10 @@ mod magnets;
 mod march;
 mod potential;
 mod region;
+mod saturated;
 mod setting;
 mod shorts;
+mod standing;
 mod steps;
 mod unfit;
 mod winding;
@@ -39,6 +41,7 @@ pub use march::march;
 pub use potential::electrostatics;
 pub(crate) use region::region;
 pub use shorts::shorts;
+pub use standing::standing;
 pub use winding::windings;
 
 /// What incomplete factors by size have.

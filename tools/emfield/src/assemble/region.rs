@@ -73,6 +73,7 @@ pub(crate) fn region<const D: usize>(
             })
             .collect(),
         still: still(scene),
+        bent: bent(scene),
         ..Region::default()
     };
     let mut faces = 0;
@@ -121,6 +122,17 @@ fn still(scene: &Scene) -> Vec<bool> {
     }
     let quiet = |m: usize| scene.medium(m).conductivity_s_m == 0.0 && !scene.carries(m);
     (0..=scene.bodies.len()).map(quiet).collect()
+}
+
+/// Media whose permeability depends on the field.
+fn bent(scene: &Scene) -> Vec<bool> {
+    let saturates = |m: usize| scene.eddy_currents.is_some() && scene.saturates(m);
+    let media = 0..=scene.bodies.len();
+    if media.clone().any(saturates) {
+        media.map(saturates).collect()
+    } else {
+        Vec::new()
+    }
 }
 
 #[cfg(test)]

@@ -1,14 +1,17 @@
 //! What currents of a scene are computed with.
 
+use run::Fault;
+
 use crate::cloud::Cloud;
 use crate::scene::{EddyCurrents, Medium, Scene};
 use crate::solve::diffusion::Conductors;
 use crate::solve::enclosed::Enclosed;
+use crate::solve::magnetisation::{Curve, Law};
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
 use crate::solve::unknown::Unknown;
 use crate::solve::winding::Windings;
-use crate::source::Source;
+use crate::source::{MU0, Source};
 
 /// What currents of a scene in `D` coordinates are computed with.
 pub(super) struct Setting<'a, const D: usize> {
@@ -22,12 +25,34 @@ pub(super) struct Setting<'a, const D: usize> {
     pub(super) region: Region<D>,
     pub(super) sides: Sides<D>,
     pub(super) conductors: Conductors,
+    /// Permeability by medium.
+    pub(super) laws: Vec<Law>,
     /// Weights of points in integrals over conductors.
     pub(super) weights: Vec<f64>,
     /// Currents that are given in coils of points, where there are some.
     pub(super) windings: Option<Windings>,
     /// Surfaces around bodies.
     pub(super) enclosed: Vec<Enclosed<D>>,
+}
+
+/// How the field of each medium follows its flux density.
+///
+/// # Errors
+/// Where a curve is none.
+pub(super) fn laws(scene: &Scene) -> Result<Vec<Law>, Fault> {
+    let law = |m: usize| {
+        let rows = match m.checked_sub(1) {
+            None => None,
+            Some(k) => {
+                let at = format!("/bodies/{k}/relative_permeability");
+                scene.bodies[k].relative_permeability.rows(&at)?
+            }
+        };
+        let curve = rows.and_then(Curve::new).map(Law::Curve);
+        let constant = Law::Constant(MU0 * scene.medium(m).relative_permeability);
+        Ok(curve.unwrap_or(constant))
+    };
+    (0..=scene.bodies.len()).map(law).collect()
 }
 
 /// A property of all media.

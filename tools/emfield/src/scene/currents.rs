@@ -26,6 +26,11 @@ pub struct Harmonic {
     pub frequency_hz: f64,
 }
 
+/// Fields that stand still.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Static {}
+
 /// A march in time of second order, from rest.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -214,10 +219,13 @@ pub enum Magnet {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EddyCurrents {
-    /// A sinusoidal steady state; this or `transient`.
+    /// A sinusoidal steady state; this, `transient` or `static`.
     pub harmonic: Option<Harmonic>,
-    /// A march in time; this or `harmonic`.
+    /// A march in time; this, `harmonic` or `static`.
     pub transient: Option<Transient>,
+    /// Fields that stand still, which drive no currents; this, `harmonic` or `transient`.
+    #[serde(rename = "static")]
+    pub standing: Option<Static>,
     /// Coils.
     #[serde(default)]
     pub coils: Vec<Coil>,
@@ -252,7 +260,8 @@ impl EddyCurrents {
     /// Whether charges on conductors are computed in a scene of this geometry.
     #[must_use]
     pub fn charged(&self, geometry: Geometry) -> bool {
-        geometry == Geometry::Space && self.potential != Some(ElectricPotential::None)
+        let moves = self.standing.is_none();
+        moves && geometry == Geometry::Space && self.potential != Some(ElectricPotential::None)
     }
 
     /// Angular frequency of a sinusoidal steady state \[rad/s\].

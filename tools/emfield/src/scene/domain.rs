@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::Shape;
 
+use super::permeability::Permeability;
+
 /// Kinds of geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -88,7 +90,7 @@ pub enum Domain {
     Sphere(SphereDomain),
 }
 
-/// Properties of a medium, constant within it.
+/// Properties of a medium, constant within it; where it saturates, with its permeability in weak fields.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Medium {
@@ -132,10 +134,10 @@ pub struct BodyScene {
     #[serde(default = "one")]
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_permittivity: f64,
-    /// Permeability over that of vacuum.
-    #[serde(default = "one")]
-    #[schemars(range(max = 1e7), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
-    pub relative_permeability: f64,
+    /// Permeability over that of vacuum: a number, or a curve of magnetisation in a static scene and in a march in time.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "1"))]
+    pub relative_permeability: Permeability,
     /// Conductivity.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e12), extend("x-unit" = "S/m"))]
@@ -154,7 +156,7 @@ impl BodyScene {
     pub fn medium(&self) -> Medium {
         Medium {
             relative_permittivity: self.relative_permittivity,
-            relative_permeability: self.relative_permeability,
+            relative_permeability: self.relative_permeability.initial(),
             conductivity_s_m: self.conductivity_s_m,
         }
     }

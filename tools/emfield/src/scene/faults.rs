@@ -146,9 +146,13 @@ impl Scene {
         }
     }
 
-    /// Faults of formulas.
+    /// Faults of formulas and tables.
     fn formulas(&self) -> Vec<Fault> {
         let mut faults = Vec::new();
+        for (number, body) in self.bodies.iter().enumerate() {
+            let at = format!("/bodies/{number}/relative_permeability");
+            faults.extend(body.relative_permeability.rows(&at).err());
+        }
         for (number, entry) in self
             .electrostatics
             .iter()
@@ -264,16 +268,22 @@ impl Electrostatics {
 impl EddyCurrents {
     fn check(&self, scene: &Scene, misfits: &mut Vec<Misfit>) {
         let at = "/eddy_currents";
-        match (&self.harmonic, &self.transient) {
-            (None, None) => misfits.push(Misfit::at(
+        let kinds = [
+            ("harmonic", self.harmonic.is_some()),
+            ("transient", self.transient.is_some()),
+            ("static", self.standing.is_some()),
+        ];
+        let had: Vec<&str> = kinds.iter().filter(|k| k.1).map(|k| k.0).collect();
+        match (&had[..], &self.transient) {
+            ([], _) => misfits.push(Misfit::at(
                 at,
-                "either \"harmonic\" or \"transient\" is wanted",
+                "one of \"harmonic\", \"transient\" and \"static\" is wanted",
             )),
-            (Some(_), Some(_)) => misfits.push(Misfit::at(
-                &format!("{at}/transient"),
-                "\"harmonic\" and \"transient\" exclude each other",
+            ([first, other, ..], _) => misfits.push(Misfit::at(
+                &format!("{at}/{other}"),
+                format!("\"{first}\" and \"{other}\" exclude each other"),
             )),
-            (None, Some(t)) if t.step_s > t.end_s => {
+            (_, Some(t)) if t.step_s > t.end_s => {
                 let what = format!("{} s is beyond the end at {} s", t.step_s, t.end_s);
                 misfits.push(Misfit::at(&format!("{at}/transient/step_s"), what));
             }

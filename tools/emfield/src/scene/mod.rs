@@ -6,6 +6,7 @@ pub mod currents;
 pub mod domain;
 pub mod method;
 pub mod output;
+pub(crate) mod permeability;
 pub mod points;
 pub mod potential;
 
@@ -16,6 +17,7 @@ pub use currents::{Amplitude, Coil, EddyCurrents, ElectricPotential, Magnet};
 pub use domain::{BodyScene, Domain, Geometry, Medium};
 pub use method::{Interfaces, Method, Solver};
 pub use output::Output;
+pub use permeability::Permeability;
 pub use points::{Arrangement, Layers, Points};
 pub use potential::Electrostatics;
 
@@ -74,9 +76,19 @@ impl Scene {
             .any(|r| Some(&r.body) == name)
     }
 
+    /// Whether the permeability of a medium depends on the field.
+    #[must_use]
+    pub fn saturates(&self, number: usize) -> bool {
+        let body = number.checked_sub(1).map(|k| &self.bodies[k]);
+        body.is_some_and(|b| b.relative_permeability.saturates())
+    }
+
     /// Whether a medium has another permeability than the surroundings, and potentials are computed, whose slopes know it.
     #[must_use]
     pub fn magnetic(&self, number: usize) -> bool {
+        if self.saturates(number) {
+            return true;
+        }
         let own = self.medium(number).relative_permeability;
         let around = self.surroundings.relative_permeability;
         (own - around).abs() > 1e-12 * around

@@ -30,6 +30,7 @@ pub struct Equations<const K: usize> {
 
 /// The equations at a slope.
 pub struct Alone<const K: usize> {
+    slope: f64,
     equations: Equations<K>,
     system: System<f64, f64>,
     pairs: Vec<Pair<f64>>,
@@ -66,6 +67,7 @@ impl<const K: usize> Alone<K> {
     /// Where a coefficient is no number, or they are singular.
     pub fn new(equations: Equations<K>, slope: f64) -> Result<Self, Error> {
         Ok(Self {
+            slope,
             system: equations.system(slope)?,
             pairs: equations.implicit(slope),
             equations,
@@ -77,6 +79,7 @@ impl<const K: usize> Stage for Alone<K> {
     fn pace(&mut self, slope: f64) -> Result<(), Error> {
         self.system = self.equations.system(slope)?;
         self.pairs = self.equations.implicit(slope);
+        self.slope = slope;
         Ok(())
     }
 
@@ -88,7 +91,26 @@ impl<const K: usize> Stage for Alone<K> {
         self.system.rescue(way)
     }
 
-    fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved {
+    fn moved(&self, driven: &[f64], unknown: &[f64]) -> Vec<f64> {
+        let both = unknown
+            .as_chunks::<K>()
+            .0
+            .iter()
+            .zip(driven.as_chunks::<K>().0);
+        let rows = self.equations.rates.iter().zip(both);
+        let row = |(rate, (a, driven)): (&f64, (&[f64; K], &[f64; K]))| -> [f64; K] {
+            std::array::from_fn(|k| -rate * (self.slope * a[k] + driven[k]))
+        };
+        rows.flat_map(row).collect()
+    }
+
+    fn solve(
+        &mut self,
+        driven: &[f64],
+        (wave, more): (f64, &[f64]),
+        unknown: &mut [f64],
+        rule: Rule,
+    ) -> Solved {
         let equations = &self.equations;
         let driven = driven.as_chunks::<K>().0;
         let row = |(i, held): (usize, &Option<[f64; K]>)| match held {
@@ -100,6 +122,9 @@ impl<const K: usize> Stage for Alone<K> {
             for (right, given) in right.iter_mut().zip(given) {
                 *right += given * wave;
             }
+        }
+        for (right, more) in right.iter_mut().zip(more.as_chunks::<K>().0) {
+            *right = std::array::from_fn(|k| right[k] + more[k]);
         }
         let bound = equations.bound.iter().map(|b| (&b.walls, &b.rate, 1.0));
         let pairs = equations.pairs.iter().map(|(u, v)| (u, v, -1.0));

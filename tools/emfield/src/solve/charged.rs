@@ -8,6 +8,7 @@ use super::march::Stage;
 
 /// The equations at a slope, and what drives them.
 pub struct Charged<'a> {
+    slope: f64,
     coupled: &'a Coupled,
     factors: AtRate<f64>,
     /// What the sources add to the rows of phi where their wave is 1.
@@ -28,6 +29,7 @@ impl<'a> Charged<'a> {
     ) -> Result<Self, Error> {
         let unknowns = 0..coupled.points.len();
         Ok(Self {
+            slope,
             pull: unknowns.map(|p| coupled.pull(p, source)).collect(),
             factors: AtRate::new(coupled, slope, &options)?,
             coupled,
@@ -38,6 +40,7 @@ impl<'a> Charged<'a> {
 
 impl Stage for Charged<'_> {
     fn pace(&mut self, slope: f64) -> Result<(), Error> {
+        self.slope = slope;
         self.factors.pace(self.coupled, slope)
     }
 
@@ -50,9 +53,20 @@ impl Stage for Charged<'_> {
         self.factors.rescue(self.coupled)
     }
 
-    fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved {
+    fn moved(&self, driven: &[f64], unknown: &[f64]) -> Vec<f64> {
+        self.coupled.rated(self.slope, (unknown, driven))
+    }
+
+    fn solve(
+        &mut self,
+        driven: &[f64],
+        (wave, more): (f64, &[f64]),
+        unknown: &mut [f64],
+        rule: Rule,
+    ) -> Solved {
         let given = (&self.pull[..], &self.given[..]);
-        let right = self.coupled.right(driven, wave, given);
+        let mut right = self.coupled.right(driven, wave, given);
+        self.coupled.beside(more, &mut right);
         self.factors.solve(self.coupled, right, unknown, rule)
     }
 }

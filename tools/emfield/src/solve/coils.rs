@@ -7,6 +7,7 @@ use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::eddy::{Fields, cross_mean};
+use super::magnetisation::Law;
 use super::permeable::Permeable;
 use super::region::Region;
 use super::winding::{self, Windings};
@@ -32,7 +33,7 @@ pub(super) fn force<const D: usize>(
     (region, weights): (&Region<D>, &[f64]),
     fields: &Fields,
     (source, windings): (&Source, Option<&Windings>),
-    permeable: Option<&Permeable>,
+    (permeable, laws): (Option<&Permeable>, &[Law]),
 ) -> [f64; 3] {
     let currents = on_coils((region, weights), fields, (source, windings));
     let Some(permeable) = permeable else {
@@ -46,7 +47,7 @@ pub(super) fn force<const D: usize>(
             .map_or([C::default(); 3], |wound| wound(place));
         std::array::from_fn(|k| own[k] + more[k])
     };
-    let magnets = permeable.pull((region, weights), &fields.flux, &flux);
+    let magnets = permeable.pull((region, weights), (&fields.flux, laws), &flux);
     std::array::from_fn(|k| currents[k] + magnets[k])
 }
 

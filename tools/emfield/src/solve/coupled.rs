@@ -287,6 +287,24 @@ impl Coupled {
         right
     }
 
+    /// What the rates of unknowns, `rate` times them and what is driven, put into the rows of A, by unknown.
+    pub(super) fn rated(&self, rate: f64, (unknown, driven): (&[f64], &[f64])) -> Vec<f64> {
+        let both = unknown.iter().zip(driven);
+        let rates: Vec<f64> = both.map(|(u, driven)| rate * u + driven).collect();
+        let (a, phi) = rates.split_at(3 * self.points());
+        let (a, phi) = (ones(a).as_chunks::<3>().0, ones(phi));
+        let row = |(i, even): (usize, &f64)| self.moved(i, (a, phi)).map(|[m]| m / even);
+        self.even.iter().enumerate().flat_map(row).collect()
+    }
+
+    /// Adds what else stands on the right of the rows of A, by unknown.
+    pub(super) fn beside(&self, more: &[f64], right: &mut [f64]) {
+        let rows = right.as_chunks_mut::<3>().0.iter_mut();
+        for ((right, more), even) in rows.zip(more.as_chunks::<3>().0).zip(&self.even) {
+            *right = std::array::from_fn(|k| right[k] + even * more[k]);
+        }
+    }
+
     /// A potential that was found, by unknown of phi: whole, its mean over each body zero.
     #[must_use]
     pub fn whole<S: Rate>(&self, phi: &[S]) -> Vec<S> {

@@ -7,7 +7,7 @@
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use super::permeable::beyond;
+use super::magnetisation::{Law, beyond};
 use super::region::{Face, Region};
 use super::sides::Sides;
 use super::unknown::{Unknown, along, component, local};
@@ -75,8 +75,8 @@ impl Beyond {
 pub struct Media<'a> {
     /// Conductivity by medium \[S/m\].
     pub conductivity: &'a [f64],
-    /// Permeability by medium \[H/m\].
-    pub permeability: &'a [f64],
+    /// Permeability by medium.
+    pub laws: &'a [Law],
     /// Flux density of the sources by point, in space \[T\].
     pub flux: &'a [[C; 3]],
 }
@@ -124,7 +124,9 @@ impl Fields {
             let medium = region.medium(i) as usize;
             let sigma = media.conductivity[medium];
             let total: [C; K] = std::array::from_fn(|k| found[i][k] + source[i][k]);
-            let mu_sigma = media.permeability[medium] * sigma;
+            // Slopes beside a medium whose permeability depends on the field do not know the Laplacian.
+            let mu = media.laws[medium].constant().unwrap_or(0.0);
+            let mu_sigma = mu * sigma;
             let slope = |k: usize| -> [C; D] {
                 let on = region.on_interface(i);
                 let stencils = if on { &sides.inner } else { &sides.own };
@@ -144,7 +146,7 @@ impl Fields {
             }
             let mut current = electric.map(|e| e * sigma);
             if unknown == Unknown::Axial {
-                flux = reaction.map(|h| h * media.permeability[medium]);
+                flux = reaction.map(|h| h * mu);
                 current = NONE;
                 if sigma > 0.0 {
                     // J = curl H.
@@ -186,8 +188,7 @@ impl Fields {
                 Unknown::Axial if a > 0.0 => self.current[i].map(|j| j / a),
                 _ => self.electric[i],
             };
-            let both = [face.inner, face.outer].map(|m| media.permeability[m as usize]);
-            let flux = beyond(self.flux[i], region.raise(face.normal), both);
+            let flux = beyond((media.laws, face), self.flux[i], region.raise(face.normal));
             Beyond::new(electric, flux, b)
         };
         region.faces.iter().map(face).collect()
@@ -222,7 +223,9 @@ impl Fields {
             let current = windings.own[i];
             if region.on_interface(i) {
                 let place = region.places[i];
-                let mu = media.permeability[region.medium(i) as usize];
+                let mu = media.laws[region.medium(i) as usize]
+                    .constant()
+                    .unwrap_or(0.0);
                 let bend: [C; K] = component(unknown, &place, &current);
                 let share = |axis: usize| -> f64 {
                     let row = sides.inner.derivative(i, axis);
@@ -247,8 +250,7 @@ impl Fields {
         {
             let i = face.point as usize;
             if carries(&windings.own[i]) {
-                let both = [face.inner, face.outer].map(|m| media.permeability[m as usize]);
-                other.flux = beyond(self.flux[i], region.raise(face.normal), both);
+                other.flux = beyond((media.laws, face), self.flux[i], region.raise(face.normal));
             }
             if carries(current) {
                 other.current = *current;

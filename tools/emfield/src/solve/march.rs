@@ -38,9 +38,62 @@ pub trait Stage {
     /// Where the equations cannot be factorised.
     fn rescue(&mut self, way: Rescue) -> Result<(), Error>;
 
+    /// What rates put into the rows of A, by unknown, with what is driven.
+    fn moved(&self, driven: &[f64], unknown: &[f64]) -> Vec<f64>;
+
+    /// What media whose permeability depends on the field took, where there are such.
+    fn settled(&self) -> Option<Settled> {
+        None
+    }
+
     /// Solves them for `unknown`, which is the first guess: its rate is `slope` times it and what is `driven`; the
-    /// sources are `wave` times themselves.
-    fn solve(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved;
+    /// `sources` are `wave` times themselves, and what else stands on the right of the rows of A, or nothing.
+    fn solve(
+        &mut self,
+        driven: &[f64],
+        sources: (f64, &[f64]),
+        unknown: &mut [f64],
+        rule: Rule,
+    ) -> Solved;
+}
+
+/// What solves with media whose permeability depends on the field took.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Settled {
+    /// Steps of all solves.
+    pub steps: u64,
+    /// Largest change of the flux density in the last step of a solve \[T\].
+    pub residual: f64,
+    /// The same of solves that did not come to an end, with the point.
+    pub lost: Option<(f64, usize)>,
+}
+
+impl Settled {
+    /// Counts a solve that ended after so many steps with a change \[T\] at a point, `found` or not.
+    pub fn count(&mut self, steps: u64, (change, point): (f64, usize), found: bool) {
+        self.steps += steps;
+        self.residual = self.residual.max(change);
+        if !found {
+            self.lose((change, point));
+        }
+    }
+
+    fn lose(&mut self, (change, point): (f64, usize)) {
+        if self.lost.is_none_or(|(most, _)| change > most) {
+            self.lost = Some((change, point));
+        }
+    }
+
+    /// Both together.
+    #[must_use]
+    pub fn with(mut self, other: Self) -> Self {
+        self.steps += other.steps;
+        self.residual = self.residual.max(other.residual);
+        if let Some(lost) = other.lost {
+            self.lose(lost);
+        }
+        self
+    }
 }
 
 /// What a march has reached, by unknown.
@@ -98,6 +151,12 @@ impl<'a> March<'a> {
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// What media whose permeability depends on the field took, where there are such.
+    #[must_use]
+    pub fn settled(&self) -> Option<Settled> {
+        self.stage.settled()
     }
 
     /// In which other way than they began stages came to be solved.
@@ -161,7 +220,7 @@ impl<'a> March<'a> {
             *driven = slope * (source * wave - total);
         }
         let unknown = &mut state.unknown;
-        let solved = self.stage.solve(&self.driven, wave, unknown, rule);
+        let solved = self.stage.solve(&self.driven, (wave, &[]), unknown, rule);
         let rates = state.change.iter_mut().zip(&state.unknown);
         for ((change, unknown), driven) in rates.zip(&self.driven) {
             *change = slope * unknown + driven;

@@ -6,7 +6,9 @@
 //!   them, [`eddy`] the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
 //! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability, [`magnetised`] in space, `bound` what walls
-//!   know of these there.
+//!   know of these there; [`magnetisation`]: how fields follow flux densities, [`saturation`] what that puts into the rows
+//!   of points that are [`curved`],
+//!   [`saturated`] the iterations.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, made of [`parts`] and with [`skin`],
 //!   [`at_rate`] their solution at a [`rate`] of change as a `whole`, by [`block`]s, `factors` and in [`balance`],
 //!   `moments` what walls know of the currents.
@@ -21,6 +23,7 @@ pub mod charge;
 pub mod charged;
 mod coils;
 pub mod coupled;
+pub mod curved;
 pub mod diffusion;
 pub mod drive;
 pub mod eddy;
@@ -28,6 +31,7 @@ pub mod electrostatic;
 pub mod enclosed;
 mod factors;
 pub mod holes;
+pub mod magnetisation;
 pub mod magnetised;
 pub mod march;
 mod mirror;
@@ -38,6 +42,8 @@ pub mod permeable;
 pub mod quadrature;
 pub mod rate;
 pub mod region;
+pub mod saturated;
+pub mod saturation;
 pub mod sides;
 pub mod skin;
 pub mod totals;

@@ -16,6 +16,7 @@
 use num_complex::Complex;
 use rayon::prelude::*;
 
+use super::magnetisation::Law;
 use super::multipole::Multipoles;
 use super::region::{Face, Kind, Region};
 use super::sides::Sides;
@@ -47,18 +48,30 @@ impl Permeable {
     /// Of permeabilities by medium, that of the surroundings first; none where all are the same.
     #[must_use]
     pub fn of<const D: usize>(region: &Region<D>, permeability: &[f64]) -> Option<Self> {
+        let other = |mu: &f64| (permeability[0] / mu - 1.0).abs() > ALIKE;
+        let jumps = permeability.iter().any(other);
+        jumps.then(|| Self::new(region, permeability))
+    }
+
+    /// Of permeabilities by medium that depend on the field, and what stands for each in the rows.
+    #[must_use]
+    pub fn new<const D: usize>(region: &Region<D>, permeability: &[f64]) -> Self {
         let around = permeability[0];
-        let reluctivity: Vec<f64> = permeability.iter().map(|mu| around / mu).collect();
-        let other = reluctivity.iter().any(|nu| (nu - 1.0).abs() > ALIKE);
         let turn = || match region.axial {
             true => region.faces.iter().map(|face| turn(region, face)).collect(),
             false => Vec::new(),
         };
-        other.then(|| Self {
+        Self {
             around,
-            reluctivity,
+            reluctivity: permeability.iter().map(|mu| around / mu).collect(),
             turn: turn(),
-        })
+        }
+    }
+
+    /// Permeability of the surroundings \[H/m\].
+    #[must_use]
+    pub fn around(&self) -> f64 {
+        self.around
     }
 
     /// What the slope on the side of a medium is multiplied by at its interfaces.
@@ -116,7 +129,7 @@ impl Permeable {
         right
     }
 
-    fn turn_at<const D: usize>(&self, region: &Region<D>, i: usize) -> f64 {
+    pub(super) fn turn_at<const D: usize>(&self, region: &Region<D>, i: usize) -> f64 {
         match region.kinds[i] {
             Kind::Interface(face) => self.turn[face as usize],
             Kind::Inside(_) | Kind::Wall { .. } => 0.0,
@@ -198,7 +211,7 @@ impl Permeable {
     pub fn pull<const D: usize>(
         &self,
         (region, weights): (&Region<D>, &[f64]),
-        flux: &[[C; 3]],
+        (flux, laws): (&[[C; 3]], &[Law]),
         source: &(dyn Fn([f64; 3]) -> [C; 3] + Sync),
     ) -> [f64; 3] {
         let had = if region.axial { 2..3 } else { 0..D };
@@ -221,10 +234,27 @@ impl Permeable {
             }
             force
         };
-        let magnets: Vec<(usize, f64)> = self.magnets(region, weights).collect();
+        let magnets = self.magnetised((region, weights), (flux, laws));
         let forces: Vec<[f64; 3]> = magnets.par_iter().map(on).collect();
         let add = |sum: [f64; 3], f: &[f64; 3]| std::array::from_fn(|k| sum[k] + f[k]);
         forces.iter().fold([0.0; 3], add)
+    }
+
+    /// [`Self::magnets`] with the reluctivity that media have at a flux density.
+    fn magnetised<const D: usize>(
+        &self,
+        (region, weights): (&Region<D>, &[f64]),
+        (flux, laws): (&[[C; 3]], &[Law]),
+    ) -> Vec<(usize, f64)> {
+        let own = |(i, size): (usize, f64)| match &laws[region.medium(i) as usize] {
+            Law::Constant(_) => (i, size),
+            Law::Curve(curve) => {
+                let square: f64 = flux[i].iter().map(C::norm_sqr).sum();
+                let reluctivity = self.around * curve.at(square.sqrt()).reluctivity;
+                (i, weights[i] * (1.0 - reluctivity))
+            }
+        };
+        self.magnets(region, weights).map(own).collect()
     }
 
     /// Points of magnetised media with `(1 - nu)` times the volume for which each stands.
@@ -253,7 +283,7 @@ pub struct Bound {
 }
 
 /// `curl(h e)` of a harmonic with its gradient, e along the component that a plane or an axis has.
-fn curl<const D: usize>(
+pub(super) fn curl<const D: usize>(
     region: &Region<D>,
     i: usize,
     (value, gradient): (f64, [f64; D]),
@@ -284,30 +314,4 @@ fn turn<const D: usize>(region: &Region<D>, face: &Face<D>) -> f64 {
     };
     let nearest = beside.min_by(|a, b| far(a).total_cmp(&far(b)));
     nearest.map_or(0.0, own)
-}
-
-/// The flux density beyond an interface of media with these permeabilities, from that on this side: its normal part is
-/// continuous, along the interface `B / mu` is.
-#[must_use]
-pub fn beyond(flux: [C; 3], normal: [f64; 3], [own, other]: [f64; 2]) -> [C; 3] {
-    if own.to_bits() == other.to_bits() {
-        return flux;
-    }
-    let through: C = flux.iter().zip(normal).map(|(b, n)| b * n).sum();
-    let ratio = other / own;
-    std::array::from_fn(|k| {
-        let across = through * normal[k];
-        across + (flux[k] - across) * ratio
-    })
-}
-
-/// Mean traction on an interface \[Pa\] from the flux density on its inner side, with the unit normal outward: the jump of
-/// Maxwell's stress, `((mu_i - mu_o) / 2) (B_n^2 / (mu_i mu_o) + H_t^2)` along the normal.
-#[must_use]
-pub fn traction(flux: [C; 3], normal: [f64; 3], [inner, outer]: [f64; 2]) -> [f64; 3] {
-    let through: C = flux.iter().zip(normal).map(|(b, n)| b * n).sum();
-    let square: f64 = flux.iter().map(C::norm_sqr).sum();
-    let along = (square - through.norm_sqr()) / (inner * inner);
-    let size = 0.5 * (inner - outer) * (through.norm_sqr() / (inner * outer) + along);
-    normal.map(|n| n * size)
 }

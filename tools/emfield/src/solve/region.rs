@@ -50,6 +50,8 @@ pub struct Region<const D: usize> {
     pub axial: bool,
     /// Media in which no current flows, where permeability mixes the components of potentials in space; else none.
     pub still: Vec<bool>,
+    /// Media whose permeability depends on the field, where no Laplacian is known; none where there are no such media.
+    pub bent: Vec<bool>,
 }
 
 impl<const D: usize> Region<D> {
@@ -193,6 +195,12 @@ impl<const D: usize> Side<'_, D> {
         self.still && thick && self.medium(i).and_then(still).unwrap_or(false)
     }
 
+    /// Whether the permeability of the medium on this side depends on the field.
+    fn bent(&self, i: usize) -> bool {
+        let bent = |m: u8| self.region.bent.get(m as usize).copied();
+        self.medium(i).and_then(bent).unwrap_or(false)
+    }
+
     /// Whether point `j` lies behind an edge as seen from the interface point `i`: below the tangent plane, where a smooth
     /// surface has none but its own points. Slopes across it would lean on both sides of the point, as at no surface.
     fn behind(&self, i: usize, j: usize) -> bool {
@@ -241,6 +249,9 @@ impl<const D: usize> Rules<D> for Side<'_, D> {
     /// one-sided slope gains an order from it. Where no current flows polynomials have none anywhere. About an axis the equation has first derivatives.
     fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
         let at = self.region.places[i];
+        if self.bent(i) {
+            return;
+        }
         if self.harmonic || self.still(i) {
             conditions.push(Condition::Harmonic);
         } else if !self.region.axial {

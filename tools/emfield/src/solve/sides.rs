@@ -133,7 +133,7 @@ impl<const D: usize> Sides<D> {
         };
         let both = Wants {
             laplacian: true,
-            hessian: region.axial,
+            hessian: region.axial || !region.bent.is_empty(),
             ..gradient
         };
         let harmonic = |walls: bool| Harmonic { region, walls };

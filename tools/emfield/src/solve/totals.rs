@@ -4,7 +4,8 @@ use num_complex::Complex;
 
 use super::coils;
 use super::eddy::{Fields, cross_mean};
-use super::permeable::{Permeable, traction};
+use super::magnetisation::{Law, jumps, traction};
+use super::permeable::Permeable;
 use super::region::Region;
 use super::winding::Windings;
 use crate::source::{Source, minus};
@@ -17,8 +18,8 @@ type C = Complex<f64>;
 pub struct Acting<'a> {
     /// Whether a medium conducts, or has another permeability than the surroundings.
     pub acts: &'a [bool],
-    /// Permeability by medium \[H/m\].
-    pub permeability: &'a [f64],
+    /// Permeability by medium.
+    pub laws: &'a [Law],
     /// Where permeability is not uniform.
     pub permeable: Option<&'a Permeable>,
 }
@@ -50,7 +51,7 @@ impl Totals {
     ) -> Self {
         let permeable = acting.permeable;
         Self {
-            force_coil: coils::force((region, weights), fields, coils, permeable),
+            force_coil: coils::force((region, weights), fields, coils, (permeable, acting.laws)),
             ..Self::bodies(region, fields, weights, (acting, |_| true))
         }
     }
@@ -71,14 +72,13 @@ impl Totals {
         };
         for (face, beyond) in region.faces.iter().zip(&fields.beyond) {
             let [a, b] = [face.inner, face.outer].map(|m| acting.acts[m as usize]);
-            let both = [face.inner, face.outer].map(|m| acting.permeability[m as usize]);
             let i = face.point as usize;
             if !kept(i) {
                 continue;
             }
             let n = region.raise(face.normal);
-            if both[0].to_bits() != both[1].to_bits() {
-                let pull = traction(fields.flux[i], n, both);
+            if jumps(acting.laws, face) {
+                let pull = traction((acting.laws, face), fields.flux[i], n);
                 for (sum, pull) in found.force_volume.iter_mut().zip(pull) {
                     *sum += face.area * pull;
                 }
@@ -88,12 +88,13 @@ impl Totals {
             }
             let sign = if a { face.area } else { -face.area };
             // On the side of what does not act.
-            let (b, mu) = if a {
-                (beyond.flux, both[1])
+            let (b, other) = if a {
+                (beyond.flux, face.outer)
             } else {
-                (fields.flux[i], both[0])
+                (fields.flux[i], face.inner)
             };
             let square: f64 = b.iter().map(C::norm_sqr).sum();
+            let mu = acting.laws[other as usize].permeability(square.sqrt());
             let normal: C = (0..3).map(|k| b[k].conj() * n[k]).sum();
             for k in 0..3 {
                 // T n = (B (B* n) - |B|^2 n / 2) / mu.

@@ -6,6 +6,7 @@ mod coils;
 mod doubts;
 mod enclosures;
 mod magnets;
+mod saturation;
 mod ways;
 
 use std::path::{Path, PathBuf};

@@ -5,6 +5,7 @@ use krylov::{Options, Rule, System};
 use super::super::diffusion::{Conductors, shift};
 use super::super::drive::Drive;
 use super::super::eddy::{Fields, Media, Solution, steady_change};
+use super::super::magnetisation::Law;
 use super::super::multipole::Multipoles;
 use super::super::quadrature;
 use super::super::sides::{Form, Sides};
@@ -69,7 +70,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
     let flux = source.flux(&region.places);
     let media = Media {
         conductivity: &[0.0, sigma],
-        permeability: &[MU0, MU0],
+        laws: &[Law::Constant(MU0), Law::Constant(MU0)],
         flux: &flux,
     };
     let fields = Fields::new(
@@ -84,7 +85,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
     );
     let acting = Acting {
         acts: &[false, true],
-        permeability: &[MU0, MU0],
+        laws: &[Law::Constant(MU0), Law::Constant(MU0)],
         permeable: None,
     };
     Totals::of(&region, &fields, &weights, ((&source, None), acting))
