@@ -18,6 +18,7 @@ mod em_cylinder_ac;
 mod em_dielectric_sphere;
 mod em_planar_az;
 mod em_ring_coil;
+mod em_saturation;
 mod em_sphere_aside;
 mod em_sphere_gauge;
 mod em_sphere_loops;
@@ -72,6 +73,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(em_ring_coil::EmRingCoil),
         Box::new(em_cylinder_ac::EmCylinderAc),
         Box::new(em_planar_az::EmPlanarAz),
+        Box::new(em_saturation::EmSaturation),
         Box::new(em_sphere_uniform_ac::EmSphereUniformAc),
         Box::new(em_sphere_loops::EmSphereLoops),
         Box::new(em_axisymmetric_sphere::EmAxisymmetricSphere),

@@ -10,6 +10,7 @@
 //! - [`exact`]: fields along the lines of a scene whose solution is known.
 //! - [`frames`] reads runs and scenes.
 //! - [`pair`]: two conducting spheres at given potentials.
+//! - [`saturation`]: bodies with a curve of magnetisation in static fields.
 //! - [`transverse`]: a conducting cylinder in an alternating field across it.
 //! - [`sphere`]: a conducting sphere among coaxial loops or in a uniform alternating field;
 //!   [`switched`]: the same after a uniform field is switched on.
@@ -25,6 +26,7 @@ pub mod diffusion;
 pub mod exact;
 pub mod frames;
 pub mod pair;
+pub mod saturation;
 pub mod sphere;
 pub mod switched;
 pub mod transverse;
