@@ -7,6 +7,7 @@
 //! with the moments M of the parts, as for volumes. What a part takes from or gives to a point is limited, so that no
 //! weight leaves its area far.
 
+use nalgebra::{SMatrix, SVector};
 use shapes::frame::{Vector, cross, difference, dot};
 
 use super::Cell;
@@ -20,6 +21,11 @@ const FEWEST: usize = 8;
 const PART: f64 = 0.3;
 /// Coefficients: slopes and curvatures along the surface.
 const TERMS: usize = 5;
+/// Least pivot of the factors of a fit over the largest one.
+const PIVOT: f64 = 1e-5;
+
+type Terms = SVector<f64, TERMS>;
+type Square = SMatrix<f64, TERMS, TERMS>;
 
 /// Weights instead of areas, from the parts of the surface that are nearest to each point, about it.
 pub(super) fn weigh(seeds: &mut [Seed], parts: &[Cell], set: &Occupied, spacing: f64) {
@@ -79,61 +85,39 @@ fn shares(seeds: &[Seed], (i, part): (usize, &Cell), around: &[usize]) -> Option
     let ways: Vec<[f64; 2]> = ways.map(|way| axes.map(|axis| dot(way, axis))).collect();
     let squares = ways.iter().map(|[u, v]| u * u + v * v);
     let reach = squares.fold(0.0_f64, f64::max).sqrt();
-    let rows: Vec<[f64; TERMS]> = ways
+    let rows: Vec<Terms> = ways
         .iter()
         .map(|way| terms(way.map(|c| c / reach)))
         .collect();
     let weights = rows.iter().map(|row| (-2.0 * (row[2] + row[4])).exp());
     let weights: Vec<f64> = weights.collect();
-    let mut normal = [[0.0; TERMS]; TERMS];
-    for (row, weight) in rows.iter().zip(&weights) {
-        for a in 0..TERMS {
-            for b in 0..TERMS {
-                normal[a][b] += weight * row[a] * row[b];
-            }
-        }
-    }
+    let weighed = rows.iter().zip(&weights);
+    let normal: Square = weighed.map(|(row, w)| *w * row * row.transpose()).sum();
     let flat =
         |a: &Vector, b: &Vector| -> f64 { (0..3).map(|k| dot(part.second[k], *b) * a[k]).sum() };
     let [u, v] = axes;
-    let moments = [
+    let moments = Terms::from([
         dot(part.first, u) / reach,
         dot(part.first, v) / reach,
         flat(&u, &u) / (reach * reach),
         flat(&u, &v) / (reach * reach),
         flat(&v, &v) / (reach * reach),
-    ];
-    let known = solved(normal, moments)?;
-    let share = |(row, weight): (&[f64; TERMS], &f64)| {
-        weight * (0..TERMS).map(|k| row[k] * known[k]).sum::<f64>()
-    };
+    ]);
+    let known = solved(normal, &moments)?;
+    let share = |(row, weight): (&Terms, &f64)| weight * row.dot(&known);
     Some(rows.iter().zip(&weights).map(share).collect())
 }
 
-fn terms([u, v]: [f64; 2]) -> [f64; TERMS] {
-    [u, v, u * u, u * v, v * v]
+fn terms([u, v]: [f64; 2]) -> Terms {
+    Terms::from([u, v, u * u, u * v, v * v])
 }
 
 /// Solves a symmetric positive system; nothing where it is singular.
-fn solved(mut a: [[f64; TERMS]; TERMS], mut b: [f64; TERMS]) -> Option<[f64; TERMS]> {
-    let scale = (0..TERMS).fold(0.0_f64, |most, k| most.max(a[k][k]));
-    for k in 0..TERMS {
-        if a[k][k] <= 1e-10 * scale {
-            return None;
-        }
-        for row in k + 1..TERMS {
-            let factor = a[row][k] / a[k][k];
-            for column in k..TERMS {
-                a[row][column] -= factor * a[k][column];
-            }
-            b[row] -= factor * b[k];
-        }
-    }
-    for k in (0..TERMS).rev() {
-        let rest: f64 = (k + 1..TERMS).map(|c| a[k][c] * b[c]).sum();
-        b[k] = (b[k] - rest) / a[k][k];
-    }
-    Some(b)
+fn solved(a: Square, b: &Terms) -> Option<Terms> {
+    let factor = a.cholesky()?;
+    let pivots = factor.l_dirty().diagonal();
+    let sound = pivots.min() > PIVOT * pivots.max();
+    sound.then(|| factor.solve(b))
 }
 
 #[cfg(test)]

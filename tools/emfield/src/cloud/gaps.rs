@@ -43,13 +43,12 @@ impl Builder {
             let Some(own) = column.solid else { continue };
             let solid = &self.region.solids[own];
             let scale = (column.seed.spacing / solid.spacing).min(1.0);
-            for side in 0..2 {
-                let first = plans[own][side].first();
+            for (side, plan) in plans[own].iter().enumerate() {
                 let gap = |first: &f64| {
                     let from = (column.seed.place, column.way(side));
                     self.gap((column, side), from, NARROW * scale * first)
                 };
-                column.gap[side] = first.and_then(gap);
+                column.gap[side] = plan.first().and_then(gap);
             }
         }
     }
