@@ -86,8 +86,11 @@ fn shape(method: &str) -> Value {
     }
 }
 
-/// The flux density of a scene at a place \[T\].
-fn exact(run: &Finished) -> Result<Box<dyn Fn([f64; 3]) -> [f64; 3]>, LabError> {
+/// A flux density \[T\] by place \[m\].
+type Flux = Box<dyn Fn([f64; 3]) -> [f64; 3]>;
+
+/// The flux density of a scene.
+fn exact(run: &Finished) -> Result<Flux, LabError> {
     let unknown = |what: String| LabError::Content {
         path: run.artefact.clone(),
         what,
