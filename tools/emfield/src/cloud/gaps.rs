@@ -21,7 +21,6 @@ const STEPS: usize = 30;
 const MISS: f64 = 1e-6;
 /// Two surfaces face each other beyond this cosine of the angle between the normals out of the gap.
 const FACING: f64 = 0.5;
-
 /// Farthest first column from an axis over its spacing, beside which a line across a gap stands on the axis.
 const BESIDE: f64 = 1.2;
 

@@ -2,6 +2,9 @@
 
 use shapes::frame::{Vector, cross, direction};
 
+/// Parallel surfaces shrink to this at most, in lengths.
+const SHRUNK: f64 = 0.6;
+
 /// A point on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Seed {
@@ -50,9 +53,6 @@ impl Curvature {
         }
     }
 }
-
-/// Parallel surfaces shrink to this at most, in lengths.
-const SHRUNK: f64 = 0.6;
 
 /// A direction across another.
 pub(super) fn aside(normal: Vector) -> Vector {
