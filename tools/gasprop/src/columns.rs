@@ -45,6 +45,7 @@ const COLLISIONS: &[&str] = &[
     "Mason1967",
     "Laricchiuta2007",
     "Milloy1977",
+    "Phelps1994",
 ];
 
 const ALL: [Column; 9] = [

@@ -9,7 +9,7 @@ use crate::mixture::{
     Thermodynamics,
 };
 use crate::radiation::{Radiation, RadiationError};
-use crate::scene::Scene;
+use crate::scene::{Levels, Scene};
 use crate::transport::{Coefficients, Transport, TransportError, Uncertain};
 
 /// Temperature at which the enthalpy of the cold gas, and that of iron atoms, counts as zero, K.
@@ -118,10 +118,7 @@ impl Gas {
             .map(|(name, x)| (name.clone(), *x))
             .collect();
         let with_iron = scene.iron_mole_fraction.is_some();
-        let mut mixture = Mixture::new(&library, &base, with_iron)?;
-        if let Some(last) = scene.uncertain.and_then(|given| given.filled_to_shell) {
-            mixture = mixture.with_shells(last);
-        }
+        let mixture = with_levels(Mixture::new(&library, &base, with_iron)?, scene)?;
         let radiation = match scene.radiation {
             Some(_) => Some(Radiation::new(library.data(), &mixture.species)?),
             None => None,
@@ -296,6 +293,18 @@ impl Gas {
             }),
         }
     }
+}
+
+/// The mixture with the excited levels that the scene asks for.
+fn with_levels(mixture: Mixture, scene: &Scene) -> Result<Mixture, GasError> {
+    let given = scene.uncertain;
+    if given.is_some_and(|given| given.levels == Some(Levels::Listed)) {
+        return Ok(mixture);
+    }
+    Ok(match given.and_then(|given| given.filled_to_shell) {
+        Some(last) => mixture.with_shells(last),
+        None => mixture.with_shells_among_charges(scene.pressure_pa)?,
+    })
 }
 
 /// Enthalpy of one particle of the cold gas at [`ZERO`], J above separate neutral atoms.

@@ -95,11 +95,22 @@ pub struct Uncertain {
     #[schemars(range(min = 0.1, max = 10.0))]
     pub iron_charge_exchange_factor: Option<f64>,
     /// Excited shells of neutral atoms are filled up to the one of this principal quantum number, those of ions
-    /// accordingly farther, and no level lies above; absent: the levels that lists of spectra hold. Fields of ions
-    /// leave argon at 1 atm 9 shells at 9,500 K and 6 from 14,500 K on (Inglis and Teller 1939).
+    /// accordingly farther, and no level lies above; absent: up to the last one that fields of ions leave where charges
+    /// are densest, the sixth of argon at 1 atm (Inglis and Teller 1939).
     #[serde(default)]
     #[schemars(range(min = 5, max = 30))]
     pub filled_to_shell: Option<u32>,
+    /// Which levels atoms and ions have; absent: filled shells.
+    #[serde(default)]
+    pub levels: Option<Levels>,
+}
+
+/// Which excited levels atoms and ions have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Levels {
+    /// Those that lists of spectra hold, and no others.
+    Listed,
 }
 
 /// What the table must meet.
@@ -146,6 +157,14 @@ impl Scene {
         {
             let what = "these inputs belong to iron, and the scene has no key 'iron_mole_fraction'";
             faults.push(Fault::at("/uncertain", what));
+        }
+        if self
+            .uncertain
+            .is_some_and(|given| given.levels.is_some() && given.filled_to_shell.is_some())
+        {
+            let what =
+                "levels as listed have no shells to fill: leave out 'filled_to_shell' or 'levels'";
+            faults.push(Fault::at("/uncertain/filled_to_shell", what));
         }
         faults
     }
@@ -256,6 +275,14 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part} is not in:\n{text}");
         }
+    }
+
+    #[test]
+    fn listed_levels_are_not_filled() {
+        let all = faults(json!({"uncertain": {"levels": "listed", "filled_to_shell": 7}}));
+        assert_eq!(all.len(), 1);
+        assert!(all[0].contains("/uncertain/filled_to_shell"));
+        assert!(faults(json!({"uncertain": {"levels": "listed"}})).is_empty());
     }
 
     #[test]

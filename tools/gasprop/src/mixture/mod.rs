@@ -231,14 +231,6 @@ impl Mixture {
         self
     }
 
-    /// The same mixture with the excited shells of neutral atoms filled up to number `last`, those of ions accordingly
-    /// farther, and no level above (`shells.rs` says how); without this, with the levels that lists of spectra hold.
-    #[must_use]
-    pub fn with_shells(mut self, last: u32) -> Self {
-        self.species = shells::filled(&self.species, last);
-        self
-    }
-
     /// Where the species of this name stands in [`Mixture::species`].
     #[must_use]
     pub fn index(&self, name: &str) -> Option<usize> {

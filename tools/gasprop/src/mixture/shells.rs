@@ -8,11 +8,13 @@
 //! `log10(n_e cm^3) = 23.26 - 7.5 log10 n + 4.5 log10 z` (Inglis and Teller 1939, Astrophys. J. 90, 439): argon at 1 atm
 //! has 9 shells at 9,500 K and 6 at 14,500 to 25,000 K.
 //!
-//! The last shell is given, and does not follow from the charges: sums over levels then depend on the temperature
-//! alone, and density, enthalpy and specific heat stay consistent.
+//! One last shell holds for a whole table: the one that the densest charges of the cold gas at its pressure leave. Sums over
+//! levels then depend on the temperature alone, and density, enthalpy and specific heat stay consistent. Where charges are
+//! fewer than that, hardly any atom is excited so far: argon at 9,500 K and 1 atm has 2e-5 in shells 7 to 9.
 
 use super::levels::Levels;
 use super::species::{Kind, Modes, Species};
+use super::{EquilibriumError, Mixture};
 use crate::constants::{ELECTRON_VOLT, RYDBERG};
 
 /// Lists are taken to be whole below this shell.
@@ -20,10 +22,46 @@ const FIRST: u32 = 5;
 /// Levels of a ground term lie within this energy \[J\]: 0.195 eV of doubly charged argon is the farthest.
 const TERM: f64 = 0.2 * ELECTRON_VOLT;
 
+/// Temperatures at which the densest charges are sought \[K\]: from, to, step. The last shell goes as the power -2/15 of
+/// them, and they vary by 4 % between two of these.
+const SOUGHT: [u32; 3] = [8_000, 30_000, 500];
+/// A gas without charges keeps this many shells.
+const MOST: u32 = 30;
+
+/// Number of the last shell of neutral atoms that fields of ions leave among `electrons` \[1/m3\] (Inglis and Teller).
+fn left_among(electrons: f64) -> u32 {
+    let last = 10f64.powf((23.26 - (electrons * 1e-6).max(1.0).log10()) / 7.5);
+    (1..MOST).take_while(|n| f64::from(n + 1) <= last).count() as u32 + 1
+}
+
+impl Mixture {
+    /// The same mixture with the excited shells of neutral atoms filled up to number `last`, those of ions accordingly
+    /// farther, and no level above; without this, with the levels that lists of spectra hold.
+    #[must_use]
+    pub fn with_shells(mut self, last: u32) -> Self {
+        self.species = filled(&self.species, last);
+        self
+    }
+
+    /// The same with the last shell that the densest charges of the cold gas leave at `pressure` \[Pa\].
+    ///
+    /// # Errors
+    /// No equilibrium.
+    pub fn with_shells_among_charges(self, pressure: f64) -> Result<Self, EquilibriumError> {
+        let [from, to, step] = SOUGHT;
+        let mut densest = 0.0_f64;
+        for k in 0..=(to - from) / step {
+            let state = self.equilibrium(f64::from(from + k * step), pressure, 0.0)?;
+            densest = densest.max(state.number[0]);
+        }
+        Ok(self.with_shells(left_among(densest)))
+    }
+}
+
 /// The species, with the shells of every atom filled up to number `last` of a neutral one; ions of charge z - 1 have
 /// `z^(3/5)` times as many (Inglis and Teller). Levels listed above the last shell are left out, and ions of the
 /// greatest charge stay as they are.
-pub(super) fn filled(species: &[Species], last: u32) -> Vec<Species> {
+fn filled(species: &[Species], last: u32) -> Vec<Species> {
     let next = |own: &Species| {
         species
             .iter()
@@ -117,6 +155,25 @@ mod tests {
             + at(15.7596 - 0.2777, 404.0);
         let found = sum(&filled(library.species(), 7), "Ar", 20_000.0);
         assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+    }
+
+    #[test]
+    fn fields_of_ions_leave_the_shells_that_inglis_and_teller_say() {
+        // 1.7e17 /cm3 leave log10 n = (23.26 - 17.23)/7.5, n = 6.37; a hundred times fewer 11.8; none as many as are kept.
+        for (electrons, last) in [(1.7e23, 6), (1.7e21, 11), (1.7e25, 3), (0.0, MOST)] {
+            assert_eq!(left_among(electrons), last);
+        }
+        let argon = |pressure: f64| {
+            let library = Library::embedded().unwrap();
+            let argon = Mixture::new(&library, &[("Ar".to_owned(), 1.0)], false).unwrap();
+            let given =
+                [6, 8, 4].map(|last| sum(&argon.clone().with_shells(last).species, "Ar", 2e4));
+            let found = argon.with_shells_among_charges(pressure).unwrap();
+            given.map(|given| (sum(&found.species, "Ar", 2e4) / given - 1.0).abs() < 1e-12)
+        };
+        assert_eq!(argon(101_325.0), [true, false, false]);
+        assert_eq!(argon(10_132.5), [false, true, false]);
+        assert_eq!(argon(1_013_250.0), [false, false, true]);
     }
 
     #[test]

@@ -1,30 +1,12 @@
 //! Electrons and neutral particles.
 //!
-//! Where the momentum transfer cross-section `Q_m(E)` is known, its Maxwellian moments are taken directly
-//! (Hirschfelder, Curtiss and Bird 1954; Devoto 1967, Phys. Fluids 10, 2105):
-//!
-//! ```text
-//! Q^(1,s) = 1/(s+1)! integral of Q_m(x kT) x^(s+1) e^-x dx from 0 to infinity,   s = 1 ... 5.
-//! ```
+//! Where the momentum transfer cross-section `Q_m(E)` is known, its Maxwellian moments are taken directly (`moments.rs`).
 
 use serde_json::Value;
 
-use super::{FIRST_ORDERS, Integrals};
+use super::Integrals;
+use super::moments::moments;
 use crate::constants::{BOLTZMANN, ELECTRON_VOLT};
-
-/// Nodes and weights of Gauss's quadrature over -1 to 1, six points: exact for polynomials of degree 11.
-const GAUSS: [(f64, f64); 6] = [
-    (-0.932_469_514_203_152, 0.171_324_492_379_170_35),
-    (-0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (-0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152, 0.171_324_492_379_170_35),
-];
-/// Where the Maxwellian has died: `x^6 e^-x / 6!` is below 1e-12 of its peak.
-const TAIL: f64 = 60.0;
-/// No step of the quadrature is longer than this in x.
-const STEP: f64 = 1.0;
 
 /// A momentum transfer cross-section over energy.
 #[derive(Debug, Clone)]
@@ -67,44 +49,11 @@ impl CrossSection {
     /// Integrals [m2] at `temperature` [K]. Electrons do not need the second kind, which is set to the first.
     pub(super) fn moments(&self, temperature: f64) -> Integrals {
         let thermal = BOLTZMANN * temperature;
-        let mut sums = [0.0; FIRST_ORDERS];
-        let mut from = 0.0;
-        let ends = self
-            .energy
-            .iter()
-            .map(|e| e / thermal)
-            .filter(|&x| x < TAIL);
-        for to in ends.chain([TAIL]) {
-            let pieces = ((to - from) / STEP).ceil().max(1.0);
-            let width = (to - from) / pieces;
-            let mut start = from;
-            // Counted in whole steps: at most 60 and one for each point of the table.
-            while start < to - 0.5 * width {
-                self.add(&mut sums, thermal, [start, start + width]);
-                start += width;
-            }
-            from = to;
-        }
-        let mut factorial = 1.0;
-        for (order, sum) in (2..).zip(&mut sums) {
-            factorial *= f64::from(order);
-            *sum /= factorial;
-        }
+        let kinks = self.energy.iter().map(|e| e / thermal);
+        let first = moments(kinks, |x| self.at(x * thermal));
         Integrals {
-            first: sums,
-            second: [sums[0]; 3],
-        }
-    }
-
-    fn add(&self, sums: &mut [f64; FIRST_ORDERS], thermal: f64, [from, to]: [f64; 2]) {
-        let half = 0.5 * (to - from);
-        for (node, weight) in GAUSS {
-            let x = from + half * (1.0 + node);
-            let mut term = half * weight * self.at(x * thermal) * (-x).exp() * x;
-            for sum in sums.iter_mut() {
-                term *= x;
-                *sum += term;
-            }
+            first,
+            second: [first[0]; 3],
         }
     }
 }

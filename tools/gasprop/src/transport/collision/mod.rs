@@ -9,15 +9,18 @@
 //! 1. charged with charged: the screened Coulomb potential (`screened.rs`);
 //! 2. electron with argon: moments of the measured cross-section (`electron.rs`);
 //! 3. electron with iron, and other neutrals without data: a constant cross-section of [`Uncertain`];
-//! 4. tables of the pair (`tabulated.rs`), which for argon, carbon and oxygen with their own ions hold the exchange of
-//!    an electron;
-//! 5. the phenomenological potential (`potential.rs`), with the exchange of an electron between iron and its ion
+//! 4. argon with its own ion: moments of what drifting ions and beams have told (`resonant.rs`);
+//! 5. tables of the pair (`tabulated.rs`), which for carbon and oxygen with their own ions hold the exchange of an
+//!    electron;
+//! 6. the phenomenological potential (`potential.rs`), with the exchange of an electron between iron and its ion
 //!    (`exchange.rs`).
 
 mod electron;
 mod exchange;
+mod moments;
 mod particle;
 mod potential;
+mod resonant;
 mod screened;
 mod spline;
 mod tabulated;
@@ -30,6 +33,7 @@ use electron::CrossSection;
 use exchange::Exchange;
 pub(crate) use particle::Particle;
 use potential::{Fits, Potential};
+use resonant::Resonant;
 use screened::Screened;
 use tabulated::Tabulated;
 
@@ -85,6 +89,7 @@ enum Encounter {
     Coulomb(i32, i32),
     CrossSection(Box<CrossSection>),
     Constant(f64),
+    Resonant(Box<Resonant>),
     Tabulated(Box<Tabulated>),
     Potential(Box<Potential>),
     Exchange(Box<Potential>, Exchange),
@@ -139,6 +144,7 @@ impl Collisions {
                 .ok_or(TransportError::Block("phenomenological_potential"))?,
             argon: CrossSection::read(&data["e_Ar_momentum_transfer"])
                 .ok_or(TransportError::Block("e_Ar_momentum_transfer"))?,
+            argon_ion: &data["Ar_Ar+_momentum_transfer"],
             tables: data["collision_integrals"]["pairs"]
                 .as_array()
                 .ok_or(TransportError::Block("collision_integrals"))?,
@@ -162,6 +168,7 @@ impl Collisions {
             Encounter::Coulomb(z1, z2) => self.screened.at(*z1, *z2, temperature, electrons),
             Encounter::CrossSection(measured) => measured.moments(temperature),
             Encounter::Constant(area) => Integrals::hard(*area),
+            Encounter::Resonant(resonant) => resonant.at(temperature),
             Encounter::Tabulated(table) => table.at(temperature),
             Encounter::Potential(potential) => potential.at(temperature),
             Encounter::Exchange(potential, exchange) => {
@@ -182,6 +189,7 @@ impl Collisions {
 struct Sources<'a> {
     fits: Fits,
     argon: CrossSection,
+    argon_ion: &'a Value,
     tables: &'a [Value],
     uncertain: &'a Uncertain,
 }
@@ -200,12 +208,18 @@ impl Sources<'_> {
                 return Ok(Encounter::Constant(self.uncertain.electron_iron_m2));
             }
             return Ok(match self.table(one, two)? {
-                Some(table) => table,
+                Some(table) => Encounter::Tabulated(Box::new(table)),
                 None => Encounter::Constant(self.uncertain.electron_other_m2),
             });
         }
         if let Some(table) = self.table(one, two)? {
-            return Ok(table);
+            let names = [one.name.as_str(), two.name.as_str()];
+            if names.contains(&"Ar") && names.contains(&"Ar+") {
+                return Resonant::read(self.argon_ion, table)
+                    .map(|resonant| Encounter::Resonant(Box::new(resonant)))
+                    .ok_or(TransportError::Block("Ar_Ar+_momentum_transfer"));
+            }
+            return Ok(Encounter::Tabulated(Box::new(table)));
         }
         let potential = Box::new(Potential::new(&self.fits, one, two));
         let (atom, ion) = if one.charge == 0 {
@@ -229,7 +243,7 @@ impl Sources<'_> {
     }
 
     /// The table of this pair, if there is one.
-    fn table(&self, one: &Particle, two: &Particle) -> Result<Option<Encounter>, TransportError> {
+    fn table(&self, one: &Particle, two: &Particle) -> Result<Option<Tabulated>, TransportError> {
         let names = (one.name.as_str(), two.name.as_str());
         let found = self.tables.iter().find(|entry| {
             let name = |i: usize| entry["pair"][i].as_str().unwrap_or_default();
@@ -242,6 +256,6 @@ impl Sources<'_> {
             !one.is_electron() && !two.is_electron() && (one.charge != 0) != (two.charge != 0);
         let table = Tabulated::read(entry, polarising)
             .ok_or_else(|| TransportError::Pair(one.name.clone(), two.name.clone()))?;
-        Ok(Some(Encounter::Tabulated(Box::new(table))))
+        Ok(Some(table))
     }
 }
