@@ -68,6 +68,8 @@ pub struct Cored {
     pub radius: f64,
     /// Conductivity of the core \[S/m\].
     pub conductivity: f64,
+    /// Relative permeability of the core.
+    pub permeability: f64,
 }
 
 /// Field and slope at a radius.
@@ -120,6 +122,7 @@ impl Cored {
         let outer = &self.cylinder;
         let core = Cylinder {
             conductivity: self.conductivity,
+            permeability: self.permeability,
             ..*outer
         };
         let axis = Node {
@@ -160,6 +163,7 @@ mod tests {
             cylinder,
             radius: 0.04,
             conductivity: cylinder.conductivity,
+            permeability: 1.0,
         };
         let radii = [0.0, 0.02, 0.04, 0.0733, 0.1];
         let (found, power) = cored.solve(&radii);
@@ -175,6 +179,7 @@ mod tests {
             cylinder: paper(60.0),
             radius: 0.05,
             conductivity: 1.0,
+            permeability: 1.0,
         };
         // The flux through the hole drives the current around it: 2 pi a E = -j w mu H pi a^2.
         let (found, _) = cored.solve(&[0.0, 0.03, 0.05]);

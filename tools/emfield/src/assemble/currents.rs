@@ -1,6 +1,6 @@
 //! Eddy currents of a scene: its equations, their solution, fields, forces and heat.
 
-use krylov::System;
+use krylov::{Rows, Scalar, System};
 use num_complex::Complex;
 use run::{Failure, Session};
 
@@ -13,10 +13,11 @@ use super::region::region;
 use super::setting::{Setting, laws, media};
 use super::unfit::no_stencil;
 use super::winding::windings;
+use crate::cloud::region::vector;
 use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
-use crate::scene::{EddyCurrents, Scene};
+use crate::scene::{Coil, EddyCurrents, Scene};
 use crate::solve::curved::level;
 use crate::solve::diffusion::{self, Axial, Conductors};
 use crate::solve::drive::Drive;
@@ -29,6 +30,8 @@ use crate::solve::quadrature::{self, Moments};
 use crate::solve::region::Region;
 use crate::solve::sides::{Form, Sides};
 use crate::solve::unknown::Unknown;
+use crate::solve::waves::Waves;
+use crate::solve::waving::{Ground, Waving};
 use crate::solve::winding::Windings;
 use crate::source::{MU0, Origin, Source};
 
@@ -63,6 +66,7 @@ pub fn eddy_currents<const D: usize, const K: usize>(
         found: &found,
         source: &drive.source,
         change: &change,
+        waves: setting.waves.as_ref(),
     };
     Ok(session.timed("fields", || {
         let flux = setting.source.flux(&cloud.position);
@@ -117,7 +121,10 @@ impl<'a, const D: usize> Setting<'a, D> {
         }
         let coils = windings(scene, currents, cloud)?;
         let wound = || Windings::new(&region, &coils, &mut weights);
+        let omega = currents.angular_frequency();
         Ok(Self {
+            waves: omega.and_then(|omega| waves((scene, currents), (&conductors, &region), omega)),
+            omega,
             windings: (!coils.is_empty()).then(wound),
             enclosed: enclosed(scene, cloud, (&region, &form), session)?,
             sides,
@@ -130,7 +137,6 @@ impl<'a, const D: usize> Setting<'a, D> {
             scene,
             cloud,
             currents,
-            omega: currents.angular_frequency(),
         })
     }
 
@@ -199,15 +205,48 @@ impl<'a, const D: usize> Setting<'a, D> {
             let rates = self.conductors.rates(region, sides, self.unknown);
             (rates, self.conductors.rows(region, sides, self.unknown))
         });
-        let at = (region, self.unknown);
-        let mut right = drive.right(&self.conductors, at, &rates);
+        let Some(waves) = &self.waves else {
+            let right = drive.right(&self.conductors, (region, self.unknown), &rates);
+            return self.solved(drive, (rows, &rates), right, session);
+        };
+        let ground = Ground {
+            conductors: &self.conductors,
+            region,
+            sides,
+            unknown: self.unknown,
+        };
+        let made = || ground.rows(waves, (&rows, rates), &drive.source);
+        let Waving {
+            rows,
+            rates,
+            source,
+        } = session.timed("assemble", made);
+        let mut right = drive.right(&self.conductors, (region, self.unknown), &rates);
+        for (right, source) in right.iter_mut().zip(source) {
+            *right = std::array::from_fn(|k| right[k] - source[k]);
+        }
+        self.solved(drive, (rows, &rates), right, session)
+    }
+
+    /// The solution of rows with rates, where rates and weights have given this right side.
+    fn solved<T: Scalar, const K: usize>(
+        &self,
+        drive: &Drive<K>,
+        (rows, rates): (Rows<T>, &[f64]),
+        mut right: Vec<[C; K]>,
+        session: &mut Session,
+    ) -> Result<Vec<[C; K]>, Failure>
+    where
+        C: krylov::Unknown<T>,
+    {
+        let at = (&self.region, self.unknown);
         for (right, given) in right.iter_mut().zip(self.given_rows::<K>()) {
             for (right, given) in right.iter_mut().zip(given) {
                 *right += given;
             }
         }
         let pairs = if self.currents.outer == OuterReaction::Multipole {
-            let multipoles = Multipoles::new(region, &self.weights);
+            let multipoles = Multipoles::new(&self.region, &self.weights);
             let mut pairs = drive.pairs(&self.conductors, at, &multipoles, &mut right);
             let bound = self.bound(&multipoles, &mut right);
             pairs.extend(drive.bound(&bound, &mut right));
@@ -215,7 +254,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         } else {
             Vec::new()
         };
-        let shift = diffusion::shift(&rates, drive.omega);
+        let shift = diffusion::shift(rates, drive.omega);
         let options = super::options(self.scene);
         let made = session.timed("factorise", || System::new(rows, shift, options));
         let failed = |error: krylov::Error| unsolvable("eddy currents", &error, self.cloud);
@@ -254,6 +293,24 @@ fn centre<const D: usize>(
             uniform.origin = Origin::Solenoid(place);
         }
     }
+}
+
+/// What conductors carry in a sinusoidal steady state in a plane; those that a wire runs through carry more than that.
+fn waves<const D: usize>(
+    (scene, currents): (&Scene, &EddyCurrents),
+    (conductors, region): (&Conductors, &Region<D>),
+    omega: f64,
+) -> Option<Waves> {
+    if scene.method.positive {
+        return None;
+    }
+    let place = crate::cloud::region::Region::new(scene);
+    let wire = |coil: &Coil| match coil {
+        Coil::Wire(wire) => Some(place.medium(vector(&wire.place_m))),
+        _ => None,
+    };
+    let run: Vec<u8> = currents.coils.iter().filter_map(wire).collect();
+    Waves::new(conductors, region, (omega, |m| !run.contains(&m)))
 }
 
 /// The conductors of a scene.

@@ -288,6 +288,7 @@ impl<const D: usize, const K: usize> View<'_, D, K> {
             found: &real(&state.unknown),
             source: &source,
             change: &change,
+            waves: None,
         };
         let windings = setting.windings.as_ref().map(|w| w.times(wave));
         let driven = Driven {

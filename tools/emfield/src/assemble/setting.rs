@@ -10,6 +10,7 @@ use crate::solve::magnetisation::{Curve, Law};
 use crate::solve::region::Region;
 use crate::solve::sides::Sides;
 use crate::solve::unknown::Unknown;
+use crate::solve::waves::Waves;
 use crate::solve::winding::Windings;
 use crate::source::{MU0, Source};
 
@@ -29,6 +30,8 @@ pub(super) struct Setting<'a, const D: usize> {
     pub(super) laws: Vec<Law>,
     /// Weights of points in integrals over conductors.
     pub(super) weights: Vec<f64>,
+    /// What conductors carry in a sinusoidal steady state in a plane; none elsewhere.
+    pub(super) waves: Option<Waves>,
     /// Currents that are given in coils of points, where there are some.
     pub(super) windings: Option<Windings>,
     /// Surfaces around bodies.

@@ -71,7 +71,7 @@ impl Conductors {
     }
 
     /// The hole that point `i` belongs to, and what its law of induction needs.
-    fn hole(&self, i: usize) -> Option<(&Hole, Media<'_>)> {
+    pub(super) fn hole(&self, i: usize) -> Option<(&Hole, Media<'_>)> {
         let axial = self.axial.as_ref()?;
         let media = Media {
             mu_sigma: &self.mu_sigma,

@@ -11,6 +11,7 @@ use super::magnetisation::{Law, beyond};
 use super::region::{Face, Region};
 use super::sides::Sides;
 use super::unknown::{Unknown, along, component, local};
+use super::waves::Waves;
 use super::winding::Windings;
 
 /// A complex number.
@@ -90,6 +91,43 @@ pub struct Solution<'a, const K: usize> {
     pub source: &'a [[C; K]],
     /// Rate of both together, over a second.
     pub change: &'a [[C; K]],
+    /// What conductors carry in a steady state in a plane; none elsewhere.
+    pub waves: Option<&'a Waves>,
+}
+
+impl<const K: usize> Solution<'_, K> {
+    /// Slopes of the reaction at a point, on interfaces from the inner side, where `mu sigma` is given.
+    fn slopes<const D: usize>(
+        &self,
+        (region, sides): (&Region<D>, &Sides<D>),
+        unknown: Unknown,
+        i: usize,
+        (media, mu_sigma): (&Media<'_>, f64),
+    ) -> [[C; D]; K] {
+        let on = region.on_interface(i);
+        let stencils = if on { &sides.inner } else { &sides.own };
+        let plain = |k: usize| -> [C; D] {
+            std::array::from_fn(|axis| {
+                let row = stencils.derivative(i, axis);
+                // The Laplacian on the interface is known from the equation.
+                let share: f64 = row.conditions().sum();
+                row.apply_with(|j| self.found[j][k]) + self.change[i][k] * (mu_sigma * share)
+            })
+        };
+        let carried = |k: usize| -> Option<[C; D]> {
+            let at = (region, i, region.medium(i));
+            let total = |j: usize| self.found[j][k] + self.source[j][k];
+            let mut both = self.waves?.slope(at, stencils, total)?;
+            // That of the sources is known.
+            if unknown == Unknown::Potential {
+                let [x, y, _] = media.flux[i];
+                both[0] += y;
+                both[1] -= x;
+            }
+            Some(both)
+        };
+        std::array::from_fn(|k| carried(k).unwrap_or_else(|| plain(k)))
+    }
 }
 
 /// The rate of sources and reaction together in a sinusoidal steady state, `j w (A + A_s)`.
@@ -118,6 +156,7 @@ impl Fields {
             found,
             source,
             change,
+            ..
         } = solution;
         let point = |i: usize| {
             let place = region.places[i];
@@ -127,17 +166,7 @@ impl Fields {
             // Slopes beside a medium whose permeability depends on the field do not know the Laplacian.
             let mu = media.laws[medium].constant().unwrap_or(0.0);
             let mu_sigma = mu * sigma;
-            let slope = |k: usize| -> [C; D] {
-                let on = region.on_interface(i);
-                let stencils = if on { &sides.inner } else { &sides.own };
-                std::array::from_fn(|axis| {
-                    let row = stencils.derivative(i, axis);
-                    // The Laplacian on the interface is known from the equation.
-                    let share: f64 = row.conditions().sum();
-                    row.apply_with(|j| found[j][k]) + change[i][k] * (mu_sigma * share)
-                })
-            };
-            let slopes: [[C; D]; K] = std::array::from_fn(slope);
+            let slopes = solution.slopes((region, sides), unknown, i, (media, mu_sigma));
             let (potential, reaction) = local(unknown, &place, (&total, &found[i]), &slopes);
             let electric = along(unknown, &place, &change[i]).map(|rate| -rate);
             let mut flux = reaction;

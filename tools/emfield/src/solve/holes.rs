@@ -133,25 +133,38 @@ impl Hole {
         self.faces(region).filter(rim).map(|f| f.area).sum()
     }
 
-    /// Each point of the rim with its part of the contour, the conductor there, its stencils, and the normal out of the hole.
-    fn contour<'a, const D: usize>(
+    /// Each point of the rim with its part of the contour, the conductor there, and the normal out of the hole.
+    pub(super) fn rim<'a, const D: usize>(
         &'a self,
-        (region, sides): (&'a Region<D>, &'a Sides<D>),
+        region: &'a Region<D>,
         media: Media<'a>,
-    ) -> impl Iterator<Item = (&'a Face<D>, f64, u8, &'a Stencils<D>, [f64; D])> {
+    ) -> impl Iterator<Item = (&'a Face<D>, f64, u8, [f64; D])> {
         let length = self.length(region, media);
         self.faces(region).filter_map(move |face| {
             let part = face.area / length;
             let conducts = |m: u8| media.mu_sigma[m as usize] > 0.0;
             if conducts(face.outer) {
-                Some((face, part, face.outer, &sides.outer, face.normal))
+                Some((face, part, face.outer, face.normal))
             } else if conducts(face.inner) {
-                let back = face.normal.map(|n| -n);
-                Some((face, part, face.inner, &sides.inner, back))
+                Some((face, part, face.inner, face.normal.map(|n| -n)))
             } else {
                 None
             }
         })
+    }
+
+    /// The rim with the stencils of the conductor.
+    fn contour<'a, const D: usize>(
+        &'a self,
+        (region, sides): (&'a Region<D>, &'a Sides<D>),
+        media: Media<'a>,
+    ) -> impl Iterator<Item = (&'a Face<D>, f64, u8, &'a Stencils<D>, [f64; D])> {
+        let stencils = |(face, part, medium, normal): (&'a Face<D>, f64, u8, [f64; D])| {
+            let inner = medium != face.outer;
+            let stencils = if inner { &sides.inner } else { &sides.outer };
+            (face, part, medium, stencils, normal)
+        };
+        self.rim(region, media).map(stencils)
     }
 
     /// The mean of `resistivity dH/dn` along the rim.
@@ -171,7 +184,17 @@ impl Hole {
     /// the slopes.
     #[must_use]
     pub fn rate<const D: usize>(&self, at: (&Region<D>, &Sides<D>), media: Media<'_>) -> f64 {
-        let region = at.0;
+        let shares = |(face, part, medium, stencils, normal): (&Face<D>, f64, u8, _, _)| {
+            let m = medium as usize;
+            let share = share_along(stencils, face.point as usize, normal);
+            part * media.resistivity[m] * media.mu_sigma[m] * share
+        };
+        let slopes: f64 = self.contour(at, media).map(shares).sum();
+        self.through(at.0, media) - slopes
+    }
+
+    /// The flux through the hole over the length of its rim, where `H` is 1.
+    pub(super) fn through<const D: usize>(&self, region: &Region<D>, media: Media<'_>) -> f64 {
         // Out of each medium of the hole: mu A is the sum over its own contours.
         let flux = |face: &Face<D>| {
             let place = &region.places[face.point as usize];
@@ -183,12 +206,6 @@ impl Hole {
             0.5 * out * face.area * (mu(face.inner) - mu(face.outer))
         };
         let through: f64 = self.faces(region).map(flux).sum();
-        let shares = |(face, part, medium, stencils, normal): (&Face<D>, f64, u8, _, _)| {
-            let m = medium as usize;
-            let share = share_along(stencils, face.point as usize, normal);
-            part * media.resistivity[m] * media.mu_sigma[m] * share
-        };
-        let slopes: f64 = self.contour(at, media).map(shares).sum();
-        through / self.length(region, media) - slopes
+        through / self.length(region, media)
     }
 }

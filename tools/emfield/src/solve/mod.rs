@@ -5,6 +5,8 @@
 //! - [`electrostatic`]: potentials. [`unknown`] of eddy currents, [`diffusion`]: their operator, [`drive`] what drives
 //!   them, [`eddy`] the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
+//! - [`waves`]: weights that are exact for what conductors carry in a sinusoidal steady state in a plane, [`waving`] the rows
+//!   of them.
 //! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability, [`magnetised`] in space, `bound` what walls
 //!   know of these there; [`magnetisation`]: how fields follow flux densities, [`saturation`] what that puts into the rows
 //!   of points that are [`curved`],
@@ -48,6 +50,8 @@ pub mod sides;
 pub mod skin;
 pub mod totals;
 pub mod unknown;
+pub mod waves;
+pub mod waving;
 mod whole;
 pub mod winding;
 

@@ -72,4 +72,8 @@ macro_rules! unknowns {
     )*};
 }
 
-unknowns!((f64, f64), (f64, Complex<f64>));
+unknowns!(
+    (f64, f64),
+    (f64, Complex<f64>),
+    (Complex<f64>, Complex<f64>)
+);

@@ -80,6 +80,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
             found: &found,
             source: &drive.source,
             change: &steady_change(omega, &found, &drive.source),
+            waves: None,
         },
         &media,
     );
