@@ -1,12 +1,14 @@
 //! Heat within an iteration: how it is carried, the surfaces that answer to it, what warms each cell, and the solve.
 
+use crate::case::{Case, HeatCase};
 use crate::error::Error;
 use crate::fields::energy::Step;
-use crate::heat::Contact;
 use crate::heat::reads::Reads;
+use crate::heat::{Contact, Skin};
 use crate::limits::check;
+use crate::properties::Properties;
 use crate::residual::{Unbalanced, part};
-use crate::solver::{Arc, Heating};
+use crate::solver::{Arc, Electric, Heating};
 use crate::vaporising::Vaporising;
 
 /// Rounds of conduction and surfaces after which neither changes.
@@ -15,6 +17,29 @@ const ROUNDS: usize = 8;
 const VIEW_EVERY: usize = 20;
 /// Temperature that no arc reaches \[K\].
 const ABSURD_K: f64 = 1e5;
+
+/// What the sources of heat read beside the heat itself.
+struct Around<'a> {
+    case: &'a Case,
+    properties: &'a Properties,
+    electric: Option<&'a Electric>,
+    vaporising: Option<&'a Vaporising>,
+}
+
+impl<'a> Around<'a> {
+    /// What the sources read at these temperatures of cells and surfaces \[K\].
+    fn reads(&self, heat: &'a HeatCase, temperature: &'a [f64], skins: &'a [Skin]) -> Reads<'a> {
+        Reads {
+            case: self.case,
+            heat,
+            properties: self.properties,
+            potential: self.electric.map(|e| &e.potential),
+            temperature,
+            skins,
+            vapour: self.vaporising.map(Vaporising::read),
+        }
+    }
+}
 
 impl Arc {
     /// Heat into every cell at the last temperatures.
@@ -75,24 +100,19 @@ impl Arc {
     /// What surfaces absorb and, where they have temperatures of their own, those, with what evaporates at them.
     fn settle_surfaces(&mut self) {
         let anew = self.iteration % VIEW_EVERY == 1 || self.settings.view_always;
-        let Some(Heating {
-            setup,
-            energy,
-            sources,
-        }) = &mut self.heating
+        let (
+            Some(Heating {
+                setup,
+                energy,
+                sources,
+            }),
+            around,
+        ) = self.heating_within()
         else {
             return;
         };
         let mut skins = std::mem::take(&mut energy.skins);
-        let reads = Reads {
-            case: &self.case,
-            heat: setup,
-            properties: &self.properties,
-            potential: self.electric.as_ref().map(|e| &e.potential),
-            temperature: &energy.temperature,
-            skins: &[],
-            vapour: self.vaporising.as_ref().map(Vaporising::read),
-        };
+        let reads = around.reads(setup, &energy.temperature, &[]);
         sources.look(reads, anew);
         if let Some(surfaces) = &setup.surfaces {
             let through = |contact: &Contact| energy.conductance(contact) / contact.area;
@@ -106,25 +126,31 @@ impl Arc {
 
     /// What warms each cell.
     fn warm(&mut self) {
-        let Some(Heating {
-            setup,
-            energy,
-            sources,
-        }) = &mut self.heating
+        let (
+            Some(Heating {
+                setup,
+                energy,
+                sources,
+            }),
+            around,
+        ) = self.heating_within()
         else {
             return;
         };
-        let reads = Reads {
-            case: &self.case,
-            heat: setup,
-            properties: &self.properties,
-            potential: self.electric.as_ref().map(|e| &e.potential),
-            temperature: &energy.temperature,
-            skins: &energy.skins,
-            vapour: self.vaporising.as_ref().map(Vaporising::read),
-        };
+        let reads = around.reads(setup, &energy.temperature, &energy.skins);
         sources.update(reads, &mut energy.source);
         energy.pass_surfaces(setup);
+    }
+
+    /// The heat, to be changed, and what it reads beside itself.
+    fn heating_within(&mut self) -> (Option<&mut Heating>, Around<'_>) {
+        let around = Around {
+            case: &self.case,
+            properties: &self.properties,
+            electric: self.electric.as_ref(),
+            vaporising: self.vaporising.as_ref(),
+        };
+        (self.heating.as_mut(), around)
     }
 
     /// One solve of the energy; returns its residual, the worst cell and how many cells were limited.
