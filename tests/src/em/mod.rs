@@ -1,6 +1,7 @@
 //! References for electric and magnetic fields that share nothing with a solver.
 //!
 //! - [`dielectric`]: a dielectric sphere in a uniform field, Matsuzawa (2017), eqs 3.3 to 3.11.
+//! - [`driven`]: a conducting tube that saturates about a wire, along its radius and in time.
 //! - [`axes`] in which a solution stands.
 //! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
 //! - [`coaxial`]: a conducting sphere among loops, as a scene tells it.
@@ -23,6 +24,7 @@ pub mod coil;
 pub mod cylinder;
 pub mod dielectric;
 pub mod diffusion;
+pub mod driven;
 pub mod exact;
 pub mod frames;
 pub mod pair;

@@ -47,6 +47,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
             points: Vec::new(),
             faces: Vec::new(),
             walls: multipoles.map_or(Vec::new(), |m| m.fields.clone()),
+            slots: Vec::new(),
         };
         let curved = |m: u8| made.media[m as usize].is_some();
         let point = |number: usize| match region.kinds[number] {
@@ -64,6 +65,9 @@ impl<'a, const D: usize> Saturation<'a, D> {
         let faces = (0..region.faces.len()).into_par_iter().filter_map(face);
         let faces = faces.collect();
         (made.points, made.faces) = (points, faces);
+        if made.conducts() {
+            made.slots = made.slots();
+        }
         made
     }
 
@@ -91,7 +95,28 @@ impl<'a, const D: usize> Saturation<'a, D> {
             source: at(0, 0.0),
             slopes: std::array::from_fn(slope),
             seen: self.seen(number, multipoles),
+            flows: self.flows(number, medium),
         }
+    }
+
+    /// Whether currents flow at a point inside a medium, the neighbours of which are inside it or on its interfaces.
+    fn flows(&self, number: usize, medium: u8) -> bool {
+        let conducts = self.media[medium as usize]
+            .as_ref()
+            .is_some_and(|m| m.conducts);
+        let mut neighbours = self.sides.own.neighbours(number).iter();
+        conducts && neighbours.all(|j| !matches!(self.region.kinds[*j as usize], Kind::Wall { .. }))
+    }
+
+    /// Where each point stands among the points or faces here.
+    fn slots(&self) -> Vec<u32> {
+        let mut slots = vec![u32::MAX; self.region.len()];
+        let points = self.points.iter().map(|p| p.number);
+        let faces = self.faces.iter().map(|f| f.point);
+        for (slot, number) in points.enumerate().chain(faces.enumerate()) {
+            slots[number] = slot as u32;
+        }
+        slots
     }
 
     fn face(

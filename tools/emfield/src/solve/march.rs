@@ -22,7 +22,7 @@ pub fn slope(step: f64) -> f64 {
 }
 
 /// The equations of a stage.
-pub trait Stage {
+pub trait Stage: Send {
     /// Makes them ready for another [`slope`].
     ///
     /// # Errors

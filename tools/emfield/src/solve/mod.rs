@@ -10,7 +10,7 @@
 //! - [`winding`]: coils that are regions of points. [`permeable`]: media of different permeability, [`magnetised`] in space, `bound` what walls
 //!   know of these there; [`magnetisation`]: how fields follow flux densities, [`saturation`] what that puts into the rows
 //!   of points that are [`curved`],
-//!   [`saturated`] the iterations.
+//!   [`saturated`] the iterations, `flow` and `newton` what they are where currents flow.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, made of [`parts`] and with [`skin`],
 //!   [`at_rate`] their solution at a [`rate`] of change as a `whole`, by [`block`]s, `factors` and in [`balance`],
 //!   `moments` what walls know of the currents.
@@ -32,6 +32,7 @@ pub mod eddy;
 pub mod electrostatic;
 pub mod enclosed;
 mod factors;
+mod flow;
 pub mod holes;
 pub mod magnetisation;
 pub mod magnetised;
@@ -39,6 +40,7 @@ pub mod march;
 mod mirror;
 mod moments;
 pub mod multipole;
+mod newton;
 pub mod parts;
 pub mod permeable;
 pub mod quadrature;

@@ -2,19 +2,18 @@
 //!
 //! With what the media make of a field on the right side ([`super::saturation`]) the stage is solved for the next one, until
 //! the flux density does not change: a fixed point, by Anderson's method, which needs no other rows than those of the
-//! stage. These are factorised once.
+//! stage. These are factorised once. Where currents flow in such media it is found by `newton` instead.
 
 use krylov::{Anderson, Ending, Error, Rescue, Rule, Solved};
 
 use super::march::{Settled, Stage};
+use super::newton::{Newton, STILL, largest};
 use super::saturation::{Saturation, Seen, Sheets};
 
 /// Steps that are kept.
 const WINDOW: usize = 10;
 /// Most steps.
 const MOST: u64 = 1000;
-/// Change of the flux density in a step, over the largest, at which the field is found.
-const STILL: f64 = 1e-8;
 /// Growth of what is left, over the least so far, at which steps that were kept no longer tell of those to come.
 const GROWN: f64 = 2.0;
 
@@ -49,13 +48,31 @@ impl<'a, const D: usize, const K: usize> Saturated<'a, D, K> {
     }
 
     /// The field of an unknown as the media see it.
-    fn look(&self, (driven, wave): (&[f64], f64), unknown: &[f64]) -> Seen<K> {
-        let moved = match self.media.conducts() {
-            true => self.stage.moved(driven, unknown),
-            false => Vec::new(),
+    fn look(&self, wave: f64, unknown: &[f64]) -> Seen<K> {
+        self.media.look(unknown.as_chunks::<K>().0, (wave, &[]))
+    }
+
+    /// The same solve where currents flow in such media.
+    fn flowing(
+        &mut self,
+        (driven, wave): (&[f64], f64),
+        unknown: &mut [f64],
+        rule: Rule,
+    ) -> Solved {
+        let mut newton = Newton {
+            stage: &mut *self.stage,
+            media: &self.media,
+            taken: (0, 0),
+            driven,
+            wave,
+            rule,
         };
-        let moved = moved.as_chunks::<K>().0;
-        self.media.look(unknown.as_chunks::<K>().0, (wave, moved))
+        let ended = newton.solve::<K>(unknown.to_vec());
+        let steps = newton.taken.0;
+        let last = (ended.most.0, self.media.place(ended.most.1));
+        self.settled.count(steps, last, ended.found);
+        unknown.copy_from_slice(&ended.unknown);
+        ended.solved
     }
 
     /// From one field to the next, which was solved for with P on faces.
@@ -72,13 +89,6 @@ impl<'a, const D: usize, const K: usize> Saturated<'a, D, K> {
             sheets,
         }
     }
-}
-
-/// The largest length of vectors, and where; no number where one is none.
-fn largest(vectors: &[[f64; 3]]) -> (f64, usize) {
-    let square = |k: usize| vectors[k].iter().map(|v| v * v).sum::<f64>();
-    let worst = (0..vectors.len()).max_by(|a, b| square(*a).total_cmp(&square(*b)));
-    worst.map_or((0.0, 0), |k| (square(k).sqrt(), k))
 }
 
 impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
@@ -109,9 +119,12 @@ impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
         unknown: &mut [f64],
         rule: Rule,
     ) -> Solved {
+        if self.media.conducts() {
+            return self.flowing((driven, wave), unknown, rule);
+        }
         let mut anderson = Anderson::new(WINDOW);
         let (mut products, mut steps, mut least) = (0, 0, f64::INFINITY);
-        let mut here = self.look((driven, wave), unknown);
+        let mut here = self.look(wave, unknown);
         let mut sheets = self.media.sheets(&here);
         loop {
             let right = self.media.right(&here, &sheets);
@@ -119,7 +132,7 @@ impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
             let sources = (wave, right.as_flattened());
             let solved = self.stage.solve(driven, sources, &mut next, rule);
             (products, steps) = (products + solved.products, steps + 1);
-            let then = self.look((driven, wave), &next);
+            let then = self.look(wave, &next);
             let step = self.step(&here, &then, &sheets);
             let (moved, entry) = step.most;
             let found = moved <= STILL * step.flux;
@@ -143,7 +156,7 @@ impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
             unknown.copy_from_slice(a);
             let kept = sheets.as_flattened_mut().as_flattened_mut();
             kept.copy_from_slice(rest);
-            here = self.look((driven, wave), unknown);
+            here = self.look(wave, unknown);
         }
     }
 }

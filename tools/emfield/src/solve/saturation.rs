@@ -8,6 +8,7 @@
 //!   components. The row of A keeps its Laplacian and its rate m, `lap A + m`, less what is left of that equation over a
 //!   reluctivity `nu_1`. What `nu_1` is the solution does not know: with the mean of `H/B` and `dH/dB` at the point each
 //!   step shrinks what is left, whatever the level of saturation.
+//! - Where currents flow P is differentiated instead, see `flow`.
 //! - On an interface the field along it is continuous: `n x (P_b - P_a)` stands on the right of the jump of
 //!   `nu_0 n x curl A`. Slopes on the side of such a medium do not know the Laplacian. P is not taken from B at once, which
 //!   would grow beyond bounds where a circuit of iron is closed and the field is given: of the flux density `B` and the
@@ -47,6 +48,8 @@ pub struct Saturation<'a, const D: usize> {
     pub(super) faces: Vec<Face>,
     /// Fields on walls by multipole.
     pub(super) walls: Vec<Vec<f64>>,
+    /// By point, where it stands among the points or faces here.
+    pub(super) slots: Vec<u32>,
 }
 
 /// A medium.
@@ -68,6 +71,8 @@ pub(super) struct Point<const D: usize> {
     pub(super) slopes: [[f64; 3]; D],
     /// By multipole, what P is multiplied with.
     pub(super) seen: Vec<[f64; 3]>,
+    /// Whether currents flow there, and P is known all around.
+    pub(super) flows: bool,
 }
 
 /// A face one or both sides of which are such media.
@@ -87,12 +92,12 @@ pub struct Seen<const K: usize> {
     pub inside: Vec<[f64; 3]>,
     /// On both sides of faces; zero where a side is no such medium.
     pub on: Sheets,
-    rows: Vec<[f64; K]>,
+    pub(super) rows: Vec<[f64; K]>,
 }
 
 impl Medium<'_> {
     /// `(nu_0 - nu) B`.
-    fn rest(&self, flux: [f64; 3]) -> [f64; 3] {
+    pub(super) fn rest(&self, flux: [f64; 3]) -> [f64; 3] {
         let local = self.curve.at(size(flux));
         flux.map(|b| (self.level - self.around * local.reluctivity) * b)
     }
@@ -162,13 +167,17 @@ impl<'a, const D: usize> Saturation<'a, D> {
             let moved = moved.get(point.number).copied().unwrap_or([0.0; K]);
             self.inside(point, a, (wave, moved))
         });
-        let (rows, inside) = inside.unzip();
+        let (rows, inside): (Vec<[f64; K]>, Vec<[f64; 3]>) = inside.unzip();
         let on = self.faces.par_iter().map(|face| self.on(face, a, wave));
-        Seen {
+        let mut seen = Seen {
             inside,
             on: on.collect(),
             rows,
+        };
+        if self.conducts() {
+            self.flow(&mut seen);
         }
+        seen
     }
 
     /// P of a field on both sides of faces.
