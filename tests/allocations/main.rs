@@ -30,7 +30,7 @@ fn alone() -> MutexGuard<'static, ()> {
 }
 
 /// Steps before the count, and steps counted.
-const WARM: usize = 30;
+const WARM: usize = 100;
 const STEPS: usize = 40;
 /// Most allocations of a step: what the thread pool and a few lists of the stages may take.
 const MOST: f64 = 64.0;
