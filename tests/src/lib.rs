@@ -20,6 +20,7 @@ pub mod extreme;
 pub mod heat;
 pub mod keep;
 pub mod lab;
+mod meniscus;
 pub mod norms;
 mod particles;
 pub mod plasma;

@@ -40,6 +40,7 @@ mod heat_robin_square;
 mod heat_shock_disc;
 mod heat_sin_xy;
 mod heat_two_slabs;
+mod pool_dimple;
 mod pool_drop_oscillation;
 mod pool_drop_pressure;
 mod pool_hydrostatic;
@@ -94,6 +95,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(heat_cylinder_flux::HeatCylinderFlux),
         Box::new(heat_two_slabs::HeatTwoSlabs),
         Box::new(heat_shock_disc::HeatShockDisc),
+        Box::new(pool_dimple::PoolDimple),
         Box::new(pool_drop_oscillation::PoolDropOscillation),
         Box::new(pool_drop_pressure::PoolDropPressure),
         Box::new(pool_hydrostatic::PoolHydrostatic),

@@ -9,7 +9,7 @@ use run::{Failure, Fault, Inputs};
 use crate::domain::bodies::{self, Body, Filled};
 use crate::domain::bounds::Bounds;
 use crate::domain::droplet::Droplets;
-use crate::forces::arc_pressure::ArcPressure;
+use crate::forces::arc_pressure::{ArcPressure, Pressure};
 use crate::forces::buoyancy::Buoyancy;
 use crate::forces::gas_shear::{Gas, GasShear};
 use crate::forces::lorentz::Lorentz;
@@ -166,8 +166,10 @@ impl<'a> Source<'a> {
             Some(heat) => Some(heat.caloric().map_err(|fault| fault.within("/heat"))?),
             None => None,
         };
-        let wanted =
-            scene.gas_shear.is_some() || scene.lorentz.is_some() || scene.arc_pressure.is_some();
+        let pressed = scene.arc_pressure.as_ref();
+        let wanted = scene.gas_shear.is_some()
+            || scene.lorentz.is_some()
+            || pressed.is_some_and(|pressed| pressed.pressure_pa.is_none());
         let arc = match (wanted, inputs.get("arc")) {
             (false, None) => None,
             (true, None) => Some(ArcSource::read(inputs.path("arc")?)?),
@@ -253,8 +255,12 @@ impl<'a> Source<'a> {
                 .ok_or_else(|| Fault::at("/lorentz", "the input 'arc' holds no Lorentz force"))?;
             Ok(Box::new(Lorentz::new(table, metal)))
         })?;
-        parts.when("arc_pressure", scene.arc_pressure, |_| {
-            let pressure = self.arc()?.radial("arc_pressure_pa")?;
+        parts.when("arc_pressure", scene.arc_pressure.as_ref(), |pressed| {
+            let formula = pressed.formula();
+            let pressure = match formula.map_err(|fault| fault.within("/arc_pressure"))? {
+                Some(formula) => formula,
+                None => Pressure::Table(self.arc()?.radial("arc_pressure_pa")?),
+            };
             Ok(Box::new(ArcPressure::new(pressure, metal)))
         })?;
         parts.when("buoyancy", scene.buoyancy, |buoyancy| {

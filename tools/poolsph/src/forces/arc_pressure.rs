@@ -7,8 +7,10 @@
 //! takes the pressure there; its wall lies before it on the surface.
 //!
 //! Komen (2019, section 4.4.1) takes the pressure from the gas speed by Bernoulli's law and finds it
-//! too small; here it is the arc's own, at the same distance from the axis.
+//! too small; here it is the arc's own, at the same distance from the axis, or that of a formula.
 
+use run::Fault;
+use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -18,22 +20,67 @@ use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Column, Metal, State};
 use crate::vector::plus;
 
-/// The pressure of the arc (key `arc_pressure`).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// The pressure of the arc (key `arc_pressure`): of the arc input, or of a formula.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Parameters {}
+pub struct Parameters {
+    /// Pressure in r, the distance from the axis of the source (m), and t; absent: the arc input.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "Pa"))]
+    pub pressure_pa: Option<Property>,
+}
+
+impl Parameters {
+    /// The formula, if there is one.
+    ///
+    /// # Errors
+    /// A fault where the formula cannot be read.
+    pub fn formula(&self) -> Result<Option<Pressure>, Fault> {
+        let Some(property) = &self.pressure_pa else {
+            return Ok(None);
+        };
+        let curve = property.compile("/pressure_pa", &["r", "t"])?;
+        Ok(Some(Pressure::Formula(curve)))
+    }
+}
+
+/// The pressure over the distance from the axis.
+pub enum Pressure {
+    /// As the arc source has it, zero beyond its last row \[Pa\].
+    Table(Radial),
+    /// In r and t \[Pa\].
+    Formula(Curve),
+}
+
+impl Pressure {
+    /// The pressure at the distance `r` \[m\] \[Pa\].
+    fn at(&self, r: f64, time: f64) -> Result<f64, StageError> {
+        match self {
+            Self::Table(table) => Ok(table.at(r)),
+            Self::Formula(curve) => {
+                let at = Arguments {
+                    r,
+                    time,
+                    ..Arguments::default()
+                };
+                let value = curve.value(&at);
+                value.map_err(|fault| StageError::Data(format!("pressure of the arc: {fault}")))
+            }
+        }
+    }
+}
 
 /// The stage that presses on the surface.
 pub struct ArcPressure {
-    pressure: Radial,
+    pressure: Pressure,
     volume: f64,
     pressed: f64,
 }
 
 impl ArcPressure {
-    /// The pressure \[Pa\] over the distance from the axis.
+    /// This pressure on `metal`.
     #[must_use]
-    pub fn new(pressure: Radial, metal: Metal) -> Self {
+    pub fn new(pressure: Pressure, metal: Metal) -> Self {
         Self {
             pressure,
             volume: metal.volume(),
@@ -63,7 +110,8 @@ impl Stage for ArcPressure {
                 continue;
             }
             let x = near.position[k];
-            let [above, beside] = [x, patch.foot(x)].map(|x| self.pressure.at(axis.around(x).0));
+            let pressure = |x| self.pressure.at(axis.around(x).0, state.time);
+            let (above, beside) = (pressure(x)?, pressure(patch.foot(x))?);
             let side = beside * patch.reached() * patch.area;
             let down = above * patch.seen;
             let [nx, ny, _] = patch.normal;
@@ -93,11 +141,15 @@ mod tests {
     use crate::patch::Patch;
 
     fn pressed(shape: impl Fn(&mut Patch)) -> ([f64; 3], f64) {
+        let table = Radial::new(vec![0.0, 1.0], vec![500.0, 500.0]);
+        pressed_by(Pressure::Table(table), shape)
+    }
+
+    fn pressed_by(pressure: Pressure, shape: impl Fn(&mut Patch)) -> ([f64; 3], f64) {
         let mut state = pool(|_| 1800.0);
         let d = state.metal.spacing;
         on_top(&mut state, d * d);
         state.surface.iter_mut().for_each(shape);
-        let pressure = Radial::new(vec![0.0, 1.0], vec![500.0, 500.0]);
         let mut stage = ArcPressure::new(pressure, state.metal);
         stage.advance(&mut state, 1e-4).unwrap();
         let volume = state.metal.volume();
@@ -123,5 +175,27 @@ mod tests {
         });
         assert!((force[0] + 0.8 * 500.0 * area).abs() < 1e-12);
         assert!(force[2].abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_formula_presses_as_the_same_table_does() {
+        let written = serde_json::json!({"pressure_pa": {"expr": "1000 - 1000 * r"}});
+        let parameters: Parameters = serde_json::from_value(written).unwrap();
+        let formula = parameters.formula().unwrap().unwrap();
+        let table = Pressure::Table(Radial::new(vec![0.0, 1.0], vec![1000.0, 0.0]));
+        let flat = |patch: &mut Patch| patch.seen = patch.area;
+        let (by_formula, area) = pressed_by(formula, flat);
+        let (by_table, _) = pressed_by(table, flat);
+        assert!(by_table[2] < -500.0 * area);
+        assert!((by_formula[2] - by_table[2]).abs() < 1e-9 * by_table[2].abs());
+    }
+
+    #[test]
+    fn without_a_formula_there_is_none_and_a_wrong_one_is_refused() {
+        assert!(Parameters::default().formula().unwrap().is_none());
+        let written = serde_json::json!({"pressure_pa": {"expr": "1000 * x"}});
+        let parameters: Parameters = serde_json::from_value(written).unwrap();
+        let fault = parameters.formula().err().unwrap();
+        assert!(fault.to_string().contains("pressure_pa"), "{fault}");
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use run::property::Property;
 
-use super::arc_pressure::ArcPressure;
+use super::arc_pressure::{ArcPressure, Pressure};
 use super::gas_shear::{Gas, GasShear, Parameters};
 use super::lorentz::Lorentz;
 use crate::motion::Law;
@@ -98,7 +98,7 @@ fn sum(state: &State, part: impl Fn([f64; 3], [f64; 3]) -> f64) -> f64 {
 
 /// Force of a pressure of the peak 500 Pa \[N\].
 fn pressed(state: &mut State) -> [f64; 3] {
-    let mut stage = ArcPressure::new(cone(500.0), METAL);
+    let mut stage = ArcPressure::new(Pressure::Table(cone(500.0)), METAL);
     stage.advance(state, 1e-4).unwrap();
     [0, 1, 2].map(|axis| sum(state, |_, f| f[axis]))
 }

@@ -68,7 +68,7 @@ pub struct Scene {
     /// Lorentz force of the input `arc`; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lorentz: Option<lorentz::Parameters>,
-    /// Pressure of the input `arc` on the surface; absent: none.
+    /// Pressure of the arc on the surface, of the input `arc` or of a formula; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_pressure: Option<arc_pressure::Parameters>,
     /// Box in which metal is followed; absent: everywhere.

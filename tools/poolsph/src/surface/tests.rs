@@ -211,3 +211,36 @@ fn the_unit_of_length_does_not_matter() {
         assert!((small.area / (unit * unit) - large.area).abs() < 1e-6);
     }
 }
+
+/// Area seen from above and area times the upward normal of a hollow, through the window (1 - (r/a)^2)^2, over
+/// those of the sphere that it is.
+fn hollow(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
+    let state = cloud(16, lattice, |x| {
+        let within = x[2] < -0.5 * radius && x[2] > -radius - 6.0 && x[0].hypot(x[1]) < 14.0;
+        within && squared(x).sqrt() > radius
+    });
+    let a = 0.75_f64.sqrt() * radius;
+    let window = |x: [f64; 3]| (1.0 - (x[0].hypot(x[1]) / a).powi(2)).max(0.0).powi(2);
+    let exact = std::f64::consts::PI * a * a / 3.0;
+    let (mut seen, mut up) = (0.0, 0.0);
+    let floor = -radius - 3.0;
+    for (x, patch) in state.position.iter().zip(&state.surface) {
+        if x[2] > floor {
+            seen += patch.seen * window(*x);
+            up += patch.area * patch.normal[2] * window(patch.foot(*x));
+        }
+    }
+    [seen / exact, up / exact]
+}
+
+#[test]
+fn hollows_have_their_area() {
+    for (radius, bound) in [(6.0, 0.03), (4.0, 0.05)] {
+        for (turn, jitter) in [(0.0, 0.0), (0.7, 0.0), (1.9, 0.2)] {
+            let [seen, up] = hollow(radius, ([1.0, 2.0, 3.0], turn, jitter));
+            let what = format!("radius {radius}, turned {turn}, jitter {jitter}: {seen} {up}");
+            assert!((seen - 1.0).abs() < bound, "{what}");
+            assert!((up - 1.0).abs() < bound, "{what}");
+        }
+    }
+}
