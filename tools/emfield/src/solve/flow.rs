@@ -43,7 +43,11 @@ impl<const D: usize> Saturation<'_, D> {
     }
 
     /// The curl of a vector in space at point `i`, as the unknown has it, from its values at points.
-    fn turned<const K: usize>(&self, i: usize, vector: impl Fn(usize) -> [f64; 3]) -> [f64; K] {
+    pub(super) fn turned<const K: usize>(
+        &self,
+        i: usize,
+        vector: impl Fn(usize) -> [f64; 3],
+    ) -> [f64; K] {
         let own = &self.sides.own;
         let along = |axis: usize, k: usize| own.derivative(i, axis).apply_with(|j| vector(j)[k]);
         if K == 3 {

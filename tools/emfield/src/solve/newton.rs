@@ -31,7 +31,8 @@ const SHIFT: f64 = 1e-6;
 
 /// The largest length of vectors, and where; no number where one is none.
 pub(super) fn largest(vectors: &[[f64; 3]]) -> (f64, usize) {
-    let square = |k: usize| vectors[k].iter().map(|v| v * v).sum::<f64>();
+    // What is no number may have either sign, and is the largest by that of its size.
+    let square = |k: usize| vectors[k].iter().map(|v| v * v).sum::<f64>().abs();
     let worst = (0..vectors.len()).max_by(|a, b| square(*a).total_cmp(&square(*b)));
     worst.map_or((0.0, 0), |k| (square(k).sqrt(), k))
 }

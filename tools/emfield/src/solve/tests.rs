@@ -140,5 +140,7 @@ pub(super) fn shells(across: f64, along: f64) -> (Region<3>, Vec<Moments<3>>) {
 mod axis;
 mod charge;
 mod eddy;
+mod flow;
 mod holes;
 mod march;
+mod newton;

@@ -70,6 +70,39 @@ fn a_straight_curve_is_the_permeability_that_it_has() {
     }
 }
 
+/// The bar conducts, and the field about it is switched on.
+fn marched(permeability: &Value, geometry: &str) -> Value {
+    let mut scene = bar(permeability, 1.0);
+    scene["geometry"] = json!(geometry);
+    scene["bodies"][0]["conductivity_s_m"] = json!(1e4);
+    let currents = scene["eddy_currents"].as_object_mut().unwrap();
+    currents.remove("static");
+    currents.insert(
+        "transient".to_owned(),
+        json!({"end_s": 0.2, "step_s": 0.05}),
+    );
+    if geometry == "axisymmetric" {
+        currents.insert("applied_flux_density_t".to_owned(), json!([0, 1]));
+    }
+    scene
+}
+
+/// Where currents flow, too, a straight curve is the permeability that it has; without a curve no step is spent on it.
+#[test]
+fn currents_in_a_straight_curve_are_those_of_its_permeability() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = json!({"b_t": [0, 10], "h_a_m": [0, 10.0 / (20.0 * MU0)]});
+    for (geometry, most) in [("plane", 0.005), ("axisymmetric", 0.01)] {
+        let wanted = run(folder.path(), &marched(&json!(20.0), geometry));
+        let spent = last(&wanted, "/totals").get("steps_saturation").is_ok();
+        assert!(!spent);
+        let wanted = flux(&wanted);
+        let found = flux(&run(folder.path(), &marched(&line, geometry)));
+        let off = apart(&found, &wanted);
+        assert!(off < most, "{geometry}: {off}");
+    }
+}
+
 /// Inside a bar across the field B is uniform, with `B + mu_0 H = 2 B_0`, at any saturation (Jackson 1999, section 5.11).
 #[test]
 fn a_bar_has_the_same_flux_everywhere_at_any_saturation() {
