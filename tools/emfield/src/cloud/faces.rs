@@ -59,7 +59,8 @@ impl Builder {
         }
     }
 
-    /// Points on the surface of a body, nearer to each other where the surface of another body faces it.
+    /// Points on the surface of a body, nearer to each other where the surface of another body faces it, or one with finer
+    /// points is beside it.
     fn seeds(&self, k: usize) -> Vec<Seed> {
         let solid = &self.region.solids[k];
         let step = SAME * solid.spacing;
@@ -80,7 +81,8 @@ impl Builder {
                     gap = gap.min(away);
                 }
             }
-            (0.5 * gap).clamp(LEAST * solid.spacing, solid.spacing)
+            let across = (0.5 * gap).clamp(LEAST * solid.spacing, solid.spacing);
+            across.min(self.region.beside(x, k))
         };
         let coarse = surface::seeds(
             &solid.body,
@@ -92,7 +94,7 @@ impl Builder {
             .iter()
             .fold(solid.spacing, |least, seed| least.min(local(seed.place)));
         if least < 0.999 * solid.spacing {
-            let limits = (solid.spacing, LEAST * solid.spacing);
+            let limits = (solid.spacing, least.min(LEAST * solid.spacing));
             let fine = surface::seeds(&solid.body, self.region.dimensions, limits, &local);
             self.on_axis(fine)
         } else {

@@ -165,6 +165,19 @@ impl Region {
         best
     }
 
+    /// Spacing of points on the surface of body `k` that those of finer bodies leave at a place \[m\]: as the lattice grows
+    /// away from these, so does what stands among its points.
+    #[must_use]
+    pub fn beside(&self, x: Vector, k: usize) -> f64 {
+        let own = self.solids[k].spacing;
+        let finer = self.solids.iter().filter(|other| other.spacing < own);
+        finer.fold(own, |spacing, other| {
+            let d = other.body.distance(x);
+            let growth = self.growth[usize::from(d > 0.0)];
+            spacing.min(other.spacing + growth * d.abs())
+        })
+    }
+
     /// Wanted spacing of the lattice at a place \[m\]; `nearer` is how much nearer to everything a place within a
     /// cell may be.
     #[must_use]

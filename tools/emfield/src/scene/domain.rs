@@ -145,7 +145,8 @@ pub struct BodyScene {
     /// Potential at which electrostatics holds the body: an electrode.
     #[schemars(extend("x-unit" = "V"))]
     pub potential_v: Option<f64>,
-    /// Distance of points along its surface; that of `points` when it is absent.
+    /// Distance of points along its surface; that of `points` when it is absent. Towards a body with finer points it falls as
+    /// the spacing of the lattice does.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: Option<f64>,
 }

@@ -5,6 +5,7 @@
 mod coils;
 mod doubts;
 mod enclosures;
+mod halves;
 mod magnets;
 mod saturation;
 mod ways;
