@@ -191,6 +191,11 @@ fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
     } else {
         plan
     };
+    let plan = if media.clone().any(|m| scene.saturates(m)) {
+        plan.stage("saturation")
+    } else {
+        plan.left_out("saturation", "no permeability depends on the field")
+    };
     if conducts || carries {
         let plan = plan
             .column("current_density", "A/m2")

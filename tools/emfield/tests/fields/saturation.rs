@@ -103,6 +103,25 @@ fn currents_in_a_straight_curve_are_those_of_its_permeability() {
     }
 }
 
+/// The plan names what is at work, and what is not.
+#[test]
+fn the_plan_tells_whether_a_permeability_depends_on_the_field() {
+    let folder = tempfile::tempdir().unwrap();
+    let planned = |mu: &Value| {
+        let file = folder.path().join("scene.json");
+        std::fs::write(&file, bar(mu, 1.0).to_string()).unwrap();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+            .args(["check", file.to_str().unwrap()])
+            .output()
+            .unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let (with, without) = (planned(&steel()), planned(&json!(20)));
+    assert!(with.contains("eddy currents, saturation"), "{with}");
+    assert!(without.contains("no permeability depends"), "{without}");
+    assert!(!without.contains("eddy currents, saturation"), "{without}");
+}
+
 /// Inside a bar across the field B is uniform, with `B + mu_0 H = 2 B_0`, at any saturation (Jackson 1999, section 5.11).
 #[test]
 fn a_bar_has_the_same_flux_everywhere_at_any_saturation() {
