@@ -14,8 +14,9 @@ const GROWTH: f64 = 10.0;
 const DETOUR: usize = 40;
 /// Falls in a row after which a slowed iteration is hurried.
 const FALLS: usize = 4;
-/// Smallest under-relaxation that slowing leads to.
-const LEAST: f64 = 0.3;
+/// Smallest under-relaxations of velocities and temperatures that slowing leads to: a velocity slowed further would follow the
+/// vortices that a jet casts off in time.
+const LEAST: [f64; 2] = [0.8, 0.3];
 /// Iterations without a fall, at the slowest, after which it is given up.
 const GIVE_UP: usize = 800;
 
@@ -79,10 +80,10 @@ impl Pace {
         if self.slowest() {
             return false;
         }
-        let slower = |r: f64| (1.0 - 2.0 * (1.0 - r)).max(LEAST.min(r));
-        self.velocity = slower(self.velocity);
+        let slower = |r: f64, least: f64| (1.0 - 2.0 * (1.0 - r)).max(least.min(r));
+        self.velocity = slower(self.velocity, LEAST[0]);
         // A relaxation of 1 has nothing to double.
-        self.temperature = slower(self.temperature.min(0.975));
+        self.temperature = slower(self.temperature.min(0.975), LEAST[1]);
         true
     }
 
@@ -98,7 +99,7 @@ impl Pace {
     }
 
     fn slowest(&self) -> bool {
-        self.temperature <= LEAST
+        self.temperature <= LEAST[1]
     }
 
     /// Whether nothing is gained any more, however slow.
@@ -127,7 +128,8 @@ mod tests {
         for _ in 0..3000 {
             slowed += usize::from(pace.watch(0.99_f64.powi(2000)));
         }
-        assert!(slowed >= 3 && pace.temperature <= LEAST + 1e-12 && pace.velocity >= LEAST);
+        assert!(slowed >= 3 && pace.temperature <= LEAST[1] + 1e-12);
+        assert!((pace.velocity - LEAST[0]).abs() < 1e-12);
         assert!(pace.stagnates());
     }
 
