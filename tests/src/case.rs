@@ -25,14 +25,25 @@ pub enum Bound {
         /// An error of at most this will do too: there are no multiples of round-off.
         or_error_below: f64,
     },
-    /// The observed order over all levels is at least `min`.
+    /// The observed order is at least `min`.
     Order {
         /// Smallest admissible order.
         min: f64,
+        /// The levels that it is observed over.
+        over: Span,
         /// An error at the finest level of at most this will do too: what is exact to round-off has
         /// no order.
         or_error_below: Option<f64>,
     },
+}
+
+/// Levels over which an order is observed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Span {
+    /// All that are run.
+    All,
+    /// The two finest: where the coarsest is not yet in the range of the order.
+    FinestTwo,
 }
 
 /// A bound that the study must keep: of one quantity, one method and, for an error, one level.
@@ -43,6 +54,7 @@ pub enum Bound {
 ///     Target::error("temperature_linf", 2e-3).at_level(1),
 ///     Target::error("temperature_linf", 5e-4).at_level(2).of("pair-explicit"),
 ///     Target::order("temperature_linf", 1.8).or_error_below(1e-12),
+///     Target::order("temperature_linf", 1.9).at_the_end(),
 /// ];
 /// assert_eq!(targets[1].name(), "temperature_linf_at_level_2_of_pair-explicit");
 /// ```
@@ -81,6 +93,7 @@ impl Target {
     pub fn order(quantity: impl Into<String>, min: f64) -> Self {
         let bound = Bound::Order {
             min,
+            over: Span::All,
             or_error_below: None,
         };
         Self::new(quantity.into(), bound)
@@ -119,12 +132,27 @@ impl Target {
         self
     }
 
+    /// Judged between the two finest levels instead of over all. For an order only.
+    #[must_use]
+    pub fn at_the_end(mut self) -> Self {
+        if let Bound::Order { over, .. } = &mut self.bound {
+            *over = Span::FinestTwo;
+        }
+        self
+    }
+
     /// The key of the target in the record.
     #[must_use]
     pub fn name(&self) -> String {
         let mut name = match self.bound {
             Bound::Error { .. } | Bound::Multiple { .. } => self.quantity.clone(),
-            Bound::Order { .. } => format!("order_{}", self.quantity),
+            Bound::Order {
+                over: Span::All, ..
+            } => format!("order_{}", self.quantity),
+            Bound::Order {
+                over: Span::FinestTwo,
+                ..
+            } => format!("order_{}_at_the_end", self.quantity),
         };
         if let Some(level) = self.level {
             name += &format!("_at_level_{level}");

@@ -68,17 +68,25 @@ impl Case for EmDielectricSphere {
             Target::error("field_linf", 3e-3),
             Target::error("field_beyond_linf", 3e-3),
             Target::error("traction_linf", 1e-2),
-            Target::order("potential_linf", 4.0).of(USUAL),
-            Target::order("field_linf", 3.0).of(USUAL),
-            Target::order("field_beyond_linf", 3.0).of(USUAL),
             Target::order("potential_linf", 2.0).of("quadratic"),
             Target::order("field_linf", 2.0).of("quadratic"),
             // 2 in the limit, from below.
-            Target::order("field_beyond_linf", 1.75).of("quadratic"),
+            Target::order("field_beyond_linf", 1.85)
+                .of("quadratic")
+                .at_the_end(),
         ];
         for method in [ILU0, ILUT] {
             targets.push(Target::error("potential_linf", 3e-4).of(method));
             targets.push(Target::error("field_linf", 3e-3).of(method));
+        }
+        // Quartics promise 3 at any permittivity. Of 2 or less the coarsest level is not yet in the range of the order.
+        for method in METHODS
+            .iter()
+            .filter(|m| **m == USUAL || m.starts_with("permittivity"))
+        {
+            for quantity in ["potential_linf", "field_linf", "field_beyond_linf"] {
+                targets.push(Target::order(quantity, 3.0).of(*method).at_the_end());
+            }
         }
         for method in METHODS.iter().filter(|m| m.starts_with("permittivity")) {
             targets.push(Target::error("potential_linf", 3e-4).of(*method));

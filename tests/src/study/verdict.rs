@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{Level, Series};
-use crate::case::{Bound, Target};
+use crate::case::{Bound, Span, Target};
+use crate::norms::observed_order;
 
 /// A target with what was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -95,11 +96,12 @@ impl Verdict {
             }
             Bound::Order {
                 min,
+                over,
                 or_error_below,
             } => {
                 self.min = Some(min);
                 self.or_error_below = or_error_below;
-                self.judge_order(series);
+                self.judge_order(series, over);
             }
         }
     }
@@ -118,9 +120,12 @@ impl Verdict {
         self.holds = asked.then_some(holds);
     }
 
-    /// The order over all levels against `min`.
-    fn judge_order(&mut self, series: Option<&Series>) {
-        self.found = series.and_then(|s| s.order.get(&self.quantity).copied().flatten());
+    /// The order over the levels of `over` against `min`.
+    fn judge_order(&mut self, series: Option<&Series>, over: Span) {
+        self.found = series.and_then(|s| match over {
+            Span::All => s.order.get(&self.quantity).copied().flatten(),
+            Span::FinestTwo => finest_order(s, &self.quantity),
+        });
         let rises = self
             .found
             .zip(self.min)
@@ -135,6 +140,15 @@ impl Verdict {
             .is_some_and(|(below, error)| error <= below);
         self.holds = Some(rises || exact);
     }
+}
+
+/// The order between the two finest levels; none of a single level.
+fn finest_order(series: &Series, quantity: &str) -> Option<f64> {
+    let [.., coarse, fine] = series.levels.as_slice() else {
+        return None;
+    };
+    let errors = [error(coarse, quantity)?, error(fine, quantity)?];
+    observed_order(&[coarse.spacing_m, fine.spacing_m], &errors)
 }
 
 /// The wanted level of a series, or its finest.
@@ -209,6 +223,28 @@ mod tests {
             memory: Value::Null,
             left_out: Value::Null,
         }
+    }
+
+    #[test]
+    fn an_order_at_the_end_looks_at_the_two_finest_levels() {
+        let mut made = series("bent", &[(1, 1e-2), (2, 6e-3), (3, 1.5e-3)], Some(1.4));
+        for (level, spacing) in made.levels.iter_mut().zip([0.4, 0.2, 0.1]) {
+            level.spacing_m = spacing;
+        }
+        let judged = |target: Target| {
+            let all = verdicts(
+                std::slice::from_ref(&target),
+                &std::slice::from_ref(&made),
+                &[1, 2, 3],
+            );
+            let verdict = &all[&target.name()];
+            (verdict.found, verdict.holds)
+        };
+        let (found, holds) = judged(Target::order("a", 1.9).at_the_end());
+        assert!((found.unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(holds, Some(true));
+        assert_eq!(judged(Target::order("a", 2.1).at_the_end()).1, Some(false));
+        assert_eq!(judged(Target::order("a", 1.9)).1, Some(false));
     }
 
     fn holds(target: Target, levels: &[u32]) -> Option<bool> {
