@@ -24,6 +24,7 @@ pub mod pace;
 mod plan;
 mod pool;
 pub mod properties;
+pub mod recombination;
 pub mod residual;
 pub mod resume;
 pub mod scene;

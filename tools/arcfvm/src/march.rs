@@ -6,6 +6,7 @@ use run::{Failure, Session};
 use crate::continuation::Steps;
 use crate::heat::balance::Balance;
 use crate::pace::Pace;
+use crate::recombination::Recombination;
 use crate::residual::{EQUATIONS, Residuals, part};
 use crate::resume;
 use crate::scene::Iterate;
@@ -22,6 +23,7 @@ struct Course<'a> {
     pace: Pace,
     trail: Trail,
     steps: Steps,
+    recombination: Option<Recombination>,
 }
 
 impl<'a> Course<'a> {
@@ -33,6 +35,7 @@ impl<'a> Course<'a> {
             pace: Pace::new(rule.velocity(), rule.temperature_relaxation),
             trail: Trail::default(),
             steps: Steps::new(rule.continuation.as_ref(), driven.unwrap_or(0.0)),
+            recombination: None,
         };
         let Some(mut checkpoint) = session.restored() else {
             course.steps.begin(arc);
@@ -44,13 +47,20 @@ impl<'a> Course<'a> {
         course.pace = checkpoint.json("pace")?;
         course.pace.set(arc);
         course.trail = checkpoint.json("trail")?;
+        if course.pace.recombines {
+            course.recombination = Some(Recombination::restored(&mut checkpoint)?);
+        }
         Ok(course)
     }
 
     fn keep(&self, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_json("pace", &self.pace)?;
         c.put_json("trail", &self.trail)?;
-        c.put_json("steps", &self.steps)
+        c.put_json("steps", &self.steps)?;
+        match &self.recombination {
+            Some(recombination) => recombination.keep(c),
+            None => Ok(()),
+        }
     }
 
     /// Whether the residuals end the iteration.
@@ -65,7 +75,7 @@ impl<'a> Course<'a> {
         self.steps.over() && self.pace.stagnates() && !self.trail.falls()
     }
 
-    /// Acts on the residuals of an iteration: next current, pace.
+    /// Acts on the residuals of an iteration: next current, pace, and the state that the next one begins from.
     fn act(&mut self, arc: &mut Arc, residuals: &Residuals, session: &mut Session) {
         self.trail.push(residuals.worst());
         let at = arc.iteration as f64;
@@ -73,9 +83,14 @@ impl<'a> Course<'a> {
             session.history("current", "A", at, current);
             self.pace = Pace::new(self.rule.velocity(), self.rule.temperature_relaxation);
             self.pace.set(arc);
+            self.recombination = None;
         } else if self.pace.watch(residuals.worst()) {
             self.pace.set(arc);
             session.history("temperature_relaxation", "1", at, self.pace.temperature);
+            let again = self.pace.recombines;
+            self.recombination = again.then(|| Recombination::new(arc));
+        } else if let Some(recombination) = &mut self.recombination {
+            recombination.recombine(arc, residuals);
         }
     }
 }

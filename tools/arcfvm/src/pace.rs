@@ -1,4 +1,4 @@
-//! Slows the iteration where it runs in circles or away, and hurries it again where it goes well.
+//! Recombines and slows the iteration where it runs in circles or away, and hurries it again where it goes well.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,11 +17,14 @@ const FALLS: usize = 4;
 /// Smallest under-relaxations of velocities and temperatures that slowing leads to: a velocity slowed further would follow the
 /// vortices that a jet casts off in time.
 const LEAST: [f64; 2] = [0.8, 0.3];
+/// Greatest residual with which the last iterations are recombined: farther from a solution they tell little of the way to it.
+const NEAR: f64 = 0.1;
 /// Iterations without a fall, at the slowest, after which it is given up.
 const GIVE_UP: usize = 800;
 
-/// Watches the greatest residual. What is not taken from the new solution doubles each time it has
-/// not fallen for a while or has grown, and halves again, never below that of the scene, where it falls.
+/// Watches the greatest residual. Where it has not fallen for a while or has grown, the last iterations are recombined from
+/// then on; each further time, what is not taken from the new solution doubles. It halves again, never below that of the scene,
+/// where the residual falls.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pace {
     best: f64,
@@ -37,6 +40,8 @@ pub struct Pace {
     wanted: usize,
     /// Under-relaxations of the scene.
     first: [f64; 2],
+    /// Whether the last iterations are recombined.
+    pub recombines: bool,
     /// Under-relaxation of the velocities.
     pub velocity: f64,
     /// Under-relaxation of the temperature.
@@ -55,6 +60,7 @@ impl Pace {
             falls: 0,
             wanted: FALLS,
             first: [velocity, temperature],
+            recombines: false,
             velocity,
             temperature,
         }
@@ -72,11 +78,15 @@ impl Pace {
         self.waited += 1;
         let far = worst > GROWTH * self.best;
         self.grown = if far { self.grown + 1 } else { 0 };
-        (self.waited >= PATIENCE || self.grown >= DETOUR) && self.slow()
+        (self.waited >= PATIENCE || self.grown >= DETOUR) && self.slow(worst)
     }
 
-    fn slow(&mut self) -> bool {
+    fn slow(&mut self, worst: f64) -> bool {
         (self.waited, self.grown, self.falls) = (0, 0, 0);
+        if !self.recombines && worst < NEAR {
+            self.recombines = true;
+            return true;
+        }
         if self.slowest() {
             return false;
         }
@@ -134,12 +144,27 @@ mod tests {
     }
 
     #[test]
-    fn slows_at_once_where_residuals_grow() {
+    fn slows_at_once_where_residuals_grow_to_where_nothing_is_to_be_recombined() {
         let mut pace = Pace::new(0.9, 0.99);
-        pace.watch(1e-3);
-        let at = (1..PATIENCE).find(|k| pace.watch(1e-3 * 1.1_f64.powi(*k as i32)));
+        pace.watch(1e-2);
+        let at = (1..PATIENCE).find(|k| pace.watch(1e-2 * 1.1_f64.powi(*k as i32)));
         assert!(at.is_some_and(|k| k > DETOUR && k < 2 * DETOUR), "{at:?}");
-        assert!(pace.temperature < 0.99);
+        assert!(pace.temperature < 0.99 && !pace.recombines);
+    }
+
+    #[test]
+    fn recombines_before_it_slows() {
+        let mut pace = Pace::new(0.9, 0.99);
+        let changes: Vec<_> = (0..3 * PATIENCE)
+            .filter(|_| pace.watch(1e-4))
+            .map(|_| 0)
+            .collect();
+        assert_eq!(changes.len(), 2);
+        let mut pace = Pace::new(0.9, 0.99);
+        while !pace.watch(1e-4) {}
+        assert!(pace.recombines && pace.temperature >= 0.99 && pace.velocity >= 0.9);
+        while !pace.watch(1e-4) {}
+        assert!(pace.recombines && pace.temperature < 0.99 && pace.velocity < 0.9);
     }
 
     #[test]
