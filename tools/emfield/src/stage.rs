@@ -55,6 +55,7 @@ impl Tool for EmField {
         }
         if let Some(electrostatics) = &scene.electrostatics {
             assemble::shorts(scene, electrostatics, &cloud)?;
+            assemble::room(scene, electrostatics, &cloud)?;
         }
         let enclosing = assemble::enclosing(scene, &cloud)?;
         let plan = shown(scene, &cloud, &enclosing);

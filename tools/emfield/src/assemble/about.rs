@@ -20,40 +20,67 @@ const FINE: f64 = 0.25;
 /// The surface; none where a body reaches a wall or leaves no spacing of room on both sides, nor where one so near to
 /// bodies or walls would need too many places.
 pub(super) fn about(scene: &Scene, cloud: &Cloud) -> Option<Enclosing> {
-    let geometry = scene.geometry;
-    let dimensions = geometry.dimensions();
     let cut = |class: &Class| matches!(class, Class::Outer { medium, .. } if *medium > 0);
     if cloud.surface.is_empty() || cloud.class.iter().any(cut) {
         return None;
     }
-    let (shape, room) = match &scene.domain {
-        Domain::Sphere(ball) => within_ball(ball, cloud),
-        Domain::Box(walls) => within_box(walls, cloud),
-    };
+    let (shape, room) = halfway(scene, cloud);
     if room < scene.points.spacing_m {
         return None;
     }
     // In space the rule is that of Gauss, of high order.
-    let spacing = if dimensions == 3 { room } else { FINE * room };
-    let mut pieces = rule(&Body::new(&shape, dimensions), dimensions, spacing);
+    let part = if cloud.geometry.dimensions() == 3 {
+        1.0
+    } else {
+        FINE
+    };
+    let found = surface(cloud.geometry, &shape, part * room);
+    (found.places.len() <= FEW.max(cloud.len() / PART)).then_some(found)
+}
+
+/// The surface halfway between all bodies and the walls, and its least distance from both \[m\].
+pub(super) fn halfway(scene: &Scene, cloud: &Cloud) -> (Shape, f64) {
+    match &scene.domain {
+        Domain::Sphere(ball) => within_ball(ball, cloud),
+        Domain::Box(walls) => within_box(walls, cloud),
+    }
+}
+
+/// A surface by places about a spacing apart \[m\].
+pub(super) fn surface(geometry: Geometry, shape: &Shape, spacing: f64) -> Enclosing {
+    let dimensions = geometry.dimensions();
+    let mut pieces = rule(&Body::new(shape, dimensions), dimensions, spacing);
     if geometry == Geometry::Axisymmetric {
         pieces.retain(|p| p.place[0] > 1e-9 * spacing);
-    }
-    if pieces.len() > FEW.max(cloud.len() / PART) {
-        return None;
     }
     let turn = |radius: f64| match geometry {
         Geometry::Axisymmetric => std::f64::consts::TAU * radius,
         Geometry::Plane | Geometry::Space => 1.0,
     };
-    Some(Enclosing {
+    Enclosing {
         name: "a surface about all bodies".to_owned(),
         places: pieces.iter().map(|p| geometry.place(p.place)).collect(),
         normals: pieces.iter().map(|p| geometry.place(p.normal)).collect(),
         areas: pieces.iter().map(|p| turn(p.place[0]) * p.area).collect(),
         medium: 0,
         within: Vec::new(),
-    })
+    }
+}
+
+/// The middle of all bodies between their ends along each coordinate of the scene, on the axis where there is one.
+pub(super) fn middle(cloud: &Cloud) -> Vector {
+    let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for x in surfaces(cloud) {
+        for k in 0..3 {
+            reach[0][k] = reach[0][k].min(x[k]);
+            reach[1][k] = reach[1][k].max(x[k]);
+        }
+    }
+    let mut middle: Vector = std::array::from_fn(|k| 0.5 * (reach[0][k] + reach[1][k]));
+    if cloud.geometry == Geometry::Axisymmetric {
+        middle[0] = 0.0;
+    }
+    middle
 }
 
 /// Places of surfaces of bodies in coordinates of the scene.

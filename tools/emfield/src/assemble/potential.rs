@@ -1,103 +1,24 @@
 //! Electrostatics of a scene: its equations, their solution, potential, field and traction.
 
-use krylov::{Options, Rows, System};
-use run::property::{Arguments, Curve};
-use run::{Failure, Fault, Session};
-use shapes::frame::{Vector, dot};
+use krylov::{Options, Pair, Rows, System};
+use run::{Failure, Session};
+use shapes::frame::Vector;
 
 use super::agree;
 use super::broken::unsolvable;
 use super::enclosed::{about_all, all_within, electric, enclosed};
-use super::region::{raise, region, walls};
+use super::open::Opened;
+use super::region::{raise, region};
 use super::unfit::no_stencil;
+use super::walls::Walls;
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::output::{Column, Found};
-use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Interfaces, Scene};
 use crate::solve::electrostatic::{Equations, Held, Problem, Smeared};
 use crate::solve::enclosed::Enclosed;
 use crate::solve::region::Region;
-use crate::solve::sides::Sides;
+use crate::solve::sides::{Form, Sides};
 use crate::surface::traction::{dielectric, electrode};
-
-/// An entry of the walls, ready to be evaluated.
-struct Entry {
-    faces: Option<Vec<usize>>,
-    potential: Option<Curve>,
-}
-
-/// What a scene says of its walls.
-pub(super) struct Walls<'a> {
-    scene: &'a Scene,
-    entries: Vec<Entry>,
-    applied: Option<Vector>,
-}
-
-impl<'a> Walls<'a> {
-    pub(super) fn new(scene: &'a Scene, electrostatics: &Electrostatics) -> Result<Self, Failure> {
-        let names = scene.domain.walls(scene.geometry);
-        let mut entries = Vec::new();
-        for (number, outer) in electrostatics.outer.iter().enumerate() {
-            let at = format!("/electrostatics/outer/{number}/potential_v");
-            let curve = outer.potential_v.as_ref().map(|p| p.compile(&at, &PLACE));
-            let number = |name: &String| names.iter().position(|n| n == name);
-            entries.push(Entry {
-                faces: outer
-                    .faces
-                    .as_ref()
-                    .map(|f| f.iter().filter_map(number).collect()),
-                potential: curve.transpose()?,
-            });
-        }
-        let applied = electrostatics.applied_field_v_m.as_ref();
-        let applied = applied.map(|e| crate::cloud::region::vector(e));
-        if entries.is_empty() && applied.is_some() {
-            entries.push(Entry {
-                faces: None,
-                potential: Some(Curve::Constant(0.0)),
-            });
-        }
-        Ok(Self {
-            scene,
-            entries,
-            applied,
-        })
-    }
-
-    fn names(entry: &Entry, wall: usize) -> bool {
-        entry
-            .faces
-            .as_ref()
-            .is_none_or(|faces| faces.contains(&wall))
-    }
-
-    /// Whether a wall lets no field through.
-    fn insulated(&self, wall: usize) -> bool {
-        let entry = self.entries.iter().find(|e| Self::names(e, wall));
-        entry.is_none_or(|e| e.potential.is_none())
-    }
-
-    /// What holds at a place in space on the walls: where several meet, a potential counts more than none.
-    pub(super) fn held(&self, x: Vector) -> Result<Held, Failure> {
-        let own = self.scene.geometry.coordinates(x);
-        for wall in walls(self.scene, own) {
-            let entry = self.entries.iter().position(|e| Self::names(e, wall));
-            let Some((number, curve)) =
-                entry.and_then(|n| Some((n, self.entries[n].potential.as_ref()?)))
-            else {
-                continue;
-            };
-            let value = curve.value(&Arguments::at(x, 0.0)).map_err(|error| {
-                let at = format!("/electrostatics/outer/{number}/potential_v");
-                Fault::at(&at, error.to_string())
-            })?;
-            return Ok(Held::Potential(
-                value - self.applied.map_or(0.0, |e| dot(e, own)),
-            ));
-        }
-        Ok(Held::Insulated)
-    }
-}
 
 /// Solves the electrostatics of a scene in `D` coordinates.
 ///
@@ -114,6 +35,8 @@ pub fn electrostatics<const D: usize>(
     let problem = problem(scene, cloud, &outer)?;
     let form = super::form(scene);
     let low = super::low_order(scene, region.len());
+    let open = Opened::new((scene, cloud), &outer, (&region, &form), session)?;
+    let open = open.as_ref();
     let stencil = |error: wls::Error| no_stencil("electrostatics", &error, (scene, cloud));
     let (value, inner, beyond) = match scene.method.interfaces {
         Interfaces::OneSided(_) => {
@@ -133,7 +56,7 @@ pub fn electrostatics<const D: usize>(
                 Ok(session.timed("assemble", || problem.rows(&region, &sides).0))
             });
             let low = low.transpose().map_err(stencil)?;
-            let v = solve((scene, cloud), equations, low, session)?;
+            let v = solve((scene, cloud), equations, (low, open), session)?;
             let field = |inner| Problem::field(&region, &sides, &v, inner);
             let (a, b) = session.timed("fields", || (field(true), field(false)));
             (v, a, b)
@@ -148,24 +71,40 @@ pub fn electrostatics<const D: usize>(
                 Ok(session.timed("assemble", || stencils.rows(&problem, &region).0))
             });
             let low = low.transpose().map_err(stencil)?;
-            let v = solve((scene, cloud), equations, low, session)?;
+            let v = solve((scene, cloud), equations, (low, open), session)?;
             let a = session.timed("fields", || stencils.field(&v));
             (v, a.clone(), a)
         }
     };
-    if let Some(what) = beyond_given(cloud, &problem, &value) {
+    if let Some(what) = beyond_given((cloud, outer.open), &problem, &value) {
         session.warn(what);
     }
-    let at = (&region, &form);
+    let fields = (value, [inner, beyond]);
+    told((scene, cloud), (&region, &form), fields, open, session)
+}
+
+/// Columns and totals of a potential and the fields of both sides, by point.
+fn told<const D: usize>(
+    (scene, cloud): (&Scene, &Cloud),
+    at: (&Region<D>, &Form),
+    (value, fields): (Vec<f64>, [Vec<[f64; D]>; 2]),
+    open: Option<&Opened>,
+    session: &mut Session,
+) -> Result<Found, Failure> {
+    let region = at.0;
     let enclosed = enclosed(scene, cloud, at, session)?;
     let up = |e| raise(cloud.geometry, e);
-    let [inner, beyond] =
-        [inner, beyond].map(|field| field.into_iter().map(up).collect::<Vec<Vector>>());
+    let [inner, beyond] = fields.map(|field| field.into_iter().map(up).collect::<Vec<Vector>>());
     let (mut found, pulls) = columns(scene, cloud, value, &inner, &beyond);
+    if let Some(open) = open {
+        let potential = std::mem::take(&mut found.columns[0].values);
+        open.totals(scene, &potential, &mut found);
+        found.columns[0].values = potential;
+    }
     if !cloud.surface.is_empty() {
         let about = about_all((scene, cloud), at, &enclosed, session);
         let with = (found.columns[0].values.as_slice(), pulls.as_slice());
-        let (with, closed) = ((&region, with), (enclosed.as_slice(), &about));
+        let (with, closed) = ((region, with), (enclosed.as_slice(), &about));
         found.join(forces((scene, cloud), with, [&inner, &beyond], closed));
     }
     Ok(found)
@@ -193,8 +132,10 @@ const BEYOND: f64 = 0.01;
 
 /// Says where a potential lies outside what walls and electrodes give: between them no permittivity has a maximum or a
 /// minimum, so that the points do not resolve what is there.
-fn beyond_given(cloud: &Cloud, problem: &Problem, value: &[f64]) -> Option<String> {
-    let walls = problem.held.iter().flatten().filter_map(|held| match held {
+fn beyond_given((cloud, open): (&Cloud, bool), problem: &Problem, value: &[f64]) -> Option<String> {
+    let each = problem.held.iter().zip(value);
+    let walls = each.filter_map(|(held, value)| match held.as_ref()? {
+        Held::Potential(_) if open => Some(*value),
         Held::Potential(v) => Some(*v),
         Held::Insulated => None,
     });
@@ -236,12 +177,12 @@ fn problem(scene: &Scene, cloud: &Cloud, outer: &Walls<'_>) -> Result<Problem, F
 
 /// Solves the equations; rows of low order, where there are some, precondition them.
 fn solve(
-    (scene, cloud): (&Scene, &Cloud),
-    (rows, right): Equations,
-    low: Option<Rows<f64>>,
+    at: (&Scene, &Cloud),
+    (rows, mut right): Equations,
+    (low, open): (Option<Rows<f64>>, Option<&Opened>),
     session: &mut Session,
 ) -> Result<Vec<f64>, Failure> {
-    let mut x = vec![[0.0]; right.len()];
+    let (scene, cloud) = at;
     let options = Options {
         fluxes: true,
         ..super::options(scene)
@@ -251,11 +192,37 @@ fn solve(
         None => System::new(rows, Vec::new(), options),
     });
     let mut system = made.map_err(|error| unsolvable("potential", &error, cloud))?;
+    let Some(open) = open else {
+        return solve_for(at, (&mut system, &[]), ("potential", &right), session);
+    };
+    let pairs = open.far.pairs();
+    open.far.applied(&open.applied, &mut right);
+    let mut found = solve_for(at, (&mut system, &pairs), ("potential", &right), session)?;
+    if open.floats {
+        let name = "potential_far";
+        let unit = solve_for(at, (&mut system, &pairs), (name, &open.walls), session)?;
+        let far = (open.far.flux(&open.applied) - open.far.flux(&found)) / open.far.flux(&unit);
+        for (v, unit) in found.iter_mut().zip(unit) {
+            *v += far * unit;
+        }
+        session.closing(name, "V", far);
+    }
+    Ok(found)
+}
+
+/// The potential that a right side has.
+fn solve_for(
+    (scene, cloud): (&Scene, &Cloud),
+    (system, pairs): (&mut System<f64, f64>, &[Pair<f64>]),
+    (name, right): (&str, &[[f64; 1]]),
+    session: &mut Session,
+) -> Result<Vec<f64>, Failure> {
+    let mut x = vec![[0.0]; right.len()];
     let stop = session.interrupt();
     let rule = super::rule(scene, &*stop);
-    let solved = session.timed("solve", || system.solve(&right, &mut x, rule));
+    let solved = session.timed("solve", || system.solve_with(pairs, right, &mut x, rule));
     let at = (cloud, |i: usize| x[i][0].abs());
-    super::report(("potential", "V"), &solved, at, session)?;
+    super::report((name, "V"), &solved, at, session)?;
     Ok(x.into_iter().map(|x| x[0]).collect())
 }
 

@@ -4,7 +4,7 @@ use run::{Failure, Fault};
 use shapes::Body;
 use shapes::frame::Vector;
 
-use super::potential::Walls;
+use super::walls::Walls;
 use crate::cloud::{Class, Cloud};
 use crate::scene::{Electrostatics, Scene};
 use crate::solve::electrostatic::Held;
@@ -41,6 +41,8 @@ pub fn shorts(
             .iter()
             .filter(|(.., body)| body.distance(own) < TOUCH * cloud.spacing[i]);
         let (given, name) = match cloud.class[i] {
+            // Nothing is held there.
+            Class::Outer { .. } if walls.open => continue,
             Class::Outer { face, .. } => match walls.held(*x)? {
                 Held::Potential(v) => {
                     let name = scene.domain.walls(scene.geometry)[face as usize];

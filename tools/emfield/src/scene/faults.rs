@@ -8,7 +8,7 @@ use shapes::check::{self, Misfit};
 use super::currents::Region;
 use super::method::{Interfaces, Way};
 use super::output::Closed;
-use super::{BodyScene, Coil, Domain, EddyCurrents, Electrostatics, Geometry, Scene};
+use super::{BodyScene, Coil, Domain, EddyCurrents, Geometry, Scene};
 
 /// What a potential may depend on.
 pub(crate) const PLACE: [&str; 4] = ["x", "y", "z", "r"];
@@ -153,16 +153,8 @@ impl Scene {
             let at = format!("/bodies/{number}/relative_permeability");
             faults.extend(body.relative_permeability.rows(&at).err());
         }
-        for (number, entry) in self
-            .electrostatics
-            .iter()
-            .flat_map(|e| &e.outer)
-            .enumerate()
-        {
-            if let Some(potential) = &entry.potential_v {
-                let at = format!("/electrostatics/outer/{number}/potential_v");
-                faults.extend(potential.compile(&at, &PLACE).err());
-            }
+        if let Some(electrostatics) = &self.electrostatics {
+            electrostatics.formulas(&mut faults);
         }
         let transient = self
             .eddy_currents
@@ -225,42 +217,6 @@ impl Domain {
             (Self::Box(_), Geometry::Axisymmetric) => vec!["r-", "r+", "z-", "z+"],
             (Self::Box(_), Geometry::Plane) => vec!["x-", "x+", "y-", "y+"],
             (Self::Box(_), Geometry::Space) => vec!["x-", "x+", "y-", "y+", "z-", "z+"],
-        }
-    }
-}
-
-impl Electrostatics {
-    fn check(&self, scene: &Scene, misfits: &mut Vec<Misfit>) {
-        let walls = scene.domain.walls(scene.geometry);
-        let dimensions = scene.geometry.dimensions();
-        for (number, entry) in self.outer.iter().enumerate() {
-            for (k, face) in entry.faces.iter().flatten().enumerate() {
-                if !walls.contains(&face.as_str()) {
-                    let at = format!("/electrostatics/outer/{number}/faces/{k}");
-                    let what = format!("\"{face}\" is no wall; walls are {}", walls.join(", "));
-                    misfits.push(Misfit::at(&at, what));
-                }
-            }
-        }
-        let at = "/electrostatics/applied_field_v_m";
-        if let Some(field) = &self.applied_field_v_m
-            && check::coordinates(field, at, dimensions, misfits)
-            && scene.geometry == Geometry::Axisymmetric
-            && field[0] != 0.0
-        {
-            misfits.push(Misfit::at(
-                &format!("{at}/0"),
-                "a uniform field has no radial part in an axisymmetric scene",
-            ));
-        }
-        let held = self.outer.iter().any(|o| o.potential_v.is_some())
-            || scene.bodies.iter().any(|b| b.potential_v.is_some())
-            || self.applied_field_v_m.is_some();
-        if !held {
-            misfits.push(Misfit::at(
-                "/electrostatics",
-                "no wall and no body has a potential: it would be known up to a constant only",
-            ));
         }
     }
 }

@@ -51,6 +51,45 @@ fn faults_are_located() {
 }
 
 #[test]
+fn faults_of_open_walls_are_located() {
+    let open = |text: &str| {
+        wrong(
+            r#""electrostatics": {"outer": [{"potential_v": {"expr": "z"}}]}"#,
+            &format!(r#""electrostatics": {{{text}}}"#),
+        )
+    };
+    let multipole = r#""outer": "multipole""#;
+    assert_eq!(open(multipole), ["/electrostatics"]);
+    let applied = r#""applied_potential_v": {"expr": "x*y"}"#;
+    assert_eq!(open(&format!("{multipole}, {applied}")), [""; 0]);
+    let uniform = r#""applied_field_v_m": [1, 0, 0]"#;
+    assert_eq!(open(&format!("{multipole}, {uniform}")), [""; 0]);
+    let at = "/electrostatics/applied_potential_v";
+    assert_eq!(open(&format!("{uniform}, {applied}")), [at]);
+    let formula = r#""applied_potential_v": {"expr": "q"}"#;
+    assert_eq!(
+        open(&format!("{multipole}, {formula}")),
+        [format!("{at}/expr")]
+    );
+    let ring = GOOD
+        .replace("space", "axisymmetric")
+        .replace("[-1, -1, -1]", "[0.1, -1]")
+        .replace("[1, 1, 1]", "[1, 1]")
+        .replace(
+            r#""sphere": {"centre_m": [0, 0, 0]"#,
+            r#""disc": {"centre_m": [0.5, 0]"#,
+        )
+        .replace(
+            r#"[{"potential_v": {"expr": "z"}}]"#,
+            r#""multipole", "applied_field_v_m": [0, 1]"#,
+        );
+    let scene: Scene = serde_json::from_str(&ring).unwrap();
+    let faults = scene.faults();
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path(), "/electrostatics/outer");
+}
+
+#[test]
 fn faults_of_eddy_currents_are_located() {
     let eddy = |text: &str| {
         wrong(

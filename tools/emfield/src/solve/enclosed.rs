@@ -127,6 +127,26 @@ impl<const D: usize> Enclosed<D> {
         (0..self.places.len()).into_par_iter().map(field).collect()
     }
 
+    /// The integral over the surface of a potential and of its slope along the normal, times two numbers of each place,
+    /// as weights of points.
+    #[must_use]
+    pub fn integral(&self, region: &Region<D>, times: impl Fn(usize) -> (f64, f64)) -> Vec<f64> {
+        let mut weights = vec![0.0; region.len()];
+        let surface = &self.surface;
+        for (place, (normal, area)) in surface.normals.iter().zip(&surface.areas).enumerate() {
+            let (value, slope) = times(place);
+            for (j, w) in self.fits.value(place).iter() {
+                weights[point(&self.origin, j)] += area * value * w;
+            }
+            for (axis, n) in region.lower(*normal).iter().enumerate() {
+                for (j, w) in self.fits.derivative(place, axis).iter() {
+                    weights[point(&self.origin, j)] += area * slope * n * w;
+                }
+            }
+        }
+        weights
+    }
+
     /// Vector potential of what was found, by point, and its curl, at each place.
     #[must_use]
     pub fn magnetic<const K: usize>(&self, unknown: Unknown, found: &[[C; K]]) -> Vec<Reaction> {

@@ -2,7 +2,7 @@
 //!
 //! - [`region`]: what a point is; [`sides`]: stencils that keep to one side of an interface, mirrored about an axis
 //!   of symmetry.
-//! - [`electrostatic`]: potentials. [`unknown`] of eddy currents, [`diffusion`]: their operator, [`drive`] what drives
+//! - [`electrostatic`]: potentials, [`open`] walls of theirs that truncate nothing, by `harmonics`. [`unknown`] of eddy currents, [`diffusion`]: their operator, [`drive`] what drives
 //!   them, [`eddy`] the fields of a solution, [`multipole`] walls that truncate nothing, [`quadrature`]
 //!   integrals over conductors, [`totals`] forces and heat, [`enclosed`] fields on surfaces around bodies.
 //! - [`waves`]: weights that are exact for what conductors carry in a sinusoidal steady state in a plane, [`waving`] the rows
@@ -33,6 +33,7 @@ pub mod electrostatic;
 pub mod enclosed;
 mod factors;
 mod flow;
+mod harmonics;
 pub mod holes;
 pub mod magnetisation;
 pub mod magnetised;
@@ -41,6 +42,7 @@ mod mirror;
 mod moments;
 pub mod multipole;
 mod newton;
+pub mod open;
 pub mod parts;
 pub mod permeable;
 pub mod quadrature;

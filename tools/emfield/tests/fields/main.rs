@@ -7,6 +7,7 @@ mod doubts;
 mod enclosures;
 mod halves;
 mod magnets;
+mod open;
 mod saturation;
 mod ways;
 
