@@ -10,6 +10,7 @@
 //!   [`diffusion`]: the same after its field is switched on.
 //! - [`exact`]: fields along the lines of a scene whose solution is known.
 //! - [`frames`] reads runs and scenes.
+//! - [`open`]: spheres and cylinders in open space.
 //! - [`pair`]: two conducting spheres at given potentials.
 //! - [`saturation`]: bodies with a curve of magnetisation in static fields.
 //! - [`transverse`]: a conducting cylinder in an alternating field across it.
@@ -27,6 +28,7 @@ pub mod diffusion;
 pub mod driven;
 pub mod exact;
 pub mod frames;
+pub mod open;
 pub mod pair;
 pub mod saturation;
 pub mod sphere;
