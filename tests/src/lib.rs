@@ -9,7 +9,7 @@
 //!   resolutions into a record of error against run time.
 //! - [`keep`] writes records whole or not at all.
 //! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction,
-//!   [`em`] those for electric and magnetic fields.
+//!   [`em`] those for electric and magnetic fields, [`operators`] the clouds of weighted least squares.
 
 pub mod bell;
 pub mod bench;
@@ -22,6 +22,7 @@ pub mod keep;
 pub mod lab;
 mod meniscus;
 pub mod norms;
+pub mod operators;
 mod particles;
 pub mod plasma;
 pub mod special;

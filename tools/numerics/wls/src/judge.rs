@@ -12,7 +12,34 @@ const TAME: f64 = 1e3;
 /// one has the sign of the others.
 pub(crate) const LEANS: f64 = 10.0;
 
+/// Weights of a plain fit add up to this at most without their signs, where a larger support gives less: of the gradient and
+/// of the Laplacian, in spacings, by order from 1, in two and three dimensions. About one and a half of those of a corner
+/// of a lattice. Lines have no such supports, and quartics in space err more by larger ones.
+const LOUD: [[[f64; 2]; 4]; 2] = [
+    [NO_BOUND, [6.0, 10.0], [9.0, 18.0], [14.0, 36.0]],
+    [NO_BOUND, [7.0, 14.0], [10.0, 36.0], NO_BOUND],
+];
+const NO_BOUND: [f64; 2] = [f64::INFINITY; 2];
+
 impl<const D: usize> Bench<'_, D> {
+    /// Weights of a plain fit over what they add up to where points tell enough; nothing of one that obeys conditions. What
+    /// the polynomial leaves of a field is multiplied by these, which the condition number does not know.
+    pub(crate) fn loud(&self, order: u8, work: &Work<D>) -> f64 {
+        if !work.conditions.is_empty() {
+            return 0.0;
+        }
+        let points = work.support.offsets.len();
+        let sum = |row: usize| -> f64 {
+            let weights = &work.fit.weights[row * points..(row + 1) * points];
+            weights.iter().map(|w| w.abs()).sum()
+        };
+        let [slope, bend] = LOUD[D - 2][usize::from(order) - 1];
+        let slopes = self.columns.gradient.map_or(0..0, |g| g..g + D);
+        let worst = slopes.map(|row| sum(row) / slope).fold(0.0, f64::max);
+        let bent = self.columns.laplacian.map_or(0.0, |row| sum(row) / bend);
+        worst.max(bent)
+    }
+
     /// Weights of the Laplacian that have the sign of the own one, over that; nothing where none is wanted.
     pub(crate) fn uneven(&self, work: &Work<D>) -> f64 {
         let (Some(row), Some(own), true) = (

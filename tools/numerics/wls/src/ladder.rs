@@ -53,6 +53,8 @@ struct Tried {
     evenest: Option<(f64, Trial)>,
     /// Least leaning of a one-sided derivative.
     leanest: Option<(f64, Trial)>,
+    /// Least loudness above 1 of a plain fit.
+    quietest: Option<(f64, Trial)>,
 }
 
 impl Tried {
@@ -61,6 +63,7 @@ impl Tried {
             best: (f64::INFINITY, from),
             evenest: None,
             leanest: None,
+            quietest: None,
         }
     }
 }
@@ -132,6 +135,17 @@ impl<const D: usize> Bench<'_, D> {
                 by_room: false,
             };
             if let Some(made) = self.even(target, trial, work, &mut tried.evenest) {
+                let loud = self.loud(order, work);
+                if loud > 1.0 && times < from + SEARCHES {
+                    if tried.quietest.is_none_or(|(least, _)| loud < least) {
+                        tried.quietest = Some((loud, trial));
+                    }
+                    continue;
+                }
+                if let Some((_, trial)) = tried.quietest.filter(|(least, _)| *least < loud) {
+                    self.enlarge(target, trial.times, &mut work.support)?;
+                    return Ok(self.attempt(target, trial, work).map(|(made, _)| made));
+                }
                 let lean = self.leaning(target, order, work);
                 if lean <= LEANS {
                     return Ok(Some(made));
