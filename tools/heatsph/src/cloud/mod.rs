@@ -55,7 +55,7 @@ pub struct Cloud {
 pub enum CloudError {
     /// Only single primitives have an arrangement of their own.
     #[error(
-        "a fitted arrangement needs a box, disc, cylinder or sphere; write \"arrangement\": \"cut\" for compositions"
+        "a fitted arrangement needs a box, disc, cylinder or sphere; write \"arrangement\": \"cut\" for ellipsoids and compositions"
     )]
     NotSingle,
     /// The body has no end.
@@ -111,7 +111,7 @@ impl Cloud {
             Kind::Box(half) => lattice::fill(half, points, dimensions),
             Kind::Cylinder { radius, half } => rings::fill(radius, half, points, dimensions),
             Kind::Ball(radius) => shells::fill(radius, points),
-            Kind::HalfSpace => return Err(CloudError::NotSingle),
+            Kind::Ellipsoid(_) | Kind::HalfSpace => return Err(CloudError::NotSingle),
         };
         for x in &mut cloud.position {
             *x = primitive.frame.place(*x);

@@ -4,6 +4,7 @@
 //! its parts' (a lower bound of the true distance, with the right sign everywhere), which is all that the
 //! arrangement of points and the search for surfaces ask for.
 
+use crate::ellipsoid::Ellipsoid;
 use crate::frame::{Frame, Vector, along, direction, length};
 use crate::shape::Shape;
 
@@ -21,6 +22,8 @@ pub enum Kind {
     },
     /// Radius \[m\].
     Ball(f64),
+    /// Semi-axes; endless along z in a plane scene.
+    Ellipsoid(Ellipsoid),
     /// All below the plane of its x and y.
     HalfSpace,
 }
@@ -68,6 +71,7 @@ impl Primitive {
                 f64::NEG_INFINITY,
             ]),
             Kind::Ball(radius) => length(q) - radius,
+            Kind::Ellipsoid(e) => e.distance(q),
             Kind::HalfSpace => q[2],
         }
     }
@@ -90,6 +94,10 @@ impl Primitive {
                 *radius += by;
                 *radius > 0.0
             }
+            Kind::Ellipsoid(e) => e.grown(by).is_some_and(|more| {
+                *e = more;
+                true
+            }),
             Kind::HalfSpace => {
                 let frame = &mut grown.frame;
                 frame.origin = along(frame.origin, by, frame.axes[2]);
@@ -105,6 +113,7 @@ impl Primitive {
             Kind::Box(half) => half,
             Kind::Cylinder { radius, half } => [radius, radius, half],
             Kind::Ball(radius) => [radius; 3],
+            Kind::Ellipsoid(e) => e.half.map(|h| h + e.beyond),
             Kind::HalfSpace => [f64::INFINITY; 3],
         };
         let reach: Vector = std::array::from_fn(|k| {
@@ -116,7 +125,13 @@ impl Primitive {
                     0.0
                 }
             };
-            part(0) + part(1) + part(2)
+            match self.kind {
+                Kind::Ellipsoid(e) => {
+                    let own = [0, 1, 2].map(|a| part(a) - e.beyond * self.frame.axes[a][k].abs());
+                    length(own) + e.beyond
+                }
+                _ => part(0) + part(1) + part(2),
+            }
         });
         let origin = self.frame.origin;
         [
@@ -299,6 +314,15 @@ impl Builder<'_> {
             Shape::Sphere(s) => {
                 let frame = at(vector(&s.centre_m)).within(outer);
                 self.leaf(frame, Kind::Ball(s.radius_m), s.name.as_ref(), cut)
+            }
+            Shape::Ellipsoid(e) => {
+                let mut half = vector(&e.semi_axes_m);
+                if self.dimensions == 2 {
+                    half[2] = f64::INFINITY;
+                }
+                let frame = at(vector(&e.centre_m)).within(outer);
+                let kind = Kind::Ellipsoid(Ellipsoid { half, beyond: 0.0 });
+                self.leaf(frame, kind, e.name.as_ref(), cut)
             }
             Shape::HalfSpace(h) => {
                 let frame = Frame::facing(vector(&h.point_m), vector(&h.normal)).within(outer);

@@ -1,6 +1,6 @@
 //! What the schema of a shape cannot tell.
 
-use crate::shape::{BoxShape, Shape};
+use crate::shape::{BoxShape, EllipsoidShape, Shape};
 
 /// Something that is wrong with a shape, and where in the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub fn check(shape: &Shape, at: &str, dimensions: usize, faults: &mut Vec<Misfit
         if dimensions == 2 {
             faults.push(Misfit::at(
                 at,
-                format!("a {what} has no place in a plane scene; a disc has"),
+                format!("a {what} has no place in a plane scene; a disc and an ellipsoid have"),
             ));
         }
     };
@@ -57,6 +57,7 @@ pub fn check(shape: &Shape, at: &str, dimensions: usize, faults: &mut Vec<Misfit
                 faults,
             );
         }
+        Shape::Ellipsoid(e) => semi_axes(e, &format!("{at}/ellipsoid"), dimensions, faults),
         Shape::HalfSpace(h) => {
             let at = format!("{at}/half_space");
             coordinates(&h.point_m, &format!("{at}/point_m"), dimensions, faults);
@@ -96,6 +97,30 @@ fn corners(b: &BoxShape, at: &str, dimensions: usize, faults: &mut Vec<Misfit>) 
             let what = format!("{} m is not above min_m, {} m", b.max_m[k], b.min_m[k]);
             faults.push(Misfit::at(&format!("{at}/max_m/{k}"), what));
         }
+    }
+}
+
+/// Least and greatest ratio of the semi-axes: beyond, points of a sharp edge are lost in rounding.
+const FLATTEST: f64 = 1e-4;
+
+fn semi_axes(e: &EllipsoidShape, at: &str, dimensions: usize, faults: &mut Vec<Misfit>) {
+    coordinates(&e.centre_m, &format!("{at}/centre_m"), dimensions, faults);
+    let at = format!("{at}/semi_axes_m");
+    if !coordinates(&e.semi_axes_m, &at, dimensions, faults) {
+        return;
+    }
+    let longest = e.semi_axes_m.iter().copied().fold(0.0, f64::max);
+    for (k, half) in e.semi_axes_m.iter().enumerate() {
+        let what = if *half <= 0.0 {
+            format!("{half} m is out of range: more than 0 m")
+        } else if *half < FLATTEST * longest {
+            format!(
+                "{half} m is out of range: at least {FLATTEST} of the longest semi-axis, {longest} m"
+            )
+        } else {
+            continue;
+        };
+        faults.push(Misfit::at(&format!("{at}/{k}"), what));
     }
 }
 

@@ -1,17 +1,20 @@
-//! Shapes: boxes, cylinders, balls and what is composed of them.
+//! Shapes: boxes, cylinders, balls, ellipsoids and what is composed of them.
 //!
 //! - [`shape`] is how a scene writes them, [`check`] what its types cannot tell;
 //! - [`body`] knows how far a place is from the surface, with sign, and which way the surface looks;
+//! - [`ellipsoid`] finds the nearest place of an ellipsoid;
 //! - [`surface`] divides the surface into pieces with area and normal, [`rule`] knows places and weights of integrals
 //!   over it;
 //! - [`frame`] holds the little vector algebra that all of them need.
 
 pub mod body;
 pub mod check;
+pub mod ellipsoid;
 pub mod frame;
 pub mod rule;
 pub mod shape;
 pub mod surface;
 
 pub use body::{Body, Kind, Primitive};
+pub use ellipsoid::Ellipsoid;
 pub use shape::Shape;

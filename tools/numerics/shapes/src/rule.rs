@@ -1,6 +1,6 @@
 //! Places and weights of integrals over closed surfaces.
 //!
-//! On a box, a finite bar or a ball in space: per face the rule of Gauss and Legendre along each parameter, equal steps
+//! On a box, a finite bar, a ball or an ellipsoid in space: per face the rule of Gauss and Legendre along each parameter, equal steps
 //! along angles, where these are as exact. What is smooth on each face is integrated to a power of the spacing that grows
 //! with the number of places. Other surfaces are summed over the middles of their pieces, to second order.
 
@@ -26,7 +26,7 @@ fn ends(primitive: &Primitive) -> bool {
     match primitive.kind {
         Kind::Box(half) => half.iter().all(|h| h.is_finite()),
         Kind::Cylinder { half, .. } => half.is_finite(),
-        Kind::Ball(_) => true,
+        Kind::Ball(_) | Kind::Ellipsoid(_) => true,
         Kind::HalfSpace => false,
     }
 }
@@ -154,6 +154,28 @@ mod tests {
             assert!((total / area - 1.0).abs() < 1e-13, "{total} of {area}");
             assert!((enclosed(&found, 3) / volume - 1.0).abs() < 1e-13);
             assert!(closure(&found).iter().all(|c| c.abs() < 1e-12));
+        }
+    }
+
+    /// Also of one that is moved outward: `V + A d + M d^2 + 4/3 pi d^3`, `M` the integral of the mean curvature, that of a
+    /// spheroid `2 pi (c + a^2/f ln((c + f)/a))`, `f^2 = c^2 - a^2`.
+    #[test]
+    fn ellipsoids_are_measured_to_many_digits() {
+        let text = r#"{"ellipsoid": {"centre_m": [1, 0, 2], "semi_axes_m": [1, 1, 2]}}"#;
+        let body = Body::new(&serde_json::from_str(text).unwrap(), 3);
+        let f = 3.0_f64.sqrt();
+        let (volume, area) = (
+            8.0 / 3.0 * PI,
+            2.0 * PI * (1.0 + 4.0 / f * (f / 2.0).asin()),
+        );
+        let mean = 2.0 * PI * (2.0 + (2.0 + f).ln() / f);
+        for d in [0.0, 0.25, -0.25] {
+            let found = rule(&body.grown(d).unwrap(), 3, 0.1);
+            let total: f64 = found.iter().map(|p| p.area).sum();
+            let wanted = area + 2.0 * mean * d + 4.0 * PI * d * d;
+            assert!((total / wanted - 1.0).abs() < 1e-9, "{d}: {total} {wanted}");
+            let wanted = volume + area * d + mean * d * d + 4.0 / 3.0 * PI * d.powi(3);
+            assert!((enclosed(&found, 3) / wanted - 1.0).abs() < 1e-9, "{d}");
         }
     }
 

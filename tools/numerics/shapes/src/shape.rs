@@ -89,6 +89,21 @@ pub struct Sphere {
     pub radius_m: f64,
 }
 
+/// An ellipsoid with axes along those of the scene, or turned; face `surface`. An ellipse in a plane scene, face `rim`; about an
+/// axis, and centred on it, the section of a spheroid.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EllipsoidShape {
+    /// Name, which its faces carry in front.
+    pub name: Option<String>,
+    /// Centre; two numbers in a plane scene.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub centre_m: Vec<f64>,
+    /// Half its length along each axis, above zero; two numbers in a plane scene.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub semi_axes_m: Vec<f64>,
+}
+
 /// All that lies behind a plane; face `plane`.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -131,6 +146,8 @@ pub enum Shape {
     Disc(Disc),
     /// A ball.
     Sphere(Sphere),
+    /// An ellipsoid, an ellipse of a plane scene.
+    Ellipsoid(EllipsoidShape),
     /// All behind a plane.
     HalfSpace(HalfSpace),
     /// A shape turned.

@@ -98,6 +98,16 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
                 lengths,
             )]
         }
+        Kind::Ellipsoid(e) => {
+            let wide = e.half[0].max(e.half[1]) + e.beyond;
+            if dimensions == 2 {
+                let range = [[0.0, TAU], [-0.5, 0.5]];
+                return vec![face(Sheet::Side, "rim", range, [TAU * wide, 1.0])];
+            }
+            let lengths = [TAU * wide, 0.5 * TAU * wide.max(e.half[2] + e.beyond)];
+            let range = [[0.0, TAU], [-1.0, 1.0]];
+            vec![face(Sheet::Globe, "surface", range, lengths)]
+        }
         Kind::HalfSpace => {
             let second = if dimensions == 3 { reach } else { 0.5 };
             let range = [[-reach, reach], [-second, second]];
@@ -143,6 +153,17 @@ impl Face {
                 let (sine, cosine) = v.sin_cos();
                 let place = [u * cosine, u * sine, sign * half];
                 (place, [0.0, 0.0, sign], u)
+            }
+            (Sheet::Side, Kind::Ellipsoid(e)) => {
+                let (sine, cosine) = u.sin_cos();
+                let spot = e.spot([cosine, sine, 0.0]);
+                (spot.place, spot.normal, spot.area)
+            }
+            (Sheet::Globe, Kind::Ellipsoid(e)) => {
+                let (sine, cosine) = u.sin_cos();
+                let across = (1.0 - v * v).max(0.0).sqrt();
+                let spot = e.spot([across * cosine, across * sine, v]);
+                (spot.place, spot.normal, spot.area)
             }
             (Sheet::Globe, Kind::Ball(radius)) => {
                 let (sine, cosine) = u.sin_cos();
@@ -422,6 +443,18 @@ mod tests {
         checked(bar, 3, (6.0 * PI, 2.0 * PI, 1e-3));
         let ball = r#"{"sphere": {"centre_m": [1, 0, 2], "radius_m": 1}}"#;
         checked(ball, 3, (4.0 * PI, 4.0 / 3.0 * PI, 1e-3));
+    }
+
+    #[test]
+    fn ellipsoids_are_closed() {
+        let ellipse = r#"{"turned": {"angle_deg": 20, "shape":
+            {"ellipsoid": {"centre_m": [3, 1], "semi_axes_m": [2, 1]}}}}"#;
+        checked(ellipse, 2, (9.688_448_220_547_675, 2.0 * PI, 1e-4));
+        // Of a spheroid `2 pi a^2 (1 + c/(a e) asin e)`, `e^2 = 1 - a^2/c^2`.
+        let needle = r#"{"ellipsoid": {"centre_m": [1, 0, 2], "semi_axes_m": [1, 1, 4]}}"#;
+        let e = (15.0_f64 / 16.0).sqrt();
+        let area = 2.0 * PI * (1.0 + 4.0 / e * e.asin());
+        checked(needle, 3, (area, 16.0 / 3.0 * PI, 1e-3));
     }
 
     #[test]

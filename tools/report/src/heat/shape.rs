@@ -51,6 +51,10 @@ pub(crate) enum Shape {
         centre_m: Vec<f64>,
         radius_m: f64,
     },
+    Ellipsoid {
+        centre_m: Vec<f64>,
+        semi_axes_m: Vec<f64>,
+    },
     HalfSpace {
         point_m: Vec<f64>,
         normal: Vec<f64>,
@@ -101,6 +105,14 @@ impl Shape {
             Self::Sphere { centre_m, radius_m } => {
                 let q = from(centre_m, p);
                 q[0].hypot(q[1]).hypot(q[2]) <= radius_m * (1.0 + ROOM)
+            }
+            Self::Ellipsoid {
+                centre_m,
+                semi_axes_m,
+            } => {
+                let q = from(centre_m, p);
+                let parts = semi_axes_m.iter().zip(q);
+                parts.map(|(half, q)| (q / half).powi(2)).sum::<f64>() <= 1.0 + 2.0 * ROOM
             }
             Self::HalfSpace { point_m, normal } => {
                 let q = from(point_m, p);
