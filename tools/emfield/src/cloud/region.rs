@@ -145,6 +145,18 @@ impl Region {
         }
     }
 
+    /// Least extent of the domain over the finest spacing of its lattice.
+    #[must_use]
+    pub fn across(&self) -> f64 {
+        let size = match &self.wall {
+            Wall::Box { low, high, .. } => (0..self.dimensions)
+                .map(|k| high[k] - low[k])
+                .fold(f64::INFINITY, f64::min),
+            Wall::Ball { radius, .. } => 2.0 * radius,
+        };
+        size / self.spacing
+    }
+
     /// The medium at a place: 0 the surroundings, `k + 1` body `k`; the first body that holds it counts.
     #[must_use]
     pub fn medium(&self, x: Vector) -> u8 {
@@ -165,16 +177,19 @@ impl Region {
         best
     }
 
-    /// Spacing of points on the surface of body `k` that those of finer bodies leave at a place \[m\]: as the lattice grows
-    /// away from these, so does what stands among its points.
+    /// Spacing of points on the surface of body `k` that those of finer bodies and regions leave at a place \[m\]: as the
+    /// lattice grows away from these, so does what stands among its points.
     #[must_use]
     pub fn beside(&self, x: Vector, k: usize) -> f64 {
         let own = self.solids[k].spacing;
         let finer = self.solids.iter().filter(|other| other.spacing < own);
-        finer.fold(own, |spacing, other| {
+        let bodies = finer.fold(own, |spacing, other| {
             let d = other.body.distance(x);
             let growth = self.growth[usize::from(d > 0.0)];
             spacing.min(other.spacing + growth * d.abs())
+        });
+        self.finer.iter().fold(bodies, |spacing, (body, finest)| {
+            spacing.min(finest + self.growth[1] * body.distance(x).max(0.0))
         })
     }
 
