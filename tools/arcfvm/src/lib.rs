@@ -116,6 +116,7 @@ impl Tool for ArcFvm {
                 "{:.2} ms an iteration, if all {most} are needed",
                 1e3 * each
             ),
+            memory: Vec::new(),
         }))
     }
 

@@ -60,6 +60,7 @@ impl Tool for Avg {
         Ok(Some(Estimate {
             seconds: each * plan.frames.len() as f64,
             basis: format!("{:.2} ms a frame, as the first", 1e3 * each),
+            memory: Vec::new(),
         }))
     }
 

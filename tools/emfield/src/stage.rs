@@ -1,31 +1,41 @@
 //! The program: plan, run, record.
 
 use std::sync::Mutex;
+use std::time::Instant;
 
 use artefact::Version;
-use run::{Failure, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Inputs, Plan, Session, Tool};
 
 use crate::assemble;
 use crate::cloud::Cloud;
-use crate::output::{self, Doubt, Found, Samples};
 use crate::scene::{EddyCurrents, Geometry, Scene};
+use crate::solution;
 use crate::solve::unknown::Unknown;
 use crate::surface::enclosing::Enclosing;
+use crate::trial::{self, Planned};
 
 /// Electric and magnetic fields on points.
 #[derive(Debug)]
 pub struct EmField;
 
-/// The points that the plan of a scene has made, for the run that follows it.
-static READY: Mutex<Option<(Scene, Cloud)>> = Mutex::new(None);
+/// The points that the plan of a scene has made, for what follows it.
+static READY: Mutex<Option<(Scene, Planned)>> = Mutex::new(None);
 
 /// The points of a scene: those of its plan, if there was one.
-fn ready(scene: &Scene) -> Result<Cloud, Failure> {
+fn ready(scene: &Scene) -> Result<Planned, Failure> {
     let kept = READY.lock().ok().and_then(|mut ready| ready.take());
     match kept {
-        Some((planned, cloud)) if planned == *scene => Ok(cloud),
-        _ => Ok(Cloud::new(scene)?),
+        Some((known, planned)) if known == *scene => Ok(planned),
+        _ => planned(scene),
     }
+}
+
+/// The points of a scene, made anew.
+fn planned(scene: &Scene) -> Result<Planned, Failure> {
+    let began = Instant::now();
+    let cloud = Cloud::new(scene)?;
+    let seconds = began.elapsed().as_secs_f64();
+    Ok(Planned { cloud, seconds })
 }
 
 impl Tool for EmField {
@@ -48,97 +58,31 @@ impl Tool for EmField {
         if !faults.is_empty() {
             return Err(faults.into());
         }
-        let cloud = Cloud::new(scene)?;
+        let planned = planned(scene)?;
+        let cloud = &planned.cloud;
         if let Some(currents) = &scene.eddy_currents {
-            assemble::windings(scene, currents, &cloud)?;
+            assemble::windings(scene, currents, cloud)?;
             assemble::magnets(scene, currents)?;
         }
         if let Some(electrostatics) = &scene.electrostatics {
-            assemble::shorts(scene, electrostatics, &cloud)?;
-            assemble::room(scene, electrostatics, &cloud)?;
+            assemble::shorts(scene, electrostatics, cloud)?;
+            assemble::room(scene, electrostatics, cloud)?;
         }
-        let enclosing = assemble::enclosing(scene, &cloud)?;
-        let plan = shown(scene, &cloud, &enclosing);
+        let enclosing = assemble::enclosing(scene, cloud)?;
+        let plan = shown(scene, cloud, &enclosing);
         if let Ok(mut ready) = READY.lock() {
-            *ready = Some((scene.clone(), cloud));
+            *ready = Some((scene.clone(), planned));
         }
         Ok(plan)
     }
 
+    fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
+        trial::estimate(scene, &ready(scene)?).map(Some)
+    }
+
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        let cloud = session.timed("points", || ready(scene))?;
-        match scene.geometry {
-            Geometry::Space => solve::<3, 3>(scene, &cloud, session),
-            Geometry::Plane | Geometry::Axisymmetric => solve::<2, 1>(scene, &cloud, session),
-        }
-    }
-}
-
-fn solve<const D: usize, const K: usize>(
-    scene: &Scene,
-    cloud: &Cloud,
-    session: &mut Session,
-) -> Result<(), Failure> {
-    // Until a march has begun nothing is worth a checkpoint.
-    let expendable = session.expendable();
-    for what in Cloud::grains(scene) {
-        session.warn(what);
-    }
-    let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
-    let mut found = Found::default();
-    if let Some(electrostatics) = &scene.electrostatics {
-        found.join(assemble::electrostatics::<D>(
-            scene,
-            electrostatics,
-            cloud,
-            session,
-        )?);
-    }
-    session.stopped()?;
-    if let Some(currents) = &scene.eddy_currents {
-        if let Some(transient) = &currents.transient {
-            drop(expendable);
-            let at = (currents, transient);
-            let mut doubts = Vec::new();
-            assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
-                let mut all = found.clone();
-                all.join(fields);
-                doubts.append(&mut all.doubts);
-                output::write(scene, cloud, &samples, (time, &all), session)
-            })?;
-            tell(doubts, session);
-            return Ok(());
-        }
-        let made = match currents.standing {
-            Some(_) => assemble::standing::<D, K>(scene, currents, cloud, session)?,
-            None => assemble::eddy_currents::<D, K>(scene, currents, cloud, session)?,
-        };
-        found.join(made);
-    }
-    session.stopped()?;
-    tell(std::mem::take(&mut found.doubts), session);
-    output::write(scene, cloud, &samples, (0.0, &found), session)
-}
-
-/// Difference of the ways of a force over its size from which it is a warning that matters; less is a note.
-const MATTERS: f64 = 0.2;
-
-/// Says which forces are in doubt: of each the largest of all instants.
-fn tell(doubts: Vec<Doubt>, session: &mut Session) {
-    let mut worst: Vec<Doubt> = Vec::new();
-    for doubt in doubts {
-        match worst.iter_mut().find(|w| w.of == doubt.of) {
-            Some(w) if w.share < doubt.share => *w = doubt,
-            Some(_) => {}
-            None => worst.push(doubt),
-        }
-    }
-    for doubt in worst {
-        if doubt.share > MATTERS {
-            session.warn(doubt.what);
-        } else {
-            session.note(doubt.what);
-        }
+        let planned = session.timed("points", || ready(scene))?;
+        solution::solve(scene, &planned.cloud, session)
     }
 }
 

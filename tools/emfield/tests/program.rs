@@ -320,3 +320,66 @@ fn electrodes_at_other_potentials_than_what_they_touch_are_refused() {
         );
     }
 }
+
+/// A size of a plan \[byte\]: "460.3 MB".
+fn bytes(text: &str) -> f64 {
+    let mut words = text.split_whitespace();
+    let number: f64 = words.next().unwrap().parse().unwrap();
+    let unit = match words.next().unwrap() {
+        "B" => 1.0,
+        "kB" => 1e3,
+        "MB" => 1e6,
+        "GB" => 1e9,
+        other => panic!("{other}"),
+    };
+    number * unit
+}
+
+#[test]
+fn check_tells_the_memory_that_a_run_takes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut own = scene();
+    own["electrostatics"] = json!({"applied_field_v_m": [1, 2, 3]});
+    let march = driven(&json!({"transient": {"end_s": 0.2, "step_s": 0.01}}));
+    for (name, scene, spacing) in [
+        ("still", &own, 0.12),
+        ("direct", &own, 0.25),
+        ("march", &march, 0.05),
+    ] {
+        let mut scene = scene.clone();
+        scene["points"]["spacing_m"] = json!(spacing);
+        if name == "direct" {
+            scene["solver"] = json!({"way": "direct"});
+        }
+        run(folder.path(), &scene);
+        let record = std::fs::read_to_string(folder.path().join("fields.run.json")).unwrap();
+        let record: Value = serde_json::from_str(&record).unwrap();
+        let taken = record["peak_memory_bytes"].as_f64().unwrap();
+        let checked = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+            .arg("check")
+            .arg(folder.path().join("scene.json"))
+            .output()
+            .unwrap();
+        let said = String::from_utf8(checked.stdout).unwrap();
+        let row = |start: &str| {
+            said.lines()
+                .find_map(|l| l.trim_start().strip_prefix(start))
+        };
+        let told = bytes(row("memory").unwrap_or_else(|| panic!("{said}")));
+        let ratio = told / taken;
+        assert!(
+            (0.67..1.5).contains(&ratio),
+            "{name}: {told} of {taken}: {said}"
+        );
+        if name == "still" {
+            assert!(
+                row("weights").is_some() && row("factors").is_some(),
+                "{said}"
+            );
+        }
+        assert!(
+            row("time").is_some_and(|t| t.contains("about")),
+            "{name}: {said}"
+        );
+    }
+}

@@ -48,6 +48,7 @@ impl Tool for GasProp {
         Ok(Some(Estimate {
             seconds: each * states(scene) as f64 / threads as f64,
             basis: format!("{:.2} ms a state, {threads} threads", 1e3 * each),
+            memory: Vec::new(),
         }))
     }
 

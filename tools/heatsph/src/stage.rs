@@ -78,6 +78,7 @@ impl Tool for HeatSph {
         Ok(Some(Estimate {
             seconds: each * (time.end_s / step).ceil(),
             basis: format!("{:.2} ms a step, as the first", 1e3 * each),
+            memory: Vec::new(),
         }))
     }
 

@@ -45,6 +45,7 @@ pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failu
             short(each),
             state.liquid()
         ),
+        memory: Vec::new(),
     })
 }
 

@@ -45,6 +45,7 @@ pub use potential::electrostatics;
 pub(crate) use region::region;
 pub use shorts::shorts;
 pub use standing::standing;
+pub(crate) use steps::Steps;
 pub use winding::windings;
 
 /// What incomplete factors by size have.

@@ -20,12 +20,12 @@ struct Leg {
 
 /// Steps of at most the length that the scene asks for, even from each instant of a frame to the next.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Steps {
+pub(crate) struct Steps {
     legs: Vec<Leg>,
 }
 
 impl Steps {
-    pub(super) fn new(transient: &Transient, output: &Output) -> Self {
+    pub(crate) fn new(transient: &Transient, output: &Output) -> Self {
         let mut legs: Vec<Leg> = Vec::new();
         for to in instants(transient.end_s, output) {
             let last = legs.last();
@@ -46,8 +46,13 @@ impl Steps {
     }
 
     /// Steps in all.
-    pub(super) fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.legs.last().map_or(0, |l| l.before + l.count)
+    }
+
+    /// Frames after the start.
+    pub(crate) fn frames(&self) -> u64 {
+        self.legs.len() as u64
     }
 
     fn leg(&self, step: u64) -> &Leg {

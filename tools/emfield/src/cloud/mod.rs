@@ -176,6 +176,18 @@ impl Cloud {
         build::grains(scene)
     }
 
+    /// The least number of spacings that a body, or the domain, is wide.
+    #[must_use]
+    pub fn narrowest(scene: &Scene) -> f64 {
+        build::narrowest(scene)
+    }
+
+    /// Ellipsoids whose ends bend more sharply than points along them can follow: what to say of each.
+    #[must_use]
+    pub fn bends(scene: &Scene) -> Vec<String> {
+        build::bends(scene)
+    }
+
     /// Number of points.
     #[must_use]
     pub fn len(&self) -> usize {

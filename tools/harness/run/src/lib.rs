@@ -71,6 +71,8 @@ mod record;
 pub mod scene;
 mod session;
 mod tool;
+mod trial;
+mod watched;
 
 pub use failure::Failure;
 pub use fault::Fault;
@@ -80,3 +82,4 @@ pub use plan::{Estimate, Plan, duration};
 pub use scene::Migration;
 pub use session::Session;
 pub use tool::Tool;
+pub use trial::{Part, Taken, trial};

@@ -39,10 +39,18 @@ fn processor(text: &str) -> Option<String> {
 
 /// Greatest resident memory of this process so far \[byte\]; `None` where the system does not say.
 pub(crate) fn peak_memory_bytes() -> Option<u64> {
+    status("VmHWM:")
+}
+
+/// Resident memory of this process now \[byte\]; `None` where the system does not say.
+pub(crate) fn memory_bytes() -> Option<u64> {
+    status("VmRSS:")
+}
+
+/// A size that the system tells of this process \[byte\].
+fn status(name: &str) -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status
-        .lines()
-        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let line = status.lines().find_map(|line| line.strip_prefix(name))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kib * 1024)
 }

@@ -35,6 +35,8 @@ pub struct Estimate {
     pub seconds: f64,
     /// What it rests on: "1.2 ms a step, as at the start".
     pub basis: String,
+    /// Memory that the plan does not know, by name \[byte\]: with that of the plan the most that the run will hold.
+    pub memory: Vec<(&'static str, u64)>,
 }
 
 impl Plan {
@@ -145,6 +147,11 @@ impl Plan {
         estimate: Option<Estimate>,
         grows: Option<&'static str>,
     ) -> Self {
+        let memory = estimate.iter().flat_map(|e| &e.memory);
+        self.memory.extend(memory.map(|(name, bytes)| Bytes {
+            name: (*name).to_owned(),
+            bytes: *bytes,
+        }));
         self.estimate = estimate;
         self.grows = grows;
         self
@@ -190,7 +197,7 @@ impl fmt::Display for Plan {
             row("note", note.clone())?;
         }
         match &self.estimate {
-            Some(Estimate { seconds, basis }) => {
+            Some(Estimate { seconds, basis, .. }) => {
                 let told = duration(*seconds);
                 row(
                     "time",

@@ -13,8 +13,10 @@ use crate::console::Level;
 use crate::failure::Failure;
 use crate::interrupt::{Expendable, Interrupt};
 use crate::ledger::{Ledger, set};
+use crate::machine;
 use crate::plan::Plan;
 use crate::progress::{Progress, Style};
+use crate::watched::Watched;
 
 /// Entry of a checkpoint that belongs to the session.
 pub(crate) const LEDGER: &str = "run.ledger";
@@ -52,6 +54,8 @@ pub struct Session {
     every: Duration,
     last: Instant,
     restored: Option<Checkpoint>,
+    /// What stages of a trial keep of memory.
+    pub(crate) watched: Option<Watched>,
 }
 
 impl Session {
@@ -104,6 +108,7 @@ impl Session {
             every: opening.checkpoint_every,
             last: Instant::now(),
             restored,
+            watched: None,
         })
     }
 
@@ -176,9 +181,13 @@ impl Session {
 
     /// Does `work` and adds its wall time to the stage `name`.
     pub fn timed<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R {
+        let before = self.watched.as_ref().and_then(|_| machine::memory_bytes());
         let start = Instant::now();
         let done = work();
         self.clock.add(name, start.elapsed());
+        if let (Some(watched), Some(before)) = (&mut self.watched, before) {
+            watched.add(name, before);
+        }
         done
     }
 
@@ -293,7 +302,9 @@ impl Session {
     pub fn warn(&mut self, text: impl Into<String>) {
         let text = text.into();
         if !self.ledger.warnings.contains(&text) {
-            self.progress.say(&format!("warning: {text}"));
+            if self.watched.is_none() {
+                self.progress.say(&format!("warning: {text}"));
+            }
             self.ledger.warnings.push(text);
         }
     }

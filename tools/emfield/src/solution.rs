@@ -1,0 +1,90 @@
+//! All fields of a scene on its points, in the order in which they need each other.
+
+use run::{Failure, Session};
+
+use crate::assemble;
+use crate::cloud::Cloud;
+use crate::output::{self, Doubt, Found, Samples};
+use crate::scene::{Geometry, Scene};
+
+/// Finds the fields of a scene and writes them.
+///
+/// # Errors
+/// Where equations cannot be made or solved, the user interrupts, or the disk refuses.
+pub(crate) fn solve(scene: &Scene, cloud: &Cloud, session: &mut Session) -> Result<(), Failure> {
+    match scene.geometry {
+        Geometry::Space => fields::<3, 3>(scene, cloud, session),
+        Geometry::Plane | Geometry::Axisymmetric => fields::<2, 1>(scene, cloud, session),
+    }
+}
+
+fn fields<const D: usize, const K: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    session: &mut Session,
+) -> Result<(), Failure> {
+    // Until a march has begun nothing is worth a checkpoint.
+    let expendable = session.expendable();
+    for what in Cloud::grains(scene) {
+        session.warn(what);
+    }
+    for what in Cloud::bends(scene) {
+        session.note(what);
+    }
+    let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
+    let mut found = Found::default();
+    if let Some(electrostatics) = &scene.electrostatics {
+        found.join(assemble::electrostatics::<D>(
+            scene,
+            electrostatics,
+            cloud,
+            session,
+        )?);
+    }
+    session.stopped()?;
+    if let Some(currents) = &scene.eddy_currents {
+        if let Some(transient) = &currents.transient {
+            drop(expendable);
+            let at = (currents, transient);
+            let mut doubts = Vec::new();
+            assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
+                let mut all = found.clone();
+                all.join(fields);
+                doubts.append(&mut all.doubts);
+                output::write(scene, cloud, &samples, (time, &all), session)
+            })?;
+            tell(doubts, session);
+            return Ok(());
+        }
+        let made = match currents.standing {
+            Some(_) => assemble::standing::<D, K>(scene, currents, cloud, session)?,
+            None => assemble::eddy_currents::<D, K>(scene, currents, cloud, session)?,
+        };
+        found.join(made);
+    }
+    session.stopped()?;
+    tell(std::mem::take(&mut found.doubts), session);
+    output::write(scene, cloud, &samples, (0.0, &found), session)
+}
+
+/// Difference of the ways of a force over its size from which it is a warning that matters; less is a note.
+const MATTERS: f64 = 0.2;
+
+/// Says which forces are in doubt: of each the largest of all instants.
+fn tell(doubts: Vec<Doubt>, session: &mut Session) {
+    let mut worst: Vec<Doubt> = Vec::new();
+    for doubt in doubts {
+        match worst.iter_mut().find(|w| w.of == doubt.of) {
+            Some(w) if w.share < doubt.share => *w = doubt,
+            Some(_) => {}
+            None => worst.push(doubt),
+        }
+    }
+    for doubt in worst {
+        if doubt.share > MATTERS {
+            session.warn(doubt.what);
+        } else {
+            session.note(doubt.what);
+        }
+    }
+}
