@@ -84,12 +84,15 @@ impl Scene {
         let compared = self.electrostatics.is_some()
             && !smeared
             && self.geometry != Geometry::Axisymmetric
-            && self.method.order > 2;
-        if self.method.positive && compared && self.eddy_currents.is_none() {
-            let what = format!(
-                "order {} compares values with harmonic polynomials and has no weights of a Laplacian to make positive: take order 2",
-                self.method.order
-            );
+            && self.method.order > 2
+            && self.eddy_currents.is_none();
+        let what = if compared {
+            "compares values with harmonic polynomials and has no weights of a Laplacian to make positive"
+        } else {
+            "has no positive weights of a Laplacian: exact for quartics, those times the fourth powers of the distances add up to zero"
+        };
+        if self.method.positive && (compared || self.method.order > 3) {
+            let what = format!("order {} {what}: take order 2", self.method.order);
             misfits.push(Misfit::at("/method/positive", what));
         }
     }

@@ -131,6 +131,10 @@ impl<const D: usize> Rules<D> for Own<'_, D> {
     fn allowed(&self, i: usize, j: usize) -> bool {
         self.0.touches(j, self.0.medium(i))
     }
+
+    fn surrounded(&self, i: usize) -> bool {
+        matches!(self.0.kinds[i], Kind::Inside(_))
+    }
 }
 
 /// Stencils of points inside media, or of those on walls, by harmonic polynomials.

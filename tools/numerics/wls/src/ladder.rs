@@ -289,6 +289,9 @@ impl<const D: usize> Bench<'_, D> {
         work: &mut Work<D>,
     ) -> Option<bool> {
         let row = self.columns.laplacian.filter(|_| self.plan.positive)?;
+        if !self.rules.surrounded(target.row) {
+            return None;
+        }
         let own = work.support.own?;
         if work.conditions.len() > usize::from(self.plan.interpolating && target.own) {
             return None;

@@ -119,6 +119,13 @@ pub trait Rules<const D: usize>: Sync {
         None
     }
 
+    /// Whether weights of the Laplacian of row `i` may have to be made positive. On the hull of its points none are: a weighted
+    /// mean of places on one side is no place on the edge.
+    fn surrounded(&self, i: usize) -> bool {
+        let _ = i;
+        true
+    }
+
     /// Pushes the conditions that the fit of row `i` obeys.
     fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
         let _ = (i, conditions);
