@@ -16,6 +16,7 @@ mod arc_wire_joule;
 mod em_axisymmetric_sphere;
 mod em_cylinder_ac;
 mod em_dielectric_sphere;
+mod em_ellipsoid;
 mod em_open;
 mod em_planar_az;
 mod em_ring_coil;
@@ -70,6 +71,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(arc_vapour::ArcVapour),
         Box::new(arc_wire_joule::ArcWireJoule),
         Box::new(em_dielectric_sphere::EmDielectricSphere),
+        Box::new(em_ellipsoid::EmEllipsoid),
         Box::new(em_open::EmOpen),
         Box::new(em_sphere_pull::EmSpherePull),
         Box::new(em_sphere_pair::EmSpherePair),

@@ -8,6 +8,7 @@
 //! - [`coil`]: rings of current.
 //! - [`cylinder`]: a conducting cylinder in an axial alternating field, eqs 3.12 and 3.13;
 //!   [`diffusion`]: the same after its field is switched on.
+//! - [`ellipsoid`]: a dielectric or conducting ellipsoid in a uniform field.
 //! - [`exact`]: fields along the lines of a scene whose solution is known.
 //! - [`frames`] reads runs and scenes.
 //! - [`open`]: spheres and cylinders in open space.
@@ -26,6 +27,7 @@ pub mod cylinder;
 pub mod dielectric;
 pub mod diffusion;
 pub mod driven;
+pub mod ellipsoid;
 pub mod exact;
 pub mod frames;
 pub mod open;
