@@ -190,16 +190,15 @@ impl<const D: usize> Monomial<D> {
     /// Its derivative along the axes that are named.
     fn derivative(&self, p: &[f64; D], derived: &[usize]) -> f64 {
         let mut value = self.factor;
-        for axis in 0..D {
+        for (axis, (x, e)) in p.iter().zip(self.exponents).enumerate() {
             let times = derived.iter().filter(|a| **a == axis).count() as i32;
-            let e = self.exponents[axis];
             if times > e {
                 return 0.0;
             }
             for k in 0..times {
                 value *= f64::from(e - k);
             }
-            value *= (p[axis] - 0.5).powi(e - times);
+            value *= (x - 0.5).powi(e - times);
         }
         value
     }
