@@ -6,7 +6,7 @@
 
 use crate::ellipsoid::Ellipsoid;
 use crate::frame::{Frame, Vector, along, direction, length};
-use crate::shape::Shape;
+use crate::shape::{EllipsoidShape, Shape};
 
 /// What a primitive is, in its own frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -316,13 +316,8 @@ impl Builder<'_> {
                 self.leaf(frame, Kind::Ball(s.radius_m), s.name.as_ref(), cut)
             }
             Shape::Ellipsoid(e) => {
-                let mut half = vector(&e.semi_axes_m);
-                if self.dimensions == 2 {
-                    half[2] = f64::INFINITY;
-                }
                 let frame = at(vector(&e.centre_m)).within(outer);
-                let kind = Kind::Ellipsoid(Ellipsoid { half, beyond: 0.0 });
-                self.leaf(frame, kind, e.name.as_ref(), cut)
+                self.leaf(frame, self.ellipsoid(e), e.name.as_ref(), cut)
             }
             Shape::HalfSpace(h) => {
                 let frame = Frame::facing(vector(&h.point_m), vector(&h.normal)).within(outer);
@@ -341,6 +336,14 @@ impl Builder<'_> {
                 Tree::First(trees)
             }
         }
+    }
+
+    fn ellipsoid(&self, e: &EllipsoidShape) -> Kind {
+        let mut half = vector(&e.semi_axes_m);
+        if self.dimensions == 2 {
+            half[2] = f64::INFINITY;
+        }
+        Kind::Ellipsoid(Ellipsoid { half, beyond: 0.0 })
     }
 
     fn trees(&mut self, shapes: &[Shape], outer: &Frame, cut: bool) -> Vec<Tree> {

@@ -5,6 +5,7 @@
 //! an element.
 
 use crate::body::{Body, Kind, Primitive};
+use crate::ellipsoid::Ellipsoid;
 use crate::frame::{Frame, Vector, along, dot};
 
 /// Elements of a face per spacing, in a plane and in space.
@@ -98,16 +99,7 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
                 lengths,
             )]
         }
-        Kind::Ellipsoid(e) => {
-            let wide = e.half[0].max(e.half[1]) + e.beyond;
-            if dimensions == 2 {
-                let range = [[0.0, TAU], [-0.5, 0.5]];
-                return vec![face(Sheet::Side, "rim", range, [TAU * wide, 1.0])];
-            }
-            let lengths = [TAU * wide, 0.5 * TAU * wide.max(e.half[2] + e.beyond)];
-            let range = [[0.0, TAU], [-1.0, 1.0]];
-            vec![face(Sheet::Globe, "surface", range, lengths)]
-        }
+        Kind::Ellipsoid(e) => vec![skin(&e, dimensions)],
         Kind::HalfSpace => {
             let second = if dimensions == 3 { reach } else { 0.5 };
             let range = [[-reach, reach], [-second, second]];
@@ -118,6 +110,26 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
                 [2.0 * reach, 2.0 * second],
             )]
         }
+    }
+}
+
+/// The face of an ellipsoid: angle and height over the semi-axis; of an ellipse the angle.
+fn skin(e: &Ellipsoid, dimensions: usize) -> Face {
+    use std::f64::consts::TAU;
+    let wide = e.half[0].max(e.half[1]) + e.beyond;
+    if dimensions == 2 {
+        return Face {
+            sheet: Sheet::Side,
+            label: "rim",
+            range: [[0.0, TAU], [-0.5, 0.5]],
+            lengths: [TAU * wide, 1.0],
+        };
+    }
+    Face {
+        sheet: Sheet::Globe,
+        label: "surface",
+        range: [[0.0, TAU], [-1.0, 1.0]],
+        lengths: [TAU * wide, 0.5 * TAU * wide.max(e.half[2] + e.beyond)],
     }
 }
 
