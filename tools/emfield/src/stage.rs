@@ -136,6 +136,11 @@ fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
     } else {
         plan
     };
+    let plan = if scene.bodies.iter().any(|b| b.net_current_a.is_some()) {
+        plan.stage("net currents of bars")
+    } else {
+        plan
+    };
     let plan = if media.clone().any(|m| scene.saturates(m)) {
         plan.stage("saturation")
     } else {

@@ -4,6 +4,7 @@ use krylov::{Rows, Scalar, System};
 use num_complex::Complex;
 use run::{Failure, Session};
 
+use super::bars::bars;
 use super::broken::unsolvable;
 use super::charge::Charges;
 use super::drive::{source, unknown};
@@ -18,6 +19,7 @@ use crate::cloud::{Cell, Class, Cloud, Metric};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Coil, EddyCurrents, Scene};
+use crate::solve::bars::Bar;
 use crate::solve::curved::level;
 use crate::solve::diffusion::{self, Axial, Conductors};
 use crate::solve::drive::Drive;
@@ -56,6 +58,8 @@ pub fn eddy_currents<const D: usize, const K: usize>(
         Some(charges) => setting.coupled(charges, &drive, session)?,
     };
     let mut change = steady_change(drive.omega, &found, &drive.source);
+    let mut carried = drive.source.clone();
+    let along = setting.applied((drive.omega, &found), &mut change, &mut carried);
     let charged = charges.filter(Charges::charged).map(|charges| {
         let rate = C::new(0.0, drive.omega);
         let voltage: Vec<C> = phi.iter().map(|phi| rate * phi).collect();
@@ -66,7 +70,10 @@ pub fn eddy_currents<const D: usize, const K: usize>(
         found: &found,
         source: &drive.source,
         change: &change,
-        waves: setting.waves.as_ref(),
+        waves: setting
+            .waves
+            .as_ref()
+            .map(|waves| (waves, carried.as_slice())),
     };
     Ok(session.timed("fields", || {
         let flux = setting.source.flux(&cloud.position);
@@ -75,7 +82,9 @@ pub fn eddy_currents<const D: usize, const K: usize>(
             flux: &flux,
             windings: setting.windings.as_ref(),
         };
-        setting.found(solution, charged.as_ref(), driven)
+        let mut found = setting.found(solution, charged.as_ref(), driven);
+        found.join(along);
+        found
     }))
 }
 
@@ -120,12 +129,14 @@ impl<'a, const D: usize> Setting<'a, D> {
             centre(&mut given, &region, &weights, &conductors);
         }
         let coils = windings(scene, currents, cloud)?;
+        let bars = bars((scene, currents), (cloud, &region), &weights)?;
         let wound = || Windings::new(&region, &coils, &mut weights);
         let omega = currents.angular_frequency();
         Ok(Self {
             waves: omega.and_then(|omega| waves((scene, currents), (&conductors, &region), omega)),
             omega,
             windings: (!coils.is_empty()).then(wound),
+            bars,
             enclosed: enclosed(scene, cloud, (&region, &form), session)?,
             sides,
             weights,
@@ -207,7 +218,8 @@ impl<'a, const D: usize> Setting<'a, D> {
         });
         let Some(waves) = &self.waves else {
             let right = drive.right(&self.conductors, (region, self.unknown), &rates);
-            return self.solved(drive, (rows, &rates), right, session);
+            let bars = self.columns(drive, &rows);
+            return self.solved(drive, (rows, &rates), (right, bars), session);
         };
         let ground = Ground {
             conductors: &self.conductors,
@@ -225,7 +237,18 @@ impl<'a, const D: usize> Setting<'a, D> {
         for (right, source) in right.iter_mut().zip(source) {
             *right = std::array::from_fn(|k| right[k] - source[k]);
         }
-        self.solved(drive, (rows, &rates), right, session)
+        let bars = self.columns(drive, &rows);
+        self.solved(drive, (rows, &rates), (right, bars), session)
+    }
+
+    /// What is applied along each bar in the rows of all points.
+    fn columns<T: Scalar, const K: usize>(&self, drive: &Drive<K>, rows: &Rows<T>) -> Vec<Vec<C>>
+    where
+        C: From<T>,
+    {
+        let at = (&self.region, &self.sides);
+        let column = |bar: &Bar| bar.column(&self.conductors, at, (rows, drive.omega));
+        self.bars.iter().map(column).collect()
     }
 
     /// The solution of rows with rates, where rates and weights have given this right side.
@@ -233,7 +256,7 @@ impl<'a, const D: usize> Setting<'a, D> {
         &self,
         drive: &Drive<K>,
         (rows, rates): (Rows<T>, &[f64]),
-        mut right: Vec<[C; K]>,
+        (mut right, mut bars): (Vec<[C; K]>, Vec<Vec<C>>),
         session: &mut Session,
     ) -> Result<Vec<[C; K]>, Failure>
     where
@@ -245,15 +268,22 @@ impl<'a, const D: usize> Setting<'a, D> {
                 *right += given;
             }
         }
-        let pairs = if self.currents.outer == OuterReaction::Multipole {
+        let mut pairs = if self.currents.outer == OuterReaction::Multipole {
             let multipoles = Multipoles::new(&self.region, &self.weights);
             let mut pairs = drive.pairs(&self.conductors, at, &multipoles, &mut right);
             let bound = self.bound(&multipoles, &mut right);
             pairs.extend(drive.bound(&bound, &mut right));
+            for (bar, column) in self.bars.iter().zip(&mut bars) {
+                bar.far(column, &self.conductors, &self.region, &multipoles);
+            }
             pairs
         } else {
             Vec::new()
         };
+        for (bar, column) in self.bars.iter().zip(bars) {
+            let given = (drive.omega, drive.source.as_slice());
+            pairs.push(bar.pair(column, given, &mut right));
+        }
         let shift = diffusion::shift(rates, drive.omega);
         let options = super::options(self.scene);
         let made = session.timed("factorise", || System::new(rows, shift, options));

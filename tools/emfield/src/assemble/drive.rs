@@ -48,6 +48,7 @@ pub fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
         }
     }
     faults.extend(saturating((scene, currents), unknown));
+    faults.extend(super::bars::faults((scene, currents), unknown));
     let left_out = currents.potential == Some(ElectricPotential::Conductors)
         && !currents.charged(scene.geometry);
     if left_out {

@@ -205,7 +205,9 @@ impl<const D: usize> Setting<'_, D> {
             .map(|(a, s)| sum(&a.flux, s))
             .collect();
         let force = minus(surface.stress(&flux), surface.stress(&alone));
-        let heat = self.omega.map(|omega| {
+        // What is applied along bars has no part in the potential beyond them.
+        let omega = self.omega.filter(|_| self.bars.is_empty());
+        let heat = omega.map(|omega| {
             let given = one.potential(self.unknown, &self.given::<K>(source, &surface.places));
             let rate = C::new(0.0, -omega);
             let flow = |n: usize| {

@@ -2,6 +2,7 @@
 
 mod about;
 mod agree;
+mod bars;
 mod broken;
 mod charge;
 mod currents;

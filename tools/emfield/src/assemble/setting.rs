@@ -4,6 +4,7 @@ use run::Fault;
 
 use crate::cloud::Cloud;
 use crate::scene::{EddyCurrents, Medium, Scene};
+use crate::solve::bars::Bar;
 use crate::solve::diffusion::Conductors;
 use crate::solve::enclosed::Enclosed;
 use crate::solve::magnetisation::{Curve, Law};
@@ -34,6 +35,8 @@ pub(super) struct Setting<'a, const D: usize> {
     pub(super) waves: Option<Waves>,
     /// Currents that are given in coils of points, where there are some.
     pub(super) windings: Option<Windings>,
+    /// Bars whose net current is given.
+    pub(super) bars: Vec<Bar>,
     /// Surfaces around bodies.
     pub(super) enclosed: Vec<Enclosed<D>>,
 }

@@ -231,7 +231,8 @@ pub struct EddyCurrents {
     pub coils: Vec<Coil>,
     /// A uniform field that acts from far away. In a plane scene a field along z (0, 0, B) drives currents in the
     /// plane, one in the plane drives them along z, through bars whose ends are joined far away: its potential is
-    /// counted from the centre of what conducts, so that one bar carries none as a whole; axisymmetric: along z (0, B).
+    /// counted from the centre of what conducts, so that one bar carries none as a whole, unless a body has a
+    /// `net_current_a`; axisymmetric: along z (0, B).
     #[schemars(extend("x-unit" = "T"), length(min = 2, max = 3))]
     pub applied_flux_density_t: Option<Vec<f64>>,
     /// What the uniform field comes from, in space; a solenoid about the origin when it is absent.

@@ -145,6 +145,12 @@ pub struct BodyScene {
     /// Potential at which electrostatics holds the body: an electrode.
     #[schemars(extend("x-unit" = "V"))]
     pub potential_v: Option<f64>,
+    /// Net current along z of the body as a bar in a plane, in a sinusoidal steady state: 0 of one that nothing joins to others.
+    /// When it is absent its ends are joined to those of other bars far away.
+    #[schemars(extend("x-unit" = "A"))]
+    pub net_current_a: Option<f64>,
+    /// Lead of the net current; 0 when it is absent.
+    pub net_current_phase_deg: Option<f64>,
     /// Distance of points along its surface; that of `points` when it is absent. Towards a body with finer points it falls as
     /// the spacing of the lattice does.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]

@@ -248,7 +248,8 @@ impl EddyCurrents {
             }
             _ => {}
         }
-        if self.coils.is_empty() && self.applied_flux_density_t.is_none() {
+        let net = scene.bodies.iter().any(|b| b.net_current_a.is_some());
+        if self.coils.is_empty() && self.applied_flux_density_t.is_none() && !net {
             let what = "neither \"coils\" nor \"applied_flux_density_t\" drives currents";
             misfits.push(Misfit::at(at, what));
         }

@@ -91,8 +91,8 @@ pub struct Solution<'a, const K: usize> {
     pub source: &'a [[C; K]],
     /// Rate of both together, over a second.
     pub change: &'a [[C; K]],
-    /// What conductors carry in a steady state in a plane; none elsewhere.
-    pub waves: Option<&'a Waves>,
+    /// What conductors carry in a steady state in a plane, and what of sources is a part of it; none elsewhere.
+    pub waves: Option<(&'a Waves, &'a [[C; K]])>,
 }
 
 impl<const K: usize> Solution<'_, K> {
@@ -116,8 +116,9 @@ impl<const K: usize> Solution<'_, K> {
         };
         let carried = |k: usize| -> Option<[C; D]> {
             let at = (region, i, region.medium(i));
-            let total = |j: usize| self.found[j][k] + self.source[j][k];
-            let mut both = self.waves?.slope(at, stencils, total)?;
+            let (waves, source) = self.waves?;
+            let total = |j: usize| self.found[j][k] + source[j][k];
+            let mut both = waves.slope(at, stencils, total)?;
             // That of the sources is known.
             if unknown == Unknown::Potential {
                 let [x, y, _] = media.flux[i];

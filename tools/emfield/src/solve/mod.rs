@@ -11,6 +11,7 @@
 //!   know of these there; [`magnetisation`]: how fields follow flux densities, [`saturation`] what that puts into the rows
 //!   of points that are [`curved`],
 //!   [`saturated`] the iterations, `flow` and `newton` what they are where currents flow.
+//! - [`bars`]: net currents along z in a plane.
 //! - [`charge`]: the potential of charges on conductors, [`coupled`] it and A together, made of [`parts`] and with [`skin`],
 //!   [`at_rate`] their solution at a [`rate`] of change as a `whole`, by [`block`]s, `factors` and in [`balance`],
 //!   `moments` what walls know of the currents.
@@ -19,6 +20,7 @@
 pub mod alone;
 pub mod at_rate;
 pub mod balance;
+pub mod bars;
 pub mod block;
 mod bound;
 pub mod charge;
