@@ -14,6 +14,7 @@ mod arc_surface;
 mod arc_vapour;
 mod arc_wire_joule;
 mod em_axisymmetric_sphere;
+mod em_bar;
 mod em_cylinder_ac;
 mod em_dielectric_sphere;
 mod em_ellipsoid;
@@ -78,6 +79,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(em_ring_coil::EmRingCoil),
         Box::new(em_cylinder_ac::EmCylinderAc),
         Box::new(em_planar_az::EmPlanarAz),
+        Box::new(em_bar::EmBar),
         Box::new(em_saturation::EmSaturation),
         Box::new(em_sphere_uniform_ac::EmSphereUniformAc),
         Box::new(em_sphere_loops::EmSphereLoops),

@@ -3,6 +3,7 @@
 //! - [`dielectric`]: a dielectric sphere in a uniform field, Matsuzawa (2017), eqs 3.3 to 3.11.
 //! - [`driven`]: a conducting tube that saturates about a wire, along its radius and in time.
 //! - [`axes`] in which a solution stands.
+//! - [`bar`]: bars along z with net currents.
 //! - [`bessel`]: modified Bessel functions of complex argument, scaled against overflow.
 //! - [`coaxial`]: a conducting sphere among loops, as a scene tells it.
 //! - [`coil`]: rings of current.
@@ -20,6 +21,7 @@
 //! - [`walls`]: which exact potential the walls of a scene hold.
 
 pub mod axes;
+pub mod bar;
 pub mod bessel;
 pub mod coaxial;
 pub mod coil;
