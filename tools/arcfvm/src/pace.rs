@@ -23,8 +23,8 @@ const NEAR: f64 = 0.1;
 const GIVE_UP: usize = 800;
 
 /// Watches the greatest residual. Where it has not fallen for a while or has grown, the last iterations are recombined from
-/// then on; each further time, what is not taken from the new solution doubles. It halves again, never below that of the scene,
-/// where the residual falls.
+/// then on; the next time, what is not taken from the new solution doubles, and recombining goes on only if the residual has
+/// fallen meanwhile. What is not taken halves again, never below that of the scene, where the residual falls.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pace {
     best: f64,
@@ -82,6 +82,7 @@ impl Pace {
     }
 
     fn slow(&mut self, worst: f64) -> bool {
+        let gained = self.falls > 0;
         (self.waited, self.grown, self.falls) = (0, 0, 0);
         if !self.recombines && worst < NEAR {
             self.recombines = true;
@@ -90,6 +91,8 @@ impl Pace {
         if self.slowest() {
             return false;
         }
+        // Where it has gained nothing, a slower iteration alone comes first, and the two together next.
+        self.recombines = gained;
         let slower = |r: f64, least: f64| (1.0 - 2.0 * (1.0 - r)).max(least.min(r));
         self.velocity = slower(self.velocity, LEAST[0]);
         // A relaxation of 1 has nothing to double.
@@ -164,7 +167,14 @@ mod tests {
         while !pace.watch(1e-4) {}
         assert!(pace.recombines && pace.temperature >= 0.99 && pace.velocity >= 0.9);
         while !pace.watch(1e-4) {}
-        assert!(pace.recombines && pace.temperature < 0.99 && pace.velocity < 0.9);
+        assert!(!pace.recombines && pace.temperature < 0.99 && pace.velocity < 0.9);
+        let slower = pace.temperature;
+        while !pace.watch(1e-4) {}
+        assert!(pace.recombines && pace.temperature >= slower);
+        // What gains something is kept while it is slowed.
+        pace.watch(4e-5);
+        while !pace.watch(4e-5) {}
+        assert!(pace.recombines && pace.temperature < slower);
     }
 
     #[test]
