@@ -8,7 +8,7 @@ use crate::heat::granular::Granular;
 use crate::heat::{Contact, Surfaces};
 use crate::material::{GAS, Material};
 use crate::mixture::Molar;
-use crate::scene::{Electrons, Surface};
+use crate::scene::{Conduction, Electrons, Surface};
 
 /// One value per face of the four sides of the domain.
 #[derive(Debug, Clone, PartialEq)]
@@ -162,6 +162,8 @@ pub struct HeatCase {
     pub granular: Option<Granular>,
     /// What electrons carry through the gas.
     pub electrons: Option<Electrons>,
+    /// Conductivity of the way from one cell to the next.
+    pub conduction: Conduction,
 }
 
 impl HeatCase {
@@ -308,6 +310,13 @@ impl Case {
     #[inline]
     pub fn of(&self, k: usize) -> &Material {
         &self.materials[self.material[k]]
+    }
+
+    /// Whether heat is conducted by the integral of the conductivity over temperature.
+    #[must_use]
+    pub fn integrates_conduction(&self) -> bool {
+        let conduction = self.heat.as_ref().map(|heat| heat.conduction);
+        conduction == Some(Conduction::Integral)
     }
 
     /// A cell with its position, for messages.

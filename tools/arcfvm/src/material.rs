@@ -12,6 +12,13 @@ pub const GAS: usize = 0;
 /// Temperature at which every enthalpy is zero \[K\].
 pub const REFERENCE_K: f64 = 300.0;
 
+/// Places and weights of Gauss and Legendre's rule of six points, of one half.
+const GAUSS: [[f64; 2]; 3] = [
+    [0.238_619_186_083_196_9, 0.467_913_934_572_691],
+    [0.661_209_386_466_264_5, 0.360_761_573_048_138_6],
+    [0.932_469_514_203_152, 0.171_324_492_379_170_36],
+];
+
 /// A law in radius \[m\], height \[m\], temperature \[K\] and mass fraction of iron.
 pub type Formula = Arc<dyn Fn(f64, f64, f64, f64) -> f64 + Send + Sync>;
 
@@ -56,6 +63,24 @@ impl Law {
             Self::Table(table) => table.held(t),
             Self::Mixed(mixed) => mixed.at(t, y),
             Self::Formula(formula) => formula(r, z, t, y),
+        }
+    }
+
+    /// Mean over the temperatures between both of `t` at radius and height `place`, exact for tables, in gas with the
+    /// mass fraction `y` of iron.
+    #[must_use]
+    pub fn mean(&self, [r, z]: [f64; 2], t: [f64; 2], y: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Table(table) => table.mean(t[0], t[1]),
+            Self::Mixed(mixed) => mixed.mean(t, y),
+            Self::Formula(formula) => {
+                let (middle, half) = (0.5 * (t[0] + t[1]), 0.5 * (t[1] - t[0]));
+                let pair = |x: f64| {
+                    formula(r, z, middle - half * x, y) + formula(r, z, middle + half * x, y)
+                };
+                GAUSS.iter().map(|[x, w]| 0.5 * w * pair(*x)).sum()
+            }
         }
     }
 

@@ -57,6 +57,12 @@ impl Mixed {
     pub fn at(&self, t: f64, y: f64) -> f64 {
         self.table.held(self.molar.mole(y), t)
     }
+
+    /// Mean over the temperatures between both of `t` at mass fraction `y`.
+    #[must_use]
+    pub fn mean(&self, t: [f64; 2], y: f64) -> f64 {
+        self.table.mean(self.molar.mole(y), t[0], t[1])
+    }
 }
 
 #[cfg(test)]

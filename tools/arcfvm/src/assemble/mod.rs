@@ -91,18 +91,15 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         .as_ref()
         .map(|_| flow(scene, &layout, &materials, &mut faults));
     let heat_edges = edges::heat(scene, grid, &mut faults);
+    let given = "/heat/source_w_m3";
     let heat = scene.heat.as_ref().map(|heat| HeatCase {
         plates: plates(&bodies, &heat_edges),
         edges: heat_edges,
         granular: granular::granular(scene, &layout, &bodies, &mut faults),
-        source: cell_source(
-            grid,
-            heat.source_w_m3.as_ref(),
-            "/heat/source_w_m3",
-            &mut faults,
-        ),
+        source: cell_source(grid, heat.source_w_m3.as_ref(), given, &mut faults),
         surfaces: surfaces(&layout, &electrodes, Some(heat)),
         electrons: carriers(scene, heat, &mut faults),
+        conduction: heat.conduction,
     });
     let parts = (&layout, &electrodes, flow.as_ref());
     let vapour = vapour::vapour(scene, gas, parts, &mut faults);

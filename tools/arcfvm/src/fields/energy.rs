@@ -142,32 +142,6 @@ impl Energy {
         self.on_electrode = on_electrode(case);
     }
 
-    /// Conductances at the present temperatures.
-    pub fn conduct(&mut self, case: &Case, surfaces: Option<&Surfaces>, properties: &Properties) {
-        let (grid, kappa) = (&case.grid, &properties.thermal);
-        let series = |a: f64, b: f64, area: f64| if a + b > 0.0 { area / (a + b) } else { 0.0 };
-        for j in 0..grid.nz {
-            for i in 0..=grid.nr {
-                let half = |c: usize| 0.5 * grid.dr[c] / kappa[grid.cell(c, j)];
-                let west = if i > 0 { half(i - 1) } else { 0.0 };
-                let east = if i < grid.nr { half(i) } else { 0.0 };
-                self.radial[grid.radial_face(i, j)] = series(west, east, grid.area(i, j));
-            }
-        }
-        for j in 0..=grid.nz {
-            for i in 0..grid.nr {
-                let half = |c: usize| 0.5 * grid.dz[c] / kappa[grid.cell(i, c)];
-                let south = if j > 0 { half(j - 1) } else { 0.0 };
-                let north = if j < grid.nz { half(j) } else { 0.0 };
-                self.axial[grid.axial_face(i, j)] = series(south, north, grid.ring[i]);
-            }
-        }
-        if let Some(surfaces) = surfaces {
-            self.resist(case, surfaces, properties);
-            self.conduct_surfaces(case, surfaces, properties);
-        }
-    }
-
     /// Heat flux between the middles of gas and metal of a contact \[W/m2\].
     #[must_use]
     pub fn convection(&self, contact: &Contact) -> f64 {

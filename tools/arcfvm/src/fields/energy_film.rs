@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::fields::energy::Energy;
 use crate::heat::{Contact, FaceIndex, Layer, Surfaces};
+use crate::material::Law;
 use crate::properties::Properties;
 use crate::scene::Film;
 
@@ -56,7 +57,9 @@ impl Energy {
         };
         let [r, z] = contact.place;
         let law = case.of(contact.gas).thermal_conductivity.as_ref();
-        let conducts = |a: f64, b: f64| law.map_or(0.0, |l| l.within(r, z, 0.5 * (a + b), iron));
+        let integral = case.integrates_conduction();
+        let conducts =
+            |a: f64, b: f64| law.map_or(0.0, |l| between(l, integral, ([r, z], iron), [a, b]));
         let film = Crossed {
             ways: match way {
                 Film::HalfCells => layer.depth,
@@ -104,10 +107,13 @@ impl Energy {
         (way, metal): (Film, f64),
         (n, iron): (usize, f64),
     ) -> f64 {
-        let film = 0.5 * (self.temperature[contact.gas] + self.skin(n, contact).temperature);
-        let [r, z] = contact.place;
+        let ends = [
+            self.skin(n, contact).temperature,
+            self.temperature[contact.gas],
+        ];
+        let integral = case.integrates_conduction();
         let law = case.of(contact.gas).thermal_conductivity.as_ref();
-        let gas = law.map_or(0.0, |l| l.within(r, z, film, iron));
+        let gas = law.map_or(0.0, |l| between(l, integral, (contact.place, iron), ends));
         match way {
             Film::HalfCells => contact.area / (contact.gas_half / gas + metal),
             Film::Centres if !self.skins.is_empty() => {
@@ -115,6 +121,16 @@ impl Energy {
             }
             Film::Centres => contact.area * gas / (contact.gas_half + contact.metal_half),
         }
+    }
+}
+
+/// Conductivity of a film by the `law` of its gas between the temperatures of its ends: their mean, or that over all between
+/// them.
+fn between(law: &Law, integral: bool, (place, iron): ([f64; 2], f64), ends: [f64; 2]) -> f64 {
+    if integral {
+        law.mean(place, ends, iron)
+    } else {
+        law.within(place[0], place[1], 0.5 * (ends[0] + ends[1]), iron)
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod edge_shear;
 pub mod electrons;
 pub mod energy;
+mod energy_conduct;
 pub mod energy_edges;
 mod energy_electrons;
 mod energy_film;

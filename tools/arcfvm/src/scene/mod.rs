@@ -186,6 +186,9 @@ pub struct Heat {
     /// ionisation voltage (Komen 2019: 5e-5 m on its grid); absent: half a gas cell, on any grid.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub film_m: Option<f64>,
+    /// Conductivity of the way from one cell to the next, and through a film.
+    #[serde(default)]
+    pub conduction: Conduction,
     /// What electrons carry through the gas; absent: no heat (Komen 2019, eq. 5.8).
     pub electrons: Option<Electrons>,
 }
@@ -196,6 +199,18 @@ pub struct Heat {
 pub enum Electrons {
     /// Their enthalpy, against the current: heat of 5/2 k/e j . grad T (Hsu, Etemadi and Pfender 1983).
     Enthalpy,
+}
+
+/// Conductivity of the way from one cell to the next, and through a film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Conduction {
+    /// That of each half at the temperature of its cell, and of a film at the mean of its ends.
+    #[default]
+    Cells,
+    /// The mean over all temperatures between both ends, from the integral of the conductivity (Kirchhoff): where that
+    /// jumps within a few kelvin, heat between cells does not.
+    Integral,
 }
 
 /// Temperature of the metal at which electrodes emit, shine and evaporate.

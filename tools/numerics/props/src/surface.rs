@@ -81,6 +81,12 @@ impl Surface {
         self.blend(x, |row| row.held(y))
     }
 
+    /// Mean of [`Surface::held`] over y between `a` and `b`.
+    #[must_use]
+    pub fn mean(&self, x: f64, a: f64, b: f64) -> f64 {
+        self.blend(x, |row| row.mean(a, b))
+    }
+
     /// Slope with y at `(x, y)`, that of the last interval beyond the ends.
     #[must_use]
     #[inline]

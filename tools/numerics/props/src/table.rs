@@ -5,6 +5,9 @@ use crate::Error;
 /// Buckets per node of the look-up.
 const BUCKETS: usize = 4;
 
+/// Distance of two places that are one, as part of either.
+const SAME: f64 = 1e-9;
+
 /// `y(x)`, piecewise linear between strictly increasing nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
@@ -141,6 +144,27 @@ impl Table {
         self.y[k] + part * (self.y[k + 1] - self.y[k])
     }
 
+    /// Mean of [`Self::held`] between two places, exact; the value where they are one.
+    #[must_use]
+    pub fn mean(&self, a: f64, b: f64) -> f64 {
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        if high - low <= SAME * high.abs() {
+            return self.held(0.5 * (low + high));
+        }
+        let mut from = (low, self.held(low));
+        let mut sum = 0.0;
+        let first = self.x.partition_point(|node| *node <= low);
+        for (x, y) in self.x.iter().zip(&self.y).skip(first) {
+            if *x >= high {
+                break;
+            }
+            sum += 0.5 * (from.1 + y) * (x - from.0);
+            from = (*x, *y);
+        }
+        sum += 0.5 * (from.1 + self.held(high)) * (high - from.0);
+        sum / (high - low)
+    }
+
     /// The slope at `x`, zero beyond the ends.
     #[must_use]
     pub fn slope(&self, x: f64) -> f64 {
@@ -156,6 +180,22 @@ impl Table {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn the_mean_is_that_of_the_integral() {
+        let t = Table::new(vec![1.0, 2.0, 2.001, 4.0], vec![1.0, 1.0, 5.0, 9.0]).unwrap();
+        // By hand: 0.5 of 1, a ramp of 0.001 up to 5, then 1 of a line of slope 4/1.999.
+        let line = 5.0 + 0.5 * 4.0 / 1.999;
+        let want = (0.5 + 0.003 + line) / 1.501;
+        for (a, b) in [(1.5, 3.001), (3.001, 1.5)] {
+            assert!((t.mean(a, b) - want).abs() < 1e-14);
+        }
+        // Held beyond the ends, and the value where there is nothing between.
+        assert!((t.mean(-1.0, 1.0) - 1.0).abs() < 1e-15);
+        assert!((t.mean(3.0, 6.0) - (0.5 * (t.held(3.0) + 9.0) + 18.0) / 3.0).abs() < 1e-14);
+        assert!((t.mean(3.0, 3.0) - t.held(3.0)).abs() < 1e-15);
+        assert!((t.mean(3.0, 3.0 + 1e-6) - t.held(3.0)).abs() < 1e-5);
+    }
 
     #[test]
     fn a_straight_line_is_exact_and_ends_are_held_or_refused() {
