@@ -23,6 +23,8 @@ pub struct Bed {
     pub convection: f64,
     /// Heat conducted from the bed into metal \[W\].
     pub into_metal: f64,
+    /// Section of slag that the heat of the bed would melt on its way \[m2\] (see [`by_heat`]).
+    pub by_heat: f64,
 }
 
 /// The bed of the arc, where there is one.
@@ -56,7 +58,33 @@ pub fn measure(arc: &Arc) -> Option<Bed> {
     }
     walls(arc, granular.material, &mut bed);
     side(arc, granular, &mut bed);
+    bed.by_heat = by_heat(arc, granular, &bed).unwrap_or_default();
     Some(bed)
+}
+
+/// Section across the way of the weld that the heat which the bed keeps would melt, were all of it spent on melting
+/// flux as it comes in, and no more \[m2\]:
+///
+/// ```text
+/// A = (Q_radiation + Q_gas - Q_metal) / (rho v (h(molten) - h(coming in)))
+/// ```
+///
+/// the most slag that the balance allows, as flux that is warmed and not melted, and slag hotter than its melting point, take
+/// a part. Not what the field has: by eq. 5.22 of Komen (2019) a section in the plane of the arc keeps its heat only while the bed
+/// moves on by its distance from the axis, in which little of it melts.
+fn by_heat(arc: &Arc, granular: &Granular, bed: &Bed) -> Option<f64> {
+    let heating = arc.heating.as_ref()?;
+    let mut plates = heating.setup.plates.iter();
+    let plate = plates.find(|plate| plate.material == granular.material)?;
+    let material = &arc.case.materials[granular.material];
+    let (enthalpy, density) = material.enthalpy.as_ref().zip(material.density.as_ref())?;
+    let grid = &arc.case.grid;
+    let row = granular.cells.last()? / grid.nr;
+    let molten = granular.melting + material.melting?.half_range;
+    let rise = enthalpy.at(molten) - enthalpy.at(plate.beyond[row]);
+    let heat = heating.sources.granular + bed.convection - bed.into_metal;
+    let mass = density.at(grid.rf[grid.nr], grid.zc[row], granular.melting) * plate.speed;
+    (mass * rise > 0.0).then(|| heat.max(0.0) / (mass * rise))
 }
 
 /// Faces between the bed and what is beside it.
@@ -144,6 +172,8 @@ pub fn record(arc: &Arc, record: Record) -> Record {
     } else {
         0.0
     };
+    // As wide as cavity and slag are.
+    let spread = bed.by_heat / (2.0 * (bed.cavity_radius + bed.slag_thickness));
     record
         .with(
             &format!("{name}_radiation_w"),
@@ -156,6 +186,8 @@ pub fn record(arc: &Arc, record: Record) -> Record {
         .with("slag_volume_m3", "m3", bed.slag_volume)
         .with("slag_thickness_m", "m", bed.slag_thickness)
         .with("slag_thickness_mean_m", "m", mean)
+        .with("slag_by_heat_area_m2", "m2", bed.by_heat)
+        .with("slag_by_heat_thickness_m", "m", spread)
         .with("cavity_volume_m3", "m3", bed.cavity_volume)
         .with("cavity_radius_m", "m", bed.cavity_radius)
 }

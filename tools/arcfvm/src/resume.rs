@@ -3,7 +3,7 @@
 use artefact::Checkpoint;
 
 use crate::fields::Solver;
-use crate::solver::Arc;
+use crate::solver::{Arc, Heating};
 
 /// Puts the state into a checkpoint.
 ///
@@ -43,6 +43,9 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_f64("last_change", &heating.energy.last);
         c.put_u8("alternations", &heating.energy.alternations);
         c.put_f64("absorbed", heating.sources.absorbed());
+        if length(heating).is_some() {
+            c.put_f64("lit", heating.sources.lit());
+        }
         let surfaces = heating.energy.surface_temperatures();
         if !surfaces.is_empty() {
             c.put_f64("surfaces", &surfaces);
@@ -90,13 +93,19 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         heating.energy.calm = c.f64("calm")?;
         heating.energy.last = c.f64("last_change")?;
         heating.energy.alternations = c.u8("alternations")?;
-        heating.sources.restore(c.f64("absorbed")?);
+        let lit = length(heating).map_or_else(|| Ok(Vec::new()), |_| c.f64("lit"))?;
+        heating.sources.restore(c.f64("absorbed")?, lit);
         if !heating.energy.skins.is_empty() {
             heating.energy.restore_surfaces(&c.f64("surfaces")?);
         }
         regroup(c, "energy", nr, &mut heating.energy.solver)?;
     }
     Ok(())
+}
+
+/// Length within which the wall of a cavity takes up light, where it has one.
+fn length(heating: &Heating) -> Option<f64> {
+    heating.setup.granular.as_ref()?.length
 }
 
 /// Puts what a solver remembers.

@@ -52,12 +52,14 @@ pub(crate) fn granular(
     if layout.material.iter().all(|m| *m != GAS) {
         faults.add(&at, "there is no gas that the cavity could begin with");
     }
-    Some(Granular::new(
-        n + 1,
-        [melting.point_k, given.boiling_k],
-        given.absorbed_radiation,
-        cells,
-    ))
+    if given.absorption_length_m.is_some() && given.absorbed_radiation.is_none() {
+        let what = "is for flux with absorbed_radiation";
+        faults.add(&format!("{at}/absorption_length_m"), what);
+    }
+    let points = [melting.point_k, given.boiling_k];
+    let mut granular = Granular::new(n + 1, points, given.absorbed_radiation, cells);
+    granular.length = given.absorption_length_m;
+    Some(granular)
 }
 
 /// The conductivity of flux and, above its melting range, of slag.
@@ -82,6 +84,7 @@ mod tests {
             slag_conductivity_ratio: 3.0,
             boiling_k: 3123.0,
             absorbed_radiation: None,
+            absorption_length_m: None,
             iron_mass_fraction: None,
         };
         let melting = Melting {

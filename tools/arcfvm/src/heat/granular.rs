@@ -22,6 +22,8 @@ pub struct Granular {
     pub boiling: f64,
     /// Part of all radiation of the gas that flux and slag take up.
     pub absorbed: Option<f64>,
+    /// Length within which they take it up from the wall of the cavity inward \[m\]; none: evenly by volume.
+    pub length: Option<f64>,
     /// Cells of the bed, boiled or not.
     pub cells: Vec<usize>,
     /// How often each of them has changed.
@@ -42,6 +44,7 @@ impl Granular {
             melting,
             boiling,
             absorbed,
+            length: None,
             changes: vec![0; cells.len()],
             cells,
         }
@@ -77,17 +80,23 @@ impl Granular {
         changed
     }
 
-    /// Heat that each cell takes up of all the radiation `shine` \[W\]: evenly by volume.
+    /// Heat that each cell takes up of all the radiation `shine` \[W\]: by its part of `shares`, or evenly by volume
+    /// where those are empty.
     pub fn take_up(
         &self,
         grid: &Grid,
         material: &[usize],
-        shine: f64,
+        (shine, shares): (f64, &[f64]),
         mut give: impl FnMut(usize, f64),
     ) -> f64 {
         let Some(part) = self.absorbed else {
             return 0.0;
         };
+        if !shares.is_empty() {
+            let lit = self.cells.iter().filter(|k| shares[**k] > 0.0);
+            lit.for_each(|k| give(*k, part * shine * shares[*k]));
+            return part * shine;
+        }
         let volume = |k: usize| grid.volume(k % grid.nr, k / grid.nr);
         let solid = || self.cells.iter().filter(|k| material[**k] == self.material);
         let all: f64 = solid().map(|k| volume(*k)).sum();
@@ -167,7 +176,7 @@ mod tests {
     fn radiation_is_shared_out_by_volume() {
         let (grid, material, bed) = row();
         let mut given = [0.0; 10];
-        let all = bed.take_up(&grid, &material, 100.0, |k, q| given[k] = q);
+        let all = bed.take_up(&grid, &material, (100.0, &[]), |k, q| given[k] = q);
         assert!((all - 80.0).abs() < 1e-12);
         assert!((given.iter().sum::<f64>() - 80.0).abs() < 1e-12);
         assert!(given[1].abs() < 1e-15);

@@ -6,6 +6,7 @@ pub mod electrode;
 pub mod evaporation;
 pub mod film;
 pub mod granular;
+pub mod lit_wall;
 pub mod motion;
 pub mod radiation;
 pub mod reads;

@@ -2,7 +2,7 @@
 
 use crate::fields::potential::Potential;
 use crate::heat::reads::Reads;
-use crate::heat::{Contact, FaceIndex, Skin, SurfaceHeat, Surfaces, radiation};
+use crate::heat::{Contact, FaceIndex, Skin, SurfaceHeat, Surfaces, lit_wall, radiation};
 
 /// Heat of one contact \[W/m2\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,6 +38,9 @@ pub struct Sources {
     pub plates: Vec<f64>,
     /// Radiation taken up by granular flux and slag \[W\].
     pub granular: f64,
+    /// Part that each cell takes up of the radiation that flux does, where it has a length of absorption; renewed with what
+    /// contacts take up.
+    lit: Vec<f64>,
     /// Whether what surfaces see has to be worked out anew.
     stale: bool,
     /// Given sources \[W\].
@@ -94,9 +97,15 @@ impl Sources {
         &self.absorbed
     }
 
-    /// Takes up what each contact took up before.
-    pub fn restore(&mut self, absorbed: Vec<f64>) {
-        self.absorbed = absorbed;
+    /// Part that each cell takes up of the radiation that flux does; empty where that is spread evenly.
+    #[must_use]
+    pub fn lit(&self) -> &[f64] {
+        &self.lit
+    }
+
+    /// Takes up what each contact took up before, and which cells of flux were lit.
+    pub fn restore(&mut self, absorbed: Vec<f64>, lit: Vec<f64>) {
+        (self.absorbed, self.lit) = (absorbed, lit);
         self.stale = false;
     }
 
@@ -182,13 +191,20 @@ impl Sources {
 
     /// Works out what each contact absorbs, where `anew` or what surfaces there are has changed.
     pub(crate) fn look(&mut self, reads: Reads<'_>, anew: bool) {
-        let Some(surfaces) = &reads.heat.surfaces else {
-            return;
-        };
-        self.absorbed.resize(surfaces.contacts.len(), 0.0);
-        if anew || self.stale {
+        let surfaces = reads.heat.surfaces.as_ref();
+        let contacts = surfaces.map_or(0, |s| s.contacts.len());
+        self.absorbed.resize(contacts, 0.0);
+        let length = reads.heat.granular.as_ref().and_then(|bed| bed.length);
+        if (anew || self.stale) && (surfaces.is_some() || length.is_some()) {
             self.emit(reads);
-            self.view(reads, surfaces);
+            if let Some(surfaces) = surfaces {
+                self.view(reads, surfaces);
+            }
+            if let Some((bed, length)) = reads.heat.granular.as_ref().zip(length) {
+                let case = reads.case;
+                let own = (bed.material, length);
+                self.lit = lit_wall::shares(&case.grid, &case.material, own, &self.emission);
+            }
             self.stale = false;
         }
     }
@@ -217,9 +233,8 @@ impl Sources {
         self.granular = 0.0;
         if let Some(bed) = &reads.heat.granular {
             let (case, shine) = (reads.case, self.emission.iter().sum());
-            self.granular = bed.take_up(&case.grid, &case.material, shine, |k, heat| {
-                out[k][0] += heat
-            });
+            let give = |k: usize, heat: f64| out[k][0] += heat;
+            self.granular = bed.take_up(&case.grid, &case.material, (shine, &self.lit), give);
         }
     }
 

@@ -14,10 +14,13 @@ pub struct Granular {
     /// What is hotter, and joins the gas, is gas.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub boiling_k: f64,
-    /// Part of all radiation of the gas that flux and slag take up, evenly over their volume; absent:
-    /// none.
+    /// Part of all radiation of the gas that flux and slag take up; absent: none.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub absorbed_radiation: Option<f64>,
+    /// Length within which it falls by a factor of e from the wall of the cavity inward, some grains; absent: it is taken up
+    /// evenly over the volume of the body, as Komen (2019) has it.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub absorption_length_m: Option<f64>,
     /// Mass fraction of iron in the gas at the wall of the cavity, where slag takes up iron and gives off
     /// as much gas; absent: neither.
     #[schemars(range(min = 0.0, max = 1.0))]
