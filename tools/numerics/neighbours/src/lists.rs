@@ -79,7 +79,11 @@ impl Brick {
                     z[used..].first_chunk_mut(),
                     index[used..].first_chunk_mut(),
                 ) {
-                    (*x, *y, *z, *index) = (*lanes.x, *lanes.y, *lanes.z, *order);
+                    // One by one: a tuple of all would go by way of the stack.
+                    *x = *lanes.x;
+                    *y = *lanes.y;
+                    *z = *lanes.z;
+                    *index = *order;
                 }
                 used += LANES.min(run.end - first);
             }
