@@ -17,8 +17,8 @@
 //! each where the support is symmetric. All sums go in an order that depends on the places alone:
 //! results are the same to the bit for any number of threads.
 //!
-//! Where the points of a support do not determine the polynomial, the support is enlarged; where
-//! that does not help, singular values tell whether the wanted operators are determined all the
+//! Where the points of a support do not determine the polynomial, or determine it so poorly that the
+//! weights add up to several times the usual, the support is enlarged; where that does not help, singular values tell whether the wanted operators are determined all the
 //! same; and then the order is lowered. [`Report`] counts what happened.
 //!
 //! ```
