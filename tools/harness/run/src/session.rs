@@ -13,7 +13,6 @@ use crate::console::Level;
 use crate::failure::Failure;
 use crate::interrupt::{Expendable, Interrupt};
 use crate::ledger::{Ledger, set};
-use crate::machine;
 use crate::plan::Plan;
 use crate::progress::{Progress, Style};
 use crate::watched::Watched;
@@ -181,7 +180,7 @@ impl Session {
 
     /// Does `work` and adds its wall time to the stage `name`.
     pub fn timed<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R {
-        let before = self.watched.as_ref().and_then(|_| machine::memory_bytes());
+        let before = Watched::before(self.watched.as_ref());
         let start = Instant::now();
         let done = work();
         self.clock.add(name, start.elapsed());

@@ -10,6 +10,11 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
+    /// Resident memory where a stage begins, if it is watched \[byte\].
+    pub(crate) fn before(watched: Option<&Self>) -> Option<u64> {
+        watched.and_then(|_| machine::memory_bytes())
+    }
+
     /// Adds what a stage has kept since there were so many bytes.
     pub(crate) fn add(&mut self, name: &'static str, before: u64) {
         let Some(now) = machine::memory_bytes() else {

@@ -117,19 +117,17 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
 fn skin(e: &Ellipsoid, dimensions: usize) -> Face {
     use std::f64::consts::TAU;
     let wide = e.half[0].max(e.half[1]) + e.beyond;
-    if dimensions == 2 {
-        return Face {
-            sheet: Sheet::Side,
-            label: "rim",
-            range: [[0.0, TAU], [-0.5, 0.5]],
-            lengths: [TAU * wide, 1.0],
-        };
-    }
+    let (sheet, label, end, length) = if dimensions == 2 {
+        (Sheet::Side, "rim", 0.5, 1.0)
+    } else {
+        let high = wide.max(e.half[2] + e.beyond);
+        (Sheet::Globe, "surface", 1.0, 0.5 * TAU * high)
+    };
     Face {
-        sheet: Sheet::Globe,
-        label: "surface",
-        range: [[0.0, TAU], [-1.0, 1.0]],
-        lengths: [TAU * wide, 0.5 * TAU * wide.max(e.half[2] + e.beyond)],
+        sheet,
+        label,
+        range: [[0.0, TAU], [-end, end]],
+        lengths: [TAU * wide, length],
     }
 }
 
@@ -166,15 +164,10 @@ impl Face {
                 let place = [u * cosine, u * sine, sign * half];
                 (place, [0.0, 0.0, sign], u)
             }
-            (Sheet::Side, Kind::Ellipsoid(e)) => {
+            (Sheet::Side | Sheet::Globe, Kind::Ellipsoid(e)) => {
                 let (sine, cosine) = u.sin_cos();
-                let spot = e.spot([cosine, sine, 0.0]);
-                (spot.place, spot.normal, spot.area)
-            }
-            (Sheet::Globe, Kind::Ellipsoid(e)) => {
-                let (sine, cosine) = u.sin_cos();
-                let across = (1.0 - v * v).max(0.0).sqrt();
-                let spot = e.spot([across * cosine, across * sine, v]);
+                let across = (1.0 - high * high).max(0.0).sqrt();
+                let spot = e.spot([across * cosine, across * sine, high]);
                 (spot.place, spot.normal, spot.area)
             }
             (Sheet::Globe, Kind::Ball(radius)) => {
