@@ -92,7 +92,7 @@ impl Pace {
             return false;
         }
         // Where it has gained nothing, a slower iteration alone comes first, and the two together next.
-        self.recombines = gained;
+        self.recombines = self.recombines && gained;
         let slower = |r: f64, least: f64| (1.0 - 2.0 * (1.0 - r)).max(least.min(r));
         self.velocity = slower(self.velocity, LEAST[0]);
         // A relaxation of 1 has nothing to double.
