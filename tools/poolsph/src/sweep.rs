@@ -3,6 +3,8 @@
 //! A sum of differences is taken apart: with the sums D of the weights times a field, the sum of
 //! `w_ab (y_a + y_b) (x_a - x_b)` is `y_a` times that of `w_ab (x_a - x_b)`, plus `D(y) x_a - D(y x)`.
 
+use std::ops::Add;
+
 /// Particles per unit of parallel work, where each takes little.
 pub(crate) const GRAIN: usize = 2048;
 
@@ -24,52 +26,85 @@ pub(crate) fn middle(places: &[[f64; 3]]) -> [f64; 3] {
     std::array::from_fn(|k| 0.5 * (low[k] + high[k]))
 }
 
-/// As [`summed`], in double precision; the weights may come in single.
-#[inline]
-pub(crate) fn summed_double<W: Copy + Into<f64>>(
-    row: &[u32],
-    weight: &[W],
-    field: &[[f64; 4]],
-) -> [f64; 4] {
-    let (mut even, mut odd) = ([0.0; 4], [0.0; 4]);
-    let ((twos, one), (weights, last)) = (row.as_chunks::<2>(), weight.as_chunks::<2>());
-    for ([b, c], [v, w]) in twos.iter().zip(weights) {
-        let (x, y) = (field[*b as usize], field[*c as usize]);
-        let (v, w): (f64, f64) = ((*v).into(), (*w).into());
-        for i in 0..4 {
-            even[i] += v * x[i];
-            odd[i] += w * y[i];
-        }
-    }
-    for (b, w) in one.iter().zip(last) {
-        let (x, w): (_, f64) = (field[*b as usize], (*w).into());
-        for i in 0..4 {
-            even[i] += w * x[i];
-        }
-    }
-    std::array::from_fn(|i| even[i] + odd[i])
+/// Work in the widest vectors that the machine has. No operation is fused or reordered for it.
+pub(crate) fn wide(work: impl FnMut()) {
+    pulp::Arch::new().dispatch(Wide(work));
 }
 
-/// Sum of `weight` times `field` over the neighbours of a `row`, of every other one on its own, so
+struct Wide<W>(W);
+
+impl<W: FnMut()> pulp::NullaryFnOnce for Wide<W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(mut self) {
+        (self.0)();
+    }
+}
+
+/// Sum of `weight` times `field` over the neighbours of a `row`, of every fourth one on its own, so
 /// that additions need not wait for each other.
-#[inline]
+#[inline(always)]
 pub(crate) fn summed(row: &[u32], weight: &[f32], field: &[[f32; 4]]) -> [f32; 4] {
-    let (mut even, mut odd) = ([0.0_f32; 4], [0.0_f32; 4]);
-    let ((twos, one), (weights, last)) = (row.as_chunks::<2>(), weight.as_chunks::<2>());
-    for ([b, c], [v, w]) in twos.iter().zip(weights) {
-        let (x, y) = (field[*b as usize], field[*c as usize]);
-        for i in 0..4 {
-            even[i] += v * x[i];
-            odd[i] += w * y[i];
-        }
+    #[cfg(target_arch = "x86_64")]
+    if let Some(sse) = pulp::core_arch::x86::Sse::try_new() {
+        // Told to, the compiler keeps the four numbers in one vector; left to itself it takes halves.
+        let mut parts = [sse._mm_setzero_ps(); 4];
+        each_part(row, weight, field, |part, w, x| {
+            let more = sse._mm_mul_ps(sse._mm_set1_ps(w), pulp::cast(x));
+            parts[part] = sse._mm_add_ps(parts[part], more);
+        });
+        return added(parts.map(pulp::cast));
     }
-    for (b, w) in one.iter().zip(last) {
-        let x = field[*b as usize];
+    let mut parts = [[0.0_f32; 4]; 4];
+    each_part(row, weight, field, |part, w, x| {
         for i in 0..4 {
-            even[i] += w * x[i];
+            parts[part][i] += w * x[i];
         }
+    });
+    added(parts)
+}
+
+/// Sum of four parts.
+#[inline(always)]
+fn added<T: Copy + Add<Output = T>, const N: usize>([p, q, r, s]: [[T; N]; 4]) -> [T; N] {
+    std::array::from_fn(|i| (p[i] + q[i]) + (r[i] + s[i]))
+}
+
+/// As [`summed`], in double precision; the weights may come in single.
+#[inline(always)]
+pub(crate) fn summed_double<W: Copy + Into<f64>, const N: usize>(
+    row: &[u32],
+    weight: &[W],
+    field: &[[f64; N]],
+) -> [f64; N] {
+    let mut parts = [[0.0; N]; 4];
+    each_part(row, weight, field, |part, w, x| {
+        for i in 0..N {
+            parts[part][i] += w.into() * x[i];
+        }
+    });
+    added(parts)
+}
+
+/// Calls `add` with the part to which each neighbour of a `row` belongs, its weight and its field.
+#[inline(always)]
+fn each_part<W: Copy, F: Copy>(
+    row: &[u32],
+    weight: &[W],
+    field: &[F],
+    mut add: impl FnMut(usize, W, F),
+) {
+    let ((fours, rest), (weights, last)) = (row.as_chunks::<4>(), weight.as_chunks::<4>());
+    for (b, w) in fours.iter().zip(weights) {
+        add(0, w[0], field[b[0] as usize]);
+        add(1, w[1], field[b[1] as usize]);
+        add(2, w[2], field[b[2] as usize]);
+        add(3, w[3], field[b[3] as usize]);
     }
-    std::array::from_fn(|i| even[i] + odd[i])
+    for (b, w) in rest.iter().zip(last) {
+        add(0, *w, field[*b as usize]);
+    }
 }
 
 #[cfg(test)]

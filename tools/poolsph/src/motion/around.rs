@@ -26,12 +26,16 @@ impl Around {
             .collect_into_vec(&mut self.carried);
         self.sums.resize(near.len(), [0.0; 4]);
         let carried = &self.carried;
-        near.each_row(&mut self.sums, |a, row, out| {
-            *out = match near.role[a] {
-                Role::Liquid => summed_double(row.index, row.value, carried),
-                _ => [0.0; 4],
-            };
-        });
+        near.each_row(
+            &mut self.sums,
+            #[inline(always)]
+            |a, row, out| {
+                *out = match near.role[a] {
+                    Role::Liquid => summed_double(row.index, row.value, carried),
+                    _ => [0.0; 4],
+                };
+            },
+        );
     }
 
     /// Bytes held.

@@ -16,7 +16,7 @@ use super::viscosity::Viscosity;
 use crate::near::{Near, Role};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, State};
-use crate::sweep::GRAIN;
+use crate::sweep::{GRAIN, summed_double};
 use crate::vector::{plus, squared};
 
 /// A particle may cross this part of its diameter in one substep.
@@ -203,17 +203,17 @@ impl Motion {
             .collect_into_vec(&mut self.carried);
         let carried = &self.carried;
         self.spread.resize(near.len(), 0.0);
-        near.each_row(&mut self.spread, |a, row, out| {
-            *out = virial[a];
-            if role[a] == Role::Liquid {
-                let start = [own * virial[a], own];
-                let [sum, weight] = row.values().fold(start, |[sum, weight], (b, w)| {
-                    let [p, liquid] = carried[b];
-                    [sum + w * p, weight + w * liquid]
-                });
-                *out = sum / weight;
-            }
-        });
+        near.each_row(
+            &mut self.spread,
+            #[inline(always)]
+            |a, row, out| {
+                *out = virial[a];
+                if role[a] == Role::Liquid {
+                    let [sum, weight] = summed_double(row.index, row.value, carried);
+                    *out = (own * virial[a] + sum) / (own + weight);
+                }
+            },
+        );
     }
 
     /// Takes the results of the copy back to the particles.

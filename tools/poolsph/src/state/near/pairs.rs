@@ -4,6 +4,7 @@ use kernels::CubicSpline;
 use neighbours::{Chunk, Lists, ROWS};
 use rayon::prelude::*;
 
+use crate::sweep::wide;
 use crate::vector::{minus, squared};
 
 /// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists; buffers may
@@ -53,15 +54,20 @@ pub(super) fn each_row<T: Send>(
         .zip(lists.chunks())
         .zip(pairs)
         .for_each(|((out, chunk), pairs)| {
-            for (k, out) in out.iter_mut().enumerate() {
-                let range = chunk.range(k);
-                let row = Row {
-                    index: chunk.row(k),
-                    value: &pairs.value[range.clone()],
-                    slope: &pairs.slope[range],
-                };
-                each(chunk.first() + k, row, out);
-            }
+            wide(
+                #[inline(always)]
+                || {
+                    for (k, out) in out.iter_mut().enumerate() {
+                        let range = chunk.range(k);
+                        let row = Row {
+                            index: chunk.row(k),
+                            value: &pairs.value[range.clone()],
+                            slope: &pairs.slope[range],
+                        };
+                        each(chunk.first() + k, row, out);
+                    }
+                },
+            );
         });
 }
 
@@ -137,21 +143,54 @@ impl Rows<'_> {
         let PairChunk { value, slope } = &*self.pairs;
         for k in 0..chunk.rows() {
             let at = marks[chunk.first() + k];
-            let (mut number, mut gradient, mut squares) = (own, [0.0; 4], 0.0);
-            let pairs = value[chunk.range(k)].iter().zip(&slope[chunk.range(k)]);
-            for (&b, (&value, &slope)) in chunk.row(k).iter().zip(pairs) {
-                let to = marks[b as usize];
-                let slope = f64::from(slope);
-                let pull: [f64; 4] = std::array::from_fn(|i| slope * (at[i] - to[i]));
-                gradient = std::array::from_fn(|i| gradient[i] + pull[i]);
-                squares += to[3] * squared([pull[0], pull[1], pull[2]]);
-                number += value;
+            let (range, row) = (chunk.range(k), chunk.row(k));
+            let (even, odd) = (&mut Sums::default(), &mut Sums::default());
+            let (values, slopes) = (&value[range.clone()], &slope[range]);
+            let (twos, last) = row.as_chunks::<2>();
+            let pairs = values
+                .as_chunks::<2>()
+                .0
+                .iter()
+                .zip(slopes.as_chunks::<2>().0);
+            for ([b, c], ([v, w], [s, t])) in twos.iter().zip(pairs) {
+                even.add(at, marks[*b as usize], (*v, *s));
+                odd.add(at, marks[*c as usize], (*w, *t));
             }
-            let [x, y, z, _] = gradient;
+            if let ([b], Some(value), Some(slope)) = (last, values.last(), slopes.last()) {
+                even.add(at, marks[*b as usize], (*value, *slope));
+            }
+            let [x, y, z, _]: [f64; 4] =
+                std::array::from_fn(|i| even.gradient[i] + odd.gradient[i]);
+            let [p, q, r, _]: [f64; 4] = std::array::from_fn(|i| even.squares[i] + odd.squares[i]);
+            let (number, squares) = (own + (even.number + odd.number), p + q + r);
             // A row that is not kept is empty, and so is its sum.
-            self.number[k] = if chunk.row(k).is_empty() { 0.0 } else { number };
+            self.number[k] = if row.is_empty() { 0.0 } else { number };
             (self.gradient[k], self.squares[k]) = ([x, y, z], squares);
         }
+    }
+}
+
+/// Sums over every other neighbour of a row, so that additions need not wait for each other.
+#[derive(Default)]
+struct Sums {
+    number: f64,
+    /// Of grad W; the fourth number means nothing.
+    gradient: [f64; 4],
+    /// Of its squares over liquid neighbours, axis by axis; the fourth number means nothing.
+    squares: [f64; 4],
+}
+
+impl Sums {
+    /// Adds the neighbour `to` of `at` with W and (dW/dr)/r.
+    #[inline(always)]
+    fn add(&mut self, at: [f64; 4], to: [f64; 4], (value, slope): (f64, f32)) {
+        let slope = f64::from(slope);
+        for i in 0..4 {
+            let pull = slope * (at[i] - to[i]);
+            self.gradient[i] += pull;
+            self.squares[i] += to[3] * (pull * pull);
+        }
+        self.number += value;
     }
 }
 
