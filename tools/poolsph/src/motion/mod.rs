@@ -7,6 +7,7 @@ pub mod lattice;
 pub mod law;
 pub mod noise;
 pub mod projection;
+pub mod push;
 pub mod step;
 pub mod viscosity;
 
