@@ -234,7 +234,7 @@ mod tests {
         let judged = |target: Target| {
             let all = verdicts(
                 std::slice::from_ref(&target),
-                &std::slice::from_ref(&made),
+                std::slice::from_ref(&made),
                 &[1, 2, 3],
             );
             let verdict = &all[&target.name()];

@@ -23,7 +23,7 @@ pub struct Bed {
     pub convection: f64,
     /// Heat conducted from the bed into metal \[W\].
     pub into_metal: f64,
-    /// Section of slag that the heat of the bed would melt on its way \[m2\] (see [`by_heat`]).
+    /// Section of slag that the heat of the bed would melt on its way \[m2\] (see `by_heat`).
     pub by_heat: f64,
 }
 
