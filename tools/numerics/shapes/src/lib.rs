@@ -10,6 +10,7 @@
 pub mod body;
 pub mod check;
 pub mod ellipsoid;
+mod face;
 pub mod frame;
 pub mod rule;
 pub mod shape;

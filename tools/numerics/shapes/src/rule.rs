@@ -7,7 +7,8 @@
 use std::f64::consts::PI;
 
 use crate::body::{Body, Kind, Primitive};
-use crate::surface::{Piece, faces, pieces};
+use crate::face::faces;
+use crate::surface::{Piece, pieces};
 
 /// Least number of places along a parameter.
 const LEAST: usize = 6;
