@@ -66,9 +66,7 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
         scene: serde_json::Value::Null,
         inputs: std::collections::BTreeMap::new(),
     };
-    let ballast = Ballast::new();
-    let mut taken = trial(header, |session| solution::solve(&own, small, session))?;
-    taken.before = ballast.without(taken.before);
+    let taken = trial(header, |session| solution::solve(&own, small, session))?;
     let (taken_steps, taken_frames) = march(&own);
     let more = More {
         ratio,
@@ -78,48 +76,6 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
         frames: frames as f64 / taken_frames as f64,
     };
     Ok(told(&taken, &more, (planned, small.len(), steps)))
-}
-
-/// What fills the memory that the process was left by what it has done before, so that a trial has to ask for its own.
-struct Ballast {
-    blocks: Vec<Vec<u8>>,
-}
-
-impl Ballast {
-    /// Blocks \[byte\], and how many are asked for between looks at the memory of the process.
-    const BLOCK: usize = 1 << 16;
-    const AT_ONCE: usize = 16;
-    /// Growth of the process that says that nothing is left \[byte\], and the most that is filled.
-    const GROWN: u64 = 2 << 20;
-    const MOST: usize = 1 << 30;
-
-    fn new() -> Self {
-        let mut blocks = Vec::new();
-        let Some(start) = resident() else {
-            return Self { blocks };
-        };
-        while blocks.len() * Self::BLOCK < Self::MOST {
-            // Memory is there once it is written to.
-            blocks.extend((0..Self::AT_ONCE).map(|_| vec![1; Self::BLOCK]));
-            if resident().is_none_or(|now| now > start + Self::GROWN) {
-                break;
-            }
-        }
-        Self { blocks }
-    }
-
-    /// Memory of the process without these \[byte\].
-    fn without(&self, all: u64) -> u64 {
-        all.saturating_sub((self.blocks.len() * Self::BLOCK) as u64)
-    }
-}
-
-/// Resident memory of the process \[byte\]; none where the system does not say.
-fn resident() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|l| l.strip_prefix("VmRSS:"))?;
-    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kib * 1024)
 }
 
 /// The scene with fewer points and these, unless it has few or can have no fewer.

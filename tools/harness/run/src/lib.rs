@@ -53,6 +53,7 @@
 //! run record ([`Session`]); one exit code per kind of failure ([`Failure`]).
 
 mod awake;
+mod ballast;
 mod clock;
 mod command;
 mod console;

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use artefact::{Header, beside};
 
+use crate::ballast::Ballast;
 use crate::failure::Failure;
 use crate::machine;
 use crate::session::Session;
@@ -52,6 +53,7 @@ pub fn trial(
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
     let name = format!("{}-trial-{}-{number}.mcap", header.tool, std::process::id());
     let out = std::env::temp_dir().join(name);
+    let ballast = Ballast::new();
     let before = machine::memory_bytes().unwrap_or_default();
     let highest = machine::peak_memory_bytes();
     let mut session = Session::quiet(&out, header)?;
@@ -71,7 +73,7 @@ pub fn trial(
     };
     Ok(Taken {
         parts: ledger.stages.into_iter().map(part).collect(),
-        before,
+        before: ballast.without(before),
         most: higher.unwrap_or(watched.most).saturating_sub(before),
     })
 }
