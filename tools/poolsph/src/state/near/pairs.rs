@@ -117,12 +117,13 @@ impl Rows<'_> {
 
     /// Turns squared distances into kernel values, and sums these over the rows.
     pub(super) fn fill(&mut self, chunk: &Chunk, kernel: CubicSpline<3>, marks: &[[f64; 4]]) {
-        pulp::Arch::new().dispatch(Filling {
-            rows: self,
-            chunk,
-            kernel,
-            marks,
-        });
+        wide(
+            #[inline(always)]
+            || {
+                self.weigh(chunk, kernel);
+                self.sum(chunk, marks, kernel.value(0.0));
+            },
+        );
     }
 
     /// Turns squared distances into kernel values.
@@ -191,24 +192,5 @@ impl Sums {
             self.squares[i] += to[3] * (pull * pull);
         }
         self.number += value;
-    }
-}
-
-/// [`Rows::fill`] in the widest vectors that the machine has. No operation is fused or reordered for it.
-struct Filling<'a, 'b> {
-    rows: &'a mut Rows<'b>,
-    chunk: &'a Chunk,
-    kernel: CubicSpline<3>,
-    marks: &'a [[f64; 4]],
-}
-
-impl pulp::NullaryFnOnce for Filling<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        self.rows.weigh(self.chunk, self.kernel);
-        self.rows
-            .sum(self.chunk, self.marks, self.kernel.value(0.0));
     }
 }
