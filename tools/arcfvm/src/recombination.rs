@@ -4,7 +4,7 @@
 //! fluxes and temperatures of surfaces follow with the same coefficients, so that mass fluxes that balance go on doing so.
 
 use artefact::Checkpoint;
-use relax::Anderson;
+use krylov::Anderson;
 
 use crate::residual::Residuals;
 use crate::solver::Arc;
@@ -20,10 +20,16 @@ const GROWTH: f64 = 10.0;
 #[derive(Debug, Clone)]
 pub struct Recombination {
     anderson: Anderson,
+    /// Of each value that is asked what it lacks.
+    weights: Vec<f64>,
     /// The state that the next iteration begins from.
     start: Vec<f64>,
+    /// What an iteration makes of it.
     result: Vec<f64>,
-    step: Vec<f64>,
+    /// What it lacks, weighed.
+    lack: Vec<f64>,
+    /// What is made of the last results.
+    mixed: Vec<f64>,
     /// Smallest of the greatest residuals since the last beginning.
     best: f64,
 }
@@ -94,18 +100,24 @@ impl Recombination {
     pub fn new(arc: &mut Arc) -> Self {
         let mut start = Vec::new();
         gather(arc, &mut start);
+        Self::from(Anderson::new(DEPTH), weights(arc), start)
+    }
+
+    fn from(anderson: Anderson, weights: Vec<f64>, start: Vec<f64>) -> Self {
         Self {
-            anderson: Anderson::new(DEPTH, weights(arc)),
-            result: start.clone(),
+            anderson,
+            weights,
             start,
-            step: Vec::new(),
+            result: Vec::new(),
+            lack: Vec::new(),
+            mixed: Vec::new(),
             best: f64::INFINITY,
         }
     }
 
     /// Begins anew at the present state: the iteration is another from here on.
     fn renew(&mut self, arc: &mut Arc) {
-        self.anderson.forget();
+        self.anderson.clear();
         self.best = f64::INFINITY;
         gather(arc, &mut self.start);
     }
@@ -120,14 +132,17 @@ impl Recombination {
         }
         self.best = self.best.min(worst);
         gather(arc, &mut self.result);
-        self.anderson
-            .step(&self.start, &self.result, &mut self.step);
+        let values = self.weights.iter().zip(&self.result).zip(&self.start);
+        self.lack.clear();
+        self.lack.extend(values.map(|((w, g), x)| w * (g - x)));
+        self.mixed.clone_from(&self.result);
+        self.anderson.next(&mut self.mixed, &self.lack);
         let part = self.part(arc);
         let mut at = 0;
-        let step = &self.step;
+        let mixed = &self.mixed;
         fields(arc, &mut |_, field| {
-            for (value, step) in field.iter_mut().zip(&step[at..]) {
-                *value += part * step;
+            for (value, mixed) in field.iter_mut().zip(&mixed[at..]) {
+                *value += part * (mixed - *value);
             }
             at += field.len();
         });
@@ -138,13 +153,14 @@ impl Recombination {
         gather(arc, &mut self.start);
     }
 
-    /// The part of the step that moves no temperature too far.
+    /// The part of the way to `mixed` that moves no temperature too far.
     fn part(&self, arc: &Arc) -> f64 {
         let Some(heating) = &arc.heating else {
             return 1.0;
         };
-        let moves = heating.energy.temperature.iter().zip(&self.step);
-        let farthest = moves.fold(0.0_f64, |most, (t, s)| most.max(s.abs() / t));
+        // Temperatures stand first.
+        let moves = heating.energy.temperature.iter().zip(&self.mixed);
+        let farthest = moves.fold(0.0_f64, |most, (t, m)| most.max((m - t).abs() / t));
         (FARTHEST / farthest).min(1.0)
     }
 
@@ -154,7 +170,7 @@ impl Recombination {
     /// When a value cannot be stored.
     pub fn keep(&self, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_f64("recombined", &self.anderson.memory());
-        c.put_f64("recombined_weights", self.anderson.weights());
+        c.put_f64("recombined_weights", &self.weights);
         c.put_f64("recombined_start", &self.start);
         c.put_f64("recombined_best", &[self.best]);
         c.put_json("recombined_kept", &self.anderson.kept())
@@ -165,16 +181,13 @@ impl Recombination {
     /// # Errors
     /// When a column is missing or damaged.
     pub fn restored(c: &mut Checkpoint) -> artefact::Result<Self> {
-        let mut anderson = Anderson::new(DEPTH, c.f64("recombined_weights")?);
-        anderson.restore(&c.f64("recombined")?, c.json("recombined_kept")?);
+        let weights = c.f64("recombined_weights")?;
+        let mut anderson = Anderson::new(DEPTH);
+        let memory = c.f64("recombined")?;
+        anderson.restore(&memory, c.json("recombined_kept")?, weights.len());
         let best = c.f64("recombined_best")?;
-        let start = c.f64("recombined_start")?;
-        Ok(Self {
-            anderson,
-            result: start.clone(),
-            start,
-            step: Vec::new(),
-            best: best.first().copied().unwrap_or(f64::INFINITY),
-        })
+        let mut restored = Self::from(anderson, weights, c.f64("recombined_start")?);
+        restored.best = best.first().copied().unwrap_or(f64::INFINITY);
+        Ok(restored)
     }
 }

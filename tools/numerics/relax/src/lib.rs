@@ -14,18 +14,14 @@
 //!   leaves calm.
 //! - [`conjugate_gradient`] for symmetric and [`bicgstab`] for other equations, both preconditioned.
 //!
-//! [`Anderson`] recombines the results of an iteration around such equations that does not come to rest.
-//!
 //! Every cell gathers from its neighbours and every sum is serial, so results are bitwise
 //! independent of the number of threads.
 
-mod anderson;
 mod incomplete;
 mod krylov;
 pub mod sor;
 mod stencil;
 
-pub use anderson::Anderson;
 pub use incomplete::Incomplete;
 pub use krylov::{Krylov, Workspace, bicgstab, conjugate_gradient};
 pub use sor::Sor;

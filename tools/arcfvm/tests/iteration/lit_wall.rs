@@ -1,8 +1,4 @@
 //! Flux that takes up radiation behind the wall that it falls on.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-use std::collections::BTreeMap;
-use std::path::Path;
 
 use arcfvm::assemble::assemble;
 use arcfvm::bed;
@@ -10,16 +6,13 @@ use arcfvm::resume;
 use arcfvm::scene::Scene;
 use arcfvm::settings::Settings;
 use arcfvm::solver::Arc;
-use artefact::{Checkpoint, Header, Version};
-use serde_json::{Value, json};
+use serde_json::json;
+
+use crate::setup;
 
 /// A small submerged arc; `length` is that of absorption \[m\].
 fn an_arc(length: Option<f64>) -> Arc {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../pipelines/stability/bed/arc.json");
-    let mut scene: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    for key in ["$schema", "kind", "version"] {
-        scene.as_object_mut().unwrap().remove(key);
-    }
+    let mut scene = setup::scene("pipelines/stability/bed/arc.json");
     let flux = &mut scene["bodies"]["flux"];
     flux["moving"] = json!({"speed_m_s": 0.005, "ahead_m": 0.005});
     if let Some(length) = length {
@@ -42,16 +35,9 @@ fn what_is_taken_up_at_the_wall_melts_more() {
         let mut arc = an_arc(length);
         iterate(&mut arc, 300);
         let balance = arc.settle().unwrap();
-        let radiation = arc.heating.as_ref().unwrap().sources.granular;
-        let part = 0.8
-            * arc
-                .heating
-                .as_ref()
-                .unwrap()
-                .sources
-                .emission
-                .iter()
-                .sum::<f64>();
+        let sources = &arc.heating.as_ref().unwrap().sources;
+        let radiation = sources.granular;
+        let part = 0.8 * sources.emission.iter().sum::<f64>();
         assert!((radiation / part - 1.0).abs() < 1e-12);
         assert!(
             balance.closure().abs() < 1e-4 * part,
@@ -86,14 +72,7 @@ fn slag_by_heat_holds_the_heat_of_the_bed() {
 fn a_checkpoint_goes_on_to_the_same_bits() {
     let mut straight = an_arc(Some(1e-3));
     iterate(&mut straight, 30);
-    let mut checkpoint = Checkpoint::new(&Header {
-        kind: "arc-source".to_owned(),
-        version: Version { major: 1, minor: 0 },
-        tool: "arcfvm".to_owned(),
-        tool_version: "0".to_owned(),
-        scene: Value::Null,
-        inputs: BTreeMap::new(),
-    });
+    let mut checkpoint = setup::checkpoint();
     resume::keep(&straight, &mut checkpoint).unwrap();
     let mut resumed = an_arc(Some(1e-3));
     resume::restore(&mut resumed, &mut checkpoint).unwrap();

@@ -1,5 +1,4 @@
 //! Heat between cells by the integral of the conductivity over temperature.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use arcfvm::assemble::assemble;
 use arcfvm::recombination::Recombination;
