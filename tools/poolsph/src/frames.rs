@@ -82,7 +82,8 @@ impl Layout {
             frame = frame.scalar("temperature", "K", temperature);
         }
         if state.has(Column::Pressure) {
-            frame = frame.scalar("pressure", "Pa", ids.iter().map(|a| state.pressure[*a]));
+            let pressure = state.near.liquid_mean(&state.pressure);
+            frame = frame.scalar("pressure", "Pa", ids.iter().map(|a| pressure[*a]));
         }
         let liquid = |a: &usize| u8::from(state.phase[*a] != Phase::Solid);
         frame = frame

@@ -9,6 +9,7 @@ use crate::resume;
 use crate::scene::{Scene, due};
 use crate::stage::{Figure, Limit, StageError};
 use crate::state::State;
+use crate::vector::squared;
 
 /// A step that would be divided into more parts than this is refused: it would never end.
 const PARTS_MOST: f64 = 1e4;
@@ -251,21 +252,23 @@ fn endless(dt: f64, limit: Limit) -> Option<String> {
 /// Stops the run where a particle has become too fast for any step.
 fn bounded(state: &State, dt: f64) -> Result<(), Failure> {
     let limit = LEAP * state.metal.spacing / dt;
-    for &id in &state.near.id {
-        let a = id as usize;
-        let u = state.velocity[a];
-        let speed = (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]).sqrt();
-        if speed.is_nan() || speed > limit {
-            return Err(Failure::Diverged {
-                step: state.step,
-                time_s: state.time,
-                place: place(a, state.position[a]),
-                quantity: "speed [m/s]".to_owned(),
-                what: format!("is {speed:.4e} m/s, beyond {limit:.4e} m/s"),
-            });
-        }
+    let near = &state.near;
+    if near.fastest_squared() <= limit * limit {
+        return Ok(());
     }
-    Ok(())
+    let speeds = near.velocity.iter().map(|u| squared(*u).sqrt());
+    let leaps = |(_, speed): &(usize, f64)| speed.is_nan() || *speed > limit;
+    let Some((member, speed)) = speeds.enumerate().find(leaps) else {
+        return Ok(());
+    };
+    let a = near.id[member] as usize;
+    Err(Failure::Diverged {
+        step: state.step,
+        time_s: state.time,
+        place: place(a, state.position[a]),
+        quantity: "speed [m/s]".to_owned(),
+        what: format!("is {speed:.4e} m/s, beyond {limit:.4e} m/s"),
+    })
 }
 
 /// Stops the run where a number is none.

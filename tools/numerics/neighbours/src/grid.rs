@@ -99,17 +99,20 @@ impl Grid {
             self.start[cell + 1] += self.start[cell];
         }
         self.order.resize(points.len() + LANES, 0);
-        self.sorted.resize(points.len(), [0.0; 3]);
         // Filling backwards from the ends keeps the sort stable and turns `start` of the next
         // cell into the start of this one.
         for a in (0..points.len()).rev() {
             let end = &mut self.start[self.cell_of[a] as usize + 1];
             *end -= 1;
             self.order[*end as usize] = number(a);
-            self.sorted[*end as usize] = points[a];
         }
         self.start.remove(0);
         self.start.push(number(points.len()));
+        let order = self.order[..points.len()].par_iter();
+        order
+            .with_min_len(GRAIN)
+            .map(|a| points[*a as usize])
+            .collect_into_vec(&mut self.sorted);
         let sorted = &self.sorted;
         let columns = self.columns.par_iter_mut().enumerate();
         columns.for_each(|(axis, column)| {

@@ -15,13 +15,13 @@ use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::near::{Near, Role};
 use crate::stage::{Figure, Limit, Stage, StageError};
-use crate::state::{Column, Metal, State};
-use crate::sweep::{GRAIN, summed_double};
+use crate::state::{Column, Metal, Phase, State};
+use crate::sweep::GRAIN;
 use crate::vector::{plus, squared};
 
 /// A particle may cross this part of its diameter in one substep.
 const COURANT: f64 = 0.4;
-/// Pressure is shown as the mean over about this time \[s\]: single steps push unevenly, as the
+/// Pressure is the mean over about this time \[s\]: single steps push unevenly, as the
 /// density is kept only to a tolerance, and it is their mean that balances the forces.
 const PRESSURE_TIME: f64 = 5e-3;
 /// More substeps than this are no longer a flow.
@@ -89,9 +89,6 @@ pub struct Motion {
     predicted: Vec<[f64; 3]>,
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
-    spread: Vec<f64>,
-    /// Pressure and 1 for liquid particles, zero for solid ones.
-    carried: Vec<[f64; 2]>,
     solved: Solved,
     substeps: u32,
     speed: f64,
@@ -111,8 +108,6 @@ impl Motion {
             homogenising: Homogenising::new(metal),
             predicted: Vec::new(),
             multiplier: Vec::new(),
-            spread: Vec::new(),
-            carried: Vec::new(),
             solved: Solved::default(),
             substeps: 0,
             speed: 0.0,
@@ -164,7 +159,7 @@ impl Motion {
     /// Number of substeps for the fastest particle; an error if it is no longer a flow.
     fn divide(&self, state: &State, dt: f64) -> Result<u32, StageError> {
         let near = &state.near;
-        let fastest = fastest(&near.velocity);
+        let fastest = near.fastest_squared();
         let speed = fastest.sqrt();
         let limit = f64::from(SUBSTEPS_MAX) * COURANT * state.metal.spacing / dt;
         if speed.is_nan() || speed > limit {
@@ -189,61 +184,29 @@ impl Motion {
         Ok(courant.max(viscous) as u32)
     }
 
-    /// Pressure of each particle as the kernel mean over the liquid around it (eq. 4.8): what
-    /// single particles carry differs like the contacts of grains.
-    fn spread(&mut self, near: &Near) {
-        let own = near.kernel.value(0.0);
-        let (virial, role) = (&near.virial, &near.role);
-        let points = virial.par_iter().zip(role).with_min_len(GRAIN);
-        points
-            .map(|(p, role)| match role {
-                Role::Liquid => [*p, 1.0],
-                _ => [0.0; 2],
-            })
-            .collect_into_vec(&mut self.carried);
-        let carried = &self.carried;
-        self.spread.resize(near.len(), 0.0);
-        near.each_row(
-            &mut self.spread,
-            #[inline(always)]
-            |a, row, out| {
-                *out = virial[a];
-                if role[a] == Role::Liquid {
-                    let [sum, weight] = summed_double(row.index, row.value, carried);
-                    *out = (own * virial[a] + sum) / (own + weight);
+    /// Takes the results of the copy back to the particles.
+    fn scatter(&mut self, state: &mut State, dt: f64) {
+        let weight = (dt / PRESSURE_TIME).min(1.0);
+        self.multiplier.resize(state.len(), 0.0);
+        let (near, found) = (&state.near, &self.projection.pressure);
+        let places = state.position.par_iter_mut().zip(&mut state.velocity);
+        let pressures = state.pressure.par_iter_mut().zip(&mut self.multiplier);
+        let members = state.phase.par_iter().zip(near.members());
+        let particles = places.zip(pressures).zip(members);
+        particles.with_min_len(GRAIN).for_each(
+            |(((x, u), (pressure, multiplier)), (phase, member))| {
+                let Some(a) = member else {
+                    (*pressure, *multiplier) = (0.0, 0.0);
+                    return;
+                };
+                *pressure += weight * (near.virial[a] - *pressure);
+                *multiplier = f64::from(found[a]);
+                if near.role[a] == Role::Liquid && *phase == Phase::Liquid {
+                    (*x, *u) = (near.position[a], near.velocity[a]);
                 }
             },
         );
     }
-
-    /// Takes the results of the copy back to the particles.
-    fn scatter(&mut self, state: &mut State, dt: f64) {
-        self.spread(&state.near);
-        let weight = (dt / PRESSURE_TIME).min(1.0);
-        for (pressure, &id) in self.spread.iter_mut().zip(&state.near.id) {
-            let before = state.pressure[id as usize];
-            *pressure = before + weight * (*pressure - before);
-        }
-        state.pressure.fill(0.0);
-        self.multiplier.clear();
-        self.multiplier.resize(state.len(), 0.0);
-        let near = &state.near;
-        for (a, (&id, role)) in near.id.iter().zip(&near.role).enumerate() {
-            let id = id as usize;
-            self.multiplier[id] = f64::from(self.projection.pressure[a]);
-            state.pressure[id] = self.spread[a];
-            if *role == Role::Liquid && state.phase[id] == crate::state::Phase::Liquid {
-                state.position[id] = near.position[a];
-                state.velocity[id] = near.velocity[a];
-            }
-        }
-    }
-}
-
-/// Largest square of a speed \[m2/s2\]; not a number where one is not.
-fn fastest(velocity: &[[f64; 3]]) -> f64 {
-    let squares = velocity.par_iter().with_min_len(GRAIN).map(|u| squared(*u));
-    squares.reduce(|| 0.0, |a, b| if a.is_nan() || a > b { a } else { b })
 }
 
 impl Stage for Motion {
@@ -294,7 +257,7 @@ impl Stage for Motion {
             }
             self.substep(&mut state.near, step);
         }
-        self.speed = fastest(&state.near.velocity).sqrt();
+        self.speed = state.near.fastest_squared().sqrt();
         self.scatter(state, dt);
         Ok(())
     }
@@ -331,8 +294,7 @@ impl Stage for Motion {
             + self.viscosity.bytes()
             + self.around.bytes()
             + 24 * self.predicted.capacity()
-            + 16 * self.carried.capacity()
-            + 8 * (self.multiplier.capacity() + self.spread.capacity())
+            + 8 * self.multiplier.capacity()
     }
 
     fn save(&self) -> Vec<f64> {

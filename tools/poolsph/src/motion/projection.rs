@@ -41,10 +41,10 @@ use crate::vector::{dot, minus, squared};
 /// disordered clouds are somewhat stiffer.
 const STEP: f64 = 0.87;
 
-/// Momentum of the first sweep, as of accelerated gradients that are two sweeps old: the last pressure
+/// Momentum of the first sweep, as of accelerated gradients that are some sweeps old: the last pressure
 /// is near, and what it lacks is smooth. From 1, the start of a cold solution, the same falls take
 /// longer.
-const MOMENTUM: f64 = 3.0;
+const MOMENTUM: f64 = 4.0;
 
 /// Least diagonal in parts of the lattice's: a particle at the edge of another's reach must not
 /// answer with a pressure without bound, which would strike when the two come closer.

@@ -94,8 +94,8 @@ pub struct State {
     pub temperature: Vec<f64>,
     /// Specific enthalpy \[J/kg\], `[n]` or empty.
     pub enthalpy: Vec<f64>,
-    /// p \[Pa\], `[n]` or empty: the pressure that the metal carries, from all pair forces,
-    /// as the kernel mean over the liquid around and the mean over some milliseconds.
+    /// p \[Pa\], `[n]` or empty: the pressure that the metal carries, from all pair forces, as the mean over some
+    /// milliseconds. Single particles differ like the contacts of grains; frames show [`Near::liquid_mean`].
     pub pressure: Vec<f64>,
     /// What the surface is at each particle, `[n]` or empty.
     pub surface: Vec<Patch>,

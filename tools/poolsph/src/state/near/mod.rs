@@ -14,6 +14,8 @@ use self::pairs::rows;
 pub use self::pairs::{PairChunk, Row};
 
 use crate::state::{Metal, Phase, State};
+use crate::sweep::summed_double;
+use crate::vector::squared;
 
 /// Solid particles are gathered this far beyond the support, in supports: the way that a liquid
 /// particle may go within a step.
@@ -21,6 +23,9 @@ const MARGIN: f64 = 0.25;
 
 /// Particles per unit of parallel work, where each takes little.
 const GRAIN: usize = 1024;
+
+/// No place in the copy.
+const NONE: u32 = u32::MAX;
 
 /// Part of a particle in the compact copy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +66,8 @@ pub struct Near {
     pub lists: Lists,
     /// Kernel values in the order of `lists.chunks()`.
     pub pairs: Vec<PairChunk>,
+    /// Place in the copy of each particle of [`State`], [`NONE`] for those that are not in it.
+    member: Vec<u32>,
     liquid_count: usize,
     grid: Grid,
     liquid_grid: Grid,
@@ -92,6 +99,7 @@ impl Near {
             squares: Vec::new(),
             lists: Lists::new(),
             pairs: Vec::new(),
+            member: Vec::new(),
             liquid_count: 0,
             grid: Grid::new(0.5 * support),
             liquid_grid: Grid::new(support),
@@ -147,6 +155,11 @@ impl Near {
         let order = || self.grid.order().par_iter().with_min_len(GRAIN);
         let member = |&k: &u32| candidates[k as usize];
         order().map(member).collect_into_vec(&mut self.id);
+        self.member.clear();
+        self.member.resize(state.len(), NONE);
+        for (a, id) in self.id.iter().enumerate() {
+            self.member[*id as usize] = a as u32;
+        }
         let role = |&k: &u32| roles[k as usize];
         order().map(role).collect_into_vec(&mut self.role);
         self.liquid_count = self
@@ -169,6 +182,48 @@ impl Near {
         self.virial.clear();
         self.virial.resize(self.id.len(), 0.0);
         self.search();
+    }
+
+    /// Place in the copy of each particle of [`State`].
+    pub fn members(&self) -> impl IndexedParallelIterator<Item = Option<usize>> {
+        let member = self.member.par_iter();
+        member.map(|a| (*a != NONE).then_some(*a as usize))
+    }
+
+    /// Largest square of a speed \[m2/s2\]; not a number where one is not.
+    #[must_use]
+    pub fn fastest_squared(&self) -> f64 {
+        let squares = self.velocity.par_iter().map(|u| squared(*u));
+        let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
+        squares.with_min_len(GRAIN).reduce(|| 0.0, larger)
+    }
+
+    /// What each particle of [`State`] has in `column`, for liquid ones of the copy as the kernel mean over the liquid
+    /// around (Komen 2019, eq. 4.8).
+    #[must_use]
+    pub fn liquid_mean(&self, column: &[f64]) -> Vec<f64> {
+        let own = self.kernel.value(0.0);
+        let carried: Vec<[f64; 2]> = self
+            .id
+            .iter()
+            .zip(&self.role)
+            .map(|(id, role)| match role {
+                Role::Liquid => [column[*id as usize], 1.0],
+                Role::Wet | Role::Backing => [0.0; 2],
+            })
+            .collect();
+        let mut mean = vec![0.0; self.len()];
+        self.each_row(&mut mean, |a, row, out| {
+            let [sum, weight] = summed_double(row.index, row.value, &carried);
+            *out = (own * carried[a][0] + sum) / (own + weight);
+        });
+        let mut means = column.to_vec();
+        for ((id, role), mean) in self.id.iter().zip(&self.role).zip(mean) {
+            if *role == Role::Liquid {
+                means[*id as usize] = mean;
+            }
+        }
+        means
     }
 
     /// Calls `each` with every particle, its row and its item of `out`.
@@ -240,8 +295,8 @@ impl Near {
                 self.enter(state, id, Role::Liquid);
             }
         }
-        self.liquid_grid.bin(&self.places);
-        self.halo.mark(&self.places);
+        let (grid, halo) = (&mut self.liquid_grid, &mut self.halo);
+        rayon::join(|| grid.bin(&self.places), || halo.mark(&self.places));
         let [wet, backing] = [1.0, 2.0].map(|reaches| self.kernel.support() * (reaches + MARGIN));
         let (grid, halo) = (&self.liquid_grid, &self.halo);
         let mut solid = std::mem::take(&mut self.solid);
