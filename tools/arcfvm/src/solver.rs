@@ -20,6 +20,11 @@ use crate::vaporising::Vaporising;
 const FEED_RELAXATION: f64 = 0.1;
 /// Speed that no gas here reaches \[m/s\].
 const ABSURD_M_S: f64 = 1e5;
+/// Iterations in which absurd speeds are slowed as a whole: from rest the flow creeps at first, and viscosity alone
+/// bounds its speeds.
+const FIRST: usize = 10;
+/// To so much \[m/s\].
+const FIRST_M_S: f64 = 1e4;
 
 /// Tells how long the parts of an iteration take.
 pub trait Stopwatch {
@@ -288,6 +293,9 @@ impl Arc {
         let found = solver
             .pass(case, setup, flow, reads)
             .map_err(|(name, e)| Error::solver(name, *iteration, case, &e))?;
+        if *iteration <= FIRST && !flow.within(ABSURD_M_S) {
+            flow.slow(FIRST_M_S);
+        }
         check(case, "velocity", "m/s", *iteration, &flow.axial, ABSURD_M_S)?;
         let FlowResidual {
             force,

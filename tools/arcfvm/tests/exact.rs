@@ -154,6 +154,26 @@ fn a_strong_pinch_of_thin_gas_comes_to_rest() {
 }
 
 #[test]
+fn what_creeps_at_absurd_speeds_at_first_comes_to_those_that_inertia_allows() {
+    // Without inertia the pinch below the electrode would drive the gas at more than 1e5 m/s, which no gas reaches.
+    let arc = solve(
+        r#""domain": {"r_m": [0, 0.005], "z_m": [0, 0.005]}, "grid": {"r": 0.0005, "z": 0.0005},
+        "gas": {"given": {"density_kg_m3": 0.02, "viscosity_pa_s": 2e-4, "electric_conductivity_s_m": 1000}},
+        "current": {"edges": {"bottom": [{"voltage_v": 0}],
+            "top": [{"over_m": [0, 0.001], "total_current_a": 6000}]}},
+        "flow": {}"#,
+    );
+    let flow = &arc.flowing.as_ref().unwrap().flow;
+    let fastest = flow.axial.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+    // sqrt(mu0 / (2 rho)) I / (pi a): what the pressure of the pinch gives the gas.
+    let driven = (0.5 * MU0 / 0.02_f64).sqrt() * 6000.0 / (PI * 1e-3);
+    assert!(
+        (0.05..1.0).contains(&(fastest / driven)),
+        "{fastest} of {driven} m/s"
+    );
+}
+
+#[test]
 fn warm_gas_in_a_closed_box_rests_under_its_weight() {
     let arc = solve(&format!(
         r#"{BOX}, "gas": {{"given": {{"density_kg_m3": {{"expr": "480/T"}}, "viscosity_pa_s": 1e-2}}}},

@@ -230,6 +230,27 @@ impl Flow {
         self.carry(grid, density);
     }
 
+    /// True if no speed is above `most` \[m/s\] and each is a number.
+    pub(crate) fn within(&self, most: f64) -> bool {
+        let mut speeds = self.radial.iter().chain(&self.axial);
+        speeds.all(|u| u.abs() <= most)
+    }
+
+    /// Slows what is solved as a whole, so that no speed is above `most` \[m/s\]; fluxes that balance do so still.
+    pub(crate) fn slow(&mut self, most: f64) {
+        let speeds = self.radial.iter().chain(&self.axial);
+        let part = most / speeds.fold(most, |fastest, u| fastest.max(u.abs()));
+        for (kinds, velocity, mass) in [
+            (&self.radial_kind, &mut self.radial, &mut self.mass_radial),
+            (&self.axial_kind, &mut self.axial, &mut self.mass_axial),
+        ] {
+            let faces = kinds.iter().zip(velocity).zip(mass);
+            for ((_, u), m) in faces.filter(|((kind, _), _)| **kind == Face::Solved) {
+                (*u, *m) = (part * *u, part * *m);
+            }
+        }
+    }
+
     /// Face mass fluxes from velocities and density.
     pub(crate) fn carry(&mut self, grid: &Grid, density: &[f64]) {
         for j in 0..grid.nz {
