@@ -126,7 +126,7 @@ pub struct MovingPlate {
 pub enum FeedRule {
     /// Given speed \[m/s\].
     Speed(f64),
-    /// As fast as it melts into drops of this temperature \[K\] (Komen 2019, eq. 5.27).
+    /// As fast as it melts, the tip being as warm as this in the mean \[K\] (Komen 2019, eq. 5.27).
     Melting(f64),
 }
 
@@ -143,6 +143,8 @@ pub struct Wire {
     pub section: f64,
     /// Density of the wire \[kg/m3\].
     pub density: f64,
+    /// Part of the enthalpy of the tip that drops take along: 1 where they are as warm as that.
+    pub drop_share: f64,
     /// Feeding, if there is any.
     pub feed: Option<FeedRule>,
 }

@@ -24,6 +24,7 @@ struct Around<'a> {
     properties: &'a Properties,
     electric: Option<&'a Electric>,
     vaporising: Option<&'a Vaporising>,
+    feed: f64,
 }
 
 impl<'a> Around<'a> {
@@ -139,6 +140,10 @@ impl Arc {
         };
         let reads = around.reads(setup, &energy.temperature, &energy.skins);
         sources.update(reads, &mut energy.source);
+        if let Some(wire) = around.case.wire {
+            let enthalpy = &around.properties.enthalpy;
+            wire.keep(around.case, around.feed, enthalpy, &mut energy.source);
+        }
         energy.pass_surfaces(setup);
     }
 
@@ -149,6 +154,7 @@ impl Arc {
             properties: &self.properties,
             electric: self.electric.as_ref(),
             vaporising: self.vaporising.as_ref(),
+            feed: self.feed,
         };
         (self.heating.as_mut(), around)
     }

@@ -16,7 +16,9 @@ impl Wire {
     pub fn speed(&self, rule: FeedRule, heat: f64, enthalpy: &Enthalpy) -> f64 {
         match rule {
             FeedRule::Speed(speed) => speed,
-            FeedRule::Melting(drop) => heat.max(0.0) / self.mass_rate(1.0) / enthalpy.at(drop),
+            FeedRule::Melting(tip) => {
+                heat.max(0.0) / self.mass_rate(1.0) / (self.drop_share * enthalpy.at(tip))
+            }
         }
     }
 
@@ -31,12 +33,34 @@ impl Wire {
         }
     }
 
-    /// Heat that leaves with drops \[W\], their enthalpy being that of the tip cells.
+    /// Heat that leaves with drops \[W\], their enthalpy being that of the tip cells or their part of it.
     #[must_use]
     pub fn drops(&self, case: &Case, speed: f64, enthalpy: &[f64]) -> f64 {
-        let grid = &case.grid;
-        let parts = (0..self.columns).map(|i| grid.ring[i] * enthalpy[grid.cell(i, self.tip)]);
-        self.density * speed * parts.sum::<f64>()
+        let leaving = self.leaving(case, speed, enthalpy);
+        self.drop_share * leaving.map(|(_, heat)| heat).sum::<f64>()
+    }
+
+    /// Gives the tip cells back what their metal takes along beyond the enthalpy of drops \[W\].
+    pub fn keep(&self, case: &Case, speed: f64, enthalpy: &[f64], source: &mut [[f64; 2]]) {
+        if self.drop_share < 1.0 {
+            for (k, heat) in self.leaving(case, speed, enthalpy) {
+                source[k][0] += (1.0 - self.drop_share) * heat;
+            }
+        }
+    }
+
+    /// The tip cells, and the heat that leaves each with its metal \[W\].
+    fn leaving(
+        &self,
+        case: &Case,
+        speed: f64,
+        enthalpy: &[f64],
+    ) -> impl Iterator<Item = (usize, f64)> {
+        let (grid, flux) = (&case.grid, self.density * speed);
+        (0..self.columns).map(move |i| {
+            let k = grid.cell(i, self.tip);
+            (k, flux * grid.ring[i] * enthalpy[k])
+        })
     }
 }
 

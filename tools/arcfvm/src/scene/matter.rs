@@ -131,7 +131,7 @@ pub struct Melting {
     pub latent_heat_j_kg: f64,
 }
 
-/// How a wire is fed: exactly one of both.
+/// How a wire is fed: at a speed, or as fast as it melts.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Feed {
@@ -141,6 +141,10 @@ pub struct Feed {
     /// As fast as it melts into drops of this temperature (Komen 2019, eq. 5.27).
     #[schemars(extend("exclusiveMinimum" = 300.0))]
     pub drop_temperature_k: Option<f64>,
+    /// Enthalpy of the drops over that at 300 K, where it is less than that at `drop_temperature_k`, which is then the
+    /// mean temperature of the tip alone.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "x-unit" = "J/kg"))]
+    pub drop_enthalpy_j_kg: Option<f64>,
 }
 
 /// A plate moving past the arc (Komen 2019, eq. 5.22).
