@@ -22,7 +22,7 @@ const FEED_RELAXATION: f64 = 0.1;
 const ABSURD_M_S: f64 = 1e5;
 /// Iterations in which absurd speeds are slowed as a whole: from rest the flow creeps at first, and viscosity alone
 /// bounds its speeds.
-const FIRST: usize = 10;
+const FIRST: usize = 100;
 /// To so much \[m/s\].
 const FIRST_M_S: f64 = 1e4;
 
