@@ -122,6 +122,30 @@ fn liquid_at_rest_carries_its_weight() {
 }
 
 #[test]
+fn a_mean_over_liquid_keeps_what_is_even_and_leaves_solid_alone() {
+    let mut state = tank();
+    steps(&mut march(Method::Projection, true, false), &mut state, 1).unwrap();
+    let liquid = |a: usize| state.phase[a] == Phase::Liquid;
+    let own = |a: usize| if liquid(a) { 3.0 } else { a as f64 };
+    let column: Vec<f64> = (0..state.len()).map(own).collect();
+    for (a, mean) in state.near.liquid_mean(&column).into_iter().enumerate() {
+        let off = (mean - column[a]).abs();
+        assert!(
+            if liquid(a) { off < 1e-12 } else { off == 0.0 },
+            "{a}: {mean}"
+        );
+    }
+    // What one particle alone has goes to those around it too, and none of it is more than that.
+    let one = (0..state.len()).find(|a| liquid(*a)).unwrap();
+    let peak: Vec<f64> = (0..state.len())
+        .map(|a| f64::from(u8::from(a == one)))
+        .collect();
+    let means = state.near.liquid_mean(&peak);
+    assert!(means[one] > 0.0 && means[one] < 1.0);
+    assert!(means.iter().filter(|mean| **mean > 0.0).count() > 4);
+}
+
+#[test]
 fn free_flight_keeps_momentum() {
     for method in [Method::Projection, Method::Homogenising] {
         let whirl = |x: [f64; 3]| [0.3 + 40.0 * x[1], -90.0 * x[0], 0.2 - 60.0 * x[2]];
