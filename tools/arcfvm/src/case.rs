@@ -128,6 +128,35 @@ pub enum FeedRule {
     Speed(f64),
     /// As fast as it melts, the tip being as warm as this in the mean \[K\] (Komen 2019, eq. 5.27).
     Melting(f64),
+    /// As fast as lets this part of the wire boil off its tip, whose temperature follows.
+    Boiling {
+        /// Part of the mass that is fed.
+        share: f64,
+        /// Heat that it takes \[J/kg\].
+        latent_heat: f64,
+        /// Enthalpy at the boiling point, of which the first guess of the speed is made \[J/kg\].
+        at_most: f64,
+    },
+}
+
+/// What the drops of a wire take along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drops {
+    /// This part of the enthalpy of the tip: 1 where they are as warm as that.
+    Part(f64),
+    /// This enthalpy \[J/kg\], or that of the tip where the tip holds less.
+    Enthalpy(f64),
+}
+
+impl Drops {
+    /// Enthalpy of the drops of a tip that holds `tip` \[J/kg\].
+    #[must_use]
+    pub fn of(self, tip: f64) -> f64 {
+        match self {
+            Self::Part(part) => part * tip,
+            Self::Enthalpy(own) => own.min(tip),
+        }
+    }
 }
 
 /// The wire that is fed down.
@@ -143,8 +172,8 @@ pub struct Wire {
     pub section: f64,
     /// Density of the wire \[kg/m3\].
     pub density: f64,
-    /// Part of the enthalpy of the tip that drops take along: 1 where they are as warm as that.
-    pub drop_share: f64,
+    /// What its drops take along.
+    pub drops: Drops,
     /// Feeding, if there is any.
     pub feed: Option<FeedRule>,
 }

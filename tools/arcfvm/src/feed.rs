@@ -18,7 +18,8 @@ impl Arc {
         let surfaces = heating.setup.surfaces.as_ref();
         let name = &self.case.materials[wire.material].name;
         let own = surfaces.and_then(|s| s.electrodes.iter().position(|e| *e.name == **name));
-        let surface = own.map_or(0.0, |n| all[n].sum());
+        let boiled = own.map_or(0.0, |n| -all[n].vapour);
+        let surface = own.map_or(0.0, |n| all[n].sum()) + boiled;
         let joule = self.electric.as_ref().map_or(0.0, |e| {
             let cells = e.potential.joule.iter().zip(&self.case.material);
             cells
@@ -26,7 +27,9 @@ impl Arc {
                 .map(|(j, _)| j)
                 .sum()
         });
-        Some(wire.speed(rule, surface + joule, enthalpy))
+        let beside = wire.from_beside(&self.case, &heating.energy);
+        let tip = wire.tip_enthalpy(&self.case, &self.properties.enthalpy);
+        Some(wire.speed(rule, [surface + joule + beside, boiled], (enthalpy, tip)))
     }
 
     /// The speed before anything is known.
@@ -40,10 +43,17 @@ impl Arc {
             .as_ref()
             .and_then(|p| p.driven)
             .unwrap_or(0.0);
-        match (rule, &self.case.materials[wire.material].enthalpy) {
-            (FeedRule::Speed(speed), _) => speed,
-            (rule, Some(enthalpy)) => wire.speed(rule, FEED_START_V * current.abs(), enthalpy),
-            (FeedRule::Melting(_), None) => 0.0,
-        }
+        let Some(enthalpy) = &self.case.materials[wire.material].enthalpy else {
+            return match rule {
+                FeedRule::Speed(speed) => speed,
+                FeedRule::Melting(_) | FeedRule::Boiling { .. } => 0.0,
+            };
+        };
+        let tip = match rule {
+            FeedRule::Boiling { at_most, .. } => at_most,
+            FeedRule::Speed(_) | FeedRule::Melting(_) => 0.0,
+        };
+        let heat = FEED_START_V * current.abs();
+        wire.speed(rule, [heat, 0.0], (enthalpy, tip))
     }
 }

@@ -122,7 +122,7 @@ fn of_one_kind(bodies: &[(&String, &Body)], vapour: f64, faults: &mut Faults) {
 }
 
 /// How a body evaporates, as whichever electrode it is, and the key of that.
-fn evaporation(body: &Body) -> Option<(&'static str, &Evaporation)> {
+pub(super) fn evaporation(body: &Body) -> Option<(&'static str, &Evaporation)> {
     let anode = body.anode.as_ref().and_then(|a| a.evaporation.as_ref());
     let cathode = body.cathode.as_ref().and_then(|c| c.evaporation.as_ref());
     let either = body.electrode.as_ref().and_then(|e| e.evaporation.as_ref());

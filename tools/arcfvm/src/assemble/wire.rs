@@ -2,7 +2,8 @@
 
 use super::Faults;
 use super::layout::Layout;
-use crate::case::{FeedRule, Wire};
+use super::vapour::evaporation;
+use crate::case::{Drops, FeedRule, Wire};
 use crate::material::{Enthalpy, Material};
 use crate::scene::{Body, Feed};
 
@@ -18,11 +19,11 @@ pub(super) fn wire(
         let Some(feed) = body.feed.as_ref() else {
             continue;
         };
-        let rule = match (feed.speed_m_s, feed.drop_temperature_k) {
-            (Some(speed), None) => FeedRule::Speed(speed),
-            (None, Some(t)) => FeedRule::Melting(t),
-            _ => {
-                faults.add(&at, "wants exactly one of speed_m_s and drop_temperature_k");
+        let enthalpy = materials[n + 1].enthalpy.as_ref();
+        let rule = match rule(feed, body, enthalpy) {
+            Ok(rule) => rule,
+            Err((key, what)) => {
+                faults.add(&format!("{at}{key}"), what);
                 continue;
             }
         };
@@ -46,10 +47,9 @@ pub(super) fn wire(
         if found.is_some() {
             faults.add(&at, "a second fed body; only one can be fed");
         }
-        let enthalpy = materials[n + 1].enthalpy.as_ref();
-        let drop_share = drop_share(feed, enthalpy).unwrap_or_else(|what| {
+        let drops = drops(feed, rule, enthalpy).unwrap_or_else(|what| {
             faults.add(&format!("{at}/drop_enthalpy_j_kg"), what);
-            1.0
+            Drops::Part(1.0)
         });
         found = Some(Wire {
             material: n + 1,
@@ -57,29 +57,70 @@ pub(super) fn wire(
             tip: grid.zf.partition_point(|z| *z < ring.z_m[0] - 1e-12),
             section: std::f64::consts::PI * ring.r_m[1] * ring.r_m[1],
             density,
-            drop_share,
+            drops,
             feed: Some(rule),
         });
     }
     found
 }
 
-/// Part of the enthalpy of the tip that drops take along.
-fn drop_share(feed: &Feed, enthalpy: Option<&Enthalpy>) -> Result<f64, String> {
+/// What rules the feed; or the key that is wrong, and why.
+fn rule(
+    feed: &Feed,
+    body: &Body,
+    enthalpy: Option<&Enthalpy>,
+) -> Result<FeedRule, (&'static str, String)> {
+    match (feed.speed_m_s, feed.drop_temperature_k, feed.vapour_share) {
+        (Some(speed), None, None) => Ok(FeedRule::Speed(speed)),
+        (None, Some(t), None) => Ok(FeedRule::Melting(t)),
+        (None, None, Some(share)) => {
+            let wrong = |what: &str| ("/vapour_share", what.to_owned());
+            let (_, metal) = evaporation(body).ok_or_else(|| {
+                wrong("wants evaporation of the wire's anode, cathode or electrode")
+            })?;
+            let enthalpy = enthalpy.ok_or_else(|| wrong("means nothing without heat"))?;
+            Ok(FeedRule::Boiling {
+                share,
+                latent_heat: metal.latent_heat_j_kg,
+                at_most: enthalpy.at(metal.boiling_k),
+            })
+        }
+        _ => {
+            let what = "wants exactly one of speed_m_s, drop_temperature_k and vapour_share";
+            Err(("", what.to_owned()))
+        }
+    }
+}
+
+/// What drops take along.
+fn drops(feed: &Feed, rule: FeedRule, enthalpy: Option<&Enthalpy>) -> Result<Drops, String> {
     let Some(own) = feed.drop_enthalpy_j_kg else {
-        return Ok(1.0);
-    };
-    let Some(tip) = feed.drop_temperature_k else {
-        return Err("wants drop_temperature_k, the temperature of the tip".to_owned());
+        return Ok(Drops::Part(1.0));
     };
     let Some(enthalpy) = enthalpy else {
         return Err("means nothing without heat".to_owned());
     };
-    let most = enthalpy.at(tip);
+    match rule {
+        FeedRule::Speed(_) => {
+            Err("wants drop_temperature_k, the temperature of the tip, or vapour_share".to_owned())
+        }
+        FeedRule::Melting(tip) => {
+            let most = within(own, enthalpy.at(tip), format!("{tip} K"))?;
+            Ok(Drops::Part(own / most))
+        }
+        FeedRule::Boiling { at_most, .. } => {
+            within(own, at_most, "the boiling point".to_owned())?;
+            Ok(Drops::Enthalpy(own))
+        }
+    }
+}
+
+/// `most`, unless drops hold more than that.
+fn within(own: f64, most: f64, place: String) -> Result<f64, String> {
     if own > most {
         return Err(format!(
-            "{own} J/kg is out of range: at most {most:.4e} J/kg, the enthalpy at {tip} K"
+            "{own} J/kg is out of range: at most {most:.4e} J/kg, the enthalpy at {place}"
         ));
     }
-    Ok(own / most)
+    Ok(most)
 }

@@ -1,7 +1,8 @@
 //! Heat that moves with metal: the fed wire and the moving plate.
 
-use crate::case::{Case, FeedRule, MovingPlate, Wire};
-use crate::material::Enthalpy;
+use crate::case::{Case, Drops, FeedRule, MovingPlate, Wire};
+use crate::fields::energy::Energy;
+use crate::material::{Enthalpy, GAS};
 
 impl Wire {
     /// Mass fed per time \[kg/s\] at `speed` \[m/s\].
@@ -10,16 +11,61 @@ impl Wire {
         self.density * self.section * speed
     }
 
-    /// The speed at which `heat` \[W\] melts the wire into drops (Komen 2019, eq. 5.27), or the
-    /// given one.
+    /// The speed at which heat melts the wire into drops (Komen 2019, eq. 5.27), or the given one. Of `taken`
+    /// \[W\] vapour carries `boiled` away; `tip` is the mean enthalpy of the tip \[J/kg\]. With a part s of the wire
+    /// that boils off, a kilogram takes the enthalpy of drops and s times the latent heat.
     #[must_use]
-    pub fn speed(&self, rule: FeedRule, heat: f64, enthalpy: &Enthalpy) -> f64 {
-        match rule {
-            FeedRule::Speed(speed) => speed,
-            FeedRule::Melting(tip) => {
-                heat.max(0.0) / self.mass_rate(1.0) / (self.drop_share * enthalpy.at(tip))
-            }
-        }
+    pub fn speed(
+        &self,
+        rule: FeedRule,
+        [taken, boiled]: [f64; 2],
+        (enthalpy, tip): (&Enthalpy, f64),
+    ) -> f64 {
+        let (heat, wanted) = match rule {
+            FeedRule::Speed(speed) => return speed,
+            FeedRule::Melting(t) => (taken - boiled, self.drops.of(enthalpy.at(t))),
+            FeedRule::Boiling {
+                share, latent_heat, ..
+            } => (taken, self.drops.of(tip) + share * latent_heat),
+        };
+        heat.max(0.0) / self.mass_rate(1.0) / wanted
+    }
+
+    /// Heat conducted from what the wire runs through, but for gas \[W\].
+    #[must_use]
+    pub fn from_beside(&self, case: &Case, energy: &Energy) -> f64 {
+        let grid = &case.grid;
+        let side = (self.tip..grid.nz).map(|j| {
+            let conductance = energy.radial[grid.radial_face(self.columns, j)];
+            (
+                grid.cell(self.columns, j),
+                grid.cell(self.columns - 1, j),
+                conductance,
+            )
+        });
+        let below = (0..self.columns).filter(|_| self.tip > 0).map(|i| {
+            let conductance = energy.axial[grid.axial_face(i, self.tip)];
+            (
+                grid.cell(i, self.tip - 1),
+                grid.cell(i, self.tip),
+                conductance,
+            )
+        });
+        let beside = side.filter(|_| self.columns < grid.nr).chain(below);
+        let t = &energy.temperature;
+        beside
+            .filter(|(out, ..)| case.material[*out] != GAS)
+            .map(|(out, own, conductance)| conductance * (t[out] - t[own]))
+            .sum()
+    }
+
+    /// Mean enthalpy of the tip's cells \[J/kg\].
+    #[must_use]
+    pub fn tip_enthalpy(&self, case: &Case, enthalpy: &[f64]) -> f64 {
+        let grid = &case.grid;
+        let cells = (0..self.columns).map(|i| grid.ring[i] * enthalpy[grid.cell(i, self.tip)]);
+        let area: f64 = grid.ring[..self.columns].iter().sum();
+        cells.sum::<f64>() / area
     }
 
     /// Adds the wire's downward mass flux to the axial faces of its cells, tip excluded: there the
@@ -37,14 +83,26 @@ impl Wire {
     #[must_use]
     pub fn drops(&self, case: &Case, speed: f64, enthalpy: &[f64]) -> f64 {
         let leaving = self.leaving(case, speed, enthalpy);
-        self.drop_share * leaving.map(|(_, heat)| heat).sum::<f64>()
+        self.drop_share(case, enthalpy) * leaving.map(|(_, heat)| heat).sum::<f64>()
     }
 
     /// Gives the tip cells back what their metal takes along beyond the enthalpy of drops \[W\].
     pub fn keep(&self, case: &Case, speed: f64, enthalpy: &[f64], source: &mut [[f64; 2]]) {
-        if self.drop_share < 1.0 {
+        let kept = 1.0 - self.drop_share(case, enthalpy);
+        if kept > 0.0 {
             for (k, heat) in self.leaving(case, speed, enthalpy) {
-                source[k][0] += (1.0 - self.drop_share) * heat;
+                source[k][0] += kept * heat;
+            }
+        }
+    }
+
+    /// Part of the enthalpy of the tip that drops take along.
+    fn drop_share(&self, case: &Case, enthalpy: &[f64]) -> f64 {
+        match self.drops {
+            Drops::Part(part) => part,
+            own @ Drops::Enthalpy(_) => {
+                let tip = self.tip_enthalpy(case, enthalpy);
+                if tip > 0.0 { own.of(tip) / tip } else { 1.0 }
             }
         }
     }

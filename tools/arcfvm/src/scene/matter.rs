@@ -131,7 +131,7 @@ pub struct Melting {
     pub latent_heat_j_kg: f64,
 }
 
-/// How a wire is fed: at a speed, or as fast as it melts.
+/// How a wire is fed: at a speed, or as fast as it melts, by the temperature of its tip or by how much of it boils off.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Feed {
@@ -141,7 +141,10 @@ pub struct Feed {
     /// As fast as it melts into drops of this temperature (Komen 2019, eq. 5.27).
     #[schemars(extend("exclusiveMinimum" = 300.0))]
     pub drop_temperature_k: Option<f64>,
-    /// Enthalpy of the drops over that at 300 K, where it is less than that at `drop_temperature_k`, which is then the
+    /// As fast as it melts while this part of its mass boils off its tip; the temperature of the tip follows.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    pub vapour_share: Option<f64>,
+    /// Enthalpy of the drops over that at 300 K, where it is less than that of the tip: `drop_temperature_k` is then the
     /// mean temperature of the tip alone.
     #[schemars(extend("exclusiveMinimum" = 0.0, "x-unit" = "J/kg"))]
     pub drop_enthalpy_j_kg: Option<f64>,

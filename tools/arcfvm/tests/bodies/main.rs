@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+mod feed;
+
 use arcfvm::assemble::assemble;
 use arcfvm::case::Case;
 use arcfvm::scene::Scene;
@@ -139,50 +141,6 @@ fn an_anode_that_current_enters_from_the_gas_is_refused() {
     assert!(told.contains("/bodies/upper"), "{told}");
     scene["current"]["edges"]["top"][0]["total_current_a"] = json!(80.0);
     assert!(case(&scene).is_ok());
-}
-
-/// A plate below a wire that melts as it is fed, 2400 K warm at its tip; its drops hold what they are told.
-fn melting(drop_enthalpy: Option<f64>) -> Value {
-    let mut scene = mirror(2000.0);
-    let wire = scene["bodies"]["upper"].as_object_mut().unwrap();
-    wire.insert("feed".to_owned(), json!({"drop_temperature_k": 2400}));
-    // Nothing reaches its upper end.
-    wire["material"]["thermal_conductivity_w_m_k"] = json!(5);
-    if let Some(own) = drop_enthalpy {
-        wire["feed"]["drop_enthalpy_j_kg"] = json!(own);
-    }
-    scene
-}
-
-#[test]
-fn drops_that_hold_less_than_the_tip_let_the_wire_come_faster() {
-    // 600 J/(kg K) over 300 K.
-    let tip = 600.0 * (2400.0 - 300.0);
-    let speeds = [None, Some(tip), Some(0.5 * tip)].map(|own| {
-        let mut arc = solve(&melting(own));
-        let balance = arc.settle().unwrap();
-        let wire = arc.case.wire.unwrap();
-        let (grid, temperature) = (&arc.case.grid, arc.temperature());
-        let cells = (0..wire.columns).map(|i| grid.ring[i] * temperature[grid.cell(i, wire.tip)]);
-        let mean = cells.sum::<f64>() / wire.section;
-        assert!((mean - 2400.0).abs() < 1.0, "{own:?}: {mean} K");
-        let heat = wire.mass_rate(arc.feed) * own.unwrap_or(tip);
-        assert!(
-            (balance.drops + heat).abs() < 1e-3 * heat,
-            "{own:?}: {} {heat}",
-            balance.drops
-        );
-        assert!(balance.closure().abs() < 1e-6 * heat, "{own:?}");
-        arc.feed
-    });
-    assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-9);
-    assert!((speeds[2] / speeds[0] - 2.0).abs() < 0.1, "{speeds:?}");
-    let told = case(&melting(Some(1.1 * tip))).unwrap_err();
-    assert!(
-        told.contains("/bodies/upper/feed/drop_enthalpy_j_kg"),
-        "{told}"
-    );
-    assert!(told.contains("at most 1.2600e6 J/kg"), "{told}");
 }
 
 /// A column of flux on a cold plate, heated from above through gas.
