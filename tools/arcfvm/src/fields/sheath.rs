@@ -17,29 +17,34 @@ pub struct Sheath {
     keeps_electrons: bool,
 }
 
-/// Temperature \[K\] at which gas with the mass fraction `iron` of iron holds `wanted` electrons \[1/m3\]:
-/// the lowest such, linear between the nodes of the table, or that of the most electrons.
+/// Temperature \[K\] at which gas with the mass fraction `iron` of iron holds `wanted` electrons \[1/m3\]: the lowest
+/// such, linear between the nodes of the table, or that of the most electrons. Where atoms of one kind are used up and the
+/// next do not ionise yet, electrons become fewer as gas grows hotter, and the lowest temperature jumps by thousands of
+/// kelvins, which keeps an iteration from its end: electrons count as growing at least as the temperature does.
 fn temperature_of(density: &Law, wanted: f64, iron: f64) -> Option<f64> {
     let nodes = match density {
         Law::Table(table) => table.nodes(),
         Law::Mixed(mixed) => mixed.table.rows()[0].nodes(),
         Law::Constant(_) | Law::Formula(_) => return None,
     };
-    let at = |t: f64| density.within(0.0, 0.0, t, iron);
-    let mut most = (nodes[0], at(nodes[0]));
-    let mut low = most.1;
-    for pair in nodes.windows(2) {
-        let high = at(pair[1]);
-        if high >= wanted && high > low {
+    let at: Vec<f64> = nodes
+        .iter()
+        .map(|t| density.within(0.0, 0.0, *t, iron))
+        .collect();
+    let wanted = at.iter().copied().fold(0.0, f64::max).min(wanted);
+    let mut low = at[0];
+    if wanted <= low {
+        return nodes.first().copied();
+    }
+    for (pair, own) in nodes.windows(2).zip(&at[1..]) {
+        let high = own.max(low * pair[1] / pair[0]);
+        if high >= wanted {
             let part = ((wanted - low) / (high - low)).clamp(0.0, 1.0);
             return Some(pair[0] + part * (pair[1] - pair[0]));
         }
-        if high > most.1 {
-            most = (pair[1], high);
-        }
         low = high;
     }
-    Some(most.0)
+    nodes.last().copied()
 }
 
 /// Conductivity \[S/m\] of `gas` with the mass fraction `iron` that holds as many electrons as it does at
@@ -146,6 +151,11 @@ mod tests {
     /// Gas whose electrons grow with temperature and iron up to 10,000 K, and then become fewer, and that
     /// conducts as `sigma(x, T)` says.
     fn gas(sigma: impl Fn(f64, f64) -> f64) -> Material {
+        gas_with(|x, t| (1.0 + 3.0 * x) * 1e19 * t.min(2e4 - t), sigma)
+    }
+
+    /// Gas whose electrons are `electrons(x, T)`.
+    fn gas_with(electrons: impl Fn(f64, f64) -> f64, sigma: impl Fn(f64, f64) -> f64) -> Material {
         let t = vec![300.0, 5000.0, 10_000.0, 20_000.0];
         let law = |value: &dyn Fn(f64, f64) -> f64| {
             let row = |x: f64| {
@@ -162,7 +172,7 @@ mod tests {
             }))
         };
         Material {
-            electron_density: law(&|x, t| (1.0 + 3.0 * x) * 1e19 * t.min(2e4 - t)),
+            electron_density: law(&electrons),
             electric_conductivity: law(&sigma),
             ..Material::default()
         }
@@ -180,6 +190,22 @@ mod tests {
         // More electrons than there can be: as near as it comes.
         let most = of_equal_electrons(&gas, [10_000.0, 1.0], 0.0).unwrap();
         assert!((most - 10_000.0).abs() < 1e-9, "{most}");
+    }
+
+    #[test]
+    fn more_electrons_than_grow_with_the_temperature_are_found_without_a_jump() {
+        // From 10,000 to 20,000 K they grow by a tenth: 5 % more would be 5000 K hotter.
+        let slow = gas_with(|x, t| (1.0 + 3.0 * x) * t.min(9e3 + 0.1 * t), |_, t| t);
+        let density = slow.electron_density.as_ref().unwrap();
+        for (wanted, t) in [
+            (9.5e3, 9.5e3),
+            (1e4, 1e4),
+            (1.01e4, 1.01e4),
+            (1.05e4, 1.05e4),
+        ] {
+            let found = temperature_of(density, wanted, 0.0).unwrap();
+            assert!((found - t).abs() < 1e-6, "{wanted} {found}");
+        }
     }
 
     #[test]
