@@ -10,9 +10,9 @@ build/gases/%.mcap: pipelines/gases/%.json $(BIN)/gasprop
 build/gases/argon-iron-%.mcap: pipelines/gases/argon-iron.json pipelines/gases/%.patch.json $(BIN)/gasprop
 	$(RERUN) $@ $^ -- $(BIN)/gasprop run $< --patch pipelines/gases/$*.patch.json --out $@ $(MACHINE)
 
-# The gas of section 5.2 of Komen (2019), which lets all light out.
-build/gases/co-iron-thin.mcap: pipelines/gases/co-iron.json pipelines/gases/thin.patch.json $(BIN)/gasprop
-	$(RERUN) $@ $^ -- $(BIN)/gasprop run $< --patch pipelines/gases/thin.patch.json --out $@ $(MACHINE)
+# The gas of section 5.2.5 of Komen (2019), which lets nearly all light out.
+build/gases/co-iron-ten-micrometres.mcap: pipelines/gases/co-iron.json pipelines/gases/ten-micrometres.patch.json $(BIN)/gasprop
+	$(RERUN) $@ $^ -- $(BIN)/gasprop run $< --patch pipelines/gases/ten-micrometres.patch.json --out $@ $(MACHINE)
 
 # Argon at the pressure at which the published table stands.
 build/gases/argon-reference-pressure.mcap: pipelines/gases/argon.json \

@@ -3,9 +3,9 @@
 .PHONY: gmaw-600a
 gmaw-600a: build/gmaw-600a/report.html ## gas metal arc of 600 A in carbon monoxide, with its report
 
-build/gmaw-600a/arc.mcap: pipelines/gmaw-600a/arc.json build/gases/co-iron-thin.mcap $(BIN)/arcfvm
+build/gmaw-600a/arc.mcap: pipelines/gmaw-600a/arc.json build/gases/co-iron-ten-micrometres.mcap $(BIN)/arcfvm
 	$(RERUN) $@ $^ -- $(BIN)/arcfvm run pipelines/gmaw-600a/arc.json \
-	  --input gas=build/gases/co-iron-thin.mcap --out $@ $(MACHINE)
+	  --input gas=build/gases/co-iron-ten-micrometres.mcap --out $@ $(MACHINE)
 
 build/gmaw-600a/report.html: build/gmaw-600a/arc.mcap pipelines/gmaw-600a/targets.json $(BIN)/report
 	$(RERUN) $@ $^ -- $(BIN)/report page --study gmaw-600a --out $@ \
