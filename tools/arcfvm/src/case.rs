@@ -142,7 +142,8 @@ pub enum FeedRule {
 /// What the drops of a wire take along.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drops {
-    /// This part of the enthalpy of the tip: 1 where they are as warm as that.
+    /// This part of the enthalpy of the tip: 1 where they are as warm as that. A tip of told temperature needs drops that follow
+    /// it: with drops of one enthalpy its feed balances the heat at any temperature.
     Part(f64),
     /// This enthalpy \[J/kg\], or that of the tip where the tip holds less.
     Enthalpy(f64),

@@ -177,20 +177,15 @@ fn judge(target: &Target, measured: Option<f64>, settled: bool) -> Verdict {
 impl Row {
     /// The value in the unit for people, without the unit.
     pub(crate) fn shown(&self, value: f64) -> String {
-        let (factor, _) = people(&self.target.unit);
+        let (factor, _, digits) = people(&self.target);
         let scaled = factor * value;
-        let digits = match self.target.unit.as_str() {
-            "W" => 0,
-            "m" | "m2" | "V" => 1,
-            _ => 2,
-        };
         let text = format!("{scaled:.digits$}");
         text.replace('-', "\u{2212}")
     }
 
     /// The unit for people.
     pub(crate) fn unit(&self) -> &str {
-        people(&self.target.unit).1
+        people(&self.target).1
     }
 
     /// Measured less published, with its sign and unit.
@@ -237,14 +232,17 @@ impl Row {
     }
 }
 
-/// Factor and unit for people.
-fn people(unit: &str) -> (f64, &str) {
-    match unit {
-        "m" => (1e3, "mm"),
-        "m2" => (1e6, "mm\u{b2}"),
-        "m/s" => (60.0, "m/min"),
-        "1" => (1.0, ""),
-        other => (1.0, other),
+/// Factor, unit and digits for people: wires and plates move by the minute, gas by the second.
+fn people(target: &Target) -> (f64, &str, usize) {
+    match target.unit.as_str() {
+        "m" => (1e3, "mm", 1),
+        "m2" => (1e6, "mm\u{b2}", 1),
+        "m/s" if target.value.abs() < 1.0 => (60.0, "m/min", 2),
+        "m/s" => (1.0, "m/s", 0),
+        "W" => (1.0, "W", 0),
+        "V" => (1.0, "V", 1),
+        "1" => (1.0, "", 2),
+        other => (1.0, other, 2),
     }
 }
 
@@ -340,6 +338,19 @@ mod tests {
         assert_eq!(row.difference(), "+0.04 m/min");
         let row = &compare(&targets, None, &arcs[..1])[0];
         assert_eq!(row.verdict, Verdict::Unknown);
+    }
+
+    #[test]
+    fn gas_moves_by_the_second() {
+        let mut jet = target(Bound::Within, Some(100.0));
+        jet.measure = "tungsten/fastest_m_s".to_owned();
+        jet.unit = "m/s".to_owned();
+        jet.value = 300.0;
+        let targets = Targets { targets: vec![jet] };
+        let balance = Record::new().with("fastest_m_s", "m/s", 323.7);
+        let row = &compare(&targets, None, &[("tungsten".to_owned(), balance)])[0];
+        assert_eq!(row.difference(), "+24 m/s");
+        assert_eq!(row.tolerance(), "\u{b1} 100 m/s");
     }
 
     #[test]

@@ -105,22 +105,23 @@ fn drops(feed: &Feed, rule: FeedRule, enthalpy: Option<&Enthalpy>) -> Result<Dro
             Err("wants drop_temperature_k, the temperature of the tip, or vapour_share".to_owned())
         }
         FeedRule::Melting(tip) => {
-            let most = within(own, enthalpy.at(tip), format!("{tip} K"))?;
+            let most = enthalpy.at(tip);
+            within(own, most, &format!("{tip} K"))?;
             Ok(Drops::Part(own / most))
         }
         FeedRule::Boiling { at_most, .. } => {
-            within(own, at_most, "the boiling point".to_owned())?;
+            within(own, at_most, "the boiling point")?;
             Ok(Drops::Enthalpy(own))
         }
     }
 }
 
-/// `most`, unless drops hold more than that.
-fn within(own: f64, most: f64, place: String) -> Result<f64, String> {
+/// Whether drops hold no more than metal does at that place.
+fn within(own: f64, most: f64, place: &str) -> Result<(), String> {
     if own > most {
         return Err(format!(
             "{own} J/kg is out of range: at most {most:.4e} J/kg, the enthalpy at {place}"
         ));
     }
-    Ok(most)
+    Ok(())
 }

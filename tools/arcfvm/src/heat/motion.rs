@@ -31,32 +31,30 @@ impl Wire {
         heat.max(0.0) / self.mass_rate(1.0) / wanted
     }
 
-    /// Heat conducted from what the wire runs through, but for gas \[W\].
+    /// Heat conducted from what the wire runs through and from what stands below its tip \[W\]. That of gas
+    /// crosses the surfaces of electrodes, which count it.
     #[must_use]
     pub fn from_beside(&self, case: &Case, energy: &Energy) -> f64 {
-        let grid = &case.grid;
-        let side = (self.tip..grid.nz).map(|j| {
-            let conductance = energy.radial[grid.radial_face(self.columns, j)];
-            (
-                grid.cell(self.columns, j),
-                grid.cell(self.columns - 1, j),
-                conductance,
-            )
-        });
-        let below = (0..self.columns).filter(|_| self.tip > 0).map(|i| {
-            let conductance = energy.axial[grid.axial_face(i, self.tip)];
-            (
-                grid.cell(i, self.tip - 1),
-                grid.cell(i, self.tip),
-                conductance,
-            )
-        });
-        let beside = side.filter(|_| self.columns < grid.nr).chain(below);
-        let t = &energy.temperature;
-        beside
-            .filter(|(out, ..)| case.material[*out] != GAS)
-            .map(|(out, own, conductance)| conductance * (t[out] - t[own]))
-            .sum()
+        let (grid, t) = (&case.grid, &energy.temperature);
+        let from = |out: usize, own: usize, conductance: f64| match case.material[out] {
+            GAS => 0.0,
+            _ => conductance * (t[out] - t[own]),
+        };
+        let column = self.columns;
+        let mut heat = 0.0;
+        if column < grid.nr {
+            for j in self.tip..grid.nz {
+                let conductance = energy.radial[grid.radial_face(column, j)];
+                heat += from(grid.cell(column, j), grid.cell(column - 1, j), conductance);
+            }
+        }
+        if let Some(below) = self.tip.checked_sub(1) {
+            for i in 0..column {
+                let conductance = energy.axial[grid.axial_face(i, self.tip)];
+                heat += from(grid.cell(i, below), grid.cell(i, self.tip), conductance);
+            }
+        }
+        heat
     }
 
     /// Mean enthalpy of the tip's cells \[J/kg\].
