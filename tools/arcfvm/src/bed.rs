@@ -131,10 +131,19 @@ fn side(arc: &Arc, granular: &Granular, bed: &mut Bed) {
             .rev()
             .find(|i| material[grid.cell(*i, j)] == GAS)
     };
-    let widest = (0..grid.nz).filter_map(|j| Some((outermost(j)?, j)));
-    let Some((front, j)) = widest.max_by_key(|(i, j)| (*i, grid.nz - j)) else {
+    let fronts: Vec<(usize, usize)> = (0..grid.nz)
+        .filter_map(|j| Some((outermost(j)?, j)))
+        .collect();
+    let Some(front) = fronts.iter().map(|(i, _)| *i).max() else {
         return;
     };
+    // Of several rows as wide the middle one: the plate and the roof cool those beside them.
+    let widest: Vec<usize> = fronts
+        .iter()
+        .filter(|(i, _)| *i == front)
+        .map(|(_, j)| *j)
+        .collect();
+    let j = widest[widest.len() / 2];
     bed.cavity_radius = grid.rf[front + 1];
     for i in front + 1..grid.nr {
         let k = grid.cell(i, j);

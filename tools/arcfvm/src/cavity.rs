@@ -7,28 +7,36 @@ use crate::solver::Arc;
 const LOOK_EVERY: usize = 5;
 /// Iterations before the first look.
 const FIRST_LOOK: usize = 20;
+/// Part of all heat that may be out of balance where one looks.
+const SETTLED: f64 = 1e-1;
 
 impl Arc {
-    /// Lets slag boil where it is time to look; returns the part of the bed that changed, once looked.
+    /// Lets slag boil where it is time to look; returns the part of the bed that changed when last looked, or the part of the heat
+    /// that is out of balance while that is too much to look.
+    ///
+    /// What boils does not come back beside hot gas, and any wider cavity is at rest too, its wall the colder: slag that boiled in a bed
+    /// on its way to its temperatures would leave a cavity that tells of the way.
     pub(crate) fn boil(&mut self) -> Option<f64> {
         let heating = self.heating.as_mut()?;
         let granular = heating.setup.granular.as_mut()?;
         if self.iteration < FIRST_LOOK {
             return Some(1.0);
         }
-        if !self.iteration.is_multiple_of(LOOK_EVERY) {
-            return self.boiled;
+        if self.iteration.is_multiple_of(LOOK_EVERY) {
+            self.boiled = None;
+            if self.unsettled <= SETTLED {
+                let case = &mut self.case;
+                let temperature = &heating.energy.temperature;
+                let before = case.material.clone();
+                let changed = granular.boil(&case.grid, temperature, &mut case.material);
+                self.boiled = Some(changed as f64 / granular.cells.len().max(1) as f64);
+                if changed > 0 {
+                    self.reshape(&before);
+                }
+            }
         }
-        let case = &mut self.case;
-        let temperature = &heating.energy.temperature;
-        let before = case.material.clone();
-        let changed = granular.boil(&case.grid, temperature, &mut case.material);
-        let part = changed as f64 / granular.cells.len().max(1) as f64;
-        if changed > 0 {
-            self.reshape(&before);
-        }
-        self.boiled = Some(part);
         self.boiled
+            .or_else(|| Some(self.unsettled.clamp(SETTLED, 1.0)))
     }
 
     /// The bed as it is, for a checkpoint: what boiled, and how often each cell changed.

@@ -125,7 +125,7 @@ impl Recombination {
     /// Gives `arc`, which an iteration has just left with `residuals`, the state that the next one begins from.
     pub fn recombine(&mut self, arc: &mut Arc, residuals: &Residuals) {
         let worst = residuals.worst();
-        let reshaped = residuals.cavity.is_some_and(|part| part > 0.0);
+        let reshaped = arc.boiled.is_some_and(|part| part > 0.0);
         if reshaped || worst > GROWTH * self.best {
             self.renew(arc);
             return;

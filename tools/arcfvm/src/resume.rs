@@ -16,6 +16,7 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_u8("bed_boiled", &boiled);
         c.put_u8("bed_changes", &changes);
         c.put_json("bed_part", &arc.boiled)?;
+        c.put_f64("bed_unsettled", &[arc.unsettled]);
     }
     if let Some(electric) = &arc.electric {
         c.put_f64("potential", &electric.potential.value);
@@ -67,6 +68,7 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         let (boiled, changes) = (c.u8("bed_boiled")?, c.u8("bed_changes")?);
         arc.restore_bed(&boiled, changes);
         arc.boiled = c.json("bed_part")?;
+        arc.unsettled = one(c, "bed_unsettled")?;
     }
     if let Some(electric) = &mut arc.electric {
         electric.potential.value = c.f64("potential")?;

@@ -88,8 +88,10 @@ pub struct Arc {
     pub vaporising: Option<Vaporising>,
     /// Speed of the wire \[m/s\].
     pub feed: f64,
-    /// Part of the bed of flux that changed when it was last looked at.
+    /// Part of the bed of flux that changed when it was last looked at; none while its heat is too far from balance to look.
     pub(crate) boiled: Option<f64>,
+    /// Part of all heat that was out of balance in the last iteration.
+    pub(crate) unsettled: f64,
 }
 
 impl Arc {
@@ -132,6 +134,7 @@ impl Arc {
             vaporising,
             feed: 0.0,
             boiled: None,
+            unsettled: 1.0,
         };
         arc.feed = arc.first_feed();
         arc
@@ -184,6 +187,7 @@ impl Arc {
             let (part, found, limited) = clock.timed("heat", || self.solve_heat())?;
             (residuals.heat, residuals.limited) = (Some(part), limited);
             residuals.unbalanced[3] = Some(found);
+            self.unsettled = part;
         }
         if let Some(feed) = self.next_feed() {
             residuals.feed = Some((feed / self.feed - 1.0).abs());
