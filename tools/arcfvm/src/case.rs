@@ -351,6 +351,13 @@ impl Case {
         conduction == Some(Conduction::Integral)
     }
 
+    /// The bed of granular flux, where its slag is clear.
+    #[must_use]
+    pub fn clear_bed(&self) -> Option<&Granular> {
+        let granular = self.heat.as_ref()?.granular.as_ref()?;
+        granular.melts_within.and(Some(granular))
+    }
+
     /// A cell with its position, for messages.
     #[must_use]
     pub fn place(&self, k: usize) -> String {

@@ -9,6 +9,7 @@
 use relax::{Coefficients, FivePoint, Outcome};
 
 use crate::case::{Case, HeatCase, HeatEdge, VapourCase};
+use crate::fields::clear_bed::{Slopes, to_the_bend};
 use crate::fields::electrons::{Carried, Drift, Nothing};
 use crate::fields::faces::{Beyond, Carriers, FaceOf, Side, edge_of};
 use crate::fields::mixing::{Mixed, Mixing};
@@ -50,6 +51,8 @@ pub struct Energy {
     pub source: Vec<[f64; 2]>,
     /// Mixing with vapour, where there is any.
     mixing: Option<Mixing>,
+    /// How heat in and around a clear bed changes with temperatures, where there is one.
+    pub(crate) slopes: Option<Slopes>,
     /// Electrons that carry heat, where they do.
     pub(crate) electrons: Option<Drift>,
     /// Surfaces of electrodes, where they have temperatures of their own.
@@ -114,6 +117,7 @@ impl Energy {
         let grid = &case.grid;
         Self {
             mixing: case.vapour.as_ref().map(|_| Mixing::new(case)),
+            slopes: case.clear_bed().map(|_| Slopes::new(grid)),
             electrons: case
                 .heat
                 .as_ref()
@@ -186,6 +190,11 @@ impl Energy {
                         capacity(here, there, specific_heat)
                     });
                     c.source -= self.mixed(&face, hybrid);
+                    if let Some([own, other]) = self.slopes.as_ref().and_then(|s| s.seen(&face)) {
+                        c.centre += own - other;
+                        c.source += own * here.0 - other * there.0 - *side * (here.0 - there.0);
+                        *side = other;
+                    }
                 }
                 Beyond::Edge(edge) => {
                     let (a, t) = self.edge(case, heat, carried, (edge, face), here);
@@ -337,7 +346,11 @@ impl Energy {
         let (mut change, mut limited) = (0.0_f64, 0);
         for k in 0..self.temperature.len() {
             let old = self.scratch[k];
-            let wanted = self.temperature[k] - old;
+            let mut wanted = self.temperature[k] - old;
+            if self.slopes.is_some() {
+                wanted = to_the_bend(case, k, old, wanted);
+                self.temperature[k] = old + wanted;
+            }
             // An unfinished linear solve can reach below zero in the first iterations.
             let limit = if wanted < 0.0 {
                 step.limit.min(MOST_FALL * old)

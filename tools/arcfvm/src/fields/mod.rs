@@ -1,5 +1,6 @@
 //! The fields: each owns its columns, its equation and its solver.
 
+mod clear_bed;
 pub mod edge_shear;
 pub mod electrons;
 pub mod energy;
@@ -7,6 +8,7 @@ mod energy_conduct;
 pub mod energy_edges;
 mod energy_electrons;
 mod energy_film;
+mod energy_integral;
 mod energy_skin;
 mod faces;
 pub mod flow;

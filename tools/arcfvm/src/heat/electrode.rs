@@ -28,7 +28,7 @@ use std::sync::Arc;
 /// Charge of the electron over Boltzmann's constant \[K/V\].
 const KELVIN_PER_VOLT: f64 = 11_604.518_12;
 /// Stefan-Boltzmann constant \[W/(m2 K4)\].
-const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
+pub(crate) const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Molar gas constant \[J/(mol K)\].
 const MOLAR_GAS: f64 = 8.314_462_618;
 /// Energy that an electron takes into the column, over k T_e (Benilov and Marotta 1995).

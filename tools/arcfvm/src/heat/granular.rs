@@ -24,6 +24,9 @@ pub struct Granular {
     pub absorbed: Option<f64>,
     /// Length within which they take it up from the wall of the cavity inward \[m\]; none: evenly by volume.
     pub length: Option<f64>,
+    /// Half of the melting range of flux whose slag is clear \[K\]: as it melts it conducts heat tens of times as well, by
+    /// radiation. None: slag is not clear.
+    pub melts_within: Option<f64>,
     /// Cells of the bed, boiled or not.
     pub cells: Vec<usize>,
     /// How often each of them has changed.
@@ -45,6 +48,7 @@ impl Granular {
             boiling,
             absorbed,
             length: None,
+            melts_within: None,
             changes: vec![0; cells.len()],
             cells,
         }

@@ -21,6 +21,10 @@ pub struct Granular {
     /// evenly over the volume of the body, as Komen (2019) has it.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub absorption_length_m: Option<f64>,
+    /// Refractive index of slag: molten, it lets light through for the length of absorption, and conducts heat by its own
+    /// radiation too (Rosseland 1924). Absent: it does not.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub refractive_index: Option<f64>,
     /// Mass fraction of iron in the gas at the wall of the cavity, where slag takes up iron and gives off
     /// as much gas; absent: neither.
     #[schemars(range(min = 0.0, max = 1.0))]
