@@ -4,7 +4,7 @@
 saw-600a-arc: build/saw-600a-arc/report.html ## submerged arc in flux: both polarities, 400 and 600 A, two cathodes, with their report
 
 SAW := pipelines/saw-600a-arc
-SAW_VARIANTS := dcep-400 dcen-600 dcen-600-fall fall melting wall cells-0.4 cells-0.2
+SAW_VARIANTS := dcep-400 dcen-600 dcen-600-fall fall melting even cells-0.4 cells-0.2
 
 build/saw-600a-arc/dcep.mcap: $(SAW)/arc.json build/gases/co-iron.mcap $(BIN)/arcfvm
 	$(RERUN) $@ $^ -- $(BIN)/arcfvm run $(SAW)/arc.json --input gas=build/gases/co-iron.mcap --out $@ $(MACHINE)
@@ -17,7 +17,7 @@ $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap): build/saw-600a-arc/%.mcap: $(SAW)/a
 SAW_ARCS := dcep=build/saw-600a-arc/dcep.mcap dcep-400=build/saw-600a-arc/dcep-400.mcap \
   dcen=build/saw-600a-arc/dcen-600.mcap dcen-fall=build/saw-600a-arc/dcen-600-fall.mcap \
   fall=build/saw-600a-arc/fall.mcap melting=build/saw-600a-arc/melting.mcap \
-  wall=build/saw-600a-arc/wall.mcap cells-0.4=build/saw-600a-arc/cells-0.4.mcap cells-0.2=build/saw-600a-arc/cells-0.2.mcap
+  even=build/saw-600a-arc/even.mcap cells-0.4=build/saw-600a-arc/cells-0.4.mcap cells-0.2=build/saw-600a-arc/cells-0.2.mcap
 
 build/saw-600a-arc/report.html: build/saw-600a-arc/dcep.mcap $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap) \
   $(SAW)/targets.json $(BIN)/report
