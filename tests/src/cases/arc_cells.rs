@@ -75,7 +75,7 @@ struct Study {
 impl Study {
     fn of(method: &str) -> Self {
         match method {
-            // Cells of 0.4 mm leave a cavity of 136, beside whose wall a cell of flux melts and freezes.
+            // Cells of 0.4 mm leave a cavity of 136, and no room for its film of 0.05 mm.
             "submerged" => Self {
                 scene: "pipelines/saw-600a-arc/arc.json",
                 gas: "pipelines/gases/co-iron.json",
