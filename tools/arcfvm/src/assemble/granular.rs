@@ -13,6 +13,8 @@ use crate::scene::{self, Body, Scene};
 const RANGE_NODES: u32 = 8;
 /// Distance of its nodes above that \[K\].
 const SLAG_STEP_K: f64 = 25.0;
+/// Steps that suffice wherever slag boils.
+const MOST_STEPS: f64 = 1000.0;
 
 /// The granular body of the scene, if heat is solved and there is one.
 pub(crate) fn granular(
@@ -71,7 +73,7 @@ pub(crate) fn granular(
     let points = [melting.point_k, given.boiling_k];
     let mut granular = Granular::new(n + 1, points, given.absorbed_radiation, cells);
     granular.length = given.absorption_length_m;
-    granular.melts_within = given.refractive_index.and(melting.half_range_k.into());
+    granular.melts_within = given.refractive_index.map(|_| melting.half_range_k);
     Some(granular)
 }
 
@@ -102,14 +104,15 @@ pub(crate) fn conductivity(law: Law, granular: &scene::Granular, melting: Option
     let mut nodes: Vec<f64> = (0..=RANGE_NODES)
         .map(|n| low + (high - low) * f64::from(n) / f64::from(RANGE_NODES))
         .collect();
-    let steps = 1..=((granular.boiling_k - high).max(0.0) / SLAG_STEP_K) as u32 + 1;
-    nodes.extend(steps.map(|n| high + SLAG_STEP_K * f64::from(n)));
+    let above = (granular.boiling_k - high).max(0.0);
+    let step = SLAG_STEP_K.max(above / MOST_STEPS);
+    nodes.extend((1..=(above / step) as u32 + 1).map(|n| high + step * f64::from(n)));
     if let Law::Table(table) = &law {
         let others = table.nodes().iter().filter(|t| !(low..=high).contains(*t));
         nodes.extend(others);
     }
     nodes.sort_by(f64::total_cmp);
-    nodes.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    nodes.dedup();
     let values: Vec<f64> = nodes.iter().map(value).collect();
     Table::new(nodes, values).map_or(law, Law::Table)
 }

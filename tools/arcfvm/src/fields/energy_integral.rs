@@ -19,13 +19,13 @@ use crate::properties::Properties;
 /// Halvings of the span in which the temperature of a face is looked for.
 const HALVINGS: usize = 40;
 
-/// Two cells that conduct by integrals, through an area of 1 m2.
+/// Two cells that conduct by integrals, through an area of 1 m2 or through their face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Link {
-    /// Heat over the difference of temperatures \[W/(m2 K)\].
+    /// Heat over the difference of temperatures \[W/(m2 K)\] or \[W/K\].
     conductance: f64,
-    /// Change of the heat with either temperature \[W/(m2 K)\].
-    slopes: [f64; 2],
+    /// Change of the heat with either temperature, where the equation takes it along.
+    slopes: Option<[f64; 2]>,
 }
 
 impl Energy {
@@ -44,14 +44,13 @@ impl Energy {
                 let cells = [grid.cell(i - 1, j), grid.cell(i, j)];
                 let ways = [0.5 * grid.dr[i - 1], 0.5 * grid.dr[i]];
                 let (face, area) = (grid.radial_face(i, j), grid.area(i, j));
-                let link = between.cells(cells, ways, [grid.rf[i], grid.zc[j]]);
+                let passed = (area, self.mass_radial[face]);
+                let link = between.through(cells, ways, [grid.rf[i], grid.zc[j]], passed);
                 if let Some(link) = link {
-                    self.radial[face] = area * link.conductance;
+                    self.radial[face] = link.conductance;
                 }
                 if let Some(slopes) = &mut self.slopes {
-                    let still = self.mass_radial[face] == 0.0 && between.bed_at(cells);
-                    let own = link.filter(|_| still).map(|link| link.slopes);
-                    slopes.radial[face] = own.map(|slopes| slopes.map(|s| area * s));
+                    slopes.radial[face] = link.and_then(|link| link.slopes);
                 }
             }
             let ends = edges.map(|e| [e.inner[j], e.outer[j]]);
@@ -68,14 +67,13 @@ impl Energy {
                 let cells = [grid.cell(i, j - 1), grid.cell(i, j)];
                 let ways = [0.5 * grid.dz[j - 1], 0.5 * grid.dz[j]];
                 let (face, area) = (grid.axial_face(i, j), grid.ring[i]);
-                let link = between.cells(cells, ways, [grid.rc[i], grid.zf[j]]);
+                let passed = (area, self.mass_axial[face]);
+                let link = between.through(cells, ways, [grid.rc[i], grid.zf[j]], passed);
                 if let Some(link) = link {
-                    self.axial[face] = area * link.conductance;
+                    self.axial[face] = link.conductance;
                 }
                 if let Some(slopes) = &mut self.slopes {
-                    let still = self.mass_axial[face] == 0.0 && between.bed_at(cells);
-                    let own = link.filter(|_| still).map(|link| link.slopes);
-                    slopes.axial[face] = own.map(|slopes| slopes.map(|s| area * s));
+                    slopes.axial[face] = link.and_then(|link| link.slopes);
                 }
             }
             let ends = edges.map(|e| [e.bottom[i], e.top[i]]);
@@ -114,11 +112,27 @@ impl Between<'_> {
             let way = ways[0] + ways[1];
             return Some(Link {
                 conductance: first.mean(place, t, iron) / way,
-                slopes: t.map(|t| first.within(place[0], place[1], t, iron) / way),
+                slopes: Some(t.map(|t| first.within(place[0], place[1], t, iron) / way)),
             });
         }
         let solid = materials.iter().all(|m| *m != GAS);
         (solid && self.bed_at(cells)).then(|| meet([first, second], ways, t, place))
+    }
+
+    /// Between two cells through a face of `area` \[m2\]; slopes only in and around a clear bed, and where no `mass` passes.
+    fn through(
+        &self,
+        cells: [usize; 2],
+        ways: [f64; 2],
+        place: [f64; 2],
+        (area, mass): (f64, f64),
+    ) -> Option<Link> {
+        let link = self.cells(cells, ways, place)?;
+        let slopes = link.slopes.filter(|_| mass == 0.0 && self.bed_at(cells));
+        Some(Link {
+            conductance: area * link.conductance,
+            slopes: slopes.map(|slopes| slopes.map(|s| area * s)),
+        })
     }
 
     /// Whether one of two cells is of the clear bed.
@@ -143,7 +157,7 @@ impl Between<'_> {
 /// Two bodies that meet at a face: each half of the way conducts by the mean between its cell and the face.
 fn meet(laws: [&Law; 2], ways: [f64; 2], t: [f64; 2], place: [f64; 2]) -> Link {
     let half = |n: usize, face: f64| laws[n].mean(place, [t[n], face], 0.0) / ways[n];
-    // More reaches the face than leaves it as long as it is nearer to the temperature of the first cell's than it should not be.
+    // More heat reaches a face that is too near to the second temperature than leaves it.
     let [mut low, mut high] = t;
     for _ in 0..HALVINGS {
         let face = 0.5 * (low + high);
@@ -160,10 +174,10 @@ fn meet(laws: [&Law; 2], ways: [f64; 2], t: [f64; 2], place: [f64; 2]) -> Link {
     let [near, far] = [half(0, face), half(1, face)];
     Link {
         conductance: near * far / (near + far),
-        slopes: [
+        slopes: Some([
             at(0, t[0]) * second / (first + second),
             at(1, t[1]) * first / (first + second),
-        ],
+        ]),
     }
 }
 
@@ -210,7 +224,8 @@ mod tests {
             meet([&laws[0], &laws[1]], [1e-4, 2e-4], t, [0.0, 0.0]).conductance * (t[0] - t[1])
         };
         for t in [[2700.0, 2100.0], [2575.0, 2500.0], [2000.0, 2900.0]] {
-            let slopes = meet([&laws[0], &laws[1]], [1e-4, 2e-4], t, [0.0, 0.0]).slopes;
+            let link = meet([&laws[0], &laws[1]], [1e-4, 2e-4], t, [0.0, 0.0]);
+            let slopes = link.slopes.unwrap();
             let step = 0.01;
             let own = (heat([t[0] + step, t[1]]) - heat([t[0] - step, t[1]])) / (2.0 * step);
             let other = (heat([t[0], t[1] - step]) - heat([t[0], t[1] + step])) / (2.0 * step);
