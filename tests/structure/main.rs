@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 7] = [
+const NUMERICS: [&str; 8] = [
     "neighbours",
     "kernels",
     "props",
@@ -14,6 +14,7 @@ const NUMERICS: [&str; 7] = [
     "relax",
     "wls",
     "shapes",
+    "contact",
 ];
 const HARNESS: [&str; 2] = ["artefact", "run"];
 
@@ -29,6 +30,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
         "neighbours" | "props" | "krylov" | "relax" | "shapes" | "artefact" => &[],
         "kernels" => &["neighbours"],
+        "contact" => &["shapes"],
         "wls" => &["neighbours", "krylov"],
         "run" => &["artefact"],
         "report" => &["artefact", "run"],

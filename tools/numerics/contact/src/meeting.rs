@@ -1,0 +1,112 @@
+//! The geometry of one contact.
+
+use shapes::frame::{Vector, along, cross, difference, dot, length};
+
+/// A grain as a contact sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grain {
+    /// Place of its centre \[m\].
+    pub position: Vector,
+    /// Velocity of its centre \[m/s\].
+    pub velocity: Vector,
+    /// Angular velocity \[rad/s\].
+    pub spin: Vector,
+    /// Radius \[m\].
+    pub radius: f64,
+    /// Mass \[kg\].
+    pub mass: f64,
+}
+
+/// Where and how two grains, or a grain and a wall, touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// Unit normal of the contact, from b to a.
+    pub normal: Vector,
+    /// Overlap \[m\], above zero.
+    pub overlap: f64,
+    /// From the centres of a and b to the plane of contact \[m\]; zero for a wall.
+    pub arms: [f64; 2],
+    /// Speed at which the overlap grows \[m/s\].
+    pub approach: f64,
+    /// Velocity of a's surface past b's in the plane of contact \[m/s\].
+    pub slide: Vector,
+    /// Difference of the angular velocities of a and b \[rad/s\].
+    pub turn: Vector,
+    /// Effective mass 1 / (1/m_a + 1/m_b) \[kg\].
+    pub mass: f64,
+    /// Effective radius 1 / (1/r_a + 1/r_b) \[m\].
+    pub radius: f64,
+}
+
+impl Meeting {
+    /// The contact of two grains; `None` where they do not overlap, or where their centres coincide so that no normal is known.
+    ///
+    /// The plane of contact is that of the circle in which both spheres cut each other:
+    /// `l_a = (d^2 + r_a^2 - r_b^2) / (2 d)` at the distance d of the centres.
+    #[inline]
+    #[must_use]
+    pub fn of(a: &Grain, b: &Grain) -> Option<Self> {
+        let apart = difference(a.position, b.position);
+        let squared = dot(apart, apart);
+        let reach = a.radius + b.radius;
+        if squared >= reach * reach || squared <= f64::MIN_POSITIVE {
+            return None;
+        }
+        let distance = squared.sqrt();
+        let normal = apart.map(|x| x / distance);
+        let lens = (a.radius - b.radius) * reach / distance;
+        let arms = [0.5 * (distance + lens), 0.5 * (distance - lens)];
+        // u_t = u - (u.n) n - (l_a w_a + l_b w_b) x n, n from b to a (eq. 3.113 with its sign made right).
+        let past = difference(a.velocity, b.velocity);
+        let opening = dot(past, normal);
+        let rolled = [0, 1, 2].map(|i| arms[0] * a.spin[i] + arms[1] * b.spin[i]);
+        Some(Self {
+            normal,
+            overlap: reach - distance,
+            arms,
+            approach: -opening,
+            slide: difference(along(past, -opening, normal), cross(rolled, normal)),
+            turn: difference(a.spin, b.spin),
+            mass: a.mass * b.mass / (a.mass + b.mass),
+            radius: a.radius * b.radius / reach,
+        })
+    }
+
+    /// The contact of a grain with a wall whose surface is `distance` \[m\] from its centre, `normal` out of the wall, moving
+    /// with `velocity` \[m/s\]; `None` where they do not overlap.
+    #[inline]
+    #[must_use]
+    pub fn at_wall(a: &Grain, distance: f64, normal: Vector, velocity: Vector) -> Option<Self> {
+        if distance >= a.radius {
+            return None;
+        }
+        let past = difference(a.velocity, velocity);
+        let opening = dot(past, normal);
+        let arm = distance.max(0.0);
+        let rolled = a.spin.map(|w| arm * w);
+        Some(Self {
+            normal,
+            overlap: a.radius - distance,
+            arms: [arm, 0.0],
+            approach: -opening,
+            slide: difference(along(past, -opening, normal), cross(rolled, normal)),
+            turn: a.spin,
+            mass: a.mass,
+            radius: a.radius,
+        })
+    }
+
+    /// The contact of a grain with a body at rest or moving as a whole, by the body's signed distance (negative inside);
+    /// a grain whose centre has passed the surface is pushed out along the same normal.
+    #[must_use]
+    pub fn at_body(a: &Grain, body: &shapes::Body, velocity: Vector) -> Option<Self> {
+        let distance = body.distance(a.position);
+        if distance >= a.radius {
+            return None;
+        }
+        let normal = body.normal(a.position, 1e-6 * a.radius);
+        (length(normal) > 0.5)
+            .then(|| Self::at_wall(a, distance, normal, velocity))
+            .flatten()
+    }
+}
