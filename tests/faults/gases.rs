@@ -107,3 +107,50 @@ fn values_that_no_gas_can_have_are_refused_with_column_row_and_range() {
     // A gas may take up more radiation than it gives off.
     spoilt(find("net_emission_w_m3"), 2, -1.0).must(0, &["arcfvm"]);
 }
+
+/// Runs one iteration of an arc on coarse cells with a table that ends at `end` \[K\].
+fn run_to(end: f64) -> Told {
+    let text = std::fs::read_to_string(root().join("pipelines/gases/argon-1atm.json")).unwrap();
+    let mut table: Value = serde_json::from_str(&text).unwrap();
+    let rows = table["columns"][0]["values"].as_array().unwrap();
+    let kept = rows.iter().filter(|t| t.as_f64().unwrap() <= end).count();
+    for column in table["columns"].as_array_mut().unwrap() {
+        column["values"].as_array_mut().unwrap().truncate(kept);
+    }
+    let place = Place::new();
+    let input = format!(
+        "gas={}",
+        place.file("gas.json", table.to_string()).display()
+    );
+    let coarse = place.file(
+        "coarse.json",
+        r#"{"grid": {"r": {"at_m": [0, 0.025], "spacing_m": [0.001, 0.001]}, "z": {"at_m": [-0.005, 0.02], "spacing_m": [0.001, 0.001]}}, "iterate": {"most": 1}}"#,
+    );
+    let scene = root().join("pipelines/gmaw-300a/arc.json");
+    let out = place.path("arc.mcap");
+    let words = [
+        scene.as_os_str(),
+        "--patch".as_ref(),
+        coarse.as_os_str(),
+        "--out".as_ref(),
+        out.as_os_str(),
+    ];
+    let words = words.map(|w| w.to_str().unwrap());
+    let mut line = vec!["run", "--threads", "1", "--input", &input];
+    line.extend(words);
+    tell("arcfvm", &line)
+}
+
+#[test]
+fn an_arc_hotter_than_its_table_is_done_with_a_warning() {
+    run_to(8900.0).must(
+        3,
+        &[
+            "warning: gas table",
+            "gas.json, column temperature_k ends at 8900 K",
+            "hot gas cells",
+        ],
+    );
+    let whole = run_to(24_900.0);
+    assert!(!whole.err.contains("warning: gas table"), "{whole:?}");
+}

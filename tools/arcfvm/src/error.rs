@@ -20,20 +20,23 @@ pub enum Error {
         /// What was found.
         what: String,
     },
-    /// A temperature beyond the gas table, where the scene does not ask to hold its end values.
+    /// A temperature beyond a table, where the scene does not ask for more.
     #[error(
-        "{place}: temperature {found:.0} K above table end {end:.0} K ({material}); \
-         set gas.table.beyond_table to \"extend\" or \"hold\" to go on"
+        "{place}: temperature {found:.0} K is outside of {table}, {from:.0} K to {to:.0} K; {advice}"
     )]
-    AboveTable {
+    BeyondTable {
         /// Cell with its position.
         place: String,
         /// Temperature found \[K\].
         found: f64,
-        /// End of the table \[K\].
-        end: f64,
-        /// Material and property.
-        material: String,
+        /// The table and its column, or its path in the scene.
+        table: String,
+        /// First temperature of the table \[K\].
+        from: f64,
+        /// Last temperature of the table \[K\].
+        to: f64,
+        /// What the scene can ask for.
+        advice: String,
     },
     /// A gas table that cannot be used.
     #[error("gas table: {0}")]

@@ -7,6 +7,7 @@ use crate::case::{HeatCase, PotentialCase};
 use crate::fields::magnetic::AtCentre;
 use crate::grid::Grid;
 use crate::heat::balance::Balance;
+use crate::heat::supply::Supply;
 use crate::material::GAS;
 use crate::scene::Sample;
 use crate::solver::{Arc, Electric};
@@ -158,7 +159,12 @@ fn below(grid: &Grid, column: &[f64], z: f64) -> f64 {
 fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
     let mut record = Record::new();
     if let (Some(electric), Some(setup)) = (&arc.electric, &arc.case.potential) {
-        record = electrical(arc, electric, setup, record);
+        let supply = balance.map(|balance| arc.supply(balance));
+        record = electrical(arc, electric, (setup, supply.as_ref()), record);
+        record = match &supply {
+            Some(supply) => paid(supply, record),
+            None => record,
+        };
     }
     if let Some(balance) = balance {
         record = bed::record(arc, heat(arc, balance, record));
@@ -214,33 +220,49 @@ fn input(arc: &Arc, balance: &Balance, heat: &HeatCase, record: Record) -> Recor
     record
         .with("base_drops_w", "W", -balance.drops)
         .with("base_input_w", "W", all)
-        .with("efficiency", "1", all / surface::power(arc, balance))
+        .with("efficiency", "1", all / arc.power(balance))
 }
 
-fn electrical(arc: &Arc, electric: &Electric, setup: &PotentialCase, record: Record) -> Record {
+fn electrical(
+    arc: &Arc,
+    electric: &Electric,
+    (setup, supply): (&PotentialCase, Option<&Supply>),
+    record: Record,
+) -> Record {
     let grid = &arc.case.grid;
     let power = electric.potential.power(grid, setup);
     let mut record = record.with("power_column_w", "W", power);
-    let Some(current) = setup.driven else {
+    let (Some(current), Some(voltage)) = (setup.driven, arc.voltage(supply)) else {
         return record;
     };
-    // A current that leaves the driven face has a negative potential there.
-    let column = electric.potential.drive.abs();
-    let cathode = surface::cathode_power(arc) / current.abs();
     record = record
         .with("current_a", "A", current)
-        .with("voltage_column_v", "V", column)
-        .with("voltage_cathode_v", "V", cathode)
-        .with("voltage_v", "V", column + cathode)
-        .with("power_w", "W", (column + cathode) * current.abs());
+        .with("voltage_column_v", "V", voltage.column)
+        .with("voltage_cathode_v", "V", voltage.cathode)
+        .with("voltage_contact_v", "V", voltage.contact)
+        .with("voltage_v", "V", voltage.all())
+        .with("power_w", "W", voltage.all() * current.abs());
     if let Some(drop) = surface::wire_drop(arc) {
         record = record.with("voltage_wire_v", "V", drop);
     }
     record
 }
 
+/// Items that no voltage pays, and all that leaves.
+fn paid(supply: &Supply, mut record: Record) -> Record {
+    for (name, watts) in &supply.unpaid {
+        record = record.with(&format!("unpaid_{name}_w"), "W", *watts);
+    }
+    for (name, watts) in &supply.leaves {
+        record = record.with(&format!("leaves_{name}_w"), "W", *watts);
+    }
+    record
+        .with("unpaid_w", "W", supply.owed())
+        .with("leaves_w", "W", supply.left())
+}
+
 fn heat(arc: &Arc, balance: &Balance, record: Record) -> Record {
-    let scale = surface::power(arc, balance);
+    let scale = arc.power(balance);
     let mut record = record
         .with("heat_joule_w", "W", balance.joule)
         .with("heat_given_w", "W", balance.given)

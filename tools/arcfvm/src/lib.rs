@@ -3,6 +3,7 @@
 
 pub mod assemble;
 pub mod bed;
+pub mod beyond;
 pub mod case;
 mod cavity;
 pub mod continuation;
@@ -19,7 +20,6 @@ mod limits;
 pub mod march;
 pub mod material;
 pub mod mixture;
-mod overheated;
 pub mod pace;
 mod plan;
 mod pool;
@@ -32,6 +32,7 @@ pub mod settings;
 pub mod solver;
 pub mod stagnation;
 pub mod start;
+pub mod supply;
 pub mod surface;
 pub mod transport;
 pub mod vaporising;
@@ -129,8 +130,11 @@ impl Tool for ArcFvm {
         }
         march::march(&mut arc, &scene.iterate, session)?;
         let balance = arc.settle();
-        if let Some(told) = arc.beyond_table()? {
-            session.note(told);
+        for told in arc.beyond()? {
+            match told.matters {
+                true => session.warn(told.text),
+                false => session.note(told.text),
+            }
         }
         march::close(&arc, balance.as_ref(), session);
         frames::write(&arc, balance.as_ref(), &scene.sample, session)

@@ -7,12 +7,11 @@ use crate::continuation::Steps;
 use crate::heat::balance::Balance;
 use crate::pace::Pace;
 use crate::recombination::Recombination;
-use crate::residual::{EQUATIONS, Residuals, part};
+use crate::residual::{EQUATIONS, Residuals};
 use crate::resume;
 use crate::scene::Iterate;
 use crate::solver::Arc;
 use crate::stagnation::{self, Trail};
-use crate::surface;
 
 /// Iterations between two points of the recorded history.
 const HISTORY_EVERY: usize = 10;
@@ -172,17 +171,12 @@ fn short(name: &'static str) -> &'static str {
 
 /// Closing block: voltages, powers, and what does not add up.
 pub fn close(arc: &Arc, balance: Option<&Balance>, session: &mut Session) {
-    if let (Some(electric), Some(current)) = (
-        &arc.electric,
-        arc.case.potential.as_ref().and_then(|p| p.driven),
-    ) {
-        let cathode = surface::cathode_power(arc) / current.abs();
-        session.closing("voltage_v", "V", electric.potential.drive.abs() + cathode);
+    let supply = balance.map(|balance| arc.supply(balance));
+    if let Some(voltage) = arc.voltage(supply.as_ref()) {
+        session.closing("voltage_v", "V", voltage.all());
     }
     if let Some(balance) = balance {
-        let scale = surface::power(arc, balance);
-        session.closing("power_w", "W", scale);
-        session.closing("energy_balance", "1", part(balance.closure(), scale));
+        arc.tell_supply(balance, session);
     }
     if let Some(flowing) = &arc.flowing {
         let grid = &arc.case.grid;

@@ -213,10 +213,32 @@ pub struct Material {
     pub enthalpy: Option<Enthalpy>,
     /// Melting; its latent heat is part of the enthalpy.
     pub melting: Option<Melting>,
-    /// End of the tables \[K\], if they end.
-    pub end_k: Option<f64>,
-    /// Whether a converged temperature beyond that end is an error.
-    pub end_is_error: bool,
+    /// The table that the laws come from, where they come from a file.
+    pub table: Option<TableRange>,
+    /// Properties that may not be taken beyond their tables.
+    pub strict: Vec<Strict>,
+}
+
+/// What a gas table covers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableRange {
+    /// File, for messages.
+    pub name: String,
+    /// First and last temperature \[K\].
+    pub temperature: [f64; 2],
+    /// Pressure \[Pa\].
+    pub pressure: f64,
+    /// Whether a solution beyond the last temperature is an error.
+    pub is_error: bool,
+}
+
+/// A table of a scene beyond whose ends nothing may be taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strict {
+    /// JSON path of the table.
+    pub path: String,
+    /// First and last temperature \[K\].
+    pub temperature: [f64; 2],
 }
 
 #[cfg(test)]

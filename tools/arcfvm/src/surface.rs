@@ -4,7 +4,6 @@ use artefact::Table;
 
 use crate::case::Base;
 use crate::heat::Surfaces;
-use crate::heat::balance::Balance;
 use crate::heat::sources::ContactHeat;
 use crate::iron;
 use crate::material::GAS;
@@ -25,34 +24,12 @@ fn surfaces(arc: &Arc) -> Option<(&Surfaces, &[ContactHeat])> {
     ))
 }
 
-/// Power of the layers in front of cathodes \[W\]; over the current it is the cathode drop (Komen
-/// 2019, eq. 5.29).
-#[must_use]
-pub fn cathode_power(arc: &Arc) -> f64 {
-    let Some((surfaces, found)) = surfaces(arc) else {
-        return 0.0;
-    };
-    let each = surfaces.contacts.iter().zip(found);
-    each.map(|(c, f)| c.area * f.layer).sum()
-}
-
 /// Voltage over the wire on the axis \[V\].
 #[must_use]
 pub fn wire_drop(arc: &Arc) -> Option<f64> {
     let (wire, electric) = (arc.case.wire?, arc.electric.as_ref()?);
     let tip = electric.potential.value[arc.case.grid.cell(0, wire.tip)];
     Some((electric.potential.drive - tip).abs())
-}
-
-/// Power for scale \[W\]: that of the column and of the cathode, or all that is given and exchanged.
-#[must_use]
-pub fn power(arc: &Arc, balance: &Balance) -> f64 {
-    let electric = balance.joule + cathode_power(arc);
-    if electric > 0.0 {
-        electric
-    } else {
-        balance.given.abs() + balance.edges.abs() + balance.flow.abs()
-    }
 }
 
 /// A column of the base metal's surface.

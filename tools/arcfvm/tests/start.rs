@@ -95,7 +95,7 @@ fn a_solution_holds_from_its_first_iterations_on() {
             from_cold > 50 && from_there <= 5,
             "{from_cold} {from_there}"
         );
-        assert_eq!(notes, "[]");
+        assert!(!notes.contains("interpolated"), "{notes}");
         for column in [
             "temperature_k",
             "axial_velocity_m_s",

@@ -158,7 +158,15 @@ fn anode(work_function: f64) -> Role {
 
 fn cathode(c: &scene::Cathode, at: &str, faults: &mut Faults) -> Option<Role> {
     let emission = match (c.richardson_a_m2_k2, c.fall_v) {
-        (Some(richardson), None) => Emission::Thermionic(richardson),
+        (Some(richardson), None) => match c.ions {
+            Some(scene::Ions::Net) => Emission::NetIons(richardson),
+            Some(scene::Ions::Whole) | None => Emission::Thermionic(richardson),
+        },
+        (None, Some(_)) if c.ions.is_some() => {
+            let what = "belongs to a thermionic cathode: a given fall tells what ions give";
+            faults.add(&format!("{at}/ions"), what);
+            return None;
+        }
         (None, Some(fall)) => Emission::Fall(fall),
         _ => {
             faults.add(at, "wants exactly one of richardson_a_m2_k2 and fall_v");
@@ -177,6 +185,7 @@ fn as_cathode(e: &scene::Electrode) -> scene::Cathode {
         work_function_v: e.emission_work_function_v.unwrap_or(e.work_function_v),
         ionisation_voltage_v: e.ionisation_voltage_v,
         richardson_a_m2_k2: e.richardson_a_m2_k2,
+        ions: e.ions,
         fall_v: e.fall_v,
         emissivity: e.emissivity,
         evaporation: e.evaporation.clone(),

@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::diffusion::{Pure, diffusion};
 use crate::error::Error;
-use crate::material::{Enthalpy, Law, Material};
+use crate::material::{Enthalpy, Law, Material, TableRange};
 use crate::mixture::{Mixed, Molar};
 use crate::scene::{BeyondTable, Diffusion};
 
@@ -21,11 +21,15 @@ const EXTENDED_ROWS: usize = 40;
 const HEAT_SLACK: f64 = 0.05;
 /// Pressure of a table that tells none \[Pa\].
 const ATMOSPHERE: f64 = 101_325.0;
+/// What a table that comes from no file is called.
+const UNNAMED: &str = "gas";
 
 /// A gas table: each column holds a row over temperature for every fraction of iron.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(from = "Listed")]
 pub struct GasFile {
+    /// File, for messages.
+    pub name: String,
     /// Pressure \[Pa\].
     pub pressure: f64,
     /// Molar masses, where the table holds iron.
@@ -72,6 +76,7 @@ impl From<Listed> for GasFile {
             .into_iter()
             .partition(|c| c.name == "temperature_k");
         Self {
+            name: UNNAMED.to_owned(),
             pressure: listed.pressure_pa,
             molar: None,
             fractions: vec![0.0],
@@ -91,12 +96,13 @@ impl GasFile {
     /// # Errors
     /// When the file cannot be read, is of another kind, or holds what no gas can have.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let file = if path.extension().is_some_and(|e| e == "mcap") {
+        let mut file = if path.extension().is_some_and(|e| e == "mcap") {
             let reader = artefact::Reader::open_kind(path, "gas-table", 1)?;
             Self::from_table(&reader.table("/gas")?)?
         } else {
             artefact::json_artefact::<Listed>(path, "gas-table", 1)?.into()
         };
+        path.display().to_string().clone_into(&mut file.name);
         match file.impossible() {
             Some(what) => Err(Failure::Other(format!("{}: {what}", path.display()))),
             None => Ok(file),
@@ -123,6 +129,7 @@ impl GasFile {
             None
         };
         Ok(Self {
+            name: UNNAMED.to_owned(),
             pressure: table.scalar("pressure_pa")?,
             molar,
             fractions,
@@ -272,9 +279,18 @@ impl GasFile {
             electron_density: tells_electrons.then(|| law(electrons)).transpose()?,
             iron_diffusion: None,
             melting: None,
-            end_k: self.temperatures.last().copied(),
-            end_is_error: beyond == BeyondTable::Error,
+            table: self.range(beyond),
+            strict: Vec::new(),
             enthalpy: Some(enthalpy),
+        })
+    }
+
+    fn range(&self, beyond: BeyondTable) -> Option<TableRange> {
+        Some(TableRange {
+            name: self.name.clone(),
+            temperature: [*self.temperatures.first()?, *self.temperatures.last()?],
+            pressure: self.pressure,
+            is_error: beyond == BeyondTable::Error,
         })
     }
 
@@ -426,8 +442,12 @@ mod tests {
         let held = file().material(BeyondTable::Hold).unwrap();
         assert!((at(&held.net_emission, 25_000.0) - 3e10).abs() < 1.0);
         let strict = file().material(BeyondTable::Error).unwrap();
-        assert!(strict.end_is_error && strict.end_k == Some(20_000.0));
-        assert!(!held.end_is_error && !extended.end_is_error);
+        let range = |gas: &Material| gas.table.clone().unwrap();
+        assert!(range(&strict).is_error && !range(&held).is_error && !range(&extended).is_error);
+        for gas in [&strict, &held, &extended] {
+            let [from, to] = range(gas).temperature;
+            assert!((from - 300.0).abs() < 1e-9 && (to - 20_000.0).abs() < 1e-9);
+        }
     }
 
     #[test]

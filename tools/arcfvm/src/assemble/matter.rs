@@ -1,13 +1,13 @@
 //! Materials of the gas and of the bodies.
 
 use props::Table;
-use run::property::{Arguments, Curve, Property};
+use run::property::{Arguments, Curve, Extrapolate, Property, TemperatureTable};
 
 use crate::assemble::Faults;
 use crate::assemble::gas::GasFile;
 use crate::assemble::granular::conductivity;
-use crate::material::{Enthalpy, Law, Material, Melting, REFERENCE_K};
-use crate::scene::{Body, Gas, Scene, SpecificHeat};
+use crate::material::{Enthalpy, Law, Material, Melting, REFERENCE_K, Strict};
+use crate::scene::{Body, Gas, GivenGas, Metal, Scene, SpecificHeat};
 
 /// Names that a material law may use.
 const NAMES: [&str; 3] = ["r", "z", "T"];
@@ -76,11 +76,75 @@ fn gas_material(scene: &Scene, file: Option<&GasFile>, faults: &mut Faults) -> M
                     faults,
                 ),
                 melting: None,
-                end_k: None,
-                end_is_error: false,
+                table: None,
+                strict: strict(&gas_tables(given)),
             }
         }
     }
+}
+
+/// A property with its path.
+type Placed<'a> = (String, Option<&'a TemperatureTable>);
+
+/// The tables that are not to be taken beyond their ends.
+fn strict(tables: &[Placed<'_>]) -> Vec<Strict> {
+    let ends = |(path, table): &Placed<'_>| {
+        let table = table.filter(|t| t.extrapolate == Extrapolate::Error)?;
+        Some(Strict {
+            path: path.clone(),
+            temperature: [*table.t_k.first()?, *table.t_k.last()?],
+        })
+    };
+    tables.iter().filter_map(ends).collect()
+}
+
+fn table_of(property: Option<&Property>) -> Option<&TemperatureTable> {
+    match property {
+        Some(Property::Table(table)) => Some(table),
+        _ => None,
+    }
+}
+
+fn heat_table(heat: Option<&SpecificHeat>) -> Option<&TemperatureTable> {
+    match heat {
+        Some(SpecificHeat::Table(table)) => Some(table),
+        _ => None,
+    }
+}
+
+fn gas_tables(gas: &GivenGas) -> Vec<Placed<'_>> {
+    let own = [
+        ("density_kg_m3", &gas.density_kg_m3),
+        ("viscosity_pa_s", &gas.viscosity_pa_s),
+        (
+            "thermal_conductivity_w_m_k",
+            &gas.thermal_conductivity_w_m_k,
+        ),
+        ("electric_conductivity_s_m", &gas.electric_conductivity_s_m),
+        ("net_emission_w_m3", &gas.net_emission_w_m3),
+        ("iron_diffusion_m2_s", &gas.iron_diffusion_m2_s),
+    ];
+    let placed = own.map(|(name, own)| (format!("/gas/given/{name}"), table_of(own.as_ref())));
+    let heat = heat_table(gas.specific_heat_j_kg_k.as_ref());
+    let heat = ("/gas/given/specific_heat_j_kg_k".to_owned(), heat);
+    placed.into_iter().chain([heat]).collect()
+}
+
+fn body_tables<'a>(at: &str, metal: &'a Metal) -> Vec<Placed<'a>> {
+    let own = [
+        (
+            "thermal_conductivity_w_m_k",
+            &metal.thermal_conductivity_w_m_k,
+        ),
+        (
+            "electric_conductivity_s_m",
+            &metal.electric_conductivity_s_m,
+        ),
+    ];
+    let placed = own.map(|(name, own)| (format!("{at}/{name}"), table_of(own.as_ref())));
+    let heat = heat_table(metal.specific_heat_j_kg_k.as_ref());
+    let heat = (format!("{at}/specific_heat_j_kg_k"), heat);
+    placed.into_iter().chain([heat]).collect()
 }
 
 fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) -> Material {
@@ -130,8 +194,8 @@ fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) ->
             heat,
             faults,
         ),
-        end_k: None,
-        end_is_error: false,
+        table: None,
+        strict: strict(&body_tables(&at, metal)),
     }
 }
 

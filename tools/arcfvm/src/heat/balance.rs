@@ -24,6 +24,14 @@ pub struct ElectrodeHeat {
     pub joule: f64,
     /// Brought into the gas by emitted electrons; no heat of the metal.
     pub into_gas: f64,
+    /// Power of the layer in front of it; no heat of the metal.
+    pub layer: f64,
+    /// Work function that electrons give it, if it is an anode; part of `electron`.
+    pub gained: f64,
+    /// Work function that all electrons climb that leave it, if it is a cathode, those that ions take among them.
+    pub climbed: f64,
+    /// The part of that which the closure of a cathode does not take from it.
+    pub ungiven: f64,
 }
 
 impl ElectrodeHeat {
@@ -126,6 +134,12 @@ pub fn electrodes(heat: &HeatCase, energy: &Energy, sources: &Sources) -> Vec<El
         one.emission += found.parts.emission * contact.area;
         one.vapour += found.parts.vapour * contact.area;
         one.into_gas += found.into_gas * contact.area;
+        one.layer += found.layer * contact.area;
+        let electrode = &surfaces.electrodes[contact.electrode];
+        let [gained, climbed, ungiven] = electrode.work(found.current, found.emitted);
+        one.gained += gained * contact.area;
+        one.climbed += climbed * contact.area;
+        one.ungiven += ungiven * contact.area;
     }
     all
 }

@@ -3,7 +3,8 @@
 //!
 //! Conduction from the gas is part of the energy equation. The anode takes up `|j| phi`. The cathode
 //! gives off `j_e phi` by the electrons of Richardson and Dushman, never more than carry the whole
-//! current, and takes up `(|j| - j_e) V_i` from ions.
+//! current, and takes up `(|j| - j_e) V_i` from ions, or `(|j| - j_e) (V_i - phi)` where these pay for the electron that they
+//! take out of the metal.
 //!
 //! A metal that boils before it emits, as iron does, is no thermionic cathode, and spots too small and
 //! too brief to resolve carry its current. The other closure takes the cathode fall U as given, from
@@ -58,8 +59,11 @@ pub enum Role {
 /// The closure of a cathode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Emission {
-    /// Electrons leave by heat, with this Richardson constant \[A/(m2 K2)\] (eq. 5.20).
+    /// Electrons leave by heat, with this Richardson constant \[A/(m2 K2)\] (eq. 5.20); ions give their whole ionisation
+    /// voltage (eq. 5.21).
     Thermionic(f64),
+    /// The same; ions give their ionisation voltage less the work function of the electron that they take.
+    NetIons(f64),
     /// The energy of the layer that has this fall \[V\] tells how many.
     Fall(f64),
 }
@@ -169,7 +173,7 @@ impl Electrode {
             return 0.0;
         };
         match emission {
-            Emission::Thermionic(richardson) => {
+            Emission::Thermionic(richardson) | Emission::NetIons(richardson) => {
                 let thermionic = richardson * t * t * (-work_function * KELVIN_PER_VOLT / t).exp();
                 thermionic.min(current)
             }
@@ -194,6 +198,7 @@ impl Electrode {
                 let emitted = self.emitted(current, t, gas);
                 let each = match emission {
                     Emission::Thermionic(_) => ionisation_voltage,
+                    Emission::NetIons(_) => ionisation_voltage - work_function,
                     Emission::Fall(fall) => fall + ionisation_voltage - work_function,
                 };
                 (-emitted * work_function, (current - emitted) * each)
@@ -221,14 +226,40 @@ impl Electrode {
         }
     }
 
-    /// Power of the layer in front of a cathode \[W/m2\]; over the current it is the cathode drop (eq.
-    /// 5.29, with the areas that the sum needs).
+    /// Work function times current densities \[W/m2\]: what an anode gains, what all electrons climb that leave a cathode, and
+    /// how much of that the closure does not take from it, where `emitted` of `current` leave into the gas.
     #[must_use]
-    pub fn layer(&self, current: f64, heat: SurfaceHeat) -> f64 {
+    pub fn work(&self, current: f64, emitted: f64) -> [f64; 3] {
+        match self.role {
+            Role::Anode { work_function } => [current * work_function, 0.0, 0.0],
+            Role::Cathode {
+                work_function,
+                emission,
+                ..
+            } => {
+                let ungiven = match emission {
+                    Emission::Thermionic(_) => (current - emitted) * work_function,
+                    Emission::NetIons(_) | Emission::Fall(_) => 0.0,
+                };
+                [0.0, current * work_function, ungiven]
+            }
+        }
+    }
+
+    /// Power of the layer in front of a cathode \[W/m2\]; over the current it is the cathode drop (eq.
+    /// 5.29, with the areas that the sum needs), `emitted` of `current` leaving into the gas.
+    #[must_use]
+    pub fn layer(&self, current: f64, emitted: f64) -> f64 {
         match self.role {
             Role::Anode { .. } => 0.0,
-            Role::Cathode { emission, .. } => match emission {
-                Emission::Thermionic(_) => heat.ion,
+            Role::Cathode {
+                emission,
+                ionisation_voltage,
+                ..
+            } => match emission {
+                Emission::Thermionic(_) | Emission::NetIons(_) => {
+                    (current - emitted) * ionisation_voltage
+                }
                 Emission::Fall(fall) => fall * current,
             },
         }
@@ -306,14 +337,38 @@ mod tests {
             assert!((heat.sum() - 1e7 * (15.0 - 3.85 - 3.2 * theta)).abs() < 1e-4);
             // Fall, less the work that electrons took along, is what both take up.
             let all = heat.sum() + e.into_gas(1e7, gas);
-            assert!((all - (e.layer(1e7, heat) - 1e7 * 3.85)).abs() < 1e-4);
-            // Electrons pay for ions and for what they bring into the gas.
             let emitted = e.emitted(1e7, t, gas);
+            assert!((all - (e.layer(1e7, emitted) - 1e7 * 3.85)).abs() < 1e-4);
+            // Electrons pay for ions and for what they bring into the gas.
             let paid = (1e7 - emitted) * 15.68 + e.into_gas(1e7, gas);
             assert!((emitted * 15.0 - paid).abs() < 1e-4);
         }
         // A fall that only carries electrons into the gas makes no ions.
         assert!((e.emitted(1e7, 300.0, 1e5) - 1e7).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_a_cathode_takes_up_is_what_its_layer_gives_less_the_work_function() {
+        let mut e = cathode();
+        e.emissivity = 0.0;
+        for t in [300.0, 2600.0, 5000.0] {
+            let told = |e: &Electrode| {
+                let emitted = e.emitted(1e7, t, 300.0);
+                let [_, climbed, ungiven] = e.work(1e7, emitted);
+                let heat = e.heat(1e7, t, 300.0).sum();
+                (heat - (e.layer(1e7, emitted) - climbed + ungiven), ungiven)
+            };
+            let (missing, ungiven) = told(&e);
+            let ions = 1e7 - e.emitted(1e7, t, 300.0);
+            assert!(missing.abs() < 1e-4 && (ungiven - 3.85 * ions).abs() < 1e-4);
+            let mut net = e.clone();
+            let Role::Cathode { emission, .. } = &mut net.role else {
+                panic!("no cathode")
+            };
+            *emission = Emission::NetIons(1.2e6);
+            let (missing, ungiven) = told(&net);
+            assert!(missing.abs() < 1e-4 && ungiven.abs() < 1e-12);
+        }
     }
 
     #[test]

@@ -12,6 +12,7 @@ pub mod radiation;
 pub mod reads;
 pub mod skin;
 pub mod sources;
+pub mod supply;
 pub mod vapour;
 
 pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};

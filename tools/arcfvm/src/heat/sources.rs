@@ -155,13 +155,14 @@ impl Sources {
                 .unwrap_or_else(|| reads.gas_beside(surfaces, n, t));
             let parts = electrode.heat(current, t, gas);
             let into_gas = electrode.into_gas(current, gas);
+            let emitted = electrode.emitted(current, t, gas);
             self.contacts[n] = ContactHeat {
                 current,
-                emitted: electrode.emitted(current, t, gas),
+                emitted,
                 parts,
                 absorbed: self.absorbed[n],
                 into_gas,
-                layer: electrode.layer(current, parts),
+                layer: electrode.layer(current, emitted),
                 ionisation: electrode.ionisation(),
                 held: 0.0,
             };

@@ -30,6 +30,8 @@ pub struct Cathode {
     /// Richardson constant of a thermionic cathode (Komen 2019, eq. 5.20); or `fall_v`.
     #[schemars(range(min = 0.0))]
     pub richardson_a_m2_k2: Option<f64>,
+    /// What ions give a thermionic cathode; absent: their whole ionisation voltage.
+    pub ions: Option<Ions>,
     /// Cathode fall of a metal that does not emit by heat alone: the energy of the layer in front of it
     /// tells electrons from ions (Benilov and Marotta 1995); or `richardson_a_m2_k2`.
     #[schemars(range(min = 0.0, max = 100.0))]
@@ -39,6 +41,17 @@ pub struct Cathode {
     pub emissivity: f64,
     /// Evaporation; absent: none.
     pub evaporation: Option<Evaporation>,
+}
+
+/// What ions give a thermionic cathode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Ions {
+    /// Their ionisation voltage (Komen 2019, eq. 5.21). The electron that each takes from the metal is not paid for: the
+    /// balance of the arc tells how much that is.
+    Whole,
+    /// Their ionisation voltage less the work function of that electron (Benilov 2008): voltage times current pays all.
+    Net,
 }
 
 /// Vapour leaving a surface (Komen 2019, eq. 5.24). Without `vapour` in the scene it leaves into a vacuum;
@@ -89,6 +102,8 @@ pub struct Electrode {
     /// Richardson constant, where it is a thermionic cathode; or `fall_v`.
     #[schemars(range(min = 0.0))]
     pub richardson_a_m2_k2: Option<f64>,
+    /// What ions give a thermionic cathode; absent: their whole ionisation voltage.
+    pub ions: Option<Ions>,
     /// Cathode fall, where it is a cathode that does not emit by heat alone; or `richardson_a_m2_k2`.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub fall_v: Option<f64>,

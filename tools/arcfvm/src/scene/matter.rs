@@ -67,7 +67,7 @@ pub struct GivenGas {
     pub pressure_pa: Option<f64>,
 }
 
-/// A specific heat: a number, or a table over temperature held at its ends.
+/// A specific heat: a number, or a table over temperature.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SpecificHeat {

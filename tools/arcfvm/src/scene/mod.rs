@@ -9,7 +9,7 @@ mod shape;
 mod vapour;
 
 pub use edges::{CurrentEdge, FlowEdge, HeatEdge, Sides};
-pub use electrode::{Anode, Cathode, Electrode, Evaporation, Saturation};
+pub use electrode::{Anode, Cathode, Electrode, Evaporation, Ions, Saturation};
 pub use granular::Granular;
 pub use iterate::{Continuation, Coupling, Iterate, LinearSolver};
 pub use matter::{
