@@ -9,7 +9,7 @@ SHELL := /bin/sh
 THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 PROGRESS ?= auto
 BIN := target/release
-PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield avg report artefact verify stability bench exact)
+PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield avg report artefact verify stability bench certify exact)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 # Runs a stage only if the bytes of what it depends on have changed.
 RERUN := pipelines/rerun
@@ -74,6 +74,14 @@ stability: programs build/gases/argon-iron.mcap ## stiff and extreme cases: stab
 STUDY ?=
 validate: ## published values beside what is found (STUDY=name; all take an hour, gmaw-300a three quarters of it)
 	+@$(MAKE) --no-print-directory --keep-going $(patsubst %,validate-%,$(or $(STUDY),$(VALIDATED)))
+
+# The plan of a study is pipelines/STUDY/certify.json; without a study, problems with exact answers are certified.
+BUDGET ?= 30min
+TOLERANCE ?=
+.PHONY: certify
+certify: programs $(if $(STUDY),$(STUDY)) ## a study's figures with their numerical bands (STUDY=name BUDGET=30min TOLERANCE="penetration 0.2 mm")
+	$(BIN)/certify $(if $(STUDY),--study $(STUDY) --budget $(BUDGET),--proof) \
+	  $(if $(TOLERANCE),--tolerance "$(TOLERANCE)") --threads $(THREADS) --out build/certify
 
 bench: programs build/gases/co-iron.mcap ## time per step, per pair, per cell, and of what is absent (CASE=name)
 	$(BIN)/bench $(if $(CASE),--case $(CASE)) --threads $(THREADS) --out build/bench

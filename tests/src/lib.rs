@@ -7,6 +7,7 @@
 //!
 //! - [`case`] says what a case is, [`lab`] runs tools, [`norms`] measures, [`study`] turns three
 //!   resolutions into a record of error against run time.
+//! - [`certify`] tells the error of a study against its run time.
 //! - [`keep`] writes records whole or not at all.
 //! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction,
 //!   [`em`] those for electric and magnetic fields, [`operators`] the clouds of weighted least squares.
@@ -15,6 +16,7 @@ pub mod bell;
 pub mod bench;
 pub mod case;
 pub mod cases;
+pub mod certify;
 pub mod em;
 pub mod extreme;
 pub mod heat;

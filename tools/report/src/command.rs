@@ -9,7 +9,7 @@ use run::Failure;
 use crate::files::{
     FieldFiles, Folders, GasFiles, HeatFiles, PageFiles, PassesFiles, perhaps_named,
 };
-use crate::{index, page, validate};
+use crate::{figures, index, page, validate};
 
 /// Pictures, plots and tables from artefacts and records, as self-contained HTML pages.
 #[derive(Debug, Parser)]
@@ -43,6 +43,12 @@ enum Action {
     Gas(GasFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
     Index(Folders),
+    /// Prints the measures of a weld's bead as JSON, with their units and ranges along the weld.
+    Figures {
+        /// Particle frames of the weld.
+        #[arg(long)]
+        pool: PathBuf,
+    },
     /// Compares a weld or arcs with published values; exit code 1 where a tolerance is missed.
     Validate {
         /// Particle frames of the weld.
@@ -112,6 +118,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
             let given = pool.is_some() || !arc.is_empty();
             ("--pool or --arc", given, None)
         }
+        Action::Figures { .. } => ("--pool", true, None),
         Action::Heat(f) => ("--frames", true, Some(&f.out)),
         Action::Field(f) => ("--fields", true, Some(&f.out)),
         Action::Gas(f) => ("--table", true, Some(&f.out)),
@@ -134,6 +141,7 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Field(files) => page::field::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
+        Action::Figures { pool } => figures::run(pool),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),
     }
 }

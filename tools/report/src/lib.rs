@@ -9,6 +9,7 @@
 pub mod command;
 mod draw;
 mod field;
+mod figures;
 mod files;
 mod gas;
 mod heat;

@@ -1,0 +1,54 @@
+//! The error of a study against its run time.
+//!
+//! A study is run over the knobs that its numbers hang on: spacings, steps, tolerances, packings, one knob at a time, the
+//! others at their base. Each headline figure gets, per knob, an order, an extrapolation and a band ([`band`]); runs that differ
+//! by chance alone give a scatter apart from it. The least run that meets a tolerance is named with its patch.
+//!
+//! - [`plan`] is what `pipelines/STUDY/certify.json` says, [`runs`] makes its points (cheap ones first, within a budget, taken up
+//!   again where they were left), [`figures`] reads numbers from what they wrote, [`verdict`] puts the record together;
+//! - [`proof`] is the same over cases whose answers are exact: how often the true value lies in the band.
+
+pub mod band;
+pub mod figures;
+pub mod plan;
+pub mod proof;
+pub mod runs;
+pub mod verdict;
+
+use std::path::Path;
+use std::time::Duration;
+
+use crate::lab::{Lab, LabError, read_json};
+
+pub use plan::Plan;
+pub use verdict::{Certificate, Tolerance};
+
+/// Certifies a study: every point that the budget allows is run, the figures are read, the bands are drawn.
+///
+/// # Errors
+/// When the plan cannot be read, or the base point fails.
+pub fn certify(
+    lab: &Lab,
+    plan: &Plan,
+    budget: Duration,
+    tolerance: Option<&Tolerance>,
+) -> Result<Certificate, LabError> {
+    let points = runs::run(lab, plan, budget)?;
+    Ok(verdict::conclude(plan, &points, tolerance))
+}
+
+/// Reads the plan of a study.
+///
+/// # Errors
+/// When it cannot be read or does not fit.
+pub fn plan_of(root: &Path, study: &str) -> Result<Plan, LabError> {
+    let path = root.join("pipelines").join(study).join("certify.json");
+    let value = read_json(&path)?;
+    let plan: Plan = serde_json::from_value(value).map_err(|e| LabError::Content {
+        path: path.clone(),
+        what: e.to_string(),
+    })?;
+    plan.check()
+        .map_err(|what| LabError::Content { path, what })?;
+    Ok(plan)
+}
