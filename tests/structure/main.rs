@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 8] = [
+const NUMERICS: [&str; 9] = [
     "neighbours",
     "kernels",
     "props",
@@ -15,6 +15,7 @@ const NUMERICS: [&str; 8] = [
     "wls",
     "shapes",
     "contact",
+    "particles",
 ];
 const HARNESS: [&str; 2] = ["artefact", "run"];
 
@@ -29,8 +30,8 @@ fn root() -> PathBuf {
 fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
         "neighbours" | "props" | "krylov" | "relax" | "shapes" | "artefact" => &[],
-        "kernels" => &["neighbours"],
         "contact" => &["shapes"],
+        "kernels" | "particles" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],
         "run" => &["artefact"],
         "report" => &["artefact", "run"],
