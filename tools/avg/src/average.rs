@@ -243,6 +243,20 @@ pub struct Averages {
     pub drops: (Vec<usize>, usize),
 }
 
+impl Averages {
+    /// Names of the sections, and of the profile, in which no frame had metal.
+    #[must_use]
+    pub fn empty<'a>(&self, plan: &'a Plan) -> Vec<&'a str> {
+        let sections = plan.sections.iter().zip(&self.ensembles);
+        let empty = sections.filter(|(_, ensemble)| ensemble.is_empty());
+        let mut names: Vec<&str> = empty.map(|(section, _)| section.name.as_str()).collect();
+        if self.profile.as_ref().is_some_and(Profile::is_empty) {
+            names.push(profile::PROFILE);
+        }
+        names
+    }
+}
+
 /// Averages, fed one frame at a time in the order of time.
 #[derive(Debug)]
 pub struct Averaging<'a> {

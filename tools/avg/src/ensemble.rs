@@ -100,6 +100,12 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
+    /// Whether no frame had metal at any grid point.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time.iter().all(|point| point.share.count == 0)
+    }
+
     /// An empty ensemble of `phases` phases over `points` grid points.
     #[must_use]
     pub fn new(phases: usize, points: usize) -> Self {

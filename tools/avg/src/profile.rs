@@ -125,6 +125,12 @@ impl Profile {
         }
     }
 
+    /// Whether no frame had metal in any ring.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rings.iter().all(|ring| ring.count == 0)
+    }
+
     /// Takes in a frame. Frames come in the order of time, and each place gathers in the order of
     /// the cells, so that the result does not depend on the number of threads.
     pub fn add(&mut self, rings: &Rings, cloud: &Cloud, cells: &Cells, smoothing: &Smoothing) {

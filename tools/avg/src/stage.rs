@@ -148,6 +148,11 @@ fn shown(plan: &Plan, scene: &Scene) -> Shown {
 }
 
 fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
+    for name in averages.empty(plan) {
+        session.warn(format!(
+            "no frame has metal in '{name}': look at its place and extent, which are in metres"
+        ));
+    }
     let Some(ensemble) = averages.ensembles.first() else {
         return;
     };

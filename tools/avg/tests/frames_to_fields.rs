@@ -75,7 +75,11 @@ fn write(path: &Path, drops: u32, field: &impl Fn([f64; 3], f64) -> ([f64; 3], f
 }
 
 fn scene() -> Scene {
-    serde_json::from_value(json!({
+    serde_json::from_value(cut()).unwrap()
+}
+
+fn cut() -> serde_json::Value {
+    json!({
         "follow": {}, "phases": {"count": 4},
         "sections": [
             {"name": "section_x0", "first_m": [-2e-3, 2e-3], "second_m": [-2.5e-3, 0.5e-3],
@@ -83,8 +87,7 @@ fn scene() -> Scene {
             {"name": "surface", "first_m": [-1e-3, 1e-3], "second_m": [-2e-3, 2e-3],
              "cut": {"surface": {"layer_m": 0.6 * D}}},
         ]
-    }))
-    .unwrap()
+    })
 }
 
 fn average(from: &Path, to: &Path, scene: &Scene) -> Result<Reader, AverageError> {
@@ -187,6 +190,33 @@ fn each_phase_takes_its_own_frames_alone() {
     let middle = time.len() / 2;
     assert!((time.values("velocity_x_m_s").unwrap()[middle] - 0.375).abs() < 1e-12);
     assert!((time.values("height_m").unwrap()[middle] + 0.5 * D).abs() < 1e-12);
+}
+
+#[test]
+fn sections_without_metal_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let from = folder.path().join("a.mcap");
+    write(&from, 1, &|_, _| ([0.0; 3], 300.0));
+    let empty = |at: f64, first: [f64; 2]| {
+        let mut scene = cut();
+        scene["profile"] = json!({"radius_m": 2e-3});
+        scene["sections"][0]["cut"]["plane"]["at_m"] = json!(at);
+        scene["sections"][1]["first_m"] = json!(first);
+        let scene: Scene = serde_json::from_value(scene).unwrap();
+        let reader = Reader::open(&from).unwrap();
+        let plan = Plan::new(&scene, &reader).unwrap();
+        let mut averaging = Averaging::new(&scene, &plan);
+        for index in &plan.frames {
+            let seen = averaging.read(&reader, *index).unwrap();
+            averaging.take(&seen);
+        }
+        averaging.finish().empty(&plan).join(" ")
+    };
+    let over = [-1e-3, 1e-3];
+    assert_eq!(empty(0.0, over), "");
+    // Millimetres meant.
+    assert_eq!(empty(5.0, over), "section_x0");
+    assert_eq!(empty(0.0, [5.0, 5.001]), "surface");
 }
 
 #[test]
