@@ -2,5 +2,6 @@
 
 pub mod bodies;
 pub mod bounds;
+pub mod container;
 pub mod droplet;
 pub mod shape;

@@ -6,6 +6,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use super::container::Container;
+use super::container::{container_points, walls};
+
 /// A box along the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -96,7 +99,7 @@ pub enum Face {
 
 impl Face {
     /// Axis (0, 1, 2) and whether it is the upper side.
-    fn side(self) -> (usize, bool) {
+    pub(super) fn side(self) -> (usize, bool) {
         match self {
             Self::XLow => (0, false),
             Self::XHigh => (0, true),
@@ -106,24 +109,6 @@ impl Face {
             Self::ZHigh => (2, true),
         }
     }
-}
-
-/// Walls outside of an inner box.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Container {
-    /// Lower corner of the hollow \[m\].
-    #[schemars(extend("x-unit" = "m"))]
-    pub min_m: [f64; 3],
-    /// Upper corner of the hollow \[m\].
-    #[schemars(extend("x-unit" = "m"))]
-    pub max_m: [f64; 3],
-    /// Thickness of the walls \[m\]; never fewer than two layers, as thinner walls leak.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub thickness_m: f64,
-    /// Sides without a wall.
-    #[serde(default)]
-    pub open: Vec<Face>,
 }
 
 /// What a body looks like.
@@ -231,7 +216,7 @@ fn around(centre: [f64; 3], half: [f64; 3]) -> ([f64; 3], [f64; 3]) {
 }
 
 /// Coordinates `anchor + (i + 1/2) d` within `low..high`.
-fn lattice(anchor: f64, low: f64, high: f64, d: f64) -> Vec<f64> {
+pub(super) fn lattice(anchor: f64, low: f64, high: f64, d: f64) -> Vec<f64> {
     // A billionth of d decides for a point on a face, so that rounding does not.
     let slack = 1e-9;
     let first = ((low - anchor) / d - 0.5 - slack).ceil() as i64;
@@ -242,37 +227,13 @@ fn lattice(anchor: f64, low: f64, high: f64, d: f64) -> Vec<f64> {
 }
 
 /// All combinations, x fastest.
-fn product(axes: &[Vec<f64>; 3]) -> Vec<[f64; 3]> {
+pub(super) fn product(axes: &[Vec<f64>; 3]) -> Vec<[f64; 3]> {
     let mut points = Vec::with_capacity(axes.iter().map(Vec::len).product());
     for &z in &axes[2] {
         for &y in &axes[1] {
             points.extend(axes[0].iter().map(|&x| [x, y, z]));
         }
     }
-    points
-}
-
-/// Whether the lower and the upper side of an axis have a wall.
-fn walls(c: &Container, axis: usize) -> [bool; 2] {
-    [false, true].map(|upper| !c.open.iter().any(|face| face.side() == (axis, upper)))
-}
-
-/// Layers of the walls stand from the faces of the hollow outwards, so that the hollow has the size
-/// asked for even where that is no multiple of d.
-/// Fewest layers of a wall that carry what lies on it: the kernel reaches over two spacings.
-const TIGHT: usize = 2;
-
-fn container_points(c: &Container, d: f64) -> Vec<[f64; 3]> {
-    let layers = ((c.thickness_m / d - 1e-9).ceil() as usize).max(TIGHT);
-    let inner = [0, 1, 2].map(|k| lattice(c.min_m[k], c.min_m[k], c.max_m[k], d));
-    let outer = [0, 1, 2].map(|k| {
-        let [lower, upper] = walls(c, k).map(|wall| if wall { layers } else { 0 });
-        let below = (0..lower).rev().map(|i| c.min_m[k] - (i as f64 + 0.5) * d);
-        let above = (0..upper).map(|i| c.max_m[k] + (i as f64 + 0.5) * d);
-        below.chain(inner[k].iter().copied()).chain(above).collect()
-    });
-    let mut points = product(&outer);
-    points.retain(|p| (0..3).any(|k| p[k] < c.min_m[k] || p[k] > c.max_m[k]));
     points
 }
 
@@ -337,28 +298,6 @@ mod tests {
             let volume = bar.points(D, None).len() as f64 * D.powi(3);
             let exact = PI * radius * radius * length;
             assert!((volume / exact - 1.0).abs() < 0.02, "{}", volume / exact);
-        }
-    }
-
-    #[test]
-    fn walls_stand_outside_of_the_hollow() {
-        let container = |open| {
-            Shape::Container(Container {
-                min_m: [0.0; 3],
-                max_m: [4.0 * D, 5.0 * D, 6.3 * D],
-                thickness_m: 2.0 * D,
-                open,
-            })
-        };
-        let closed = container(vec![]).points(D, None);
-        assert_eq!(closed.len(), 8 * 9 * 10 - 4 * 5 * 6);
-        let open = container(vec![Face::ZHigh]).points(D, None);
-        assert_eq!(open.len(), 8 * 9 * 8 - 4 * 5 * 6);
-        for p in &closed {
-            assert!((0..3).any(|k| {
-                let high = [4.0 * D, 5.0 * D, 6.3 * D][k];
-                p[k] < -0.49 * D || p[k] > high + 0.49 * D
-            }));
         }
     }
 }

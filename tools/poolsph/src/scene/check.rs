@@ -3,6 +3,7 @@
 use run::Fault;
 
 use super::Scene;
+use crate::domain::shape::Shape;
 
 /// Most steps of a run: more is a slip of the pen.
 const STEPS_MAX: f64 = 1e9;
@@ -42,6 +43,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         faults.push(Fault::at("/smoothing_length_m", what));
     }
     faults.extend(dependences(scene));
+    faults.extend(hollows(scene));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
         faults.extend(crowded(scene));
@@ -54,7 +56,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
 fn crowded(scene: &Scene) -> Option<Fault> {
     let droplets = scene.droplets?;
     let period = droplets.period(scene.spacing_m)?;
-    let (step, speed) = (scene.time.step_s, droplets.speed_m_s);
+    let (step, speed) = (scene.step(), droplets.speed_m_s);
     let fallen = speed * period.max(step);
     let high = 2.0 * droplets.radius_m;
     let key = match droplets.period_s {
@@ -72,6 +74,24 @@ fn crowded(scene: &Scene) -> Option<Fault> {
         return None;
     };
     Some(Fault::at(&format!("/droplets/{key}"), what))
+}
+
+/// Containers that no lattice of the spacing fits.
+fn hollows(scene: &Scene) -> Vec<Fault> {
+    let d = scene.spacing_m;
+    let bodies = scene.bodies.iter().enumerate();
+    let odd = bodies.filter_map(|(i, body)| match &body.shape {
+        Shape::Container(container) => container.misfit(d).map(|misfit| (i, misfit)),
+        _ => None,
+    });
+    odd.map(|(i, (axis, [less, more]))| {
+        let name = ["x", "y", "z"][axis];
+        let what = format!(
+            "its hollow in {name} is no number of layers of about {d} m: {less:.6} m or {more:.6} m would be"
+        );
+        Fault::at(&format!("/bodies/{i}/shape/container"), what)
+    })
+    .collect()
 }
 
 /// Keys that mean nothing without another.
