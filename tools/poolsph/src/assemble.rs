@@ -117,7 +117,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     state.flowing = scene.flow.is_some() && scene.flow_start.is_none();
     state.source = scene.source.map(|source| source.place(0.0));
     Ok(Assembled {
-        march: March::new(parts.before, parts.after, scene.time.step_s),
+        march: March::new(parts.before, parts.after, scene.step()),
         layout: Layout {
             width: scene.output.precision,
             walls: state.wall.contains(&true),

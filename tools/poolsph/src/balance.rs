@@ -2,11 +2,15 @@
 
 use artefact::Record;
 
+use crate::domain::bounds::SPATTER;
 use crate::stage::Figure;
 use crate::state::{Phase, State};
 
 /// An energy balance that closes to this part is good.
 pub const CLOSES: f64 = 5e-3;
+
+/// More of the fed metal than this part thrown off is no weld that anybody means.
+pub const LOST_MOST: f64 = 0.05;
 
 /// Conserved totals at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,6 +123,13 @@ impl Balance {
         Some((input, output, closure))
     }
 
+    /// Spatter over the metal that was fed; `None` where none is fed or none is followed.
+    #[must_use]
+    pub fn lost(&self) -> Option<f64> {
+        let (_, spatter) = self.masses.iter().find(|(name, _)| *name == SPATTER)?;
+        (self.from_wire > 0.0).then(|| spatter / self.from_wire)
+    }
+
     /// The totals as written to `/balance`.
     #[must_use]
     pub fn record(&self, start: Start) -> Record {
@@ -158,6 +169,7 @@ impl Balance {
                 .iter()
                 .map(|(name, value)| (*name, "kg", *value)),
         );
+        rows.extend(self.lost().map(|share| ("spatter_of_fed", "1", share)));
         if let (Some(heat), Some((input, output, closure))) = (&self.heat, self.closure(start)) {
             rows.extend(heat.parts.iter().map(|(name, value)| (*name, "J", *value)));
             rows.push(("energy_in_j", "J", input));
@@ -167,6 +179,18 @@ impl Balance {
         }
         rows
     }
+}
+
+/// What to warn of where more of the fed metal is thrown off than a weld loses.
+#[must_use]
+pub fn thrown(share: f64) -> Option<String> {
+    (share > LOST_MOST).then(|| {
+        format!(
+            "{:.1} % of the fed metal is thrown off, at most {:.0} % is good",
+            1e2 * share,
+            1e2 * LOST_MOST
+        )
+    })
 }
 
 /// What to warn of where the energy does not close, by (in - out - stored) over the larger of in and out.
@@ -251,6 +275,30 @@ mod tests {
         for open in [5.1e-3, -0.2, f64::NAN] {
             assert!(unclosed(open).is_some_and(|text| text.contains("5e-3")));
         }
+    }
+
+    #[test]
+    fn fed_metal_that_is_thrown_off_is_warned_of() {
+        let mut fed = state(0.0);
+        fed.droplet[0] = true;
+        let caught = |value: f64| {
+            let figure = Figure {
+                name: SPATTER,
+                unit: "kg",
+                value,
+            };
+            Balance::of(&fed, &[("bounds", figure)])
+        };
+        // One particle of 1 g is fed.
+        assert_eq!(caught(4.9e-5).lost().and_then(thrown), None);
+        let balance = caught(6e-5);
+        let told = balance.lost().and_then(thrown).unwrap();
+        assert!(told.contains("6.0 %"), "{told}");
+        let rows = balance.closing(balance.start());
+        assert!(rows.iter().any(|row| row.0 == "spatter_of_fed"));
+        // Nothing is fed, or nobody looks.
+        assert_eq!(Balance::of(&fed, &[]).lost(), None);
+        assert_eq!(Balance::of(&state(0.0), &[]).lost(), None);
     }
 
     #[test]

@@ -143,18 +143,23 @@ pub fn volume(
     let (end, d) = (scene.time.end_s, scene.spacing_m);
     // All droplets are born at the last frame.
     let born = scene.droplets.map_or(0.0, |droplets| {
-        let period = droplets.period(d).unwrap_or(end).max(scene.time.step_s);
+        let period = droplets.period(d).unwrap_or(end).max(scene.step());
         let each = (2.0 * droplets.radius_m / d).powi(3) * std::f64::consts::FRAC_PI_6;
         each * (end / period)
     });
     let row = layout.frame(state, &[]).row_bytes() as f64;
     let bytes = |frames: f64, particles: f64| (frames * particles * row) as u64;
     let count = |from: f64, interval: f64| {
-        let interval = interval.max(scene.time.step_s);
+        let interval = interval.max(scene.step());
         ((end - from).max(0.0) / interval).floor() + 1.0
     };
+    // The last state is written whether its turn has come or not.
+    let with_last = |interval: f64| {
+        let turn = crate::scene::due(scene.steps(), scene.step(), interval);
+        count(0.0, interval) + if turn { 0.0 } else { 1.0 }
+    };
     let all = state.len() as f64 + 0.5 * born;
-    let frames = count(0.0, scene.output.particles_interval_s);
+    let frames = with_last(scene.output.particles_interval_s);
     let mut channels = vec![("/particles", frames as u64, bytes(frames, all))];
     if let Some(pool) = scene.output.pool.filter(|pool| pool.from_s <= end) {
         // The part of the plate that the box covers; drops may all lie in it.

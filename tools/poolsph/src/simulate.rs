@@ -3,7 +3,7 @@
 use run::{Failure, Fault, Inputs, Plan, Session};
 
 use crate::assemble::{Assembled, assemble};
-use crate::balance::{Balance, Start, unclosed};
+use crate::balance::{Balance, Start, thrown, unclosed};
 use crate::frames::{self, SourceNote};
 use crate::resume;
 use crate::scene::{Scene, due};
@@ -43,7 +43,7 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     for stage in assembled.march.stages() {
         plan = plan.stage(stage.name());
         if let Some(limit) = stage.dt_limit(state) {
-            if let Some(what) = endless(scene.time.step_s, limit) {
+            if let Some(what) = endless(scene.step(), limit) {
                 return Err(Fault::at("/time/step_s", what).into());
             }
             plan = plan.limit(&format!("step_{}", limit.name), limit.seconds, "s");
@@ -63,7 +63,7 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     for (name, why) in &assembled.left_out {
         plan = plan.left_out(name, why);
     }
-    for note in crate::scene::notes(scene) {
+    for note in (crate::scene::notes(scene).into_iter()).chain(crate::scene::thin(scene)) {
         plan = plan.note(note);
     }
     Ok(plan)
@@ -95,7 +95,7 @@ impl<'a> Simulation<'a> {
     fn begin(scene: &'a Scene, mut run: Assembled, session: &mut Session) -> Result<Self, Failure> {
         if let Some(mut checkpoint) = session.restored() {
             let (state, march) = (&mut run.state, &mut run.march);
-            let start = resume::restore(&mut checkpoint, state, march, scene.time.step_s)?;
+            let start = resume::restore(&mut checkpoint, state, march, scene.step())?;
             return Ok(Self { scene, run, start });
         }
         let start = Balance::of(&run.state, &run.march.figures()).start();
@@ -146,17 +146,16 @@ impl<'a> Simulation<'a> {
             ..
         } = &self.run;
         let output = &self.scene.output;
-        let is_due = |interval: f64| due(state.step, self.scene.time.step_s, interval);
-        let particles = is_due(output.particles_interval_s);
+        let is_due = |interval: f64| due(state.step, self.scene.step(), interval);
+        // The state for which the run was made, whatever the interval.
+        let last = state.step == self.scene.steps();
+        let particles = last || is_due(output.particles_interval_s);
         let centre = source(state);
         let pool = output.pool.as_ref().filter(|pool| {
             centre.is_some() && state.time >= pool.from_s - 1e-9 && is_due(pool.interval_s)
         });
-        let balance = is_due(
-            output
-                .balance_interval_s
-                .unwrap_or(output.particles_interval_s),
-        );
+        let interval = output.balance_interval_s;
+        let balance = last || is_due(interval.unwrap_or(output.particles_interval_s));
         if !(particles || pool.is_some() || balance) {
             return Ok(());
         }
@@ -195,6 +194,12 @@ impl<'a> Simulation<'a> {
         if let Some((_, _, closure)) = totals.closure(self.start)
             && let Some(warning) = unclosed(closure)
         {
+            session.warn(warning);
+        }
+        if let Some(warning) = totals.lost().and_then(thrown) {
+            session.warn(warning);
+        }
+        for warning in crate::scene::thin(self.scene) {
             session.warn(warning);
         }
         for (name, bytes) in state.memory() {

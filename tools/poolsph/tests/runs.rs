@@ -287,3 +287,21 @@ fn the_schema_on_disk_is_that_of_the_program() {
     let printed = String::from_utf8(output.stdout).unwrap();
     assert!(kept == printed, "run `make schemas`");
 }
+
+#[test]
+fn the_last_state_is_written_whatever_the_intervals_and_the_step() {
+    let folder = folder();
+    let mut short = scene();
+    short["output"] = json!({"particles_interval_s": 3.5e-4, "balance_interval_s": 4e-4});
+    for (name, step, end) in [("even", 1e-4, 1e-3), ("uneven", 3e-4, 1e-3)] {
+        short["time"] = json!({"step_s": step, "end_s": end});
+        let path = write(folder.path(), &format!("{name}.json"), &short);
+        let out = folder.path().join(format!("{name}.mcap"));
+        finished(&path, &out, &[]);
+        let reader = artefact::Reader::open_kind(&out, "particle-frames", 1).unwrap();
+        for channel in ["/particles", "/balance"] {
+            let last = reader.times(channel).unwrap().last().copied().unwrap();
+            assert!((last / end - 1.0).abs() < 1e-6, "{name} {channel}: {last}");
+        }
+    }
+}

@@ -22,6 +22,9 @@ pub struct Parameters {
     pub max_m: [f64; 3],
 }
 
+/// Name of the mass that has been caught.
+pub const SPATTER: &str = "spatter_kg";
+
 /// The stage that catches spatter.
 #[derive(Debug, Clone)]
 pub struct Bounds {
@@ -74,7 +77,7 @@ impl Stage for Bounds {
 
     fn figures(&self) -> Vec<Figure> {
         vec![Figure {
-            name: "spatter_kg",
+            name: SPATTER,
             unit: "kg",
             value: self.mass * self.caught as f64,
         }]

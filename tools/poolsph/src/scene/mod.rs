@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
-pub use odd::notes;
+pub use odd::{notes, thin};
 pub use output::{FloatWidth, Output, PoolOutput, due};
 
 use crate::domain::{bounds, droplet};
@@ -94,7 +94,8 @@ pub struct Scene {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// Step dt \[s\]; a stage that cannot take it whole divides it within itself.
+    /// Longest step dt \[s\]; where whole ones do not end at `end_s`, all are as much shorter as it takes. A stage that
+    /// cannot take it whole divides it within itself.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub step_s: f64,
     /// End of the run \[s\].
@@ -113,9 +114,38 @@ impl Scene {
         }
     }
 
-    /// Number of steps: the end, to the nearest whole step.
+    /// Number of steps.
     #[must_use]
     pub fn steps(&self) -> u64 {
-        (self.time.end_s / self.time.step_s).round() as u64
+        self.time.steps()
+    }
+
+    /// Step dt \[s\] that is taken.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.time.step()
+    }
+}
+
+impl Time {
+    /// Number of steps: as few as reach the end.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        let steps = self.end_s / self.step_s;
+        // A billionth of all steps decides, not the rounding of the quotient.
+        let whole = (steps - steps.round()).abs() <= 1e-9 * steps;
+        (if whole { steps.round() } else { steps.ceil() }) as u64
+    }
+
+    /// Step dt \[s\] that is taken: `step_s` where whole ones end at the end, else the next shorter one that does.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        let steps = self.steps() as f64;
+        let whole = (self.end_s / self.step_s - steps).abs() <= 1e-9 * steps;
+        if whole {
+            self.step_s
+        } else {
+            self.end_s / steps
+        }
     }
 }

@@ -1,17 +1,57 @@
 //! What a scene may say and hardly means, told before it runs.
 
 use super::Scene;
-use super::body::StartState;
+use super::body::{BodyScene, StartState};
+use crate::domain::shape::Shape;
 
 /// Notes on what will not happen although the scene names it.
 #[must_use]
 pub fn notes(scene: &Scene) -> Vec<String> {
     let mut notes = Vec::new();
+    notes.extend(shortened(scene));
     notes.extend(astray(scene));
     notes.extend(unwritten(scene));
     notes.extend(outside(scene));
     notes.extend(still(scene));
     notes
+}
+
+/// Steps that do not end where the run does.
+fn shortened(scene: &Scene) -> Option<String> {
+    let (asked, taken) = (scene.time.step_s, scene.step());
+    (taken < asked).then(|| {
+        let (steps, end) = (scene.steps(), scene.time.end_s);
+        format!("{steps} steps of {taken:e} s are taken: those of {asked} s do not end at {end} s")
+    })
+}
+
+/// Fewest layers of particles that carry what lies on them: the kernel reaches over two spacings.
+const TIGHT: f64 = 2.0;
+
+/// Resting bodies that a liquid meets and that are too thin to hold it.
+#[must_use]
+pub fn thin(scene: &Scene) -> Vec<String> {
+    if scene.flow.is_none() {
+        return Vec::new();
+    }
+    let rests = |body: &BodyScene| {
+        // The walls of a container have their own least thickness.
+        body.state != StartState::Liquid && !matches!(body.shape, Shape::Container(_))
+    };
+    let layers = |body: &BodyScene| {
+        let sites = body.shape.sites(scene.spacing_m);
+        sites.into_iter().fold(f64::INFINITY, f64::min)
+    };
+    let bodies = scene.bodies.iter().enumerate();
+    bodies
+        .filter(|(_, body)| rests(body) && layers(body) < TIGHT)
+        .map(|(i, _)| {
+            format!(
+                "body {i} is one particle thick: liquid leaks through it; {TIGHT} layers, {} m, hold",
+                TIGHT * scene.spacing_m
+            )
+        })
+        .collect()
 }
 
 /// The source beside the bodies, seen from above.
@@ -63,7 +103,7 @@ fn unwritten(scene: &Scene) -> Vec<String> {
     let mut rare = |key: &str, what: &str, interval: f64| {
         if interval > end {
             notes.push(format!(
-                "{what} of the start alone are written: {key} is {interval} s, the end at {end} s"
+                "{what} of the start and the end alone are written: {key} is {interval} s, the end at {end} s"
             ));
         }
     };
@@ -119,16 +159,21 @@ mod tests {
     use serde_json::{Value, json};
 
     use super::*;
+    use crate::scene::Time;
 
-    fn told(patch: &Value) -> Vec<String> {
-        let mut scene = json!({
+    fn plain() -> Value {
+        json!({
             "spacing_m": 1e-3,
             "time": {"step_s": 1e-4, "end_s": 2.0},
             "density_kg_m3": 7850,
             "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "liquid"}],
             "flow": {"viscosity_pa_s": 0.004},
             "output": {"particles_interval_s": 0.1}
-        });
+        })
+    }
+
+    fn told(patch: &Value) -> Vec<String> {
+        let mut scene = plain();
         for (key, value) in patch.as_object().unwrap() {
             scene[key] = value.clone();
         }
@@ -144,6 +189,37 @@ mod tests {
     fn what_means_what_it_says_needs_no_note() {
         assert!(told(&json!({})).is_empty());
         assert!(source([0.005, 0.0], [0.0, 0.01]).is_empty());
+    }
+
+    #[test]
+    fn steps_end_where_the_run_does() {
+        let time = |step: f64, end: f64| json!({"time": {"step_s": step, "end_s": end}});
+        assert!(told(&time(1e-4, 0.15)).is_empty());
+        let told = told(&time(3e-4, 1e-3));
+        assert!(told[0].contains("4 steps of 2.5e-4 s"), "{told:?}");
+        for (step_s, end_s) in [(3e-4, 1e-3), (7e-5, 0.01), (1.1e-3, 2e-3), (1e-4, 10.0)] {
+            let time = Time { step_s, end_s };
+            let end = time.steps() as f64 * time.step();
+            assert!((end / end_s - 1.0).abs() < 1e-9 && time.step() <= step_s);
+        }
+    }
+
+    #[test]
+    fn a_wall_of_one_layer_is_told() {
+        let scene = |state: &str, high: f64| {
+            let mut scene: Scene = serde_json::from_value(plain()).unwrap();
+            let floor = json!({"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, high]}}, "state": state});
+            scene.bodies = vec![serde_json::from_value(floor).unwrap()];
+            scene
+        };
+        for state in ["wall", "solid"] {
+            assert!(thin(&scene(state, 1e-3))[0].contains("body 0"));
+            assert!(thin(&scene(state, 2e-3)).is_empty());
+        }
+        assert!(thin(&scene("liquid", 1e-3)).is_empty());
+        let mut still = scene("wall", 1e-3);
+        still.flow = None;
+        assert!(thin(&still).is_empty());
     }
 
     #[test]

@@ -18,10 +18,10 @@ pub enum FloatWidth {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// All particles this often \[s\], from the start to the end.
+    /// All particles this often \[s\], and at the start and the end.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub particles_interval_s: f64,
-    /// Masses, momentum and energies this often \[s\]; as often as the particles if absent.
+    /// Masses, momentum and energies this often \[s\], and at the start and the end; as often as the particles if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub balance_interval_s: Option<f64>,
