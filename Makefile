@@ -11,8 +11,11 @@ PROGRESS ?= auto
 BIN := target/release
 PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield avg report artefact verify stability bench certify exact)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
-# Runs a stage only if the bytes of what it depends on have changed.
-RERUN := pipelines/rerun
+# Runs a stage only if the bytes of what it depends on, or of what it made, have changed. Times tell nothing of that, so
+# it is asked for every stage each time (`always`). What it makes is written whole or not at all, maybe by another make
+# beside this one, and is never deleted (`.PRECIOUS`).
+RERUN = @pipelines/rerun $@ $(filter-out always,$^) --
+.PHONY: always
 MACHINE := --threads $(THREADS) --progress $(PROGRESS)
 
 .PHONY: all help programs

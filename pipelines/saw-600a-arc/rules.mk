@@ -6,12 +6,12 @@ saw-600a-arc: build/saw-600a-arc/report.html ## submerged arc in flux: both pola
 SAW := pipelines/saw-600a-arc
 SAW_VARIANTS := dcep-400 dcen-600 dcen-600-fall fall melting even cells-0.4 cells-0.2
 
-build/saw-600a-arc/dcep.mcap: $(SAW)/arc.json build/gases/co-iron.mcap $(BIN)/arcfvm
-	$(RERUN) $@ $^ -- $(BIN)/arcfvm run $(SAW)/arc.json --input gas=build/gases/co-iron.mcap --out $@ $(MACHINE)
+build/saw-600a-arc/dcep.mcap: $(SAW)/arc.json build/gases/co-iron.mcap $(BIN)/arcfvm always
+	$(RERUN) $(BIN)/arcfvm run $(SAW)/arc.json --input gas=build/gases/co-iron.mcap --out $@ $(MACHINE)
 
 $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap): build/saw-600a-arc/%.mcap: $(SAW)/arc.json $(SAW)/%.patch.json \
-  build/gases/co-iron.mcap $(BIN)/arcfvm
-	$(RERUN) $@ $^ -- $(BIN)/arcfvm run $(SAW)/arc.json --patch $(SAW)/$*.patch.json \
+  build/gases/co-iron.mcap $(BIN)/arcfvm always
+	$(RERUN) $(BIN)/arcfvm run $(SAW)/arc.json --patch $(SAW)/$*.patch.json \
 	  --input gas=build/gases/co-iron.mcap --out $@ $(MACHINE)
 
 SAW_ARCS := dcep=build/saw-600a-arc/dcep.mcap dcep-400=build/saw-600a-arc/dcep-400.mcap \
@@ -20,11 +20,13 @@ SAW_ARCS := dcep=build/saw-600a-arc/dcep.mcap dcep-400=build/saw-600a-arc/dcep-4
   even=build/saw-600a-arc/even.mcap cells-0.4=build/saw-600a-arc/cells-0.4.mcap cells-0.2=build/saw-600a-arc/cells-0.2.mcap
 
 build/saw-600a-arc/report.html: build/saw-600a-arc/dcep.mcap $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap) \
-  $(SAW)/targets.json $(BIN)/report
-	$(RERUN) $@ $^ -- $(BIN)/report page --study saw-600a-arc --out $@ \
+  $(SAW)/targets.json $(BIN)/report always
+	$(RERUN) $(BIN)/report page --study saw-600a-arc --out $@ \
 	  $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json
 
 VALIDATED += saw-600a-arc
 .PHONY: validate-saw-600a-arc
 validate-saw-600a-arc: build/saw-600a-arc/report.html ## the submerged arc against published values, row by row
 	$(BIN)/report validate $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json
+
+.PRECIOUS: build/saw-600a-arc/dcep.mcap $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap) build/saw-600a-arc/report.html

@@ -11,6 +11,7 @@ mod artefacts;
 mod disk;
 mod extremes;
 mod gases;
+mod owners;
 mod places;
 mod scenes;
 mod sizes;

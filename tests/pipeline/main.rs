@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+mod beside;
 mod study;
 
 use std::path::{Path, PathBuf};
@@ -148,4 +149,101 @@ fn an_interrupted_run_is_taken_up_unless_its_scene_changed() {
     let kept = std::fs::read_to_string(folder.join("out.part.old"));
     assert_eq!(kept.unwrap(), "frames");
     assert!(!folder.join("out.checkpoint").exists());
+}
+
+#[test]
+fn what_is_kept_is_looked_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "300 A");
+    make(folder, "", 0);
+    let out = folder.join("out");
+    for spoilt in ["", "30", "400 A"] {
+        let before = runs(folder);
+        std::fs::write(&out, spoilt).unwrap();
+        assert_eq!(make(folder, "", 0), Some(0));
+        assert_eq!(runs(folder), before + 1, "'{spoilt}' is not what was made");
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), "300 A");
+    }
+    std::fs::remove_file(&out).unwrap();
+    make(folder, "", 0);
+    assert_eq!(runs(folder), 5);
+    make(folder, "", 0);
+    assert_eq!(runs(folder), 5);
+}
+
+#[test]
+fn a_command_that_leaves_nothing_has_made_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "");
+    assert_eq!(make(folder, "", 0), Some(1));
+    scene(folder, "300 A");
+    assert_eq!(make(folder, "", 0), Some(0));
+}
+
+#[test]
+fn an_older_scene_of_the_same_length_is_another_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let old = std::time::SystemTime::now() - std::time::Duration::from_secs(86_400);
+    let put = |text: &str| {
+        scene(folder, text);
+        let file = std::fs::File::options()
+            .write(true)
+            .open(folder.join("scene"));
+        file.unwrap().set_modified(old).unwrap();
+    };
+    put("300 A");
+    make(folder, "", 0);
+    // Long enough after its change for the hash to be kept with the times of the file.
+    std::thread::sleep(std::time::Duration::from_millis(3100));
+    make(folder, "", 0);
+    let seen = std::fs::read_to_string(folder.join("out.seen")).unwrap();
+    assert_eq!(seen.lines().count(), 2, "scene and output");
+    put("250 A");
+    make(folder, "", 0);
+    assert_eq!(
+        std::fs::read_to_string(folder.join("out")).unwrap(),
+        "250 A"
+    );
+    assert_eq!(runs(folder), 2);
+}
+
+#[test]
+fn a_scene_that_changes_while_its_stage_runs_is_computed_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    scene(folder, "300 A");
+    let make = || {
+        let stage = "cp scene out; echo run >> log; cp scene first; echo 250 A > scene";
+        let command = ["out", "scene", "--", "sh", "-c", stage];
+        let output = Command::new(script())
+            .current_dir(folder)
+            .args(command)
+            .output();
+        let output = output.unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let said = make();
+    assert!(said.contains("has changed meanwhile"), "{said}");
+    // Put back as it was, with the time that it had.
+    assert!(
+        Command::new("cp")
+            .args(["-p", "first", "scene"])
+            .current_dir(folder)
+            .status()
+            .unwrap()
+            .success()
+    );
+    make();
+    assert_eq!(runs(folder), 2);
+    make();
+    assert_eq!(
+        std::fs::read_to_string(folder.join("out")).unwrap(),
+        "250 A\n"
+    );
+    make();
+    assert_eq!(runs(folder), 3, "nothing changed in the last run");
 }

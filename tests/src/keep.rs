@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use artefact::Lock;
 use serde::Serialize;
 
 /// Writes a record as JSON in the place of an older one, which stays where the disk refuses.
@@ -11,5 +12,21 @@ use serde::Serialize;
 pub fn keep(path: &Path, record: &impl Serialize) -> Result<(), String> {
     let text =
         serde_json::to_string_pretty(record).map_err(|e| format!("{}: {e}", path.display()))?;
+    let _owned = Lock::of(path).map_err(|e| e.to_string())?;
     artefact::write_atomically(path, (text + "\n").as_bytes()).map_err(|e| e.to_string())
+}
+
+/// Refuses to put records among the scenes that they are made from.
+///
+/// # Errors
+/// With the folder.
+pub fn apart(out: &Path, scenes: &Path) -> Result<(), String> {
+    match (out.canonicalize(), scenes.canonicalize()) {
+        (Ok(own), Ok(scenes)) if own.starts_with(&scenes) => Err(format!(
+            "--out {}: records would be written over scenes: name a folder outside {}",
+            out.display(),
+            scenes.display()
+        )),
+        _ => Ok(()),
+    }
 }

@@ -15,7 +15,7 @@ use verification::bench::absence::{Absence, Bench, absences};
 use verification::bench::fields::Fields;
 use verification::bench::others::{self, Others};
 use verification::bench::{Record, Stand, benches, in_order};
-use verification::keep::keep;
+use verification::keep::{apart, keep};
 use verification::lab::Lab;
 use verification::speed;
 
@@ -68,6 +68,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), String> {
+    apart(&arguments.out, Path::new("pipelines"))?;
     std::fs::create_dir_all(&arguments.out).map_err(|e| at(&arguments.out, e))?;
     let program = std::env::current_exe().map_err(|e| e.to_string())?;
     let programs = program.parent().map(PathBuf::from).unwrap_or_default();

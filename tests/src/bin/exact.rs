@@ -2,10 +2,11 @@
 
 #![allow(clippy::print_stderr, reason = "a program talks to its user")]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
+use run::{Form, Owned};
 use verification::em::exact::Known;
 use verification::keep::keep;
 use verification::lab::read_json;
@@ -25,7 +26,13 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
+    let arguments = Arguments::parse();
+    let reads = [("the scene".to_owned(), arguments.scene.as_path())];
+    let owned = match Owned::of(&arguments.out, Form::Record, reads) {
+        Ok(owned) => owned,
+        Err(failure) => return run::report_failure("exact", &failure),
+    };
+    match write(&arguments.scene, owned.out()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("exact: {message}");
@@ -34,15 +41,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<(), String> {
-    let scene = read_json(&arguments.scene).map_err(|e| e.to_string())?;
-    let at = |path: &std::path::Path, what: &dyn std::fmt::Display| {
-        format!("{}: {what}", path.display())
-    };
-    let known = Known::of(&scene).and_then(|known| known.file(&scene));
-    let file = known.map_err(|e| at(&arguments.scene, &e))?;
-    if let Some(folder) = arguments.out.parent() {
-        std::fs::create_dir_all(folder).map_err(|e| at(folder, &e))?;
-    }
-    keep(&arguments.out, &file)
+/// Writes the exact fields of a scene.
+fn write(scene: &Path, out: &Path) -> Result<(), String> {
+    let read = read_json(scene).map_err(|e| e.to_string())?;
+    let known = Known::of(&read).and_then(|known| known.file(&read));
+    let file = known.map_err(|e| format!("{}: {e}", scene.display()))?;
+    keep(out, &file)
 }

@@ -10,7 +10,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use verification::{extreme, keep::keep};
+use verification::{
+    extreme,
+    keep::{apart, keep},
+};
 
 /// Runs the stiff and extreme cases of pipelines/stability and writes one record each.
 ///
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<bool, String> {
     let programs = std::env::current_exe().map_err(|e| e.to_string())?;
     let programs = programs.parent().map(PathBuf::from).unwrap_or_default();
+    apart(&arguments.out, Path::new("pipelines"))?;
     std::fs::create_dir_all(&arguments.out)
         .map_err(|e| format!("{}: {e}", arguments.out.display()))?;
     let mut good = true;

@@ -6,11 +6,16 @@
     reason = "a program talks to its user"
 )]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use verification::{cases, keep::keep, lab::Lab, study};
+use verification::{
+    cases,
+    keep::{apart, keep},
+    lab::Lab,
+    study,
+};
 
 /// Runs exact cases over several resolutions and writes one record each.
 ///
@@ -83,6 +88,7 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
         patch: arguments.patch.clone(),
         repeat_s: arguments.repeat_s,
     };
+    apart(&arguments.out, Path::new("pipelines"))?;
     std::fs::create_dir_all(&lab.out).map_err(|e| format!("{}: {e}", lab.out.display()))?;
     let mut good = true;
     for case in cases::all() {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use run::Failure;
+use run::{Failure, Form, Owned};
 
 use crate::files::{
     FieldFiles, Folders, GasFiles, HeatFiles, PageFiles, PassesFiles, perhaps_named,
@@ -90,47 +90,106 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(e.exit_code()).unwrap_or(2));
         }
     };
-    let done = complete(&line.action).and_then(|()| write(&line.action));
-    done.unwrap_or_else(|failure| run::report_failure("report", &failure))
+    report(line.action).unwrap_or_else(|failure| run::report_failure("report", &failure))
 }
 
-/// Refuses command lines that name nothing to report on, or no file to write to.
+/// Owns the page while it is made, and writes it.
+fn report(mut action: Action) -> Result<ExitCode, Failure> {
+    complete(&action)?;
+    let reads = action.reads();
+    let reads = reads
+        .iter()
+        .map(|(what, path)| (what.clone(), path.as_path()));
+    let Some(out) = action.out() else {
+        return write(&action);
+    };
+    let owned = Owned::of(out, Form::Page, reads)?;
+    owned.out().clone_into(out);
+    write(&action)
+}
+
+impl Action {
+    /// The page to write.
+    fn out(&mut self) -> Option<&mut PathBuf> {
+        match self {
+            Self::Page(f) => Some(&mut f.out),
+            Self::Passes(f) => Some(&mut f.out),
+            Self::Heat(f) => Some(&mut f.out),
+            Self::Field(f) => Some(&mut f.out),
+            Self::Gas(f) => Some(&mut f.out),
+            Self::Index(f) => Some(&mut f.out),
+            Self::Validate { .. } | Self::Figures { .. } => None,
+        }
+    }
+
+    /// Every file that a page is made from, with what it is.
+    fn reads(&self) -> Vec<(String, PathBuf)> {
+        let named = |lists: &[&[(String, PathBuf)]]| {
+            let files = lists.iter().flat_map(|list| list.iter().cloned());
+            files
+                .flat_map(|(name, path)| with_record(&name, path))
+                .collect()
+        };
+        match self {
+            Self::Page(f) => {
+                let more = [
+                    ("pool", &f.pool),
+                    ("mean", &f.mean),
+                    ("targets", &f.targets),
+                ];
+                let more = more
+                    .into_iter()
+                    .filter_map(|(name, path)| Some((name.to_owned(), path.clone()?)));
+                let more: Vec<_> = more.collect();
+                named(&[&f.arc, &more])
+            }
+            Self::Passes(f) => named(&[&f.arc, &f.pool, &f.mean]),
+            Self::Heat(f) => named(&[&f.frames]),
+            Self::Field(f) => named(&[&f.fields, &f.exact]),
+            Self::Gas(f) => named(&[&f.table, &f.reference, &f.variant]),
+            Self::Index(f) => f.read(),
+            Self::Validate { .. } | Self::Figures { .. } => Vec::new(),
+        }
+    }
+}
+
+/// A file, and the record beside it.
+fn with_record(name: &str, path: PathBuf) -> [(String, PathBuf); 2] {
+    let record = path.with_extension("run.json");
+    let what = |file: &str| format!("{file} of '{name}'");
+    [(what("the file"), path), (what("the record"), record)]
+}
+
+/// Refuses command lines that name nothing to report on.
 fn complete(action: &Action) -> Result<(), Failure> {
-    let (wanted, given, out) = match action {
+    let (wanted, given) = match action {
         Action::Page(f) => {
             let given = !f.arc.is_empty() || f.pool.is_some() || f.mean.is_some();
-            ("--arc, --pool or --mean", given, Some(&f.out))
+            ("--arc, --pool or --mean", given)
         }
         Action::Passes(f) => {
             let given = !f.arc.is_empty() || !f.pool.is_empty() || !f.mean.is_empty();
-            ("--arc, --pool or --mean", given, Some(&f.out))
+            ("--arc, --pool or --mean", given)
         }
         Action::Index(f) => {
             let folders = [&f.verify, &f.stability, &f.bench, &f.studies];
             let given = folders.iter().any(|folder| folder.is_some());
-            (
-                "--verify, --stability, --bench or --studies",
-                given,
-                Some(&f.out),
-            )
+            ("--verify, --stability, --bench or --studies", given)
         }
         Action::Validate { pool, arc, .. } => {
             let given = pool.is_some() || !arc.is_empty();
-            ("--pool or --arc", given, None)
+            ("--pool or --arc", given)
         }
-        Action::Figures { .. } => ("--pool", true, None),
-        Action::Heat(f) => ("--frames", true, Some(&f.out)),
-        Action::Field(f) => ("--fields", true, Some(&f.out)),
-        Action::Gas(f) => ("--table", true, Some(&f.out)),
+        Action::Figures { .. } => ("--pool", true),
+        Action::Heat(_) => ("--frames", true),
+        Action::Field(_) => ("--fields", true),
+        Action::Gas(_) => ("--table", true),
     };
     if !given {
         let what = format!("there is nothing to report on: name at least one of {wanted}");
         return Err(Failure::Usage(what));
     }
-    match out.map(|out| artefact::must_be_replaceable(out)) {
-        Some(Err(no_place)) => Err(Failure::Usage(format!("--out {no_place}"))),
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 fn write(action: &Action) -> Result<ExitCode, Failure> {

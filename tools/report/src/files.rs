@@ -118,6 +118,18 @@ pub(crate) struct Folders {
     pub(crate) studies: Option<PathBuf>,
 }
 
+impl Folders {
+    /// Every record that is read, with what it is.
+    pub(crate) fn read(&self) -> Vec<(String, PathBuf)> {
+        let folders = [&self.verify, &self.stability, &self.bench];
+        let files = folders.into_iter().flatten().flat_map(|folder| {
+            let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+            entries.map(|entry| entry.path())
+        });
+        files.map(|path| ("a record".to_owned(), path)).collect()
+    }
+}
+
 /// A file with the name that is given to it.
 fn named(word: &str) -> Result<(String, PathBuf), String> {
     match word.split_once('=') {

@@ -3,10 +3,10 @@
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::Write;
-use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 
-use crate::error::{Error, Result, io_error};
+use crate::error::{Result, io_error};
+use crate::place::must_be_replaceable;
 
 /// `path` with `suffix` appended to its name.
 #[must_use]
@@ -19,39 +19,16 @@ pub fn beside(path: &Path, suffix: &str) -> PathBuf {
 /// Free bytes of the disk that `path` is to be written to; `None` where the system does not tell.
 #[must_use]
 pub fn free_bytes(path: &Path) -> Option<u64> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let disk = rustix::fs::statvfs(folder).ok()?;
+    let disk = rustix::fs::statvfs(folder_of(path)).ok()?;
     Some(disk.f_bavail.saturating_mul(disk.f_frsize))
 }
 
-/// Refuses to put a file where something stands that is no file, as a rename would replace a device or a
-/// pipe, and fail at a folder only when all work is done.
-///
-/// # Errors
-/// [`Error::NoPlace`] with what stands there.
-pub fn must_be_replaceable(path: &Path) -> Result<()> {
-    let Ok(found) = fs::metadata(path) else {
-        return Ok(());
-    };
-    let kind = found.file_type();
-    let what = if kind.is_file() {
-        return Ok(());
-    } else if kind.is_dir() {
-        "a folder"
-    } else if kind.is_fifo() {
-        "a pipe"
-    } else if kind.is_socket() {
-        "a socket"
-    } else {
-        "a device"
-    };
-    Err(Error::NoPlace {
-        path: path.to_owned(),
-        what,
-    })
+/// The folder that a file stands in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
 }
 
 /// Writes `bytes` to `path` so that a reader sees the old file or the new one, never a part.
@@ -79,10 +56,7 @@ fn write_synced(path: &Path, bytes: &[u8]) -> Result<()> {
 /// Renames and makes the new name durable.
 pub(crate) fn rename_synced(from: &Path, to: &Path) -> Result<()> {
     fs::rename(from, to).map_err(io_error(to, "rename to"))?;
-    let folder = match to.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(to);
     let folder_file = File::open(folder).map_err(io_error(folder, "open"))?;
     folder_file.sync_all().map_err(io_error(folder, "sync"))
 }

@@ -53,6 +53,32 @@ pub enum Error {
         /// What stands there: "a folder", "a device", ...
         what: &'static str,
     },
+    /// Another process holds the right to write a file.
+    #[error("{path}: is written by another run{by}: wait for its end, or name another file")]
+    Taken {
+        /// What is to be written.
+        path: PathBuf,
+        /// " (process 4711)"; empty where it is not known.
+        by: String,
+    },
+    /// A file that is to be written is one that is read.
+    #[error("{path}: is {what} ({read}), which is read: name another file to write")]
+    Read {
+        /// What is to be written.
+        path: PathBuf,
+        /// What it is: "the scene", "the input 'frames'".
+        what: String,
+        /// The file as it is read.
+        read: PathBuf,
+    },
+    /// A name that a file to write cannot bear.
+    #[error("{path}: {what}")]
+    Name {
+        /// The name.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
     /// An MCAP file that no tool of ours wrote.
     #[error("{path}: an MCAP file, but not one of ours: it has no metadata record 'fusionline'")]
     NotOurs {

@@ -10,12 +10,13 @@ use std::path::{Path, PathBuf};
 use mcap::records::MessageHeader;
 use serde::{Deserialize, Serialize};
 
-use crate::atomic::{beside, must_be_replaceable};
+use crate::atomic::beside;
 use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::{Header, METADATA};
 use crate::message::{Topic, UNITS, log_time};
 use crate::part::Part;
+use crate::place::must_be_replaceable;
 use crate::table::Record;
 
 /// JSON is gathered into chunks of this size \[byte\].

@@ -1,7 +1,7 @@
 //! The command line that all stages share.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::{ArgAction, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -38,6 +38,18 @@ pub(crate) struct Study {
     /// A JSON Merge Patch (RFC 7386) applied to the scene; several are applied in order.
     #[arg(long = "patch", value_name = "FILE.json")]
     pub(crate) patches: Vec<PathBuf>,
+}
+
+impl Study {
+    /// Every file that is read, with what it is.
+    pub(crate) fn reads(&self) -> impl Iterator<Item = (String, &Path)> + Clone {
+        let scene = [("the scene".to_owned(), self.scene.as_path())];
+        let patches = self.patches.iter();
+        let patches = patches.map(|path| ("a patch".to_owned(), path.as_path()));
+        let inputs = self.inputs.iter().filter_map(|word| word.split_once('='));
+        let inputs = inputs.map(|(name, path)| (format!("the input '{name}'"), Path::new(path)));
+        scene.into_iter().chain(patches).chain(inputs)
+    }
 }
 
 #[derive(Debug, Args)]

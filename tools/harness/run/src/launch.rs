@@ -15,6 +15,7 @@ use crate::inputs::Inputs;
 use crate::interrupt::Interrupt;
 use crate::leftover::{advised, make_way};
 use crate::machine;
+use crate::owned::{Form, Owned};
 use crate::plan::{Plan, bytes, duration};
 use crate::progress::Style;
 use crate::record::RunRecord;
@@ -36,7 +37,7 @@ pub fn main<T: Tool>() -> ExitCode {
     let done = match line.action {
         Action::Schema => print(&schema_text(&schema_of::<T::Scene>(expected::<T>()))),
         Action::Check(study) => check::<T>(&study),
-        Action::Run(run) => run_scene::<T>(&run),
+        Action::Run(run) => run_scene::<T>(run),
     };
     done.unwrap_or_else(|failure| report_failure(T::NAME, &failure))
 }
@@ -126,15 +127,16 @@ fn title<T: Tool>(scene: &Path) -> String {
     format!("{} {}  {}", T::NAME, T::VERSION, scene.display())
 }
 
-fn run_scene<T: Tool>(run: &Run) -> Result<ExitCode, Failure> {
+fn run_scene<T: Tool>(mut run: Run) -> Result<ExitCode, Failure> {
     let (start, began) = (machine::now(), Instant::now());
-    may_be_written(&run.out)?;
+    let owned = Owned::of(&run.out, Form::Artefact, run.study.reads())?;
+    run.out = owned.out().to_owned();
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study)?;
-    let opened = open::<T>(run, &ready.header, (began, ready.read));
+    let opened = open::<T>(&run, &ready.header, (began, ready.read));
     let (mut session, told) = opened.map_err(|failure| advised(failure, &run.out))?;
     if run.level() > Level::Quiet {
-        head::<T>(run, &ready);
+        head::<T>(&run, &ready);
     }
     session.planned(&ready.plan);
     if let Some(told) = told {
@@ -192,7 +194,6 @@ fn open<T: Tool>(
         );
         return Err(Failure::Usage(what));
     }
-    create_folder(&run.out)?;
     let told = if run.resume {
         None
     } else {
@@ -214,41 +215,12 @@ fn open<T: Tool>(
     Ok((session, told))
 }
 
-/// Refuses names that cannot or should not be those of an artefact, before any work is done.
-fn may_be_written(out: &Path) -> Result<(), Failure> {
-    let refused = |what: String| Err(Failure::Usage(format!("--out {what}")));
-    if let Err(no_place) = artefact::must_be_replaceable(out) {
-        return refused(no_place.to_string());
-    }
-    if out.extension().is_some_and(|e| e == "mcap") {
-        return Ok(());
-    }
-    let meant = out.with_extension("mcap");
-    refused(format!(
-        "{}: an artefact is an MCAP file, and its name ends in .mcap: {}",
-        out.display(),
-        meant.display()
-    ))
-}
-
 /// What to say where the disk has less room than the output may take.
 fn tight(plan: &Plan, out: &Path) -> Option<String> {
     let (wanted, free) = (plan.output_bytes(), artefact::free_bytes(out)?);
     (wanted > free).then(|| {
         let (wanted, free) = (bytes(wanted), bytes(free));
         format!("the output may take {wanted} before it is compressed, the disk has {free} free")
-    })
-}
-
-/// Makes the folder of the artefact.
-fn create_folder(out: &Path) -> Result<(), Failure> {
-    let Some(folder) = out.parent() else {
-        return Ok(());
-    };
-    std::fs::create_dir_all(folder).map_err(|source| Failure::Io {
-        path: folder.to_owned(),
-        action: "create the folder",
-        source,
     })
 }
 

@@ -3,6 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use artefact::{Lock, followed, must_be_nameable, must_not_be_read};
+
 use super::Streams;
 use super::trouble::{Trouble, Verdict};
 
@@ -26,15 +28,21 @@ pub(crate) struct Arguments {
     force: bool,
 }
 
+/// What is added to the name while the file is written.
+const PART: &str = ".part.recovered";
+
 pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Verdict, Trouble> {
     let from = &arguments.file;
-    let to = arguments.out.clone().unwrap_or_else(|| beside(from));
-    if same(from, &to) {
-        return Err(Trouble::Usage(format!(
-            "--out {} is the file to be saved: name another",
-            to.display()
-        )));
+    let named = arguments.out.clone().unwrap_or_else(|| beside(from));
+    let to = followed(&named);
+    must_be_nameable(&to, PART)?;
+    for written in [to.clone(), artefact::beside(&to, PART)] {
+        must_not_be_read(
+            &written,
+            [("the file to be saved".to_owned(), from.as_path())],
+        )?;
     }
+    let _owned = Lock::of(&to)?;
     if to.exists() && !arguments.force {
         return Err(Trouble::Usage(format!(
             "{} exists: name another file with --out, or add --force to write over it",
@@ -62,13 +70,6 @@ fn beside(path: &Path) -> PathBuf {
         _ => path.to_owned(),
     };
     whole.with_extension("recovered.mcap")
-}
-
-fn same(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => a == b,
-    }
 }
 
 #[cfg(test)]

@@ -49,7 +49,12 @@ impl Trouble {
     pub(crate) fn code(&self) -> u8 {
         match self {
             Self::Usage(_) => 2,
-            Self::Artefact(artefact::Error::NoChannel { .. }) => 2,
+            Self::Artefact(
+                artefact::Error::NoChannel { .. }
+                | artefact::Error::Taken { .. }
+                | artefact::Error::Read { .. }
+                | artefact::Error::Name { .. },
+            ) => 2,
             _ => 1,
         }
     }

@@ -8,7 +8,7 @@ mod vtk;
 
 use std::path::{Path, PathBuf};
 
-use artefact::{Channel, Reader};
+use artefact::{Channel, Lock, Reader, must_not_be_read};
 use clap::ValueEnum;
 
 use super::open::{channels, open_whole};
@@ -58,6 +58,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Verdict, Trouble> {
+    // Many files are written: who writes into the folder owns it.
+    let _owned = Lock::of(&arguments.out.join("export"))?;
     let (reader, whole) = open_whole(&arguments.source.file, streams)?;
     let channels = channels(&reader, &arguments.channel)?;
     let mut names: Vec<String> = Vec::new();
@@ -133,7 +135,7 @@ impl Export<'_> {
         if self.target == Target::Vtu && steps.iter().any(|(_, file)| !file.ends_with(".csv")) {
             first = format!("{}.pvd", self.name);
             let text = vtk::collection(&steps);
-            write(&self.folder.join(&first), text.as_bytes())?;
+            self.write(&first, text.as_bytes())?;
             files += 1;
         }
         if !series.is_empty() {
@@ -152,7 +154,7 @@ impl Export<'_> {
             _ => (csv::sheet(sheet), "csv"),
         };
         let file = format!("{0}/{0}_{index:05}.{suffix}", self.name);
-        write(&self.folder.join(&file), &bytes)?;
+        self.write(&file, &bytes)?;
         Ok(file)
     }
 
@@ -163,17 +165,19 @@ impl Export<'_> {
             Target::Vtu | Target::Csv => (csv::series(series), "csv"),
         };
         let file = format!("{}.{suffix}", self.name);
-        write(&self.folder.join(&file), &bytes)?;
+        self.write(&file, &bytes)?;
         Ok(file)
     }
-}
 
-/// Writes a file into a folder that is made when it is not there.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), Trouble> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(file_error(folder, "create"))?;
+    /// Writes a file, named from the folder on, into a folder that is made when it is not there.
+    fn write(&self, file: &str, bytes: &[u8]) -> Result<(), Trouble> {
+        let path = self.folder.join(file);
+        must_not_be_read(&path, [("the artefact".to_owned(), self.reader.path())])?;
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(file_error(folder, "create"))?;
+        }
+        std::fs::write(&path, bytes).map_err(file_error(&path, "write"))
     }
-    std::fs::write(path, bytes).map_err(file_error(path, "write"))
 }
 
 #[cfg(test)]
