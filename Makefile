@@ -9,7 +9,7 @@ SHELL := /bin/sh
 THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 PROGRESS ?= auto
 BIN := target/release
-PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield avg report artefact verify stability bench certify exact)
+PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield jetsph avg report artefact verify stability bench certify exact)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 # Runs a stage only if the bytes of what it depends on, or of what it made, have changed. Times tell nothing of that, so
 # it is asked for every stage each time (`always`). What it makes is written whole or not at all, maybe by another make
@@ -56,7 +56,7 @@ build/python/.installed: tests/interop/requirements.txt
 	else echo "python3 with venv is not here: the tests that read our files with other programs are skipped"; fi
 
 schemas: programs ## write schemas/*.scene.v1.json from the programs
-	@for tool in gasprop arcfvm poolsph heatsph emfield avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
+	@for tool in gasprop arcfvm poolsph heatsph emfield jetsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
 
 # Evidence.
 CASE ?=

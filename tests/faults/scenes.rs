@@ -136,7 +136,7 @@ fn a_faulty_patch_and_an_absent_scene_are_named() {
 }
 
 /// Each stage with a scene of its own and what it must be given.
-const STAGES: [(&str, &str, &[&str]); 6] = [
+const STAGES: [(&str, &str, &[&str]); 7] = [
     ("gasprop", "pipelines/gases/argon.json", &[]),
     ("arcfvm", "pipelines/verify/arc-potential/scene.json", &[]),
     (
@@ -151,6 +151,7 @@ const STAGES: [(&str, &str, &[&str]); 6] = [
     ),
     ("emfield", "pipelines/dielectric-sphere/scene.json", &[]),
     ("heatsph", "pipelines/verify/heat-patch/scene.json", &[]),
+    ("jetsph", "pipelines/verify/solid-plate/scene.json", &[]),
 ];
 
 /// What a stage says to a scene of its own with a patch, and that it wrote nothing.

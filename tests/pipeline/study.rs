@@ -51,6 +51,7 @@ impl Workshop {
             "poolsph",
             "heatsph",
             "emfield",
+            "jetsph",
             "avg",
             "report",
             "artefact",

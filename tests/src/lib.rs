@@ -27,6 +27,7 @@ pub mod norms;
 pub mod operators;
 mod particles;
 pub mod plasma;
+mod solid;
 pub mod special;
 pub mod speed;
 mod spot;

@@ -50,6 +50,9 @@ mod pool_hydrostatic;
 mod pool_rosenthal;
 mod pool_stefan;
 mod pool_surface_heat;
+mod solid_patch;
+mod solid_swing;
+mod solid_turn;
 mod wls_operators;
 
 use crate::case::Case;
@@ -108,6 +111,10 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(pool_rosenthal::PoolRosenthal),
         Box::new(pool_stefan::PoolStefan),
         Box::new(pool_surface_heat::PoolSurfaceHeat),
+        Box::new(solid_swing::SolidSwing::BAR),
+        Box::new(solid_swing::SolidSwing::PLATE),
+        Box::new(solid_patch::SolidPatch),
+        Box::new(solid_turn::SolidTurn),
         Box::new(wls_operators::WlsOperators),
     ]
 }

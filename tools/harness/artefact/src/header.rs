@@ -16,11 +16,12 @@ use crate::version::Version;
 pub const METADATA: &str = "fusionline";
 
 /// Kinds of artefacts that the stages write, each with its major version.
-pub const KINDS: [(&str, u32); 5] = [
+pub const KINDS: [(&str, u32); 6] = [
     ("arc-source", 1),
     ("gas-table", 1),
     ("mean-fields", 1),
     ("particle-frames", 1),
+    ("jet-frames", 1),
     ("point-fields", 1),
 ];
 

@@ -58,6 +58,23 @@ pub fn greatest(n: usize, value: impl Fn(usize) -> f64 + Sync) -> Option<(usize,
     all.map(|a| (a, value(a))).reduce_with(greater)
 }
 
+/// Work in the widest vectors that the machine has. No operation is fused or reordered for it.
+#[inline(always)]
+pub fn wide(work: impl FnMut()) {
+    pulp::Arch::new().dispatch(Wide(work));
+}
+
+struct Wide<W>(W);
+
+impl<W: FnMut()> pulp::NullaryFnOnce for Wide<W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(mut self) {
+        (self.0)();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

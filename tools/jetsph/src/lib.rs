@@ -1,0 +1,25 @@
+//! A water jet cuts a solid.
+//!
+//! After Shinohara, Okabe and Nakayama (2004), with their errata. The way of a scene through the crate:
+//!
+//! - [`scene`] is what a person writes, [`assemble`] the only file that asks what it contains;
+//! - [`matter`] fills bodies with particles and knows solids;
+//! - [`stage`] is what a physical effect promises, [`mod@march`] takes all of them through a step;
+//! - [`simulate`] leads the run: steps, outputs, checkpoints ([`resume`]); [`frames`] writes, [`balance`] keeps the books.
+//!
+//! A solid is total Lagrangian with quadratics fitted at rest: see [`matter::solid`].
+
+pub mod assemble;
+pub mod balance;
+pub mod frames;
+pub mod march;
+pub mod matter;
+pub mod resume;
+pub mod scene;
+pub mod simulate;
+pub mod stage;
+pub mod state;
+pub mod tool;
+mod trial;
+
+pub use tool::JetSph;

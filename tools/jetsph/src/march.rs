@@ -1,0 +1,100 @@
+//! The march in time: knows stages, not physics.
+//!
+//! ```text
+//! kick    u += dt/2 a                 velocity Verlet: of second order, and it keeps the energy of a solid for ever
+//! drift   x += dt u
+//! act     every stage adds to a       in the order of the list
+//! kick    u += dt/2 a
+//! ```
+
+use particles::{POSITION, sweep};
+
+use crate::stage::{Limit, Stage, StageError};
+use crate::state::{ACCELERATION, State, VELOCITY};
+
+/// Stages in the order of a step.
+pub struct March {
+    /// The stages.
+    pub stages: Vec<Box<dyn Stage>>,
+}
+
+/// Wraps the work of a stage, so that a clock can stand outside: given the stage's name, it must call the work once.
+pub type Timed<'a> = dyn FnMut(&'static str, &mut dyn FnMut() -> Result<(), StageError>) -> Result<(), StageError>
+    + 'a;
+
+impl March {
+    /// The smallest limit of all stages.
+    #[must_use]
+    pub fn limit(&self, state: &State) -> Option<Limit> {
+        let limits = self.stages.iter().filter_map(|stage| stage.limit(state));
+        limits.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    }
+
+    /// Accelerations at the start.
+    ///
+    /// # Errors
+    /// What a stage reports.
+    pub fn begin(&mut self, state: &mut State) -> Result<(), StageError> {
+        self.act(state, 0.0, &mut |_, work| work())
+    }
+
+    /// One step of `dt` \[s\].
+    ///
+    /// # Errors
+    /// What a stage reports.
+    pub fn step(
+        &mut self,
+        state: &mut State,
+        dt: f64,
+        timed: &mut Timed<'_>,
+    ) -> Result<(), StageError> {
+        timed("motion", &mut || {
+            kick(state, 0.5 * dt);
+            drift(state, dt);
+            Ok(())
+        })?;
+        self.act(state, dt, timed)?;
+        timed("motion", &mut || {
+            kick(state, 0.5 * dt);
+            Ok(())
+        })?;
+        state.step += 1;
+        Ok(())
+    }
+
+    fn act(&mut self, state: &mut State, dt: f64, timed: &mut Timed<'_>) -> Result<(), StageError> {
+        for set in &mut state.sets {
+            set.column_mut(&ACCELERATION).fill([0.0; 3]);
+        }
+        for stage in &mut self.stages {
+            timed(stage.name(), &mut || stage.act(state, dt))?;
+        }
+        Ok(())
+    }
+}
+
+/// u += dt a.
+fn kick(state: &mut State, dt: f64) {
+    for set in &mut state.sets {
+        let mut velocity = set.take(&VELOCITY);
+        let acceleration = set.column(&ACCELERATION);
+        if !acceleration.is_empty() {
+            sweep::change(&mut velocity, |a, u| {
+                (0..3).for_each(|k| u[k] += dt * acceleration[a][k]);
+            });
+        }
+        set.put(&VELOCITY, velocity);
+    }
+}
+
+/// x += dt u.
+fn drift(state: &mut State, dt: f64) {
+    for set in &mut state.sets {
+        let mut position = set.take(&POSITION);
+        let velocity = set.column(&VELOCITY);
+        sweep::change(&mut position, |a, x| {
+            (0..3).for_each(|k| x[k] += dt * velocity[a][k]);
+        });
+        set.put(&POSITION, position);
+    }
+}

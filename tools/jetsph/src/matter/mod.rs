@@ -1,0 +1,4 @@
+//! What there is: solids, and how bodies are filled with particles.
+
+pub mod lattice;
+pub mod solid;

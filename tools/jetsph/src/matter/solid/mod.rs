@@ -1,0 +1,17 @@
+//! An elastic solid by total Lagrangian particles.
+//!
+//! The deformation is a function of the places at rest; its derivatives are those of quadratics fitted to the neighbours
+//! at rest ([`links`]), the energy is that of cells whose strain varies across them ([`cell`]), and forces are the slopes
+//! of that energy, so that they keep momentum, angular momentum and energy, and a solid at rest stays so. Faces are the
+//! true ones: rows of particles stand half a cell inside them, free faces need nothing, held and loaded ones are
+//! [`bound`] where they are.
+
+pub mod bound;
+pub mod cell;
+pub mod elastic;
+pub mod law;
+pub mod links;
+mod sound;
+pub mod tensor;
+
+pub use elastic::{Body, Elastic};

@@ -1,0 +1,54 @@
+//! The fastest motion of a solid at rest, which bounds the step.
+
+use particles::sweep;
+
+use crate::matter::lattice::noise;
+
+/// Rounds in which the fastest motion is sought.
+const ROUNDS: usize = 40;
+/// The greatest frequency is found from below; it may be higher by this part.
+const BEYOND: f64 = 1.03;
+
+/// Greatest angular frequency \[rad/s\] of small motions about rest, by power iteration: `accelerate` gives the
+/// accelerations of displacements from rest \[m\], `step` is a small length \[m\].
+pub(super) fn fastest(
+    n: usize,
+    (step, dimensions): (f64, usize),
+    mut accelerate: impl FnMut(&[[f64; 3]]) -> Vec<[f64; 3]>,
+) -> f64 {
+    let part = |number: usize| {
+        if number % 3 < dimensions {
+            noise(number)
+        } else {
+            0.0
+        }
+    };
+    let mut motion: Vec<[f64; 3]> = (0..n)
+        .map(|a| [0, 1, 2].map(|k| step * part(3 * a + k)))
+        .collect();
+    let length = |x: &[[f64; 3]]| {
+        let square = |a: usize| [x[a][0] * x[a][0] + x[a][1] * x[a][1] + x[a][2] * x[a][2]];
+        sweep::sum(x.len(), square)[0].sqrt()
+    };
+    let whole = length(&motion);
+    let mut square = 0.0;
+    for _ in 0..ROUNDS {
+        // The odd part alone: what does not change sign with the motion is no part of a small one.
+        let there = accelerate(&motion);
+        let back: Vec<[f64; 3]> = motion.iter().map(|u| u.map(|x| -x)).collect();
+        let back = accelerate(&back);
+        for (u, (a, b)) in motion.iter_mut().zip(there.iter().zip(&back)) {
+            *u = [0, 1, 2].map(|k| -0.5 * (a[k] - b[k]));
+        }
+        let grown = length(&motion);
+        if grown <= 0.0 {
+            return 0.0;
+        }
+        square = grown / whole;
+        motion
+            .iter_mut()
+            .flatten()
+            .for_each(|x| *x *= whole / grown);
+    }
+    BEYOND * square.sqrt()
+}

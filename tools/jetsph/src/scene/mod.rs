@@ -1,0 +1,48 @@
+//! The scene: what a person writes, typed. Optional physics is an absent key.
+
+mod faults;
+mod output;
+mod solid;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use output::{FloatWidth, Output};
+pub use solid::{Clamp, LatticeScene, LoadScene, Solid};
+
+use crate::matter::solid::law::Plane;
+
+/// Kind and version of the scenes that this tool reads.
+pub const KIND: (&str, u32) = ("jetsph.scene", 1);
+
+/// Solids and water, or any part of them.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// What it shows, in a line.
+    pub title: Option<String>,
+    /// 2: a plane scene, per metre of depth; 3: in space.
+    #[schemars(range(min = 2, max = 3))]
+    pub dimensions: usize,
+    /// What solids of a plane scene do across the plane; no strain there if absent.
+    pub plane: Option<Plane>,
+    /// Step and end.
+    pub time: Time,
+    /// Solid bodies.
+    #[serde(default)]
+    pub solids: Vec<Solid>,
+    /// What is written, and when.
+    pub output: Output,
+}
+
+/// Step and end of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// End of the run \[s\].
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub end_s: f64,
+    /// Longest step \[s\]; as long as all limits allow if absent.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub step_s: Option<f64>,
+}

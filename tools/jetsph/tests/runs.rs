@@ -1,0 +1,138 @@
+//! Short runs of whole scenes: the books close, and bits depend on nothing but the scene.
+
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use artefact::{Checkpoint, Header, Version};
+use jetsph::assemble::{Assembled, assemble};
+use jetsph::balance::Balance;
+use jetsph::resume;
+use jetsph::scene::{KIND, Scene};
+use jetsph::state::{State, VELOCITY};
+use particles::POSITION;
+use run::scene::{Expected, parse};
+
+/// A bar in space that is held at one end, loaded at the other and pushed.
+const BAR: &str = r#"{
+    "kind": "jetsph.scene", "version": 1, "dimensions": 3,
+    "time": {"end_s": 1},
+    "solids": [{
+        "name": "bar", "body": {"box": {"min_m": [0, 0, 0], "max_m": [0.04, 0.02, 0.02]}},
+        "spacing_m": 0.005, "density_kg_m3": 1000,
+        "elastic": {"youngs_modulus_pa": 2e6, "poisson_ratio": 0.4},
+        "velocity_m_s": [0, {"expr": "10*x"}, 0.1],
+        "clamps": [{"on": ["x-"]}],
+        "loads": [{"on": ["x+"], "traction_pa": [0, 0, 500]}]
+    }],
+    "output": {"frames_interval_s": 1}
+}"#;
+/// A ring in the plane that flies and turns, by a turned lattice.
+const RING: &str = r#"{
+    "kind": "jetsph.scene", "version": 1, "dimensions": 2,
+    "time": {"end_s": 1},
+    "solids": [{
+        "name": "ring", "spacing_m": 0.005, "lattice": {"turned_deg": 20},
+        "body": {"difference": [{"disc": {"centre_m": [0, 0], "radius_m": 0.04}}, {"disc": {"centre_m": [0, 0], "radius_m": 0.02}}]},
+        "density_kg_m3": 1000, "elastic": {"bulk_modulus_pa": 3e6, "shear_modulus_pa": 1e6},
+        "velocity_m_s": [{"expr": "1 - 20*y + 30*x"}, {"expr": "20*x"}]
+    }],
+    "output": {"frames_interval_s": 1}
+}"#;
+
+fn begun(text: &str) -> Assembled {
+    let expected = Expected {
+        kind: KIND.0,
+        version: KIND.1,
+        migrations: &[],
+    };
+    let mut run = assemble(&parse::<Scene>(text, expected).unwrap().scene).unwrap();
+    run.march.begin(&mut run.state).unwrap();
+    run
+}
+
+fn steps(run: &mut Assembled, n: usize) {
+    let dt = 0.5 * run.march.limit(&run.state).unwrap().seconds;
+    for _ in 0..n {
+        run.march
+            .step(&mut run.state, dt, &mut |_, work| work())
+            .unwrap();
+        run.state.time += dt;
+    }
+}
+
+fn bits(state: &State) -> Vec<u64> {
+    let columns = [
+        state.sets[0].column(&POSITION),
+        state.sets[0].column(&VELOCITY),
+    ];
+    columns
+        .iter()
+        .flat_map(|c| c.as_flattened())
+        .map(|x| x.to_bits())
+        .collect()
+}
+
+#[test]
+fn energy_and_momentum_close() {
+    for (scene, energy) in [(BAR, 1e-3), (RING, 1e-3)] {
+        let mut run = begun(scene);
+        let start = Balance::of(&run.state, &run.march);
+        steps(&mut run, 300);
+        let now = Balance::of(&run.state, &run.march);
+        assert!(now.energy_error(&start).abs() < energy, "{now:?} {start:?}");
+        let stored = now.entry.stored - start.entry.stored;
+        assert!(
+            stored.abs() > 1e-3 * start.kinetic,
+            "nothing happened: {now:?}"
+        );
+    }
+    let mut free = begun(RING);
+    let start = Balance::of(&free.state, &free.march);
+    steps(&mut free, 300);
+    let error = Balance::of(&free.state, &free.march).momentum_error(&start);
+    assert!(error < 1e-12, "{error}");
+}
+
+#[test]
+fn bits_do_not_depend_on_threads() {
+    let after = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let mut run = begun(BAR);
+            steps(&mut run, 20);
+            bits(&run.state)
+        })
+    };
+    assert_eq!(after(1), after(3));
+}
+
+#[test]
+fn a_run_taken_up_goes_on_with_the_same_bits() {
+    let header = Header {
+        kind: "jet-frames".to_owned(),
+        version: Version::new(1, 0),
+        tool: "jetsph".to_owned(),
+        tool_version: "0".to_owned(),
+        scene: serde_json::json!({}),
+        inputs: std::collections::BTreeMap::new(),
+    };
+    let mut straight = begun(BAR);
+    let start = Balance::of(&straight.state, &straight.march);
+    steps(&mut straight, 10);
+    let mut checkpoint = Checkpoint::new(&header);
+    resume::save(&mut checkpoint, &straight.state, &straight.march, &start).unwrap();
+    let mut other = begun(BAR);
+    let found = resume::restore(&mut checkpoint, &mut other.state, &mut other.march).unwrap();
+    steps(&mut straight, 10);
+    steps(&mut other, 10);
+    assert_eq!(bits(&straight.state), bits(&other.state));
+    assert_eq!(found.save().len(), start.save().len());
+    let books = |run: &Assembled| Balance::of(&run.state, &run.march).save();
+    let same = books(&straight)
+        .iter()
+        .zip(books(&other))
+        .all(|(a, b)| a.to_bits() == b.to_bits());
+    assert!(same, "{:?} {:?}", books(&straight), books(&other));
+}
