@@ -369,9 +369,7 @@ fn the_extreme_cases_of_the_pipeline_can_be_read() {
 #[test]
 fn the_published_schemas_of_scenes_are_what_the_programs_print() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    for tool in [
-        "gasprop", "arcfvm", "poolsph", "heatsph", "emfield", "jetsph", "avg",
-    ] {
+    for tool in "gasprop arcfvm poolsph heatsph emfield jetsph avg".split(' ') {
         let printed = Command::new(programs().join(tool))
             .arg("schema")
             .output()

@@ -10,9 +10,17 @@ use serde::Serialize;
 /// # Errors
 /// What cannot be written, with its file.
 pub fn keep(path: &Path, record: &impl Serialize) -> Result<(), String> {
+    let _owned = Lock::of(path).map_err(|e| e.to_string())?;
+    keep_owned(path, record)
+}
+
+/// The same in a place that the caller owns.
+///
+/// # Errors
+/// What cannot be written, with its file.
+pub fn keep_owned(path: &Path, record: &impl Serialize) -> Result<(), String> {
     let text =
         serde_json::to_string_pretty(record).map_err(|e| format!("{}: {e}", path.display()))?;
-    let _owned = Lock::of(path).map_err(|e| e.to_string())?;
     artefact::write_atomically(path, (text + "\n").as_bytes()).map_err(|e| e.to_string())
 }
 

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use run::{Form, Owned};
 use verification::em::exact::Known;
-use verification::keep::keep;
+use verification::keep::keep_owned;
 use verification::lab::read_json;
 
 /// Writes the exact fields along the lines of a scene, for the report to draw beside those found.
@@ -46,5 +46,5 @@ fn write(scene: &Path, out: &Path) -> Result<(), String> {
     let read = read_json(scene).map_err(|e| e.to_string())?;
     let known = Known::of(&read).and_then(|known| known.file(&read));
     let file = known.map_err(|e| format!("{}: {e}", scene.display()))?;
-    keep(out, &file)
+    keep_owned(out, &file)
 }

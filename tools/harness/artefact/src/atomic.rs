@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Result, io_error};
-use crate::place::must_be_replaceable;
+use crate::place::{folder_of, must_be_replaceable};
 
 /// `path` with `suffix` appended to its name.
 #[must_use]
@@ -21,14 +21,6 @@ pub fn beside(path: &Path, suffix: &str) -> PathBuf {
 pub fn free_bytes(path: &Path) -> Option<u64> {
     let disk = rustix::fs::statvfs(folder_of(path)).ok()?;
     Some(disk.f_bavail.saturating_mul(disk.f_frsize))
-}
-
-/// The folder that a file stands in.
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
 }
 
 /// Writes `bytes` to `path` so that a reader sees the old file or the new one, never a part.

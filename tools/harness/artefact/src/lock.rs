@@ -5,8 +5,9 @@ use std::io::{Read, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
-use crate::atomic::{beside, folder_of};
+use crate::atomic::beside;
 use crate::error::{Error, Result, io_error};
+use crate::place::folder_of;
 
 /// How often a lock file is opened anew that others removed meanwhile.
 const TRIES: usize = 1000;

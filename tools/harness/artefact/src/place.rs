@@ -4,7 +4,6 @@ use std::fs;
 use std::os::unix::fs::{FileTypeExt, MetadataExt};
 use std::path::{Path, PathBuf};
 
-use crate::atomic::folder_of;
 use crate::error::{Error, Result};
 
 /// Links that are followed from one to the next.
@@ -111,6 +110,14 @@ fn number(path: &Path) -> Option<(u64, u64)> {
     Some((found.dev(), found.ino()))
 }
 
+/// The folder that a file stands in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -125,7 +132,7 @@ mod tests {
         assert_eq!(followed(&at("a")), at("c"));
         assert_eq!(followed(&at("d")), at("d"));
         symlink("ring", at("ring")).expect("a link");
-        followed(&at("ring"));
+        let _ = followed(&at("ring"));
     }
 
     #[test]

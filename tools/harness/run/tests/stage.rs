@@ -318,7 +318,7 @@ fn a_place_that_cannot_be_written_ends_with_1_before_any_work() {
     let file = patch(folder.path(), "file", "not a folder");
     for (out, wanted) in [
         ("file/rod.mcap", "file: cannot create the folder"),
-        ("/proc/rod.mcap", "/proc/rod.mcap.part: cannot create"),
+        ("/proc/rod.mcap", "/proc/rod.mcap.lock: cannot create"),
     ] {
         let (code, _, stderr) = finished(folder.path(), &["run", SCENE, "--out", out]);
         assert_eq!(code, Some(1));

@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::shape::{Face, lattice, product};
+use super::row::{Face, lattice, product};
 
 /// Walls outside of an inner box.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

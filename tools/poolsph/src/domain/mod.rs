@@ -4,4 +4,5 @@ pub mod bodies;
 pub mod bounds;
 pub mod container;
 pub mod droplet;
+mod row;
 pub mod shape;

@@ -3,8 +3,8 @@
 use particles::{Column, POSITION, Set, sweep};
 use rayon::prelude::*;
 
-use super::bound::{Anchor, Load};
-use super::cell::{Cell, Derivatives, gradient};
+use super::body::Body;
+use super::cell::{Derivatives, gradient};
 use super::law::equivalent_strain;
 use super::links::{Links, terms};
 use super::sound::fastest;
@@ -23,25 +23,6 @@ pub const EQUIVALENT_STRAIN: Column<f64> = Column::new("equivalent_strain", "1",
 const SAFETY: f64 = 0.9;
 /// Particles per unit of parallel work.
 const GRAIN: usize = 32;
-
-/// A solid body and what holds and loads it.
-#[derive(Debug, Clone)]
-pub struct Body {
-    /// Number of its set.
-    pub set: usize,
-    /// Its cells.
-    pub cell: Cell,
-    /// Size of a cell \[m\].
-    pub size: [f64; 3],
-    /// Places of the anchors at rest, along the axes of the lattice \[m\].
-    pub anchor_rest: Vec<[f64; 3]>,
-    /// Anchors.
-    pub anchors: Vec<Anchor>,
-    /// Loads.
-    pub loads: Vec<Load>,
-    /// Rate at which velocities die away \[1/s\]; 0 where nothing damps them.
-    pub damping: f64,
-}
 
 /// An elastic solid: `L` numbers hold a vector, `T` terms a quadratic (2 and 5 in the plane, 4 and 9 in space).
 pub struct Elastic<const L: usize, const T: usize> {

@@ -6,6 +6,7 @@
 //! true ones: rows of particles stand half a cell inside them, free faces need nothing, held and loaded ones are
 //! [`bound`] where they are.
 
+pub mod body;
 pub mod bound;
 pub mod cell;
 pub mod elastic;
@@ -14,4 +15,5 @@ pub mod links;
 mod sound;
 pub mod tensor;
 
-pub use elastic::{Body, Elastic};
+pub use body::Body;
+pub use elastic::Elastic;
