@@ -1,6 +1,5 @@
 //! `report figures`: the measures of a bead, for programs.
 
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -8,6 +7,7 @@ use artefact::Reader;
 use run::Failure;
 use serde_json::{Map, Value, json};
 
+use crate::files::print;
 use crate::measure::bead::MEASURES;
 use crate::weld::Weld;
 
@@ -28,12 +28,6 @@ pub(crate) fn run(pool: &Path) -> Result<ExitCode, Failure> {
         }
     }
     let text = format!("{:#}\n", Value::Object(told));
-    let mut out = std::io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(|source| Failure::Io {
-        path: "stdout".into(),
-        action: "write",
-        source,
-    })?;
+    print(&text)?;
     Ok(ExitCode::SUCCESS)
 }

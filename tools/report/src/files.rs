@@ -1,5 +1,6 @@
-//! The files that each page is made from, as the command line names them, and the page that is written.
+//! The files that each page is made from, as the command line names them, and what is written: a page, or data to stdout.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use run::Failure;
@@ -158,4 +159,15 @@ pub(crate) fn save(path: &Path, html: &str) -> Result<(), Failure> {
         })?;
     }
     Ok(artefact::write_atomically(path, html.as_bytes())?)
+}
+
+/// Writes data to stdout.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.map_err(|source| Failure::Io {
+        path: "stdout".into(),
+        action: "write",
+        source,
+    })
 }

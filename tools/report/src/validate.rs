@@ -1,12 +1,12 @@
 //! `report validate`: a weld and arcs against published values, row by row.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use artefact::Reader;
 use run::Failure;
 
+use crate::files::print;
 use crate::targets::{Row, Targets, Verdict, compare};
 use crate::weld::Weld;
 
@@ -31,13 +31,7 @@ pub(crate) fn run(
     let targets = Targets::read(targets, &balances)?;
     let rows = compare(&targets, stretch.as_ref(), &balances);
     let text = table(&rows);
-    let mut out = std::io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(|source| Failure::Io {
-        path: "stdout".into(),
-        action: "write",
-        source,
-    })?;
+    print(&text)?;
     let failed = |row: &Row| {
         let judged = row.target.tolerance.is_some();
         judged && row.verdict != Verdict::Holds
