@@ -45,8 +45,15 @@ struct Wanted<'a> {
     knob: Option<(&'a str, &'a str)>,
     size: Option<f64>,
     base: f64,
+    /// Power of the size by which the time goes, until the series tells better.
+    power: f64,
     patch: Value,
 }
+
+/// A cube of points times as many steps.
+const SPACING_POWER: f64 = -4.0;
+/// As many steps.
+const STEP_POWER: f64 = -1.0;
 
 /// Runs what the budget allows; the base is always run.
 ///
@@ -98,16 +105,24 @@ fn wanted(plan: &Plan) -> Vec<Wanted<'_>> {
         knob: None,
         size: None,
         base: 1.0,
+        power: 0.0,
         patch: Value::Null,
     }];
     for knob in &plan.knobs {
         let own = (knob.name.as_str(), knob.stage.as_str());
         match &knob.series {
-            Series::Refined { base, points, .. } => all.extend(points.iter().map(|p| Wanted {
+            Series::Refined {
+                base, points, unit, ..
+            } => all.extend(points.iter().map(|p| Wanted {
                 name: format!("{}-{}", knob.name, p.size),
                 knob: Some(own),
                 size: Some(p.size),
                 base: *base,
+                power: if unit == "s" {
+                    STEP_POWER
+                } else {
+                    SPACING_POWER
+                },
                 patch: p.patch.clone(),
             })),
             Series::Varied { patches } => {
@@ -116,6 +131,7 @@ fn wanted(plan: &Plan) -> Vec<Wanted<'_>> {
                     knob: Some(own),
                     size: None,
                     base: 1.0,
+                    power: 0.0,
                     patch: patch.clone(),
                 }));
             }
@@ -143,8 +159,7 @@ fn expected(done: &[Point], point: &Wanted<'_>) -> Option<f64> {
         }
     }
     let power = match told.as_slice() {
-        // A cube of points times as many steps, until the series tells better.
-        [_] => -4.0,
+        [_] => point.power,
         [(a, s), .., (b, t)] => ((t / s).ln() / (b / a).ln()).clamp(-6.0, 0.0),
         [] => 0.0,
     };
