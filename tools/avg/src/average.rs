@@ -10,11 +10,12 @@ use crate::ensemble::Ensemble;
 use crate::frames::{self, Plate};
 use crate::grid::Section;
 use crate::mean::{self, Cells, Smoothing};
+use crate::parts::Parts;
 use crate::phase::{self, Source};
 use crate::profile::{self, Profile, Rings};
 use crate::scene::Scene;
 
-/// Most grid points of all sections and phases: some 3 GB.
+/// Most grid points of all sections and phases: some 5 GB.
 const POINTS_MOST: f64 = 2e7;
 
 /// Why there are no averages.
@@ -97,6 +98,8 @@ pub struct Plan {
     pub track: Vec<Source>,
     /// Number of phases; 1 without.
     pub phases: usize,
+    /// The independent part of each frame that counts.
+    pub parts: Parts,
     /// Length of the droplet period \[s\], where there is one.
     pub period: Option<f64>,
     /// Particles in the first frame that counts.
@@ -149,11 +152,13 @@ impl Plan {
             Some(follow) => frames::track(reader, &follow.channel)?,
             None => Vec::new(),
         };
+        let moments: Vec<f64> = frames.iter().map(|i| times[*i]).collect();
         let counted: Vec<Source> = track.iter().copied().filter(|s| counts(s.time)).collect();
         Ok(Self {
             smoothing,
             sections: scene.sections(spacing),
             rings: rings(scene, spacing)?,
+            parts: parts(&track, &moments),
             phases,
             period: scene.phases.and_then(|_| phase::period(&counted)),
             track,
@@ -181,6 +186,16 @@ impl Plan {
     #[must_use]
     pub fn frame_bytes(&self) -> u64 {
         (self.particles * 2 * (7 * 8 + 4 * 8)) as u64
+    }
+}
+
+/// Independent parts of the frames at `moments` \[s\]: by droplets, where the track tells more than one.
+fn parts(track: &[Source], moments: &[f64]) -> Parts {
+    let droplet = |t: &f64| frames::entry(track, *t).map(|at| track[at].droplet);
+    let told: Option<Vec<i64>> = moments.iter().map(droplet).collect();
+    match told {
+        Some(droplets) if droplets.first() != droplets.last() => Parts::by_droplets(&droplets),
+        _ => Parts::by_spans(moments.len()),
     }
 }
 
@@ -230,6 +245,8 @@ pub struct Seen {
     pub time: f64,
     /// Index of its phase.
     pub phase: usize,
+    /// Its independent part.
+    pub part: u32,
 }
 
 /// The averages of all sections.
@@ -288,12 +305,12 @@ impl<'a> Averaging<'a> {
         }
     }
 
-    /// Reads the frame with an index into the frame of reference of the averages.
+    /// Reads a frame of the plan, by its place there, into the frame of reference of the averages.
     ///
     /// # Errors
     /// When the frame cannot be read, lacks a column, or the source has no place at its time.
-    pub fn read(&mut self, reader: &Reader, index: usize) -> Result<Seen, AverageError> {
-        let frame = reader.frame(&self.scene.channel, index)?;
+    pub fn read(&mut self, reader: &Reader, place: usize) -> Result<Seen, AverageError> {
+        let frame = reader.frame(&self.scene.channel, self.plan.frames[place])?;
         let mut cloud = frames::cloud(&frame)?;
         let time = frame.time_s;
         drop(frame);
@@ -314,7 +331,13 @@ impl<'a> Averaging<'a> {
         if let Some(landed) = self.scene.landed {
             cloud.land(landed.link_m);
         }
-        Ok(Seen { cloud, time, phase })
+        let part = self.plan.parts.of(place);
+        Ok(Seen {
+            cloud,
+            time,
+            phase,
+            part,
+        })
     }
 
     /// Takes the kernel means of a frame into the ensembles.
@@ -324,7 +347,7 @@ impl<'a> Averaging<'a> {
         let cells = Cells::new(&seen.cloud, reach);
         for (section, ensemble) in self.plan.sections.iter().zip(&mut self.averages.ensembles) {
             let samples = mean::section(&seen.cloud, &cells, section, smoothing);
-            ensemble.add(seen.phase, &samples);
+            ensemble.add(seen.phase, seen.part, &samples);
         }
         if let (Some(rings), Some(profile)) = (&self.plan.rings, &mut self.averages.profile) {
             profile.add(rings, &seen.cloud, &cells, smoothing);

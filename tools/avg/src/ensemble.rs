@@ -1,6 +1,7 @@
 //! The arithmetic mean over periods of equal phase, its standard error, and the mean over all time.
 
 use crate::mean::Sample;
+use crate::parts::Estimate;
 
 /// Mean and spread of a quantity, updated one value at a time (Welford 1962).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -29,25 +30,15 @@ impl Moments {
         }
         (self.squares / (f64::from(self.count) - 1.0)).sqrt()
     }
-
-    /// Standard error of the mean; 0 with fewer than two values.
-    #[must_use]
-    pub fn standard_error(&self) -> f64 {
-        if self.count < 2 {
-            return 0.0;
-        }
-        let n = f64::from(self.count);
-        (self.squares / (n - 1.0) / n).sqrt()
-    }
 }
 
 /// Means at one grid point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Point {
     /// Velocity relative to the source \[m/s\], over frames with liquid here.
-    pub velocity: [Moments; 3],
+    pub velocity: [Estimate; 3],
     /// Temperature \[K\], over frames with metal here.
-    pub temperature: Moments,
+    pub temperature: Estimate,
     /// Height of the averaged particles \[m\], over frames with metal here.
     pub height: Moments,
     /// Share of liquid, over frames with metal here.
@@ -55,34 +46,37 @@ pub struct Point {
 }
 
 impl Point {
-    /// All its moments, in the order of a checkpoint.
-    pub(crate) fn moments(&self) -> [Moments; 6] {
+    /// Its means with errors, in the order of a checkpoint.
+    pub(crate) fn estimates(&self) -> [Estimate; 4] {
         let [x, y, z] = self.velocity;
-        [x, y, z, self.temperature, self.height, self.share]
+        [x, y, z, self.temperature]
     }
 
     /// The same, to be replaced.
-    pub(crate) fn moments_mut(&mut self) -> [&mut Moments; 6] {
+    pub(crate) fn estimates_mut(&mut self) -> [&mut Estimate; 4] {
         let [x, y, z] = &mut self.velocity;
-        [
-            x,
-            y,
-            z,
-            &mut self.temperature,
-            &mut self.height,
-            &mut self.share,
-        ]
+        [x, y, z, &mut self.temperature]
     }
 
-    fn add(&mut self, sample: &Sample) {
+    /// Its means without errors, in the order of a checkpoint.
+    pub(crate) fn moments(&self) -> [Moments; 2] {
+        [self.height, self.share]
+    }
+
+    /// The same, to be replaced.
+    pub(crate) fn moments_mut(&mut self) -> [&mut Moments; 2] {
+        [&mut self.height, &mut self.share]
+    }
+
+    fn add(&mut self, part: u32, sample: &Sample) {
         if sample.metal {
-            self.temperature.add(sample.temperature);
+            self.temperature.add(part, sample.temperature);
             self.height.add(sample.height);
             self.share.add(sample.share);
         }
         if sample.liquid {
-            for (moments, u) in self.velocity.iter_mut().zip(sample.velocity) {
-                moments.add(u);
+            for (mean, u) in self.velocity.iter_mut().zip(sample.velocity) {
+                mean.add(part, u);
             }
         }
     }
@@ -126,13 +120,13 @@ impl Ensemble {
         self.phases.iter_mut().flatten().chain(&mut self.time)
     }
 
-    /// Takes in the samples of a frame of the given phase. Frames come in the order of time, so
-    /// that the sums are the same on every run.
-    pub fn add(&mut self, phase: usize, samples: &[Sample]) {
+    /// Takes in the samples of a frame of the given phase and independent part. Frames come in the order of time,
+    /// so that the sums are the same on every run.
+    pub fn add(&mut self, phase: usize, part: u32, samples: &[Sample]) {
         self.frames[phase] += 1;
         for (i, sample) in samples.iter().enumerate() {
-            self.phases[phase][i].add(sample);
-            self.time[i].add(sample);
+            self.phases[phase][i].add(part, sample);
+            self.time[i].add(part, sample);
         }
     }
 }
@@ -154,20 +148,25 @@ mod tests {
     }
 
     #[test]
-    fn moments_are_mean_and_standard_error() {
+    fn moments_are_mean_and_deviation() {
         let mut m = Moments::default();
         for v in [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0] {
             m.add(v);
         }
         assert!((m.mean - 5.0).abs() < 1e-14);
-        assert!((m.standard_error() - (32.0_f64 / 7.0 / 8.0).sqrt()).abs() < 1e-14);
+        assert!((m.deviation() - (32.0_f64 / 7.0).sqrt()).abs() < 1e-14);
     }
 
     #[test]
     fn phases_are_kept_apart_and_time_takes_all() {
         let mut e = Ensemble::new(2, 1);
         for n in 0..4 {
-            e.add(n % 2, &[liquid(if n % 2 == 0 { 1.0 } else { 3.0 }, 2000.0)]);
+            let part = (n / 2) as u32;
+            e.add(
+                n % 2,
+                part,
+                &[liquid(if n % 2 == 0 { 1.0 } else { 3.0 }, 2000.0)],
+            );
         }
         assert!((e.phases[0][0].velocity[0].mean - 1.0).abs() < 1e-15);
         assert!((e.phases[1][0].velocity[0].mean - 3.0).abs() < 1e-15);
@@ -178,7 +177,7 @@ mod tests {
     #[test]
     fn where_nothing_is_the_count_is_zero_and_no_value_is_not_a_number() {
         let mut e = Ensemble::new(1, 1);
-        e.add(0, &[Sample::default()]);
+        e.add(0, 0, &[Sample::default()]);
         let p = e.phases[0][0];
         assert_eq!((p.temperature.count, p.velocity[0].count), (0, 0));
         assert!(p.temperature.mean == 0.0 && p.temperature.standard_error() == 0.0);

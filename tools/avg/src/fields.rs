@@ -3,15 +3,18 @@
 //! Each section becomes a channel of its name with one table per phase, at the log time of the
 //! phase in the droplet period (without phases there is none of these), and a channel
 //! `NAME/time_mean` with the mean over all frames. Where a column has no frame behind it, its value is 0 and
-//! the count that belongs to it (`frames_metal`, `frames_liquid`) is 0. Grids that move with the source
+//! the count that belongs to it (`frames_metal`, `frames_liquid`) is 0. Errors are told by the independent parts
+//! of the frames ([`crate::parts`]); where `parts_metal` or `parts_liquid` is below 2 there is no error, and its
+//! column is 0. Grids that move with the source
 //! stand in the frame of reference `source`, others in `world`. The surface over the distance from the axis
 //! ([`crate::profile`]) is the channel `/profile`, where the scene asks for it.
 
 use artefact::Table;
 
 use crate::average::{Averages, Plan};
-use crate::ensemble::{Ensemble, Moments, Point};
+use crate::ensemble::{Ensemble, Point};
 use crate::grid::{Cut, Section};
+use crate::parts::student;
 use crate::profile::{PROFILE, Profile};
 
 const AXES: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -104,13 +107,20 @@ pub fn table(section: &Section, points: &[Point], temperature: bool) -> Table {
         let values = points.iter().map(|p| p.velocity[k].mean);
         table = table.column(&format!("velocity_{axis}_m_s"), "m/s", values);
     }
-    table = table.column("velocity_error_m_s", "m/s", points.iter().map(speed_error));
+    let half = points
+        .iter()
+        .map(|p| student(p.velocity[0].parts()) * speed_error(p));
+    table = table
+        .column("velocity_error_m_s", "m/s", points.iter().map(speed_error))
+        .column("velocity_interval_m_s", "m/s", half);
     if temperature {
         let mean = points.iter().map(|p| p.temperature.mean);
         let error = points.iter().map(|p| p.temperature.standard_error());
+        let half = points.iter().map(|p| p.temperature.half_interval());
         table = table
             .column("temperature_k", "K", mean)
-            .column("temperature_error_k", "K", error);
+            .column("temperature_error_k", "K", error)
+            .column("temperature_interval_k", "K", half);
     }
     match section.cut {
         Cut::Surface { .. } => {
@@ -118,24 +128,19 @@ pub fn table(section: &Section, points: &[Point], temperature: bool) -> Table {
         }
         Cut::Plane { axis, at, .. } => table = table.attribute(AXES[axis], "m", at),
     }
+    let number = |of: fn(&Point) -> u32| points.iter().map(move |p| f64::from(of(p)));
     table
         .column("liquid_share", "1", points.iter().map(|p| p.share.mean))
-        .column("frames_metal", "1", points.iter().map(|p| count(&p.height)))
-        .column(
-            "frames_liquid",
-            "1",
-            points.iter().map(|p| count(&p.velocity[0])),
-        )
+        .column("frames_metal", "1", number(|p| p.height.count))
+        .column("frames_liquid", "1", number(|p| p.velocity[0].count))
+        .column("parts_metal", "1", number(|p| p.temperature.parts()))
+        .column("parts_liquid", "1", number(|p| p.velocity[0].parts()))
 }
 
 /// Standard error of the mean velocity: root of the sum over its components \[m/s\].
 fn speed_error(point: &Point) -> f64 {
     let squares = point.velocity.iter().map(|m| m.standard_error().powi(2));
     squares.sum::<f64>().sqrt()
-}
-
-fn count(moments: &Moments) -> f64 {
-    f64::from(moments.count)
 }
 
 #[cfg(test)]

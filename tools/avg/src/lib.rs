@@ -8,8 +8,8 @@
 //! within a given distance, and the topmost layer of metal as seen from above ([`grid`]).
 //!
 //! The mean of a linear field is exact at points about which the particles lie symmetrically; at
-//! random particles its error is of the order of the jitter over the root of the number of frames,
-//! which the standard errors in the output tell. Near a surface the kernel is cut off, and the mean
+//! random particles its error is of the order of the jitter over the root of the number of independent frames,
+//! which the standard errors in the output tell ([`parts`]). Near a surface the kernel is cut off, and the mean
 //! is that of the metal inside: half a spacing below the surface, about.
 
 pub mod average;
@@ -19,6 +19,7 @@ pub mod fields;
 pub mod frames;
 pub mod grid;
 pub mod mean;
+pub mod parts;
 pub mod phase;
 pub mod profile;
 pub mod resume;

@@ -4,10 +4,15 @@ use artefact::{Checkpoint, Error, Result};
 
 use crate::average::Averaging;
 use crate::ensemble::{Ensemble, Moments, Point};
+use crate::parts::Estimate;
 use crate::profile::Profile;
 
-/// Moments of a point.
-const MOMENTS: usize = 6;
+/// Means of a point without and with errors.
+const MOMENTS: usize = 2;
+const ESTIMATES: usize = 4;
+/// Counts and sums of a mean with an error.
+const COUNTS: usize = 4;
+const SUMS: usize = 5;
 
 /// Puts all that the averages depend on into a checkpoint: `done` frames are taken in.
 ///
@@ -21,9 +26,14 @@ pub fn save(checkpoint: &mut Checkpoint, averaging: &Averaging<'_>, done: usize)
         let parts = || ensemble.points().flat_map(Point::moments);
         let counts: Vec<u64> = parts().map(|m| u64::from(m.count)).collect();
         let sums: Vec<f64> = parts().flat_map(|m| [m.mean, m.squares]).collect();
+        let errors = || ensemble.points().flat_map(Point::estimates);
+        let parted: Vec<u64> = errors().flat_map(|e| counts_of(&e)).collect();
+        let weighed: Vec<f64> = errors().flat_map(|e| sums_of(&e)).collect();
         checkpoint.put_u64(&entry(place, "frames"), &frames);
         checkpoint.put_u64(&entry(place, "counts"), &counts);
         checkpoint.put_f64(&entry(place, "sums"), &sums);
+        checkpoint.put_u64(&entry(place, "part_counts"), &parted);
+        checkpoint.put_f64(&entry(place, "part_sums"), &weighed);
     }
     if let Some(profile) = &averaging.averages.profile {
         let parts = || profile.places.iter().chain(&profile.rings);
@@ -46,9 +56,24 @@ pub fn restore(checkpoint: &mut Checkpoint, averaging: &mut Averaging<'_>) -> Re
         let frames = checkpoint.u64(&entry(place, "frames"))?;
         let counts = checkpoint.u64(&entry(place, "counts"))?;
         let sums = checkpoint.f64(&entry(place, "sums"))?;
-        let moments = MOMENTS * ensemble.points().count();
-        let found = (frames.len(), counts.len(), sums.len());
-        let expected = (ensemble.frames.len(), moments, 2 * moments);
+        let parted = checkpoint.u64(&entry(place, "part_counts"))?;
+        let weighed = checkpoint.f64(&entry(place, "part_sums"))?;
+        let points = ensemble.points().count();
+        let (moments, estimates) = (MOMENTS * points, ESTIMATES * points);
+        let found = [
+            frames.len(),
+            counts.len(),
+            sums.len(),
+            parted.len(),
+            weighed.len(),
+        ];
+        let expected = [
+            ensemble.frames.len(),
+            moments,
+            2 * moments,
+            COUNTS * estimates,
+            SUMS * estimates,
+        ];
         if found != expected {
             return Err(Error::Damaged {
                 path: "checkpoint".into(),
@@ -56,7 +81,8 @@ pub fn restore(checkpoint: &mut Checkpoint, averaging: &mut Averaging<'_>) -> Re
                 what: format!("lengths are {found:?}, of the averages {expected:?}"),
             });
         }
-        fill(ensemble, &frames, &counts, &sums);
+        fill(ensemble, &frames, kept(&counts, &sums));
+        fill_errors(ensemble, &parted, &weighed);
     }
     if let Some(profile) = &mut averaging.averages.profile {
         restore_profile(checkpoint, profile)?;
@@ -65,16 +91,49 @@ pub fn restore(checkpoint: &mut Checkpoint, averaging: &mut Averaging<'_>) -> Re
     Ok(done.first().map_or(0, |n| narrow(*n) as usize))
 }
 
-fn fill(ensemble: &mut Ensemble, frames: &[u64], counts: &[u64], sums: &[f64]) {
+fn fill(ensemble: &mut Ensemble, frames: &[u64], mut kept: impl Iterator<Item = Moments>) {
     for (own, n) in ensemble.frames.iter_mut().zip(frames) {
         *own = narrow(*n);
     }
-    let mut kept = kept(counts, sums);
     for point in ensemble.points_mut() {
         for moments in point.moments_mut() {
             *moments = kept.next().unwrap_or_default();
         }
     }
+}
+
+fn fill_errors(ensemble: &mut Ensemble, counts: &[u64], sums: &[f64]) {
+    let (counts, _) = counts.as_chunks::<COUNTS>();
+    let (sums, _) = sums.as_chunks::<SUMS>();
+    let mut kept = counts.iter().zip(sums);
+    for point in ensemble.points_mut() {
+        for estimate in point.estimates_mut() {
+            let Some((counts, sums)) = kept.next() else {
+                return;
+            };
+            let [count, part, part_count, closed] = counts.map(narrow);
+            let [mean, part_mean, weight, centre, squares] = *sums;
+            *estimate = Estimate {
+                count,
+                mean,
+                part,
+                part_count,
+                part_mean,
+                closed,
+                weight,
+                centre,
+                squares,
+            };
+        }
+    }
+}
+
+fn counts_of(e: &Estimate) -> [u64; COUNTS] {
+    [e.count, e.part, e.part_count, e.closed].map(u64::from)
+}
+
+fn sums_of(e: &Estimate) -> [f64; SUMS] {
+    [e.mean, e.part_mean, e.weight, e.centre, e.squares]
 }
 
 fn restore_profile(checkpoint: &mut Checkpoint, profile: &mut Profile) -> Result<()> {

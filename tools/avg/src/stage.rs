@@ -12,8 +12,8 @@ use crate::scene::Scene;
 
 /// Kind and major version of the frames that are averaged.
 const FRAMES: (&str, u32) = ("particle-frames", 1);
-/// Fewer frames in a phase than this give no standard error worth the name.
-const FEW_FRAMES: u32 = 3;
+/// Fewer droplets in a phase than this give no standard error.
+const FEW_DROPLETS: usize = 2;
 
 /// Averages of particle frames.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl Tool for Avg {
          --input frames=build/gmaw-300a/pool.mcap --out build/gmaw-300a/mean.mcap";
     const SCENE_KIND: &'static str = "avg.scene";
     const ARTEFACT_KIND: &'static str = "mean-fields";
-    const ARTEFACT_VERSION: Version = Version::new(1, 2);
+    const ARTEFACT_VERSION: Version = Version::new(1, 3);
     const INPUTS: &'static [Input] = &[Input {
         name: "frames",
         what: "particle frames to average (particle-frames 1.x)",
@@ -50,11 +50,11 @@ impl Tool for Avg {
     fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
         let (reader, plan) = open(scene, inputs)?;
         let mut averaging = Averaging::new(scene, &plan);
-        let Some(first) = plan.frames.first() else {
+        if plan.frames.is_empty() {
             return Ok(None);
-        };
+        }
         let began = Instant::now();
-        let cloud = averaging.read(&reader, *first).map_err(failure)?;
+        let cloud = averaging.read(&reader, 0).map_err(failure)?;
         averaging.take(&cloud);
         let each = began.elapsed().as_secs_f64();
         Ok(Some(Estimate {
@@ -72,8 +72,8 @@ impl Tool for Avg {
             Some(mut checkpoint) => resume::restore(&mut checkpoint, &mut averaging)?,
             None => 0,
         };
-        for (done, index) in plan.frames.iter().enumerate().skip(taken) {
-            let cloud = session.timed("read", || averaging.read(&reader, *index));
+        for done in taken..plan.frames.len() {
+            let cloud = session.timed("read", || averaging.read(&reader, done));
             let cloud = cloud.map_err(failure)?;
             session.timed("mean", || averaging.take(&cloud));
             session.progress(done as u64 + 1, total, || {
@@ -163,10 +163,10 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
             "{empty} of {} phases have no frame: the frames were not written at these phases",
             plan.phases
         ));
-    } else if least < FEW_FRAMES && plan.phases > 1 {
-        session.note(format!(
-            "a phase has {least} frames only: its standard errors mean little"
-        ));
+    } else if plan.phases > 1 {
+        alone(session, averages);
+    } else if plan.parts.count < 2 {
+        session.note("one frame: its means have no standard error");
     }
     session.closing("frames", "1", plan.frames.len() as f64);
     if let (Some(rings), Some(profile)) = (&plan.rings, &averages.profile) {
@@ -180,5 +180,17 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
     }
     if let Some(period) = plan.period {
         session.closing("droplet_period", "s", period);
+    }
+}
+
+/// Tells phases whose means are of one droplet.
+fn alone(session: &mut Session, averages: &Averages) {
+    let droplets = averages.drops.0.iter();
+    let alone = droplets.filter(|n| **n < FEW_DROPLETS).count();
+    if alone > 0 {
+        let phases = averages.drops.0.len();
+        session.warn(format!(
+            "{alone} of {phases} phases show one droplet only: their means have no standard error"
+        ));
     }
 }

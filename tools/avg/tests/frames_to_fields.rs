@@ -94,8 +94,8 @@ fn average(from: &Path, to: &Path, scene: &Scene) -> Result<Reader, AverageError
     let reader = Reader::open(from)?;
     let plan = Plan::new(scene, &reader)?;
     let mut averaging = Averaging::new(scene, &plan);
-    for index in &plan.frames {
-        let seen = averaging.read(&reader, *index)?;
+    for place in 0..plan.frames.len() {
+        let seen = averaging.read(&reader, place)?;
         averaging.take(&seen);
     }
     let mut writer = Writer::create(to, &header("mean-fields"))?;
@@ -206,8 +206,8 @@ fn sections_without_metal_are_named() {
         let reader = Reader::open(&from).unwrap();
         let plan = Plan::new(&scene, &reader).unwrap();
         let mut averaging = Averaging::new(&scene, &plan);
-        for index in &plan.frames {
-            let seen = averaging.read(&reader, *index).unwrap();
+        for place in 0..plan.frames.len() {
+            let seen = averaging.read(&reader, place).unwrap();
             averaging.take(&seen);
         }
         averaging.finish().empty(&plan).join(" ")

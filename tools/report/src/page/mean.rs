@@ -58,9 +58,15 @@ fn one(
     if let Some(field) = time
         && let Some(canvas) = single(field, style)
     {
+        let chance = field.interval().map_or(String::new(), |half| {
+            format!(
+                " At a typical place in the liquid the true mean lies within {} m/s of this one in 95 of 100 cases.",
+                number(half)
+            )
+        });
         let caption = format!(
             "{title}, mean over {} frames{}. Arrows are the velocity relative to the arc (the arrow below the \
-             picture is {reference} m/s), colour is {colour}, grey is solid.",
+             picture is {reference} m/s), colour is {colour}, grey is solid.{chance}",
             field.frames,
             if field.drops > 0.0 {
                 format!(" of {} droplets", field.drops)
