@@ -9,6 +9,8 @@ use run::{Failure, Fault, Inputs};
 use crate::domain::bodies::{self, Body, Filled};
 use crate::domain::bounds::Bounds;
 use crate::domain::droplet::Droplets;
+use crate::domain::fitting::fitting;
+use crate::faces::Faces;
 use crate::forces::arc_pressure::{ArcPressure, Pressure};
 use crate::forces::buoyancy::Buoyancy;
 use crate::forces::gas_shear::{Gas, GasShear};
@@ -104,6 +106,7 @@ type Held = Vec<(Range<usize>, Curve)>;
 pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let mut faults = crate::scene::faults(scene);
     let bodies = checked_bodies(scene, &mut faults);
+    let faces = checked_faces(scene, &mut faults);
     if !faults.is_empty() {
         return Err(Failure::Scene(faults));
     }
@@ -113,6 +116,8 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let columns = columns(&source.stages(Vec::new())?);
     let mut state = State::new(scene.metal(), columns);
     let filled = bodies::fill(&mut state, &bodies, source.caloric.as_deref())?;
+    state.faces = faces;
+    fitting(&state).map_err(|fault| fault.within("/faces"))?;
     let parts = source.stages(held(&bodies, &filled))?;
     state.flowing = scene.flow.is_some() && scene.flow_start.is_none();
     state.source = scene.source.map(|source| source.place(0.0));
@@ -128,6 +133,20 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         filled,
         left_out: parts.left_out,
     })
+}
+
+/// The faces of the flow; none where the scene has none.
+fn checked_faces(scene: &Scene, faults: &mut Vec<Fault>) -> Faces {
+    let Some(parameters) = &scene.faces else {
+        return Faces::default();
+    };
+    match parameters.faces(scene.metal().support(), scene.heat.is_some()) {
+        Ok(faces) => faces,
+        Err(fault) => {
+            faults.push(fault.within("/faces"));
+            Faces::default()
+        }
+    }
 }
 
 fn held(bodies: &[Body], filled: &[Filled]) -> Held {

@@ -3,6 +3,7 @@
 pub mod assemble;
 pub mod balance;
 pub mod domain;
+pub mod faces;
 pub mod forces;
 pub mod frames;
 pub mod heat;

@@ -1,5 +1,6 @@
 //! What the surface is at a particle.
 
+use crate::faces::Turn;
 use crate::vector::plus;
 
 /// A wall whose normal points down by this much is out of reach of the arc. It is above zero for the scatter of
@@ -22,6 +23,17 @@ pub struct Patch {
 }
 
 impl Patch {
+    /// The patch of an image.
+    #[must_use]
+    #[inline]
+    pub(crate) fn turned(self, turn: &Turn) -> Self {
+        Self {
+            normal: turn.vector(self.normal),
+            gradient: turn.vector(self.gradient),
+            ..self
+        }
+    }
+
     /// The place on the surface that belongs to a particle at `x` \[m\]: tables of what acts on the area are read there.
     #[must_use]
     #[inline]

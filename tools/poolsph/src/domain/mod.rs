@@ -4,5 +4,6 @@ pub mod bodies;
 pub mod bounds;
 pub mod container;
 pub mod droplet;
+pub mod fitting;
 mod row;
 pub mod shape;

@@ -84,13 +84,14 @@ impl Stage for Marangoni {
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
         let per_volume = self.parameters.slope_n_m_k / state.metal.volume();
-        self.temperature.clear();
-        let kelvin = state
+        state
             .near
-            .id
-            .iter()
-            .map(|&id| state.temperature[id as usize]);
-        self.temperature.extend(kelvin);
+            .temperatures(
+                (&state.faces, state.time),
+                &state.temperature,
+                &mut self.temperature,
+            )
+            .map_err(|fault| StageError::Data(format!("temperature of a wall: {fault}")))?;
         let (temperature, surface) = (&self.temperature, &state.surface);
         let mut force = std::mem::take(&mut state.near.force);
         let near = &state.near;

@@ -29,6 +29,7 @@ use serde::{Deserialize, Serialize};
 
 use neighbours::ROWS;
 
+use crate::faces::Turn;
 use crate::motion::lattice::Lattice;
 use crate::near::{Near, Role};
 use crate::stage::{Limit, Stage, StageError};
@@ -101,8 +102,8 @@ impl Tension {
         let (h, strength, exchange) = (metal.smoothing_length, self.strength, self.exchange);
         let share = 1.0 / (6.0 * metal.volume());
         let (position, role) = (&near.position, &near.role);
-        self.pull.resize(near.id.len(), [0.0; 4]);
-        self.kept.resize(near.id.len(), 0.0);
+        self.pull.resize(near.len(), [0.0; 4]);
+        self.kept.resize(near.len(), 0.0);
         self.pull
             .par_chunks_mut(ROWS)
             .zip(self.kept.par_chunks_mut(ROWS))
@@ -126,13 +127,14 @@ impl Tension {
                         let stiffness = strength * ((2.0 - q).max(0.0) / q).min(1.0);
                         sum = plus(sum, stiffness, dx);
                         stretched += stiffness * square;
-                        given += f64::from(u8::from(role[b as usize] == Role::Liquid)) * w;
+                        given += f64::from(u8::from(role[b as usize].flows())) * w;
                     }
                     *pull = [sum[0], sum[1], sum[2], 0.0];
                     *kept = 1.0 - exchange * given;
                     *virial -= share * stretched;
                 }
             });
+        near.complete(&mut self.pull, turned);
     }
 
     /// One exchange of the pull between liquid neighbours (eq. 4.8). The pull of solid ones is
@@ -140,7 +142,7 @@ impl Tension {
     fn smooth(&mut self, near: &Near) {
         let (pull, kept, role) = (&self.pull, &self.kept, &near.role);
         let exchange = self.exchange;
-        self.smooth.resize(pull.len(), [0.0; 4]);
+        self.smooth.resize(near.len(), [0.0; 4]);
         near.each_row(&mut self.smooth, |a, row, out| {
             *out = [0.0; 4];
             if role[a] == Role::Liquid {
@@ -152,6 +154,7 @@ impl Tension {
                 *out = std::array::from_fn(|i| kept[a] * own[i] + exchange * sum[i]);
             }
         });
+        near.complete(&mut self.smooth, turned);
         std::mem::swap(&mut self.pull, &mut self.smooth);
     }
 
@@ -162,7 +165,7 @@ impl Tension {
         let total = &self.total;
         near.each_virial(|near, a, row, virial| {
             if near.role[a] == Role::Liquid {
-                let liquid = row.values().filter(|(b, _)| near.role[*b] == Role::Liquid);
+                let liquid = row.values().filter(|(b, _)| near.role[*b].flows());
                 let sum = liquid.fold(0.0, |sum, (b, w)| {
                     let force = minus(three(total[b]), three(total[a]));
                     sum + w * dot(force, minus(near.position[a], near.position[b]))
@@ -178,6 +181,12 @@ fn gather(total: &mut [[f64; 4]], part: f64, pull: &[[f64; 4]]) {
     for (total, pull) in total.iter_mut().zip(pull) {
         *total = std::array::from_fn(|i| total[i] + part * pull[i]);
     }
+}
+
+/// The pull on an image.
+fn turned([x, y, z, pad]: [f64; 4], _: usize, turn: &Turn) -> [f64; 4] {
+    let [x, y, z] = turn.vector([x, y, z]);
+    [x, y, z, pad]
 }
 
 fn three([x, y, z, _]: [f64; 4]) -> [f64; 3] {
@@ -201,7 +210,7 @@ impl Stage for Tension {
         let near = &mut state.near;
         self.pull(near, metal);
         self.total.clear();
-        self.total.resize(near.len(), [0.0; 4]);
+        self.total.resize(self.pull.len(), [0.0; 4]);
         for _ in 0..SMOOTHINGS {
             gather(&mut self.total, 1.0, &self.pull);
             self.smooth(near);

@@ -24,7 +24,7 @@ pub use conduction::Conduction;
 pub use film::GasFilm;
 pub use losses::{LossParameters, Losses, Where};
 pub(crate) use parameters::table;
-pub use parameters::{Face, Faces, MeltingParameters, Parameters};
+pub use parameters::{Faces, MeltingParameters, Parameters};
 pub use phase::{FlowStart, Phase};
 pub use vapour::{Evaporation, GasLayer};
 

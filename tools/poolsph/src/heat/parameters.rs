@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::caloric::{Caloric, Melting};
+use crate::faces::Face;
 use crate::rest::Plane;
 
 /// Temperatures \[K\] that a metal can have; a run that leaves them has diverged.
@@ -91,41 +92,11 @@ pub struct Faces {
     pub surroundings_k: f64,
 }
 
-/// A face of a box, by the direction that it looks to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Face {
-    /// Towards lesser x.
-    #[serde(rename = "x-")]
-    XMinus,
-    /// Towards greater x.
-    #[serde(rename = "x+")]
-    XPlus,
-    /// Towards lesser y.
-    #[serde(rename = "y-")]
-    YMinus,
-    /// Towards greater y.
-    #[serde(rename = "y+")]
-    YPlus,
-    /// Down.
-    #[serde(rename = "z-")]
-    ZMinus,
-    /// Up.
-    #[serde(rename = "z+")]
-    ZPlus,
-}
-
 impl Faces {
     /// The plane of a face.
     #[must_use]
     pub fn plane(&self, face: Face) -> Plane {
-        let (axis, upper) = match face {
-            Face::XMinus => (0, false),
-            Face::XPlus => (0, true),
-            Face::YMinus => (1, false),
-            Face::YPlus => (1, true),
-            Face::ZMinus => (2, false),
-            Face::ZPlus => (2, true),
-        };
+        let (axis, upper) = face.side();
         Plane {
             axis,
             at: if upper { self.max_m } else { self.min_m }[axis],

@@ -8,6 +8,7 @@ use run::property::{Curve, Property};
 use super::caloric::Melting;
 use super::caloric::tests::{plain, steel};
 use super::*;
+use crate::faces::Face;
 use crate::stage::Stage;
 use crate::state::{self, Column, Metal, Particle, State};
 

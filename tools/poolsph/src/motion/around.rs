@@ -15,12 +15,12 @@ pub struct Around {
 }
 
 impl Around {
-    /// Sums `field` over all rows.
+    /// Sums `field`, with its images, over all rows.
     pub fn sum(&mut self, near: &Near, field: &[[f64; 3]]) {
         let points = field.par_iter().zip(&near.role).with_min_len(GRAIN);
         points
             .map(|([x, y, z], role)| match role {
-                Role::Liquid => [*x, *y, *z, 1.0],
+                Role::Liquid | Role::Image => [*x, *y, *z, 1.0],
                 _ => [0.0; 4],
             })
             .collect_into_vec(&mut self.carried);

@@ -253,10 +253,11 @@ impl Stage for Motion {
         };
         for k in 0..self.substeps {
             if k > 0 {
-                state.near.refresh();
+                state.near.refresh(&state.faces);
             }
             self.substep(&mut state.near, step);
         }
+        state.near.fold(&state.faces);
         self.speed = state.near.fastest_squared().sqrt();
         self.scatter(state, dt);
         Ok(())

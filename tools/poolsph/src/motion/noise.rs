@@ -72,6 +72,7 @@ impl Noise {
             let part = dt * viscosity.spared(near, sum[3], a) - lost;
             *first = difference(&near.velocity[a], sum, part * volume);
         });
+        near.complete(&mut self.first, |u, _, turn| turn.difference(u));
         around.sum(near, &self.first);
         let rows = predicted.par_iter_mut().zip(&self.first).zip(&around.sums);
         rows.with_min_len(GRAIN).for_each(|((out, own), sum)| {

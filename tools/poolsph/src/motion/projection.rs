@@ -42,8 +42,7 @@ use crate::vector::{dot, minus, squared};
 const STEP: f64 = 0.87;
 
 /// Momentum of the first sweep, as of accelerated gradients that are some sweeps old: the last pressure
-/// is near, and what it lacks is smooth. From 1, the start of a cold solution, the same falls take
-/// longer.
+/// is near, and what it lacks is smooth. From 1, that of a cold start, the same falls take longer.
 const MOMENTUM: f64 = 4.0;
 
 /// Least diagonal in parts of the lattice's: a particle at the edge of another's reach must not
@@ -142,8 +141,8 @@ impl Projection {
         }
     }
 
-    /// Finds p for the predicted velocities and turns these into the final ones. `near.virial`
-    /// gets the share of p in the pressure which the metal carries.
+    /// Finds p for the predicted velocities and makes these final. `near.virial` gets the share of p in the pressure
+    /// which the metal carries.
     pub fn solve(
         &mut self,
         near: &mut Near,
@@ -177,6 +176,7 @@ impl Projection {
             };
             momentum = next;
             self.extrapolate(weight as f32);
+            self.reflect(near);
             if solved.sweeps >= tolerance.sweeps_min && solved.density_error <= tolerance.density {
                 break;
             }
@@ -200,16 +200,19 @@ impl Projection {
         self.sums.resize(n, [0.0; 3]);
         self.partial.resize(n.div_ceil(ROWS), Partial::default());
         self.diagonal.resize(n, 0.0);
-        self.place.resize(n, [0.0; 3]);
+        let origin = middle(&near.position);
+        self.origin = origin;
+        let places = near.position.par_iter().with_min_len(GRAIN);
+        places
+            .map(|x| minus(*x, origin).map(|x| x as f32))
+            .collect_into_vec(&mut self.place);
         self.change.resize(n, [0.0; 4]);
         let scale = dt * dt * volume * force;
         let least = DIAGONAL_LEAST * self.lattice.gradient_squared;
-        let origin = middle(&near.position);
-        self.origin = origin;
         self.diagonal
             .par_iter_mut()
             .zip(&mut self.pressure)
-            .zip(&mut self.place)
+            .zip(&self.place)
             .zip(&mut self.change)
             .zip(&mut self.sums)
             .enumerate()
@@ -229,9 +232,9 @@ impl Projection {
                     *pressure = 0.0;
                 }
                 *sum = near.gradient[a].map(|x| x as f32);
-                *place = minus(near.position[a], origin).map(|x| x as f32);
                 *change = carried(*place, *pressure);
             });
+        self.reflect(near);
         self.before.clone_from(&self.pressure);
         self.tried.clone_from(&self.pressure);
     }
@@ -253,6 +256,10 @@ impl Projection {
                 [u[0], u[1], u[2], dot(u, minus(*x, origin))]
             })
             .collect_into_vec(&mut self.moved);
+        near.complete(&mut self.moved, |[u, v, w, _], k, turn| {
+            let u = turn.vector([u, v, w]);
+            [u[0], u[1], u[2], dot(u, minus(near.position[k], origin))]
+        });
         let moved = &self.moved;
         near.each_row(
             &mut self.residual,
@@ -264,7 +271,7 @@ impl Projection {
                 let mut full = 1.0;
                 if near.role[a] != Role::Liquid {
                     let solid = row.values().fold(own, |solid, (b, value)| {
-                        let liquid = near.role[b] == Role::Liquid;
+                        let liquid = near.role[b].flows();
                         solid + if liquid { 0.0 } else { value }
                     });
                     let over = (volume * solid - 1.0).max(0.0);
@@ -298,6 +305,17 @@ impl Projection {
                 }
             },
         );
+        near.complete(&mut self.field, |[u, v, w, _], k, turn| {
+            let [u, v, w] = turn.vector([u, v, w].map(f64::from)).map(|x| x as f32);
+            let x = place[k];
+            [u, v, w, u * x[0] + v * x[1] + w * x[2]]
+        });
+    }
+
+    /// Gives the images beyond the faces the q of their originals.
+    fn reflect(&mut self, near: &Near) {
+        let place = &self.place;
+        near.complete(&mut self.change, |[.., q], k, _| carried(place[k], q));
     }
 
     /// The residual of y, with (J acc)_a = acc_a . sum of grad W - D(acc) . x_a + D(acc . x).

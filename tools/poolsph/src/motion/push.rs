@@ -52,6 +52,10 @@ impl Push {
             .with_min_len(GRAIN)
             .map(|(p, x)| [x[0], x[1], x[2], f64::from(*p)])
             .collect_into_vec(&mut self.carried);
+        near.complete(&mut self.carried, |[.., p], k, _| {
+            let [x, y, z] = near.position[k];
+            [x, y, z, p]
+        });
         self.sums.resize(near.len(), ([0.0; 3], 0.0));
         let carried = &self.carried;
         near.each_row(

@@ -180,10 +180,10 @@ impl Viscosity {
             }
             let own = each[a];
             for (b, w) in row.values() {
-                let mean = match near.role[b] {
-                    Role::Liquid if own + each[b] > 0.0 => 2.0 * own * each[b] / (own + each[b]),
-                    Role::Liquid => 0.0,
-                    _ => own,
+                let mean = match b {
+                    _ if !near.role[b].flows() => own,
+                    _ if own + each[b] > 0.0 => 2.0 * own * each[b] / (own + each[b]),
+                    _ => 0.0,
                 };
                 *out = plus(*out, w * mean, minus(near.velocity[b], near.velocity[a]));
                 *least = least.min(mean);

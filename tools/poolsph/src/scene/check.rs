@@ -2,8 +2,9 @@
 
 use run::Fault;
 
-use super::Scene;
+use super::{Scene, StartState};
 use crate::domain::shape::Shape;
+use crate::motion::Method;
 
 /// Most steps of a run: more is a slip of the pen.
 const STEPS_MAX: f64 = 1e9;
@@ -44,6 +45,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     }
     faults.extend(dependences(scene));
     faults.extend(hollows(scene));
+    faults.extend(beside(scene));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
         faults.extend(crowded(scene));
@@ -74,6 +76,39 @@ fn crowded(scene: &Scene) -> Option<Fault> {
         return None;
     };
     Some(Fault::at(&format!("/droplets/{key}"), what))
+}
+
+/// What the faces of the flow cannot do yet.
+fn beside(scene: &Scene) -> Vec<Fault> {
+    let Some(faces) = &scene.faces else {
+        return Vec::new();
+    };
+    let mut faults = Vec::new();
+    let homogenised = scene
+        .flow
+        .as_ref()
+        .filter(|flow| flow.method == Method::Homogenising);
+    if homogenised.is_some() {
+        let what = "faces need the method \"projection\": homogenising knows no images";
+        faults.push(Fault::at("/flow/method", what));
+    }
+    let solid = scene
+        .bodies
+        .iter()
+        .position(|body| body.state != StartState::Liquid);
+    if let (Some(i), true) = (solid, scene.heat.is_some()) {
+        let held = faces
+            .wall
+            .iter()
+            .position(|wall| wall.temperature_k.is_some());
+        let at = match held {
+            Some(wall) => Some(format!("/faces/wall/{wall}/temperature_k")),
+            None => (!faces.periodic.is_empty()).then(|| "/faces/periodic".to_owned()),
+        };
+        let what = format!("carries heat of liquid only, and body {i} is none");
+        faults.extend(at.map(|at| Fault::at(&at, what)));
+    }
+    faults
 }
 
 /// Containers that no lattice of the spacing fits.
@@ -113,6 +148,7 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
             scene.arc_pressure.is_some(),
             vec![flow, source],
         ),
+        ("faces", scene.faces.is_some(), vec![flow]),
         ("bounds", scene.bounds.is_some(), vec![flow]),
         ("droplets", scene.droplets.is_some(), vec![flow, source]),
     ];

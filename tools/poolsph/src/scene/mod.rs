@@ -17,7 +17,7 @@ pub use output::{FloatWidth, Output, PoolOutput, due};
 use crate::domain::{bounds, droplet};
 use crate::forces::{arc_pressure, buoyancy, gas_shear, lorentz, marangoni, tension};
 use crate::state::Metal;
-use crate::{heat, motion, source};
+use crate::{faces, heat, motion, source};
 
 /// Kind and version of the scenes that this tool reads.
 pub const KIND: (&str, u32) = ("poolsph.scene", 1);
@@ -71,6 +71,9 @@ pub struct Scene {
     /// Pressure of the arc on the surface, of the input `arc` or of a formula; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_pressure: Option<arc_pressure::Parameters>,
+    /// Flat faces beside which the flow goes on: periodic, mirrors, walls; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub faces: Option<faces::Parameters>,
     /// Box in which metal is followed; absent: everywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bounds: Option<bounds::Parameters>,

@@ -5,6 +5,7 @@
 
 pub mod near;
 
+use crate::faces::Faces;
 use crate::patch::Patch;
 use crate::source::Place;
 use near::Near;
@@ -105,6 +106,8 @@ pub struct State {
     pub source: Option<Place>,
     /// Liquid particles move. False until enough of them are there (Komen 2019, section 4.3).
     pub flowing: bool,
+    /// Faces beside which the flow goes on.
+    pub faces: Faces,
     /// The moving particles and all that they touch, gathered afresh each step.
     pub near: Near,
     columns: Vec<Column>,
@@ -152,6 +155,7 @@ impl State {
             exposed: Vec::new(),
             source: None,
             flowing: false,
+            faces: Faces::default(),
             near: Near::new(metal),
             columns,
         }
@@ -218,8 +222,21 @@ impl State {
     /// Gathers the moving particles and all that they touch into [`State::near`].
     pub fn gather(&mut self) {
         let mut near = std::mem::replace(&mut self.near, Near::new(self.metal));
+        if self.faces.any() {
+            self.fold();
+        }
         near.gather(self);
         self.near = near;
+    }
+
+    /// Brings liquid that has gone through a face back.
+    fn fold(&mut self) {
+        let places = self.position.iter_mut().zip(&mut self.velocity);
+        for ((x, u), phase) in places.zip(&self.phase) {
+            if *phase == Phase::Liquid {
+                self.faces.fold(x, u);
+            }
+        }
     }
 
     /// Name and bytes of each column, for the record.

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::area::Polygon;
 use super::columns::Columns;
 use super::{Cloud, tangents};
+use crate::faces::Turn;
 use crate::patch::Patch;
 use crate::sweep::summed;
 use crate::vector::{dot, minus, squared};
@@ -65,11 +66,12 @@ impl Band {
         cloud: &Cloud<'_>,
         kernel: CubicSpline<3>,
         spacing: f64,
-        patches: &mut [Patch],
+        patches: &mut Vec<Patch>,
     ) {
         let volume = spacing * spacing * spacing;
         let own = volume * kernel.value(0.0);
         self.collect(patches, spacing);
+        self.reflect(cloud, patches);
         self.weigh(cloud, kernel, volume);
         for _ in 0..TURNS {
             self.turn(cloud, own as f32);
@@ -81,14 +83,20 @@ impl Band {
         for &k in &self.rows {
             patches[k as usize].depth = f64::from(self.depths[k as usize]);
         }
+        reflect(cloud, patches);
         self.measure(|band, k| band.owned(cloud, patches, spacing, k));
         for (&k, area) in self.rows.iter().zip(&self.areas) {
             patches[k as usize].area = *area;
         }
+        reflect(cloud, patches);
         self.measure(|band, k| band.seen(cloud, patches, spacing, k));
         for (&k, area) in self.rows.iter().zip(&self.areas) {
             patches[k as usize].seen = *area;
         }
+        // What stands beyond a face sees its part of the columns there.
+        let beyond = |k: &u32| self.within[*k as usize];
+        let images = cloud.places.len() - cloud.images.len()..cloud.places.len();
+        self.rows.extend(images.map(|k| k as u32).filter(beyond));
         self.columns
             .settle(&self.rows, cloud.places, spacing, patches);
     }
@@ -112,6 +120,15 @@ impl Band {
         if self.weights.len() < self.rows.len() {
             self.weights.resize(self.rows.len(), Vec::new());
         }
+    }
+
+    /// Gives images what their originals have.
+    fn reflect(&mut self, cloud: &Cloud<'_>, patches: &mut Vec<Patch>) {
+        reflect(cloud, patches);
+        let images = cloud.images;
+        images.complete(&mut self.within, |within, _, _| within);
+        images.complete(&mut self.depths, |depth, _, _| depth);
+        images.complete(&mut self.gradients, turned);
     }
 
     fn weigh(&mut self, cloud: &Cloud<'_>, kernel: CubicSpline<3>, volume: f64) {
@@ -140,12 +157,13 @@ impl Band {
         for (&k, turned) in self.rows.iter().zip(&self.turned) {
             self.gradients[k as usize] = *turned;
         }
+        cloud.images.complete(&mut self.gradients, self::turned);
     }
 
     /// Normals from grad C, and what the means of the levels keep. Trust is in what has much of a
     /// gradient. The mean of both normals makes the step from one particle to the next exact on a
     /// plane and on a sphere, so that averaging does not flatten curves.
-    fn trust(&mut self, cloud: &Cloud<'_>, own: f64, patches: &mut [Patch]) {
+    fn trust(&mut self, cloud: &Cloud<'_>, own: f64, patches: &mut Vec<Patch>) {
         for &k in &self.rows {
             let patch = &mut patches[k as usize];
             let [x, y, z, _] = self.gradients[k as usize].map(f64::from);
@@ -155,6 +173,7 @@ impl Band {
                 patch.normal = patch.gradient.map(|x| -x / length);
             }
         }
+        reflect(cloud, patches);
         let (patches, within) = (&*patches, &self.within);
         let rows = self.rows.par_iter().zip(&mut self.weights);
         rows.with_min_len(GRAIN)
@@ -199,6 +218,7 @@ impl Band {
         for (&k, level) in self.rows.iter().zip(&self.levelled) {
             self.depths[k as usize] = *level;
         }
+        cloud.images.complete(&mut self.depths, |depth, _, _| depth);
     }
 
     /// An area for each particle of the band.
@@ -271,4 +291,16 @@ impl Band {
         }
         part * polygon.area() + (1.0 - part) * slant
     }
+}
+
+/// Gives images the patches of their originals.
+fn reflect(cloud: &Cloud<'_>, patches: &mut Vec<Patch>) {
+    let of = |patch: Patch, _: usize, turn: &Turn| patch.turned(turn);
+    cloud.images.complete(patches, of);
+}
+
+/// A gradient at an image.
+fn turned([x, y, z, pad]: [f32; 4], _: usize, turn: &Turn) -> [f32; 4] {
+    let [x, y, z] = turn.vector([x, y, z].map(f64::from)).map(|x| x as f32);
+    [x, y, z, pad]
 }

@@ -25,6 +25,7 @@ use rayon::prelude::*;
 
 use self::band::Band;
 use self::depth::Depth;
+use crate::faces::Images;
 use crate::near::Role;
 use crate::patch::Patch;
 use crate::stage::{Figure, Stage, StageError};
@@ -45,9 +46,10 @@ pub struct Surface {
     total: f64,
 }
 
-/// Places and their neighbours.
+/// Places and their neighbours; images beyond the faces have places, and no rows.
 struct Cloud<'a> {
     places: &'a [[f64; 3]],
+    images: &'a Images,
     lists: &'a Lists,
 }
 
@@ -78,12 +80,16 @@ impl Surface {
     fn whole(&mut self, state: &mut State) {
         let grounded = |a: &usize| state.phase[*a] != Phase::Flying;
         let ids: Vec<usize> = (0..state.len()).filter(grounded).collect();
-        let places: Vec<[f64; 3]> = ids.iter().map(|a| state.position[*a]).collect();
+        let mut places: Vec<[f64; 3]> = ids.iter().map(|a| state.position[*a]).collect();
         let (mut grid, mut lists) = (Grid::new(self.metal.support()), Lists::new());
+        let (support, mut images) = (self.metal.support(), Images::default());
+        images.place(&state.faces, support, &mut places);
         grid.bin(&places);
-        lists.build(&grid, &places, self.metal.support(), |_| true, |_, _| true);
+        let points = &places[..ids.len()];
+        lists.build(&grid, points, support, |_| true, |_, _| true);
         let cloud = Cloud {
             places: &places,
+            images: &images,
             lists: &lists,
         };
         let mut coloured: Vec<Patch> = (0..ids.len())
@@ -105,6 +111,7 @@ impl Surface {
         let near = &state.near;
         let cloud = Cloud {
             places: &near.position,
+            images: near.images(),
             lists: &near.lists,
         };
         let own = self.kernel.value(0.0);

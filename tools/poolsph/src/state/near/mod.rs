@@ -3,17 +3,24 @@
 //! Flow works on this copy alone, so a large cold plate costs it nothing. Membership and order
 //! are a function of the state only, so a resumed run repeats them. Roles are those of the
 //! moment of gathering: what melts during a step starts to move in the next.
+//!
+//! Where the scene has [`Faces`], images stand behind the particles in the columns of what a neighbour tells: number,
+//! role, place and velocity. They have no rows. A column that is computed row by row and then read at neighbours is
+//! completed by [`Near::complete`].
 
+mod members;
 mod pairs;
 
 use kernels::CubicSpline;
 use neighbours::{Grid, Halo, Lists};
 use rayon::prelude::*;
+use run::property::OutOfRange;
 
 use self::pairs::rows;
 pub use self::pairs::{PairChunk, Row};
 
-use crate::state::{Metal, Phase, State};
+use crate::faces::{Faces, Images, Turn};
+use crate::state::{Metal, State};
 use crate::sweep::summed_double;
 use crate::vector::squared;
 
@@ -36,6 +43,17 @@ pub enum Role {
     Wet,
     /// Rests, within reach of a wet one only: completes the neighbourhood of those.
     Backing,
+    /// Image of a liquid particle beyond a face.
+    Image,
+}
+
+impl Role {
+    /// True for liquid, on this side of a face or beyond.
+    #[must_use]
+    #[inline]
+    pub fn flows(self) -> bool {
+        matches!(self, Self::Liquid | Self::Image)
+    }
 }
 
 /// Compact particles: liquid ones, and solid ones around them.
@@ -43,13 +61,13 @@ pub enum Role {
 pub struct Near {
     /// The kernel of the motion.
     pub kernel: CubicSpline<3>,
-    /// Index into [`State`], `[m]`, sorted by cell.
+    /// Index into [`State`], `[m + images]`, sorted by cell.
     pub id: Vec<u32>,
-    /// `[m]`.
+    /// `[m + images]`.
     pub role: Vec<Role>,
-    /// x \[m\], `[m][3]`.
+    /// x \[m\], `[m + images][3]`.
     pub position: Vec<[f64; 3]>,
-    /// u \[m/s\], `[m][3]`; zero for solid ones.
+    /// u \[m/s\], `[m + images][3]`; zero for solid ones, that of viscosity for images.
     pub velocity: Vec<[f64; 3]>,
     /// Force density \[N/m3\], `[m][3]`; zero after gathering, force stages add to it.
     pub force: Vec<[f64; 3]>,
@@ -68,7 +86,11 @@ pub struct Near {
     pub pairs: Vec<PairChunk>,
     /// Place in the copy of each particle of [`State`], [`NONE`] for those that are not in it.
     member: Vec<u32>,
+    len: usize,
     liquid_count: usize,
+    images: Images,
+    /// Images of the liquid as far as solid metal is looked for.
+    beyond: Images,
     grid: Grid,
     liquid_grid: Grid,
     halo: Halo,
@@ -100,7 +122,10 @@ impl Near {
             lists: Lists::new(),
             pairs: Vec::new(),
             member: Vec::new(),
+            len: 0,
             liquid_count: 0,
+            images: Images::default(),
+            beyond: Images::default(),
             grid: Grid::new(0.5 * support),
             liquid_grid: Grid::new(support),
             halo: Halo::new(support * (2.0 + MARGIN)),
@@ -115,13 +140,13 @@ impl Near {
     /// Number of particles in the copy.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.id.len()
+        self.len
     }
 
     /// True while nothing moves.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.id.is_empty()
+        self.len == 0
     }
 
     /// Number of moving particles in the copy.
@@ -151,6 +176,7 @@ impl Near {
         self.grid.bin(&self.places);
         self.position.clear();
         self.position.extend_from_slice(self.grid.sorted());
+        self.len = self.position.len();
         let (candidates, roles) = (&self.candidates, &self.roles);
         let order = || self.grid.order().par_iter().with_min_len(GRAIN);
         let member = |&k: &u32| candidates[k as usize];
@@ -176,12 +202,47 @@ impl Near {
         };
         let members = self.id.par_iter().zip(&self.role).with_min_len(GRAIN);
         members.map(moving).collect_into_vec(&mut self.velocity);
-        self.grid.renumber();
         self.force.clear();
-        self.force.resize(self.id.len(), [0.0; 3]);
+        self.force.resize(self.len, [0.0; 3]);
         self.virial.clear();
-        self.virial.resize(self.id.len(), 0.0);
+        self.virial.resize(self.len, 0.0);
+        if state.faces.any() {
+            self.reflect(&state.faces);
+            self.grid.bin(&self.position);
+        } else {
+            self.grid.renumber();
+        }
         self.search();
+    }
+
+    /// Puts images beyond the faces.
+    fn reflect(&mut self, faces: &Faces) {
+        self.images
+            .place(faces, self.kernel.support(), &mut self.position);
+        self.images.complete(&mut self.id, |id, _, _| id);
+        self.images
+            .complete(&mut self.role, |role, _, _| match role {
+                Role::Liquid | Role::Image => Role::Image,
+                Role::Wet | Role::Backing => Role::Backing,
+            });
+        let moves = &self.role;
+        self.images
+            .complete(&mut self.velocity, |u, k, turn| match moves[k] {
+                Role::Image => turn.velocity(u),
+                _ => u,
+            });
+    }
+
+    /// The images beyond the faces.
+    #[must_use]
+    pub fn images(&self) -> &Images {
+        &self.images
+    }
+
+    /// Completes a column of the particles by what `of` says of an original's value, the image's number and its turn.
+    #[inline]
+    pub fn complete<T: Copy>(&self, column: &mut Vec<T>, of: impl Fn(T, usize, &Turn) -> T) {
+        self.images.complete(column, of);
     }
 
     /// Place in the copy of each particle of [`State`].
@@ -193,7 +254,7 @@ impl Near {
     /// Largest square of a speed \[m2/s2\]; not a number where one is not.
     #[must_use]
     pub fn fastest_squared(&self) -> f64 {
-        let squares = self.velocity.par_iter().map(|u| squared(*u));
+        let squares = self.velocity[..self.len].par_iter().map(|u| squared(*u));
         let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
         squares.with_min_len(GRAIN).reduce(|| 0.0, larger)
     }
@@ -208,7 +269,7 @@ impl Near {
             .iter()
             .zip(&self.role)
             .map(|(id, role)| match role {
-                Role::Liquid => [column[*id as usize], 1.0],
+                Role::Liquid | Role::Image => [column[*id as usize], 1.0],
                 Role::Wet | Role::Backing => [0.0; 2],
             })
             .collect();
@@ -226,9 +287,36 @@ impl Near {
         means
     }
 
+    /// Temperatures \[K\] of the copy, of images as the walls that they stand behind hold them; `temperature` is that of
+    /// [`State`].
+    ///
+    /// # Errors
+    /// When the formula of a wall fails.
+    pub(crate) fn temperatures(
+        &self,
+        (faces, time): (&Faces, f64),
+        temperature: &[f64],
+        out: &mut Vec<f64>,
+    ) -> Result<(), OutOfRange> {
+        out.clear();
+        out.extend(self.id.iter().map(|id| temperature[*id as usize]));
+        if !faces.holds_heat() {
+            return Ok(());
+        }
+        let images = self.images.list().iter().zip(&mut out[self.len..]);
+        for (k, (image, kelvin)) in images.enumerate() {
+            let turn = self.images.turn(self.len + k).filter(|turn| turn.is_held());
+            if let Some(turn) = turn {
+                let x = self.position[image.of as usize];
+                *kelvin = faces.temperature(turn, (x, time), *kelvin)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Calls `each` with every particle, its row and its item of `out`.
     pub fn each_row<T: Send>(&self, out: &mut [T], each: impl Fn(usize, Row<'_>, &mut T) + Sync) {
-        pairs::each_row((&self.lists, &self.pairs), out, each);
+        pairs::each_row((&self.lists, &self.pairs), &mut out[..self.len], each);
     }
 
     /// As [`Near::each_row`], with the virials as `out`.
@@ -238,23 +326,38 @@ impl Near {
         self.virial = virial;
     }
 
-    /// Finds the neighbours after particles of the copy have moved.
-    pub(crate) fn refresh(&mut self) {
+    /// Finds the neighbours after particles of the copy have moved; `faces` are those of the flow.
+    pub(crate) fn refresh(&mut self, faces: &Faces) {
+        if faces.any() {
+            self.fold(faces);
+            self.position.truncate(self.len);
+            self.reflect(faces);
+        }
         self.grid.bin(&self.position);
         self.search();
+    }
+
+    /// Brings what has gone through a face back.
+    pub(crate) fn fold(&mut self, faces: &Faces) {
+        let places = self.position.iter_mut().zip(&mut self.velocity);
+        for ((x, u), role) in places.zip(&self.role[..self.len]) {
+            if *role == Role::Liquid {
+                faces.fold(x, u);
+            }
+        }
     }
 
     /// Neighbours and kernel values for the positions in the grid.
     fn search(&mut self) {
         self.mark();
-        let cloud = (&self.position[..], self.kernel.support());
+        let cloud = (&self.position[..self.len], self.kernel.support());
         let (kernel, role, marks) = (self.kernel, &self.role, &self.marks);
         let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
         self.lists.build_with(
             &self.grid,
             cloud,
             |a| role[a] != Role::Backing,
-            rows(&mut self.pairs, sums, self.position.len()),
+            rows(&mut self.pairs, sums, self.len),
             |chunk, squares, mut row| {
                 // Two buffers that hold squares and values by turns.
                 std::mem::swap(squares, &mut row.pairs.value);
@@ -268,7 +371,7 @@ impl Near {
         self.mark();
         let (kernel, marks) = (self.kernel, &self.marks);
         let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
-        rows(&mut self.pairs, sums, self.position.len())
+        rows(&mut self.pairs, sums, self.len)
             .zip(self.lists.chunks())
             .for_each(|(mut row, chunk)| {
                 row.measure(chunk, marks);
@@ -282,50 +385,9 @@ impl Near {
         marks
             .with_min_len(GRAIN)
             .map(|([x, y, z], role)| {
-                let liquid = f64::from(u8::from(*role == Role::Liquid));
+                let liquid = f64::from(u8::from(role.flows()));
                 [*x, *y, *z, liquid]
             })
             .collect_into_vec(&mut self.marks);
-    }
-
-    /// Liquid particles, and solid ones within two reaches of a liquid one.
-    fn collect(&mut self, state: &State) {
-        for (id, phase) in state.phase.iter().enumerate() {
-            if *phase == Phase::Liquid {
-                self.enter(state, id, Role::Liquid);
-            }
-        }
-        let (grid, halo) = (&mut self.liquid_grid, &mut self.halo);
-        rayon::join(|| grid.bin(&self.places), || halo.mark(&self.places));
-        let [wet, backing] = [1.0, 2.0].map(|reaches| self.kernel.support() * (reaches + MARGIN));
-        let (grid, halo) = (&self.liquid_grid, &self.halo);
-        let mut solid = std::mem::take(&mut self.solid);
-        solid.resize(state.len(), None);
-        solid
-            .par_iter_mut()
-            .zip(&state.phase)
-            .zip(&state.position)
-            .with_min_len(GRAIN)
-            .for_each(|((role, phase), &place)| {
-                *role = match phase {
-                    Phase::Solid if !halo.may_touch(place) => None,
-                    Phase::Solid if grid.any_within(place, wet) => Some(Role::Wet),
-                    Phase::Solid if grid.any_within(place, backing) => Some(Role::Backing),
-                    _ => None,
-                };
-            });
-        for (id, role) in solid.iter().enumerate() {
-            if let Some(role) = role {
-                self.enter(state, id, *role);
-            }
-        }
-        self.solid = solid;
-    }
-
-    /// Takes a particle in.
-    fn enter(&mut self, state: &State, id: usize, role: Role) {
-        self.candidates.push(id as u32);
-        self.places.push(state.position[id]);
-        self.roles.push(role);
     }
 }

@@ -22,6 +22,8 @@
 //! Explicit in time; with every step divided so that
 //! dt <= rho sum(r^2 W) / (6 (k/c)_max sum W), no particle leaves the range of its neighbours.
 
+mod flowing;
+
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -30,13 +32,12 @@ use rayon::prelude::*;
 use run::Fault;
 use run::property::Curve;
 
-use super::bounds::{moments, outside};
-use super::caloric::Caloric;
-use super::held::Held;
-use super::ledger::Sum;
-use super::open::Open;
-use super::parameters::Parameters;
-use crate::near::Role;
+use crate::heat::bounds::{moments, outside};
+use crate::heat::caloric::Caloric;
+use crate::heat::held::Held;
+use crate::heat::ledger::Sum;
+use crate::heat::open::Open;
+use crate::heat::parameters::Parameters;
 use crate::rest::{Plane, Rest};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, State};
@@ -50,7 +51,7 @@ struct Exchanged {
     a: u32,
     enthalpy: f64,
     temperature: f64,
-    /// Heat that left through an open face \[J\].
+    /// Heat that left through an open face, or into a wall in the plane of one \[J\].
     out: f64,
     /// Has a pair that exchanges heat.
     busy: bool,
@@ -86,6 +87,8 @@ pub struct Conduction {
     held: Vec<Held>,
     /// T \[K\] and 1/k \[m K/W\], the latter infinite for insulating walls.
     thermal: Vec<[f64; 2]>,
+    /// T of the particles of the copy and their images, where walls hold it \[K\].
+    beside: Vec<f64>,
     awake: Vec<bool>,
     visited: Vec<u32>,
     exchanged: Vec<Exchanged>,
@@ -93,6 +96,7 @@ pub struct Conduction {
     substeps: u64,
     out_open: Sum,
     out_held: Sum,
+    out_walls: Sum,
 }
 
 impl Conduction {
@@ -123,6 +127,7 @@ impl Conduction {
             open: Open::new(open, metal.spacing, parameters),
             held: Vec::new(),
             thermal: Vec::new(),
+            beside: Vec::new(),
             awake: Vec::new(),
             visited: Vec::new(),
             exchanged: Vec::new(),
@@ -130,6 +135,7 @@ impl Conduction {
             substeps: 1,
             out_open: Sum::default(),
             out_held: Sum::default(),
+            out_walls: Sum::default(),
             caloric,
             metal,
         })
@@ -252,50 +258,6 @@ impl Conduction {
         }
     }
 
-    /// Exchanges heat of pairs with a moving particle over `dt`.
-    fn exchange_in_flow(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        let near = &state.near;
-        let mut exchanged = std::mem::take(&mut self.exchanged);
-        (0..near.len())
-            .into_par_iter()
-            .with_min_len(ROWS)
-            .map(|k| match near.role[k] {
-                Role::Backing => Exchanged::unchanged(state, near.id[k]),
-                _ => self.in_flow(state, k, dt),
-            })
-            .collect_into_vec(&mut exchanged);
-        let stored = self.store(state, &exchanged);
-        self.exchanged = exchanged;
-        stored
-    }
-
-    fn in_flow(&self, state: &State, k: usize, dt: f64) -> Exchanged {
-        let near = &state.near;
-        let (chunk, pairs) = (&near.lists.chunks()[k / ROWS], &near.pairs[k / ROWS]);
-        let row = chunk.row(k % ROWS).iter();
-        let weights = &pairs.value[chunk.range(k % ROWS)];
-        let a = near.id[k] as usize;
-        let [temperature, resistivity] = self.thermal[a];
-        let moves = near.role[k] == Role::Liquid;
-        let mut gain = 0.0;
-        for (&j, weight) in row.zip(weights) {
-            if moves || near.role[j as usize] == Role::Liquid {
-                let b = near.id[j as usize] as usize;
-                let [other, resists] = self.thermal[b];
-                gain += weight * 2.0 / (resistivity + resists) * (other - temperature);
-            }
-        }
-        let enthalpy = state.enthalpy[a] + self.scale * dt * gain / self.metal.mass();
-        Exchanged {
-            a: a as u32,
-            enthalpy,
-            temperature: self.caloric.temperature(enthalpy),
-            out: 0.0,
-            busy: true,
-            wakes: false,
-        }
-    }
-
     fn store(&self, state: &mut State, exchanged: &[Exchanged]) -> Result<(), StageError> {
         for one in exchanged {
             let a = one.a as usize;
@@ -368,16 +330,20 @@ impl Stage for Conduction {
         if !self.held.is_empty() {
             figures.push(figure("energy_out_held_j", "J", self.out_held.value()));
         }
+        if !self.beside.is_empty() {
+            figures.push(figure("energy_out_walls_j", "J", self.out_walls.value()));
+        }
         figures
     }
 
     fn bytes(&self) -> usize {
-        self.rest.bytes() + 21 * self.thermal.len()
+        self.rest.bytes() + 21 * self.thermal.len() + 8 * self.beside.capacity()
     }
 
     fn save(&self) -> Vec<f64> {
         let mut saved = Vec::from(self.out_open.save());
         saved.extend(self.out_held.save());
+        saved.extend(self.out_walls.save());
         saved.extend(self.rest.save());
         saved
     }
@@ -385,6 +351,7 @@ impl Stage for Conduction {
     fn restore(&mut self, saved: &[f64]) {
         self.out_open = Sum::restored(saved);
         self.out_held = Sum::restored(&saved[2.min(saved.len())..]);
-        self.saved = Some(saved[4.min(saved.len())..].to_vec());
+        self.out_walls = Sum::restored(&saved[4.min(saved.len())..]);
+        self.saved = Some(saved[6.min(saved.len())..].to_vec());
     }
 }

@@ -1,0 +1,235 @@
+//! The planes, and how an image follows from its original.
+
+use run::property::{Arguments, Curve, OutOfRange};
+
+/// What lies beyond a face.
+#[derive(Debug, Clone)]
+pub(super) enum Side {
+    /// What enters through the other face.
+    Periodic,
+    /// The same, turned over.
+    Mirror,
+    /// A wall to which the liquid sticks.
+    Wall {
+        /// U \[m/s\].
+        velocity: [f64; 3],
+        /// T that it keeps \[K\].
+        temperature: Option<Curve>,
+    },
+}
+
+/// The faces of the flow; without any, nothing has an image.
+#[derive(Debug, Clone, Default)]
+pub struct Faces {
+    min: [f64; 3],
+    max: [f64; 3],
+    sides: [[Option<Side>; 2]; 3],
+    /// By the faces that it goes through: of each axis none, the lower or the upper one.
+    turns: Vec<Turn>,
+}
+
+/// How an image follows from its original.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turn {
+    /// +1, or -1 where the axis is turned over.
+    sign: [f64; 3],
+    shift: [f64; 3],
+    /// Factor of a velocity that sticks to walls.
+    stick: [f64; 3],
+    /// What is added to it \[m/s\].
+    slide: [f64; 3],
+    /// Faces of held temperature on the way.
+    held: Vec<(usize, usize)>,
+}
+
+impl Turn {
+    const NONE: Self = Self {
+        sign: [1.0; 3],
+        shift: [0.0; 3],
+        stick: [1.0; 3],
+        slide: [0.0; 3],
+        held: Vec::new(),
+    };
+
+    /// Place of the image of `x`.
+    #[must_use]
+    #[inline]
+    pub fn place(&self, x: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| self.sign[k] * x[k] + self.shift[k])
+    }
+
+    /// A vector of the image: for velocities in the continuity equation, forces and normals.
+    #[must_use]
+    #[inline]
+    pub fn vector(&self, u: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| self.sign[k] * u[k])
+    }
+
+    /// Velocity of the image for viscosity, with which the liquid sticks to walls.
+    #[must_use]
+    #[inline]
+    pub fn velocity(&self, u: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| self.stick[k] * u[k] + self.slide[k])
+    }
+
+    /// The same for a difference of velocities.
+    #[must_use]
+    #[inline]
+    pub fn difference(&self, u: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| self.stick[k] * u[k])
+    }
+
+    /// True if the temperature of the image is not that of the original.
+    #[must_use]
+    #[inline]
+    pub fn is_held(&self) -> bool {
+        !self.held.is_empty()
+    }
+}
+
+impl Faces {
+    pub(super) fn new(min: [f64; 3], max: [f64; 3], sides: [[Option<Side>; 2]; 3]) -> Self {
+        let mut faces = Self {
+            min,
+            max,
+            sides,
+            turns: Vec::new(),
+        };
+        if faces.any() {
+            faces.turns = (0..27).map(|code| faces.turn(code)).collect();
+        }
+        faces
+    }
+
+    /// True if there is a face.
+    #[must_use]
+    pub fn any(&self) -> bool {
+        self.sides.iter().flatten().any(Option::is_some)
+    }
+
+    /// True if a wall keeps a temperature.
+    #[must_use]
+    pub fn holds_heat(&self) -> bool {
+        self.turns.iter().any(Turn::is_held)
+    }
+
+    /// True if what leaves along `axis` enters again.
+    #[must_use]
+    pub fn is_periodic(&self, axis: usize) -> bool {
+        matches!(self.sides[axis], [Some(Side::Periodic), _])
+    }
+
+    /// Position of the face of an `axis`, if there is one, lower and upper.
+    #[must_use]
+    pub fn planes(&self, axis: usize) -> [Option<f64>; 2] {
+        let at = [self.min[axis], self.max[axis]];
+        [0, 1].map(|side| self.sides[axis][side].as_ref().map(|_| at[side]))
+    }
+
+    /// True if the face of an `axis`, lower (0) or upper (1), is a mirror.
+    #[must_use]
+    pub fn is_mirror(&self, axis: usize, side: usize) -> bool {
+        matches!(self.sides[axis][side], Some(Side::Mirror))
+    }
+
+    pub(super) fn turns(&self) -> &[Turn] {
+        &self.turns
+    }
+
+    /// The turn through the faces that `code` names, three digits to the base of three.
+    fn turn(&self, code: usize) -> Turn {
+        let mut turn = Turn::NONE;
+        for axis in 0..3 {
+            let Some(side) = (code / 3_usize.pow(axis as u32) % 3).checked_sub(1) else {
+                continue;
+            };
+            match &self.sides[axis][side] {
+                None => {}
+                // Beyond the lower face stands what lies at the upper one.
+                Some(Side::Periodic) => {
+                    let period = self.max[axis] - self.min[axis];
+                    turn.shift[axis] = if side == 0 { -period } else { period };
+                }
+                Some(mirror) => {
+                    turn.sign[axis] = -1.0;
+                    turn.shift[axis] = 2.0 * [self.min, self.max][side][axis];
+                    self.stick(&mut turn, mirror, (axis, side));
+                }
+            }
+        }
+        turn
+    }
+
+    fn stick(&self, turn: &mut Turn, side: &Side, (axis, upper): (usize, usize)) {
+        let Side::Wall {
+            velocity,
+            temperature,
+        } = side
+        else {
+            turn.stick[axis] = -turn.stick[axis];
+            turn.slide[axis] = -turn.slide[axis];
+            return;
+        };
+        turn.stick = turn.stick.map(|factor| -factor);
+        turn.slide = std::array::from_fn(|k| 2.0 * velocity[k] - turn.slide[k]);
+        if temperature.is_some() {
+            turn.held.push((axis, upper));
+        }
+    }
+
+    /// T of the image of what is at `x` with `temperature` \[K\].
+    ///
+    /// # Errors
+    /// When the formula of a wall fails.
+    pub fn temperature(
+        &self,
+        turn: &Turn,
+        (x, time): ([f64; 3], f64),
+        temperature: f64,
+    ) -> Result<f64, OutOfRange> {
+        let mut image = temperature;
+        for &(axis, side) in &turn.held {
+            if let Some(Side::Wall {
+                temperature: Some(wall),
+                ..
+            }) = &self.sides[axis][side]
+            {
+                let mut foot = x;
+                foot[axis] = [self.min, self.max][side][axis];
+                image = 2.0 * wall.value(&Arguments::at(foot, time))? - image;
+            }
+        }
+        Ok(image)
+    }
+
+    /// Brings what has gone through a face back: to the other side of a periodic box, thrown back by a mirror or a wall.
+    pub fn fold(&self, x: &mut [f64; 3], u: &mut [f64; 3]) {
+        for axis in 0..3 {
+            let (low, high) = (self.min[axis], self.max[axis]);
+            for (side, face) in self.sides[axis].iter().enumerate() {
+                let beyond = if side == 0 {
+                    low - x[axis]
+                } else {
+                    x[axis] - high
+                };
+                // The upper face of a periodic box is its lower one.
+                if beyond < 0.0 || (beyond <= 0.0 && side == 0) {
+                    continue;
+                }
+                match face {
+                    None => {}
+                    Some(Side::Periodic) => {
+                        let folded = low + (x[axis] - low).rem_euclid(high - low);
+                        x[axis] = if folded < high { folded } else { low };
+                    }
+                    Some(_) if beyond > 0.0 => {
+                        let outward = if side == 0 { -1.0 } else { 1.0 };
+                        x[axis] = [low, high][side] - outward * beyond;
+                        u[axis] = -outward * u[axis].abs();
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+    }
+}

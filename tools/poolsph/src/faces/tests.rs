@@ -1,0 +1,254 @@
+use super::*;
+use crate::motion::{self, Law, Motion};
+use crate::stage::Stage;
+use crate::state::{Column, Metal, Particle, Phase, State};
+use crate::vector::{minus, squared};
+
+const METAL: Metal = Metal {
+    density: 1000.0,
+    spacing: 1.0,
+    smoothing_length: 1.0,
+};
+
+fn faces(text: &str) -> Faces {
+    let parameters: Parameters = serde_json::from_str(text).unwrap();
+    parameters.faces(METAL.support(), true).unwrap()
+}
+
+/// Liquid at the places of a box of cells, each moved a little, with velocities of its own.
+fn body(faces: Faces, points: impl IntoIterator<Item = ([f64; 3], [f64; 3])>) -> State {
+    let mut state = State::new(METAL, vec![Column::Pressure]);
+    state.faces = faces;
+    state.flowing = true;
+    for (position, velocity) in points {
+        state.push(Particle {
+            position,
+            velocity,
+            phase: Phase::Liquid,
+            droplet: false,
+            wall: false,
+            temperature: 300.0,
+            enthalpy: 0.0,
+        });
+    }
+    state
+}
+
+/// A disordered box of cells from the origin on.
+fn disordered(cells: [i32; 3]) -> Vec<([f64; 3], [f64; 3])> {
+    let wave = |seed: f64, step: f64| (seed * step).sin();
+    let count = cells.iter().product::<i32>();
+    let point = |n: i32| {
+        let index = [
+            n % cells[0],
+            n / cells[0] % cells[1],
+            n / cells[0] / cells[1],
+        ];
+        let seed = f64::from(n) + 0.7;
+        let moved = [12.9, 78.2, 37.7].map(|step| wave(seed, step));
+        let speed = [3.1, 5.3, 7.7].map(|step| wave(seed, step));
+        let place = std::array::from_fn(|k| f64::from(index[k]) + 0.5 + 0.2 * moved[k]);
+        (place, speed)
+    };
+    (0..count).map(point).collect()
+}
+
+/// Sums of W, grad W and |grad W|^2 by index in the state.
+fn sums(state: &mut State, count: usize) -> Vec<[f64; 5]> {
+    state.gather();
+    let mut sums = vec![[0.0; 5]; count];
+    for a in 0..state.near.len() {
+        let id = state.near.id[a] as usize;
+        if id < count {
+            let [x, y, z] = state.near.gradient[a];
+            sums[id] = [state.near.number[a], x, y, z, state.near.squares[a]];
+        }
+    }
+    sums
+}
+
+fn alike(found: &[[f64; 5]], expected: &[[f64; 5]]) {
+    for (a, (found, expected)) in found.iter().zip(expected).enumerate() {
+        for (f, e) in found.iter().zip(expected) {
+            assert!(
+                (f - e).abs() < 1e-6 * expected[0],
+                "{a}: {found:?} {expected:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn beside_periodic_faces_sums_are_those_of_the_repeated_body() {
+    let points = disordered([6, 5, 5]);
+    let own = points.len();
+    let text = r#"{"min_m": [0, 0, 0], "max_m": [6, 5, 9], "periodic": ["x", "y"]}"#;
+    let mut one = body(faces(text), points.clone());
+    let mut shifts = vec![[0, 0]];
+    shifts.extend(
+        (0..9)
+            .map(|n| [n % 3 - 1, n / 3 - 1])
+            .filter(|s| *s != [0, 0]),
+    );
+    let tiles = shifts.iter().flat_map(|[i, j]| {
+        let shift = [6.0 * f64::from(*i), 5.0 * f64::from(*j), 0.0];
+        let moved =
+            move |(x, u): &([f64; 3], [f64; 3])| (std::array::from_fn(|k| x[k] + shift[k]), *u);
+        points.iter().map(moved)
+    });
+    let mut nine = body(Faces::default(), tiles);
+    let (found, expected) = (sums(&mut one, own), sums(&mut nine, own));
+    alike(&found, &expected);
+    let pairs = |state: &State| -> usize {
+        let near = &state.near;
+        let own_rows = (0..near.len()).filter(|a| (near.id[*a] as usize) < own);
+        own_rows.map(|a| near.lists.row(a).len()).sum()
+    };
+    assert_eq!(pairs(&one), pairs(&nine));
+}
+
+/// A body and itself turned over at x = 0.
+fn with_its_image(points: &[([f64; 3], [f64; 3])]) -> Vec<([f64; 3], [f64; 3])> {
+    let turned = |(x, u): &([f64; 3], [f64; 3])| ([-x[0], x[1], x[2]], [-u[0], u[1], u[2]]);
+    points
+        .iter()
+        .copied()
+        .chain(points.iter().map(turned))
+        .collect()
+}
+
+const HALF: &str = r#"{"min_m": [0, 0, 0], "max_m": [9, 9, 9], "mirror": ["x-"]}"#;
+
+#[test]
+fn beside_a_mirror_sums_are_those_of_the_whole_body() {
+    let points = disordered([5, 5, 5]);
+    let mut half = body(faces(HALF), points.clone());
+    let mut whole = body(Faces::default(), with_its_image(&points));
+    let (found, expected) = (sums(&mut half, 125), sums(&mut whole, 125));
+    alike(&found, &expected);
+}
+
+#[test]
+fn half_a_body_beside_a_mirror_moves_as_the_whole() {
+    let points = disordered([5, 5, 5]);
+    let mut half = body(faces(HALF), points.clone());
+    let mut whole = body(Faces::default(), with_its_image(&points));
+    let text = r#"{"viscosity_pa_s": 10.0, "gravity_m_s2": [0, 0, -1], "density_tolerance": 1e-8, "sweeps_max": 1000}"#;
+    for state in [&mut half, &mut whole] {
+        let parameters: motion::Parameters = serde_json::from_str(text).unwrap();
+        let mut motion = Motion::new(parameters, Law::Uniform(10.0), METAL);
+        for _ in 0..10 {
+            state.gather();
+            motion.advance(state, 0.02).unwrap();
+        }
+    }
+    for a in 0..points.len() {
+        let apart = squared(minus(half.position[a], whole.position[a])).sqrt();
+        assert!(apart < 1e-5, "{a}: {apart}");
+        let turned = whole.position[a + points.len()];
+        let off = (turned[0] + whole.position[a][0]).abs();
+        assert!(off < 1e-5, "{a}: {off}");
+        assert!(half.position[a][0] >= 0.0);
+    }
+}
+
+#[test]
+fn walls_hold_speed_and_temperature_in_their_planes() {
+    let text = r#"{"min_m": [0, 0, 0], "max_m": [4, 4, 4],
+        "wall": [{"face": "z+", "velocity_m_s": [2, 0, 0], "temperature_k": 400}, {"face": "z-", "temperature_k": 300}]}"#;
+    let faces = faces(text);
+    let mut images = Images::default();
+    // Speed and temperature are linear between the walls, and so they are beyond.
+    let profile = |z: f64| 0.25 * z;
+    let mut places = vec![[1.0, 1.0, 3.2], [1.0, 1.0, 0.3], [1.0, 1.0, 2.0]];
+    let mut speeds: Vec<[f64; 3]> = places
+        .iter()
+        .map(|x| [2.0 * profile(x[2]), 0.0, 0.0])
+        .collect();
+    let kelvin: Vec<f64> = places
+        .iter()
+        .map(|x| 300.0 + 100.0 * profile(x[2]))
+        .collect();
+    images.place(&faces, 1.9, &mut places);
+    assert_eq!(images.len(), 2);
+    images.complete(&mut speeds, |u, _, turn| turn.velocity(u));
+    for k in 3..5 {
+        let z = places[k][2];
+        assert!((speeds[k][0] - 2.0 * profile(z)).abs() < 1e-12);
+        let of = images.list()[k - 3].of as usize;
+        let turn = images.turn(k).unwrap();
+        let image = faces
+            .temperature(turn, (places[of], 0.0), kelvin[of])
+            .unwrap();
+        assert!((image - 300.0 - 100.0 * profile(z)).abs() < 1e-12);
+    }
+    assert!(images.turn(2).is_none());
+}
+
+#[test]
+fn what_goes_through_a_face_comes_back() {
+    let text = r#"{"min_m": [0, 0, 0], "max_m": [6, 6, 6], "periodic": ["x"], "mirror": ["y-"],
+        "wall": [{"face": "z+"}]}"#;
+    let faces = faces(text);
+    for (x, u, place, speed) in [
+        (
+            [-0.5, 1.0, 1.0],
+            [-1.0, 0.0, 0.0],
+            [5.5, 1.0, 1.0],
+            [-1.0, 0.0, 0.0],
+        ),
+        (
+            [6.0, 1.0, 1.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 1.0],
+            [1.0, 0.0, 0.0],
+        ),
+        (
+            [1.0, -0.25, 1.0],
+            [1.0, -2.0, 0.0],
+            [1.0, 0.25, 1.0],
+            [1.0, 2.0, 0.0],
+        ),
+        (
+            [1.0, 1.0, 6.5],
+            [0.0, 0.0, 3.0],
+            [1.0, 1.0, 5.5],
+            [0.0, 0.0, -3.0],
+        ),
+        (
+            [1.0, 9.0, -4.0],
+            [1.0, 1.0, -1.0],
+            [1.0, 9.0, -4.0],
+            [1.0, 1.0, -1.0],
+        ),
+    ] {
+        let (mut at, mut going) = (x, u);
+        faces.fold(&mut at, &mut going);
+        assert_eq!((at, going), (place, speed));
+    }
+}
+
+#[test]
+fn faces_that_cannot_be_are_refused_by_name() {
+    let told = |text: &str| {
+        let parameters: Parameters = serde_json::from_str(text).unwrap();
+        parameters.faces(2.0, false).unwrap_err().to_string()
+    };
+    let box_of = |rest: &str| format!(r#"{{"min_m": [0, 0, 0], "max_m": [6, 6, 1], {rest}}}"#);
+    let twice = told(&box_of(r#""periodic": ["x"], "mirror": ["x+"]"#));
+    assert!(
+        twice.contains("/mirror/0") && twice.contains("'x+'"),
+        "{twice}"
+    );
+    let thin = told(&box_of(r#""mirror": ["z-", "z+"]"#));
+    assert!(
+        thin.contains("/max_m/2") && thin.contains("at least 2 m"),
+        "{thin}"
+    );
+    let across = told(&box_of(
+        r#""wall": [{"face": "x-", "velocity_m_s": [1, 0, 0]}]"#,
+    ));
+    assert!(across.contains("/wall/0/velocity_m_s/0"), "{across}");
+    let cold = told(&box_of(r#""wall": [{"face": "x-", "temperature_k": 300}]"#));
+    assert!(cold.contains("/wall/0/temperature_k"), "{cold}");
+}

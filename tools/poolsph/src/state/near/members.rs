@@ -1,0 +1,52 @@
+//! Who belongs to the compact copy.
+
+use rayon::prelude::*;
+
+use super::{GRAIN, MARGIN, Near, Role};
+use crate::state::{Phase, State};
+
+impl Near {
+    /// Liquid particles, and solid ones within two reaches of a liquid one.
+    pub(super) fn collect(&mut self, state: &State) {
+        for (id, phase) in state.phase.iter().enumerate() {
+            if *phase == Phase::Liquid {
+                self.enter(state, id, Role::Liquid);
+            }
+        }
+        let [wet, backing] = [1.0, 2.0].map(|reaches| self.kernel.support() * (reaches + MARGIN));
+        let liquid = self.places.len();
+        self.beyond.place(&state.faces, backing, &mut self.places);
+        let (grid, halo) = (&mut self.liquid_grid, &mut self.halo);
+        rayon::join(|| grid.bin(&self.places), || halo.mark(&self.places));
+        self.places.truncate(liquid);
+        let (grid, halo) = (&self.liquid_grid, &self.halo);
+        let mut solid = std::mem::take(&mut self.solid);
+        solid.resize(state.len(), None);
+        solid
+            .par_iter_mut()
+            .zip(&state.phase)
+            .zip(&state.position)
+            .with_min_len(GRAIN)
+            .for_each(|((role, phase), &place)| {
+                *role = match phase {
+                    Phase::Solid if !halo.may_touch(place) => None,
+                    Phase::Solid if grid.any_within(place, wet) => Some(Role::Wet),
+                    Phase::Solid if grid.any_within(place, backing) => Some(Role::Backing),
+                    _ => None,
+                };
+            });
+        for (id, role) in solid.iter().enumerate() {
+            if let Some(role) = role {
+                self.enter(state, id, *role);
+            }
+        }
+        self.solid = solid;
+    }
+
+    /// Takes a particle in.
+    fn enter(&mut self, state: &State, id: usize, role: Role) {
+        self.candidates.push(id as u32);
+        self.places.push(state.position[id]);
+        self.roles.push(role);
+    }
+}
