@@ -37,24 +37,22 @@ use crate::state::Metal;
 use crate::sweep::{GRAIN, carried, middle, summed, summed_double};
 use crate::vector::{dot, minus, squared};
 
-/// Step of the gradient in parts of what the stiffest mode of the filled lattice allows;
-/// disordered clouds are somewhat stiffer.
+/// Step of the gradient in parts of what the stiffest mode of the filled lattice allows; disorder is somewhat stiffer.
 const STEP: f64 = 0.87;
 
 /// Momentum of the first sweep, as of accelerated gradients that are some sweeps old: the last pressure
 /// is near, and what it lacks is smooth. From 1, that of a cold start, the same falls take longer.
 const MOMENTUM: f64 = 4.0;
 
-/// Least diagonal in parts of the lattice's: a particle at the edge of another's reach must not
-/// answer with a pressure without bound, which would strike when the two come closer.
+/// Least diagonal in parts of the lattice's: a particle at the edge of another's reach must not answer with a pressure
+/// without bound, which would strike when they come closer.
 const DIAGONAL_LEAST: f64 = 0.1;
 
-/// Most excess of density that a whole step takes away. Flow stays far below it; what begins to flow
-/// too densely, such as droplets that have frozen into one another, must come apart and not burst.
+/// Most excess of density that a whole step takes away. Flow stays far below it; what begins to flow too densely, such
+/// as droplets that have frozen into one another, must come apart and not burst.
 const RELEASE: f64 = 0.01;
 
-/// Density that a solid particle leaves to a layer of liquid over what solid ones beside it have too
-/// much by themselves.
+/// Density that a solid particle leaves to a layer of liquid over what solid ones beside it have too much by themselves.
 const YIELD: f64 = 10.0;
 
 /// Scratch of the solver; all slices `[m]` in the order of [`Near`].
@@ -68,8 +66,7 @@ pub struct Projection {
     before: Vec<f32>,
     /// x from the middle of the cloud on \[m\].
     place: Vec<[f32; 3]>,
-    /// q x and q, q what y has over the last pressure: summed over a row with the weights (dW/dr)/r, four numbers at
-    /// once, they give the row of J^T q.
+    /// q x and q, q what y has over the last pressure: their sums over a row by (dW/dr)/r give the row of J^T q.
     change: Vec<[f32; 4]>,
     /// acc and acc . x, which give the row of J acc in the same way.
     field: Vec<[f32; 4]>,
