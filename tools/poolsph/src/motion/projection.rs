@@ -138,8 +138,7 @@ impl Projection {
         }
     }
 
-    /// Finds p for the predicted velocities and makes these final. `near.virial` gets the share of p in the pressure
-    /// which the metal carries.
+    /// Finds p for the predicted velocities and makes these final; its share of the pressure goes to `near.virial`.
     pub fn solve(
         &mut self,
         near: &mut Near,
