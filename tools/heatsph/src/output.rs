@@ -9,6 +9,9 @@ use crate::scene::Scene;
 use crate::scene::method::Precision as Wanted;
 use crate::system::{Rates, System};
 
+/// Part of the heat of a body that is none.
+const NOTHING: f64 = 1e-10;
+
 /// An instant at which something is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
@@ -147,7 +150,9 @@ impl Output {
         let (stored, moved) = self.stored(system, state);
         let through: f64 = state.entries.iter().sum();
         let gross: f64 = state.entries.iter().map(|e| e.abs()).sum();
-        let whole = moved.max(gross).max(state.source.abs());
+        // What rounding leaves of what a body holds is no heat that has moved.
+        let held: f64 = system.stored(&self.first).abs();
+        let whole = moved.max(gross).max(state.source.abs()).max(NOTHING * held);
         let imbalance = (stored - through - state.source).abs();
         let (joule, _) = units(system);
         session.closing("heat_stored", joule, stored);

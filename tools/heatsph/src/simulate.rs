@@ -2,7 +2,7 @@
 
 use run::{Failure, Session};
 
-use crate::march::control::{even, suited, toward};
+use crate::march::control::{self, even, suited, toward};
 use crate::march::explicit::Explicit;
 use crate::march::implicit::Implicit;
 use crate::march::stabilised::Stabilised;
@@ -29,8 +29,13 @@ pub enum Steps {
     Limited,
     /// Given; what becomes of one beyond the limit.
     Given(f64, Beyond),
-    /// By the error of a step over the range of temperature.
-    Controlled(f64),
+    /// By the error of a step.
+    Controlled {
+        /// Largest over the range of temperature.
+        tolerance: f64,
+        /// What is no error \[K\], if the scene says so.
+        floor: Option<f64>,
+    },
 }
 
 /// The method of a scene and how its steps are chosen; implicit with error control where the scene names none.
@@ -44,11 +49,12 @@ pub fn method(scene: &Scene, system: &System) -> (Box<dyn Method>, Steps) {
         return (Box::new(Explicit::default()), steps);
     }
     let chosen = |controlled: Controlled| {
-        controlled
-            .step_s
-            .map_or(Steps::Controlled(controlled.tolerance), |step| {
-                Steps::Given(step, Beyond::Substep)
-            })
+        let by_error = Steps::Controlled {
+            tolerance: controlled.tolerance,
+            floor: controlled.floor_k,
+        };
+        let given = |step| Steps::Given(step, Beyond::Substep);
+        controlled.step_s.map_or(by_error, given)
     };
     if let Some(stabilised) = time.and_then(|t| t.stabilised) {
         return (Box::new(Stabilised::default()), chosen(stabilised));
@@ -56,7 +62,7 @@ pub fn method(scene: &Scene, system: &System) -> (Box<dyn Method>, Steps) {
     let implicit = time.and_then(|t| t.implicit).unwrap_or_default();
     let steps = chosen(implicit);
     let (residual, guard) = match steps {
-        Steps::Controlled(tolerance) => ((1e-3 * tolerance).clamp(1e-12, 1e-8), false),
+        Steps::Controlled { tolerance, .. } => ((1e-3 * tolerance).clamp(1e-12, 1e-8), false),
         _ => (STAGE, true),
     };
     (Box::new(Implicit::new(system, residual, guard)), steps)
@@ -184,7 +190,7 @@ impl March<'_> {
         self.pace.limit = self.pace.limit.min(self.system.explicit_limit(&self.rates));
         match self.steps {
             Steps::Limited => Ok(even(time, until, LIMIT * longest)),
-            Steps::Controlled(_) => Ok(toward(time, until, self.pace.step.min(longest))),
+            Steps::Controlled { .. } => Ok(toward(time, until, self.pace.step.min(longest))),
             Steps::Given(step, beyond) => {
                 let step = even(time, until, step);
                 if step <= longest * (1.0 + 1e-9) {
@@ -248,7 +254,7 @@ impl March<'_> {
 
     /// Whether a step is good: none, or the step to take instead \[s\].
     fn judge(&mut self, taken: Result<f64, StepError>, step: f64) -> Result<Option<f64>, Failure> {
-        let controlled = matches!(self.steps, Steps::Controlled(_));
+        let controlled = matches!(self.steps, Steps::Controlled { .. });
         let error = match taken {
             Ok(error) => error,
             Err(StepError::Solve(_)) if controlled => return Ok(Some(0.25 * step)),
@@ -264,10 +270,11 @@ impl March<'_> {
         if grown.map_err(|error| self.diverged("property", &error.to_string(), None))? {
             return Ok(Some(step));
         }
-        if let Steps::Controlled(tolerance) = self.steps {
+        if let Steps::Controlled { tolerance, floor } = self.steps {
             let (low, high) = extent(&self.state.temperature);
-            let ratio =
-                error / (tolerance * self.pace.range.max(high - low).max(f64::MIN_POSITIVE));
+            let wanted = tolerance * self.pace.range.max(high - low);
+            let floor = floor.unwrap_or_else(|| control::floor((low, high)));
+            let ratio = error / wanted.max(floor).max(f64::MIN_POSITIVE);
             if ratio.is_nan() {
                 return Ok(Some(0.25 * step));
             }
@@ -316,7 +323,7 @@ impl March<'_> {
         session.limit("step_explicit_least", self.pace.limit, "s");
         session.closing("step_greatest", "s", self.pace.taken[0]);
         session.closing("step_least", "s", self.pace.taken[1]);
-        if matches!(self.steps, Steps::Controlled(_)) {
+        if matches!(self.steps, Steps::Controlled { .. }) {
             session.closing("steps_rejected", "1", self.pace.rejected as f64);
         }
         for (name, value) in self.method.report() {

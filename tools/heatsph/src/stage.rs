@@ -67,7 +67,7 @@ impl Tool for HeatSph {
             .map_err(|e| failed(e.to_string()))?;
         let longest = method.longest(&system, &rates);
         let step = match steps {
-            simulate::Steps::Controlled(_) => return Ok(None),
+            simulate::Steps::Controlled { .. } => return Ok(None),
             simulate::Steps::Limited => longest,
             simulate::Steps::Given(step, _) => step.min(longest),
         };

@@ -8,6 +8,16 @@ const MOST: f64 = 2.0;
 /// Power of the step that the error of a step of second order follows.
 const POWER: f64 = 3.0;
 
+/// Part of a temperature below which differences are none.
+const NOTHING: f64 = 1e-10;
+
+/// The difference of temperature below which there is none, where temperatures lie between `low` and `high` \[K\]:
+/// errors over the range of temperature say nothing of a body of one temperature.
+#[must_use]
+pub fn floor((low, high): (f64, f64)) -> f64 {
+    NOTHING * low.abs().max(high.abs())
+}
+
 /// The step that suits an error of `error` times the tolerated one.
 #[must_use]
 pub fn suited(step: f64, error: f64) -> f64 {

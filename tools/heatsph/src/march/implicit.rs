@@ -9,6 +9,7 @@
 //! Where a step of given length is so long that the error estimate is a good part of the range of temperature, or
 //! where its result leaves the range of what came before, it is taken by the implicit Euler method, which does.
 
+use super::control::floor;
 use super::{Method, State, StepError, estimate};
 use crate::solve::{Goal, Problem, Solver};
 use crate::system::{Rates, System, extent};
@@ -196,9 +197,10 @@ fn rough(system: &System, (before, after): (&State, &State), error: f64) -> bool
         let t = after.temperature[held.point as usize];
         (low, high) = (low.min(t), high.max(t));
     }
-    let range = high - low;
     let (least, greatest) = extent(&after.temperature);
+    let floor = floor((least, greatest));
+    let range = high - low;
     let sources = system.source.is_some() || !system.surface.films.is_empty();
-    let beyond = (low - least).max(greatest - high) > OVER * range;
-    error > SMOOTH * range.max(greatest - least) || (beyond && !sources)
+    let beyond = (low - least).max(greatest - high) > OVER * range + floor;
+    error > SMOOTH * range.max(greatest - least) + floor || (beyond && !sources)
 }

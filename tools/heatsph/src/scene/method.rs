@@ -71,6 +71,10 @@ pub struct Controlled {
     #[serde(default = "tolerance")]
     #[schemars(range(min = 1e-12, max = 0.1), extend("x-unit" = "1"))]
     pub tolerance: f64,
+    /// Error of a step that is none, whatever the range of temperature; 1e-10 of the greatest temperature when it
+    /// is absent.
+    #[schemars(extend("x-unit" = "K", "exclusiveMinimum" = 0.0))]
+    pub floor_k: Option<f64>,
     /// Steps of this length in place of error control.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub step_s: Option<f64>,
@@ -84,6 +88,7 @@ impl Default for Controlled {
     fn default() -> Self {
         Self {
             tolerance: tolerance(),
+            floor_k: None,
             step_s: None,
         }
     }

@@ -74,6 +74,10 @@ pub fn conjugate_gradient(
     })
 }
 
+/// Norm below which a residual is none: products of such numbers with a matrix and with each other are no normal
+/// numbers any more, and what is positive becomes zero.
+const NOTHING: f64 = 1e-120;
+
 /// The residual to be reached, and what has become of evaluating it anew.
 pub(crate) struct Goal {
     pub(crate) target: f64,
@@ -91,7 +95,7 @@ impl Goal {
     }
 
     pub(crate) fn reached(&self, residual: f64) -> bool {
-        residual <= self.target.max(self.rounding)
+        residual <= self.target.max(self.rounding).max(NOTHING)
     }
 
     /// The residual evaluated anew: is it time to stop, because it is reached or because the last

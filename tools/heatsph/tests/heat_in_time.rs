@@ -1,0 +1,94 @@
+//! Heat that varies in time, through every march.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+/// A uniform plate of steel, 0.2 m by 0.1 m, with `more` in its scene.
+fn plate(more: &Value) -> Value {
+    let mut scene = json!({
+        "kind": "heatsph.scene", "version": 1, "dimensions": 2,
+        "body": {"box": {"min_m": [0, 0], "max_m": [0.2, 0.1]}},
+        "points": {"spacing_m": 0.01},
+        "materials": [{"name": "steel", "density_kg_m3": 7800, "specific_heat_j_kg_k": 500, "conductivity_w_m_k": 40}],
+        "initial_temperature_k": 300
+    });
+    let (scene_keys, keys) = (scene.as_object_mut().unwrap(), more.as_object().unwrap());
+    scene_keys.extend(keys.clone());
+    scene
+}
+
+/// Runs a scene; its exit code, its record and what it said.
+fn run(scene: &Value) -> (Option<i32>, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, out] = ["scene.json", "out.mcap"].map(|name| folder.path().join(name));
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_heatsph"))
+        .arg("run")
+        .arg(&path)
+        .arg("--out")
+        .arg(&out)
+        .args(["--progress", "none", "--threads", "1"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let record = std::fs::read_to_string(out.with_extension("run.json"));
+    let record = record.map_or(Value::Null, |text| serde_json::from_str(&text).unwrap());
+    (output.status.code(), record, said)
+}
+
+/// A number of the closing block.
+fn closing(record: &Value, name: &str) -> f64 {
+    let rows = record["closing"].as_array().unwrap();
+    let row = rows.iter().find(|row| row["name"] == name);
+    row.unwrap_or_else(|| panic!("no '{name}' in {rows:?}"))["value"]
+        .as_f64()
+        .unwrap()
+}
+
+/// Every march to `end` \[s\], by error and in steps.
+fn marches(end: f64) -> [Value; 5] {
+    [
+        json!({"end_s": end, "implicit": {}}),
+        json!({"end_s": end, "implicit": {"step_s": 0.01 * end}}),
+        json!({"end_s": end, "stabilised": {}}),
+        json!({"end_s": end, "stabilised": {"step_s": 0.01 * end}}),
+        json!({"end_s": end, "explicit": {}}),
+    ]
+}
+
+/// Heat that `more` stores in the plate until `end` in every march \[J/m\].
+fn stored(more: &Value, end: f64) -> Vec<f64> {
+    let one = |time: Value| {
+        let mut scene = plate(more);
+        scene["time"] = time.clone();
+        let (code, record, said) = run(&scene);
+        assert_eq!(code, Some(0), "{time}: {said}");
+        closing(&record, "heat_stored")
+    };
+    marches(end).map(one).to_vec()
+}
+
+#[test]
+fn a_torch_comes_from_outside_a_plate_of_one_temperature() {
+    let torch = "5e8*exp(-((x+0.1-0.01*t)^2+(y-0.05)^2)/0.01^2)";
+    let source = json!({"source_w_m3": {"expr": torch}});
+    // The line of the torch enters at 10 s: erfc over the way that it has come.
+    for heat in stored(&source, 20.0) {
+        let power = 5e8 * std::f64::consts::PI * 1e-4;
+        assert!((heat / (10.0 * power) - 1.0).abs() < 0.2, "{heat}");
+    }
+}
+
+#[test]
+fn surroundings_that_jump_start_the_march() {
+    let ambient = json!({"expr": "300 + if(t - 1, 700, 0)"});
+    let robin = json!({"coefficient_w_m2_k": 50, "ambient_k": ambient});
+    let more = json!({"boundaries": [{"on": ["y+"], "convection": robin}]});
+    for heat in stored(&more, 5.0) {
+        let most = 0.2 * 50.0 * 700.0 * 4.0;
+        assert!(heat > 0.5 * most && heat < 1.01 * most, "{heat} of {most}");
+    }
+}
