@@ -76,6 +76,23 @@ fn names_may_have_spaces() {
 }
 
 #[test]
+fn a_page_is_named_when_it_is_made_and_when_it_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    scene(folder.path(), "300 A");
+    let said = |out: &str| {
+        let command = Command::new(script())
+            .current_dir(folder.path())
+            .args([out, "scene", "--", "cp", "scene", out])
+            .output();
+        String::from_utf8(command.unwrap().stdout).unwrap()
+    };
+    for _ in 0..2 {
+        assert!(said("report.html").ends_with("to look at: report.html\n"));
+        assert!(!said("pool.mcap").contains("look"));
+    }
+}
+
+#[test]
 fn a_prerequisite_that_is_not_there_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
     let made = Command::new(script())

@@ -7,6 +7,7 @@ mod arcs;
 mod balance;
 mod bead;
 mod compare;
+mod exchange;
 pub(crate) mod field;
 pub(crate) mod gas;
 pub(crate) mod heat;
@@ -76,7 +77,11 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         .first()
         .filter(|_| arcs.len() == 1)
         .map(|(_, reader)| reader);
-    let body = balance::section(pool.as_ref(), only, &records)?;
+    let mut body = match (only, &pool) {
+        (Some(arc), Some(pool)) => exchange::section(arc, pool)?,
+        _ => String::new(),
+    };
+    body += &balance::section(pool.as_ref(), only, &records)?;
     page.section("Mass and energy", body);
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
