@@ -1,18 +1,29 @@
 //! Line plots as SVG that takes the colours of the page around it.
 //!
 //! Ink is `currentColor` and the ground is transparent, so that a plot reads on a light and on a
-//! dark page. Series differ in colour (Okabe and Ito's, which the colour-blind tell apart) and in
-//! the shape of their marks.
+//! dark page. Series differ in colour (Okabe and Ito's, which the colour-blind tell apart), and in
+//! the shape of their marks or, without marks, in their dashes.
 
+mod frame;
 mod line;
 
 pub(crate) use line::Line;
 
-use crate::draw::axes::{number, ticks};
 use crate::html::escape;
+use frame::Frame;
 
 const COLOURS: [&str; 7] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8f7f3f",
+];
+/// Of lines without marks, in the order of their colours.
+const DASHES: [&str; 7] = [
+    "",
+    "9 3",
+    "3 2.5",
+    "10 3 2 3",
+    "16 4",
+    "6 2 2 2 2 2",
+    "1.5 3",
 ];
 const WIDTH: f64 = 640.0;
 const HEIGHT: f64 = 380.0;
@@ -195,108 +206,6 @@ fn entry_width(name: &str) -> f64 {
     44.0 + 7.1 * name.chars().count() as f64
 }
 
-struct Frame {
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
-    x: [f64; 2],
-    y: [f64; 2],
-    run: [Run; 2],
-}
-
-impl Frame {
-    fn pixel(&self, point: [f64; 2]) -> [f64; 2] {
-        let u = share(point[0], self.x, self.run[0]);
-        let v = share(point[1], self.y, self.run[1]);
-        [
-            self.left + u * (self.right - self.left),
-            self.bottom - v * (self.bottom - self.top),
-        ]
-    }
-
-    fn grid(&self, x_title: &str, y_title: &str) -> String {
-        let mut out = String::new();
-        let faint = "stroke=\"currentColor\" stroke-opacity=\"0.14\" fill=\"none\"";
-        for tick in marks(self.x, self.run[0], 7.0) {
-            let [x, _] = self.pixel([tick, self.y[0]]);
-            out += &format!(
-                "<path {faint} d=\"M{x:.1} {:.1}V{:.1}\"/>",
-                self.top, self.bottom
-            );
-            out += &text([x, self.bottom + 18.0], "middle", &label(tick, self.run[0]));
-        }
-        for tick in marks(self.y, self.run[1], 6.0) {
-            let [_, y] = self.pixel([self.x[0], tick]);
-            out += &format!(
-                "<path {faint} d=\"M{:.1} {y:.1}H{:.1}\"/>",
-                self.left, self.right
-            );
-            out += &text([self.left - 8.0, y + 4.5], "end", &label(tick, self.run[1]));
-        }
-        out += &format!(
-            "<path stroke=\"currentColor\" stroke-opacity=\"0.55\" fill=\"none\" d=\"M{:.1} {:.1}V{:.1}H{:.1}\"/>\n",
-            self.left, self.top, self.bottom, self.right
-        );
-        let middle = 0.5 * (self.left + self.right);
-        out += &text([middle, self.bottom + 40.0], "middle", x_title);
-        let (x, y) = (14.0, 0.5 * (self.top + self.bottom));
-        out += &format!(
-            "<text transform=\"translate({x} {y:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-            escape(y_title)
-        );
-        out
-    }
-}
-
-fn share(value: f64, range: [f64; 2], run: Run) -> f64 {
-    match run {
-        Run::Even => (value - range[0]) / (range[1] - range[0]),
-        Run::Log => (value / range[0]).ln() / (range[1] / range[0]).ln(),
-    }
-}
-
-/// Where ticks stand: round numbers, or powers of ten with 2 and 5 between where there are few.
-fn marks(range: [f64; 2], run: Run, wanted: f64) -> Vec<f64> {
-    if run == Run::Even {
-        return ticks(range, wanted);
-    }
-    let (low, high) = (
-        range[0].log10().floor() as i32,
-        range[1].log10().ceil() as i32,
-    );
-    let inside = |v: &f64| *v >= range[0] && *v <= range[1];
-    let decades: Vec<f64> = (low..=high).map(|e| 10.0_f64.powi(e)).collect();
-    let tens: Vec<f64> = decades.iter().copied().filter(inside).collect();
-    match tens.len() {
-        0..=2 => decades
-            .iter()
-            .flat_map(|d| [*d, 2.0 * d, 5.0 * d])
-            .filter(inside)
-            .collect(),
-        3..=8 => tens,
-        n => tens.into_iter().step_by(n.div_ceil(7)).collect(),
-    }
-}
-
-fn label(value: f64, run: Run) -> String {
-    match run {
-        Run::Even => number(value).replace('-', "\u{2212}"),
-        Run::Log if (0.01..=9999.0).contains(&value) => number(value),
-        Run::Log => {
-            let power = value.log10().floor() as i32;
-            let lead = (value / 10.0_f64.powi(power)).round();
-            let raised = power.to_string().replace('-', "\u{2212}");
-            let sup = format!("10\u{200a}^{raised}");
-            if lead > 1.5 {
-                format!("{lead}\u{b7}{sup}")
-            } else {
-                sup
-            }
-        }
-    }
-}
-
 /// Text; a trailing `^n` becomes a superscript.
 fn text(at: [f64; 2], anchor: &str, words: &str) -> String {
     let body = match words.split_once("\u{200a}^") {
@@ -345,10 +254,10 @@ fn stroke(line: &Line, path: &str, colour: usize) -> String {
              stroke-width=\"{width}\" stroke-dasharray=\"{dash}\"/>\n"
         );
     }
-    let (hue, dash) = (
-        COLOURS[colour % COLOURS.len()],
-        ["", "7 3", "2 3"][(colour / COLOURS.len()) % 3],
-    );
+    let hue = COLOURS[colour % COLOURS.len()];
+    let round = colour / COLOURS.len();
+    let dash = if line.marks { round } else { colour + round };
+    let dash = DASHES[dash % DASHES.len()];
     format!(
         "<path d=\"{path}\" fill=\"none\" stroke=\"{hue}\" stroke-width=\"2\" stroke-dasharray=\"{dash}\" \
          stroke-linejoin=\"round\"/>\n"
@@ -381,36 +290,5 @@ mod tests {
             vec![[0.0, 1.0], [1.0, f64::NAN], [-1.0, 2.0]],
         ));
         assert!(plot.is_empty() && plot.svg().is_empty());
-    }
-
-    #[test]
-    fn a_power_law_is_a_straight_line_on_logarithmic_axes() {
-        let frame = Frame {
-            left: 0.0,
-            right: 300.0,
-            top: 0.0,
-            bottom: 300.0,
-            x: [1.0, 1000.0],
-            y: [1e-6, 1.0],
-            run: [Run::Log, Run::Log],
-        };
-        let at: Vec<[f64; 2]> = [1.0, 10.0, 100.0, 1000.0]
-            .iter()
-            .map(|x: &f64| frame.pixel([*x, x.powi(-2)]))
-            .collect();
-        for pair in at.windows(2) {
-            assert!((pair[1][0] - pair[0][0] - 100.0).abs() < 1e-9);
-            assert!((pair[1][1] - pair[0][1] - 100.0).abs() < 1e-9);
-        }
-    }
-
-    #[test]
-    fn ticks_of_a_decade_have_steps_between() {
-        assert_eq!(marks([1.0, 9.0], Run::Log, 5.0), [1.0, 2.0, 5.0]);
-        assert_eq!(
-            marks([0.5, 2000.0], Run::Log, 5.0),
-            [1.0, 10.0, 100.0, 1000.0]
-        );
-        assert_eq!(label(1e-3, Run::Log), "10\u{200a}^\u{2212}3");
     }
 }

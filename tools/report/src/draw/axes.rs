@@ -57,21 +57,22 @@ impl Axes {
     pub(crate) fn draw(&self, canvas: &mut Canvas, x_title: &str, y_title: &str) {
         canvas.border(self.area, INK, 2.0);
         let bottom = self.area.y + self.area.h;
-        for tick in ticks(self.x, (self.area.w / 150.0).min(10.0)) {
-            let at = self.pixel([tick, self.y[0]]);
+        let across = ticks(self.x, (self.area.w / 150.0).min(10.0));
+        for (tick, text) in across.iter().zip(labels(&across)) {
+            let at = self.pixel([*tick, self.y[0]]);
             canvas.line(at, [at[0], at[1] + 8.0], INK, 2.0);
             write(
                 canvas,
                 [at[0], bottom + 26.0],
-                &number(tick),
+                &text,
                 Hand::Small,
                 (Stand::Middle, INK),
             );
         }
         let mut widest = 0.0_f64;
-        for tick in ticks(self.y, (self.area.h / 80.0).min(10.0)) {
-            let at = self.pixel([self.x[0], tick]);
-            let text = number(tick);
+        let upwards = ticks(self.y, (self.area.h / 80.0).min(10.0));
+        for (tick, text) in upwards.iter().zip(labels(&upwards)) {
+            let at = self.pixel([self.x[0], *tick]);
             widest = widest.max(Hand::Small.width(&text));
             canvas.line(at, [at[0] - 8.0, at[1]], INK, 2.0);
             write(
@@ -107,13 +108,13 @@ impl Axes {
         }
     }
 
-    /// Draws line segments given in the units of the axes, those that lie inside.
+    /// Draws line segments given in the units of the axes, cut off at the border.
     pub(crate) fn segments(&self, canvas: &mut Canvas, lines: &[[[f64; 2]; 2]], pen: (Rgb, f64)) {
-        for [a, b] in lines {
-            if self.holds(*a) && self.holds(*b) {
+        canvas.within(self.area, |canvas| {
+            for [a, b] in lines {
                 canvas.line(self.pixel(*a), self.pixel(*b), pen.0, pen.1);
             }
-        }
+        });
     }
 }
 
@@ -150,10 +151,10 @@ impl Scale {
         }
         canvas.border(rect, INK, 2.0);
         let mut widest = 0.0_f64;
-        for tick in ticks(self.range, (rect.h / 70.0).min(8.0)) {
+        let ticks = ticks(self.range, (rect.h / 70.0).min(8.0));
+        for (tick, text) in ticks.iter().zip(labels(&ticks)) {
             let t = (tick - self.range[0]) / (self.range[1] - self.range[0]);
             let y = rect.y + (1.0 - t) * rect.h;
-            let text = number(tick);
             widest = widest.max(Hand::Small.width(&text));
             canvas.line([rect.x + rect.w, y], [rect.x + rect.w + 7.0, y], INK, 2.0);
             write(
@@ -216,16 +217,40 @@ pub(crate) fn ticks(range: [f64; 2], wanted: f64) -> Vec<f64> {
     (first..=last).map(|i| i as f64 * step).collect()
 }
 
+/// What stands at ticks of equal steps: as many digits as tell them apart, the same for all, without needless ones.
+pub(crate) fn labels(ticks: &[f64]) -> Vec<String> {
+    let most = ticks.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+    let step = match ticks {
+        [first, second, ..] => (second - first).abs(),
+        _ => return ticks.iter().map(|t| number(*t)).collect(),
+    };
+    // Round steps have one digit, and rounding of the logarithm must not ask for one more.
+    let digits = |unit: f64| (-(step / unit).log10().floor()).clamp(0.0, 15.0) as usize;
+    if (1e-3..1e6).contains(&most) {
+        let digits = digits(1.0 - 1e-9);
+        return ticks.iter().map(|t| format!("{t:.digits$}")).collect();
+    }
+    let power = most.log10().floor();
+    let unit = 10.0_f64.powf(power);
+    let digits = digits(unit * (1.0 - 1e-9));
+    let label = |t: &f64| match *t == 0.0 {
+        true => "0".to_owned(),
+        false => format!("{:.digits$}e{power}", t / unit),
+    };
+    ticks.iter().map(label).collect()
+}
+
 /// A number without needless digits.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
-    if size < 1e-12 {
+    if size == 0.0 {
         return "0".to_owned();
     }
     if !(1e-3..1e6).contains(&size) {
         return format!("{value:.1e}");
     }
-    let text = format!("{value:.4}");
+    let digits = if size < 1.0 { 6 } else { 4 };
+    let text = format!("{value:.digits$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -241,6 +266,27 @@ mod tests {
             vec![1800.0, 2000.0, 2200.0, 2400.0]
         );
         assert!(ticks([1.0, 1.0], 4.0).is_empty());
+    }
+
+    #[test]
+    fn ticks_are_told_apart_and_alike() {
+        let told = |range: [f64; 2]| labels(&ticks(range, 4.0)).join(" ");
+        assert_eq!(told([0.0, 4.0]), "0 1 2 3 4");
+        assert_eq!(told([0.0, 2.0]), "0.0 0.5 1.0 1.5 2.0");
+        assert_eq!(told([0.0, 0.3]), "0.0 0.1 0.2 0.3");
+        assert_eq!(told([0.0, 4e-15]), "0 1e-15 2e-15 3e-15 4e-15");
+        assert_eq!(told([-1e-6, 1e-6]), "-1.0e-6 -0.5e-6 0 0.5e-6 1.0e-6");
+        assert_eq!(
+            told([300.0, 300.0004]),
+            "300.0000 300.0001 300.0002 300.0003 300.0004"
+        );
+        assert_eq!(told([0.0, 2e7]), "0 0.5e7 1.0e7 1.5e7 2.0e7");
+        for scale in -14..14 {
+            let range = [-1.3, 2.9].map(|v| v * 10.0_f64.powi(scale));
+            let all = labels(&ticks(range, 6.0));
+            let different: std::collections::BTreeSet<&String> = all.iter().collect();
+            assert_eq!(different.len(), all.len(), "{all:?}");
+        }
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub(crate) struct Canvas {
     /// Height \[px\].
     pub(crate) height: usize,
     pixels: Vec<Rgb>,
+    /// Columns and rows that can be drawn on: first, and one past the last.
+    open: [[usize; 2]; 2],
 }
 
 /// A rectangle of pixels: left, top, width, height.
@@ -29,7 +31,23 @@ impl Canvas {
             width,
             height,
             pixels: vec![WHITE; width * height],
+            open: [[0, width], [0, height]],
         }
+    }
+
+    /// Draws with nothing going beyond `rect`.
+    pub(crate) fn within(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
+        let before = self.open;
+        let part = |from: f64, length: f64, [low, high]: [usize; 2]| {
+            let at = |v: f64| (v.round().max(0.0) as usize).clamp(low, high);
+            [at(from), at(from + length)]
+        };
+        self.open = [
+            part(rect.x, rect.w, before[0]),
+            part(rect.y, rect.h, before[1]),
+        ];
+        draw(self);
+        self.open = before;
     }
 
     /// Colour at column `x`, row `y`, if that is inside.
@@ -40,7 +58,8 @@ impl Canvas {
 
     fn index(&self, x: i64, y: i64) -> Option<usize> {
         let (x, y) = (usize::try_from(x).ok()?, usize::try_from(y).ok()?);
-        (x < self.width && y < self.height).then(|| y * self.width + x)
+        let open = |at: usize, [from, end]: [usize; 2]| at >= from && at < end;
+        (open(x, self.open[0]) && open(y, self.open[1])).then(|| y * self.width + x)
     }
 
     /// Lays `colour` over a pixel with the given cover (0..1).

@@ -129,7 +129,7 @@ fn sections(weld: &Weld, paint: &Paint, stretch: &Stretch) -> Result<String, Fai
                 "where the weld is deepest so far; not all of it has frozen"
             };
             let caption = format!(
-                "Section across the weld at y = {:.1} mm, {state}. The orange line encloses all metal that \
+                "Section across the weld at y = {:.1} mm, {state}. The green line encloses all metal that \
                  has ever been liquid; arrows measure it from the dashed original surface.",
                 1e3 * place
             )

@@ -285,7 +285,7 @@ pub(crate) fn lorentz(table: &Table) -> artefact::Result<Option<Canvas>> {
         let parts = [grid(radial).sample(r, d)?, grid(axial).sample(r, d)?];
         Some(parts.map(|part| part / most))
     };
-    arrows(&mut canvas, &axes, force);
+    canvas.within(axes.area, |canvas| arrows(canvas, &axes, force));
     axes.draw(&mut canvas, "radius r [mm]", "height z [mm]");
     let bar = Rect {
         x: axes.area.x + axes.area.w + 28.0,

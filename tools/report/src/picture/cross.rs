@@ -11,7 +11,7 @@ use crate::measure::bead::Bead;
 use crate::measure::section::{Plane, Section};
 use crate::weld::Weld;
 
-const FUSION: Rgb = hex(0xd5_5e00);
+const FUSION: Rgb = hex(0x00_9e73);
 const GAUGE: Rgb = hex(0x00_3f7d);
 /// What is higher above the plate is not shown \[mm\].
 const CEILING: f64 = 12.0;
@@ -125,11 +125,8 @@ pub(crate) fn along(weld: &Weld, paint: &Paint) -> Option<Canvas> {
     });
     v.axes
         .segments(&mut v.canvas, &metal.contour(0.5), (INK, 2.0));
-    v.axes.segments(
-        &mut v.canvas,
-        &inside(&metal, &fused),
-        (hex(0x00_9e73), 4.0),
-    );
+    v.axes
+        .segments(&mut v.canvas, &inside(&metal, &fused), (FUSION, 5.0));
     v.axes
         .draw(&mut v.canvas, "along the weld y [mm]", "height z [mm]");
     if let Some(scale) = paint.scale() {
@@ -142,7 +139,7 @@ pub(crate) fn along(weld: &Weld, paint: &Paint) -> Option<Canvas> {
         &[
             (PLATE, "plate"),
             (FROZEN, "frozen"),
-            (hex(0x00_9e73), "fusion line"),
+            (FUSION, "fusion line"),
         ],
     );
     scale_bar(&mut v.canvas, [WIDTH as f64 - 510.0, below], v.scale);

@@ -194,13 +194,15 @@ fn paint(canvas: &mut Canvas, axes: &Axes, field: &Field, style: &Style) {
             PLATE
         })
     });
-    for (n, at) in field.points() {
-        let row = [n / rows, n % rows];
-        let chosen = row.iter().all(|i| i.is_multiple_of(lattice.every));
-        if chosen && field.liquid[n] && axes.holds(at) {
-            arrow(canvas, axes.pixel(at), field.flow(n), lattice);
+    canvas.within(axes.area, |canvas| {
+        for (n, at) in field.points() {
+            let row = [n / rows, n % rows];
+            let chosen = row.iter().all(|i| i.is_multiple_of(lattice.every));
+            if chosen && field.liquid[n] && axes.holds(at) {
+                arrow(canvas, axes.pixel(at), field.flow(n), lattice);
+            }
         }
-    }
+    });
 }
 
 fn arrow(canvas: &mut Canvas, at: [f64; 2], u: [f64; 2], lattice: Lattice) {
