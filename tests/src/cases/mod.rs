@@ -43,6 +43,8 @@ mod heat_robin_square;
 mod heat_shock_disc;
 mod heat_sin_xy;
 mod heat_two_slabs;
+mod jet_plate;
+mod jet_still;
 mod pool_dimple;
 mod pool_drop_oscillation;
 mod pool_drop_pressure;
@@ -104,6 +106,8 @@ pub fn all() -> Vec<Box<dyn Case>> {
         Box::new(heat_cylinder_flux::HeatCylinderFlux),
         Box::new(heat_two_slabs::HeatTwoSlabs),
         Box::new(heat_shock_disc::HeatShockDisc),
+        Box::new(jet_plate::JetPlate),
+        Box::new(jet_still::JetStill),
         Box::new(pool_dimple::PoolDimple),
         Box::new(pool_drop_oscillation::PoolDropOscillation),
         Box::new(pool_drop_pressure::PoolDropPressure),

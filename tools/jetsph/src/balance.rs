@@ -42,12 +42,7 @@ impl Balance {
         }
         for stage in &march.stages {
             let entry = stage.entry(state);
-            balance.entry.stored += entry.stored;
-            balance.entry.work += entry.work;
-            balance.entry.spent += entry.spent;
-            for (sum, part) in balance.entry.impulse.iter_mut().zip(entry.impulse) {
-                *sum += part;
-            }
+            balance.entry.add(&entry);
         }
         balance
     }
@@ -68,6 +63,13 @@ impl Balance {
         } else {
             0.0
         }
+    }
+
+    /// Mass that neither the start nor what came in and left explains, over all of it \[1\].
+    #[must_use]
+    pub fn mass_error(&self, start: &Self) -> f64 {
+        let there = self.mass.max(start.mass).max(f64::MIN_POSITIVE);
+        (self.mass - start.mass - self.entry.mass) / there
     }
 
     /// Momentum that neither the start nor an impulse from outside explains, over the greatest momentum that the
@@ -107,11 +109,7 @@ impl Balance {
     pub fn closing(&self, start: &Self) -> [(&'static str, &'static str, f64); 8] {
         [
             ("mass_kg", "kg", self.mass),
-            (
-                "mass_error",
-                "1",
-                (self.mass - start.mass) / start.mass.max(f64::MIN_POSITIVE),
-            ),
+            ("mass_error", "1", self.mass_error(start)),
             ("momentum_error", "1", self.momentum_error(start)),
             ("kinetic_energy_j", "J", self.kinetic),
             (
@@ -146,8 +144,9 @@ impl Balance {
             work,
             spent,
             impulse,
+            mass: brought,
         } = self.entry;
-        let mut saved = vec![self.mass, self.kinetic, stored, work, spent];
+        let mut saved = vec![self.mass, self.kinetic, stored, work, spent, brought];
         saved.extend(self.momentum);
         saved.extend(impulse);
         saved
@@ -157,7 +156,20 @@ impl Balance {
     #[must_use]
     pub fn restored(saved: &[f64]) -> Self {
         match *saved {
-            [mass, kinetic, stored, work, spent, mx, my, mz, ix, iy, iz] => Self {
+            [
+                mass,
+                kinetic,
+                stored,
+                work,
+                spent,
+                brought,
+                mx,
+                my,
+                mz,
+                ix,
+                iy,
+                iz,
+            ] => Self {
                 mass,
                 kinetic,
                 momentum: [mx, my, mz],
@@ -166,6 +178,7 @@ impl Balance {
                     work,
                     spent,
                     impulse: [ix, iy, iz],
+                    mass: brought,
                 },
             },
             _ => Self::default(),

@@ -3,17 +3,18 @@
 //! After Shinohara, Okabe and Nakayama (2004), with their errata. The way of a scene through the crate:
 //!
 //! - [`scene`] is what a person writes, [`assemble`] the only file that asks what it contains;
-//! - [`matter`] fills bodies with particles and knows solids;
+//! - [`matter`] fills bodies with particles and knows water and solids, [`motion`] what acts on both;
 //! - [`stage`] is what a physical effect promises, [`mod@march`] takes all of them through a step;
 //! - [`simulate`] leads the run: steps, outputs, checkpoints ([`resume`]); [`frames`] writes, [`balance`] keeps the books.
 //!
-//! A solid is total Lagrangian with quadratics fitted at rest: see [`matter::solid`].
+//! Water is weakly compressible: see [`matter::water`]. A solid is total Lagrangian with quadratics fitted at rest: see [`matter::solid`].
 
 pub mod assemble;
 pub mod balance;
 pub mod frames;
 pub mod march;
 pub mod matter;
+pub mod motion;
 pub mod resume;
 pub mod scene;
 pub mod simulate;

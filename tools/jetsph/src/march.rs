@@ -1,16 +1,22 @@
 //! The march in time: knows stages, not physics.
 //!
 //! ```text
-//! kick    u += dt/2 a                 velocity Verlet: of second order, and it keeps the energy of a solid for ever
-//! drift   x += dt u
-//! act     every stage adds to a       in the order of the list
-//! kick    u += dt/2 a
+//! kick      u += dt/2 a               velocity Verlet: of second order, and it keeps the energy of a solid for ever
+//! drift     x += dt u                 in two halves where there is water
+//! flow      rho += dt d(rho)/dt       between them: with x and u of the middle of the step
+//! act       every stage adds to a     in the order of the list
+//! kick      u += dt/2 a
+//! exchange  particles come and leave
 //! ```
+//!
+//! The midpoint rule of Shinohara et al. (2004, eqs 41 and 42) sees everything twice a step, and lets sound grow: by
+//! 1 + (omega dt)^4/8 a step without friction. Here density is taken by the midpoint rule and motion by Verlet: both see
+//! the pairs once, and sound keeps its energy up to omega dt = 2.
 
 use particles::{POSITION, sweep};
 
 use crate::stage::{Limit, Stage, StageError};
-use crate::state::{ACCELERATION, State, VELOCITY};
+use crate::state::{ACCELERATION, DENSITY, DENSITY_RATE, State, VELOCITY};
 
 /// Stages in the order of a step.
 pub struct March {
@@ -48,17 +54,41 @@ impl March {
         dt: f64,
         timed: &mut Timed<'_>,
     ) -> Result<(), StageError> {
+        let flows = self.stages.iter().any(|stage| stage.flows());
         timed("motion", &mut || {
             kick(state, 0.5 * dt);
-            drift(state, dt);
+            drift(state, if flows { 0.5 * dt } else { dt });
             Ok(())
         })?;
+        if flows {
+            self.flow(state, dt, timed)?;
+            drift(state, 0.5 * dt);
+        }
         self.act(state, dt, timed)?;
         timed("motion", &mut || {
             kick(state, 0.5 * dt);
             Ok(())
         })?;
+        for stage in &mut self.stages {
+            stage.exchange(state, dt)?;
+        }
         state.step += 1;
+        Ok(())
+    }
+
+    fn flow(
+        &mut self,
+        state: &mut State,
+        dt: f64,
+        timed: &mut Timed<'_>,
+    ) -> Result<(), StageError> {
+        for set in &mut state.sets {
+            set.column_mut(&DENSITY_RATE).fill(0.0);
+        }
+        for stage in self.stages.iter_mut().filter(|stage| stage.flows()) {
+            timed(stage.name(), &mut || stage.flow(state, dt))?;
+        }
+        condense(state, dt);
         Ok(())
     }
 
@@ -84,6 +114,16 @@ fn kick(state: &mut State, dt: f64) {
             });
         }
         set.put(&VELOCITY, velocity);
+    }
+}
+
+/// rho += dt d(rho)/dt.
+fn condense(state: &mut State, dt: f64) {
+    for set in &mut state.sets {
+        let mut density = set.take(&DENSITY);
+        let rate = set.column(&DENSITY_RATE);
+        sweep::change(&mut density, |a, rho| *rho += dt * rate[a]);
+        set.put(&DENSITY, density);
     }
 }
 

@@ -37,7 +37,8 @@ pub fn save(
     for (place, stage) in march.stages.iter().enumerate() {
         checkpoint.put_f64(&format!("stage.{place}.{}", stage.name()), &stage.save());
     }
-    checkpoint.put_u64("step", &[state.step, u64::from(state.ids.next)]);
+    let counts = [state.step, u64::from(state.ids.next), state.exchanges];
+    checkpoint.put_u64("step", &counts);
     checkpoint.put_f64("time", &[state.time]);
     checkpoint.put_f64("start", &start.save());
     Ok(())
@@ -58,6 +59,7 @@ pub fn restore(
     let counts = checkpoint.u64("step")?;
     state.step = counts.first().copied().unwrap_or(0);
     state.ids.next = counts.get(1).map_or(0, |next| *next as u32);
+    state.exchanges = counts.get(2).copied().unwrap_or(0);
     state.time = checkpoint.f64("time")?.first().copied().unwrap_or(0.0);
     for (place, stage) in march.stages.iter_mut().enumerate() {
         let saved = checkpoint.f64(&format!("stage.{place}.{}", stage.name()))?;

@@ -66,6 +66,84 @@ pub struct Entry {
     pub spent: f64,
     /// Impulse that it has given from outside \[N s\].
     pub impulse: [f64; 3],
+    /// Mass that it has brought in, less what it took away \[kg\].
+    pub mass: f64,
+}
+
+impl Entry {
+    /// Both together.
+    pub fn add(&mut self, other: &Self) {
+        self.stored += other.stored;
+        self.work += other.work;
+        self.spent += other.spent;
+        self.mass += other.mass;
+        for (sum, part) in self.impulse.iter_mut().zip(other.impulse) {
+            *sum += part;
+        }
+    }
+
+    /// Counts what comes in from outside: its mass \[kg\], velocity \[m/s\] and its energy at rest \[J\]; a negative
+    /// `sign` takes it away.
+    pub fn bring(&mut self, sign: f64, mass: f64, velocity: [f64; 3], stored: f64) {
+        let square: f64 = velocity.iter().map(|u| u * u).sum();
+        self.mass += sign * mass;
+        self.work += sign * (0.5 * mass * square + stored);
+        for (sum, u) in self.impulse.iter_mut().zip(velocity) {
+            *sum += sign * mass * u;
+        }
+    }
+
+    /// The numbers that a checkpoint keeps.
+    #[must_use]
+    pub fn save(&self) -> Vec<f64> {
+        let [x, y, z] = self.impulse;
+        vec![self.work, self.spent, self.mass, x, y, z]
+    }
+
+    /// Takes back what [`Entry::save`] gave; gives the rest.
+    pub fn restore<'a>(&mut self, saved: &'a [f64]) -> &'a [f64] {
+        if let [work, spent, mass, x, y, z, rest @ ..] = saved {
+            (self.work, self.spent, self.mass) = (*work, *spent, *mass);
+            self.impulse = [*x, *y, *z];
+            return rest;
+        }
+        saved
+    }
+}
+
+/// Rates that are known at the ends of steps, summed over time as the march does it: half a step with each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Course<const N: usize> {
+    before: [f64; N],
+}
+
+impl<const N: usize> Default for Course<N> {
+    fn default() -> Self {
+        Self { before: [0.0; N] }
+    }
+}
+
+impl<const N: usize> Course<N> {
+    /// What rates have given over a step of `dt` \[s\] that ended with `now`.
+    pub fn over(&mut self, dt: f64, now: [f64; N]) -> [f64; N] {
+        let before = std::mem::replace(&mut self.before, now);
+        std::array::from_fn(|k| 0.5 * dt * (before[k] + now[k]))
+    }
+
+    /// The last rates, which a checkpoint keeps.
+    #[must_use]
+    pub fn last(&self) -> [f64; N] {
+        self.before
+    }
+
+    /// Takes them back; gives the rest.
+    pub fn restore<'a>(&mut self, saved: &'a [f64]) -> &'a [f64] {
+        if let Some((before, rest)) = saved.split_first_chunk::<N>() {
+            self.before = *before;
+            return rest;
+        }
+        saved
+    }
 }
 
 /// One physical effect.
@@ -81,11 +159,32 @@ pub trait Stage: Send {
         None
     }
 
+    /// Whether it changes densities, at the middle of a step.
+    fn flows(&self) -> bool {
+        false
+    }
+
+    /// Adds its rates of density at the middle of a step of `dt` \[s\].
+    ///
+    /// # Errors
+    /// When a quantity diverges.
+    fn flow(&mut self, _state: &mut State, _dt: f64) -> Result<(), StageError> {
+        Ok(())
+    }
+
     /// Adds its accelerations at the present positions; `dt` \[s\] is the step that led there, 0 at the start.
     ///
     /// # Errors
     /// When a quantity diverges.
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError>;
+
+    /// Brings particles in and takes them away, at the end of a step of `dt` \[s\]; `state.time` is that of its start.
+    ///
+    /// # Errors
+    /// When data of the scene end.
+    fn exchange(&mut self, _state: &mut State, _dt: f64) -> Result<(), StageError> {
+        Ok(())
+    }
 
     /// Fills columns that only frames show.
     fn show(&self, _state: &mut State) {}

@@ -9,6 +9,11 @@ pub const ACCELERATION: Column<[f64; 3]> = Column::new("acceleration", "m/s2", [
 /// Mass of the particle \[kg\], in the plane \[kg/m\].
 pub const MASS: Column<f64> = Column::new("mass", "kg", 0.0).saved();
 
+/// rho \[kg/m3\] of water.
+pub const DENSITY: Column<f64> = Column::new("density", "kg/m3", 0.0).saved().shown();
+/// d(rho)/dt \[kg/(m3 s)\] at the middle of a step.
+pub const DENSITY_RATE: Column<f64> = Column::new("density_rate", "kg/(m3 s)", 0.0);
+
 /// All sets of particles at one time.
 #[derive(Debug, Clone)]
 pub struct State {
@@ -22,6 +27,8 @@ pub struct State {
     pub sets: Vec<Set>,
     /// Numbers of the particles.
     pub ids: Ids,
+    /// How often particles have come or left.
+    pub exchanges: u64,
 }
 
 impl State {
@@ -34,6 +41,7 @@ impl State {
             dimensions,
             sets: Vec::new(),
             ids: Ids::default(),
+            exchanges: 0,
         }
     }
 

@@ -38,6 +38,25 @@ const RING: &str = r#"{
     "output": {"frames_interval_s": 1}
 }"#;
 
+/// A jet that pulses, leans and moves, and leaves.
+const JET: &str = r#"{
+    "kind": "jetsph.scene", "version": 1, "dimensions": 2,
+    "time": {"end_s": 1},
+    "water": {
+        "density_kg_m3": 1000, "spacing_m": 0.001, "reference_speed_m_s": 6, "viscosity_pa_s": 0.001,
+        "artificial_viscosity": {"linear": 0.02, "quadratic": 0.1}, "density_diffusion": {"form": "antuono"},
+        "bodies": [{"body": {"box": {"min_m": [-0.004, 0], "max_m": [0.004, 0.003]}}}],
+        "nozzles": [{"name": "jet", "exit_m": [0, 0.008], "direction": [0.2, -1], "width_m": 0.004,
+                     "speed_m_s": {"expr": "5 + sin(2000*t)"}, "profile": {"expr": "1 - 0.5*r^2"}, "traverse_m_s": [0.5, 0]}],
+        "outlets": [{"name": "around", "beyond": {"box": {"min_m": [-0.006, -1], "max_m": [0.006, 1]}}}]
+    },
+    "gravity_m_s2": [0, -9.81],
+    "walls": [{"name": "plate", "body": {"half_space": {"point_m": [0, 0], "normal": [0, 1]}}},
+              {"name": "post", "body": {"box": {"min_m": [0.006, 0], "max_m": [0.008, 0.002]}},
+               "repulsion": {"strength_m2_s2": 25}}],
+    "output": {"frames_interval_s": 1}
+}"#;
+
 fn begun(text: &str) -> Assembled {
     let expected = Expected {
         kind: KIND.0,
@@ -93,15 +112,44 @@ fn energy_and_momentum_close() {
 }
 
 #[test]
+fn water_comes_and_leaves_and_the_books_close() {
+    let mut run = begun(JET);
+    let start = Balance::of(&run.state, &run.march);
+    steps(&mut run, 600);
+    let now = Balance::of(&run.state, &run.march);
+    assert!(
+        now.entry.mass.abs() > 0.05 * start.mass,
+        "nothing came or left: {now:?}"
+    );
+    assert!(
+        now.mass_error(&start).abs() < 1e-12,
+        "{}",
+        now.mass_error(&start)
+    );
+    assert!(
+        now.momentum_error(&start) < 1e-8,
+        "{}",
+        now.momentum_error(&start)
+    );
+    assert!(now.energy_error(&start).abs() < 0.02, "{now:?} {start:?}");
+}
+
+#[test]
 fn bits_do_not_depend_on_threads() {
+    for scene in [BAR, JET] {
+        bits_are_the_same(scene);
+    }
+}
+
+fn bits_are_the_same(scene: &str) {
     let after = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
         pool.install(|| {
-            let mut run = begun(BAR);
-            steps(&mut run, 20);
+            let mut run = begun(scene);
+            steps(&mut run, 60);
             bits(&run.state)
         })
     };
@@ -110,6 +158,12 @@ fn bits_do_not_depend_on_threads() {
 
 #[test]
 fn a_run_taken_up_goes_on_with_the_same_bits() {
+    for scene in [BAR, JET] {
+        is_taken_up(scene);
+    }
+}
+
+fn is_taken_up(scene: &str) {
     let header = Header {
         kind: "jet-frames".to_owned(),
         version: Version::new(1, 0),
@@ -118,15 +172,15 @@ fn a_run_taken_up_goes_on_with_the_same_bits() {
         scene: serde_json::json!({}),
         inputs: std::collections::BTreeMap::new(),
     };
-    let mut straight = begun(BAR);
+    let mut straight = begun(scene);
     let start = Balance::of(&straight.state, &straight.march);
-    steps(&mut straight, 10);
+    steps(&mut straight, 47);
     let mut checkpoint = Checkpoint::new(&header);
     resume::save(&mut checkpoint, &straight.state, &straight.march, &start).unwrap();
-    let mut other = begun(BAR);
+    let mut other = begun(scene);
     let found = resume::restore(&mut checkpoint, &mut other.state, &mut other.march).unwrap();
-    steps(&mut straight, 10);
-    steps(&mut other, 10);
+    steps(&mut straight, 47);
+    steps(&mut other, 47);
     assert_eq!(bits(&straight.state), bits(&other.state));
     assert_eq!(found.save().len(), start.save().len());
     let books = |run: &Assembled| Balance::of(&run.state, &run.march).save();

@@ -147,6 +147,37 @@ fn around(body: &Body, filling: &Filling) -> (Frame, [f64; 3]) {
     )
 }
 
+/// Places across a jet, two numbers each \[m\], each in the middle of its share of the section, and the section's area
+/// \[m2\], in the plane its width \[m\]. As many as fit the spacing, at least one.
+#[must_use]
+pub fn cross_section(width: f64, spacing: f64, dimensions: usize) -> (Vec<[f64; 2]>, f64) {
+    if dimensions == 2 {
+        let count = (width / spacing).round().max(1.0);
+        let pitch = width / count;
+        let place = |i: usize| [(i as f64 + 0.5) * pitch - 0.5 * width, 0.0];
+        return ((0..count as usize).map(place).collect(), width);
+    }
+    // A square lattice within the circle, stretched so that each place has its share of the area.
+    let radius = 0.5 * width;
+    let half = (radius / spacing).ceil() as i64 + 1;
+    let mut places = Vec::new();
+    for j in -half..half {
+        for i in -half..half {
+            let place = [(i as f64 + 0.5) * spacing, (j as f64 + 0.5) * spacing];
+            if place[0].hypot(place[1]) < radius {
+                places.push(place);
+            }
+        }
+    }
+    if places.is_empty() {
+        places.push([0.0; 2]);
+    }
+    let area = std::f64::consts::PI * radius * radius;
+    let stretch = (area / (places.len() as f64 * spacing * spacing)).sqrt();
+    let stretched = places.iter().map(|place| place.map(|x| stretch * x));
+    (stretched.collect(), area)
+}
+
 /// A number between -1 and 1 that looks like chance and is always the same (splitmix64).
 #[must_use]
 pub fn noise(number: usize) -> f64 {

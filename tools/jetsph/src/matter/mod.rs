@@ -1,4 +1,5 @@
-//! What there is: solids, and how bodies are filled with particles.
+//! What there is: water and solids, and how bodies are filled with particles.
 
 pub mod lattice;
 pub mod solid;
+pub mod water;

@@ -8,16 +8,18 @@ use super::{Scene, Solid};
 
 /// Most frames and balances of a run.
 const EVENTS_MOST: f64 = 1e7;
+/// Most nozzles of a scene: a particle knows its own by a byte.
+const NOZZLES_MOST: usize = 255;
 
 impl Scene {
     /// Every fault that the types cannot tell.
     #[must_use]
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = Vec::new();
-        if self.solids.is_empty() {
+        if self.solids.is_empty() && self.water.is_none() {
             faults.push(Fault::at(
                 "",
-                "there is nothing in the scene: it wants 'solids'",
+                "there is nothing in the scene: it wants 'solids' or 'water'",
             ));
         }
         if self.dimensions == 3 && self.plane.is_some() {
@@ -37,6 +39,10 @@ impl Scene {
             }
         }
         for (i, solid) in self.solids.iter().enumerate() {
+            if solid.name == "water" {
+                let what = "\"water\" is the channel of the water";
+                faults.push(Fault::at(&format!("/solids/{i}/name"), what));
+            }
             solid.faults(&format!("/solids/{i}"), self.dimensions, &mut faults);
             if let Some(k) = self.solids[..i]
                 .iter()
@@ -46,8 +52,99 @@ impl Scene {
                 faults.push(Fault::at(&format!("/solids/{i}/name"), what));
             }
         }
+        self.flow_faults(&mut faults);
         faults
     }
+
+    /// Faults of water, walls and gravity.
+    fn flow_faults(&self, faults: &mut Vec<Fault>) {
+        let mut misfits = Vec::new();
+        let mut vectors = vec![("/gravity_m_s2".to_owned(), self.gravity_m_s2.as_deref())];
+        for (k, wall) in self.walls.iter().enumerate() {
+            let at = format!("/walls/{k}");
+            check(
+                &wall.body,
+                &format!("{at}/body"),
+                self.dimensions,
+                &mut misfits,
+            );
+            let named = |other: &super::WallScene| other.name == wall.name;
+            if let Some(other) = self.walls[..k].iter().position(named) {
+                let what = format!("\"{}\" is the name of /walls/{other} too", wall.name);
+                faults.push(Fault::at(&format!("{at}/name"), what));
+            }
+            if let Some(of) = wall
+                .repulsion
+                .filter(|of| of.exponent_far >= of.exponent_near)
+            {
+                let (far, near) = (of.exponent_far, of.exponent_near);
+                let what =
+                    format!("{far} is not less than 'exponent_near', {near}: the wall would pull");
+                faults.push(Fault::at(&format!("{at}/repulsion/exponent_far"), what));
+            }
+        }
+        if let Some(water) = &self.water {
+            water.faults(self.dimensions, (&mut vectors, &mut misfits), faults);
+        }
+        for (at, vector) in vectors {
+            if let Some(found) = vector.filter(|found| found.len() != self.dimensions) {
+                faults.push(Fault::at(&at, wrong_length(found.len(), self.dimensions)));
+            }
+        }
+        let misfits = misfits.into_iter();
+        faults.extend(misfits.map(|Misfit { path, what }| Fault::at(&path, what)));
+    }
+}
+
+/// Vectors of a scene with their paths.
+type Vectors<'a> = Vec<(String, Option<&'a [f64]>)>;
+
+impl super::WaterScene {
+    /// Faults of water; vectors and shapes are added to those that are yet to be checked.
+    fn faults<'a>(
+        &'a self,
+        dimensions: usize,
+        (vectors, misfits): (&mut Vectors<'a>, &mut Vec<Misfit>),
+        faults: &mut Vec<Fault>,
+    ) {
+        for (k, nozzle) in self.nozzles.iter().enumerate() {
+            let at = format!("/water/nozzles/{k}");
+            vectors.push((format!("{at}/exit_m"), Some(&nozzle.exit_m)));
+            vectors.push((format!("{at}/direction"), Some(&nozzle.direction)));
+            vectors.push((format!("{at}/traverse_m_s"), nozzle.traverse_m_s.as_deref()));
+            if k >= NOZZLES_MOST {
+                let what = format!("at most {NOZZLES_MOST} nozzles");
+                faults.push(Fault::at(&at, what));
+            }
+        }
+        for (k, body) in self.bodies.iter().enumerate() {
+            let at = format!("/water/bodies/{k}/body");
+            check(&body.body, &at, dimensions, misfits);
+            let axes = body.velocity_m_s.as_ref().map(Vec::len);
+            if let Some(length) = axes.filter(|length| *length != dimensions) {
+                let at = format!("/water/bodies/{k}/velocity_m_s");
+                faults.push(Fault::at(&at, wrong_length(length, dimensions)));
+            }
+        }
+        for (k, outlet) in self.outlets.iter().enumerate() {
+            let at = format!("/water/outlets/{k}");
+            vectors.push((format!("{at}/moving_m_s"), outlet.moving_m_s.as_deref()));
+            match (&outlet.within, &outlet.beyond) {
+                (Some(shape), None) => {
+                    check(shape, &format!("{at}/within"), dimensions, misfits);
+                }
+                (None, Some(shape)) => {
+                    check(shape, &format!("{at}/beyond"), dimensions, misfits);
+                }
+                _ => faults.push(Fault::at(&at, "wants either 'within' or 'beyond'")),
+            }
+        }
+    }
+}
+
+/// A vector of another length than the scene has axes.
+fn wrong_length(length: usize, dimensions: usize) -> String {
+    format!("{length} numbers; a scene of {dimensions} dimensions wants {dimensions}")
 }
 
 impl Solid {
@@ -88,10 +185,7 @@ impl Solid {
         );
         for (at, length) in lengths.chain([own]) {
             if let Some(length) = length.filter(|length| *length != dimensions) {
-                let what = format!(
-                    "{length} numbers; a scene of {dimensions} dimensions wants {dimensions}"
-                );
-                faults.push(Fault::at(&at, what));
+                faults.push(Fault::at(&at, wrong_length(length, dimensions)));
             }
         }
     }

@@ -3,12 +3,17 @@
 mod faults;
 mod output;
 mod solid;
+mod water;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use output::{FloatWidth, Output};
 pub use solid::{Clamp, LatticeScene, LoadScene, Solid};
+
+pub use water::{
+    KernelScene, NozzleScene, OutletScene, RepulsionScene, WallScene, WaterBody, WaterScene,
+};
 
 use crate::matter::solid::law::Plane;
 
@@ -31,6 +36,14 @@ pub struct Scene {
     /// Solid bodies.
     #[serde(default)]
     pub solids: Vec<Solid>,
+    /// Water.
+    pub water: Option<WaterScene>,
+    /// Rigid walls.
+    #[serde(default)]
+    pub walls: Vec<WallScene>,
+    /// g; none if absent.
+    #[schemars(extend("x-unit" = "m/s2"), length(min = 2, max = 3))]
+    pub gravity_m_s2: Option<Vec<f64>>,
     /// What is written, and when.
     pub output: Output,
 }

@@ -1,4 +1,4 @@
-//! The cubic spline kernel in one to three dimensions.
+//! The cubic spline kernel in one to three dimensions, and Wendland's of second order.
 //!
 //! With q = r / h and support 2h (Komen 2019, eq. 3.86; Monaghan and Lattanzio 1985):
 //!
@@ -16,6 +16,36 @@
 //! let kernel = kernels::CubicSpline::<3>::new(0.5e-3);
 //! assert!(kernel.value(0.0) > 0.0 && kernel.value(1.0e-3) == 0.0);
 //! ```
+
+mod wendland;
+
+pub use wendland::Wendland;
+
+/// A kernel of compact support.
+pub trait Kernel: Send + Sync {
+    /// Radius beyond which it is zero \[m\].
+    fn support(&self) -> f64;
+    /// W at distance r \[1/m^D\].
+    fn value(&self, r: f64) -> f64;
+    /// (dW/dr) / r \[1/m^(D+2)\]; never positive.
+    fn slope(&self, r: f64) -> f64;
+}
+
+impl<const D: usize> Kernel for CubicSpline<D> {
+    fn support(&self) -> f64 {
+        Self::support(self)
+    }
+
+    #[inline(always)]
+    fn value(&self, r: f64) -> f64 {
+        Self::value(self, r)
+    }
+
+    #[inline(always)]
+    fn slope(&self, r: f64) -> f64 {
+        Self::slope(self, r)
+    }
+}
 
 /// The cubic spline in `D` dimensions with one smoothing length.
 #[derive(Debug, Clone, Copy, PartialEq)]

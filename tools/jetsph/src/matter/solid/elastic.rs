@@ -357,24 +357,12 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
     }
 
     fn save(&self) -> Vec<f64> {
-        let Entry {
-            work,
-            spent,
-            impulse,
-            ..
-        } = self.entry;
         let (force, power) = self.held;
-        [&[work, spent, power][..], &impulse, &force].concat()
+        [&self.entry.save()[..], &force, &[power]].concat()
     }
 
     fn restore(&mut self, state: &State, saved: &[f64]) {
-        if let [work, spent, power, ix, iy, iz, fx, fy, fz] = *saved {
-            self.entry = Entry {
-                stored: 0.0,
-                work,
-                spent,
-                impulse: [ix, iy, iz],
-            };
+        if let [fx, fy, fz, power] = *self.entry.restore(saved) {
             self.held = ([fx, fy, fz], power);
         }
         self.locate(state.sets[self.body.set].column(&POSITION), state.time);

@@ -1,4 +1,6 @@
-//! From a scene to sets of particles and the list of stages: the only file that asks what a scene contains.
+//! From a scene to sets of particles and the list of stages: the only place that asks what a scene contains.
+
+mod water;
 
 use particles::{Matter, POSITION, Set};
 use run::Fault;
@@ -11,7 +13,9 @@ use crate::matter::solid::cell::Cell;
 use crate::matter::solid::elastic::REST;
 use crate::matter::solid::law::Law;
 use crate::matter::solid::{Body, Elastic};
-use crate::scene::{Scene, Solid};
+use crate::motion::gravity::Gravity;
+use crate::motion::repulsion::{Repulsion, Wall};
+use crate::scene::{RepulsionScene, Scene, Solid, WallScene};
 use crate::stage::Stage;
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
@@ -43,13 +47,34 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
             Err(fault) => faults.push(fault.within(&format!("/solids/{i}"))),
         }
     }
+    let mut left_out = Vec::new();
+    let mut last = Vec::new();
+    if let Some(of) = &scene.water {
+        match water::water(scene, of, &mut state) {
+            Ok((stage, after)) => {
+                stages.push(stage);
+                last = after;
+            }
+            Err(fault) => faults.push(fault.within("/water")),
+        }
+    } else {
+        left_out.push(("water", "no key 'water'".to_owned()));
+    }
     if !faults.is_empty() {
         return Err(faults);
     }
+    if let Some(gravity) = &scene.gravity_m_s2 {
+        stages.push(Box::new(Gravity::new(vector(Some(gravity)))));
+    }
+    for wall in &scene.walls {
+        if let Some(of) = &wall.repulsion {
+            stages.push(repulsion(wall, of, &state));
+        }
+    }
+    stages.append(&mut last);
     for stage in &stages {
         stage.declare(&mut state);
     }
-    let mut left_out = vec![("water", "no key 'water'".to_owned())];
     if scene.solids.len() == 1 {
         left_out.push(("contact", "one solid".to_owned()));
     }
@@ -58,6 +83,18 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
         march: March { stages },
         left_out,
     })
+}
+
+/// The stage of a wall that pushes.
+fn repulsion(wall: &WallScene, of: &RepulsionScene, state: &State) -> Box<dyn Stage> {
+    let law = |set: &Set| Repulsion {
+        strength: of.strength_m2_s2,
+        range: of.range_m.unwrap_or(set.matter.spacing),
+        exponents: [of.exponent_near, of.exponent_far],
+    };
+    let body = shapes::Body::new(&wall.body, state.dimensions);
+    let laws = state.sets.iter().map(law).collect();
+    Box::new(Wall::new(wall.name.clone(), body, laws))
 }
 
 /// The particles of a solid and its stage.

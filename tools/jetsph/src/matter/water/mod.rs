@@ -1,0 +1,29 @@
+//! Weakly compressible water.
+//!
+//! ```text
+//! d(rho_i)/dt = rho_i sum_j V_j (u_i - u_j) . grad W_ij                                        (22), by volumes
+//! du_i/dt     = -1/m_i sum_j V_i V_j (p_i + p_j + q_ij) grad W_ij                              (26)
+//! p           = B ((rho/rho0)^n - 1),   B = c^2 rho0/n                                         (15), (17)
+//! ```
+//!
+//! (Shinohara, Okabe and Nakayama 2004; V = m/rho, q the friction of [`friction`].) The printed sums count masses, which
+//! is wrong where particles of different mass meet; volumes are right there, and the pressure's work is to the last bit
+//! what the densities store. Water bears no tension unless the scene says so: below its density at rest it is a spray
+//! without pressure, and nothing clumps.
+//!
+//! - [`tait`] is the equation of state, [`friction`] artificial and true viscosity, [`diffusion`] that of density;
+//! - [`near`] keeps neighbours, [`images`] are plain walls, [`flow`] is the stage, `sums` what it gathers over pairs;
+//! - [`nozzle`] brings water in, [`outlet`] takes it away.
+
+pub mod diffusion;
+pub mod flow;
+pub mod friction;
+pub mod images;
+pub mod near;
+pub mod nozzle;
+pub mod outlet;
+mod seen;
+mod sums;
+pub mod tait;
+
+pub use flow::{Flow, Water};

@@ -1,0 +1,4 @@
+//! Forces on all that there is.
+
+pub mod gravity;
+pub mod repulsion;

@@ -1,0 +1,182 @@
+//! Water in a scene.
+
+use run::property::Property;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use shapes::Shape;
+
+use crate::matter::water::diffusion::DensityDiffusion;
+use crate::matter::water::friction::ArtificialViscosity;
+use crate::matter::water::tait::Tension;
+
+/// Water: one liquid.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WaterScene {
+    /// rho0.
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
+    pub density_kg_m3: f64,
+    /// Spacing d of its particles.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub spacing_m: f64,
+    /// Kernel.
+    #[serde(default)]
+    pub kernel: KernelScene,
+    /// h over d.
+    #[serde(default = "usual_smoothing")]
+    #[schemars(range(min = 1.0, max = 2.5), extend("x-unit" = "1"))]
+    pub smoothing: f64,
+    /// c, in place of ten times the reference speed.
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
+    pub sound_speed_m_s: Option<f64>,
+    /// V: c is 10 V (18). Where neither is told it is the greatest speed of the nozzles and bodies at the start.
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
+    pub reference_speed_m_s: Option<f64>,
+    /// n of the equation of state (15).
+    #[serde(default = "usual_exponent")]
+    #[schemars(range(min = 1.5, max = 15.0), extend("x-unit" = "1"))]
+    pub exponent: f64,
+    /// What it does below its density at rest.
+    #[serde(default)]
+    pub tension: Tension,
+    /// Artificial viscosity (38).
+    pub artificial_viscosity: Option<ArtificialViscosity>,
+    /// mu.
+    #[schemars(extend("x-unit" = "Pa s", "exclusiveMinimum" = 0.0))]
+    pub viscosity_pa_s: Option<f64>,
+    /// Diffusion of density.
+    pub density_diffusion: Option<DensityDiffusion>,
+    /// Water that is there at the start.
+    #[serde(default)]
+    pub bodies: Vec<WaterBody>,
+    /// Where water comes in.
+    #[serde(default)]
+    pub nozzles: Vec<NozzleScene>,
+    /// Where it leaves.
+    #[serde(default)]
+    pub outlets: Vec<OutletScene>,
+}
+
+/// A kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum KernelScene {
+    /// Wendland's of second order: particles do not pair.
+    #[default]
+    Wendland,
+    /// The cubic spline of the source (6).
+    Spline,
+}
+
+fn usual_smoothing() -> f64 {
+    1.5
+}
+
+fn usual_exponent() -> f64 {
+    7.0
+}
+
+/// Water that is there at the start.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WaterBody {
+    /// Its shape.
+    pub body: Shape,
+    /// Its velocity: a number or a formula in x, y, z for each axis; rest if absent.
+    #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
+    pub velocity_m_s: Option<Vec<Property>>,
+    /// Its pressure, a number or a formula in x, y, z; 0 if absent.
+    #[schemars(extend("x-unit" = "Pa"))]
+    pub pressure_pa: Option<Property>,
+}
+
+/// A nozzle: a slot in a plane scene, round in space.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NozzleScene {
+    /// Name of its figures.
+    #[schemars(regex(pattern = "^[a-z][a-z0-9_-]*$"))]
+    pub name: String,
+    /// Middle of its exit at the start.
+    #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
+    pub exit_m: Vec<f64>,
+    /// Where it points; any length.
+    #[schemars(extend("x-unit" = "1"), length(min = 2, max = 3))]
+    pub direction: Vec<f64>,
+    /// Width of the slot, diameter in space.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub width_m: f64,
+    /// Mean speed: a number, or a formula in t for jets that start slowly or pulse.
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub speed_m_s: Property,
+    /// Shape of the speed over r, 0 on the axis and 1 at the edge; it is scaled to the mean speed. Even if absent.
+    #[schemars(extend("x-unit" = "1"))]
+    pub profile: Option<Property>,
+    /// Velocity with which the nozzle itself moves; it rests if absent.
+    #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
+    pub traverse_m_s: Option<Vec<f64>>,
+    /// When it begins.
+    #[serde(default)]
+    #[schemars(range(min = 0.0), extend("x-unit" = "s"))]
+    pub start_s: f64,
+    /// When it ends; never if absent.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub end_s: Option<f64>,
+}
+
+/// An outlet: where water leaves, and is counted.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OutletScene {
+    /// Name of its figures.
+    #[schemars(regex(pattern = "^[a-z][a-z0-9_-]*$"))]
+    pub name: String,
+    /// It takes what is in this shape.
+    pub within: Option<Shape>,
+    /// It takes what is outside of this shape.
+    pub beyond: Option<Shape>,
+    /// It takes only what moves along this direction faster than its length: backflow, in the plane (fig. 7).
+    #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
+    pub moving_m_s: Option<Vec<f64>>,
+}
+
+/// A rigid wall.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WallScene {
+    /// Name of its figures.
+    #[schemars(regex(pattern = "^[a-z][a-z0-9_-]*$"))]
+    pub name: String,
+    /// Its shape.
+    pub body: Shape,
+    /// It pushes away what comes near (43); a plain wall if absent.
+    pub repulsion: Option<RepulsionScene>,
+}
+
+/// The repulsion of (43), from the surface of the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RepulsionScene {
+    /// D, of the order of the square of the speed.
+    #[schemars(extend("x-unit" = "m2/s2", "exclusiveMinimum" = 0.0))]
+    pub strength_m2_s2: f64,
+    /// d0: it acts nearer than this; the spacing of what comes near if absent.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub range_m: Option<f64>,
+    /// n1.
+    #[serde(default = "four")]
+    #[schemars(range(min = 1.0, max = 20.0), extend("x-unit" = "1"))]
+    pub exponent_near: f64,
+    /// n2, less than n1.
+    #[serde(default = "two")]
+    #[schemars(range(min = 0.5, max = 19.0), extend("x-unit" = "1"))]
+    pub exponent_far: f64,
+}
+
+fn four() -> f64 {
+    4.0
+}
+
+fn two() -> f64 {
+    2.0
+}
