@@ -8,6 +8,7 @@
 //!   fields are exact on any cloud while no heat is lost;
 //! - [`material`] says how links conduct and cells store, [`boundary`] what passes through the surface;
 //! - [`system`] is the equation of every point, `C dT/dt = W`, and its Newton matrix;
+//! - [`course`] finds where what varies in time jumps or peaks, and what heat is prescribed;
 //! - [`mod@march`] takes it through time (explicit, stabilised or implicit), [`steady`] to its end at once, with
 //!   the solves of [`solve`];
 //! - [`simulate`] leads the march, [`output`] writes.
@@ -15,6 +16,7 @@
 pub mod assemble;
 pub mod boundary;
 pub mod cloud;
+pub mod course;
 pub mod march;
 pub mod material;
 pub mod monitor;

@@ -2,71 +2,22 @@
 
 use run::{Failure, Session};
 
+use crate::course::Course;
+use crate::march::choice::{Steps, method};
 use crate::march::control::{self, even, suited, toward};
-use crate::march::explicit::Explicit;
-use crate::march::implicit::Implicit;
-use crate::march::stabilised::Stabilised;
 use crate::march::{Method, State, StepError};
 use crate::output::{Event, Output};
 use crate::pace::Pace;
 use crate::scene::Scene;
-use crate::scene::method::{Beyond, Controlled};
+use crate::scene::method::Beyond;
 use crate::system::{Rates, System, extent};
 
-/// Tolerance of the stages of the implicit method where steps are given.
-const STAGE: f64 = 1e-10;
 /// Shortest step over the whole time.
 const SHORTEST: f64 = 1e-14;
 /// Part of the explicit limit that is used where no step is given.
 const LIMIT: f64 = 0.9;
 /// Shares of the progress bar.
 const SHARES: f64 = 1e4;
-
-/// How steps are chosen.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Steps {
-    /// Part of the explicit limit.
-    Limited,
-    /// Given; what becomes of one beyond the limit.
-    Given(f64, Beyond),
-    /// By the error of a step.
-    Controlled {
-        /// Largest over the range of temperature.
-        tolerance: f64,
-        /// What is no error \[K\], if the scene says so.
-        floor: Option<f64>,
-    },
-}
-
-/// The method of a scene and how its steps are chosen; implicit with error control where the scene names none.
-#[must_use]
-pub fn method(scene: &Scene, system: &System) -> (Box<dyn Method>, Steps) {
-    let time = scene.time.as_ref();
-    if let Some(explicit) = time.and_then(|t| t.explicit) {
-        let steps = explicit.step_s.map_or(Steps::Limited, |step| {
-            Steps::Given(step, explicit.beyond_limit)
-        });
-        return (Box::new(Explicit::default()), steps);
-    }
-    let chosen = |controlled: Controlled| {
-        let by_error = Steps::Controlled {
-            tolerance: controlled.tolerance,
-            floor: controlled.floor_k,
-        };
-        let given = |step| Steps::Given(step, Beyond::Substep);
-        controlled.step_s.map_or(by_error, given)
-    };
-    if let Some(stabilised) = time.and_then(|t| t.stabilised) {
-        return (Box::new(Stabilised::default()), chosen(stabilised));
-    }
-    let implicit = time.and_then(|t| t.implicit).unwrap_or_default();
-    let steps = chosen(implicit);
-    let (residual, guard) = match steps {
-        Steps::Controlled { tolerance, .. } => ((1e-3 * tolerance).clamp(1e-12, 1e-8), false),
-        _ => (STAGE, true),
-    };
-    (Box::new(Implicit::new(system, residual, guard)), steps)
-}
 
 /// A march under way.
 struct March<'a> {
@@ -76,7 +27,10 @@ struct March<'a> {
     state: State,
     rates: Rates,
     pace: Pace,
+    course: Course,
     end: f64,
+    /// Why the last step failed that was not too rough.
+    failed: Option<StepError>,
 }
 
 /// Marches to the end.
@@ -95,6 +49,7 @@ pub fn march(
     let (method, steps) = method(scene, system);
     let mut output = Output::new(scene, system, &temperature);
     let mut march = March {
+        course: Course::new(system, &temperature, time.end_s),
         state: State::new(temperature, system.surface.conditions.len()),
         system,
         method,
@@ -102,6 +57,7 @@ pub fn march(
         rates: Rates::default(),
         pace: Pace::default(),
         end: time.end_s,
+        failed: None,
     };
     let events = output.events();
     let resumed = session.restored();
@@ -119,8 +75,7 @@ pub fn march(
         march.write(&mut output, event, session)?;
         session.keep(|checkpoint| march.pace.save(&march.state, checkpoint))?;
     }
-    march.close(&output, session);
-    Ok(())
+    march.close(&output, session)
 }
 
 impl March<'_> {
@@ -131,7 +86,7 @@ impl March<'_> {
         if fresh {
             let (low, high) = self.system.surface.extent(extent(&self.state.temperature));
             let skin = self.system.skin(&self.state.temperature, &self.rates);
-            self.pace.range = (high - low).max(skin);
+            self.pace.range = (high - low).max(skin).max(self.course.range);
             self.pace.limit = limit;
             self.pace.step = match self.steps {
                 Steps::Given(step, _) => step,
@@ -156,8 +111,13 @@ impl March<'_> {
     /// Steps until the event.
     fn toward(&mut self, event: Event, session: &mut Session) -> Result<(), Failure> {
         while self.state.time < event.time {
-            let step = self.length(event.time, session)?;
-            self.take(step, event.time, session)?;
+            if let Some(after) = self.course.jump(self.state.time) {
+                self.jump(after)?;
+                continue;
+            }
+            let until = self.course.until(self.state.time, event.time);
+            let step = self.length(until, session)?;
+            self.take(step, until, session)?;
             let done = (SHARES * self.state.time / self.end) as u64;
             let (state, rates, pace) = (&self.state, &self.rates, &self.pace);
             session.progress(done.min(SHARES as u64), SHARES as u64, || {
@@ -183,8 +143,48 @@ impl March<'_> {
         Ok(())
     }
 
+    /// Goes across a jump of what varies in time, to the first instant after it.
+    fn jump(&mut self, after: f64) -> Result<(), Failure> {
+        let before = self.state.temperature.clone();
+        self.state.time = after;
+        let held = self.system.hold(&mut self.state.temperature, after);
+        held.map_err(|error| self.diverged("property", &error.to_string(), None))?;
+        self.state.settle(self.system, &before);
+        self.evaluate()?;
+        // What the last steps erred says nothing of the next.
+        let limit = self.system.explicit_limit(&self.rates);
+        self.pace.step = self.pace.step.min(LIMIT * limit);
+        Ok(())
+    }
+
     /// The length of the next step \[s\].
     fn length(&mut self, until: f64, session: &mut Session) -> Result<f64, Failure> {
+        let step = self.plain_length(until, session)?;
+        let longest = self.course.longest(self.state.time);
+        let step = if step <= longest {
+            step
+        } else {
+            if let (Steps::Given(..), false) = (self.steps, self.pace.substepped) {
+                self.pace.substepped = true;
+                session.substepped();
+                session.note(format!(
+                    "steps of {step:.3e} s are divided where what varies in time asks for {longest:.3e} s"
+                ));
+            }
+            even(self.state.time, until, longest)
+        };
+        let whole = self.state.time + step >= until * (1.0 - f64::EPSILON);
+        let jumps = self.course.jump(until).is_some();
+        // No rounding may carry a step across a jump.
+        Ok(if whole && jumps {
+            step - 4.0 * f64::EPSILON * until
+        } else {
+            step
+        })
+    }
+
+    /// The same, whatever varies in time \[s\].
+    fn plain_length(&mut self, until: f64, session: &mut Session) -> Result<f64, Failure> {
         let time = self.state.time;
         let longest = self.method.longest(self.system, &self.rates);
         self.pace.limit = self.pace.limit.min(self.system.explicit_limit(&self.rates));
@@ -230,7 +230,9 @@ impl March<'_> {
                 self.state.clone_from(&state);
                 self.rates.clone_from(&rates);
                 if shorter < SHORTEST * self.end {
-                    return Err(self.diverged("step", "no step is short enough", None));
+                    let why = self.failed.take().map(|failed| format!(": {failed}"));
+                    let what = format!("no step is short enough{}", why.unwrap_or_default());
+                    return Err(self.diverged("step", &what, None));
                 }
                 if shorter < step {
                     self.pace.rejected += 1;
@@ -257,7 +259,10 @@ impl March<'_> {
         let controlled = matches!(self.steps, Steps::Controlled { .. });
         let error = match taken {
             Ok(error) => error,
-            Err(StepError::Solve(_)) if controlled => return Ok(Some(0.25 * step)),
+            Err(failed @ StepError::Solve(_)) if controlled => {
+                self.failed = Some(failed);
+                return Ok(Some(0.25 * step));
+            }
             Err(failed) => return Err(self.diverged("temperature", &failed.to_string(), None)),
         };
         if let Some(i) = self.state.lost() {
@@ -318,7 +323,36 @@ impl March<'_> {
         }
     }
 
-    fn close(&self, output: &Output, session: &mut Session) {
+    /// Tells heat prescribed beside heat delivered.
+    fn compare(&self, session: &mut Session) -> Result<(), Failure> {
+        if !self.course.resolved {
+            session.warn(
+                "what varies in time has more jumps and peaks than could be followed: heat may have been missed",
+            );
+        }
+        let heats = session.timed("prescribed heat", || {
+            self.course.heat(self.system, &self.state)
+        });
+        let heats = heats.map_err(|error| self.diverged("property", &error.to_string(), None))?;
+        let unit = if self.system.cloud.dimensions == 2 {
+            "J/m"
+        } else {
+            "J"
+        };
+        for heat in heats {
+            let (name, asked, came) = (&heat.name, heat.prescribed, heat.delivered);
+            session.closing(&format!("heat_prescribed {name}"), unit, asked);
+            session.closing(&format!("heat_delivered {name}"), unit, came);
+            if !heat.holds() {
+                session.warn(format!(
+                    "{name}: {came:.6e} {unit} of heat were delivered, {asked:.6e} {unit} are prescribed; shorter steps follow what varies in time better"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn close(&self, output: &Output, session: &mut Session) -> Result<(), Failure> {
         session.steps(self.pace.steps);
         session.limit("step_explicit_least", self.pace.limit, "s");
         session.closing("step_greatest", "s", self.pace.taken[0]);
@@ -330,5 +364,6 @@ impl March<'_> {
             session.closing(name, "1", value);
         }
         output.close(self.system, &self.state, session);
+        self.compare(session)
     }
 }

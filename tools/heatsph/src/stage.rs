@@ -7,7 +7,7 @@ use artefact::Version;
 use run::{Estimate, Failure, Fault, Inputs, Plan, Session, Tool};
 
 use crate::assemble;
-use crate::march::State;
+use crate::march::{State, choice};
 use crate::scene::method::Beyond;
 use crate::scene::{Operator, Scene};
 use crate::system::{Rates, System};
@@ -58,7 +58,7 @@ impl Tool for HeatSph {
             return Ok(None);
         };
         let (system, temperature) = ready(scene)?;
-        let (mut method, steps) = simulate::method(scene, &system);
+        let (mut method, steps) = choice::method(scene, &system);
         let mut rates = Rates::default();
         let mut state = State::new(temperature, system.surface.conditions.len());
         let failed = |error: String| Failure::Other(error);
@@ -67,9 +67,9 @@ impl Tool for HeatSph {
             .map_err(|e| failed(e.to_string()))?;
         let longest = method.longest(&system, &rates);
         let step = match steps {
-            simulate::Steps::Controlled { .. } => return Ok(None),
-            simulate::Steps::Limited => longest,
-            simulate::Steps::Given(step, _) => step.min(longest),
+            choice::Steps::Controlled { .. } => return Ok(None),
+            choice::Steps::Limited => longest,
+            choice::Steps::Given(step, _) => step.min(longest),
         };
         let began = Instant::now();
         let taken = method.advance(&system, &mut state, &mut rates, step.min(time.end_s));

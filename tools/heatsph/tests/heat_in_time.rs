@@ -78,7 +78,7 @@ fn a_torch_comes_from_outside_a_plate_of_one_temperature() {
     // The line of the torch enters at 10 s: erfc over the way that it has come.
     for heat in stored(&source, 20.0) {
         let power = 5e8 * std::f64::consts::PI * 1e-4;
-        assert!((heat / (10.0 * power) - 1.0).abs() < 0.2, "{heat}");
+        assert!((heat / (10.0 * power) - 1.0).abs() < 2e-3, "{heat}");
     }
 }
 
@@ -89,6 +89,63 @@ fn surroundings_that_jump_start_the_march() {
     let more = json!({"boundaries": [{"on": ["y+"], "convection": robin}]});
     for heat in stored(&more, 5.0) {
         let most = 0.2 * 50.0 * 700.0 * 4.0;
-        assert!(heat > 0.5 * most && heat < 1.01 * most, "{heat} of {most}");
+        assert!(heat > 0.9 * most && heat < 1.01 * most, "{heat} of {most}");
+    }
+}
+
+/// Heat prescribed through a face and delivered \[J/m\], in every march.
+fn delivered(more: &Value, end: f64, (name, exact): (&str, f64)) {
+    for time in marches(end) {
+        let mut scene = plate(more);
+        scene["time"] = time.clone();
+        let (code, record, said) = run(&scene);
+        assert_eq!(code, Some(0), "{time}: {said}");
+        for kind in ["prescribed", "delivered"] {
+            let heat = closing(&record, &format!("heat_{kind} {name}"));
+            assert!(
+                (heat / exact - 1.0).abs() < 1e-3,
+                "{time} {kind}: {heat} of {exact}"
+            );
+        }
+        let stored = closing(&record, "heat_stored");
+        assert!(
+            (stored / exact - 1.0).abs() < 1e-3,
+            "{time}: {stored} of {exact}"
+        );
+    }
+}
+
+#[test]
+fn a_pulse_is_neither_missed_nor_cut() {
+    for (flux, heat) in [
+        ("if(t - 1, if(1.1 - t, 1e7, 0), 0)", 1e6),
+        ("1e7*step(t - 1)*step(1.0001 - t)", 1e3),
+        (
+            "1e9*exp(-((t - 1.2345)/1e-4)^2)",
+            1e5 * std::f64::consts::PI.sqrt(),
+        ),
+        ("1e5 + 1e7*max(0, 1 - abs(t - 3)/0.01)", 5e5 + 1e5),
+    ] {
+        let entry = json!({"on": ["y+"], "heat_flux_w_m2": {"expr": flux}});
+        delivered(&json!({"boundaries": [entry]}), 5.0, ("y+", 0.2 * heat));
+    }
+}
+
+#[test]
+fn a_source_is_delivered_however_short() {
+    let source = json!({"source_w_m3": {"expr": "2e12*exp(-((t - 3.1)/1e-5)^2)*(1 + x)"}});
+    let heat = 2e12 * 1e-5 * std::f64::consts::PI.sqrt() * 0.1 * (0.2 + 0.02);
+    delivered(&source, 5.0, ("source", heat));
+}
+
+#[test]
+fn a_face_that_is_hot_for_a_moment_heats_the_plate() {
+    let hot = json!({"expr": "300 + 500*step(t - 100) - 500*step(t - 300)"});
+    let more = json!({"boundaries": [{"on": ["y+"], "temperature_k": hot}]});
+    // What a half space has taken up until the face is cold again, less what has come back since then.
+    for heat in stored(&more, 400.0) {
+        let root = |t: f64| 2.0 * (40.0 * 7800.0 * 500.0 * t / std::f64::consts::PI).sqrt();
+        let exact = 0.2 * 500.0 * (root(300.0) - root(100.0));
+        assert!((heat / exact - 1.0).abs() < 0.05, "{heat} of {exact}");
     }
 }

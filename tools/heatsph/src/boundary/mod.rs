@@ -117,6 +117,17 @@ impl Surface {
         self.films.is_empty() && self.held.is_empty()
     }
 
+    /// Whether a condition depends on time.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        self.conditions.iter().any(|condition| match condition {
+            Condition::Temperature(curve) | Condition::Flux(curve) => curve.depends_on("t"),
+            Condition::Convection(a, b) | Condition::Radiation(a, b) => {
+                a.depends_on("t") || b.depends_on("t")
+            }
+        })
+    }
+
     /// A range of temperature \[K\] widened by that of constant surroundings.
     #[must_use]
     pub fn extent(&self, (mut low, mut high): (f64, f64)) -> (f64, f64) {

@@ -19,6 +19,10 @@ impl Method for Explicit {
         step: f64,
     ) -> Result<f64, StepError> {
         self.before.clone_from(&state.temperature);
+        if system.varies() {
+            // Heat that varies in time is taken at the middle of the step: its sum is of second order.
+            system.rates(state.time + 0.5 * step, &state.temperature, rates)?;
+        }
         for (i, t) in state.temperature.iter_mut().enumerate() {
             *t += step * rates.heat[i] / system.capacity[i];
         }

@@ -1,5 +1,6 @@
 //! The march in time: explicit, stabilised, implicit.
 
+pub mod choice;
 pub mod control;
 pub mod explicit;
 pub mod implicit;

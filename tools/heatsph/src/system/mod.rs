@@ -41,6 +41,8 @@ pub struct System {
     films: Vec<u32>,
     /// Whether a point's temperature is prescribed.
     held: Vec<bool>,
+    /// Whether anything depends on time itself.
+    varies: bool,
 }
 
 impl System {
@@ -71,7 +73,10 @@ impl System {
             .held
             .iter()
             .for_each(|h| held[h.point as usize] = true);
+        let varies =
+            surface.varies() || source.as_ref().is_some_and(|source| source.depends_on("t"));
         Ok(Self {
+            varies,
             cloud,
             links,
             materials,
@@ -111,6 +116,12 @@ impl System {
         self.conduction.is_fixed()
             && self.source.is_none()
             && !self.surface.conditions.iter().any(radiates)
+    }
+
+    /// Whether anything depends on time itself.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        self.varies
     }
 
     /// How links conduct.

@@ -1,6 +1,6 @@
 //! Compiled formulas: a list of operations on a small stack, evaluated without allocation.
 
-use super::operation::{DEPTH, Operation};
+use super::operation::{DEPTH, Operation, VARIABLES};
 use super::{Arguments, parser};
 
 /// A compiled formula.
@@ -58,7 +58,7 @@ impl Expression {
                     top += 1;
                 }
                 Operation::Negate => stack[top - 1] = -stack[top - 1],
-                Operation::Call1(f) => stack[top - 1] = f(stack[top - 1]),
+                Operation::Call1(f, _) => stack[top - 1] = f(stack[top - 1]),
                 Operation::Choose => {
                     top -= 2;
                     stack[top - 1] = if stack[top - 1] > 0.0 {
@@ -74,6 +74,17 @@ impl Expression {
             }
         }
         stack[0]
+    }
+
+    /// What it does, in order.
+    pub(super) fn operations(&self) -> &[Operation] {
+        &self.operations
+    }
+
+    /// Whether a variable occurs.
+    pub(super) fn uses(&self, name: &str) -> bool {
+        let named = |o: &Operation| matches!(o, Operation::Variable(i) if VARIABLES[*i] == name);
+        self.operations.iter().any(named)
     }
 
     /// The value, if no variable occurs.
@@ -96,13 +107,13 @@ fn apply(operation: Operation, a: f64, b: f64) -> f64 {
         Operation::Subtract => a - b,
         Operation::Multiply => a * b,
         Operation::Divide => a / b,
-        Operation::Call2(f) => f(a, b),
+        Operation::Call2(f, _) => f(a, b),
         _ => power(a, b),
     }
 }
 
 /// Small whole exponents by multiplication: exact, and the same on every machine.
-fn power(a: f64, b: f64) -> f64 {
+pub(super) fn power(a: f64, b: f64) -> f64 {
     if b.fract().abs() < f64::MIN_POSITIVE && b.abs() <= 8.0 {
         #[allow(
             clippy::cast_possible_truncation,

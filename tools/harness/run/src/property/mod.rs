@@ -3,12 +3,14 @@
 mod expression;
 mod operation;
 mod parser;
+mod range;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use expression::Expression;
+pub use range::Bounds;
 
 use crate::fault::Fault;
 

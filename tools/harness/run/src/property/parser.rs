@@ -164,10 +164,11 @@ impl Parser<'_> {
             given += 1;
         }
         self.close()?;
-        let (operation, wanted) = if let Some((_, f)) = ONE.iter().find(|(n, _)| *n == name) {
-            (Operation::Call1(*f), 1)
-        } else if let Some((_, f)) = TWO.iter().find(|(n, _)| *n == name) {
-            (Operation::Call2(*f), 2)
+        let (operation, wanted) = if let Some((_, f, trend)) = ONE.iter().find(|(n, ..)| *n == name)
+        {
+            (Operation::Call1(*f, *trend), 1)
+        } else if let Some((_, f, trend)) = TWO.iter().find(|(n, ..)| *n == name) {
+            (Operation::Call2(*f, *trend), 2)
         } else if name == "if" {
             (Operation::Choose, 3)
         } else {
