@@ -112,7 +112,7 @@ build/em/.installed: pipelines/bench/em/requirements.txt
 
 report: programs ## gather all evidence into build/report/index.html
 	$(BIN)/report index --out build/report/index.html --verify build/verify --stability build/stability \
-	  --bench build/bench --studies build
+	  --bench build/bench --certify build/certify --studies build
 
 clean-%: ## forget the results of one study: make clean-gmaw-quick
 	rm -rf build/$*

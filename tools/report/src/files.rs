@@ -114,6 +114,9 @@ pub(crate) struct Folders {
     /// Records of speed.
     #[arg(long)]
     pub(crate) bench: Option<PathBuf>,
+    /// Records of studies with their numerical bands.
+    #[arg(long)]
+    pub(crate) certify: Option<PathBuf>,
     /// Where each study has a folder with its report.
     #[arg(long)]
     pub(crate) studies: Option<PathBuf>,
@@ -122,7 +125,7 @@ pub(crate) struct Folders {
 impl Folders {
     /// Every record that is read, with what it is.
     pub(crate) fn read(&self) -> Vec<(String, PathBuf)> {
-        let folders = [&self.verify, &self.stability, &self.bench];
+        let folders = [&self.verify, &self.stability, &self.bench, &self.certify];
         let files = folders.into_iter().flatten().flat_map(|folder| {
             let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
             entries.map(|entry| entry.path())

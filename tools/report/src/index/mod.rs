@@ -2,6 +2,7 @@
 
 mod absence;
 mod bench;
+mod certified;
 mod cost;
 mod map;
 mod others;
@@ -31,6 +32,9 @@ pub(crate) fn write(folders: &Folders) -> Result<(), Failure> {
     let prices = absence::prices(&speed.absences);
     if let Some(folder) = &folders.studies {
         page.section("Studies", studies(folder, &folders.out, &prices)?);
+    }
+    if let Some(folder) = &folders.certify {
+        page.section("Studies and their errors", certificates(folder)?);
     }
     if let Some(folder) = &folders.verify {
         page.section(
@@ -87,6 +91,25 @@ impl Speed {
             false => self.notes.clone() + &bodies,
         }
     }
+}
+
+/// What `make certify` writes, by kind.
+fn certificates(folder: &Path) -> Result<String, Failure> {
+    let (mut studies, mut proofs, mut out) = (Vec::new(), Vec::new(), String::new());
+    for path in files(folder)? {
+        let kind = parsed::<Value>(&path)?.ok();
+        match kind.as_ref().and_then(|v| v["kind"].as_str()) {
+            Some("certificate-proof") => take(&path, &mut proofs, &mut out)?,
+            Some("certificate") => take(&path, &mut studies, &mut out)?,
+            _ => {}
+        }
+    }
+    out += &proofs.iter().map(certified::proved).collect::<String>();
+    out += &studies.iter().map(certified::section).collect::<String>();
+    Ok(match out.is_empty() {
+        true => paragraph("Nothing here yet."),
+        false => out,
+    })
 }
 
 /// A record of a file, or why it is none.

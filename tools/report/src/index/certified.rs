@@ -1,0 +1,208 @@
+//! Figures of studies with their numerical bands: error against run time of the study itself.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::html::{Rows, escape, figure, note, paragraph, side_by_side};
+use crate::plot::{Line, Plot};
+use crate::records::{bytes, figure as digits};
+
+/// What `make certify STUDY=name` writes.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Certificate {
+    study: String,
+    figures: BTreeMap<String, Certified>,
+    points: Vec<Point>,
+}
+
+/// What `make certify` writes of problems with exact answers.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Proof {
+    judged: u64,
+    held: u64,
+}
+
+/// A figure with its band.
+#[derive(Debug, Clone, Deserialize)]
+struct Certified {
+    unit: String,
+    value: f64,
+    extrapolated: Option<f64>,
+    half_width: Option<f64>,
+    scatter: Option<[f64; 2]>,
+    knobs: BTreeMap<String, Band>,
+    not_judged: Vec<String>,
+}
+
+/// What a knob tells of a figure.
+#[derive(Debug, Clone, Deserialize)]
+struct Band {
+    order: Option<f64>,
+    extrapolated: f64,
+    half_width: f64,
+    trusted: bool,
+}
+
+/// A run of the study.
+#[derive(Debug, Clone, Deserialize)]
+struct Point {
+    name: String,
+    knob: Option<String>,
+    size: Option<f64>,
+    figures: BTreeMap<String, f64>,
+    run_time_s: Option<f64>,
+    peak_memory_bytes: Option<u64>,
+    missing: Option<String>,
+}
+
+/// How often the truth lay in the band.
+pub(super) fn proved(proof: &Proof) -> String {
+    paragraph(&format!(
+        "On problems with exact answers the truth lies in {} of {} bands.",
+        proof.held, proof.judged
+    ))
+}
+
+/// Figures with bands, error over run time by knob, and every run.
+pub(super) fn section(certificate: &Certificate) -> String {
+    let name = escape(&certificate.study);
+    let mut out = format!("<h3 id=\"certified-{name}\">{name}</h3>\n");
+    out += &figures(certificate);
+    let plots: Vec<String> = certificate
+        .figures
+        .iter()
+        .filter_map(|(name, told)| plot(name, told, &certificate.points))
+        .collect();
+    out += &side_by_side(&plots);
+    out += &runs(&certificate.points);
+    for point in &certificate.points {
+        if let Some(why) = &point.missing {
+            out += &note(&format!("{} was not run: {why}", point.name));
+        }
+    }
+    out
+}
+
+fn figures(certificate: &Certificate) -> String {
+    let mut table = Rows::new(&[
+        "Figure",
+        "#Value",
+        "#Numerical band",
+        "#Tends to",
+        "#By chance",
+        "Unit",
+        "By knob",
+    ]);
+    let dash = || "\u{2013}".to_owned();
+    let half = |value: f64| format!("\u{b1} {}", digits(value));
+    for (name, told) in &certificate.figures {
+        let knob = |(name, band): (&String, &Band)| {
+            let order = band
+                .order
+                .map_or("order assumed".to_owned(), |p| format!("order {p:.1}"));
+            let trust = if band.trusted {
+                ""
+            } else {
+                ", does not approach it as its order says"
+            };
+            format!("{name} {} ({order}{trust})", half(band.half_width))
+        };
+        let mut knobs: Vec<String> = told.knobs.iter().map(knob).collect();
+        knobs.extend(
+            told.not_judged
+                .iter()
+                .map(|k| format!("{k}: not judged, its sizes were not run")),
+        );
+        table.row([
+            escape(&name.replace('_', " ")),
+            digits(told.value),
+            told.half_width.map_or("not judged".to_owned(), half),
+            told.extrapolated.map_or_else(dash, digits),
+            told.scatter.map_or_else(dash, |[h, _]| half(h)),
+            escape(&told.unit),
+            escape(&knobs.join("; ")),
+        ]);
+    }
+    table.render()
+}
+
+/// Distance of each run from what its knob tends to, over its time; nothing where no knob was refined.
+fn plot(name: &str, told: &Certified, points: &[Point]) -> Option<String> {
+    let title = format!("error of {} [{}]", name.replace('_', " "), told.unit);
+    let mut plot = Plot::new("run time [s]", &title).log_log();
+    for (knob, band) in &told.knobs {
+        let base = |p: &&Point| p.knob.is_none();
+        let own = |p: &&Point| p.knob.as_ref() == Some(knob) && p.size.is_some();
+        let at = |p: &Point| {
+            let value = p.figures.get(name)?;
+            Some([p.run_time_s?, (value - band.extrapolated).abs()])
+        };
+        let chosen = points.iter().filter(|p| base(p) || own(p));
+        let mut shown: Vec<[f64; 2]> = chosen.filter_map(at).collect();
+        shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        plot.add(Line::new(knob, shown).marked());
+    }
+    (!plot.is_empty()).then(|| {
+        let caption = "Distance from what each knob tends to, over the run time of the study.";
+        figure(&plot.svg(), caption)
+    })
+}
+
+fn runs(points: &[Point]) -> String {
+    let mut table = Rows::new(&["Run", "#Size", "#Run time", "#Peak memory"]);
+    let dash = || "\u{2013}".to_owned();
+    for point in points.iter().filter(|p| p.missing.is_none()) {
+        table.row([
+            escape(&point.name),
+            point.size.map_or_else(dash, digits),
+            point
+                .run_time_s
+                .map_or_else(dash, |t| format!("{} s", digits(t))),
+            point.peak_memory_bytes.map_or_else(dash, bytes),
+        ]);
+    }
+    table.render()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn certificate() -> Certificate {
+        let point = |name: &str, knob: Option<&str>, size: f64, value: f64, seconds: f64| {
+            serde_json::json!({"name": name, "knob": knob, "size": size, "patch": {},
+                "figures": {"depth": value}, "run_time_s": seconds, "peak_memory_bytes": 1000, "missing": null})
+        };
+        let missing = serde_json::json!({"name": "spacing 3", "knob": "spacing", "size": 0.25, "patch": {},
+            "figures": {}, "run_time_s": null, "peak_memory_bytes": null, "missing": "over the budget"});
+        serde_json::from_value(serde_json::json!({"kind": "certificate", "version": "1.0", "study": "weld",
+            "figures": {"depth": {"unit": "m", "value": 3.8, "extrapolated": 4.0, "half_width": 0.25,
+                "scatter": null, "not_judged": ["step"], "knobs": {"spacing": {"order": 1.0,
+                    "extrapolated": 4.0, "half_width": 0.25, "trusted": false}}}},
+            "points": [point("base", None, 1.0, 3.8, 8.0), point("spacing 1", Some("spacing"), 2.0, 3.6, 1.0), missing]}))
+        .unwrap()
+    }
+
+    #[test]
+    fn a_figure_stands_with_its_band_and_error_over_run_time() {
+        let html = section(&certificate());
+        for told in [
+            "\u{b1} 0.25",
+            "order 1.0",
+            "does not approach",
+            "step: not judged",
+            "over the budget",
+        ] {
+            assert!(html.contains(told), "{told} in {html}");
+        }
+        assert!(html.contains("<svg") && html.contains("error of depth [m]"));
+    }
+
+    #[test]
+    fn a_study_whose_knobs_were_not_run_has_no_plot() {
+        let mut bare = certificate();
+        bare.figures.values_mut().for_each(|f| f.knobs.clear());
+        assert!(!section(&bare).contains("<svg"));
+    }
+}
