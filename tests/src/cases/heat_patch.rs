@@ -161,7 +161,7 @@ fn body(shape: Value, boundaries: Value) -> Value {
 }
 
 fn field() -> String {
-    format!("1 + {}*x - {}*y + {}*z", SLOPE[0], -SLOPE[1], SLOPE[2])
+    format!("10 + {}*x - {}*y + {}*z", SLOPE[0], -SLOPE[1], SLOPE[2])
 }
 
 /// The field on these faces.

@@ -32,12 +32,12 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     let fault = |at: &str, error: OutOfRange| vec![Fault::at(at, error.to_string())];
     let curve = scene
         .initial_temperature_k
-        .compile(at, &PLACE)
+        .compile_temperature(at, &PLACE)
         .map_err(|f| vec![f])?;
     let values = cloud
         .position
         .iter()
-        .map(|x| curve.value(&Arguments::at(*x, 0.0)));
+        .map(|x| curve.kelvin(&Arguments::at(*x, 0.0)));
     let mut temperature: Vec<f64> = values.collect::<Result<_, _>>().map_err(|e| fault(at, e))?;
     hold(&surface, &cloud, &mut temperature)?;
     let materials = Materials::new(scene, range(scene, &surface, &temperature))?;

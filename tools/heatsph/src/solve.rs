@@ -295,7 +295,10 @@ impl Solver {
         let mut norm = self.weigh(system, problem, temperature, rates);
         // The heat that passed at the start stands for scenes in which nothing passes at the end.
         let first = norm.residual;
-        let scale = |norm: &Norm| norm.passing.max(1e-3 * first).max(f64::MIN_POSITIVE);
+        // A far guess has much; what counts is then what the solution's own temperatures could pass.
+        let own =
+            |norm: &Norm| (1e-6 / (ROUNDING * f64::EPSILON) * norm.rounding).min(1e-3 * first);
+        let scale = |norm: &Norm| norm.passing.max(own(norm)).max(f64::MIN_POSITIVE);
         let least = if system.is_linear() { 1e-14 } else { 1e-4 };
         for _ in 0..goal.steps {
             effort.residual = norm.residual / scale(&norm);

@@ -6,11 +6,15 @@ use run::{Failure, Session};
 use crate::march::State;
 use crate::output::{Event, Output};
 use crate::scene::{Scene, Steady};
-use crate::solve::{Goal, Problem, SolveError, Solver};
+use crate::solve::{Effort, Goal, Problem, SolveError, Solver};
 use crate::system::{Rates, System};
 
 /// How often tables of conductivity are widened.
 const WIDENINGS: usize = 20;
+
+/// Powers of two of a temperature \[K\] between which that of a body is sought, and halvings of the range.
+const POWERS: (f64, f64) = (-40.0, 60.0);
+const HALVINGS: usize = 40;
 
 /// Solves and writes the steady state.
 ///
@@ -30,6 +34,7 @@ pub fn solve(
         steps: steady.newton_steps,
     };
     let (mut newton, mut iterations) = (0, 0);
+    let mut guessed = true;
     for _ in 0..WIDENINGS {
         let from = state.temperature.clone();
         let problem = Problem {
@@ -40,20 +45,18 @@ pub fn solve(
         let solved = session.timed("solve", || {
             solver.newton(system, problem, (&mut state.temperature, &mut rates), goal)
         });
-        let effort = match solved {
-            Ok(effort) => effort,
-            Err(SolveError::NotConverged { residual, steps }) => {
-                session.warn(format!(
-                    "not converged: the residual is {residual:.1e} of the heat that passes after {steps} Newton steps"
-                ));
-                crate::solve::Effort {
-                    newton: steps,
-                    iterations: 0,
-                    residual,
-                }
-            }
-            Err(error) => return Err(lost(&error.to_string())),
-        };
+        let far = matches!(
+            solved,
+            Err(SolveError::NotConverged { .. } | SolveError::Linear(_))
+        );
+        if far
+            && std::mem::take(&mut guessed)
+            && restart(system, (&mut state, &mut rates), session)?
+        {
+            solver.forget();
+            continue;
+        }
+        let effort = found(solved, session)?;
         newton += effort.newton;
         iterations += effort.iterations;
         session.history("residual", "1", newton as f64, effort.residual);
@@ -72,6 +75,74 @@ pub fn solve(
     output.write(system, (&state, &rates), Event::whole(0.0), session)?;
     output.close_steady(system, &rates, session);
     Ok(())
+}
+
+/// The effort of a solve; one that did not converge is told.
+fn found(solved: Result<Effort, SolveError>, session: &mut Session) -> Result<Effort, Failure> {
+    match solved {
+        Ok(effort) => Ok(effort),
+        Err(SolveError::NotConverged { residual, steps }) => {
+            session.warn(format!(
+                "not converged: the residual is {residual:.1e} of the heat that passes after {steps} Newton steps"
+            ));
+            Ok(Effort {
+                newton: steps,
+                iterations: 0,
+                residual,
+            })
+        }
+        Err(error) => Err(lost(&error.to_string())),
+    }
+}
+
+/// Goes on from one temperature of the whole body, where a guess has led nowhere; whether there is one.
+fn restart(
+    system: &mut System,
+    (state, rates): (&mut State, &mut Rates),
+    session: &mut Session,
+) -> Result<bool, Failure> {
+    let Some(even) = even(system, &state.temperature, rates) else {
+        return Ok(false);
+    };
+    for (i, t) in state.temperature.iter_mut().enumerate() {
+        if !system.is_held(i) {
+            *t = even;
+        }
+    }
+    session.note(format!(
+        "the first guess leads to no solution: {even:.4} K everywhere is the next"
+    ));
+    let reached = system.reach(&state.temperature);
+    reached.map_err(|error| lost(&error.to_string()))?;
+    Ok(true)
+}
+
+/// The mean of the held temperatures, or else the one temperature of a whole body at which as much heat enters as
+/// leaves \[K\].
+///
+/// Where a body radiates, the slope of its heat by temperature vanishes with T^3, and from a guess that is cold by a
+/// factor n Newton's method leaps to some n^3 times the solution, from where it comes back by a quarter in each step.
+fn even(system: &System, temperature: &[f64], rates: &mut Rates) -> Option<f64> {
+    let held = &system.surface.held;
+    if !held.is_empty() {
+        let sum: f64 = held.iter().map(|h| temperature[h.point as usize]).sum();
+        return Some(sum / held.len() as f64);
+    }
+    let mut gained = |power: f64| system.gained(power.exp2(), rates).ok();
+    // Powers of two between which a temperature can lie, whatever is the unit of heat.
+    let (mut low, mut high) = POWERS;
+    if gained(low)? <= 0.0 || gained(high)? >= 0.0 {
+        return None;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if gained(middle)? > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some((0.5 * (low + high)).exp2())
 }
 
 fn lost(what: &str) -> Failure {

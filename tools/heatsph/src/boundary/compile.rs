@@ -168,8 +168,13 @@ fn condition(entry: &Boundary, at: &str) -> Result<Condition, Vec<Fault>> {
             .compile(&format!("{at}/{key}"), &NAMES)
             .map_err(|fault| vec![fault])
     };
+    let kelvin = |property: &Property, key: &str| -> Result<Curve, Vec<Fault>> {
+        property
+            .compile_temperature(&format!("{at}/{key}"), &NAMES)
+            .map_err(|fault| vec![fault])
+    };
     if let Some(property) = &entry.temperature_k {
-        return Ok(Condition::Temperature(curve(property, "temperature_k")?));
+        return Ok(Condition::Temperature(kelvin(property, "temperature_k")?));
     }
     if let Some(property) = &entry.heat_flux_w_m2 {
         return Ok(Condition::Flux(curve(property, "heat_flux_w_m2")?));
@@ -181,7 +186,7 @@ fn condition(entry: &Boundary, at: &str) -> Result<Condition, Vec<Fault>> {
             &format!("{at}/convection/coefficient_w_m2_k"),
             ("W/(m2 K)", f64::INFINITY),
         )?;
-        let ambient = curve(&robin.ambient_k, "convection/ambient_k")?;
+        let ambient = kelvin(&robin.ambient_k, "convection/ambient_k")?;
         return Ok(Condition::Convection(coefficient, ambient));
     }
     let Some(radiation) = &entry.radiation else {
@@ -193,12 +198,7 @@ fn condition(entry: &Boundary, at: &str) -> Result<Condition, Vec<Fault>> {
         &format!("{at}/radiation/emissivity"),
         ("", 1.0),
     )?;
-    let surroundings = curve(&radiation.surroundings_k, "radiation/surroundings_k")?;
-    positive(
-        &surroundings,
-        &format!("{at}/radiation/surroundings_k"),
-        ("K", f64::INFINITY),
-    )?;
+    let surroundings = kelvin(&radiation.surroundings_k, "radiation/surroundings_k")?;
     Ok(Condition::Radiation(emissivity, surroundings))
 }
 

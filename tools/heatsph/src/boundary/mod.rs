@@ -151,7 +151,7 @@ impl Surface {
     /// Where the property has no value.
     pub fn prescribed(&self, held: Held, x: Vector, time: f64) -> Result<f64, OutOfRange> {
         match &self.conditions[held.entry as usize] {
-            Condition::Temperature(curve) => curve.value(&Arguments::at(x, time)),
+            Condition::Temperature(curve) => curve.kelvin(&Arguments::at(x, time)),
             _ => Ok(f64::NAN),
         }
     }
@@ -172,7 +172,7 @@ impl Surface {
         for entry in &film.entries {
             match &self.conditions[*entry as usize] {
                 Condition::Temperature(curve) => {
-                    let surface = curve.value(&Arguments::at(film.above, time))?;
+                    let surface = curve.kelvin(&Arguments::at(film.above, time))?;
                     let across = film.area * conductivity(temperature, surface) / film.depth;
                     return Ok(Passed {
                         heat: across * (surface - temperature),
@@ -184,12 +184,12 @@ impl Surface {
                 Condition::Convection(coefficient, ambient) => {
                     let h = coefficient.value(&at)?;
                     sum.coefficient += h;
-                    sum.ambient += h * ambient.value(&at)?;
+                    sum.ambient += h * ambient.kelvin(&at)?;
                 }
                 Condition::Radiation(emissivity, surroundings) => {
                     let e = STEFAN_BOLTZMANN * emissivity.value(&at)?;
                     sum.radiant += e;
-                    sum.surroundings += e * surroundings.value(&at)?.powi(4);
+                    sum.surroundings += e * surroundings.kelvin(&at)?.powi(4);
                 }
             }
         }
@@ -228,10 +228,10 @@ impl Surface {
             Condition::Temperature(_) => passed.heat,
             Condition::Flux(curve) => film.area * curve.value(&at)?,
             Condition::Convection(coefficient, ambient) => {
-                film.area * coefficient.value(&at)? * (ambient.value(&at)? - t)
+                film.area * coefficient.value(&at)? * (ambient.kelvin(&at)? - t)
             }
             Condition::Radiation(emissivity, surroundings) => {
-                let difference = surroundings.value(&at)?.powi(4) - t.powi(4);
+                let difference = surroundings.kelvin(&at)?.powi(4) - t.powi(4);
                 film.area * STEFAN_BOLTZMANN * emissivity.value(&at)? * difference
             }
         })

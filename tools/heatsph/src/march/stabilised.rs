@@ -6,6 +6,11 @@ use crate::system::{Rates, System};
 
 /// Part of the stable step that is used: conductivities may rise within a step.
 const SAFETY: f64 = 0.9;
+/// Times that the limit may fall within a step, and its part that is then reckoned with.
+const RISES: usize = 12;
+const RISE: f64 = 0.8;
+/// Shortest step over the time.
+const SHORTEST: f64 = 1e-14;
 /// Most stages.
 const STAGES: usize = 201;
 
@@ -40,9 +45,50 @@ impl Method for Stabilised {
         rates: &mut Rates,
         step: f64,
     ) -> Result<f64, StepError> {
-        let s = stages(step, system.explicit_limit(rates));
-        self.most_stages = self.most_stages.max(s);
         self.first.clone_from(rates);
+        let mut limit = system.explicit_limit(rates);
+        // Conductivity may rise within the step, and with it what the stages have to carry.
+        for _ in 0..=RISES {
+            let s = stages(step, limit);
+            if s > STAGES {
+                break;
+            }
+            match self.step(system, (&*state, step), (s, limit))? {
+                Some(less) => limit = RISE * less,
+                None => return self.finish(system, state, rates, step),
+            }
+        }
+        // Two shorter steps see each rise sooner.
+        if step <= SHORTEST * state.time.abs() {
+            return Ok(f64::INFINITY);
+        }
+        let first = self.advance(system, state, rates, 0.5 * step)?;
+        let second = self.advance(system, state, rates, 0.5 * step)?;
+        Ok(first.max(second))
+    }
+
+    fn longest(&self, system: &System, rates: &Rates) -> f64 {
+        SAFETY * system.explicit_limit(rates) * (STAGES * STAGES + STAGES - 2) as f64 / 4.0
+    }
+
+    fn report(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("evaluations", self.evaluations as f64),
+            ("stages_most", self.most_stages as f64),
+        ]
+    }
+}
+
+impl Stabilised {
+    /// The stages of a step from a state, of which the last becomes `stages[1]`; the limit of an explicit step where
+    /// it falls below `limit`, for which `s` stages were reckoned.
+    fn step(
+        &mut self,
+        system: &System,
+        (state, step): (&State, f64),
+        (s, limit): (usize, f64),
+    ) -> Result<Option<f64>, StepError> {
+        self.most_stages = self.most_stages.max(s);
         let w = 4.0 / (s * s + s - 2) as f64;
         let [older, old, new] = &mut self.stages;
         older.clone_from(state);
@@ -56,6 +102,10 @@ impl Method for Stabilised {
             let first_rate = -(1.0 - b(j - 1)) * mu_rate;
             system.rates(old.time, &old.temperature, &mut self.rates)?;
             self.evaluations += 1;
+            let now = system.explicit_limit(&self.rates);
+            if now < SAFETY * limit {
+                return Ok(Some(now));
+            }
             let mix = |a: f64, b: f64, c: f64| mu * a + nu * b + (1.0 - mu - nu) * c;
             new.clone_from(state);
             new.time = mix(old.time, older.time, state.time) + mu_rate + first_rate;
@@ -81,6 +131,18 @@ impl Method for Stabilised {
             std::mem::swap(older, old);
             std::mem::swap(old, new);
         }
+        Ok(None)
+    }
+
+    /// Goes from the state before the stages to that after them.
+    fn finish(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        rates: &mut Rates,
+        step: f64,
+    ) -> Result<f64, StepError> {
+        let old = &mut self.stages[1];
         old.settle(system, &state.temperature);
         system.rates(old.time, &old.temperature, rates)?;
         self.evaluations += 1;
@@ -89,17 +151,6 @@ impl Method for Stabilised {
         std::mem::swap(state, old);
         let error = self.error.iter().zip(&system.capacity);
         Ok(error.fold(0.0, |m, (e, c)| m.max((e / c).abs())))
-    }
-
-    fn longest(&self, system: &System, rates: &Rates) -> f64 {
-        SAFETY * system.explicit_limit(rates) * (STAGES * STAGES + STAGES - 2) as f64 / 4.0
-    }
-
-    fn report(&self) -> Vec<(&'static str, f64)> {
-        vec![
-            ("evaluations", self.evaluations as f64),
-            ("stages_most", self.most_stages as f64),
-        ]
     }
 }
 

@@ -138,3 +138,53 @@ fn a_method_taken_up_anew_takes_the_same_step() {
         assert_eq!(state, twin);
     }
 }
+
+/// A front into a bar of exactly 0 K, `cells` across, until it is a good way in.
+fn front(a: f64, cells: f64, method: &str) {
+    let spacing = 1.0 / cells;
+    let hot = r#""temperature_k": 1"#;
+    let system = bar(spacing, &format!("exp({a}*T)"), [COLD, hot], "0");
+    let (mut state, mut rates) = start(&system, |_| 0.0);
+    let end = 4.0 * (a / (a.exp() - 1.0)) * spacing * spacing;
+    let mut stabilised = Stabilised::default();
+    let mut implicit = Implicit::new(&system, 1e-9, false);
+    let method: &mut dyn Method = match method {
+        "stabilised" => &mut stabilised,
+        _ => &mut implicit,
+    };
+    for step in 0..40 {
+        let error = method.advance(&system, &mut state, &mut rates, end);
+        assert!(
+            error.is_ok(),
+            "a = {a}, {cells} across, step {step}: {error:?}"
+        );
+        let (low, high) = crate::system::extent(&state.temperature);
+        assert!(
+            low > -0.2 && high < 1.2,
+            "a = {a}, {cells} across, step {step}: {low} to {high}"
+        );
+    }
+}
+
+#[test]
+fn a_steep_front_runs_into_a_bar_of_exactly_0_k() {
+    for method in ["implicit", "stabilised"] {
+        for (a, cells) in [(2.0, 320.0), (6.5, 160.0), (8.0, 40.0), (8.0, 320.0)] {
+            front(a, cells, method);
+        }
+    }
+}
+
+#[test]
+fn stages_follow_a_conductivity_that_rises_within_a_step() {
+    let hot = r#""temperature_k": 1"#;
+    let system = bar(0.05, "exp(8*T)", [COLD, hot], "0");
+    let (mut state, mut rates) = start(&system, |_| 0.0);
+    let mut method = Stabilised::default();
+    for _ in 0..10 {
+        let error = method.advance(&system, &mut state, &mut rates, 1e-4);
+        assert!(error.is_ok(), "{error:?}");
+        let (low, high) = crate::system::extent(&state.temperature);
+        assert!(low > -0.2 && high < 1.2, "{low} to {high}");
+    }
+}

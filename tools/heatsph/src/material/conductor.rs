@@ -10,6 +10,8 @@ use run::property::{Arguments, Curve, OutOfRange};
 const INTERVALS: f64 = 2048.0;
 /// Most intervals after widening.
 const MOST: usize = 4_000_000;
+/// Part of an interval within which conductivity is that of the middle.
+const BLUR: f64 = 1e-6;
 /// Nodes and weights of Gauss' rule on [0, 1], three points.
 const GAUSS: [(f64, f64); 3] = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
@@ -55,6 +57,12 @@ impl Conductor {
         conductor.integral.push(0.0);
         conductor.widen(low, high)?;
         Ok(conductor)
+    }
+
+    /// The difference of temperature below which the difference of two integrals is rounding \[K\].
+    #[must_use]
+    pub fn blur(&self) -> f64 {
+        BLUR * self.interval
     }
 
     /// Whether it is the same at all temperatures.

@@ -43,6 +43,8 @@ pub struct System {
     held: Vec<bool>,
     /// Whether anything depends on time itself.
     varies: bool,
+    /// Difference of temperature below which conductivities are equal \[K\].
+    blur: f64,
 }
 
 impl System {
@@ -75,8 +77,10 @@ impl System {
             .for_each(|h| held[h.point as usize] = true);
         let varies =
             surface.varies() || source.as_ref().is_some_and(|source| source.depends_on("t"));
+        let blurs = materials.conductors.iter().map(|c| c.blur());
         Ok(Self {
             varies,
+            blur: blurs.fold(f64::MAX, f64::min),
             cloud,
             links,
             materials,
@@ -156,7 +160,7 @@ impl System {
     /// Mean conductivity at a point between two temperatures \[W/(m K)\].
     #[must_use]
     pub fn mean_conductivity(&self, i: usize, a: f64, b: f64) -> f64 {
-        if self.conduction.is_fixed() || (b - a).abs() <= 1e-6 * (a.abs() + b.abs()) {
+        if self.conduction.is_fixed() || (b - a).abs() <= 1e-6 * (a.abs() + b.abs()) + self.blur {
             return self.conductivity(i, 0.5 * (a + b));
         }
         let (material, x) = (self.material[i] as usize, self.cloud.position[i]);

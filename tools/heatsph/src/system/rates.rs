@@ -67,6 +67,7 @@ impl System {
         Ends {
             temperature: [t[i], t[j]],
             nodes: [of(i), of(j)],
+            blur: self.blur,
         }
     }
 
@@ -101,7 +102,9 @@ impl System {
                     *stiffness -= passed.slope;
                 }
             });
-        if let Some(i) = rates.heat.iter().position(|heat| heat.is_nan()) {
+        let lost = temperature.iter().any(|t| !t.is_finite());
+        // No formula is to blame for temperatures that are no numbers: who took the step finds them.
+        if let (Some(i), false) = (rates.heat.iter().position(|heat| heat.is_nan()), lost) {
             return Err(OutOfRange::Formula {
                 value: self.conductivity(i, temperature[i]),
                 at: arguments(self.cloud.position[i], temperature[i], time),
@@ -117,6 +120,16 @@ impl System {
             }
         }
         self.entries(time, rates)
+    }
+
+    /// Heat through films and from the source where the whole body has one temperature \[W\].
+    ///
+    /// # Errors
+    /// Where a property has no value.
+    pub fn gained(&self, temperature: f64, rates: &mut Rates) -> Result<f64, OutOfRange> {
+        self.rates(0.0, &vec![temperature; self.len()], rates)?;
+        let films: f64 = rates.passed.iter().map(|passed| passed.heat).sum();
+        Ok(films + rates.source)
     }
 
     /// Heat through the links of point `i`, and the sum of their conductances.

@@ -115,6 +115,9 @@ impl From<f64> for Property {
     }
 }
 
+/// What a formula may be below 0 K by rounding \[K\].
+const ROUNDED_K: f64 = 1e-9;
+
 /// A temperature beyond the ends of a table, or a formula without a finite value.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum OutOfRange {
@@ -127,6 +130,15 @@ pub enum OutOfRange {
         from: f64,
         /// Last temperature of the table \[K\].
         to: f64,
+    },
+    /// A temperature below 0 K.
+    #[error(
+        "{value} K is out of range: at least 0 K; temperatures are in kelvin, and {value} degrees Celsius are {} K",
+        value + 273.15
+    )]
+    Cold {
+        /// The temperature \[K\].
+        value: f64,
     },
     /// Not a finite number.
     #[error("the formula gives {value} at x = {}, y = {}, z = {} m, T = {} K, t = {} s", .at.x, .at.y, .at.z, .at.temperature, .at.time)]
@@ -185,6 +197,29 @@ impl Property {
                 None => Ok(curve),
             },
             _ => Ok(curve),
+        }
+    }
+}
+
+impl Property {
+    /// As [`Property::compile`], for a temperature: what is below 0 K is refused. That of a formula is told by
+    /// [`Curve::kelvin`].
+    ///
+    /// # Errors
+    /// A [`Fault`] at the very key that is wrong.
+    pub fn compile_temperature(&self, at: &str, names: &[&str]) -> Result<Curve, Fault> {
+        let curve = self.compile(at, names)?;
+        let (place, found) = match &curve {
+            Curve::Constant(value) => (at.to_owned(), Some(*value).filter(|t| *t < 0.0)),
+            Curve::Table(rows) => match rows.value.iter().position(|t| *t < 0.0) {
+                Some(row) => (format!("{at}/value/{row}"), Some(rows.value[row])),
+                None => (at.to_owned(), None),
+            },
+            Curve::Formula(_) => (at.to_owned(), None),
+        };
+        match found {
+            Some(value) => Err(Fault::at(&place, OutOfRange::Cold { value }.to_string())),
+            None => Ok(curve),
         }
     }
 }
@@ -297,6 +332,20 @@ impl Curve {
                     Err(OutOfRange::Formula { value, at: *at })
                 }
             }
+        }
+    }
+
+    /// The value where it is a temperature \[K\], which is not below 0 K but for rounding.
+    ///
+    /// # Errors
+    /// As [`Curve::value`], and below 0 K.
+    #[inline]
+    pub fn kelvin(&self, at: &Arguments) -> Result<f64, OutOfRange> {
+        let value = self.value(at)?;
+        if value < -ROUNDED_K {
+            Err(OutOfRange::Cold { value })
+        } else {
+            Ok(value)
         }
     }
 

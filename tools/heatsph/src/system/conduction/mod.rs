@@ -174,6 +174,8 @@ pub struct Ends<'a> {
     pub temperature: [f64; 2],
     /// Values of all functions of temperature at both ends.
     pub nodes: [&'a [Node]; 2],
+    /// Difference of temperatures below which they are equal \[K\]: near 0 K none is small beside the temperatures.
+    pub blur: f64,
 }
 
 impl Ends<'_> {
@@ -181,7 +183,7 @@ impl Ends<'_> {
     #[inline]
     fn inverse(&self) -> Option<f64> {
         let [a, b] = self.temperature;
-        ((b - a).abs() > NEAR * (a.abs() + b.abs())).then(|| 1.0 / (b - a))
+        ((b - a).abs() > NEAR * (a.abs() + b.abs()) + self.blur).then(|| 1.0 / (b - a))
     }
 
     /// Mean of a function of temperature between the ends.

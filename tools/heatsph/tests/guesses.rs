@@ -1,0 +1,107 @@
+//! First guesses of steady states, and temperatures that are none.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+/// A bar, 0.1 m long, of 10 W/(m K), into which 1000 W/m2 flow on one side and radiate to 0 K on the other.
+fn bar(guess: &Value) -> Value {
+    json!({
+        "kind": "heatsph.scene", "version": 1, "dimensions": 2,
+        "body": {"box": {"min_m": [0, 0], "max_m": [0.1, 0.03]}},
+        "points": {"spacing_m": 0.005},
+        "materials": [{"name": "b", "density_kg_m3": 1000, "specific_heat_j_kg_k": 1000, "conductivity_w_m_k": 10}],
+        "initial_temperature_k": guess,
+        "boundaries": [
+            {"on": ["x-"], "heat_flux_w_m2": 1000},
+            {"on": ["x+"], "radiation": {"emissivity": 1.0, "surroundings_k": 0}}
+        ],
+        "steady": {},
+        "output": {"monitors": [{"name": "hot", "place_m": [0, 0.015]}, {"name": "cold", "place_m": [0.1, 0.015]}]}
+    })
+}
+
+fn run(command: &str, scene: &Value) -> (Option<i32>, Vec<f64>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, out] = ["scene.json", "out.mcap"].map(|name| folder.path().join(name));
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_heatsph"));
+    program.arg(command).arg(&path);
+    if command == "run" {
+        program
+            .arg("--out")
+            .arg(&out)
+            .args(["--progress", "none", "--threads", "1"]);
+    }
+    let output = program.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let mut values = Vec::new();
+    if output.status.code() == Some(0) && command == "run" {
+        let file = artefact::Reader::open(&out).unwrap();
+        let (_, record) = file.records("/monitors").unwrap().remove(0);
+        values = ["hot", "cold"]
+            .map(|name| record.get(name).unwrap())
+            .to_vec();
+    }
+    (output.status.code(), values, said)
+}
+
+#[test]
+fn a_radiating_bar_is_found_from_any_guess() {
+    let cold = (1000.0 / 5.670_374_419e-8_f64).powf(0.25);
+    for guess in [1e-6, 1e-3, 1.0, 2.7, 10.0, 300.0, 3e3, 1e6, 1e12] {
+        let (code, values, said) = run("run", &bar(&json!(guess)));
+        assert_eq!(code, Some(0), "{guess} K: {said}");
+        for (value, exact) in values.iter().zip([cold + 10.0, cold]) {
+            assert!(
+                (value / exact - 1.0).abs() < 1e-9,
+                "{guess} K: {value} of {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn temperatures_below_zero_are_refused_with_their_place() {
+    let patch = |at: &str, value: Value| {
+        let mut scene = bar(&json!(300));
+        *scene.pointer_mut(at).unwrap() = value;
+        scene
+    };
+    let held = json!({"on": ["x-"], "temperature_k": -5});
+    let robin = json!({"on": ["x-"], "convection": {"coefficient_w_m2_k": 10, "ambient_k": -5}});
+    let field = json!({"expr": "20 - 1000*x"});
+    for (at, value, place) in [
+        (
+            "/initial_temperature_k",
+            json!(-40),
+            "/initial_temperature_k",
+        ),
+        (
+            "/initial_temperature_k",
+            field.clone(),
+            "/initial_temperature_k",
+        ),
+        ("/boundaries/0", held, "/boundaries/0/temperature_k"),
+        (
+            "/boundaries/0",
+            json!({"on": ["y+"], "temperature_k": field}),
+            "/boundaries/0",
+        ),
+        ("/boundaries/0", robin, "/boundaries/0/convection/ambient_k"),
+        (
+            "/boundaries/1/radiation/surroundings_k",
+            json!(-270),
+            "/boundaries/1/radiation/surroundings_k",
+        ),
+    ] {
+        let (code, _, said) = run("check", &patch(at, value));
+        assert_eq!(code, Some(2), "{place}: {said}");
+        assert!(
+            said.contains(place) && said.contains(" K"),
+            "{place}: {said}"
+        );
+    }
+}
