@@ -13,6 +13,12 @@ mod arc_potential;
 mod arc_surface;
 mod arc_vapour;
 mod arc_wire_joule;
+mod dem_conductance;
+mod dem_contact;
+mod dem_incline;
+mod dem_pile;
+mod dem_rolling;
+mod dem_shear_loop;
 mod em_axisymmetric_sphere;
 mod em_bar;
 mod em_cylinder_ac;
@@ -62,6 +68,25 @@ use crate::case::Case;
 /// Every case, in the order in which `make verify` runs them.
 #[must_use]
 pub fn all() -> Vec<Box<dyn Case>> {
+    let mut all = continua();
+    all.extend(grains());
+    all
+}
+
+/// Grains.
+fn grains() -> Vec<Box<dyn Case>> {
+    vec![
+        Box::new(dem_contact::DemContact),
+        Box::new(dem_rolling::DemRolling),
+        Box::new(dem_incline::DemIncline),
+        Box::new(dem_shear_loop::DemShearLoop),
+        Box::new(dem_conductance::DemConductance),
+        Box::new(dem_pile::DemPile),
+    ]
+}
+
+/// Fields, liquids and solids.
+fn continua() -> Vec<Box<dyn Case>> {
     vec![
         Box::new(arc_cells::ArcCells),
         Box::new(arc_column::ArcColumn),

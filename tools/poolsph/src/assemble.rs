@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use particles::Set;
 use run::property::Curve;
 use run::{Failure, Fault, Inputs};
 
@@ -18,6 +19,7 @@ use crate::forces::lorentz::Lorentz;
 use crate::forces::marangoni::Marangoni;
 use crate::forces::tension::Tension;
 use crate::frames::{Layout, PlateNote};
+use crate::grains::{self, fill::fill};
 use crate::heat::{self, Caloric, Conduction};
 use crate::march::March;
 use crate::motion::{self, Law, Motion};
@@ -43,6 +45,8 @@ pub struct Assembled {
     pub plate: PlateNote,
     /// How the bodies came out, in the order of the scene.
     pub filled: Vec<Filled>,
+    /// Grains of each of their bodies, in the order of the scene.
+    pub grain_counts: Vec<usize>,
     /// Physics that is absent.
     pub left_out: LeftOut,
 }
@@ -118,7 +122,19 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let filled = bodies::fill(&mut state, &bodies, source.caloric.as_deref())?;
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
-    let parts = source.stages(held(&bodies, &filled))?;
+    let mut parts = source.stages(held(&bodies, &filled))?;
+    let mut grain_counts = Vec::new();
+    match &scene.grains {
+        Some(grains) => {
+            let (mut set, counts) = fill(grains);
+            let motion = grain_motion(grains, &mut set, &counts);
+            let motion = motion.map_err(|fault| fault.within("/grains"))?;
+            parts.after.push(Box::new(motion));
+            state.grains = Some(set);
+            grain_counts = counts;
+        }
+        None => parts.leave_out("grains"),
+    }
     state.flowing = scene.flow.is_some() && scene.flow_start.is_none();
     state.source = scene.source.map(|source| source.place(0.0));
     Ok(Assembled {
@@ -131,6 +147,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         plate: source.plate(),
         state,
         filled,
+        grain_counts,
         left_out: parts.left_out,
     })
 }
@@ -147,6 +164,23 @@ fn checked_faces(scene: &Scene, faults: &mut Vec<Fault>) -> Faces {
             Faces::default()
         }
     }
+}
+
+/// Motion and heat of grains.
+fn grain_motion(
+    scene: &grains::Parameters,
+    set: &mut Set,
+    counts: &[usize],
+) -> Result<grains::Motion, Fault> {
+    let heat = match &scene.heat {
+        Some(heat) => {
+            let heat = grains::Heat::new(scene, heat)?;
+            grains::heat::warm(scene, &heat, set, counts)?;
+            Some(heat)
+        }
+        None => None,
+    };
+    grains::Motion::new(scene, set, heat)
 }
 
 fn held(bodies: &[Body], filled: &[Filled]) -> Held {

@@ -133,6 +133,15 @@ impl Layout {
     }
 }
 
+/// Frames that are written every `interval` \[s\], at the start and at the end.
+#[must_use]
+pub fn count(scene: &Scene, interval: f64) -> u64 {
+    let due = crate::scene::due(scene.steps(), scene.step(), interval);
+    let turns = (scene.time.end_s / interval.max(scene.step())).floor() as u64;
+    // The last state is written whether its turn has come or not.
+    turns + 1 + u64::from(!due)
+}
+
 /// Channels of frames with the number of their messages, and at most their bytes before they are compressed.
 #[must_use]
 pub fn volume(
@@ -149,24 +158,19 @@ pub fn volume(
     });
     let row = layout.frame(state, &[]).row_bytes() as f64;
     let bytes = |frames: f64, particles: f64| (frames * particles * row) as u64;
-    let count = |from: f64, interval: f64| {
+    let from_on = |from: f64, interval: f64| {
         let interval = interval.max(scene.step());
         ((end - from).max(0.0) / interval).floor() + 1.0
     };
-    // The last state is written whether its turn has come or not.
-    let with_last = |interval: f64| {
-        let turn = crate::scene::due(scene.steps(), scene.step(), interval);
-        count(0.0, interval) + if turn { 0.0 } else { 1.0 }
-    };
     let all = state.len() as f64 + 0.5 * born;
-    let frames = with_last(scene.output.particles_interval_s);
-    let mut channels = vec![("/particles", frames as u64, bytes(frames, all))];
+    let frames = count(scene, scene.output.particles_interval_s);
+    let mut channels = vec![("/particles", frames, bytes(frames as f64, all))];
     if let Some(pool) = scene.output.pool.filter(|pool| pool.from_s <= end) {
         // The part of the plate that the box covers; drops may all lie in it.
         let size = |axis: usize| (plate.max_m[axis] - plate.min_m[axis]).max(d);
         let part = |reach: f64, axis: usize| (reach / size(axis)).min(1.0);
         let share = part(2.0 * pool.beside_m, 0) * part(pool.behind_m + pool.ahead_m, 1);
-        let frames = count(pool.from_s, pool.interval_s);
+        let frames = from_on(pool.from_s, pool.interval_s);
         let inside = share * state.len() as f64 + born;
         channels.push(("/pool", frames as u64, bytes(frames, inside)));
     }

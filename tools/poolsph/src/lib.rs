@@ -2,10 +2,12 @@
 
 pub mod assemble;
 pub mod balance;
+pub mod columns;
 pub mod domain;
 pub mod faces;
 pub mod forces;
 pub mod frames;
+pub mod grains;
 pub mod heat;
 pub mod march;
 pub mod motion;

@@ -3,6 +3,7 @@
 use artefact::{Checkpoint, Result};
 
 use crate::balance::Start;
+use crate::columns;
 use crate::march::March;
 use crate::patch::Patch;
 use crate::state::{Phase, State};
@@ -25,6 +26,9 @@ pub fn save(checkpoint: &mut Checkpoint, state: &State, march: &March, start: St
     checkpoint.put_f64("pressure", &state.pressure);
     let patches: Vec<f64> = state.surface.iter().flat_map(Patch::save).collect();
     checkpoint.put_f64("surface", &patches);
+    if let Some(grains) = &state.grains {
+        columns::save(checkpoint, grains)?;
+    }
     checkpoint.put_u8("flowing", &[u8::from(state.flowing)]);
     checkpoint.put_u64("step", &[state.step]);
     checkpoint.put_f64("start", &[start.mass, start.stored]);
@@ -60,6 +64,9 @@ pub fn restore(
         .iter()
         .map(|saved| Patch::restored(*saved))
         .collect();
+    if let Some(grains) = &mut state.grains {
+        columns::restore(checkpoint, grains)?;
+    }
     state.flowing = checkpoint.u8("flowing")?.first().is_some_and(|f| *f != 0);
     state.step = checkpoint.u64("step")?.first().copied().unwrap_or(0);
     state.time = state.step as f64 * dt;

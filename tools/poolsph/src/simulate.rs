@@ -4,7 +4,9 @@ use run::{Failure, Fault, Inputs, Plan, Session};
 
 use crate::assemble::{Assembled, assemble};
 use crate::balance::{Balance, Start, thrown, unclosed};
+use crate::columns;
 use crate::frames::{self, SourceNote};
+use crate::grains::totals::Totals;
 use crate::resume;
 use crate::scene::{Scene, due};
 use crate::stage::{Figure, Limit, StageError};
@@ -25,10 +27,14 @@ const WATCH_STEPS: u64 = 20;
 pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     let assembled = assemble(scene, inputs)?;
     let state = &assembled.state;
-    let mut plan = Plan::new()
-        .count("particles", state.len() as u64)
-        .count("liquid at the start", state.liquid() as u64)
-        .count("steps", scene.steps());
+    let mut plan = Plan::new();
+    if scene.has_metal() {
+        plan = plan
+            .count("particles", state.len() as u64)
+            .count("liquid at the start", state.liquid() as u64);
+    }
+    plan = plan.count("steps", scene.steps());
+    plan = with_grains(plan, scene, &assembled)?;
     for (i, filled) in assembled.filled.iter().enumerate() {
         plan = plan.count(&format!("particles of body {i}"), filled.placed as u64);
         if filled.left_out > 0 {
@@ -49,22 +55,47 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
             plan = plan.limit(&format!("step_{}", limit.name), limit.seconds, "s");
         }
     }
-    for column in assembled.layout.frame(state, &[]).columns() {
-        plan = plan.column(&column.name, &column.unit);
+    if scene.has_metal() {
+        for column in assembled.layout.frame(state, &[]).columns() {
+            plan = plan.column(&column.name, &column.unit);
+        }
     }
     for (name, bytes) in state.memory() {
         plan = plan.memory(name, bytes as u64);
     }
-    for (channel, messages, bytes) in
-        frames::volume(scene, state, (&assembled.layout, &assembled.plate))
-    {
-        plan = plan.output(channel, messages, bytes);
+    if scene.has_metal() {
+        for (channel, messages, bytes) in
+            frames::volume(scene, state, (&assembled.layout, &assembled.plate))
+        {
+            plan = plan.output(channel, messages, bytes);
+        }
     }
     for (name, why) in &assembled.left_out {
         plan = plan.left_out(name, why);
     }
     for note in (crate::scene::notes(scene).into_iter()).chain(crate::scene::thin(scene)) {
         plan = plan.note(note);
+    }
+    Ok(plan)
+}
+
+/// What is told of grains, if there are any.
+fn with_grains(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<Plan, Failure> {
+    for (i, grains) in assembled.grain_counts.iter().enumerate() {
+        plan = plan.count(&format!("grains of body {i}"), *grains as u64);
+        if *grains == 0 {
+            let what = "holds no grain: too thin for their diameter";
+            return Err(Fault::at(&format!("/grains/bodies/{i}"), what).into());
+        }
+    }
+    if let Some(grains) = &assembled.state.grains {
+        let frame = columns::frame(grains, scene.output.precision);
+        for column in frame.columns() {
+            plan = plan.column(&format!("{}.{}", grains.name(), column.name), &column.unit);
+        }
+        let frames = frames::count(scene, scene.output.grains_interval());
+        let bytes = frames * (grains.len() * frame.row_bytes()) as u64;
+        plan = plan.output("/grains", frames, bytes);
     }
     Ok(plan)
 }
@@ -99,7 +130,9 @@ impl<'a> Simulation<'a> {
             return Ok(Self { scene, run, start });
         }
         let start = Balance::of(&run.state, &run.march.figures()).start();
-        frames::plate(&run.plate, session)?;
+        if scene.has_metal() {
+            frames::plate(&run.plate, session)?;
+        }
         let mut simulation = Self { scene, run, start };
         simulation.write(session)?;
         Ok(simulation)
@@ -156,7 +189,8 @@ impl<'a> Simulation<'a> {
         });
         let interval = output.balance_interval_s;
         let balance = last || is_due(interval.unwrap_or(output.particles_interval_s));
-        if !(particles || pool.is_some() || balance) {
+        self.write_grains((last || is_due(output.grains_interval()), balance), session)?;
+        if !self.scene.has_metal() || !(particles || pool.is_some() || balance) {
             return Ok(());
         }
         watch(state)?;
@@ -184,12 +218,46 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
+    /// Grains and their totals, if there are any.
+    fn write_grains(
+        &self,
+        (frame, balance): (bool, bool),
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        let state = &self.run.state;
+        let (Some(set), Some(scene)) = (&state.grains, &self.scene.grains) else {
+            return Ok(());
+        };
+        if frame {
+            let grains = columns::frame(set, self.scene.output.precision);
+            session.frame(&columns::channel(set), state.time, &grains)?;
+        }
+        if balance {
+            let totals = Totals::of(set, scene.inertia_factor);
+            let figures = self.run.march.figures().into_iter();
+            let heats = figures.filter(|(stage, figure)| *stage == "grains" && figure.unit == "J");
+            let record = heats.fold(totals.record(state.time), |record, (_, figure)| {
+                record.with(figure.name, figure.unit, figure.value)
+            });
+            session.record("/grains_balance", state.time, &record)?;
+        }
+        Ok(())
+    }
+
     /// Totals and memory for the record.
     fn close(&self, session: &mut Session) {
         let Assembled { march, state, .. } = &self.run;
+        if let (Some(set), Some(grains)) = (&state.grains, &self.scene.grains) {
+            let totals = Totals::of(set, grains.inertia_factor);
+            for (name, unit, value) in totals.closing() {
+                session.closing(name, unit, value);
+            }
+        }
         let totals = Balance::of(state, &march.figures());
-        for (name, unit, value) in totals.closing(self.start) {
-            session.closing(name, unit, value);
+        if self.scene.has_metal() {
+            for (name, unit, value) in totals.closing(self.start) {
+                session.closing(name, unit, value);
+            }
         }
         if let Some((_, _, closure)) = totals.closure(self.start)
             && let Some(warning) = unclosed(closure)
@@ -230,10 +298,10 @@ fn status(
     state: &State,
     figures: &[(&'static str, Figure)],
 ) -> Vec<(&'static str, f64, &'static str)> {
-    let mut row = vec![
-        ("time", state.time, "s"),
-        ("liquid", state.liquid() as f64, ""),
-    ];
+    let mut row = vec![("time", state.time, "s")];
+    if !state.is_empty() {
+        row.push(("liquid", state.liquid() as f64, ""));
+    }
     let shown = figures.iter().filter(|(_, figure)| {
         !matches!(figure.unit, "J" | "kg") && figure.name != "liquid_particles"
     });

@@ -66,4 +66,8 @@ impl Normal for Linear {
     fn damping_ratio(&self) -> f64 {
         self.damping_ratio
     }
+
+    fn pulls_at_the_end(&self) -> bool {
+        self.ending == Ending::ZeroOverlap
+    }
 }

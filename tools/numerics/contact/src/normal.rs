@@ -18,6 +18,11 @@ pub trait Normal {
     /// Share of critical damping that the law gives, 0 (elastic) upward.
     fn damping_ratio(&self) -> f64;
 
+    /// Whether the dashpot still pulls where a contact ends.
+    fn pulls_at_the_end(&self) -> bool {
+        false
+    }
+
     /// Whether the tangential spring stiffens as the overlap grows: then what has been stretched before is stretched less.
     const STIFFENS: bool;
 }

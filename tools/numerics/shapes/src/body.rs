@@ -191,14 +191,16 @@ impl Body {
     }
 
     fn of(&self, tree: &Tree, x: Vector) -> f64 {
-        let each = |trees: &[Tree]| trees.iter().map(|t| self.of(t, x)).collect::<Vec<_>>();
+        let each = |trees: &'_ [Tree], of: fn(f64, f64) -> f64, from: f64| {
+            let distances = trees.iter().map(|t| self.of(t, x));
+            distances.fold(from, of)
+        };
         match tree {
             Tree::Leaf(k) => self.primitives[*k].distance(x),
-            Tree::Any(trees) => each(trees).into_iter().fold(f64::INFINITY, f64::min),
-            Tree::All(trees) => each(trees).into_iter().fold(f64::NEG_INFINITY, f64::max),
+            Tree::Any(trees) => each(trees, f64::min, f64::INFINITY),
+            Tree::All(trees) => each(trees, f64::max, f64::NEG_INFINITY),
             Tree::First(trees) => {
-                let d = each(trees);
-                d[1..].iter().fold(d[0], |least, d| least.max(-d))
+                each(&trees[1..], |least, d| least.max(-d), self.of(&trees[0], x))
             }
         }
     }

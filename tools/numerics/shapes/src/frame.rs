@@ -39,6 +39,7 @@ pub fn direction(a: Vector) -> Vector {
 }
 
 /// The vector product.
+#[inline]
 #[must_use]
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [

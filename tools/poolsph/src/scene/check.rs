@@ -4,6 +4,7 @@ use run::Fault;
 
 use super::{Scene, StartState};
 use crate::domain::shape::Shape;
+use crate::grains;
 use crate::motion::Method;
 
 /// Most steps of a run: more is a slip of the pen.
@@ -28,6 +29,15 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         );
         faults.push(Fault::at("/time/step_s", what));
     }
+    if let Some(grains) = &scene.grains {
+        let found = grains::fill::faults(grains);
+        faults.extend(found.into_iter().map(|fault| fault.within("/grains")));
+    }
+    if scene.bodies.is_empty() {
+        faults.extend(without_metal(scene));
+        return faults;
+    }
+    faults.extend(unsaid(scene));
     let metal = scene.metal();
     let ratio = metal.smoothing_length / metal.spacing;
     if !(0.8..=3.0).contains(&ratio) {
@@ -52,6 +62,36 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     }
     faults.extend(sizes);
     faults
+}
+
+/// What a scene of metal must say.
+fn unsaid(scene: &Scene) -> Vec<Fault> {
+    let keys = [
+        ("spacing_m", scene.spacing_m),
+        ("density_kg_m3", scene.density_kg_m3),
+    ];
+    let missing = keys.into_iter().filter(|(_, value)| *value <= 0.0);
+    let fault = |key: &str| Fault::at("", format!("needs the key '{key}', as it has bodies"));
+    missing.map(|(key, _)| fault(key)).collect()
+}
+
+/// What means nothing in a scene without metal.
+fn without_metal(scene: &Scene) -> Vec<Fault> {
+    if scene.grains.is_none() {
+        let what = "has neither the key 'bodies' nor the key 'grains': nothing is there";
+        return vec![Fault::at("", what)];
+    }
+    let keys = [
+        ("flow", scene.flow.is_some()),
+        ("heat", scene.heat.is_some()),
+        ("source", scene.source.is_some()),
+        ("faces", scene.faces.is_some()),
+        ("bounds", scene.bounds.is_some()),
+        ("droplets", scene.droplets.is_some()),
+    ];
+    let there = keys.into_iter().filter(|(_, there)| *there);
+    let fault = |key: &str| Fault::at(&format!("/{key}"), "means nothing without the key 'bodies'");
+    there.map(|(key, _)| fault(key)).collect()
 }
 
 /// Droplets that are born into each other.

@@ -17,7 +17,7 @@ pub use output::{FloatWidth, Output, PoolOutput, due};
 use crate::domain::{bounds, droplet};
 use crate::forces::{arc_pressure, buoyancy, gas_shear, lorentz, marangoni, tension};
 use crate::state::Metal;
-use crate::{faces, heat, motion, source};
+use crate::{faces, grains, heat, motion, source};
 
 /// Kind and version of the scenes that this tool reads.
 pub const KIND: (&str, u32) = ("poolsph.scene", 1);
@@ -29,7 +29,8 @@ pub struct Scene {
     /// What it shows, in a line.
     #[serde(default)]
     pub title: String,
-    /// Particle diameter d = spacing of the lattice \[m\].
+    /// Particle diameter d = spacing of the lattice \[m\]; needed where there are bodies of metal.
+    #[serde(default)]
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: f64,
     /// h of the kernel, whose support is 2h \[m\]; d if absent.
@@ -38,11 +39,12 @@ pub struct Scene {
     pub smoothing_length_m: Option<f64>,
     /// Step and end.
     pub time: Time,
-    /// rho of the metal \[kg/m3\].
+    /// rho of the metal \[kg/m3\]; needed where there are bodies of metal.
+    #[serde(default)]
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
     pub density_kg_m3: f64,
-    /// What is there at the start, in order: a later body gives way to an earlier one.
-    #[schemars(length(min = 1))]
+    /// Metal at the start, in order: a later body gives way to an earlier one. None where there are grains alone.
+    #[serde(default)]
     pub bodies: Vec<BodyScene>,
     /// Motion of the liquid; absent: nothing moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -89,6 +91,9 @@ pub struct Scene {
     /// Heat that the surface gives off; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub losses: Option<heat::LossParameters>,
+    /// Grains beside the metal or alone; absent: none.
+    #[serde(default, skip_serializing)]
+    pub grains: Option<grains::Parameters>,
     /// What is written, and when.
     pub output: Output,
 }
@@ -110,11 +115,23 @@ impl Scene {
     /// The metal with its lattice.
     #[must_use]
     pub fn metal(&self) -> Metal {
+        // Where there is no metal, its lattice is of no account.
+        let spacing = if self.bodies.is_empty() {
+            1.0
+        } else {
+            self.spacing_m
+        };
         Metal {
             density: self.density_kg_m3,
-            spacing: self.spacing_m,
-            smoothing_length: self.smoothing_length_m.unwrap_or(self.spacing_m),
+            spacing,
+            smoothing_length: self.smoothing_length_m.unwrap_or(spacing),
         }
+    }
+
+    /// Whether there is metal, and not grains alone.
+    #[must_use]
+    pub fn has_metal(&self) -> bool {
+        !self.bodies.is_empty()
     }
 
     /// Number of steps.

@@ -21,6 +21,10 @@ pub struct Output {
     /// All particles this often \[s\], and at the start and the end.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub particles_interval_s: f64,
+    /// Grains this often \[s\], and at the start and the end; as often as the particles if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub grains_interval_s: Option<f64>,
     /// Masses, momentum and energies this often \[s\], and at the start and the end; as often as the particles if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
@@ -31,6 +35,14 @@ pub struct Output {
     /// Frequent frames around the moving source, for averages; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pool: Option<PoolOutput>,
+}
+
+impl Output {
+    /// Interval of the frames of grains \[s\].
+    #[must_use]
+    pub fn grains_interval(&self) -> f64 {
+        self.grains_interval_s.unwrap_or(self.particles_interval_s)
+    }
 }
 
 /// Frequent frames of the particles in a box that moves with the source; all heights.

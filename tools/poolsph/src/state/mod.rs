@@ -5,6 +5,8 @@
 
 pub mod near;
 
+use particles::Set;
+
 use crate::faces::Faces;
 use crate::patch::Patch;
 use crate::source::Place;
@@ -110,6 +112,8 @@ pub struct State {
     pub faces: Faces,
     /// The moving particles and all that they touch, gathered afresh each step.
     pub near: Near,
+    /// Grains beside the metal, if there are any.
+    pub grains: Option<Set>,
     columns: Vec<Column>,
 }
 
@@ -157,6 +161,7 @@ impl State {
             flowing: false,
             faces: Faces::default(),
             near: Near::new(metal),
+            grains: None,
             columns,
         }
     }
@@ -252,6 +257,7 @@ impl State {
             ("pressure", 8 * self.pressure.len()),
             ("surface", size_of::<Patch>() * self.surface.len()),
             ("near", self.near.bytes()),
+            ("grains", self.grains.as_ref().map_or(0, Set::bytes)),
         ];
         bytes.retain(|(_, held)| *held > 0);
         bytes

@@ -1,0 +1,103 @@
+//! `dem-incline`: grains on a slope. One that cannot roll sticks up to tan = mu; a ball rolls, and beyond tan = 3.5 mu slips.
+
+use serde_json::{Value, json};
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::grains::frames;
+use crate::lab::{Finished, Lab, LabError};
+use crate::particles::number;
+
+/// The case.
+pub(super) struct DemIncline;
+
+/// Degrees by which an angle is above or below a limit.
+const ASIDE: f64 = 0.5;
+
+impl Case for DemIncline {
+    fn name(&self) -> &'static str {
+        "dem-incline"
+    }
+
+    fn tool(&self) -> &'static str {
+        "poolsph"
+    }
+
+    fn reference(&self) -> &'static str {
+        "Coulomb: a = g (sin - mu cos) where it slides, g sin / (1 + c) where it rolls, which ends at tan = mu (1 + 1/c)"
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        vec![
+            Target::error("creep_over_d", 1e-3),
+            Target::error("slide", 0.01),
+            Target::error("roll", 0.01),
+            Target::error("slip", 0.01),
+        ]
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+        let steps = 20.0 * f64::from(1 << (level.clamp(1, 5) - 1));
+        let patch = json!({"grains": {"steps_per_contact": steps}});
+        let scene = lab.run("poolsph", self.name(), &format!("scene{level}"), &patch)?;
+        let at = |key: &str| number(&scene, &format!("/grains/{key}"));
+        let (mu, c) = (at("contact/friction")?, at("inertia_factor").unwrap_or(0.4));
+        let (r, g) = (at("bodies/0/radius_m")?, -at("gravity_m_s2/2")?);
+        let stick = mu.atan().to_degrees();
+        let slip = (mu * (1.0 + 1.0 / c)).atan().to_degrees();
+        let still = json!({"coefficient": 1e3});
+        let mut runs = Vec::new();
+        let mut tilted = |name: &str, degrees: f64, rolling: Value| -> Result<[f64; 2], LabError> {
+            let angle = degrees.to_radians();
+            let gravity = [g * angle.sin(), 0.0, -g * angle.cos()];
+            let patch =
+                json!({"grains": {"gravity_m_s2": gravity, "contact": {"rolling": rolling}}});
+            let run = lab.varied(&scene, &format!("{name}{level}"), &patch)?;
+            let found = [way(&run)?, acceleration(&run)?];
+            runs.push(run);
+            Ok(found)
+        };
+        let sticks = tilted("stick", stick - ASIDE, still.clone())?[0];
+        let slides = tilted("slide", stick + ASIDE, still)?[1];
+        let rolls = tilted("roll", slip - ASIDE, Value::Null)?[1];
+        let slips = tilted("slip", slip + ASIDE, Value::Null)?[1];
+        let sliding = |degrees: f64| {
+            let angle = degrees.to_radians();
+            g * (angle.sin() - mu * angle.cos())
+        };
+        let rolling = g * (slip - ASIDE).to_radians().sin() / (1.0 + c);
+        let errors = Errors::from([
+            ("creep_over_d".to_owned(), sticks / (2.0 * r)),
+            (
+                "slide".to_owned(),
+                (slides / sliding(stick + ASIDE) - 1.0).abs(),
+            ),
+            ("roll".to_owned(), (rolls / rolling - 1.0).abs()),
+            (
+                "slip".to_owned(),
+                (slips / sliding(slip + ASIDE) - 1.0).abs(),
+            ),
+        ]);
+        Ok(Measurement::over(
+            runs,
+            steps as u64,
+            2.0 * r / steps,
+            errors,
+        ))
+    }
+}
+
+/// How far the grain is from where it was after a tenth of the run \[m\].
+fn way(run: &Finished) -> Result<f64, LabError> {
+    let frames = frames(&run.artefact)?;
+    let x = |k: usize| Ok::<f64, LabError>(frames[k].position_vectors()?[0][0]);
+    let last = frames.len() - 1;
+    Ok((x(last)? - x(last / 10)?).abs())
+}
+
+/// Mean acceleration over the second half of the run \[m/s2\].
+fn acceleration(run: &Finished) -> Result<f64, LabError> {
+    let frames = frames(&run.artefact)?;
+    let u = |k: usize| Ok::<f64, LabError>(frames[k].vectors("velocity")?[0][0]);
+    let last = frames.len() - 1;
+    Ok((u(last)? - u(last / 2)?) / (frames[last].time_s - frames[last / 2].time_s))
+}

@@ -1,0 +1,169 @@
+//! Grains at the start, and what is wrong with them in a scene.
+
+use particles::{Ids, Matter, POSITION, Set};
+use run::Fault;
+use shapes::Body;
+use shapes::check;
+
+use super::parameters::{GrainBody, Parameters};
+use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, VELOCITY};
+
+/// Most grains of a run: some 5 GB.
+const MOST: f64 = 2e7;
+/// A lattice place is in a shape where the grain reaches out of it by at most this part of its radius: rounding.
+const OUT: f64 = 1e-6;
+
+/// Every fault of the grains, at keys from the root of their part of the scene.
+#[must_use]
+pub fn faults(scene: &Parameters) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let mut total = 0.0;
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let at = format!("/bodies/{i}");
+        match checked(body, &at) {
+            Ok(number) => total += number,
+            Err(fault) => faults.push(fault),
+        }
+    }
+    for (i, wall) in scene.walls.iter().enumerate() {
+        let mut misfits = Vec::new();
+        check::check(&wall.shape, &format!("/walls/{i}/shape"), 3, &mut misfits);
+        let found = misfits.into_iter().map(|m| Fault::at(&m.path, m.what));
+        faults.extend(found);
+    }
+    if let Some(bounds) = scene.bounds {
+        let flat = (0..3).find(|k| bounds.max_m[*k] <= bounds.min_m[*k]);
+        faults.extend(flat.map(|k| {
+            let (low, high) = (bounds.min_m[k], bounds.max_m[k]);
+            let axis = ["x", "y", "z"][k];
+            let what =
+                format!("its upper corner in {axis}, {high} m, is not above the lower, {low} m");
+            Fault::at("/bounds", what)
+        }));
+    }
+    if faults.is_empty() && total > MOST {
+        let what = format!("hold {total:.1e} grains in all, at most {MOST:.0e}");
+        faults.push(Fault::at("/bodies", what));
+    }
+    faults
+}
+
+/// Places on the lattice of a body, or what is wrong with it.
+fn checked(body: &GrainBody, at: &str) -> Result<f64, Fault> {
+    let shape = match (&body.shape, body.places_m.is_empty()) {
+        (None, true) => return Err(Fault::at(at, "needs the key 'shape' or the key 'places_m'")),
+        (Some(_), false) => return Err(Fault::at(at, "has both keys 'shape' and 'places_m'")),
+        (None, false) => return Ok(body.places_m.len() as f64),
+        (Some(shape), true) => shape,
+    };
+    let at_shape = format!("{at}/shape");
+    let mut misfits = Vec::new();
+    check::check(shape, &at_shape, 3, &mut misfits);
+    if let Some(misfit) = misfits.into_iter().next() {
+        return Err(Fault::at(&misfit.path, misfit.what));
+    }
+    let [low, high] = Body::new(shape, 3).bounds();
+    let spacing = body.spacing();
+    if spacing < 2.0 * body.radius_m * (1.0 - OUT) {
+        let what = format!(
+            "{spacing} m is less than a diameter, {} m: grains would begin within each other",
+            2.0 * body.radius_m
+        );
+        return Err(Fault::at(&format!("{at}/spacing_m"), what));
+    }
+    let number: f64 = (0..3).map(|k| (high[k] - low[k]) / spacing).product();
+    // An infinite shape has no number that is less.
+    let fits = number <= MOST;
+    if !fits {
+        let what = format!("asks for {number:.1e} grains, at most {MOST:.0e}");
+        return Err(Fault::at(&at_shape, what));
+    }
+    Ok(number)
+}
+
+impl GrainBody {
+    fn spacing(&self) -> f64 {
+        self.spacing_m.unwrap_or(2.0 * self.radius_m)
+    }
+
+    /// Places of the grains \[m\]; `shaken` numbers of chance have been used before.
+    fn places(&self) -> Vec<[f64; 3]> {
+        let Some(shape) = &self.shape else {
+            return self.places_m.clone();
+        };
+        let body = Body::new(shape, 3);
+        let [low, high] = body.bounds();
+        let (spacing, reach) = (self.spacing(), self.radius_m * (1.0 - OUT));
+        // A side that a whole number of spacings fills to rounding holds as many.
+        let counts = [0, 1, 2].map(|k| ((high[k] - low[k]) / spacing + OUT).floor() as usize);
+        let mut places = Vec::new();
+        for k in 0..counts[2] {
+            for j in 0..counts[1] {
+                for i in 0..counts[0] {
+                    let at = [i, j, k];
+                    let place: [f64; 3] =
+                        std::array::from_fn(|axis| low[axis] + (at[axis] as f64 + 0.5) * spacing);
+                    if body.distance(place) <= -reach {
+                        let number = 3 * places.len();
+                        places.push(std::array::from_fn(|axis| {
+                            place[axis] + self.jitter * spacing * noise(number + axis)
+                        }));
+                    }
+                }
+            }
+        }
+        places
+    }
+}
+
+/// The grains of all bodies, and how many each holds.
+#[must_use]
+pub fn fill(scene: &Parameters) -> (Set, Vec<usize>) {
+    let widest = scene.bodies.iter().map(|b| b.radius_m).fold(0.0, f64::max);
+    let matter = Matter {
+        density: scene.density_kg_m3,
+        spacing: 2.0 * widest,
+        smoothing_length: 2.0 * widest,
+    };
+    let mut set = Set::new("grains", matter);
+    let mut ids = Ids::default();
+    for column in [&VELOCITY, &SPIN, &FORCE, &MOMENT, &LISTED] {
+        set.declare(column);
+    }
+    for column in [&RADIUS, &MASS] {
+        set.declare(column);
+    }
+    if scene.bodies.iter().any(|body| body.driven_m_s.is_some()) {
+        set.declare(&DRIVEN);
+    }
+    let mut counts = Vec::new();
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let places = body.places();
+        let density = body.density_kg_m3.unwrap_or(scene.density_kg_m3);
+        counts.push(places.len());
+        for place in places {
+            let row = set.push(&mut ids);
+            set.column_mut(&POSITION)[row] = place;
+            set.column_mut(&VELOCITY)[row] = body.velocity_m_s.unwrap_or_default();
+            set.column_mut(&SPIN)[row] = body.spin_rad_s.unwrap_or_default();
+            set.column_mut(&RADIUS)[row] = body.radius_m;
+            set.column_mut(&MASS)[row] =
+                density * 4.0 / 3.0 * std::f64::consts::PI * body.radius_m.powi(3);
+            if body.driven_m_s.is_some() {
+                set.column_mut(&DRIVEN)[row] = i as u8 + 1;
+            }
+        }
+    }
+    (set, counts)
+}
+
+/// A number between -1 and 1 that looks like chance and is always the same (splitmix64).
+fn noise(number: usize) -> f64 {
+    let mut z = (number as u64)
+        .wrapping_add(1)
+        .wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^= z >> 31;
+    (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}

@@ -1,0 +1,54 @@
+//! Grains: spheres that push, rub and roll on each other and on walls (discrete elements).
+//!
+//! ```text
+//! m du/dt = sum F_ab + sum F_wall + m g         I dw/dt = sum M        (Komen 2019, eqs 3.104 to 3.118, 5.31)
+//! ```
+//!
+//! Forces and moments of a contact are those of the crate `contact`. A step of the run is divided into steps that the
+//! contacts allow ([`bounds`]); each is one of velocity Verlet, whose dashpots feel the velocities at its end as
+//! the last forces predict them:
+//!
+//! ```text
+//! x += dt u + dt^2/2 a,  u += dt a              predict
+//! a' = forces(x, u) / m + g                     act
+//! u += dt/2 (a' - a)                            correct
+//! ```
+//!
+//! Each contact is reckoned once, for the grain of the lower row; then every grain gathers its contacts in the order of
+//! rows. So the bits do not depend on threads, momentum and angular momentum are kept to round-off, and what is far away
+//! adds nothing.
+
+pub mod bounds;
+pub mod faces;
+pub mod fill;
+pub mod heat;
+pub mod lists;
+pub mod motion;
+pub mod moving;
+pub mod pairs;
+pub mod parameters;
+pub mod totals;
+pub mod walls;
+
+use particles::Column;
+
+pub use heat::Heat;
+pub use motion::Motion;
+pub use parameters::Parameters;
+
+/// u \[m/s\].
+pub const VELOCITY: Column<[f64; 3]> = Column::new("velocity", "m/s", [0.0; 3]).saved().shown();
+/// Angular velocity w \[rad/s\].
+pub const SPIN: Column<[f64; 3]> = Column::new("spin", "rad/s", [0.0; 3]).saved().shown();
+/// Radius \[m\].
+pub const RADIUS: Column<f64> = Column::new("radius", "m", 0.0).saved().shown();
+/// Mass \[kg\].
+pub const MASS: Column<f64> = Column::new("mass", "kg", 0.0).saved();
+/// Force of all contacts \[N\].
+pub const FORCE: Column<[f64; 3]> = Column::new("force", "N", [0.0; 3]).saved().shown();
+/// Moment of all contacts \[N m\].
+pub const MOMENT: Column<[f64; 3]> = Column::new("moment", "N m", [0.0; 3]).saved();
+/// Where the grain was when neighbours were last listed \[m\].
+pub const LISTED: Column<[f64; 3]> = Column::new("listed", "m", [0.0; 3]).saved();
+/// Number of the body that drives it, plus one; 0 for a free grain.
+pub const DRIVEN: Column<u8> = Column::new("driven", "1", 0).saved();

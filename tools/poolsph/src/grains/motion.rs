@@ -1,0 +1,390 @@
+//! The motion of grains: steps within a step of the run.
+
+use contact::{Contact, Friction, Grain, Normal, Rolling};
+use particles::Set;
+use run::Fault;
+use run::property::OutOfRange;
+use shapes::frame::{Vector, dot};
+
+use super::bounds::{Doing, Setting, Slack};
+use super::heat::Heat;
+use super::lists::{Lists, Memory, renumber};
+use super::moving::Moving;
+use super::parameters::{BoundsScene, Law, Parameters};
+use super::walls::{self, Walls};
+use super::{MASS, RADIUS, VELOCITY, pairs};
+use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::state::State;
+
+/// The motion of grains.
+pub struct Motion {
+    law: Law,
+    friction: Option<Friction>,
+    rolling: Option<Rolling>,
+    setting: Setting,
+    zeta: f64,
+    walls: Walls,
+    bounds: Option<BoundsScene>,
+    lists: Lists,
+    wall_contacts: Vec<u32>,
+    moving: Moving,
+    memories: [Vec<Memory>; 2],
+    doing: Doing,
+    begun: bool,
+    restored: Option<Vec<f64>>,
+    lost: [f64; 2],
+    steps: f64,
+    heat: Option<Heat>,
+}
+
+/// Numbers of a checkpoint ahead of the walls.
+const HEAD: usize = 8;
+
+impl Motion {
+    /// The motion of the grains of `set` as the scene has it.
+    ///
+    /// # Errors
+    /// A formula that cannot be read.
+    pub fn new(scene: &Parameters, set: &Set, heat: Option<Heat>) -> Result<Self, Fault> {
+        let law = scene.contact.law();
+        let zeta = match &law {
+            Law::Linear(law) => law.damping_ratio(),
+            Law::Hertz(law) => law.damping_ratio(),
+        };
+        let least = |column: &[f64]| column.iter().copied().fold(f64::INFINITY, f64::min);
+        let radii = set.column(&RADIUS);
+        let setting = Setting {
+            lightest: least(set.column(&MASS)),
+            radii: [least(radii), radii.iter().copied().fold(0.0, f64::max)],
+            inertia_factor: scene.inertia_factor,
+            rubs: scene.contact.friction.is_some(),
+            steps_per_contact: scene.steps_per_contact,
+        };
+        let drives = scene.bodies.iter().enumerate().map(|(i, body)| {
+            let velocity = body.driven_m_s.as_ref();
+            let curves = velocity.map(|v| walls::curves(v, &format!("/bodies/{i}/driven_m_s")));
+            curves.transpose()
+        });
+        let drives = drives.collect::<Result<_, _>>()?;
+        let gravity = scene.gravity_m_s2.unwrap_or_default();
+        let speeds = set.column(&VELOCITY).iter().map(|u| dot(*u, *u));
+        Ok(Self {
+            law,
+            friction: scene.contact.friction(),
+            rolling: scene.contact.rolling(),
+            setting,
+            zeta,
+            walls: Walls::new(&scene.walls)?,
+            bounds: scene.bounds,
+            lists: Lists::new(scene.contact.rolling.is_some()),
+            wall_contacts: Vec::new(),
+            moving: Moving::new(gravity, scene.inertia_factor, drives),
+            memories: [Vec::new(), Vec::new()],
+            doing: Doing {
+                slack: setting.pair(zeta),
+                deepest: 0.0,
+                fastest: speeds.fold(0.0, f64::max).sqrt(),
+            },
+            begun: false,
+            restored: None,
+            lost: [0.0; 2],
+            steps: 0.0,
+            heat,
+        })
+    }
+
+    /// The longest step \[s\] and what bounds it.
+    fn limit(&self) -> Limit {
+        let (setting, doing) = (&self.setting, self.doing);
+        let (mass, radius) = (0.5 * setting.lightest, 0.5 * setting.radii[0]);
+        let (seconds, name) = match &self.law {
+            Law::Linear(law) => setting.limit(law, doing, |_| [0.0, law.duration(mass)]),
+            Law::Hertz(law) => setting.limit(law, doing, |speed| {
+                let speed = speed.max(f64::MIN_POSITIVE);
+                let duration = law.elastic_duration(mass, radius, speed);
+                [law.deepest(mass, radius, speed), duration]
+            }),
+        };
+        Limit { seconds, name }
+    }
+
+    /// Forces of the start, or lists as they were when a checkpoint was written.
+    fn begin(&mut self, time: f64) -> Result<(), OutOfRange> {
+        self.begun = true;
+        if let Some(saved) = self.restored.take() {
+            self.relist_as_saved(&saved);
+            return Ok(());
+        }
+        self.walls.begin(time)?;
+        self.moving.begin(time)?;
+        self.list();
+        self.act(0.0);
+        Ok(())
+    }
+
+    /// Lists neighbours afresh; contacts that touch go along.
+    fn list(&mut self) {
+        self.lists.memories(&mut self.memories[0]);
+        self.walls.memories(&mut self.memories[1]);
+        self.list_with_memories();
+    }
+
+    fn list_with_memories(&mut self) {
+        let (grains, radii) = (&self.moving.grains, self.setting.radii);
+        let [between, at_walls] = &self.memories;
+        self.moving.listed.clear();
+        self.moving.listed.extend(grains.iter().map(|g| g.position));
+        self.lists.list(grains, radii, between);
+        let skin = Lists::skin(radii[0]);
+        self.walls
+            .list(grains, skin, at_walls, &mut self.wall_contacts);
+        let (zeta, c) = (self.zeta, self.setting.inertia_factor);
+        let alone = self.setting.pair(zeta);
+        let pairs = self.lists.slack(grains, &self.wall_contacts, (zeta, c));
+        let contacts = self.lists.contacts.iter().zip(&self.wall_contacts);
+        let walls = contacts.zip(grains).filter(|((_, walls), _)| **walls > 0);
+        let walls = walls.map(|((pairs, walls), grain)| {
+            Slack::of(grain.mass, f64::from(pairs + walls) / grain.mass, zeta, c)
+        });
+        let least = walls.fold(pairs.unwrap_or(alone), Slack::least);
+        self.doing.slack = least.least(alone);
+    }
+
+    fn relist_as_saved(&mut self, saved: &[f64]) {
+        let walls = HEAD + self.walls.saved_numbers();
+        let (Some(head), Some(places), Some(rest)) = (
+            saved.first_chunk::<HEAD>(),
+            saved.get(HEAD..walls),
+            saved.get(walls..),
+        ) else {
+            return;
+        };
+        let [pairs, deepest, fastest, left, mass, steps, brought, limit] = *head;
+        if let Some(heat) = &mut self.heat {
+            (heat.brought, heat.limit) = (brought, limit);
+        }
+        let memories = rest.as_chunks::<9>().0;
+        let split = (pairs as usize).min(memories.len());
+        for (to, from) in self
+            .memories
+            .iter_mut()
+            .zip([&memories[..split], &memories[split..]])
+        {
+            to.clear();
+            to.extend(from.iter().map(|saved| Memory::restored(*saved)));
+        }
+        (self.lost, self.steps) = ([left, mass], steps);
+        let moved = self.walls.restore(places);
+        let now: Vec<Vector> = self.moving.grains.iter().map(|g| g.position).collect();
+        for (grain, listed) in self.moving.grains.iter_mut().zip(&self.moving.listed) {
+            grain.position = *listed;
+        }
+        self.list_with_memories();
+        for (grain, now) in self.moving.grains.iter_mut().zip(now) {
+            grain.position = now;
+        }
+        self.walls.place(&moved);
+        (self.doing.deepest, self.doing.fastest) = (deepest, fastest);
+    }
+
+    /// Forces and moments of all contacts.
+    fn act(&mut self, step: f64) {
+        match self.law {
+            Law::Linear(normal) => self.act_by(normal, step),
+            Law::Hertz(normal) => self.act_by(normal, step),
+        }
+    }
+
+    fn act_by<N: Normal + Copy + Sync>(&mut self, normal: N, step: f64) {
+        let contact = Contact {
+            normal,
+            friction: self.friction,
+        };
+        let laws = (&contact, self.rolling);
+        let rows = self.moving.grains.len();
+        self.moving.force.resize(rows, [0.0; 3]);
+        self.moving.moment.resize(rows, [0.0; 3]);
+        pairs::act(&mut self.lists, &self.moving.grains, laws, step);
+        pairs::gather(&self.lists, &mut self.moving.force, &mut self.moving.moment);
+        let at_walls = self.walls.act(&self.moving.grains, laws, step);
+        self.walls
+            .add(&mut self.moving.force, &mut self.moving.moment);
+        let overlaps = self.lists.chunks.iter().map(|chunk| chunk.deepest);
+        self.doing.deepest = overlaps.fold(at_walls, f64::max);
+    }
+
+    /// One step of `step` \[s\] to `time` \[s\].
+    fn step(&mut self, time: f64, step: f64) -> Result<(), OutOfRange> {
+        self.moving.predict(step);
+        self.walls.drift(time, step)?;
+        self.moving.drive(time, step)?;
+        if self.strayed() {
+            self.list();
+        }
+        self.moving.turn();
+        self.act(step);
+        self.moving.correct(step);
+        let fastest = self.moving.fastest();
+        self.doing.fastest = if fastest.is_nan() {
+            fastest
+        } else {
+            fastest.max(self.walls.fastest())
+        };
+        self.steps += 1.0;
+        Ok(())
+    }
+
+    /// Whether someone may touch who is not listed.
+    fn strayed(&self) -> bool {
+        let far = self.moving.strayed();
+        let skin = Lists::skin(self.setting.radii[0]);
+        // What is no number has strayed.
+        let near = far + far.max(self.walls.strayed()) <= skin;
+        !near
+    }
+
+    /// Forgets grains outside of the bounds.
+    fn leave(&mut self, set: &mut Set) {
+        let Some(bounds) = self.bounds else { return };
+        let outside = |grain: &Grain| {
+            (0..3)
+                .any(|k| grain.position[k] < bounds.min_m[k] || grain.position[k] > bounds.max_m[k])
+        };
+        if !self.moving.grains.iter().any(outside) {
+            return;
+        }
+        let leaves: Vec<bool> = self.moving.grains.iter().map(outside).collect();
+        let lost = self.moving.grains.iter().filter(|grain| outside(grain));
+        for grain in lost {
+            self.lost[0] += 1.0;
+            self.lost[1] += grain.mass;
+        }
+        self.lists.memories(&mut self.memories[0]);
+        self.walls.memories(&mut self.memories[1]);
+        renumber(&mut self.memories, &leaves);
+        self.moving.put(set);
+        set.remove(|row| leaves[row]);
+        self.moving.take(set);
+        self.list_with_memories();
+    }
+
+    fn diverged(&self, state: &State) -> Option<StageError> {
+        self.doing.fastest.is_nan().then(|| {
+            let bad = |g: &Grain| !(g.velocity[0] + g.velocity[1] + g.velocity[2]).is_finite();
+            let row = self.moving.grains.iter().position(bad).unwrap_or(0);
+            StageError::Diverged {
+                step: state.step,
+                particle: row,
+                place: self.moving.grains[row].position,
+                quantity: "speed of a grain",
+                value: f64::NAN,
+                limit: self.setting.radii[0] / self.limit().seconds,
+                unit: "m/s",
+            }
+        })
+    }
+}
+
+impl Stage for Motion {
+    fn name(&self) -> &'static str {
+        "grains"
+    }
+
+    fn dt_limit(&self, _: &State) -> Option<Limit> {
+        let motion = self.limit();
+        let conduction = self.heat.as_ref().map(|heat| Limit {
+            seconds: heat.limit,
+            name: "grain_conduction",
+        });
+        conduction
+            .filter(|limit| limit.seconds < motion.seconds)
+            .or(Some(motion))
+    }
+
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let Some(mut set) = state.grains.take() else {
+            return Ok(());
+        };
+        self.moving.take(&mut set);
+        let mut march = || -> Result<(), OutOfRange> {
+            if !self.begun {
+                self.begin(state.time)?;
+            }
+            let mut done = 0.0;
+            while done < dt {
+                let left = dt - done;
+                let parts = (left / self.limit().seconds - 1e-9).ceil().max(1.0);
+                let step = left / parts;
+                done = if parts < 1.5 { dt } else { done + step };
+                self.step(state.time + done, step)?;
+                if self.doing.fastest.is_nan() {
+                    break;
+                }
+            }
+            Ok(())
+        };
+        let marched = march();
+        self.leave(&mut set);
+        let diverged = self.diverged(state);
+        self.moving.put(&mut set);
+        let warmed = match &mut self.heat {
+            Some(heat) if marched.is_ok() => heat.advance((&mut set, &self.lists), state, dt),
+            _ => Ok(()),
+        };
+        state.grains = Some(set);
+        marched.map_err(|what| StageError::Data(what.to_string()))?;
+        diverged.map_or(warmed, Err)
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let figure = |name, unit, value| Figure { name, unit, value };
+        let mut figures = vec![
+            figure("grain_overlap", "m", self.doing.deepest),
+            figure("grain_speed", "m/s", self.doing.fastest),
+            figure("grain_steps", "1", self.steps),
+        ];
+        let heat = self.heat.as_ref();
+        figures.extend(heat.map(|heat| figure("grain_heat_held_j", "J", heat.brought)));
+        figures
+    }
+
+    fn bytes(&self) -> usize {
+        let grains = size_of::<Grain>() * self.moving.grains.capacity();
+        let heat = self.heat.as_ref().map_or(0, Heat::bytes);
+        grains + self.lists.bytes() + self.walls.bytes() + heat
+    }
+
+    fn save(&self) -> Vec<f64> {
+        if !self.begun {
+            return Vec::new();
+        }
+        let (mut between, mut at_walls) = (Vec::new(), Vec::new());
+        self.lists.memories(&mut between);
+        self.walls.memories(&mut at_walls);
+        let Doing {
+            deepest, fastest, ..
+        } = self.doing;
+        let [left, mass] = self.lost;
+        let [brought, limit] =
+            (self.heat.as_ref()).map_or([0.0; 2], |heat| [heat.brought, heat.limit]);
+        let steps = self.steps;
+        let mut saved = vec![
+            between.len() as f64,
+            deepest,
+            fastest,
+            left,
+            mass,
+            steps,
+            brought,
+            limit,
+        ];
+        saved.extend(self.walls.save());
+        let memories = between.iter().chain(&at_walls);
+        saved.extend(memories.flat_map(Memory::save));
+        saved
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.restored = (!saved.is_empty()).then(|| saved.to_vec());
+    }
+}

@@ -1,0 +1,347 @@
+//! Grains in a scene.
+
+use std::sync::Arc;
+
+use contact::{Elastic, Ending, Friction, Hertz, Linear, Rolling};
+use run::Fault;
+use run::property::Property;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use shapes::Shape;
+
+use crate::heat::{self, Caloric};
+
+/// Grains, what they are made of and what holds them.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Parameters {
+    /// rho of a grain.
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
+    pub density_kg_m3: f64,
+    /// Inertia factor I / (m r^2): 2/5 for a solid sphere, 2/3 for a hollow one.
+    #[serde(default = "solid_sphere")]
+    #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub inertia_factor: f64,
+    /// g; absent: grains weigh nothing.
+    #[schemars(extend("x-unit" = "m/s2"))]
+    pub gravity_m_s2: Option<[f64; 3]>,
+    /// What grains that touch do to each other.
+    pub contact: ContactScene,
+    /// Grains at the start, in order.
+    #[schemars(length(min = 1, max = 250))]
+    pub bodies: Vec<GrainBody>,
+    /// Walls. Each makes one contact with a grain: corners that grains lie in are made of several.
+    #[serde(default)]
+    pub walls: Vec<WallScene>,
+    /// Grains are followed within this box and forgotten outside; absent: everywhere.
+    pub bounds: Option<BoundsScene>,
+    /// Heat between grains that touch; absent: temperatures are of no account.
+    pub heat: Option<GrainHeat>,
+    /// Steps in the duration of a contact of two of the lightest grains, at least; stability may ask for more.
+    #[serde(default = "twenty")]
+    #[schemars(range(min = 5.0, max = 10000.0), extend("x-unit" = "1"))]
+    pub steps_per_contact: f64,
+}
+
+fn solid_sphere() -> f64 {
+    contact::steps::SOLID_SPHERE
+}
+
+fn twenty() -> f64 {
+    20.0
+}
+
+/// What grains that touch do to each other.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactScene {
+    /// Law of the push.
+    pub law: LawScene,
+    /// Coefficient of restitution e.
+    #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub restitution: f64,
+    /// Where a contact ends.
+    #[serde(default)]
+    pub ending: EndingScene,
+    /// Coefficient of friction; absent: grains only push.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
+    pub friction: Option<f64>,
+    /// Resistance to rolling; absent: none.
+    pub rolling: Option<RollingScene>,
+}
+
+/// Law of the push.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LawScene {
+    /// Spring and dashpot.
+    Linear(LinearScene),
+    /// Elastic spheres (Hertz and Mindlin).
+    Hertz(HertzScene),
+}
+
+/// Spring and dashpot.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LinearScene {
+    /// k.
+    #[schemars(extend("x-unit" = "N/m", "exclusiveMinimum" = 0.0))]
+    pub stiffness_n_m: f64,
+    /// k_t / k.
+    #[serde(default = "one")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub tangential_ratio: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Elastic spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HertzScene {
+    /// E.
+    #[schemars(extend("x-unit" = "Pa", "exclusiveMinimum" = 0.0))]
+    pub youngs_modulus_pa: f64,
+    /// nu.
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = -1.0, "exclusiveMaximum" = 0.5))]
+    pub poisson_ratio: f64,
+}
+
+/// Where a contact ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EndingScene {
+    /// Where the force is zero: grains never pull.
+    #[default]
+    ZeroForce,
+    /// Where the overlap is zero: the dashpot pulls at the end.
+    ZeroOverlap,
+}
+
+/// Resistance to rolling.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RollingScene {
+    /// Coefficient: the moment is at most this times the push and the effective radius.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
+    pub coefficient: f64,
+    /// Stiffness over that of the tangential spring.
+    #[serde(default = "one")]
+    #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub stiffness_ratio: f64,
+}
+
+/// Grains of one size.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrainBody {
+    /// Places of single grains; or the key `shape`.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "m"))]
+    pub places_m: Vec<[f64; 3]>,
+    /// A shape filled with grains that lie wholly in it, on a cubic lattice; or the key `places_m`.
+    pub shape: Option<Shape>,
+    /// Radius of a grain.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub radius_m: f64,
+    /// Spacing of the lattice; a diameter if absent.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    pub spacing_m: Option<f64>,
+    /// Places in a shape are shaken by up to this part of the spacing along each axis.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 0.5), extend("x-unit" = "1"))]
+    pub jitter: f64,
+    /// rho of these grains, if it is another.
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
+    pub density_kg_m3: Option<f64>,
+    /// u at the start; rest if absent.
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub velocity_m_s: Option<[f64; 3]>,
+    /// Angular velocity at the start; none if absent.
+    #[schemars(extend("x-unit" = "rad/s"))]
+    pub spin_rad_s: Option<[f64; 3]>,
+    /// T at the start, a number or a formula in x, y, z, r; needed with heat.
+    #[schemars(extend("x-unit" = "K"))]
+    pub temperature_k: Option<Property>,
+    /// T that the grains keep, a number or a formula in t. Free if absent.
+    #[schemars(extend("x-unit" = "K"))]
+    pub held_temperature_k: Option<Property>,
+    /// Velocity that the grains are held to, numbers or formulas in t; they do not turn. Free if absent.
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub driven_m_s: Option<[Property; 3]>,
+}
+
+/// Heat between grains that touch.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrainHeat {
+    /// kappa(T) of the grain itself, not of the bed.
+    #[schemars(extend("x-unit" = "W/(m K)"))]
+    pub thermal_conductivity_w_m_k: Property,
+    /// c(T).
+    #[schemars(extend("x-unit" = "J/(kg K)"))]
+    pub specific_heat_j_kg_k: Property,
+    /// How wide a contact conducts.
+    #[serde(default)]
+    pub contact: ConductanceScene,
+    /// kappa(T) of the gas around contacts; absent: it conducts nothing.
+    #[schemars(extend("x-unit" = "W/(m K)"))]
+    pub gas_conductivity_w_m_k: Option<Property>,
+    /// Melting to slag; absent: grains never melt.
+    pub melting: Option<GrainMelting>,
+}
+
+/// How wide a contact conducts.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ConductanceScene {
+    /// As elastic spheres of the real modulus under the same push; that of soda-lime glass if absent.
+    Elastic(HertzScene),
+    /// As the overlap (Komen 2019, eq. 5.34).
+    Overlap,
+    /// As the overlap, and half of what that conducts: eq. 5.35 as printed.
+    Printed,
+}
+
+impl Default for ConductanceScene {
+    /// Soda-lime glass, the silicate best known: 70 GPa, 0.22.
+    fn default() -> Self {
+        Self::Elastic(HertzScene {
+            youngs_modulus_pa: 70e9,
+            poisson_ratio: 0.22,
+        })
+    }
+}
+
+impl HertzScene {
+    /// Effective modulus of two of it \[Pa\].
+    #[must_use]
+    pub fn effective(self) -> f64 {
+        0.5 * self.youngs_modulus_pa / (1.0 - self.poisson_ratio * self.poisson_ratio)
+    }
+}
+
+/// Melting of grains to slag, and setting.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrainMelting {
+    /// T_m.
+    #[schemars(extend("x-unit" = "K"), range(min = 1.0, max = 1e4))]
+    pub point_k: f64,
+    /// L.
+    #[schemars(extend("x-unit" = "J/kg"), range(min = 0.0, max = 1e8))]
+    pub latent_heat_j_kg: f64,
+    /// Conductivity of slag over that of the grain, for its convection.
+    #[serde(default = "three")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub slag_conductivity_ratio: f64,
+}
+
+fn three() -> f64 {
+    3.0
+}
+
+impl GrainHeat {
+    /// Enthalpy and conductivity of the grains.
+    ///
+    /// # Errors
+    /// A property that cannot be.
+    pub fn caloric(&self) -> Result<Arc<Caloric>, Fault> {
+        heat::Parameters {
+            thermal_conductivity_w_m_k: self.thermal_conductivity_w_m_k.clone(),
+            specific_heat_j_kg_k: self.specific_heat_j_kg_k.clone(),
+            melting: self.melting.map(|melting| heat::MeltingParameters {
+                point_k: melting.point_k,
+                latent_heat_j_kg: melting.latent_heat_j_kg,
+            }),
+            rest_interval_steps: 1,
+            exchange_tolerance_k: 0.0,
+            faces: None,
+        }
+        .caloric()
+    }
+}
+
+/// A wall.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WallScene {
+    /// What it looks like.
+    pub shape: Shape,
+    /// The wall is all that is outside of the shape: a box that grains lie in, each side a contact of its own.
+    #[serde(default)]
+    pub hollow: bool,
+    /// Velocity, numbers or formulas in t; at rest if absent.
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub velocity_m_s: Option<[Property; 3]>,
+    /// Coefficient of friction on this wall, if it is another.
+    #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
+    pub friction: Option<f64>,
+}
+
+/// Box in which grains are followed.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundsScene {
+    /// Lower corner.
+    #[schemars(extend("x-unit" = "m"))]
+    pub min_m: [f64; 3],
+    /// Upper corner.
+    #[schemars(extend("x-unit" = "m"))]
+    pub max_m: [f64; 3],
+}
+
+/// The push of two grains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// Spring and dashpot.
+    Linear(Linear),
+    /// Elastic spheres.
+    Hertz(Hertz),
+}
+
+impl ContactScene {
+    /// The law of the push.
+    #[must_use]
+    pub fn law(&self) -> Law {
+        let ending = match self.ending {
+            EndingScene::ZeroForce => Ending::ZeroForce,
+            EndingScene::ZeroOverlap => Ending::ZeroOverlap,
+        };
+        match self.law {
+            LawScene::Linear(LinearScene {
+                stiffness_n_m: k,
+                tangential_ratio,
+            }) => Law::Linear(Linear::new(
+                k,
+                tangential_ratio * k,
+                self.restitution,
+                ending,
+            )),
+            LawScene::Hertz(hertz) => {
+                let material = Elastic {
+                    youngs_modulus: hertz.youngs_modulus_pa,
+                    poisson_ratio: hertz.poisson_ratio,
+                };
+                Law::Hertz(Hertz::new([material; 2], self.restitution, ending))
+            }
+        }
+    }
+
+    /// Friction of grains, if there is any.
+    #[must_use]
+    pub fn friction(&self) -> Option<Friction> {
+        self.friction.map(|coefficient| Friction { coefficient })
+    }
+
+    /// Resistance to rolling, if there is any.
+    #[must_use]
+    pub fn rolling(&self) -> Option<Rolling> {
+        self.rolling.map(|rolling| Rolling {
+            coefficient: rolling.coefficient,
+            stiffness_ratio: rolling.stiffness_ratio,
+        })
+    }
+}

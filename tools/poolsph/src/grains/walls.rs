@@ -1,0 +1,322 @@
+//! Walls: faces that grains touch, at rest or moving.
+
+use contact::{Contact, Grain, History, Meeting, Normal, Reply, Rolling};
+use rayon::prelude::*;
+use run::Fault;
+use run::property::{Arguments, Curve, OutOfRange};
+use shapes::frame::{Vector, along, difference, length};
+
+use super::faces::Face;
+use super::lists::Memory;
+use super::parameters::WallScene;
+
+/// A grain near a face.
+#[derive(Debug, Clone, Copy)]
+struct Near {
+    row: u32,
+    touching: bool,
+    history: History,
+    rolled: Vector,
+    reply: Option<Reply>,
+    overlap: f64,
+}
+
+/// A face that may move.
+#[derive(Debug, Clone)]
+struct Wall {
+    face: Face,
+    /// Velocity \[m/s\], if it moves.
+    driven: Option<[Curve; 3]>,
+    friction: Option<f64>,
+    velocity: Vector,
+    /// How far it has moved since the start \[m\], and where that was when neighbours were listed.
+    moved: Vector,
+    listed: Vector,
+    near: Vec<Near>,
+}
+
+/// All walls.
+#[derive(Debug, Clone, Default)]
+pub struct Walls {
+    walls: Vec<Wall>,
+}
+
+/// Velocity by formulas in t.
+///
+/// # Errors
+/// Where a formula has no value.
+pub fn velocity(curves: &[Curve; 3], time: f64) -> Result<Vector, OutOfRange> {
+    let at = Arguments::at([0.0; 3], time);
+    let [u, v, w] = curves;
+    Ok([u.value(&at)?, v.value(&at)?, w.value(&at)?])
+}
+
+impl Walls {
+    /// The walls of a scene.
+    ///
+    /// # Errors
+    /// A formula that cannot be read.
+    pub fn new(scene: &[WallScene]) -> Result<Self, Fault> {
+        let mut walls = Vec::new();
+        for (i, wall) in scene.iter().enumerate() {
+            let driven = match &wall.velocity_m_s {
+                None => None,
+                Some(velocity) => Some(curves(velocity, &format!("/walls/{i}/velocity_m_s"))?),
+            };
+            let faces = if wall.hollow {
+                Face::inside(&wall.shape)
+            } else {
+                Face::outside(&wall.shape)
+            };
+            walls.extend(faces.into_iter().map(|face| Wall {
+                face,
+                driven: driven.clone(),
+                friction: wall.friction,
+                velocity: [0.0; 3],
+                moved: [0.0; 3],
+                listed: [0.0; 3],
+                near: Vec::new(),
+            }));
+        }
+        Ok(Self { walls })
+    }
+
+    /// Sets the velocities of the start.
+    ///
+    /// # Errors
+    /// Where a formula has no value.
+    pub fn begin(&mut self, time: f64) -> Result<(), OutOfRange> {
+        self.drift(time, 0.0)
+    }
+
+    /// Moves the walls to `time` \[s\], a step of `step` \[s\] after the last.
+    ///
+    /// # Errors
+    /// Where a formula has no value.
+    pub fn drift(&mut self, time: f64, step: f64) -> Result<(), OutOfRange> {
+        for wall in &mut self.walls {
+            if let Some(curves) = &wall.driven {
+                let now = velocity(curves, time)?;
+                for (k, moved) in wall.moved.iter_mut().enumerate() {
+                    *moved += 0.5 * step * (wall.velocity[k] + now[k]);
+                }
+                wall.velocity = now;
+            }
+        }
+        Ok(())
+    }
+
+    /// The farthest that a wall has moved since neighbours were listed \[m\].
+    #[must_use]
+    pub fn strayed(&self) -> f64 {
+        let far = self
+            .walls
+            .iter()
+            .map(|w| length(difference(w.moved, w.listed)));
+        far.fold(0.0, f64::max)
+    }
+
+    /// The fastest wall \[m/s\].
+    #[must_use]
+    pub fn fastest(&self) -> f64 {
+        let speeds = self.walls.iter().map(|w| length(w.velocity));
+        speeds.fold(0.0, f64::max)
+    }
+
+    /// Lists the grains within `skin` \[m\] of each wall; `memories`, by walls and rows, go along. Counts the walls of each
+    /// row in `contacts`.
+    pub fn list(
+        &mut self,
+        grains: &[Grain],
+        skin: f64,
+        memories: &[Memory],
+        contacts: &mut Vec<u32>,
+    ) {
+        contacts.clear();
+        contacts.resize(grains.len(), 0);
+        for (w, wall) in self.walls.iter_mut().enumerate() {
+            wall.listed = wall.moved;
+            wall.near.clear();
+            for (row, grain) in grains.iter().enumerate() {
+                let own = difference(grain.position, wall.moved);
+                if wall.face.distance(own) < grain.radius + skin {
+                    wall.near.push(Near {
+                        row: row as u32,
+                        touching: false,
+                        history: History::default(),
+                        rolled: [0.0; 3],
+                        reply: None,
+                        overlap: 0.0,
+                    });
+                    contacts[row] += 1;
+                }
+            }
+            for memory in memories.iter().filter(|m| m.other as usize == w) {
+                if let Ok(at) = wall.near.binary_search_by_key(&memory.row, |n| n.row) {
+                    let near = &mut wall.near[at];
+                    (near.touching, near.history) = (true, memory.history);
+                    near.rolled = memory.rolled;
+                }
+            }
+        }
+    }
+
+    /// Contacts that touch, by walls and rows.
+    pub fn memories(&self, memories: &mut Vec<Memory>) {
+        memories.clear();
+        for (w, wall) in self.walls.iter().enumerate() {
+            let touching = wall.near.iter().filter(|near| near.touching);
+            memories.extend(touching.map(|near| Memory {
+                row: near.row,
+                other: w as u32,
+                history: near.history,
+                rolled: near.rolled,
+            }));
+        }
+    }
+
+    /// Reckons all contacts after a step of `step` \[s\]; gives the greatest overlap \[m\].
+    pub fn act<N: Normal + Copy + Sync>(
+        &mut self,
+        grains: &[Grain],
+        (contact, rolling): (&Contact<N>, Option<Rolling>),
+        step: f64,
+    ) -> f64 {
+        let mut deepest = 0.0_f64;
+        for wall in &mut self.walls {
+            let mut own = *contact;
+            if let Some(coefficient) = wall.friction {
+                own.friction = Some(contact::Friction { coefficient });
+            }
+            let (face, moved, velocity) = (&wall.face, wall.moved, wall.velocity);
+            let near = wall.near.par_iter_mut().with_min_len(256);
+            near.for_each(|near| {
+                let grain = &grains[near.row as usize];
+                let (distance, normal) = face.at(difference(grain.position, moved), grain.radius);
+                let meeting = Meeting::beside_wall(grain, distance, normal, velocity);
+                near.meet(meeting, (&own, rolling), step);
+            });
+            let overlaps = wall.near.iter().map(|near| near.overlap);
+            deepest = overlaps.fold(deepest, f64::max);
+        }
+        deepest
+    }
+
+    /// Adds force \[N\] and moment \[N m\] of the walls.
+    pub fn add(&self, force: &mut [Vector], moment: &mut [Vector]) {
+        for near in self.walls.iter().flat_map(|wall| &wall.near) {
+            if let Some(reply) = near.reply {
+                let row = near.row as usize;
+                force[row] = along(force[row], 1.0, reply.force);
+                moment[row] = along(moment[row], 1.0, reply.moment);
+            }
+        }
+    }
+
+    /// Force on all walls \[N\].
+    #[must_use]
+    pub fn load(&self) -> Vector {
+        let replies = self.walls.iter().flat_map(|wall| &wall.near);
+        let replies = replies.filter_map(|near| near.reply);
+        replies.fold([0.0; 3], |sum, reply| along(sum, -1.0, reply.force))
+    }
+
+    /// Where the walls are, as numbers for a checkpoint.
+    #[must_use]
+    pub fn save(&self) -> Vec<f64> {
+        let places = self.walls.iter();
+        places
+            .flat_map(|w| [w.moved, w.listed, w.velocity].into_iter().flatten())
+            .collect()
+    }
+
+    /// Takes back what [`Walls::save`] gave; neighbours are to be listed where walls were then: gives back where they are.
+    pub fn restore(&mut self, saved: &[f64]) -> Vec<Vector> {
+        let (places, _) = saved.as_chunks::<9>();
+        let mut moved = Vec::new();
+        for (wall, [a, b, c, d, e, f, u, v, w]) in self.walls.iter_mut().zip(places) {
+            moved.push([*a, *b, *c]);
+            wall.moved = [*d, *e, *f];
+            wall.velocity = [*u, *v, *w];
+        }
+        moved
+    }
+
+    /// Puts the walls where they are.
+    pub fn place(&mut self, moved: &[Vector]) {
+        for (wall, moved) in self.walls.iter_mut().zip(moved) {
+            wall.moved = *moved;
+        }
+    }
+
+    /// Numbers of a checkpoint that belong to the walls.
+    #[must_use]
+    pub fn saved_numbers(&self) -> usize {
+        9 * self.walls.len()
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let near = self.walls.iter().map(|wall| wall.near.capacity());
+        size_of::<Near>() * near.sum::<usize>()
+    }
+}
+
+impl Near {
+    fn meet<N: Normal>(
+        &mut self,
+        meeting: Meeting,
+        (contact, rolling): (&Contact<N>, Option<Rolling>),
+        step: f64,
+    ) {
+        self.overlap = meeting.overlap;
+        if meeting.overlap <= 0.0 {
+            self.part(meeting, contact, step);
+            return;
+        }
+        let (meeting, step) = if self.touching {
+            (meeting, step)
+        } else {
+            meeting.begun(step)
+        };
+        self.touching = true;
+        let history = &mut self.history;
+        self.reply = Some(match rolling {
+            None => contact.act(&meeting, history, step),
+            Some(rolling) => {
+                contact.act_rolling(&meeting, rolling, (history, &mut self.rolled), step)
+            }
+        });
+    }
+
+    fn part<N: Normal>(&mut self, meeting: Meeting, contact: &Contact<N>, step: f64) {
+        if !self.touching && self.reply.is_none() {
+            return;
+        }
+        let pulls = self.touching && contact.normal.pulls_at_the_end();
+        self.reply = pulls.then(|| {
+            let push = contact.normal.push(&meeting.ended(step));
+            Reply {
+                force: meeting.normal.map(|n| push * n),
+                friction: [0.0; 3],
+                moment: [0.0; 3],
+                moment_on_b: [0.0; 3],
+                push,
+            }
+        });
+        self.touching = false;
+        self.history = History::default();
+        self.rolled = [0.0; 3];
+    }
+}
+
+/// Formulas in t of a velocity at a JSON pointer.
+///
+/// # Errors
+/// One that cannot be read.
+pub fn curves(velocity: &[run::property::Property; 3], at: &str) -> Result<[Curve; 3], Fault> {
+    let [u, v, w] = velocity;
+    let curve = |k: usize, p: &run::property::Property| p.compile(&format!("{at}/{k}"), &["t"]);
+    Ok([curve(0, u)?, curve(1, v)?, curve(2, w)?])
+}

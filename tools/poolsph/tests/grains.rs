@@ -1,0 +1,173 @@
+//! Grains as a user meets them: what is kept is kept, threads and interruptions do not show, and what is not there costs nothing.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+fn command(scene: &Path, out: &Path, more: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_poolsph"));
+    command.arg("run").arg(scene).arg("--out").arg(out);
+    command.args(["--progress", "none"]).args(more);
+    command
+}
+
+fn finished(scene: &Value, name: &str, folder: &Path, more: &[&str]) -> Vec<u8> {
+    let path = folder.join("scene.json");
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let out = folder.join(name);
+    let output = command(&path, &out, more).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    std::fs::read(out).unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// Two clouds of grains of two sizes that run into each other.
+fn clouds() -> Value {
+    let cloud = |x: f64, radius: f64, u: f64| {
+        json!({"shape": {"sphere": {"centre_m": [x, 1e-3, 0.0], "radius_m": 4e-3}}, "radius_m": radius,
+               "spacing_m": 2.3 * radius, "jitter": 0.05, "velocity_m_s": [u, 0.1, 0.0], "spin_rad_s": [0.0, 30.0, 200.0]})
+    };
+    json!({
+        "kind": "poolsph.scene", "version": 1, "title": "Two clouds",
+        "time": {"step_s": 1e-4, "end_s": 0.02},
+        "grains": {
+            "density_kg_m3": 2500,
+            "contact": {
+                "law": {"linear": {"stiffness_n_m": 200, "tangential_ratio": 0.8}},
+                "restitution": 0.6, "friction": 0.4, "rolling": {"coefficient": 0.1}
+            },
+            "bodies": [cloud(-4e-3, 0.5e-3, 0.5), cloud(4.3e-3, 0.8e-3, -0.4)]
+        },
+        "output": {"particles_interval_s": 1e-3, "precision": "f64"}
+    })
+}
+
+/// Grains that fall into a shaken box.
+fn shaken() -> Value {
+    let mut scene = clouds();
+    scene["grains"]["gravity_m_s2"] = json!([0.0, 0.0, -9.81]);
+    scene["grains"]["walls"] = json!([{
+        "shape": {"box": {"min_m": [-9e-3, -4e-3, -5e-3], "max_m": [9e-3, 6e-3, 5e-3]}}, "hollow": true,
+        "velocity_m_s": [{"expr": "0.05*sin(300*t)"}, 0, 0]
+    }]);
+    scene["time"]["end_s"] = json!(0.03);
+    scene
+}
+
+#[test]
+fn momentum_and_angular_momentum_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    for law in [
+        json!({"linear": {"stiffness_n_m": 200, "tangential_ratio": 0.8}}),
+        json!({"linear": null, "hertz": {"youngs_modulus_pa": 1e7, "poisson_ratio": 0.3}}),
+    ] {
+        let mut scene = clouds();
+        let map = law
+            .as_object()
+            .unwrap()
+            .iter()
+            .filter(|(_, v)| !v.is_null());
+        scene["grains"]["contact"]["law"] =
+            Value::Object(map.map(|(k, v)| (k.clone(), v.clone())).collect());
+        finished(&scene, "clouds.mcap", folder.path(), &[]);
+        let reader = artefact::Reader::open(folder.path().join("clouds.mcap")).unwrap();
+        let records = reader.records("/grains_balance").unwrap();
+        let (first, last) = (&records[0].1, &records[records.len() - 1].1);
+        let energy = |r: &artefact::Record| {
+            r.get("kinetic_energy_j").unwrap() + r.get("rotational_energy_j").unwrap()
+        };
+        assert!(energy(last) < 0.7 * energy(first), "the clouds hardly met");
+        let mass = first.get("mass_kg").unwrap();
+        for axis in ["x", "y", "z"] {
+            let change = |name: &str| {
+                let name = format!("{name}_{axis}");
+                (last.get(&name).unwrap() - first.get(&name).unwrap()).abs()
+            };
+            assert!(
+                change("momentum") < 1e-10 * mass * 0.5,
+                "{axis}: {:e}",
+                change("momentum")
+            );
+            let turning = change("angular_momentum");
+            assert!(turning < 1e-10 * mass * 0.5 * 4e-3, "{axis}: {turning:e}");
+        }
+        assert!((last.get("mass_kg").unwrap() / mass - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn threads_do_not_show() {
+    let folder = tempfile::tempdir().unwrap();
+    let one = finished(&shaken(), "one.mcap", folder.path(), &["--threads", "1"]);
+    for threads in ["2", "3"] {
+        let more = finished(
+            &shaken(),
+            "more.mcap",
+            folder.path(),
+            &["--threads", threads],
+        );
+        assert!(one == more, "the bytes depend on the number of threads");
+    }
+}
+
+#[test]
+fn an_interrupted_run_ends_in_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = shaken();
+    scene["time"]["end_s"] = json!(0.1);
+    scene["grains"]["bounds"] =
+        json!({"min_m": [-1e-1, -1e-1, -1e-1], "max_m": [1e-1, 1e-1, 3e-3]});
+    let whole = finished(&scene, "whole.mcap", folder.path(), &[]);
+    let (path, out) = (
+        folder.path().join("scene.json"),
+        folder.path().join("broken.mcap"),
+    );
+    let mut child = command(&path, &out, &["--checkpoint-s", "0.02"])
+        .spawn()
+        .unwrap();
+    let checkpoint = folder.path().join("broken.mcap.checkpoint");
+    let start = Instant::now();
+    while !checkpoint.exists() && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    let code = child.wait().unwrap().code();
+    assert_eq!(code, None, "the run must be killed before its end");
+    let resumed = finished(&scene, "broken.mcap", folder.path(), &["--resume"]);
+    assert!(whole == resumed, "the resumed run differs");
+}
+
+#[test]
+fn a_scene_of_nothing_is_refused_and_so_is_metal_without_its_lattice() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |scene: &Value| {
+        let path = folder.path().join("scene.json");
+        std::fs::write(&path, scene.to_string()).unwrap();
+        let output = command(&path, &folder.path().join("out.mcap"), &[])
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        said(&output)
+    };
+    let mut nothing = clouds();
+    nothing.as_object_mut().unwrap().remove("grains");
+    assert!(told(&nothing).contains("nothing is there"));
+    let mut metal = clouds();
+    metal["bodies"] =
+        json!([{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [1, 1, 1]}}, "state": "solid"}]);
+    let said = told(&metal);
+    assert!(
+        said.contains("'spacing_m'") && said.contains("'density_kg_m3'"),
+        "{said}"
+    );
+    let mut tight = clouds();
+    tight["grains"]["bodies"][0]["spacing_m"] = json!(0.9e-3);
+    assert!(told(&tight).contains("within each other"));
+}
