@@ -37,6 +37,8 @@ mod em_sphere_uniform_ac;
 mod em_transient_cylinder;
 mod em_transient_gauge;
 mod em_transient_sphere;
+mod fracture_energy;
+mod fracture_pull;
 mod gas_argon;
 mod heat_block_3d;
 mod heat_cylinder_flux;
@@ -51,6 +53,7 @@ mod heat_sin_xy;
 mod heat_two_slabs;
 mod jet_plate;
 mod jet_still;
+mod jet_threshold;
 mod pool_dimple;
 mod pool_drop_oscillation;
 mod pool_drop_pressure;
@@ -70,6 +73,7 @@ use crate::case::Case;
 pub fn all() -> Vec<Box<dyn Case>> {
     let mut all = continua();
     all.extend(grains());
+    all.extend(jets());
     all
 }
 
@@ -85,7 +89,22 @@ fn grains() -> Vec<Box<dyn Case>> {
     ]
 }
 
-/// Fields, liquids and solids.
+/// Cases of jets and solids.
+fn jets() -> Vec<Box<dyn Case>> {
+    vec![
+        Box::new(fracture_pull::FracturePull),
+        Box::new(fracture_energy::FractureEnergy),
+        Box::new(jet_plate::JetPlate),
+        Box::new(jet_still::JetStill),
+        Box::new(jet_threshold::JetThreshold),
+        Box::new(solid_swing::SolidSwing::BAR),
+        Box::new(solid_swing::SolidSwing::PLATE),
+        Box::new(solid_patch::SolidPatch),
+        Box::new(solid_turn::SolidTurn),
+    ]
+}
+
+/// Fields and liquids.
 fn continua() -> Vec<Box<dyn Case>> {
     vec![
         Box::new(arc_cells::ArcCells),
@@ -131,8 +150,6 @@ fn continua() -> Vec<Box<dyn Case>> {
         Box::new(heat_cylinder_flux::HeatCylinderFlux),
         Box::new(heat_two_slabs::HeatTwoSlabs),
         Box::new(heat_shock_disc::HeatShockDisc),
-        Box::new(jet_plate::JetPlate),
-        Box::new(jet_still::JetStill),
         Box::new(pool_dimple::PoolDimple),
         Box::new(pool_drop_oscillation::PoolDropOscillation),
         Box::new(pool_drop_pressure::PoolDropPressure),
@@ -140,10 +157,6 @@ fn continua() -> Vec<Box<dyn Case>> {
         Box::new(pool_rosenthal::PoolRosenthal),
         Box::new(pool_stefan::PoolStefan),
         Box::new(pool_surface_heat::PoolSurfaceHeat),
-        Box::new(solid_swing::SolidSwing::BAR),
-        Box::new(solid_swing::SolidSwing::PLATE),
-        Box::new(solid_patch::SolidPatch),
-        Box::new(solid_turn::SolidTurn),
         Box::new(wls_operators::WlsOperators),
     ]
 }

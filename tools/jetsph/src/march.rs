@@ -85,6 +85,9 @@ impl March {
         for set in &mut state.sets {
             set.column_mut(&DENSITY_RATE).fill(0.0);
         }
+        for stage in &mut self.stages {
+            stage.look(state, state.time + 0.5 * dt);
+        }
         for stage in self.stages.iter_mut().filter(|stage| stage.flows()) {
             timed(stage.name(), &mut || stage.flow(state, dt))?;
         }
@@ -95,6 +98,9 @@ impl March {
     fn act(&mut self, state: &mut State, dt: f64, timed: &mut Timed<'_>) -> Result<(), StageError> {
         for set in &mut state.sets {
             set.column_mut(&ACCELERATION).fill([0.0; 3]);
+        }
+        for stage in &mut self.stages {
+            stage.look(state, state.time + dt);
         }
         for stage in &mut self.stages {
             timed(stage.name(), &mut || stage.act(state, dt))?;
@@ -119,7 +125,7 @@ fn kick(state: &mut State, dt: f64) {
 
 /// rho += dt d(rho)/dt.
 fn condense(state: &mut State, dt: f64) {
-    for set in &mut state.sets {
+    for set in state.sets.iter_mut().filter(|set| set.has(&DENSITY)) {
         let mut density = set.take(&DENSITY);
         let rate = set.column(&DENSITY_RATE);
         sweep::change(&mut density, |a, rho| *rho += dt * rate[a]);

@@ -159,6 +159,9 @@ pub trait Stage: Send {
         None
     }
 
+    /// Shows others what they need of it at the present positions and at a time \[s\], before any flows or acts.
+    fn look(&mut self, _state: &mut State, _time: f64) {}
+
     /// Whether it changes densities, at the middle of a step.
     fn flows(&self) -> bool {
         false

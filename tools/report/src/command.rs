@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand};
 use run::{Failure, Form, Owned};
 
 use crate::files::{
-    FieldFiles, Folders, GasFiles, HeatFiles, PageFiles, PassesFiles, perhaps_named,
+    FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PassesFiles, perhaps_named,
 };
 use crate::{figures, index, page, validate};
 
@@ -35,6 +35,9 @@ enum Action {
     /// One page about a study of heat conduction, of one run or of several.
     #[command(after_help = HEAT)]
     Heat(HeatFiles),
+    /// One page about jets of water that meet solids, with films, of one run or of several.
+    #[command(after_help = JET)]
+    Jet(JetFiles),
     /// One page about electric and magnetic fields, of one run or of several.
     #[command(after_help = FIELD)]
     Field(FieldFiles),
@@ -70,6 +73,10 @@ const PASSES: &str = "Example, from the repository root:\n  \
 const HEAT: &str = "Example, from the repository root:\n  \
     target/release/report heat --study fgm-shock --out build/fgm-shock/report.html \\\n    \
     --frames 1023=build/fgm-shock/disc-1023.mcap --frames 1073=build/fgm-shock/disc-1073.mcap";
+
+const JET: &str = "Example, from the repository root:\n  \
+    target/release/report jet --study jet-tofu-5 --out build/jet-tofu-5/report.html \\\n    \
+    --frames 5=build/jet-tofu-5/jet.mcap";
 
 const FIELD: &str = "Example, from the repository root:\n  \
     target/release/report field --study levitation-field --out build/levitation-field/report.html \\\n    \
@@ -115,6 +122,7 @@ impl Action {
             Self::Page(f) => Some(&mut f.out),
             Self::Passes(f) => Some(&mut f.out),
             Self::Heat(f) => Some(&mut f.out),
+            Self::Jet(f) => Some(&mut f.out),
             Self::Field(f) => Some(&mut f.out),
             Self::Gas(f) => Some(&mut f.out),
             Self::Index(f) => Some(&mut f.out),
@@ -145,6 +153,7 @@ impl Action {
             }
             Self::Passes(f) => named(&[&f.arc, &f.pool, &f.mean]),
             Self::Heat(f) => named(&[&f.frames]),
+            Self::Jet(f) => named(&[&f.frames]),
             Self::Field(f) => named(&[&f.fields, &f.exact]),
             Self::Gas(f) => named(&[&f.table, &f.reference, &f.variant]),
             Self::Index(f) => f.read(),
@@ -181,7 +190,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
             ("--pool or --arc", given)
         }
         Action::Figures { .. } => ("--pool", true),
-        Action::Heat(_) => ("--frames", true),
+        Action::Heat(_) | Action::Jet(_) => ("--frames", true),
         Action::Field(_) => ("--fields", true),
         Action::Gas(_) => ("--table", true),
     };
@@ -197,6 +206,7 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Page(files) => page::write(files).map(|()| ExitCode::SUCCESS),
         Action::Passes(files) => page::passes::write(files).map(|()| ExitCode::SUCCESS),
         Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Jet(files) => page::jet::write(files).map(|()| ExitCode::SUCCESS),
         Action::Field(files) => page::field::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),

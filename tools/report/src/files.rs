@@ -62,6 +62,20 @@ pub(crate) struct HeatFiles {
     pub(crate) frames: Vec<(String, PathBuf)>,
 }
 
+/// Files of a page about jets.
+#[derive(Debug, clap::Args)]
+pub(crate) struct JetFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Frames of a run, and what the page calls it; once for each run.
+    #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) frames: Vec<(String, PathBuf)>,
+}
+
 /// Files of a page about electric and magnetic fields.
 #[derive(Debug, clap::Args)]
 pub(crate) struct FieldFiles {

@@ -8,17 +8,18 @@ use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use shapes::Body;
 
-use super::vector;
+use super::solid::Made;
+use super::{plain_walls, vector};
 use crate::matter::lattice::{Filling, Lattice};
-use crate::matter::water::friction::Artificial;
+use crate::matter::meeting::skin::{DEFORMATION, DEFORMATION_RATE, Skin};
+use crate::matter::meeting::wet::Wet;
+use crate::matter::water::friction::{Artificial, ArtificialViscosity};
 use crate::matter::water::near::LISTED;
 use crate::matter::water::nozzle::{Feed, LED, Nozzle};
 use crate::matter::water::outlet::Outlet;
 use crate::matter::water::tait::Tait;
 use crate::matter::water::{Flow, Water};
-use crate::scene::{
-    KernelScene, NozzleScene, OutletScene, Scene, WallScene, WaterBody, WaterScene,
-};
+use crate::scene::{KernelScene, NozzleScene, OutletScene, Scene, WaterBody, WaterScene};
 use crate::stage::Stage;
 use crate::state::{ACCELERATION, DENSITY, MASS, State, VELOCITY};
 
@@ -27,8 +28,8 @@ const SOUND: f64 = 10.0;
 /// Times within the run at which the speed of a nozzle is looked at for V.
 const LOOKS: usize = 200;
 
-/// Stages of the water: its own, and those that must come after all others.
-type Stages = (Box<dyn Stage>, Vec<Box<dyn Stage>>);
+/// The stage of the water, its law, and the stages that must come after all others.
+type Stages = (Box<dyn Stage>, Tait, Vec<Box<dyn Stage>>);
 
 /// Puts the water of a scene into the state.
 pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result<Stages, Fault> {
@@ -80,7 +81,38 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
         (_, KernelScene::Spline) => Box::new(Flow::<3, _>::new(water, CubicSpline::<3>::new(h))),
         (_, KernelScene::Wendland) => Box::new(Flow::<3, _>::new(water, Wendland::<3>::new(h))),
     };
-    Ok((stage, last))
+    Ok((stage, law, last))
+}
+
+/// The stage of a solid and the water, which was put into the state last.
+pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) -> Box<dyn Stage> {
+    let (water, dimensions) = (state.sets.len() - 1, state.dimensions);
+    state.sets[solid.set].declare(&DEFORMATION);
+    state.sets[solid.set].declare(&DEFORMATION_RATE);
+    let skin = Skin::new(solid.set, solid.size, of.spacing_m, dimensions);
+    let h = 0.5 * of.smoothing * (of.spacing_m + skin.spacing);
+    let none = ArtificialViscosity {
+        linear: 0.0,
+        quadratic: 0.0,
+        guard: ArtificialViscosity::usual_guard(),
+    };
+    let artificial = of.artificial_viscosity.unwrap_or(none);
+    let friction = Artificial::new(&artificial, law.density, law.sound_speed, h);
+    let liquid = (water, law);
+    match (dimensions, of.kernel) {
+        (2, KernelScene::Spline) => {
+            Box::new(Wet::new(liquid, friction, skin, CubicSpline::<2>::new(h)))
+        }
+        (2, KernelScene::Wendland) => {
+            Box::new(Wet::new(liquid, friction, skin, Wendland::<2>::new(h)))
+        }
+        (_, KernelScene::Spline) => {
+            Box::new(Wet::new(liquid, friction, skin, CubicSpline::<3>::new(h)))
+        }
+        (_, KernelScene::Wendland) => {
+            Box::new(Wet::new(liquid, friction, skin, Wendland::<3>::new(h)))
+        }
+    }
 }
 
 /// The set without particles.
@@ -155,13 +187,6 @@ fn sound(of: &WaterScene, fastest: f64) -> Result<f64, Fault> {
     }
     let what = "nothing moves at the start: water wants 'reference_speed_m_s' or 'sound_speed_m_s'";
     Err(Fault::at("", what))
-}
-
-fn plain_walls(walls: &[WallScene], dimensions: usize) -> Vec<(String, Body)> {
-    let plain = walls.iter().filter(|wall| wall.repulsion.is_none());
-    plain
-        .map(|wall| (wall.name.clone(), Body::new(&wall.body, dimensions)))
-        .collect()
 }
 
 /// Fills a body with water whose masses are volumes yet; gives the pressure of each particle \[Pa\].

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use output::{FloatWidth, Output};
-pub use solid::{Clamp, LatticeScene, LoadScene, Solid};
+pub use solid::{Clamp, ContactScene, LatticeScene, LoadScene, Solid};
 
 pub use water::{
     KernelScene, NozzleScene, OutletScene, RepulsionScene, WallScene, WaterBody, WaterScene,
@@ -41,6 +41,8 @@ pub struct Scene {
     /// Rigid walls.
     #[serde(default)]
     pub walls: Vec<WallScene>,
+    /// How solids push each other where they touch; without loss if absent.
+    pub contact: Option<ContactScene>,
     /// g; none if absent.
     #[schemars(extend("x-unit" = "m/s2"), length(min = 2, max = 3))]
     pub gravity_m_s2: Option<Vec<f64>>,

@@ -5,7 +5,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::Shape;
 
+use crate::matter::solid::fracture::Criterion;
 use crate::matter::solid::law::Elastic;
+use crate::matter::water::friction::ArtificialViscosity;
 
 /// A solid body.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -26,6 +28,10 @@ pub struct Solid {
     pub density_kg_m3: f64,
     /// Elastic constants: E and nu, or K and G.
     pub elastic: Elastic,
+    /// When it breaks; never if absent.
+    pub fracture: Option<Criterion>,
+    /// Artificial viscosity of what approaches in it (38); none if absent.
+    pub artificial_viscosity: Option<ArtificialViscosity>,
     /// Velocity at the start: a number or a formula in x, y, z for each axis; rest if absent.
     #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
     pub velocity_m_s: Option<Vec<Property>>,
@@ -79,4 +85,14 @@ pub struct LoadScene {
     /// Force on the area at rest, along each axis.
     #[schemars(extend("x-unit" = "Pa"), length(min = 2, max = 3))]
     pub traction_pa: Vec<f64>,
+}
+
+/// Contact of solids with each other and with plain walls.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactScene {
+    /// zeta: 0 loses nothing, 1 does not bounce.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
+    pub damping: f64,
 }

@@ -173,6 +173,12 @@ impl Canvas {
         self.triangle([to, left, right], colour);
     }
 
+    /// The pixels by rows, three bytes each.
+    pub(crate) fn rgb(&self) -> Vec<u8> {
+        let byte = |part: &f32| (255.0 * part.clamp(0.0, 1.0)).round() as u8;
+        self.pixels.iter().flatten().map(byte).collect()
+    }
+
     /// The picture as a PNG file.
     pub(crate) fn png(&self) -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();

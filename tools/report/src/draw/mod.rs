@@ -5,5 +5,6 @@ pub(crate) mod canvas;
 pub(crate) mod colour;
 pub(crate) mod contour;
 pub(crate) mod discs;
+pub(crate) mod film;
 pub(crate) mod letters;
 pub(crate) mod palette;

@@ -11,6 +11,7 @@ mod exchange;
 pub(crate) mod field;
 pub(crate) mod gas;
 pub(crate) mod heat;
+pub(crate) mod jet;
 mod mean;
 pub(crate) mod passes;
 mod runs;

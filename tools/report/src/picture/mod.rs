@@ -5,6 +5,7 @@ pub(crate) mod bead;
 pub(crate) mod cross;
 pub(crate) mod field;
 pub(crate) mod heat;
+pub(crate) mod jet;
 pub(crate) mod mean;
 
 use crate::draw::axes::{Scale, number};

@@ -4,13 +4,17 @@ use particles::{Column, POSITION, Set, sweep};
 use rayon::prelude::*;
 
 use super::body::Body;
+use super::breaking::Breaking;
 use super::cell::{Derivatives, gradient};
+use super::cracks::Cracks;
+use super::fracture::{BROKEN, Criterion};
 use super::law::equivalent_strain;
 use super::links::{Links, terms};
 use super::sound::fastest;
-use super::tensor::Matrix;
+use super::tensor::{Matrix, UNIT};
+use crate::matter::meeting::skin::{DEFORMATION, TWIST};
 use crate::stage::{Entry, Figure, Limit, Stage, StageError};
-use crate::state::{ACCELERATION, MASS, State, VELOCITY};
+use crate::state::{ACCELERATION, MASS, State};
 
 /// Place at rest, along the axes of the lattice \[m\].
 pub const REST: Column<[f64; 3]> = Column::new("rest", "m", [0.0; 3]).saved();
@@ -21,24 +25,29 @@ pub const EQUIVALENT_STRAIN: Column<f64> = Column::new("equivalent_strain", "1",
 
 /// Part of the limit of stability that a step may take.
 const SAFETY: f64 = 0.9;
+/// The same where cracks may leave particles with fits that are stiffer than any at rest.
+const CRACKED: f64 = 0.6;
 /// Particles per unit of parallel work.
 const GRAIN: usize = 32;
 
 /// An elastic solid: `L` numbers hold a vector, `T` terms a quadratic (2 and 5 in the plane, 4 and 9 in space).
 pub struct Elastic<const L: usize, const T: usize> {
-    body: Body,
-    links: Links<T>,
+    pub(super) body: Body,
+    pub(super) links: Links<T>,
     /// Places of particles and anchors \[m\].
-    places: Vec<[f64; L]>,
+    pub(super) places: Vec<[f64; L]>,
     /// Slopes of the energy of each cell.
-    answers: Vec<Derivatives<L, T>>,
+    pub(super) answers: Vec<Derivatives<L, T>>,
     /// How many times stiffer the solid is than at rest.
-    stiffer: Vec<f64>,
+    pub(super) stiffer: Vec<f64>,
     /// Greatest angular frequency at rest \[rad/s\].
     fastest: f64,
     /// Force on the body at the anchors \[N\], as one sum, and the power of moving ones \[W\].
-    held: ([f64; 3], f64),
-    entry: Entry,
+    pub(super) held: ([f64; 3], f64),
+    pub(super) entry: Entry,
+    pub(super) breaking: Option<Breaking>,
+    /// When water last looked at its shape \[s\].
+    pub(super) looked: f64,
 }
 
 impl<const L: usize, const T: usize> Elastic<L, T> {
@@ -56,6 +65,8 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             fastest: 0.0,
             held: ([0.0; 3], 0.0),
             entry: Entry::default(),
+            breaking: None,
+            looked: 0.0,
             links,
             body,
         };
@@ -63,6 +74,22 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             stage.fastest = stage.fastest_at_rest(&rest[..n], set.column(&MASS));
         }
         (stage, loose)
+    }
+
+    /// With fracture; `axes` are those of the lattice.
+    #[must_use]
+    pub fn breaking(mut self, criterion: Criterion, set: &Set, axes: Matrix) -> Self {
+        let mut rest = set.column(&REST).to_vec();
+        let n = rest.len();
+        rest.extend_from_slice(&self.body.anchor_rest);
+        let size = self
+            .body
+            .cell
+            .volume
+            .powf(if T == 5 { 0.5 } else { 1.0 / 3.0 });
+        let cracks = Cracks::new(&rest, n, self.body.size);
+        self.breaking = Some(Breaking::new(criterion, cracks, (size, n), axes));
+        self
     }
 
     fn fastest_at_rest(&mut self, rest: &[[f64; 3]], mass: &[f64]) -> f64 {
@@ -105,7 +132,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
 
     /// Derivatives of the deformation of cell `a`.
     #[inline(always)]
-    fn derivatives(&self, a: usize) -> Derivatives<L, T> {
+    pub(super) fn derivatives(&self, a: usize) -> Derivatives<L, T> {
         let row = self.links.row(a);
         let own = self.places[a];
         let mut sum = [[0.0; L]; T];
@@ -144,6 +171,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         }
         self.answers = answers;
         self.stiffer = stiffer;
+        self.let_go();
     }
 
     /// Adds the accelerations of all particles: what their own cell does to them, less what those of the others do.
@@ -170,81 +198,11 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             });
         });
     }
-
-    /// Force on the body at its anchors and their power.
-    fn reaction(&self) -> ([f64; 3], f64) {
-        let n = self.answers.len();
-        if self.body.anchors.is_empty() {
-            return ([0.0; 3], 0.0);
-        }
-        let [x, y, z, power] = sweep::sum(n, |a| {
-            let row = self.links.row(a);
-            let mut sum = [0.0; 4];
-            for (b, weight) in row.other.iter().zip(row.weight) {
-                if let Some(anchor) = (*b as usize).checked_sub(n) {
-                    let mut force = [0.0; L];
-                    add(&mut force, &self.answers[a], weight);
-                    let velocity = self.body.anchors[anchor].velocity;
-                    (0..L.min(3)).for_each(|k| {
-                        sum[k] += force[k];
-                        sum[3] += force[k] * velocity[k];
-                    });
-                }
-            }
-            sum
-        });
-        ([x, y, z], power)
-    }
-
-    /// Accelerations by the loads and by damping, and the balances of all from outside.
-    fn outside(&mut self, state: &mut State, dt: f64) {
-        let set = &mut state.sets[self.body.set];
-        let mut acceleration = set.take(&ACCELERATION);
-        let (mass, velocity) = (set.column(&MASS), set.column(&VELOCITY));
-        let mut total = [0.0; 3];
-        for load in &self.body.loads {
-            let a = load.particle;
-            for k in 0..3 {
-                acceleration[a][k] += load.force[k] / mass[a];
-                total[k] += load.force[k];
-            }
-        }
-        if self.body.damping > 0.0 {
-            let rate = self.body.damping;
-            sweep::change(&mut acceleration, |a, own| {
-                (0..3).for_each(|k| own[k] -= rate * velocity[a][k]);
-            });
-            let loss = |a: usize| {
-                let u = velocity[a];
-                let square = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-                [
-                    mass[a] * square,
-                    mass[a] * u[0],
-                    mass[a] * u[1],
-                    mass[a] * u[2],
-                ]
-            };
-            let [lost, x, y, z] = sweep::sum(set.len(), loss);
-            self.entry.spent += dt * rate * lost;
-            for (sum, part) in self.entry.impulse.iter_mut().zip([x, y, z]) {
-                *sum -= dt * rate * part;
-            }
-        }
-        set.put(&ACCELERATION, acceleration);
-        let held = self.reaction();
-        let before = std::mem::replace(&mut self.held, held);
-        self.entry.work += 0.5 * dt * (held.1 + before.1);
-        let mean = |k: usize| 0.5 * (held.0[k] + before.0[k]);
-        let impulse = self.entry.impulse.iter_mut().zip(total);
-        for (k, (sum, load)) in impulse.enumerate() {
-            *sum += dt * (mean(k) + load);
-        }
-    }
 }
 
 /// sum += slopes of the energy . weights.
 #[inline(always)]
-fn add<const L: usize, const T: usize>(
+pub(super) fn add<const L: usize, const T: usize>(
     sum: &mut [f64; L],
     answer: &Derivatives<L, T>,
     weight: &[f64; T],
@@ -263,7 +221,12 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         let stiffer = sweep::greatest(self.stiffer.len(), |a| self.stiffer[a]);
         let stiffer = stiffer.map_or(1.0, |(_, most)| most.max(1.0));
         Some(Limit {
-            seconds: SAFETY * 2.0 / (self.fastest * stiffer.sqrt()),
+            seconds: if self.breaking.is_some() {
+                CRACKED
+            } else {
+                SAFETY
+            } * 2.0
+                / (self.fastest * stiffer.sqrt()),
             name: "elastic_waves",
         })
     }
@@ -276,6 +239,9 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         set.put(&POSITION, position);
         let n = set.len();
         self.answer(1.0);
+        if self.breaks(set) {
+            self.answer(1.0);
+        }
         if let Some((a, _)) =
             sweep::greatest(n, |a| self.stiffer[a]).filter(|(_, most)| most.is_nan())
         {
@@ -291,6 +257,7 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
                 ),
             });
         }
+        self.twisted(set.column(&TWIST));
         let mut acceleration = set.take(&ACCELERATION);
         self.accelerate(&mut acceleration, set.column(&MASS));
         set.put(&ACCELERATION, acceleration);
@@ -298,9 +265,27 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         Ok(())
     }
 
+    fn look(&mut self, state: &mut State, time: f64) {
+        let set = &mut state.sets[self.body.set];
+        if set.has(&DEFORMATION) {
+            let position = set.take(&POSITION);
+            self.locate(&position, time);
+            set.put(&POSITION, position);
+            self.show_shape(set, time);
+        }
+    }
+
     fn show(&self, state: &mut State) {
         let law = self.body.cell.law;
-        let deformation = |a: usize| law.completed(gradient(&self.derivatives(a)));
+        let whole = |a: usize| !self.links.row(a).other.is_empty();
+        let deformation = |a: usize| {
+            let shape = if whole(a) {
+                gradient(&self.derivatives(a))
+            } else {
+                UNIT
+            };
+            law.completed(shape)
+        };
         let set = &mut state.sets[self.body.set];
         sweep::fill(set.column_mut(&STRESS), |a| law.cauchy(&deformation(a)));
         sweep::fill(set.column_mut(&EQUIVALENT_STRAIN), |a| {
@@ -312,58 +297,56 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         let set = &mut state.sets[self.body.set];
         set.declare(&STRESS);
         set.declare(&EQUIVALENT_STRAIN);
+        if self.breaking.is_some() {
+            set.declare(&BROKEN);
+        }
     }
 
     fn entry(&self, state: &State) -> Entry {
-        let n = self.answers.len();
-        let stored = sweep::sum(n, |a| [self.body.cell.energy(&self.derivatives(a))])[0];
         // A dead load stores what it can still do.
         let position = state.sets[self.body.set].column(&POSITION);
-        let loads = self.body.loads.iter().map(|load| {
-            let derivatives = self.derivatives(load.particle);
-            let parts: [f64; T] = terms(load.offset);
-            let moved = |k: usize| -> f64 {
-                let there = derivatives
-                    .iter()
-                    .zip(parts)
-                    .map(|(column, part)| part * column[k]);
-                position[load.particle][k] + there.sum::<f64>()
-            };
-            (0..L.min(3)).map(|k| load.force[k] * moved(k)).sum::<f64>()
-        });
         Entry {
-            stored: stored - loads.sum::<f64>(),
+            stored: self.stored() - self.load_potential(position),
             ..self.entry
         }
     }
 
     fn figures(&self, state: &State) -> Vec<Figure> {
+        let mut figures = self.cracks(state);
         if self.body.anchors.is_empty() {
-            return Vec::new();
+            return figures;
         }
         let name = state.sets[self.body.set].name();
         let axes = ["x", "y", "z"].iter().zip(self.held.0).take(L.min(3));
-        axes.map(|(axis, force)| Figure {
+        figures.extend(axes.map(|(axis, force)| Figure {
             name: format!("{name}_clamp_force_{axis}"),
             unit: "N",
             value: force,
-        })
-        .collect()
+        }));
+        figures
     }
 
     fn bytes(&self) -> usize {
         let vectors = self.places.len() * L * 8 + self.answers.len() * (L * T * 8 + 8);
-        self.links.bytes() + vectors
+        self.links.bytes() + vectors + self.breaking.as_ref().map_or(0, Breaking::bytes)
     }
 
     fn save(&self) -> Vec<f64> {
         let (force, power) = self.held;
-        [&self.entry.save()[..], &force, &[power]].concat()
+        let cracks = self.breaking.as_ref().map_or(0.0, |b| b.energy);
+        [
+            &self.entry.save()[..],
+            &force,
+            &[power, cracks, self.looked],
+        ]
+        .concat()
     }
 
     fn restore(&mut self, state: &State, saved: &[f64]) {
-        if let [fx, fy, fz, power] = *self.entry.restore(saved) {
+        if let [fx, fy, fz, power, cracks, looked] = *self.entry.restore(saved) {
             self.held = ([fx, fy, fz], power);
+            self.looked = looked;
+            self.take_up(state.sets[self.body.set].column(&BROKEN), cracks);
         }
         self.locate(state.sets[self.body.set].column(&POSITION), state.time);
         self.answer(1.0);

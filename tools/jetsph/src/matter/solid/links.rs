@@ -10,6 +10,8 @@
 //! exact for every quadratic on any cloud, at free faces too. Weights are those of the reference state and never change
 //! while the particle has its neighbours.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{DMatrix, DVector};
 use neighbours::Grid;
 use particles::Rows;
@@ -87,13 +89,7 @@ impl<const T: usize> Links<T> {
             start: vec![0],
             ..Self::default()
         };
-        let unit: [f64; T] = terms(cell.map(|c| 1.0 / c));
-        // x^2/2 counts d^2 x, not its half.
-        let scale: [f64; T] = std::array::from_fn(|m| {
-            let dimensions = if T == 5 { 2 } else { 3 };
-            let square = (0..dimensions).any(|k| m == second(dimensions, k, k));
-            if square { 2.0 * unit[m] } else { unit[m] }
-        });
+        let scale = scale::<T>(cell);
         for (a, (weights, _)) in fitted.iter().enumerate() {
             links.other.extend_from_slice(rows.row(a));
             let scaled = weights
@@ -106,6 +102,32 @@ impl<const T: usize> Links<T> {
         let loose = fitted.iter().enumerate().filter(|(_, (_, held))| !held);
         let loose = loose.map(|(a, _)| a).collect();
         (links, loose)
+    }
+
+    /// Replaces the links of some particles: their neighbours and the weights in cells.
+    pub(super) fn replace(&mut self, new: BTreeMap<usize, Fitted<T>>, cell: [f64; 3]) {
+        let scale = scale::<T>(cell);
+        let particles = self.total.len();
+        let mut links = Self {
+            start: vec![0],
+            ..Self::default()
+        };
+        for a in 0..particles {
+            if let Some((row, weights)) = new.get(&a) {
+                links.other.extend_from_slice(row);
+                let scaled = weights
+                    .iter()
+                    .map(|w| std::array::from_fn(|m| scale[m] * w[m]));
+                links.weight.extend(scaled);
+            } else {
+                let range = self.start[a]..self.start[a + 1];
+                links.other.extend_from_slice(&self.other[range.clone()]);
+                links.weight.extend_from_slice(&self.weight[range]);
+            }
+            links.start.push(links.other.len());
+        }
+        links.join(particles);
+        *self = links;
     }
 
     /// Fills in the weights seen from the other side, and the sums.
@@ -166,6 +188,20 @@ impl<const T: usize> Links<T> {
     }
 }
 
+/// Neighbours and their weights in cells.
+pub(super) type Fitted<const T: usize> = (Vec<u32>, Vec<[f64; T]>);
+
+/// From weights in cells to weights in metres.
+fn scale<const T: usize>(cell: [f64; 3]) -> [f64; T] {
+    let unit: [f64; T] = terms(cell.map(|c| 1.0 / c));
+    // x^2/2 counts d^2 x, not its half.
+    std::array::from_fn(|m| {
+        let dimensions = if T == 5 { 2 } else { 3 };
+        let square = (0..dimensions).any(|k| m == second(dimensions, k, k));
+        if square { 2.0 * unit[m] } else { unit[m] }
+    })
+}
+
 /// Weight of a neighbour in the fit, at a distance in supports: the nearest ones lead by far, so that the fit is that of
 /// the closest stencil, and the others complete it where there is none. A held face, half a cell from the first row,
 /// is met the better for it.
@@ -175,7 +211,11 @@ fn share(distance: f64) -> f64 {
 }
 
 /// Weights of the neighbours `row` of place `a`, and whether they give its gradient.
-fn fit<const T: usize>(places: &[[f64; 3]], a: usize, row: &[u32]) -> (Vec<[f64; T]>, bool) {
+pub(super) fn fit<const T: usize>(
+    places: &[[f64; 3]],
+    a: usize,
+    row: &[u32],
+) -> (Vec<[f64; T]>, bool) {
     let x = places[a];
     let root = |r: [f64; 3]| {
         let square: f64 = r.iter().map(|x| x * x).sum();

@@ -4,14 +4,20 @@
 //! at rest ([`links`]), the energy is that of cells whose strain varies across them ([`cell`]), and forces are the slopes
 //! of that energy, so that they keep momentum, angular momentum and energy, and a solid at rest stays so. Faces are the
 //! true ones: rows of particles stand half a cell inside them, free faces need nothing, held and loaded ones are
-//! [`bound`] where they are.
+//! [`bound`] where they are. Where a scene has it break, [`fracture`] says when, [`cracks`] what is left, [`breaking`] does it.
 
 pub mod body;
 pub mod bound;
+mod break_up;
+pub mod breaking;
 pub mod cell;
+pub mod cracks;
 pub mod elastic;
+pub mod fracture;
 pub mod law;
 pub mod links;
+mod outside;
+pub mod shocks;
 mod sound;
 pub mod tensor;
 

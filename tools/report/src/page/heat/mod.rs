@@ -3,7 +3,7 @@
 mod curves;
 mod field;
 mod surface;
-mod totals;
+pub(super) mod totals;
 
 use artefact::Reader;
 use run::Failure;

@@ -5,7 +5,7 @@ use crate::page::{Named, grouped};
 use crate::records::{Total, figure as digits};
 
 /// The table; nothing without records.
-pub(super) fn table(records: &[Named]) -> String {
+pub(in crate::page) fn table(records: &[Named]) -> String {
     let mut names: Vec<(&str, &str)> = Vec::new();
     for total in records.iter().flat_map(|r| &r.1.closing) {
         let name = (total.name.as_str(), total.unit.as_str());

@@ -1,0 +1,281 @@
+//! Contact of solids that are not, or no longer, one piece: other bodies, fragments, broken particles, plain walls.
+//!
+//! Two particles that come nearer than the mean of their spacings push each other, and never pull:
+//!
+//! ```text
+//! f = max(0, k delta - c u_n),   delta = (d_a + d_b)/2 - r,   c = 2 zeta sqrt(k m),   m = m_a m_b/(m_a + m_b)
+//! ```
+//!
+//! k is the stiffness of a cell under compression, M V/d^2. At a plain wall delta = d/2 - s. Neighbours at rest of one
+//! unbroken piece are no contact: what holds them keeps them apart. A particle that broke bears compression alone
+//! (Shinohara et al. 2004, section 2.3): it is one of these.
+
+use neighbours::Grid;
+use particles::{POSITION, Rows, sweep};
+use shapes::Body;
+
+use crate::matter::solid::elastic::REST;
+use crate::matter::solid::fracture::BROKEN;
+use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
+use crate::state::{ACCELERATION, MASS, State, VELOCITY};
+
+/// Neighbours at rest are nearer than so many cells.
+const JOINED: f64 = 1.6;
+/// Part of the time of a swing in contact that a step may take.
+const SWING: f64 = 0.2;
+/// Part of a spacing that a particle may go in a step.
+const WAY: f64 = 0.1;
+
+/// A solid that takes part.
+#[derive(Debug, Clone, Copy)]
+pub struct Party {
+    /// Number of its set.
+    pub set: usize,
+    /// d \[m\].
+    pub spacing: f64,
+    /// k \[N/m\].
+    pub stiffness: f64,
+}
+
+/// What a contact knows of a particle.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    x: [f64; 3],
+    u: [f64; 3],
+    rest: [f64; 3],
+    mass: f64,
+    party: u32,
+    broken: bool,
+}
+
+/// The stage.
+pub struct Contact {
+    parties: Vec<Party>,
+    walls: Vec<(String, Body)>,
+    /// zeta.
+    damping: f64,
+    grid: Grid,
+    rows: Rows,
+    seen: Vec<Seen>,
+    forces: Vec<[f64; 3]>,
+    stored: f64,
+    /// Force of all walls on the solids and what damping takes.
+    course: Course<4>,
+    entry: Entry,
+}
+
+impl Contact {
+    /// The stage of solids and plain walls.
+    #[must_use]
+    pub fn new(parties: Vec<Party>, walls: Vec<(String, Body)>, damping: f64) -> Self {
+        let reach = parties.iter().fold(0.0_f64, |most, p| most.max(p.spacing));
+        Self {
+            grid: Grid::new(reach),
+            rows: Rows::new(),
+            seen: Vec::new(),
+            forces: vec![[0.0; 3]; walls.len()],
+            stored: 0.0,
+            course: Course::default(),
+            entry: Entry::default(),
+            parties,
+            walls,
+            damping,
+        }
+    }
+
+    fn look(&mut self, state: &State) {
+        self.seen.clear();
+        for (number, party) in self.parties.iter().enumerate() {
+            let set = &state.sets[party.set];
+            let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
+            let (rest, mass, broken) = (set.column(&REST), set.column(&MASS), set.column(&BROKEN));
+            self.seen.extend((0..set.len()).map(|a| Seen {
+                x: position[a],
+                u: velocity[a],
+                rest: rest[a],
+                mass: mass[a],
+                party: number as u32,
+                broken: broken.get(a).is_some_and(|b| *b > 0),
+            }));
+        }
+        let places: Vec<[f64; 3]> = self.seen.iter().map(|s| s.x).collect();
+        let reach = self
+            .parties
+            .iter()
+            .fold(0.0_f64, |most, p| most.max(p.spacing));
+        self.grid.bin(&places);
+        self.rows.within(&places, &self.grid, reach);
+    }
+
+    /// Whether two particles belong to one unbroken piece, side by side.
+    fn joined(&self, a: &Seen, b: &Seen) -> bool {
+        let same = a.party == b.party && !a.broken && !b.broken;
+        same && {
+            let square: f64 = (0..3).map(|k| (a.rest[k] - b.rest[k]).powi(2)).sum();
+            square < (JOINED * self.parties[a.party as usize].spacing).powi(2)
+        }
+    }
+
+    /// Force \[N\] along the normal, energy stored \[J\] and power lost \[W\] at an overlap \[m\] and a speed apart \[m/s\].
+    fn push(&self, (stiffness, mass): (f64, f64), overlap: f64, apart: f64) -> [f64; 3] {
+        let spring = stiffness * overlap;
+        let damper = 2.0 * self.damping * (stiffness * mass).sqrt();
+        let force = (spring - damper * apart).max(0.0);
+        [force, 0.5 * spring * overlap, (spring - force) * apart]
+    }
+
+    /// Force \[N\], energy and loss of one particle by its pairs; of the last two it has half.
+    fn pairs(&self, a: usize) -> [f64; 5] {
+        let own = &self.seen[a];
+        let party = &self.parties[own.party as usize];
+        let mut sum = [0.0; 5];
+        for b in self.rows.row(a) {
+            let other = &self.seen[*b as usize];
+            let theirs = &self.parties[other.party as usize];
+            let dx = [0, 1, 2].map(|k| own.x[k] - other.x[k]);
+            let r = (dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]).sqrt();
+            let overlap = 0.5 * (party.spacing + theirs.spacing) - r;
+            if overlap <= 0.0 || r <= 0.0 || self.joined(own, other) {
+                continue;
+            }
+            let apart = (0..3).map(|k| (own.u[k] - other.u[k]) * dx[k]).sum::<f64>() / r;
+            let stiffness =
+                2.0 * party.stiffness * theirs.stiffness / (party.stiffness + theirs.stiffness);
+            let mass = own.mass * other.mass / (own.mass + other.mass);
+            let [force, stored, lost] = self.push((stiffness, mass), overlap, apart);
+            (0..3).for_each(|k| sum[k] += force * dx[k] / r);
+            sum[3] += 0.5 * stored;
+            sum[4] += 0.5 * lost;
+        }
+        sum
+    }
+
+    /// Energy that contacts gain because particles broke since the last step \[J\]: what breaking costs is less by that.
+    fn jump(&mut self, before: &[bool]) -> Option<f64> {
+        let now: Vec<bool> = self.seen.iter().map(|s| s.broken).collect();
+        if before.len() != now.len() || before == now {
+            return None;
+        }
+        let stored = |this: &Self| sweep::sum(this.seen.len(), |a| [this.pairs(a)[3]])[0];
+        let after = stored(self);
+        let mark = |seen: &mut [Seen], flags: &[bool]| {
+            seen.iter_mut().zip(flags).for_each(|(s, b)| s.broken = *b);
+        };
+        mark(&mut self.seen, before);
+        let jump = after - stored(self);
+        mark(&mut self.seen, &now);
+        Some(jump)
+    }
+
+    /// The same by one wall.
+    fn wall(&self, a: usize, body: &Body) -> [f64; 5] {
+        let own = &self.seen[a];
+        let party = &self.parties[own.party as usize];
+        let overlap = 0.5 * party.spacing - body.distance(own.x);
+        if overlap <= 0.0 {
+            return [0.0; 5];
+        }
+        let normal = body.normal(own.x, 1e-3 * party.spacing);
+        let apart: f64 = (0..3).map(|k| own.u[k] * normal[k]).sum();
+        let [force, stored, lost] = self.push((2.0 * party.stiffness, own.mass), overlap, apart);
+        let [x, y, z] = normal.map(|n| force * n);
+        [x, y, z, stored, lost]
+    }
+}
+
+impl Stage for Contact {
+    fn name(&self) -> &'static str {
+        "contact"
+    }
+
+    fn limit(&self, state: &State) -> Option<Limit> {
+        let each = self.parties.iter().map(|party| {
+            let set = &state.sets[party.set];
+            let velocity = set.column(&VELOCITY);
+            let speed = |a: usize| velocity[a][0].hypot(velocity[a][1]).hypot(velocity[a][2]);
+            let speed = sweep::greatest(set.len(), speed).map_or(0.0, |(_, most)| most);
+            let mass = set.column(&MASS).first().copied().unwrap_or(1.0);
+            let swing = SWING * (mass / party.stiffness).sqrt();
+            swing.min(WAY * party.spacing / speed)
+        });
+        Some(Limit {
+            seconds: each.fold(f64::INFINITY, f64::min),
+            name: "contact",
+        })
+    }
+
+    fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let before: Vec<bool> = self.seen.iter().map(|s| s.broken).collect();
+        self.look(state);
+        if let Some(jump) = self.jump(&before) {
+            self.entry.spent -= jump;
+        }
+        let mut found = vec![[0.0; 5]; self.seen.len()];
+        sweep::fill(&mut found, |a| self.pairs(a));
+        let mut total = [0.0; 3];
+        for (number, (_, body)) in self.walls.iter().enumerate() {
+            let mut pushed = vec![[0.0; 5]; self.seen.len()];
+            sweep::fill(&mut pushed, |a| self.wall(a, body));
+            let [x, y, z, ..] = sweep::sum(pushed.len(), |a| pushed[a]);
+            self.forces[number] = [-x, -y, -z];
+            (0..3).for_each(|k| total[k] -= self.forces[number][k]);
+            sweep::change(&mut found, |a, sum| {
+                (0..5).for_each(|k| sum[k] += pushed[a][k])
+            });
+        }
+        let [.., stored, lost] = sweep::sum(found.len(), |a| found[a]);
+        self.stored = stored;
+        let [x, y, z] = total;
+        let [x, y, z, lost] = self.course.over(dt, [x, y, z, lost]);
+        let given = self.entry.impulse.iter_mut().zip([x, y, z]);
+        given.for_each(|(sum, part)| *sum += part);
+        self.entry.spent += lost;
+        let mut first = 0;
+        for party in &self.parties {
+            let set = &mut state.sets[party.set];
+            let mut acceleration = set.take(&ACCELERATION);
+            let mass = set.column(&MASS);
+            sweep::change(&mut acceleration, |a, own| {
+                (0..3).for_each(|k| own[k] += found[first + a][k] / mass[a]);
+            });
+            first += mass.len();
+            set.put(&ACCELERATION, acceleration);
+        }
+        Ok(())
+    }
+
+    fn entry(&self, _: &State) -> Entry {
+        Entry {
+            stored: self.stored,
+            ..self.entry
+        }
+    }
+
+    fn figures(&self, state: &State) -> Vec<Figure> {
+        let walls = self.walls.iter().zip(&self.forces);
+        let each = walls.flat_map(|((name, _), force)| {
+            let axes = ["x", "y", "z"].iter().zip(*force).take(state.dimensions);
+            axes.map(move |(axis, value)| Figure {
+                name: format!("solid_force_on_{name}_{axis}"),
+                unit: "N",
+                value,
+            })
+        });
+        each.collect()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        let mut saved = [&self.entry.save()[..], &self.course.last(), &[self.stored]].concat();
+        saved.extend(self.forces.as_flattened());
+        saved
+    }
+
+    fn restore(&mut self, state: &State, saved: &[f64]) {
+        self.look(state);
+        let rest = self.entry.restore(saved);
+        if let [stored, forces @ ..] = self.course.restore(rest) {
+            self.stored = *stored;
+            self.forces.as_flattened_mut().copy_from_slice(forces);
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Where matters meet: water and solids, solids and solids, solids and walls.
+//!
+//! - [`skin`] shows a solid to the water: its cells, divided to the spacing of the water, where they are now;
+//! - [`wet`] is the pressure between the two; [`contact`] keeps solids apart.
+
+pub mod contact;
+pub mod skin;
+pub mod wet;

@@ -1,0 +1,147 @@
+//! A solid as water sees it.
+//!
+//! Shinohara et al. (2004, figs 4 and 5) let water see the particles of the solid as they stand, and it slips between
+//! them where they are coarser. Here each cell of the solid is divided into cells of the water's spacing, which stand
+//! where the deformation of their cell puts them,
+//!
+//! ```text
+//! x_p = x_a + F_a o_p,   V_p = J_a V_a/n,   u_p = u_a + dF_a/dt o_p
+//! ```
+//!
+//! so that an unbroken solid has no gaps at any ratio of spacings. A force on x_p is one on the cell and a moment of it,
+//! as of a load that stands there.
+
+use particles::{Column, POSITION, Set, sweep};
+
+use crate::matter::solid::tensor::{Matrix, determinant};
+use crate::state::VELOCITY;
+
+/// F along the axes of the lattice.
+pub const DEFORMATION: Column<Matrix> = Column::new(
+    "deformation",
+    "1",
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+)
+.saved();
+/// dF/dt \[1/s\] since F was last looked at.
+pub const DEFORMATION_RATE: Column<Matrix> = Column::new("deformation_rate", "1/s", [[0.0; 3]; 3]);
+/// Force of the water on a cell \[N\].
+pub const PULL: Column<[f64; 3]> = Column::new("water_force", "N", [0.0; 3]).shown();
+/// Moment of it: force by offset at rest \[N m\].
+pub const TWIST: Column<Matrix> = Column::new("water_moment", "N m", [[0.0; 3]; 3]);
+
+/// Most parts of a cell along an axis.
+const PARTS_MOST: f64 = 8.0;
+
+/// A point of the solid that water sees.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    /// x \[m\].
+    pub x: [f64; 3],
+    /// u \[m/s\].
+    pub u: [f64; 3],
+    /// V \[m3\].
+    pub volume: f64,
+    /// Its cell.
+    pub cell: u32,
+    /// Its offset from the middle of the cell at rest, along the axes of the lattice \[m\].
+    pub offset: [f64; 3],
+}
+
+/// How the cells of a solid are divided.
+#[derive(Debug, Clone)]
+pub struct Skin {
+    /// Number of the solid's set.
+    pub set: usize,
+    /// Offsets of the parts \[m\].
+    offsets: Vec<[f64; 3]>,
+    /// Volume of a part at rest \[m3\].
+    volume: f64,
+    /// Spacing of the parts \[m\].
+    pub spacing: f64,
+    /// From the middle of a cell to its corner at rest \[m\].
+    radius: f64,
+    /// The points near water, by cell.
+    pub points: Vec<Point>,
+}
+
+impl Skin {
+    /// The skin of a solid with cells of `size` \[m\] for water of a spacing \[m\].
+    #[must_use]
+    pub fn new(set: usize, size: [f64; 3], water: f64, dimensions: usize) -> Self {
+        let parts = |k: usize| {
+            if k < dimensions {
+                (size[k] / water).round().clamp(1.0, PARTS_MOST)
+            } else {
+                1.0
+            }
+        };
+        let counts = [0, 1, 2].map(parts);
+        let part = [0, 1, 2].map(|k| {
+            if k < dimensions {
+                size[k] / counts[k]
+            } else {
+                0.0
+            }
+        });
+        let mut offsets = Vec::new();
+        for k in 0..counts[2] as usize {
+            for j in 0..counts[1] as usize {
+                for i in 0..counts[0] as usize {
+                    let at = [i, j, k];
+                    offsets.push(
+                        [0, 1, 2]
+                            .map(|axis| part[axis] * (at[axis] as f64 + 0.5 - 0.5 * counts[axis])),
+                    );
+                }
+            }
+        }
+        let volume: f64 = part[..dimensions].iter().product();
+        Self {
+            set,
+            offsets,
+            volume,
+            spacing: volume.powf(1.0 / dimensions as f64),
+            radius: 0.5 * size[..dimensions].iter().map(|x| x * x).sum::<f64>().sqrt(),
+            points: Vec::new(),
+        }
+    }
+
+    /// Finds the points of cells within `reach` \[m\] of something, as `near` tells of a place and a distance.
+    pub fn look(&mut self, set: &Set, reach: f64, near: impl Fn([f64; 3], f64) -> bool + Sync) {
+        let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
+        let deformation = set.column(&DEFORMATION);
+        let rate = set.column(&DEFORMATION_RATE);
+        let moved = |m: &Matrix, offset: &[f64; 3], i: usize| -> f64 {
+            (0..3).map(|j| m[i][j] * offset[j]).sum()
+        };
+        let mut seen = vec![false; set.len()];
+        sweep::fill(&mut seen, |a| near(position[a], reach + 2.0 * self.radius));
+        self.points.clear();
+        for a in (0..set.len()).filter(|a| seen[*a]) {
+            let (f, g) = (&deformation[a], &rate[a]);
+            let volume = self.volume * determinant(f).abs();
+            self.points.extend(self.offsets.iter().map(|offset| Point {
+                x: [0, 1, 2].map(|i| position[a][i] + moved(f, offset, i)),
+                u: [0, 1, 2].map(|i| velocity[a][i] + moved(g, offset, i)),
+                volume,
+                cell: a as u32,
+                offset: *offset,
+            }));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_fill_the_cell() {
+        let skin = Skin::new(0, [2e-3, 3e-3, 1.0], 1e-3, 2);
+        assert_eq!(skin.offsets.len(), 6);
+        assert!((skin.volume * 6.0 - 6e-6).abs() < 1e-18);
+        let middle: f64 = skin.offsets.iter().map(|o| o[0] + o[1]).sum();
+        assert!(middle.abs() < 1e-15 && skin.offsets[0][2].abs() <= 0.0);
+    }
+}

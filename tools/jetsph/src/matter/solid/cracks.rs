@@ -1,0 +1,146 @@
+//! Links that cracks cut: who is left to whom, and the fits that are left.
+
+use neighbours::Grid;
+use particles::Rows;
+use rayon::prelude::*;
+
+use super::fracture::crossed;
+use super::links::{Links, SUPPORT, fit};
+
+/// What may stand between two linked places is nearer than this to either \[cells\].
+const AROUND: f64 = SUPPORT + 0.5;
+
+/// The neighbours that there were at rest.
+#[derive(Debug, Clone)]
+pub struct Cracks {
+    /// Places at rest in cells, anchors behind the particles.
+    places: Vec<[f64; 3]>,
+    rows: Rows,
+    around: Rows,
+}
+
+impl Cracks {
+    /// Of places at rest \[m\], the first `particles` of which may break.
+    #[must_use]
+    pub fn new(rest: &[[f64; 3]], particles: usize, cell: [f64; 3]) -> Self {
+        let scaled = |x: &[f64; 3]| [0, 1, 2].map(|k| x[k] / cell[k]);
+        let places: Vec<[f64; 3]> = rest.iter().map(scaled).collect();
+        let within = |radius: f64| {
+            let (mut grid, mut rows) = (Grid::new(SUPPORT), Rows::new());
+            grid.bin(&places);
+            rows.within(&places[..particles], &grid, radius);
+            rows
+        };
+        Self {
+            rows: within(SUPPORT),
+            around: within(AROUND),
+            places,
+        }
+    }
+
+    /// Those whose links the fresh cracks may cut, in order.
+    #[must_use]
+    pub fn touched(&self, fresh: &[usize], broken: &[bool]) -> Vec<usize> {
+        let mut touched: Vec<usize> = fresh
+            .iter()
+            .flat_map(|a| self.around.row(*a))
+            .map(|b| *b as usize)
+            .filter(|b| broken.get(*b) == Some(&false))
+            .collect();
+        touched.sort_unstable();
+        touched.dedup();
+        touched
+    }
+
+    /// The neighbours that particle `a` still has.
+    fn left(&self, a: usize, broken: &[bool]) -> Vec<u32> {
+        let is_broken = |b: &u32| broken.get(*b as usize).is_some_and(|b| *b);
+        let between: Vec<[f64; 3]> = self
+            .around
+            .row(a)
+            .iter()
+            .filter(|b| is_broken(b))
+            .map(|b| self.places[*b as usize])
+            .collect();
+        let is_left = |b: &&u32| {
+            let to = self.places[**b as usize];
+            !is_broken(b) && !crossed(self.places[a], to, between.iter().copied())
+        };
+        self.rows.row(a).iter().filter(is_left).copied().collect()
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.rows.bytes() + self.around.bytes() + 24 * self.places.len()
+    }
+}
+
+impl<const T: usize> Links<T> {
+    /// Fits the links of the `touched` anew and takes those of the `fresh` away. Gives those that too few neighbours
+    /// hold.
+    #[must_use]
+    pub fn cut(
+        &mut self,
+        cracks: &Cracks,
+        cell: [f64; 3],
+        broken: &[bool],
+        (fresh, touched): (&[usize], &[usize]),
+    ) -> Vec<usize> {
+        let fewest = if T == 5 { 4 } else { 7 };
+        let refit = |a: &usize| {
+            let row = cracks.left(*a, broken);
+            let (weights, held) = fit::<T>(&cracks.places, *a, &row);
+            let held = held && row.len() >= fewest;
+            (*a, row, weights, held)
+        };
+        let mut found: Vec<_> = touched.par_iter().map(refit).collect();
+        found.extend(fresh.iter().map(|a| (*a, Vec::new(), Vec::new(), true)));
+        found.sort_by_key(|(a, ..)| *a);
+        let loose = found
+            .iter()
+            .filter(|(.., held)| !held)
+            .map(|(a, ..)| *a)
+            .collect();
+        let new = found
+            .into_iter()
+            .map(|(a, row, weights, _)| (a, (row, weights)));
+        self.replace(new.collect(), cell);
+        loose
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crack_parts_its_sides_and_linear_fields_stay_exact() {
+        let places: Vec<[f64; 3]> = (0..81)
+            .map(|i| [f64::from(i % 9), f64::from(i / 9), 0.0])
+            .collect();
+        let (mut links, _) = Links::<5>::new(&places, 81, [1.0; 3]);
+        let cracks = Cracks::new(&places, 81, [1.0; 3]);
+        // A column of broken particles.
+        let fresh: Vec<usize> = (0..9).map(|j| 9 * j + 4).collect();
+        let broken: Vec<bool> = (0..81).map(|a| fresh.contains(&a)).collect();
+        let touched = cracks.touched(&fresh, &broken);
+        let loose = links.cut(&cracks, [1.0; 3], &broken, (&fresh, &touched));
+        assert!(loose.is_empty());
+        for a in (0..81).filter(|a| !broken[*a]) {
+            let row = links.row(a);
+            let mut slope = 0.0;
+            for (b, w) in row.other.iter().zip(row.weight) {
+                let b = *b as usize;
+                assert_eq!(a % 9 < 4, b % 9 < 4, "{a} still holds {b}");
+                assert!(
+                    links.row(b).other.contains(&(a as u32)),
+                    "{a} {b}: one way alone"
+                );
+                slope += w[0] * (3.0 * (places[b][0] - places[a][0]) + places[b][1] - places[a][1]);
+            }
+            assert!((slope - 3.0).abs() < 1e-10);
+        }
+        assert!(links.row(4).other.is_empty());
+    }
+}

@@ -1,0 +1,35 @@
+//! The page of a study of jets: films of the runs, the cut, forces and energies over time.
+
+mod curves;
+mod film;
+mod run;
+
+use ::run::Failure;
+
+use super::{Named, lead, runs};
+use crate::files::{JetFiles, save};
+use crate::html::Page;
+use crate::page::heat::totals;
+use crate::records::RunRecord;
+
+use self::run::Run;
+
+/// Writes the page.
+pub(crate) fn write(files: &JetFiles) -> Result<(), Failure> {
+    let mut all = Vec::new();
+    let mut records: Vec<Named> = Vec::new();
+    for (name, path) in &files.frames {
+        all.push(Run::open(name, path)?);
+        if let Some(record) = RunRecord::beside(path) {
+            records.push((name.clone(), record));
+        }
+    }
+    let mut page = Page::new(&files.study, &lead(&records));
+    page.section("What happens", film::section(&all)?);
+    page.section("The cut over time", curves::cut(&all)?);
+    page.section("Forces over time", curves::forces(&all)?);
+    page.section("Energies over time", curves::energies(&all)?);
+    page.section("The balance", totals::table(&records));
+    page.section("How it was computed", runs::section(&records));
+    save(&files.out, &page.render())
+}
