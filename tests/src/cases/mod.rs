@@ -13,12 +13,14 @@ mod arc_potential;
 mod arc_surface;
 mod arc_vapour;
 mod arc_wire_joule;
+mod dem_bed;
 mod dem_conductance;
 mod dem_contact;
 mod dem_incline;
 mod dem_pile;
 mod dem_rolling;
 mod dem_shear_loop;
+mod dem_wire;
 mod em_axisymmetric_sphere;
 mod em_bar;
 mod em_cylinder_ac;
@@ -85,6 +87,9 @@ fn grains() -> Vec<Box<dyn Case>> {
         Box::new(dem_incline::DemIncline),
         Box::new(dem_shear_loop::DemShearLoop),
         Box::new(dem_conductance::DemConductance),
+        Box::new(dem_bed::DemBed),
+        Box::new(dem_wire::DemWire),
+        Box::new(dem_wire::DemCavity),
         Box::new(dem_pile::DemPile),
     ]
 }

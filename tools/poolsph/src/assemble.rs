@@ -126,7 +126,8 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let mut grain_counts = Vec::new();
     match &scene.grains {
         Some(grains) => {
-            let (mut set, counts) = fill(grains);
+            let bed = bed(grains, inputs)?;
+            let (mut set, counts) = fill(grains, &bed);
             let motion = grain_motion(grains, &mut set, &counts);
             let motion = motion.map_err(|fault| fault.within("/grains"))?;
             parts.after.push(Box::new(motion));
@@ -163,6 +164,17 @@ fn checked_faces(scene: &Scene, faults: &mut Vec<Fault>) -> Faces {
             faults.push(fault.within("/faces"));
             Faces::default()
         }
+    }
+}
+
+/// Grains of the input `bed`, if the scene wants them.
+fn bed(scene: &grains::Parameters, inputs: &Inputs) -> Result<Vec<grains::fill::Lying>, Failure> {
+    match (scene.bodies.iter().any(|body| body.bed), inputs.get("bed")) {
+        (false, _) => Ok(Vec::new()),
+        (true, Some(path)) => crate::source::bed::read(path),
+        (true, None) => Err(Failure::Usage(
+            "this scene needs --input bed=FILE".to_owned(),
+        )),
     }
 }
 

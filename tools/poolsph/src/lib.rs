@@ -25,6 +25,7 @@ mod sweep;
 pub mod tool;
 mod trial;
 pub mod vector;
+mod watch;
 
 pub use state::near;
 pub use tool::PoolSph;

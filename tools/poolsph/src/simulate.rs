@@ -9,14 +9,10 @@ use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
 use crate::resume;
 use crate::scene::{Scene, due};
-use crate::stage::{Figure, Limit, StageError};
+use crate::stage::{Figure, StageError};
 use crate::state::State;
-use crate::vector::squared;
+use crate::watch::{bounded, endless, place, watch};
 
-/// A step that would be divided into more parts than this is refused: it would never end.
-const PARTS_MOST: f64 = 1e4;
-/// A particle that crosses so many diameters in a step belongs to no flow.
-const LEAP: f64 = 12.8;
 /// All numbers of the state are looked at once in so many steps, and before anything is kept.
 const WATCH_STEPS: u64 = 20;
 
@@ -107,7 +103,7 @@ fn with_grains(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<P
 pub fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
     let assembled = assemble(scene, inputs)?;
     let mut simulation = Simulation::begin(scene, assembled, session)?;
-    while simulation.run.state.step < scene.steps() {
+    while !simulation.ended() {
         simulation.step(session)?;
     }
     simulation.close(session);
@@ -136,6 +132,12 @@ impl<'a> Simulation<'a> {
         let mut simulation = Self { scene, run, start };
         simulation.write(session)?;
         Ok(simulation)
+    }
+
+    /// Whether the end has come, or what the run is for.
+    fn ended(&self) -> bool {
+        let ends = || self.run.march.stages().any(|stage| stage.ends());
+        self.run.state.step == self.scene.steps() || ends()
     }
 
     fn step(&mut self, session: &mut Session) -> Result<(), Failure> {
@@ -181,7 +183,7 @@ impl<'a> Simulation<'a> {
         let output = &self.scene.output;
         let is_due = |interval: f64| due(state.step, self.scene.step(), interval);
         // The state for which the run was made, whatever the interval.
-        let last = state.step == self.scene.steps();
+        let last = self.ended();
         let particles = last || is_due(output.particles_interval_s);
         let centre = source(state);
         let pool = output.pool.as_ref().filter(|pool| {
@@ -270,6 +272,12 @@ impl<'a> Simulation<'a> {
         for warning in crate::scene::thin(self.scene) {
             session.warn(warning);
         }
+        if state.step == self.scene.steps()
+            && self.scene.waits()
+            && !march.stages().any(|s| s.ends())
+        {
+            session.warn("not settled: grains still move at the end of the run".to_owned());
+        }
         for (name, bytes) in state.memory() {
             session.memory(name, bytes as u64);
         }
@@ -307,73 +315,6 @@ fn status(
     });
     row.extend(shown.map(|(_, figure)| (figure.name, figure.value, figure.unit)));
     row
-}
-
-/// Why a step so far beyond its limit cannot be taken.
-fn endless(dt: f64, limit: Limit) -> Option<String> {
-    let parts = dt / limit.seconds;
-    // A limit that is no number is none that can be kept.
-    (parts.is_nan() || parts > PARTS_MOST).then(|| {
-        let Limit { seconds, name } = limit;
-        format!(
-            "{dt} s is {parts:.1e} times the limit of '{name}', {seconds:.3e} s; \
-             a step is divided into at most {PARTS_MOST:.0e} parts"
-        )
-    })
-}
-
-/// Stops the run where a particle has become too fast for any step.
-fn bounded(state: &State, dt: f64) -> Result<(), Failure> {
-    let limit = LEAP * state.metal.spacing / dt;
-    let near = &state.near;
-    if near.fastest_squared() <= limit * limit {
-        return Ok(());
-    }
-    let speeds = near.velocity.iter().map(|u| squared(*u).sqrt());
-    let leaps = |(_, speed): &(usize, f64)| speed.is_nan() || *speed > limit;
-    let Some((member, speed)) = speeds.enumerate().find(leaps) else {
-        return Ok(());
-    };
-    let a = near.id[member] as usize;
-    Err(Failure::Diverged {
-        step: state.step,
-        time_s: state.time,
-        place: place(a, state.position[a]),
-        quantity: "speed [m/s]".to_owned(),
-        what: format!("is {speed:.4e} m/s, beyond {limit:.4e} m/s"),
-    })
-}
-
-/// Stops the run where a number is none.
-fn watch(state: &State) -> Result<(), Failure> {
-    for a in 0..state.len() {
-        let vector = |x: &[f64; 3]| x[0] + x[1] + x[2];
-        let scalar = |column: &Vec<f64>| column.get(a).copied().unwrap_or(0.0);
-        let found = [
-            ("position", "m", vector(&state.position[a])),
-            ("velocity", "m/s", vector(&state.velocity[a])),
-            ("temperature", "K", scalar(&state.temperature)),
-            ("enthalpy", "J/kg", scalar(&state.enthalpy)),
-            ("pressure", "Pa", scalar(&state.pressure)),
-        ];
-        if let Some((name, unit, value)) = found.iter().find(|(_, _, x)| !x.is_finite()) {
-            return Err(Failure::Diverged {
-                step: state.step,
-                time_s: state.time,
-                place: place(a, state.position[a]),
-                quantity: format!("{name} [{unit}]"),
-                what: format!("is {value}"),
-            });
-        }
-    }
-    Ok(())
-}
-
-fn place(particle: usize, x: [f64; 3]) -> String {
-    format!(
-        "particle {particle} at ({:.4e}, {:.4e}, {:.4e}) m",
-        x[0], x[1], x[2]
-    )
 }
 
 /// An error of a stage as the failure of the run.

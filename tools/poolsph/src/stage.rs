@@ -89,6 +89,11 @@ pub trait Stage: Send {
     /// When a quantity diverges or a table ends.
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError>;
 
+    /// Whether what the run is for has come about, ahead of its time.
+    fn ends(&self) -> bool {
+        false
+    }
+
     /// Numbers of the last step.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()

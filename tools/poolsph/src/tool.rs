@@ -18,11 +18,18 @@ impl Tool for PoolSph {
     const SCENE_KIND: &'static str = KIND.0;
     const SCENE_VERSION: u32 = KIND.1;
     const ARTEFACT_KIND: &'static str = "particle-frames";
-    const INPUTS: &'static [Input] = &[Input {
-        name: "arc",
-        what: "arc source (arc-source 1.x), needed by the keys that ask for it",
-        required: false,
-    }];
+    const INPUTS: &'static [Input] = &[
+        Input {
+            name: "arc",
+            what: "arc source (arc-source 1.x), needed by the keys that ask for it",
+            required: false,
+        },
+        Input {
+            name: "bed",
+            what: "grains at rest (particle-frames 1.x), for bodies of grains that say so",
+            required: false,
+        },
+    ];
     type Scene = Scene;
 
     fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {

@@ -40,11 +40,15 @@ pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failu
     let each = began.elapsed().as_secs_f64() / taken as f64;
     Ok(Estimate {
         seconds: each * total as f64,
-        basis: format!(
-            "{} a step, with the {} liquid particles of the start",
-            short(each),
-            state.liquid()
-        ),
+        basis: if scene.has_metal() {
+            format!(
+                "{} a step, with the {} liquid particles of the start",
+                short(each),
+                state.liquid()
+            )
+        } else {
+            format!("{} a step", short(each))
+        },
         memory: Vec::new(),
     })
 }

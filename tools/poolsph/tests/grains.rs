@@ -171,3 +171,37 @@ fn a_scene_of_nothing_is_refused_and_so_is_metal_without_its_lattice() {
     tight["grains"]["bodies"][0]["spacing_m"] = json!(0.9e-3);
     assert!(told(&tight).contains("within each other"));
 }
+
+#[test]
+fn a_bed_settles_and_a_later_scene_takes_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = shaken();
+    let walls = scene["grains"]["walls"][0].as_object_mut().unwrap();
+    walls.remove("velocity_m_s");
+    scene["grains"]["bodies"] = json!([{"shape": {"box": {"min_m": [-4e-3, -4e-3, -5e-3], "max_m": [4e-3, 4e-3, 0]}},
+        "radius_m": 0.6e-3, "jitter": 0.02, "spacing_m": 1.3e-3}]);
+    scene["grains"]["until"] = json!({"speed_m_s": 1e-3, "held_s": 5e-3});
+    scene["time"]["end_s"] = json!(1.0);
+    finished(&scene, "bed.mcap", folder.path(), &[]);
+    let last = |name: &str| {
+        let reader = artefact::Reader::open(folder.path().join(name)).unwrap();
+        let frames = reader.count("/grains");
+        reader.frame("/grains", frames - 1).unwrap()
+    };
+    let bed = last("bed.mcap");
+    assert!(bed.time_s < 0.9, "the grains never rest");
+    scene["grains"]["bodies"] = json!([{"bed": true}]);
+    scene["grains"].as_object_mut().unwrap().remove("until");
+    scene["time"]["end_s"] = json!(1e-2);
+    let input = format!("bed={}", folder.path().join("bed.mcap").display());
+    finished(&scene, "later.mcap", folder.path(), &["--input", &input]);
+    let later = last("later.mcap");
+    assert_eq!(later.len(), bed.len());
+    let (then, now) = (
+        bed.position_vectors().unwrap(),
+        later.position_vectors().unwrap(),
+    );
+    for (x, y) in then.iter().zip(&now) {
+        assert!((0..3).all(|k| (x[k] - y[k]).abs() < 0.6e-4), "{x:?} {y:?}");
+    }
+}

@@ -14,6 +14,8 @@
 
 use contact::{Meeting, Normal};
 
+use super::parameters::Parameters;
+
 /// Part of the stable step that is taken.
 const PART: f64 = 0.8;
 /// Grains move by at most this part of the least radius in a step.
@@ -83,6 +85,19 @@ pub struct Doing {
 }
 
 impl Setting {
+    /// Of grains of these masses \[kg\] and radii \[m\].
+    #[must_use]
+    pub fn of(scene: &Parameters, masses: &[f64], radii: &[f64]) -> Self {
+        let least = |column: &[f64]| column.iter().copied().fold(f64::INFINITY, f64::min);
+        Self {
+            lightest: least(masses),
+            radii: [least(radii), radii.iter().copied().fold(0.0, f64::max)],
+            inertia_factor: scene.inertia_factor,
+            rubs: scene.contact.friction.is_some(),
+            steps_per_contact: scene.steps_per_contact,
+        }
+    }
+
     /// The slack of two of the lightest grains that touch nothing else.
     #[must_use]
     pub fn pair(&self, zeta: f64) -> Slack {

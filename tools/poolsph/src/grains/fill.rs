@@ -2,11 +2,14 @@
 
 use particles::{Ids, Matter, POSITION, Set};
 use run::Fault;
-use shapes::Body;
 use shapes::check;
+use shapes::{Body, Shape};
 
 use super::parameters::{GrainBody, Parameters};
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, VELOCITY};
+
+/// Place \[m\] and radius \[m\] of a grain.
+pub type Lying = ([f64; 3], f64);
 
 /// Most grains of a run: some 5 GB.
 const MOST: f64 = 2e7;
@@ -50,11 +53,19 @@ pub fn faults(scene: &Parameters) -> Vec<Fault> {
 
 /// Places on the lattice of a body, or what is wrong with it.
 fn checked(body: &GrainBody, at: &str) -> Result<f64, Fault> {
-    let shape = match (&body.shape, body.places_m.is_empty()) {
-        (None, true) => return Err(Fault::at(at, "needs the key 'shape' or the key 'places_m'")),
-        (Some(_), false) => return Err(Fault::at(at, "has both keys 'shape' and 'places_m'")),
-        (None, false) => return Ok(body.places_m.len() as f64),
-        (Some(shape), true) => shape,
+    let told = [body.shape.is_some(), !body.places_m.is_empty(), body.bed];
+    if told.iter().filter(|told| **told).count() != 1 {
+        let what = "needs one of the keys 'shape', 'places_m' and 'bed'";
+        return Err(Fault::at(at, what));
+    }
+    if body.bed {
+        return Ok(0.0);
+    }
+    let Some(radius) = body.radius_m else {
+        return Err(Fault::at(at, "needs the key 'radius_m'"));
+    };
+    let Some(shape) = &body.shape else {
+        return Ok(body.places_m.len() as f64);
     };
     let at_shape = format!("{at}/shape");
     let mut misfits = Vec::new();
@@ -63,11 +74,11 @@ fn checked(body: &GrainBody, at: &str) -> Result<f64, Fault> {
         return Err(Fault::at(&misfit.path, misfit.what));
     }
     let [low, high] = Body::new(shape, 3).bounds();
-    let spacing = body.spacing();
-    if spacing < 2.0 * body.radius_m * (1.0 - OUT) {
+    let spacing = body.spacing_m.unwrap_or(2.0 * radius);
+    if spacing < 2.0 * radius * (1.0 - OUT) {
         let what = format!(
             "{spacing} m is less than a diameter, {} m: grains would begin within each other",
-            2.0 * body.radius_m
+            2.0 * radius
         );
         return Err(Fault::at(&format!("{at}/spacing_m"), what));
     }
@@ -82,18 +93,26 @@ fn checked(body: &GrainBody, at: &str) -> Result<f64, Fault> {
 }
 
 impl GrainBody {
-    fn spacing(&self) -> f64 {
-        self.spacing_m.unwrap_or(2.0 * self.radius_m)
+    /// Places and radii of the grains \[m\].
+    fn places(&self, bed: &[Lying]) -> Vec<Lying> {
+        if self.bed {
+            return bed.to_vec();
+        }
+        let radius = self.radius_m.unwrap_or(0.0);
+        let lying = |place: &[f64; 3]| (*place, radius);
+        match &self.shape {
+            Some(shape) => self.lattice(shape).iter().map(lying).collect(),
+            None => self.places_m.iter().map(lying).collect(),
+        }
     }
 
-    /// Places of the grains \[m\]; `shaken` numbers of chance have been used before.
-    fn places(&self) -> Vec<[f64; 3]> {
-        let Some(shape) = &self.shape else {
-            return self.places_m.clone();
-        };
+    /// Places on the lattice \[m\].
+    fn lattice(&self, shape: &Shape) -> Vec<[f64; 3]> {
         let body = Body::new(shape, 3);
         let [low, high] = body.bounds();
-        let (spacing, reach) = (self.spacing(), self.radius_m * (1.0 - OUT));
+        let radius = self.radius_m.unwrap_or(0.0);
+        let spacing = self.spacing_m.unwrap_or(2.0 * radius);
+        let reach = radius * (1.0 - OUT);
         // A side that a whole number of spacings fills to rounding holds as many.
         let counts = [0, 1, 2].map(|k| ((high[k] - low[k]) / spacing + OUT).floor() as usize);
         let mut places = Vec::new();
@@ -116,10 +135,11 @@ impl GrainBody {
     }
 }
 
-/// The grains of all bodies, and how many each holds.
+/// The grains of all bodies, and how many each holds; `bed` are those of the input.
 #[must_use]
-pub fn fill(scene: &Parameters) -> (Set, Vec<usize>) {
-    let widest = scene.bodies.iter().map(|b| b.radius_m).fold(0.0, f64::max);
+pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
+    let radii = scene.bodies.iter().filter_map(|b| b.radius_m);
+    let widest = radii.chain(bed.iter().map(|(_, r)| *r)).fold(0.0, f64::max);
     let matter = Matter {
         density: scene.density_kg_m3,
         spacing: 2.0 * widest,
@@ -138,17 +158,17 @@ pub fn fill(scene: &Parameters) -> (Set, Vec<usize>) {
     }
     let mut counts = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {
-        let places = body.places();
+        let places = body.places(bed);
         let density = body.density_kg_m3.unwrap_or(scene.density_kg_m3);
         counts.push(places.len());
-        for place in places {
+        for (place, radius) in places {
             let row = set.push(&mut ids);
             set.column_mut(&POSITION)[row] = place;
             set.column_mut(&VELOCITY)[row] = body.velocity_m_s.unwrap_or_default();
             set.column_mut(&SPIN)[row] = body.spin_rad_s.unwrap_or_default();
-            set.column_mut(&RADIUS)[row] = body.radius_m;
+            set.column_mut(&RADIUS)[row] = radius;
             set.column_mut(&MASS)[row] =
-                density * 4.0 / 3.0 * std::f64::consts::PI * body.radius_m.powi(3);
+                density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
             if body.driven_m_s.is_some() {
                 set.column_mut(&DRIVEN)[row] = i as u8 + 1;
             }

@@ -27,6 +27,7 @@ pub mod motion;
 pub mod moving;
 pub mod pairs;
 pub mod parameters;
+pub mod pressure;
 pub mod totals;
 pub mod walls;
 

@@ -10,7 +10,7 @@ use super::bounds::{Doing, Setting, Slack};
 use super::heat::Heat;
 use super::lists::{Lists, Memory, renumber};
 use super::moving::Moving;
-use super::parameters::{BoundsScene, Law, Parameters};
+use super::parameters::{BoundsScene, Law, Parameters, RestScene};
 use super::walls::{self, Walls};
 use super::{MASS, RADIUS, VELOCITY, pairs};
 use crate::stage::{Figure, Limit, Stage, StageError};
@@ -25,6 +25,9 @@ pub struct Motion {
     zeta: f64,
     walls: Walls,
     bounds: Option<BoundsScene>,
+    until: Option<RestScene>,
+    /// How long no grain has been faster than at rest \[s\].
+    quiet: f64,
     lists: Lists,
     wall_contacts: Vec<u32>,
     moving: Moving,
@@ -38,7 +41,7 @@ pub struct Motion {
 }
 
 /// Numbers of a checkpoint ahead of the walls.
-const HEAD: usize = 8;
+const HEAD: usize = 9;
 
 impl Motion {
     /// The motion of the grains of `set` as the scene has it.
@@ -47,19 +50,8 @@ impl Motion {
     /// A formula that cannot be read.
     pub fn new(scene: &Parameters, set: &Set, heat: Option<Heat>) -> Result<Self, Fault> {
         let law = scene.contact.law();
-        let zeta = match &law {
-            Law::Linear(law) => law.damping_ratio(),
-            Law::Hertz(law) => law.damping_ratio(),
-        };
-        let least = |column: &[f64]| column.iter().copied().fold(f64::INFINITY, f64::min);
-        let radii = set.column(&RADIUS);
-        let setting = Setting {
-            lightest: least(set.column(&MASS)),
-            radii: [least(radii), radii.iter().copied().fold(0.0, f64::max)],
-            inertia_factor: scene.inertia_factor,
-            rubs: scene.contact.friction.is_some(),
-            steps_per_contact: scene.steps_per_contact,
-        };
+        let zeta = law.damping_ratio();
+        let setting = Setting::of(scene, set.column(&MASS), set.column(&RADIUS));
         let drives = scene.bodies.iter().enumerate().map(|(i, body)| {
             let velocity = body.driven_m_s.as_ref();
             let curves = velocity.map(|v| walls::curves(v, &format!("/bodies/{i}/driven_m_s")));
@@ -74,8 +66,10 @@ impl Motion {
             rolling: scene.contact.rolling(),
             setting,
             zeta,
-            walls: Walls::new(&scene.walls)?,
+            walls: Walls::new(&scene.walls, setting.radii)?,
             bounds: scene.bounds,
+            until: scene.until,
+            quiet: 0.0,
             lists: Lists::new(scene.contact.rolling.is_some()),
             wall_contacts: Vec::new(),
             moving: Moving::new(gravity, scene.inertia_factor, drives),
@@ -118,6 +112,7 @@ impl Motion {
         self.walls.begin(time)?;
         self.moving.begin(time)?;
         self.list();
+        self.walls.spread(&self.moving.grains);
         self.act(0.0);
         Ok(())
     }
@@ -159,7 +154,8 @@ impl Motion {
         ) else {
             return;
         };
-        let [pairs, deepest, fastest, left, mass, steps, brought, limit] = *head;
+        let [pairs, deep, fast, left, mass, steps, brought, limit, quiet] = *head;
+        self.quiet = quiet;
         if let Some(heat) = &mut self.heat {
             (heat.brought, heat.limit) = (brought, limit);
         }
@@ -184,7 +180,7 @@ impl Motion {
             grain.position = now;
         }
         self.walls.place(&moved);
-        (self.doing.deepest, self.doing.fastest) = (deepest, fastest);
+        (self.doing.deepest, self.doing.fastest) = (deep, fast);
     }
 
     /// Forces and moments of all contacts.
@@ -246,10 +242,7 @@ impl Motion {
     /// Forgets grains outside of the bounds.
     fn leave(&mut self, set: &mut Set) {
         let Some(bounds) = self.bounds else { return };
-        let outside = |grain: &Grain| {
-            (0..3)
-                .any(|k| grain.position[k] < bounds.min_m[k] || grain.position[k] > bounds.max_m[k])
-        };
+        let outside = |grain: &Grain| !bounds.holds(grain.position);
         if !self.moving.grains.iter().any(outside) {
             return;
         }
@@ -310,6 +303,7 @@ impl Stage for Motion {
             if !self.begun {
                 self.begin(state.time)?;
             }
+            self.walls.spread(&self.moving.grains);
             let mut done = 0.0;
             while done < dt {
                 let left = dt - done;
@@ -324,6 +318,10 @@ impl Stage for Motion {
             Ok(())
         };
         let marched = march();
+        let still = self
+            .until
+            .is_some_and(|rest| self.doing.fastest < rest.speed_m_s);
+        self.quiet = if still { self.quiet + dt } else { 0.0 };
         self.leave(&mut set);
         let diverged = self.diverged(state);
         self.moving.put(&mut set);
@@ -334,6 +332,10 @@ impl Stage for Motion {
         state.grains = Some(set);
         marched.map_err(|what| StageError::Data(what.to_string()))?;
         diverged.map_or(warmed, Err)
+    }
+
+    fn ends(&self) -> bool {
+        self.until.is_some_and(|rest| self.quiet >= rest.held_s)
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -377,6 +379,7 @@ impl Stage for Motion {
             steps,
             brought,
             limit,
+            self.quiet,
         ];
         saved.extend(self.walls.save());
         let memories = between.iter().chain(&at_walls);

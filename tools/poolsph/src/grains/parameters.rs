@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contact::{Elastic, Ending, Friction, Hertz, Linear, Rolling};
+use contact::{Elastic, Ending, Friction, Hertz, Linear, Normal, Rolling};
 use run::Fault;
 use run::property::Property;
 use schemars::JsonSchema;
@@ -37,6 +37,8 @@ pub struct Parameters {
     pub bounds: Option<BoundsScene>,
     /// Heat between grains that touch; absent: temperatures are of no account.
     pub heat: Option<GrainHeat>,
+    /// The run ends when the grains have come to rest; absent: at its time.
+    pub until: Option<RestScene>,
     /// Steps in the duration of a contact of two of the lightest grains, at least; stability may ask for more.
     #[serde(default = "twenty")]
     #[schemars(range(min = 5.0, max = 10000.0), extend("x-unit" = "1"))]
@@ -137,15 +139,18 @@ pub struct RollingScene {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrainBody {
-    /// Places of single grains; or the key `shape`.
+    /// Places of single grains; or the key `shape`, or `bed`.
     #[serde(default)]
     #[schemars(extend("x-unit" = "m"))]
     pub places_m: Vec<[f64; 3]>,
     /// A shape filled with grains that lie wholly in it, on a cubic lattice; or the key `places_m`.
     pub shape: Option<Shape>,
-    /// Radius of a grain.
+    /// The grains of the input `bed`, where they lay at its end.
+    #[serde(default)]
+    pub bed: bool,
+    /// Radius of a grain; those of a bed have theirs.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub radius_m: f64,
+    pub radius_m: Option<f64>,
     /// Spacing of the lattice; a diameter if absent.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: Option<f64>,
@@ -276,9 +281,27 @@ pub struct WallScene {
     /// Velocity, numbers or formulas in t; at rest if absent.
     #[schemars(extend("x-unit" = "m/s"))]
     pub velocity_m_s: Option<[Property; 3]>,
+    /// Velocity at which its surface goes along itself, beside that of the wall: a wire that is fed. Numbers or formulas in t.
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub surface_m_s: Option<[Property; 3]>,
+    /// Pressure of its surface on the grains beside it: a cavity. Absent: none.
+    #[schemars(extend("x-unit" = "Pa"))]
+    pub pressure_pa: Option<f64>,
     /// Coefficient of friction on this wall, if it is another.
     #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
     pub friction: Option<f64>,
+}
+
+/// When grains rest.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RestScene {
+    /// No grain is faster.
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
+    pub speed_m_s: f64,
+    /// For so long.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub held_s: f64,
 }
 
 /// Box in which grains are followed.
@@ -300,6 +323,25 @@ pub enum Law {
     Linear(Linear),
     /// Elastic spheres.
     Hertz(Hertz),
+}
+
+impl Law {
+    /// Share of critical damping.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        match self {
+            Self::Linear(law) => law.damping_ratio(),
+            Self::Hertz(law) => law.damping_ratio(),
+        }
+    }
+}
+
+impl BoundsScene {
+    /// Whether a place is within.
+    #[must_use]
+    pub fn holds(&self, place: [f64; 3]) -> bool {
+        (0..3).all(|k| place[k] >= self.min_m[k] && place[k] <= self.max_m[k])
+    }
 }
 
 impl ContactScene {

@@ -3,12 +3,13 @@
 use contact::{Contact, Grain, History, Meeting, Normal, Reply, Rolling};
 use rayon::prelude::*;
 use run::Fault;
-use run::property::{Arguments, Curve, OutOfRange};
+use run::property::{Arguments, Curve, OutOfRange, Property};
 use shapes::frame::{Vector, along, difference, length};
 
 use super::faces::Face;
 use super::lists::Memory;
 use super::parameters::WallScene;
+use super::pressure::Pressed;
 
 /// A grain near a face.
 #[derive(Debug, Clone, Copy)]
@@ -27,6 +28,10 @@ struct Wall {
     face: Face,
     /// Velocity \[m/s\], if it moves.
     driven: Option<[Curve; 3]>,
+    /// Velocity of its surface along itself \[m/s\], if that goes.
+    slides: Option<[Curve; 3]>,
+    sliding: Vector,
+    pressed: Option<Pressed>,
     friction: Option<f64>,
     velocity: Vector,
     /// How far it has moved since the start \[m\], and where that was when neighbours were listed.
@@ -52,31 +57,41 @@ pub fn velocity(curves: &[Curve; 3], time: f64) -> Result<Vector, OutOfRange> {
 }
 
 impl Walls {
-    /// The walls of a scene.
+    /// The walls of a scene, for grains whose least and greatest radius \[m\] are `radii`.
     ///
     /// # Errors
     /// A formula that cannot be read.
-    pub fn new(scene: &[WallScene]) -> Result<Self, Fault> {
-        let mut walls = Vec::new();
+    pub fn new(scene: &[WallScene], radii: [f64; 2]) -> Result<Self, Fault> {
+        let mut walls: Vec<Wall> = Vec::new();
         for (i, wall) in scene.iter().enumerate() {
-            let driven = match &wall.velocity_m_s {
-                None => None,
-                Some(velocity) => Some(curves(velocity, &format!("/walls/{i}/velocity_m_s"))?),
+            let by = |velocity: &Option<[Property; 3]>, key: &str| {
+                let at = format!("/walls/{i}/{key}");
+                velocity.as_ref().map(|v| curves(v, &at)).transpose()
             };
+            let driven = by(&wall.velocity_m_s, "velocity_m_s")?;
+            let slides = by(&wall.surface_m_s, "surface_m_s")?;
             let faces = if wall.hollow {
                 Face::inside(&wall.shape)
             } else {
                 Face::outside(&wall.shape)
             };
+            let before = walls.len();
             walls.extend(faces.into_iter().map(|face| Wall {
                 face,
                 driven: driven.clone(),
+                slides: slides.clone(),
+                sliding: [0.0; 3],
+                pressed: None,
                 friction: wall.friction,
                 velocity: [0.0; 3],
                 moved: [0.0; 3],
                 listed: [0.0; 3],
                 near: Vec::new(),
             }));
+            // All faces of a wall are one surface.
+            if let (Some(pressure), Some(first)) = (wall.pressure_pa, walls.get_mut(before)) {
+                first.pressed = Some(Pressed::new(&wall.shape, pressure, radii));
+            }
         }
         Ok(Self { walls })
     }
@@ -101,6 +116,9 @@ impl Walls {
                     *moved += 0.5 * step * (wall.velocity[k] + now[k]);
                 }
                 wall.velocity = now;
+            }
+            if let Some(curves) = &wall.slides {
+                wall.sliding = velocity(curves, time)?;
             }
         }
         Ok(())
@@ -137,9 +155,16 @@ impl Walls {
         for (w, wall) in self.walls.iter_mut().enumerate() {
             wall.listed = wall.moved;
             wall.near.clear();
+            if let Some(pressed) = &mut wall.pressed {
+                pressed.rows.clear();
+            }
             for (row, grain) in grains.iter().enumerate() {
                 let own = difference(grain.position, wall.moved);
-                if wall.face.distance(own) < grain.radius + skin {
+                let distance = wall.face.distance(own);
+                if let Some(pressed) = wall.pressed.as_mut().filter(|p| distance < p.near) {
+                    pressed.rows.push(row as u32);
+                }
+                if distance < grain.radius + skin {
                     wall.near.push(Near {
                         row: row as u32,
                         touching: false,
@@ -188,7 +213,8 @@ impl Walls {
             if let Some(coefficient) = wall.friction {
                 own.friction = Some(contact::Friction { coefficient });
             }
-            let (face, moved, velocity) = (&wall.face, wall.moved, wall.velocity);
+            let (face, moved) = (&wall.face, wall.moved);
+            let velocity = along(wall.velocity, 1.0, wall.sliding);
             let near = wall.near.par_iter_mut().with_min_len(256);
             near.for_each(|near| {
                 let grain = &grains[near.row as usize];
@@ -204,6 +230,9 @@ impl Walls {
 
     /// Adds force \[N\] and moment \[N m\] of the walls.
     pub fn add(&self, force: &mut [Vector], moment: &mut [Vector]) {
+        for pressed in self.walls.iter().filter_map(|wall| wall.pressed.as_ref()) {
+            pressed.add(force);
+        }
         for near in self.walls.iter().flat_map(|wall| &wall.near) {
             if let Some(reply) = near.reply {
                 let row = near.row as usize;
@@ -213,12 +242,13 @@ impl Walls {
         }
     }
 
-    /// Force on all walls \[N\].
-    #[must_use]
-    pub fn load(&self) -> Vector {
-        let replies = self.walls.iter().flat_map(|wall| &wall.near);
-        let replies = replies.filter_map(|near| near.reply);
-        replies.fold([0.0; 3], |sum, reply| along(sum, -1.0, reply.force))
+    /// Finds the grains that bear pressure.
+    pub fn spread(&mut self, grains: &[Grain]) {
+        for wall in &mut self.walls {
+            if let Some(pressed) = &mut wall.pressed {
+                pressed.spread(grains, wall.moved);
+            }
+        }
     }
 
     /// Where the walls are, as numbers for a checkpoint.
@@ -315,8 +345,8 @@ impl Near {
 ///
 /// # Errors
 /// One that cannot be read.
-pub fn curves(velocity: &[run::property::Property; 3], at: &str) -> Result<[Curve; 3], Fault> {
+pub fn curves(velocity: &[Property; 3], at: &str) -> Result<[Curve; 3], Fault> {
     let [u, v, w] = velocity;
-    let curve = |k: usize, p: &run::property::Property| p.compile(&format!("{at}/{k}"), &["t"]);
+    let curve = |k: usize, p: &Property| p.compile(&format!("{at}/{k}"), &["t"]);
     Ok([curve(0, u)?, curve(1, v)?, curve(2, w)?])
 }

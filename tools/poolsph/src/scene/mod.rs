@@ -134,6 +134,14 @@ impl Scene {
         !self.bodies.is_empty()
     }
 
+    /// Whether the run is to end when grains rest.
+    #[must_use]
+    pub fn waits(&self) -> bool {
+        self.grains
+            .as_ref()
+            .is_some_and(|grains| grains.until.is_some())
+    }
+
     /// Number of steps.
     #[must_use]
     pub fn steps(&self) -> u64 {

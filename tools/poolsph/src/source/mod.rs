@@ -1,6 +1,7 @@
 //! The moving arc: where it stands and where in the droplet's period it is.
 
 pub mod arc;
+pub mod bed;
 mod path;
 
 pub use path::{Parameters, Path};

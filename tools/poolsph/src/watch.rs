@@ -1,0 +1,80 @@
+//! What stops a run: steps that never end, particles too fast for any step, numbers that are none.
+
+use run::Failure;
+
+use crate::stage::Limit;
+use crate::state::State;
+use crate::vector::squared;
+
+/// A step that would be divided into more parts than this is refused: it would never end.
+const PARTS_MOST: f64 = 1e4;
+/// A particle that crosses so many diameters in a step belongs to no flow.
+const LEAP: f64 = 12.8;
+
+/// Why a step so far beyond its limit cannot be taken.
+pub(crate) fn endless(dt: f64, limit: Limit) -> Option<String> {
+    let parts = dt / limit.seconds;
+    // A limit that is no number is none that can be kept.
+    (parts.is_nan() || parts > PARTS_MOST).then(|| {
+        let Limit { seconds, name } = limit;
+        format!(
+            "{dt} s is {parts:.1e} times the limit of '{name}', {seconds:.3e} s; \
+             a step is divided into at most {PARTS_MOST:.0e} parts"
+        )
+    })
+}
+
+/// Stops the run where a particle has become too fast for any step.
+pub(crate) fn bounded(state: &State, dt: f64) -> Result<(), Failure> {
+    let limit = LEAP * state.metal.spacing / dt;
+    let near = &state.near;
+    if near.fastest_squared() <= limit * limit {
+        return Ok(());
+    }
+    let speeds = near.velocity.iter().map(|u| squared(*u).sqrt());
+    let leaps = |(_, speed): &(usize, f64)| speed.is_nan() || *speed > limit;
+    let Some((member, speed)) = speeds.enumerate().find(leaps) else {
+        return Ok(());
+    };
+    let a = near.id[member] as usize;
+    Err(Failure::Diverged {
+        step: state.step,
+        time_s: state.time,
+        place: place(a, state.position[a]),
+        quantity: "speed [m/s]".to_owned(),
+        what: format!("is {speed:.4e} m/s, beyond {limit:.4e} m/s"),
+    })
+}
+
+/// Stops the run where a number is none.
+pub(crate) fn watch(state: &State) -> Result<(), Failure> {
+    for a in 0..state.len() {
+        let vector = |x: &[f64; 3]| x[0] + x[1] + x[2];
+        let scalar = |column: &Vec<f64>| column.get(a).copied().unwrap_or(0.0);
+        let found = [
+            ("position", "m", vector(&state.position[a])),
+            ("velocity", "m/s", vector(&state.velocity[a])),
+            ("temperature", "K", scalar(&state.temperature)),
+            ("enthalpy", "J/kg", scalar(&state.enthalpy)),
+            ("pressure", "Pa", scalar(&state.pressure)),
+        ];
+        if let Some((name, unit, value)) = found.iter().find(|(_, _, x)| !x.is_finite()) {
+            return Err(Failure::Diverged {
+                step: state.step,
+                time_s: state.time,
+                place: place(a, state.position[a]),
+                quantity: format!("{name} [{unit}]"),
+                what: format!("is {value}"),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// A particle by number and place.
+pub(crate) fn place(particle: usize, x: [f64; 3]) -> String {
+    format!(
+        "particle {particle} at ({:.4e}, {:.4e}, {:.4e}) m",
+        x[0], x[1], x[2]
+    )
+}
