@@ -51,10 +51,12 @@ impl Tool for EmField {
     type Scene = Scene;
 
     fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
-        let faults = scene.eddy_currents.iter();
-        let faults: Vec<_> = faults
-            .flat_map(|e| assemble::drive::faults(scene, e))
-            .collect();
+        let mut faults = scene.faults();
+        // What drives currents has its form once nothing is wrong with the scene itself.
+        if faults.is_empty() {
+            let currents = scene.eddy_currents.iter();
+            faults.extend(currents.flat_map(|e| assemble::drive::faults(scene, e)));
+        }
         if !faults.is_empty() {
             return Err(faults.into());
         }
@@ -74,6 +76,16 @@ impl Tool for EmField {
             *ready = Some((scene.clone(), planned));
         }
         Ok(plan)
+    }
+
+    fn outline(scene: &Scene) -> Plan {
+        let plan = Plan::new();
+        if !scene.faults().is_empty() {
+            return plan;
+        }
+        let [points, bytes] = Cloud::least(scene);
+        plan.count("points, at least", points as u64)
+            .memory("points and weights, at least", bytes as u64)
     }
 
     fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {

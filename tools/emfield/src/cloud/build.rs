@@ -10,11 +10,9 @@ use super::layers::{Column, thicknesses};
 use super::occupied::Occupied;
 use super::region::{Region, Wall};
 use super::surface::{self, Seed};
-use super::{Class, Cloud, Counts, Metric, cells};
+use super::{Class, Cloud, Counts, Metric, cells, count};
 use crate::scene::{Geometry, Layers, Scene};
 
-/// Most points of a cloud.
-const MOST: f64 = 5e8;
 /// Least width of a body over its spacing: the points of a smaller one hang together with each other alone.
 const NARROW: f64 = 0.5;
 /// Width of a body over its spacing below which fields in it are told to be unresolved: with 3 they err by half.
@@ -30,7 +28,7 @@ pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
         return Err(faults);
     }
     let mut region = Region::new(scene);
-    check_sizes(&region)?;
+    check_sizes(scene, &region)?;
     let plans = plans(scene, &mut region);
     let mut builder = Builder::new(scene, region);
     let nodes = lattice::nodes(&builder.region);
@@ -47,14 +45,13 @@ pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
     Ok(cloud)
 }
 
-/// Refuses sizes at which counting would take for ever.
-fn check_sizes(region: &Region) -> Result<(), Vec<Fault>> {
+/// Refuses bodies that points cannot follow, and more points than there is room for.
+fn check_sizes(scene: &Scene, region: &Region) -> Result<(), Vec<Fault>> {
     let mut faults = Vec::new();
     for (k, solid) in region.solids.iter().enumerate() {
         let size = width(solid, region.dimensions);
-        let widest = size.clone().fold(0.0, f64::max);
-        let number: f64 = size.map(|s| s.max(1.0)).product();
-        if !number.is_finite() {
+        let widest = size.fold(0.0, f64::max);
+        if !widest.is_finite() {
             faults.push(Fault::at(
                 &format!("/bodies/{k}/shape"),
                 "the body has no end",
@@ -65,24 +62,10 @@ fn check_sizes(region: &Region) -> Result<(), Vec<Fault>> {
                 solid.spacing
             );
             faults.push(Fault::at(&format!("/bodies/{k}/shape"), what));
-        } else if number > MOST {
-            let what = format!(
-                "spacing {} m gives more than {number:.1e} points; at most {MOST:.0e}",
-                solid.spacing
-            );
-            faults.push(Fault::at("/points/spacing_m", what));
         }
     }
-    if region.solids.is_empty() && lattice::most(region) > MOST {
-        let what = format!(
-            "spacing {} m gives more than {:.1e} points; at most {MOST:.0e}",
-            region.spacing,
-            lattice::most(region)
-        );
-        faults.push(Fault::at("/points/spacing_m", what));
-    }
     if faults.is_empty() {
-        Ok(())
+        count::check(scene, region)
     } else {
         Err(faults)
     }

@@ -44,9 +44,7 @@ impl Builder {
                 columns.push(Column::bare(seed, point, Some(k), media));
             }
             self.give(&crowded, &mut columns[before..]);
-            let inside = self.region.solids[k].body.bounds();
-            let middle = std::array::from_fn(|a| 0.5 * (inside[0][a] + inside[1][a]));
-            if columns.len() == before && self.region.depth(middle) < 0.0 {
+            if columns.len() == before && self.region.leaves_out(k) {
                 let what = "no part of the body's surface lies in the domain";
                 faults.push(Fault::at(&format!("/bodies/{k}/shape"), what));
             }

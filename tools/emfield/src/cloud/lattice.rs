@@ -178,12 +178,6 @@ impl Descent<'_> {
     }
 }
 
-/// Upper bound of the number of nodes: that of the finest lattice everywhere.
-pub(crate) fn most(region: &Region) -> f64 {
-    let frame = Frame::new(region);
-    frame.last.iter().map(|n| *n as f64 + 1.0).product()
-}
-
 /// All nodes, from the coarse cells in order.
 pub(crate) fn nodes(region: &Region) -> Vec<Node> {
     let frame = Frame::new(region);

@@ -6,6 +6,7 @@
 mod areas;
 mod build;
 mod cells;
+mod count;
 mod faces;
 mod gaps;
 mod inner;
@@ -186,6 +187,13 @@ impl Cloud {
     #[must_use]
     pub fn bends(scene: &Scene) -> Vec<String> {
         build::bends(scene)
+    }
+
+    /// How many points a scene without faults has at least, and the memory of these and of their stencils \[byte\].
+    #[must_use]
+    pub fn least(scene: &Scene) -> [f64; 2] {
+        let least = count::least(scene, &region::Region::new(scene));
+        [least.points, least.bytes]
     }
 
     /// Number of points.

@@ -145,6 +145,28 @@ impl Region {
         }
     }
 
+    /// Whether a body of whose surface nothing lies in the domain lies outside: neither does it fill the domain, nor is it hidden
+    /// by others within.
+    #[must_use]
+    pub fn leaves_out(&self, k: usize) -> bool {
+        let body = &self.solids[k].body;
+        let between = |low: Vector, high: Vector| -> Vector {
+            std::array::from_fn(|a| {
+                if a < self.dimensions {
+                    0.5 * (low[a] + high[a])
+                } else {
+                    0.0
+                }
+            })
+        };
+        let [low, high] = body.bounds();
+        let centre = match &self.wall {
+            Wall::Box { low, high, .. } => between(*low, *high),
+            Wall::Ball { centre, .. } => *centre,
+        };
+        self.depth(between(low, high)) < 0.0 && body.distance(centre) > 0.0
+    }
+
     /// Least extent of the domain over the finest spacing of its lattice.
     #[must_use]
     pub fn across(&self) -> f64 {
@@ -181,16 +203,32 @@ impl Region {
     /// lattice grows away from these, so does what stands among its points.
     #[must_use]
     pub fn beside(&self, x: Vector, k: usize) -> f64 {
+        self.beside_near(x, k, 0.0)
+    }
+
+    /// The least of [`Self::beside`] within `reach` of a place.
+    pub(super) fn beside_near(&self, x: Vector, k: usize, reach: f64) -> f64 {
         let own = self.solids[k].spacing;
         let finer = self.solids.iter().filter(|other| other.spacing < own);
         let bodies = finer.fold(own, |spacing, other| {
             let d = other.body.distance(x);
             let growth = self.growth[usize::from(d > 0.0)];
-            spacing.min(other.spacing + growth * d.abs())
+            spacing.min(other.spacing + growth * (d.abs() - reach).max(0.0))
         });
         self.finer.iter().fold(bodies, |spacing, (body, finest)| {
-            spacing.min(finest + self.growth[1] * body.distance(x).max(0.0))
+            spacing.min(finest + self.growth[1] * (body.distance(x) - reach).max(0.0))
         })
+    }
+
+    /// The fastest that wanted spacings change per distance.
+    pub(super) fn steepest(&self) -> f64 {
+        self.growth[0].max(self.growth[1])
+    }
+
+    /// The largest spacing that is wanted anywhere \[m\].
+    pub(super) fn widest(&self) -> f64 {
+        let solids = self.solids.iter().map(|solid| solid.spacing);
+        solids.fold(self.plain, f64::max)
     }
 
     /// Wanted spacing of the lattice at a place \[m\]; `nearer` is how much nearer to everything a place within a

@@ -27,7 +27,7 @@ pub(crate) enum Action {
 }
 
 /// A scene with what belongs to it.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct Study {
     /// The scene.
     #[arg(value_name = "SCENE.json")]

@@ -1,6 +1,5 @@
 //! From the command line to the exit code.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -8,20 +7,24 @@ use std::time::{Duration, Instant};
 use artefact::{Header, beside};
 
 use crate::awake::Awake;
+use crate::checked::check;
 use crate::command::{Action, Run, Study, parse};
 use crate::console::{Level, data, line};
 use crate::failure::Failure;
-use crate::inputs::Inputs;
 use crate::interrupt::Interrupt;
 use crate::leftover::{advised, make_way};
 use crate::machine;
 use crate::owned::{Form, Owned};
 use crate::plan::{Plan, bytes, duration};
 use crate::progress::Style;
+use crate::ready::{Ready, guarded, placed, prepare, read};
 use crate::record::RunRecord;
-use crate::scene::{Loaded, Merged, load, located, schema_of, schema_text};
+use crate::scene::{schema_of, schema_text};
 use crate::session::{Opening, Session};
 use crate::tool::{Tool, expected};
+
+/// Exit code where not all could be judged.
+const WARNED: u8 = 3;
 
 /// The whole program of a stage.
 #[must_use]
@@ -36,7 +39,7 @@ pub fn main<T: Tool>() -> ExitCode {
     };
     let done = match line.action {
         Action::Schema => print(&schema_text(&schema_of::<T::Scene>(expected::<T>()))),
-        Action::Check(study) => check::<T>(&study),
+        Action::Check(study) => check_scene::<T>(&study),
         Action::Run(run) => run_scene::<T>(run),
     };
     done.unwrap_or_else(|failure| report_failure(T::NAME, &failure))
@@ -59,68 +62,10 @@ fn print(text: &str) -> Result<ExitCode, Failure> {
         })
 }
 
-/// A scene that was found good, with its plan.
-struct Ready<S> {
-    scene: S,
-    inputs: Inputs,
-    plan: Plan,
-    header: Header,
-    merged: Merged,
-    /// What reading and checking the scene against its schema took.
-    read: Duration,
-}
-
-fn prepare<T: Tool>(study: &Study) -> Result<Ready<T::Scene>, Failure> {
-    let began = Instant::now();
-    let schema = schema_of::<T::Scene>(expected::<T>());
-    let Loaded {
-        scene,
-        merged,
-        migrated,
-    } = load::<T::Scene>(&study.scene, &study.patches, &schema, expected::<T>())?;
-    let read = began.elapsed();
-    let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
-    let plan = guarded(|| T::plan(&scene, &inputs)).map_err(|failure| placed(failure, &merged))?;
-    let plan = match migrated {
-        Some(from) => plan.note(format!(
-            "scene of version {from}, read as version {}",
-            T::SCENE_VERSION
-        )),
-        None => plan,
-    };
-    let header = Header {
-        kind: T::ARTEFACT_KIND.to_owned(),
-        version: T::ARTEFACT_VERSION,
-        tool: T::NAME.to_owned(),
-        tool_version: T::VERSION.to_owned(),
-        scene: merged.value().clone(),
-        inputs: inputs.hashes().clone(),
-    };
-    Ok(Ready {
-        scene,
-        inputs,
-        plan,
-        header,
-        merged,
-        read,
-    })
-}
-
-/// Adds file and line to the faults of a scene.
-fn placed(failure: Failure, merged: &Merged) -> Failure {
-    match failure {
-        Failure::Scene(faults) => Failure::Scene(located(faults, merged)),
-        other => other,
-    }
-}
-
-fn check<T: Tool>(study: &Study) -> Result<ExitCode, Failure> {
-    let ready = prepare::<T>(study)?;
-    // The scene is good whether or not its time can be told.
-    let estimate = guarded(|| T::estimate(&ready.scene, &ready.inputs));
-    let grows = T::grows(&ready.scene);
-    let plan = ready.plan.estimate(estimate.ok().flatten(), grows);
-    print(&format!("{}\n{plan}", title::<T>(&study.scene)))
+fn check_scene<T: Tool>(study: &Study) -> Result<ExitCode, Failure> {
+    let (plan, judged) = check::<T>(study)?;
+    print(&format!("{}\n{plan}", title::<T>(&study.scene)))?;
+    Ok(ExitCode::from(if judged { 0 } else { WARNED }))
 }
 
 fn title<T: Tool>(scene: &Path) -> String {
@@ -132,7 +77,7 @@ fn run_scene<T: Tool>(mut run: Run) -> Result<ExitCode, Failure> {
     let owned = Owned::of(&run.out, Form::Artefact, run.study.reads())?;
     run.out = owned.out().to_owned();
     set_threads(run.threads)?;
-    let ready = prepare::<T>(&run.study)?;
+    let ready = prepare::<T>(&run.study, read::<T>(&run.study)?)?;
     let opened = open::<T>(&run, &ready.header, (began, ready.read));
     let (mut session, told) = opened.map_err(|failure| advised(failure, &run.out))?;
     if run.level() > Level::Quiet {
@@ -165,18 +110,6 @@ fn run_scene<T: Tool>(mut run: Run) -> Result<ExitCode, Failure> {
         closing(&record, &run.out);
     }
     Ok(ExitCode::from(record.exit_code()))
-}
-
-/// A panic is a fault of ours; the run still ends with a record and exit code 1.
-fn guarded<R>(work: impl FnOnce() -> Result<R, Failure>) -> Result<R, Failure> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
-        let text = panic
-            .downcast_ref::<String>()
-            .map(String::as_str)
-            .or_else(|| panic.downcast_ref::<&str>().copied())
-            .unwrap_or("no message");
-        Err(Failure::Other(format!("internal error: {text}")))
-    })
 }
 
 /// The session, and what is to be told of an earlier run to the same place. Told are when the program

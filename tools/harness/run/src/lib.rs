@@ -54,6 +54,8 @@
 
 mod awake;
 mod ballast;
+mod bounded;
+mod checked;
 mod clock;
 mod command;
 mod console;
@@ -69,7 +71,9 @@ mod owned;
 mod plan;
 mod progress;
 pub mod property;
+mod ready;
 mod record;
+mod room;
 pub mod scene;
 mod session;
 mod tool;
@@ -82,6 +86,7 @@ pub use inputs::{Input, Inputs};
 pub use launch::{main, report_failure};
 pub use owned::{Form, Owned};
 pub use plan::{Estimate, Plan, duration};
+pub use room::{Room, crowded, memory_room};
 pub use scene::Migration;
 pub use session::Session;
 pub use tool::Tool;

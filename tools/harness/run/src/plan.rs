@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::ledger::{Bytes, LeftOut, Limit};
+use crate::room::memory_room;
 
 /// What a run would do. Built by [`crate::Tool::plan`], shown by `TOOL check` and at the head of
 /// every run, and kept in the run record.
@@ -89,6 +90,12 @@ impl Plan {
         self
     }
 
+    /// Memory that is known \[byte\].
+    pub(crate) fn memory_bytes(&self) -> u64 {
+        let all = self.memory.iter().map(|part| part.bytes);
+        all.fold(0, u64::saturating_add)
+    }
+
     /// Bytes of all output before it is compressed, at most.
     pub(crate) fn output_bytes(&self) -> u64 {
         let all = self.output.iter().map(|output| output.bytes);
@@ -121,6 +128,23 @@ impl Plan {
     pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(text.into());
         self
+    }
+
+    /// Tells where an estimate comes to more memory than there is.
+    pub(crate) fn roomy(self) -> Self {
+        let wanted = self.memory_bytes();
+        match memory_room() {
+            Some(room) if wanted > room.bytes => {
+                let told = format!(
+                    "memory: about {}, {} {}",
+                    bytes(wanted),
+                    room.whose,
+                    bytes(room.bytes)
+                );
+                self.note(told)
+            }
+            _ => self,
+        }
     }
 
     /// What is said of the output: the whole, and each channel.
@@ -175,8 +199,7 @@ impl fmt::Display for Plan {
             row("columns", columns.collect::<Vec<_>>().join(", "))?;
         }
         if !self.memory.is_empty() {
-            let total = self.memory.iter().map(|m| m.bytes).sum();
-            row("memory", bytes(total))?;
+            row("memory", bytes(self.memory_bytes()))?;
             for part in &self.memory {
                 row("", format!("{:<28} {}", part.name, bytes(part.bytes)))?;
             }

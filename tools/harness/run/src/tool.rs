@@ -11,7 +11,7 @@ use crate::scene::{Expected, Migration};
 use crate::session::Session;
 
 /// A stage: reads a scene and inputs, writes one artefact.
-pub trait Tool {
+pub trait Tool: 'static {
     /// Name of the program: `poolsph`.
     const NAME: &'static str;
     /// Version of the program: `env!("CARGO_PKG_VERSION")`.
@@ -45,11 +45,17 @@ pub trait Tool {
     /// [`Failure::Scene`] with all faults found, or what is wrong with an input.
     fn plan(scene: &Self::Scene, inputs: &Inputs) -> Result<Plan, Failure>;
 
+    /// What of the plan is known at once, for `check` where the plan itself takes longer than that may.
+    #[must_use]
+    fn outline(_scene: &Self::Scene) -> Plan {
+        Plan::new()
+    }
+
     /// Says how long the run will take, for `check`: a few steps may be taken to find out. `None`
     /// where nothing can be said.
     ///
     /// # Errors
-    /// As [`Tool::run`]; `check` then says nothing of the time.
+    /// As [`Tool::run`]; `check` then says why in place of the time.
     fn estimate(_scene: &Self::Scene, _inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
         Ok(None)
     }

@@ -57,14 +57,14 @@ pub fn trial(
     let before = machine::memory_bytes().unwrap_or_default();
     let highest = machine::peak_memory_bytes();
     let mut session = Session::quiet(&out, header)?;
+    // The open file lasts without its name: however the process ends, nothing is left. What cannot be removed is in nobody's way.
+    let _ = std::fs::remove_file(beside(&out, ".part"));
     session.watched = Some(Watched::default());
     let done = work(&mut session);
     let higher = machine::peak_memory_bytes().filter(|now| Some(*now) > highest);
     let ledger = session.ledger();
     let watched = session.watched.take().unwrap_or_default();
     drop(session);
-    // What cannot be removed is in nobody's way.
-    let _ = std::fs::remove_file(beside(&out, ".part"));
     done?;
     let part = |(name, seconds): (String, f64)| Part {
         bytes: watched.of(&name),
