@@ -28,6 +28,9 @@ const CANCELLED: f64 = 0.1;
 /// Forces of currents that come to less than this part of all stresses on their conductors are not compared alone.
 const WEAK: f64 = 0.01;
 
+/// Heats of less than this part of what Poynting's vector comes to without its phase are noise of the solve.
+const NOISE: f64 = 1e-7;
+
 /// A force in several ways.
 pub(super) struct Ways<'a> {
     /// What it acts on.
@@ -217,9 +220,7 @@ impl<const D: usize> Setting<'_, D> {
         fields: &Fields,
         (totals, acting): (&Totals, Acting<'_>),
     ) -> Option<Doubt> {
-        let acts = |m: u8| acting.acts[m as usize];
-        let walled = |class: &Class| matches!(class, Class::Outer { medium, .. } if acts(*medium));
-        if self.unknown == Unknown::Axial || self.cloud.class.iter().any(walled) {
+        if self.unknown == Unknown::Axial || self.walled(acting) {
             return None;
         }
         let volume = ("volume".to_owned(), totals.force_volume);
@@ -256,6 +257,51 @@ impl<const D: usize> Setting<'_, D> {
         let found = doubt(all.collect(), gross.max(most));
         let pair = || doubt(vec![volume, coil?], gross);
         found.or_else(|| (gross > WEAK * most).then(pair).flatten())
+    }
+
+    /// Whether a wall counts as a part of what is acted on, whose surface lacks that.
+    fn walled(&self, acting: Acting<'_>) -> bool {
+        let acts = |m: u8| acting.acts[m as usize];
+        let walled = |class: &Class| matches!(class, Class::Outer { medium, .. } if acts(*medium));
+        self.cloud.class.iter().any(walled)
+    }
+
+    /// A doubt about the heat in all conductors in a sinusoidal steady state: what is released in them is what flows in through
+    /// their surfaces (Poynting 1884).
+    pub(super) fn heat_doubt(
+        &self,
+        fields: &Fields,
+        (totals, acting): (&Totals, Acting<'_>),
+    ) -> Option<Doubt> {
+        if self.omega.is_none() || self.unknown == Unknown::Axial || self.walled(acting) {
+            return None;
+        }
+        let ways = [totals.heat_volume, totals.heat_surface];
+        let apart = (ways[0] - ways[1]).abs();
+        let most = ways[0].abs().max(ways[1].abs());
+        let share = apart / most.max(NOISE * totals.heat_gross);
+        // Nothing over nothing is no doubt.
+        if share.is_nan() || share <= APART {
+            return None;
+        }
+        let heat = |i: &usize| (self.weights[*i] * fields.heat[*i]).abs();
+        let hottest = (0..self.weights.len()).max_by(|a, b| heat(a).total_cmp(&heat(b)));
+        let unit = if self.scene.geometry == Geometry::Plane {
+            "W/m"
+        } else {
+            "W"
+        };
+        Some(Doubt {
+            of: "heat".to_owned(),
+            share,
+            what: format!(
+                "heat in all conductors: {:.3e} {unit} by volume, {:.3e} {unit} by what flows in through their surfaces: they differ by {apart:.2e} {unit}, {:.0} % of the larger, {}: {HELP}",
+                ways[0],
+                ways[1],
+                100.0 * share,
+                told(self.cloud.position[hottest?].into()),
+            ),
+        })
     }
 
     /// What the stresses on surfaces of bodies come to without their directions, from without \[N\].

@@ -15,7 +15,7 @@ use super::setting::{Setting, laws, media};
 use super::unfit::no_stencil;
 use super::winding::windings;
 use crate::cloud::region::vector;
-use crate::cloud::{Cell, Class, Cloud, Metric};
+use crate::cloud::{Cell, Class, Cloud};
 use crate::output::Found;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Coil, EddyCurrents, Scene};
@@ -159,7 +159,7 @@ impl<'a, const D: usize> Setting<'a, D> {
     }
 
     /// Says where a conductor touches a wall that stands for the space beyond it.
-    fn warn_walls(&self, session: &mut Session) {
+    pub(super) fn warn_walls(&self, session: &mut Session) {
         if self.currents.outer != OuterReaction::Multipole {
             return;
         }
@@ -174,34 +174,6 @@ impl<'a, const D: usize> Setting<'a, D> {
                     "{name} touches the wall {wall} at ({x:.3e}, {y:.3e}, {z:.3e}) m: no current passes there, and the multipoles of \"outer\" hold only where currents are farther away; leave room, or take \"zero\" where the wall screens"
                 ));
                 return;
-            }
-        }
-    }
-
-    /// Says where layers are too thick for the skin of a conductor.
-    pub(super) fn warn(&self, session: &mut Session) {
-        self.warn_walls(session);
-        let Some(omega) = self.omega else {
-            return;
-        };
-        for (m, mu_sigma) in self.conductors.mu_sigma.iter().enumerate() {
-            let touches = |i: usize| {
-                self.cloud.touches(i, m as u8) && !matches!(self.cloud.class[i], Class::Inside(_))
-            };
-            let across = |i: usize| match self.cloud.metric[i] {
-                Metric::Round => self.cloud.spacing[i],
-                Metric::Layered { across, .. } => across,
-            };
-            let widest = (0..self.cloud.len())
-                .filter(|i| touches(*i))
-                .map(across)
-                .fold(0.0, f64::max);
-            let skin = (2.0 / (omega * mu_sigma)).sqrt();
-            if *mu_sigma > 0.0 && skin < widest {
-                let name = self.scene.medium_name(m);
-                session.warn(format!(
-                    "unresolved: skin depth {skin:.3e} m in {name}, spacing {widest:.3e} m across its surface"
-                ));
             }
         }
     }

@@ -94,6 +94,8 @@ impl<const D: usize> Setting<'_, D> {
             &mut all,
         );
         all.doubts.extend(self.doubt(&fields, (&totals, acting)));
+        all.doubts
+            .extend(self.heat_doubt(&fields, (&totals, acting)));
         all
     }
 
@@ -216,6 +218,11 @@ impl<const D: usize> Setting<'_, D> {
             ("force_spread", newton, found.spread()),
             ("power_volume", watt, found.heat_volume),
             ("power_poynting", watt, found.heat_surface),
+            (
+                "power_spread",
+                watt,
+                (found.heat_volume - found.heat_surface).abs(),
+            ),
         ] {
             all.totals.push((name.to_owned(), unit, value));
         }

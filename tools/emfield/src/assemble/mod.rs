@@ -21,6 +21,7 @@ mod region;
 mod saturated;
 mod setting;
 mod shorts;
+mod skin;
 mod standing;
 mod steps;
 mod unfit;

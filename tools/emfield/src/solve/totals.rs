@@ -37,7 +37,12 @@ pub struct Totals {
     pub heat_volume: f64,
     /// Heat by what Poynting's vector carries through the surfaces \[W\].
     pub heat_surface: f64,
+    /// What Poynting's vector comes to without direction and phase \[W\].
+    pub heat_gross: f64,
 }
+
+/// Share of a force from which the stress of the sources alone, which comes to nothing, is taken off it.
+const ALONE: f64 = 0.01;
 
 impl Totals {
     /// Totals of the fields of a scene, in a plane per metre, about an axis of a full turn; `weights` are those of
@@ -70,6 +75,7 @@ impl Totals {
             heat_volume,
             ..Self::default()
         };
+        let mut alone = [0.0; 3];
         for (face, beyond) in region.faces.iter().zip(&fields.beyond) {
             let [a, b] = [face.inner, face.outer].map(|m| acting.acts[m as usize]);
             let i = face.point as usize;
@@ -95,11 +101,11 @@ impl Totals {
             };
             let square: f64 = b.iter().map(C::norm_sqr).sum();
             let mu = acting.laws[other as usize].permeability(square.sqrt());
-            let normal: C = (0..3).map(|k| b[k].conj() * n[k]).sum();
+            let source: [C; 3] = std::array::from_fn(|k| fields.flux[i][k] - fields.reaction[i][k]);
+            let (both, own) = (stress(&b, n), stress(&source, n));
             for k in 0..3 {
-                // T n = (B (B* n) - |B|^2 n / 2) / mu.
-                let pull = (b[k] * normal).re - 0.5 * square * n[k];
-                found.force_stress[k] += sign * pull / mu;
+                found.force_stress[k] += sign * both[k] / mu;
+                alone[k] += sign * own[k] / mu;
             }
             // E x H* through the surface.
             let electric = if a {
@@ -110,7 +116,10 @@ impl Totals {
             let inward = cross_mean(electric, b);
             let flow: f64 = (0..3).map(|k| inward[k] * n[k]).sum();
             found.heat_surface -= sign * flow / mu;
+            let strength: f64 = electric.iter().map(C::norm_sqr).sum();
+            found.heat_gross += (sign * (strength * square).sqrt() / mu).abs();
         }
+        found.force_stress = without(found.force_stress, alone);
         if region.axial {
             // Radial forces of a full turn cancel.
             for force in [&mut found.force_volume, &mut found.force_stress] {
@@ -124,6 +133,25 @@ impl Totals {
     #[must_use]
     pub fn spread(&self) -> f64 {
         spread(&[self.force_volume, self.force_stress, self.force_coil])
+    }
+}
+
+/// Maxwell's stress on a surface with a unit normal, times the permeability: `B (B* n) - |B|^2 n / 2`.
+fn stress(b: &[C; 3], n: [f64; 3]) -> [f64; 3] {
+    let square: f64 = b.iter().map(C::norm_sqr).sum();
+    let normal: C = (0..3).map(|k| b[k].conj() * n[k]).sum();
+    std::array::from_fn(|k| (b[k] * normal).re - 0.5 * square * n[k])
+}
+
+/// A force over closed surfaces without what the sources beyond them give of it, where that matters. Of exact fields they give
+/// nothing: what they do give is an error of the sums, larger than the force itself where currents are weak.
+fn without(force: [f64; 3], alone: [f64; 3]) -> [f64; 3] {
+    let less = minus(force, alone);
+    let square = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
+    if square(alone) > ALONE * ALONE * square(less) {
+        less
+    } else {
+        force
     }
 }
 
