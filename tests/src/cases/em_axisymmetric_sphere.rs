@@ -154,7 +154,7 @@ fn regions(scene: &Value, patch: &mut Value) {
     patch["bodies"] = Value::Array(bodies);
     patch["eddy_currents"]["coils"] = Value::Array(coils);
     patch["domain"] = json!({"sphere": {"radius_m": 0.0125}});
-    patch["points"]["outward"] = json!(0.1);
+    patch["points"]["outward"] = Value::Null;
 }
 
 /// The coils of thin wire.

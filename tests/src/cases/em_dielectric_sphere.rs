@@ -35,10 +35,6 @@ const ILUT: &str = "ilut";
 
 /// Spacings per radius, by level.
 const PARTS: [f64; 3] = [5.0, 7.5, 10.0];
-/// Rise of the spacing with the distance at the first level.
-const OUTWARD: f64 = 0.25;
-/// Greatest spacing at the first level \[m\].
-const LARGEST: f64 = 1.25e-4;
 
 /// The permittivity at which the paper's errors are told.
 const USUAL: &str = "quartic";
@@ -100,11 +96,7 @@ impl Case for EmDielectricSphere {
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let parts = PARTS[level.clamp(1, 3) as usize - 1];
         let spacing = 5e-5 / parts;
-        // All spacings by the same ratio, those far away too.
-        let ratio = PARTS[0] / parts;
-        let points = json!({
-            "spacing_m": spacing, "outward": OUTWARD * ratio, "largest_m": LARGEST * ratio
-        });
+        let points = json!({"spacing_m": spacing});
         let patch = over(json!({"points": points}), &method_patch(method));
         let scene = planned(lab, self.name(), &patch)?;
         let patch = over(patch, &walls(&scene));

@@ -102,11 +102,7 @@ impl Case for EmEllipsoid {
         let parts = all[level.clamp(1, 3) as usize - 1];
         let shortest = body.half.iter().copied().fold(f64::INFINITY, f64::min);
         let spacing = shortest / parts;
-        // All spacings by the same ratio, those far away too.
-        let ratio = all[0] / parts;
-        let mut points = json!({
-            "spacing_m": spacing, "outward": 0.25 * ratio, "largest_m": largest(&scene) * ratio
-        });
+        let mut points = json!({"spacing_m": spacing});
         if method == NEEDLE {
             points["refinements"] = tips(&body, 0.5 * spacing);
         }
@@ -127,14 +123,6 @@ impl Case for EmEllipsoid {
             |run, points| errors(run, points, &known(&run.scene)?),
         )
     }
-}
-
-/// Greatest spacing at the first level \[m\]: an eighth of the domain, unless that is large.
-fn largest(scene: &Value) -> f64 {
-    let ball = scene
-        .pointer("/domain/sphere/radius_m")
-        .and_then(Value::as_f64);
-    ball.map_or(1e-4, |radius| radius / 4.0)
 }
 
 /// Balls about the tips of a needle with points of their own, twice as wide as the tips are sharp.

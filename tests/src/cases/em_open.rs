@@ -81,11 +81,7 @@ impl Case for EmOpen {
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let parts = PARTS[level.clamp(1, 3) as usize - 1];
         let spacing = 1e-3 / parts;
-        // All spacings by the same ratio, those far away too.
-        let ratio = PARTS[0] / parts;
-        let points = json!({
-            "spacing_m": spacing, "outward": 0.25 * ratio, "largest_m": 8e-4 * ratio
-        });
+        let points = json!({"spacing_m": spacing});
         let patch = over(json!({"points": points}), &method_patch(method));
         measured(lab, self, (level, method), (&patch, spacing), errors)
     }

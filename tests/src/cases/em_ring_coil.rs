@@ -61,9 +61,7 @@ impl Case for EmRingCoil {
             SPACE => [2e-3, 1.4e-3, 1e-3][level],
             _ => [1e-3, 7e-4, 5e-4][level],
         };
-        // All spacings by the same ratio, those far away too.
-        let outward = spacing * if method == SPACE { 150.0 } else { 100.0 };
-        let points = json!({"points": {"spacing_m": spacing, "outward": outward}});
+        let points = json!({"points": {"spacing_m": spacing}});
         let patch = over(points, &method_patch(method));
         measured(
             lab,

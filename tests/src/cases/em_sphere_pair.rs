@@ -73,11 +73,7 @@ impl Case for EmSpherePair {
         let pair = pair(&scene).ok_or_else(|| unknown(lab.root.clone()))?;
         let radius = pair.spheres[0].radius.min(pair.spheres[1].radius);
         let spacing = radius / parts;
-        // All spacings by the same ratio, those far away too.
-        let ratio = 5.0 / parts;
-        let points = json!({
-            "spacing_m": spacing, "outward": 0.25 * ratio, "largest_m": radius * ratio
-        });
+        let points = json!({"spacing_m": spacing});
         // Each sphere has points for its own size.
         let mut bodies = scene["bodies"].clone();
         for (body, sphere) in bodies

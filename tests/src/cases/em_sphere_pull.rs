@@ -66,11 +66,7 @@ impl Case for EmSpherePull {
         let patch = method_patch(method);
         let sphere = Sphere::of(&planned(lab, self.name(), &patch)?, &lab.root)?;
         let spacing = sphere.radius / parts;
-        // All spacings by the same ratio, those far away too.
-        let ratio = 4.0 / parts;
-        let points = json!({
-            "spacing_m": spacing, "outward": 0.25 * ratio, "largest_m": 8e-4 * ratio
-        });
+        let points = json!({"spacing_m": spacing});
         let patch = over(
             over(json!({"points": points}), &patch),
             &sphere.walls(method),

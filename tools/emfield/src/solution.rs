@@ -1,5 +1,7 @@
 //! All fields of a scene on its points, in the order in which they need each other.
 
+pub(crate) mod far;
+
 use run::{Failure, Session};
 
 use crate::assemble;
@@ -32,39 +34,59 @@ fn fields<const D: usize, const K: usize>(
         session.note(what);
     }
     let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
-    let mut found = Found::default();
-    if let Some(electrostatics) = &scene.electrostatics {
-        found.join(assemble::electrostatics::<D>(
-            scene,
-            electrostatics,
-            cloud,
-            session,
-        )?);
+    let march = scene.eddy_currents.as_ref().and_then(|currents| {
+        let transient = currents.transient.as_ref()?;
+        Some((currents, transient))
+    });
+    if let Some(at) = march {
+        let still = electric::<D>(scene, cloud, session)?;
+        session.stopped()?;
+        drop(expendable);
+        let mut doubts = Vec::new();
+        assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
+            let mut all = still.clone();
+            all.join(fields);
+            doubts.append(&mut all.doubts);
+            output::write(scene, cloud, &samples, (time, &all), session)
+        })?;
+        tell(doubts, session);
+        return Ok(());
     }
+    let mut found = steady::<D, K>(scene, cloud, session)?;
     session.stopped()?;
-    if let Some(currents) = &scene.eddy_currents {
-        if let Some(transient) = &currents.transient {
-            drop(expendable);
-            let at = (currents, transient);
-            let mut doubts = Vec::new();
-            assemble::march::<D, K>(scene, at, cloud, session, |time, fields, session| {
-                let mut all = found.clone();
-                all.join(fields);
-                doubts.append(&mut all.doubts);
-                output::write(scene, cloud, &samples, (time, &all), session)
-            })?;
-            tell(doubts, session);
-            return Ok(());
-        }
-        let made = match currents.standing {
-            Some(_) => assemble::standing::<D, K>(scene, currents, cloud, session)?,
-            None => assemble::eddy_currents::<D, K>(scene, currents, cloud, session)?,
-        };
-        found.join(made);
-    }
+    far::tell::<D, K>((scene, cloud), &found, session)?;
     session.stopped()?;
     tell(std::mem::take(&mut found.doubts), session);
     output::write(scene, cloud, &samples, (0.0, &found), session)
+}
+
+/// The fields of charges and electrodes, if there are some.
+fn electric<const D: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    session: &mut Session,
+) -> Result<Found, Failure> {
+    let electrostatics = scene.electrostatics.as_ref();
+    electrostatics.map_or(Ok(Found::default()), |electrostatics| {
+        assemble::electrostatics::<D>(scene, electrostatics, cloud, session)
+    })
+}
+
+/// All fields of a scene that has no march.
+fn steady<const D: usize, const K: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    session: &mut Session,
+) -> Result<Found, Failure> {
+    let mut found = electric::<D>(scene, cloud, session)?;
+    session.stopped()?;
+    if let Some(currents) = &scene.eddy_currents {
+        found.join(match currents.standing {
+            Some(_) => assemble::standing::<D, K>(scene, currents, cloud, session)?,
+            None => assemble::eddy_currents::<D, K>(scene, currents, cloud, session)?,
+        });
+    }
+    Ok(found)
 }
 
 /// Difference of the ways of a force over its size from which it is a warning that matters; less is a note.

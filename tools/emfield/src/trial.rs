@@ -74,6 +74,7 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
         space: scene.geometry == Geometry::Space,
         steps: steps as f64 / taken_steps.max(1) as f64,
         frames: frames as f64 / taken_frames as f64,
+        judged: solution::far::judged(scene),
     };
     Ok(told(&taken, &more, (planned, small.len(), steps)))
 }
@@ -161,6 +162,8 @@ struct More {
     space: bool,
     steps: f64,
     frames: f64,
+    /// Whether its far field is judged, as that of a trial with larger spacings may be.
+    judged: bool,
 }
 
 impl More {
@@ -191,7 +194,11 @@ impl More {
 }
 
 fn told(taken: &Taken, more: &More, (planned, few, steps): (&Planned, usize, u64)) -> Estimate {
-    let seconds = |name: &str| taken.of(name).0 * more.times(name).0;
+    let once = |name: &str| more.judged || name != "far field";
+    let seconds = |name: &str| match once(name) {
+        true => taken.of(name).0 * more.times(name).0,
+        false => 0.0,
+    };
     let made = ["points", "scene", "plan"];
     let stages = taken.parts.iter().filter(|p| !made.contains(&&p.name[..]));
     let all: f64 = stages.map(|p| seconds(&p.name)).sum();

@@ -21,13 +21,13 @@ const GRAIN: f64 = 4.0;
 /// 3, by 18 % with 2.
 const BEND: f64 = 3.0;
 
-/// The points of a scene; see [`Cloud::new`].
-pub(super) fn cloud(scene: &Scene) -> Result<Cloud, Vec<Fault>> {
+/// The points of a scene, those of lattices far from bodies so many times as far apart as it says; see [`Cloud::new`].
+pub(super) fn cloud(scene: &Scene, wider: f64) -> Result<Cloud, Vec<Fault>> {
     let faults = scene.faults();
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut region = Region::new(scene);
+    let mut region = Region::new(scene).wider(wider);
     check_sizes(scene, &region)?;
     let plans = plans(scene, &mut region);
     let mut builder = Builder::new(scene, region);

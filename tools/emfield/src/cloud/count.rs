@@ -271,7 +271,7 @@ mod tests {
             let least = least(&scene, &Region::new(&scene)).points;
             let there = Cloud::new(&scene).unwrap().len() as f64;
             assert!(
-                least < 1.1 * there && least > 0.4 * there,
+                least < 1.1 * there && least > 0.25 * there,
                 "{geometry} {domain}: {least} of {there}"
             );
         }

@@ -168,7 +168,21 @@ impl Cloud {
     /// # Errors
     /// Faults of the scene: too many points, a body without points.
     pub fn new(scene: &Scene) -> Result<Self, Vec<Fault>> {
-        build::cloud(scene)
+        build::cloud(scene, 1.0)
+    }
+
+    /// The points of a scene with those far from bodies so many times as far apart: on surfaces and in layers they are the same.
+    ///
+    /// # Errors
+    /// As [`Cloud::new`].
+    pub fn wider(scene: &Scene, by: f64) -> Result<Self, Vec<Fault>> {
+        build::cloud(scene, by)
+    }
+
+    /// The fastest rise of the spacing of lattices per distance outward.
+    #[must_use]
+    pub fn steepest(scene: &Scene) -> f64 {
+        region::Region::new(scene).steepest()
     }
 
     /// Bodies of a scene that have too few points across: what to say of each.

@@ -5,8 +5,8 @@
 use shapes::Body;
 use shapes::frame::{Vector, difference, length};
 
-use crate::scene::points::Steps;
-use crate::scene::{Domain, Scene};
+use crate::scene::points::{Refinement, Steps};
+use crate::scene::{BodyScene, Domain, Scene};
 
 /// The wall of the domain.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +38,29 @@ pub struct Solid {
     pub spacing: f64,
     /// How far its layers reach inside and outside \[m\].
     pub reach: [f64; 2],
+    /// Rise of the spacing of the lattice per distance from it, inside and outside.
+    growth: [f64; 2],
+}
+
+/// A region with finer points.
+#[derive(Debug, Clone, PartialEq)]
+struct Finer {
+    body: Body,
+    spacing: f64,
+    /// Rise of the spacing of the lattice per distance from it.
+    growth: f64,
+}
+
+/// Fastest rise of spacings outward that nobody asked for.
+const STEEPEST: f64 = 0.25;
+
+/// The rise of the spacing outward from a body that makes points as dense, seen from its middle, everywhere: over half its least
+/// width, so that refining it refines all.
+fn proportional(body: &Body, spacing: f64, dimensions: usize) -> f64 {
+    let [low, high] = body.bounds();
+    let widths = (0..dimensions).map(|a| high[a] - low[a]);
+    let half = 0.5 * widths.fold(f64::INFINITY, f64::min);
+    (spacing / half).min(STEEPEST)
 }
 
 /// Domain, bodies and wanted spacing.
@@ -50,7 +73,7 @@ pub struct Region {
     /// Bodies in the order of the scene.
     pub solids: Vec<Solid>,
     /// Regions with finer points.
-    finer: Vec<(Body, f64)>,
+    finer: Vec<Finer>,
     /// Whether r = x is a distance from the axis.
     pub axisymmetric: bool,
     /// Finest spacing of the lattice \[m\].
@@ -59,7 +82,8 @@ pub struct Region {
     plain: f64,
     /// Greatest spacing \[m\].
     pub largest: f64,
-    growth: [f64; 2],
+    /// How many times as far apart as usual points of lattices far from bodies are.
+    wider: f64,
     /// Whether there are lattices between those of single and of double spacing.
     pub smooth: bool,
 }
@@ -70,6 +94,23 @@ pub fn vector(coordinates: &[f64]) -> Vector {
     std::array::from_fn(|k| coordinates.get(k).copied().unwrap_or(0.0))
 }
 
+/// The wall of a domain, and the least extent of it \[m\].
+fn wall(domain: &Domain, (dimensions, axisymmetric): (usize, bool)) -> (Wall, f64) {
+    match domain {
+        Domain::Box(b) => {
+            let (low, high) = (vector(&b.min_m), vector(&b.max_m));
+            let least = (0..dimensions).map(|k| high[k] - low[k]);
+            let axis = axisymmetric && low[0] <= 0.0;
+            let size = least.fold(f64::INFINITY, f64::min);
+            (Wall::Box { low, high, axis }, size)
+        }
+        Domain::Sphere(s) => {
+            let (centre, radius) = (vector(&s.centre_m), s.radius_m);
+            (Wall::Ball { centre, radius }, 2.0 * radius)
+        }
+    }
+}
+
 impl Region {
     /// The region of a scene without faults.
     #[must_use]
@@ -77,37 +118,38 @@ impl Region {
         let dimensions = scene.geometry.dimensions();
         let axisymmetric = scene.geometry == crate::scene::Geometry::Axisymmetric;
         let points = &scene.points;
-        let (wall, size) = match &scene.domain {
-            Domain::Box(b) => {
-                let (low, high) = (vector(&b.min_m), vector(&b.max_m));
-                let least = (0..dimensions).map(|k| high[k] - low[k]);
-                let axis = axisymmetric && low[0] <= 0.0;
-                let size = least.fold(f64::INFINITY, f64::min);
-                (Wall::Box { low, high, axis }, size)
-            }
-            Domain::Sphere(s) => {
-                let (centre, radius) = (vector(&s.centre_m), s.radius_m);
-                (Wall::Ball { centre, radius }, 2.0 * radius)
+        let (wall, size) = wall(&scene.domain, (dimensions, axisymmetric));
+        let outward = |body: &Body, spacing: f64| {
+            let own = || proportional(body, spacing, dimensions);
+            points.outward.unwrap_or_else(own)
+        };
+        let solid = |body: &BodyScene| {
+            let spacing = body.spacing_m.unwrap_or(points.spacing_m);
+            let body = Body::new(&body.shape, dimensions);
+            Solid {
+                growth: [points.inward, outward(&body, spacing)],
+                body,
+                spacing,
+                reach: [0.0; 2],
             }
         };
-        let solids: Vec<Solid> = scene
-            .bodies
-            .iter()
-            .map(|body| Solid {
-                body: Body::new(&body.shape, dimensions),
-                spacing: body.spacing_m.unwrap_or(points.spacing_m),
-                reach: [0.0; 2],
-            })
-            .collect();
-        let finer: Vec<(Body, f64)> = points
-            .refinements
-            .iter()
-            .map(|r| (Body::new(&r.shape, dimensions), r.spacing_m))
-            .collect();
+        let solids: Vec<Solid> = scene.bodies.iter().map(solid).collect();
+        let finer = |refinement: &Refinement| {
+            let (body, spacing) = (
+                Body::new(&refinement.shape, dimensions),
+                refinement.spacing_m,
+            );
+            Finer {
+                growth: outward(&body, spacing),
+                body,
+                spacing,
+            }
+        };
+        let finer: Vec<Finer> = points.refinements.iter().map(finer).collect();
         let largest = points.largest_m.unwrap_or(size / 8.0).max(points.spacing_m);
         let all = solids.iter().map(|s| s.spacing);
         let finest = all
-            .chain(finer.iter().map(|f| f.1))
+            .chain(finer.iter().map(|f| f.spacing))
             .fold(points.spacing_m, f64::min);
         Self {
             dimensions,
@@ -121,10 +163,21 @@ impl Region {
                 largest
             },
             largest,
-            growth: [points.inward, points.outward],
+            wider: 1.0,
             smooth: points.steps == Steps::Smooth,
             solids,
         }
+    }
+
+    /// The same with points of lattices far from bodies so many times as far apart; those of surfaces, layers and beside them
+    /// stay.
+    #[must_use]
+    pub(super) fn wider(mut self, by: f64) -> Self {
+        if !self.solids.is_empty() {
+            (self.plain, self.largest) = (by * self.plain, by * self.largest);
+        }
+        self.wider = by;
+        self
     }
 
     /// Distance to the wall \[m\], positive within the domain.
@@ -212,17 +265,20 @@ impl Region {
         let finer = self.solids.iter().filter(|other| other.spacing < own);
         let bodies = finer.fold(own, |spacing, other| {
             let d = other.body.distance(x);
-            let growth = self.growth[usize::from(d > 0.0)];
+            let growth = other.growth[usize::from(d > 0.0)];
             spacing.min(other.spacing + growth * (d.abs() - reach).max(0.0))
         });
-        self.finer.iter().fold(bodies, |spacing, (body, finest)| {
-            spacing.min(finest + self.growth[1] * (body.distance(x) - reach).max(0.0))
+        self.finer.iter().fold(bodies, |spacing, finer| {
+            let away = (finer.body.distance(x) - reach).max(0.0);
+            spacing.min(finer.spacing + finer.growth * away)
         })
     }
 
     /// The fastest that wanted spacings change per distance.
     pub(super) fn steepest(&self) -> f64 {
-        self.growth[0].max(self.growth[1])
+        let solids = self.solids.iter().flat_map(|solid| solid.growth);
+        let finer = self.finer.iter().map(|finer| finer.growth);
+        self.wider * solids.chain(finer).fold(0.0, f64::max)
     }
 
     /// The largest spacing that is wanted anywhere \[m\].
@@ -249,10 +305,14 @@ impl Region {
                 } else {
                     0.0
                 };
-            widen(solid.spacing, self.growth[side], away);
+            widen(solid.spacing, self.wider * solid.growth[side], away);
         }
-        for (body, finest) in &self.finer {
-            widen(*finest, self.growth[1], body.distance(x));
+        for finer in &self.finer {
+            widen(
+                finer.spacing,
+                self.wider * finer.growth,
+                finer.body.distance(x),
+            );
         }
         spacing
     }

@@ -33,7 +33,7 @@ impl Curvature {
         self.principal[0] + self.principal[1]
     }
 
-    /// How far the surface leaves its tangent plane within one spacing \[m\].
+    /// How far the surface leaves its tangent plane within a distance \[m\].
     pub(crate) fn bow(&self, spacing: f64) -> f64 {
         let most = self.principal.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
         0.5 * most * spacing * spacing

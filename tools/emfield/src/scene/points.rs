@@ -90,10 +90,11 @@ pub struct Points {
     /// Arrangement inside bodies.
     #[serde(default)]
     pub arrangement: Arrangement,
-    /// How much the spacing of the lattice rises per distance from the bodies, outside.
-    #[serde(default = "outward")]
+    /// How much the spacing of the lattice rises per distance from the bodies, outside. When it is absent: the spacing of each
+    /// body over half its least width, at most 0.25, and so for regions with finer points; points far away then draw
+    /// together as those at the bodies do.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
-    pub outward: f64,
+    pub outward: Option<f64>,
     /// The same inside bodies.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
@@ -119,8 +120,4 @@ pub struct Points {
     /// Seed of the random shifts.
     #[serde(default)]
     pub seed: u64,
-}
-
-fn outward() -> f64 {
-    0.25
 }

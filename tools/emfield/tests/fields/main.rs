@@ -6,6 +6,7 @@ mod bars;
 mod coils;
 mod doubts;
 mod enclosures;
+mod grading;
 mod halves;
 mod magnets;
 mod open;

@@ -43,12 +43,12 @@ pub(crate) struct Opening<'a> {
 #[derive(Debug)]
 pub struct Session {
     writer: Writer,
-    header: Header,
+    pub(crate) header: Header,
     clock: Clock,
     pub(crate) ledger: Ledger,
     pub(crate) progress: Progress,
     level: Level,
-    interrupt: Interrupt,
+    pub(crate) interrupt: Interrupt,
     checkpoint: PathBuf,
     every: Duration,
     last: Instant,

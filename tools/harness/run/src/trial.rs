@@ -49,16 +49,10 @@ pub fn trial(
     header: Header,
     work: impl FnOnce(&mut Session) -> Result<(), Failure>,
 ) -> Result<Taken, Failure> {
-    static NUMBER: AtomicUsize = AtomicUsize::new(0);
-    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let name = format!("{}-trial-{}-{number}.mcap", header.tool, std::process::id());
-    let out = std::env::temp_dir().join(name);
     let ballast = Ballast::new();
     let before = machine::memory_bytes().unwrap_or_default();
     let highest = machine::peak_memory_bytes();
-    let mut session = Session::quiet(&out, header)?;
-    // The open file lasts without its name: however the process ends, nothing is left. What cannot be removed is in nobody's way.
-    let _ = std::fs::remove_file(beside(&out, ".part"));
+    let mut session = silent(header)?;
     session.watched = Some(Watched::default());
     let done = work(&mut session);
     let higher = machine::peak_memory_bytes().filter(|now| Some(*now) > highest);
@@ -76,4 +70,36 @@ pub fn trial(
         before: ballast.without(before),
         most: higher.unwrap_or(watched.most).saturating_sub(before),
     })
+}
+
+/// A session that says nothing, and whose artefact is thrown away.
+///
+/// # Errors
+/// Where no temporary file can be written.
+pub(crate) fn silent(header: Header) -> Result<Session, Failure> {
+    static NUMBER: AtomicUsize = AtomicUsize::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    let name = format!("{}-trial-{}-{number}.mcap", header.tool, std::process::id());
+    let out = std::env::temp_dir().join(name);
+    let session = Session::quiet(&out, header)?;
+    // The open file lasts without its name: however the process ends, nothing is left. What cannot be removed is in nobody's way.
+    let _ = std::fs::remove_file(beside(&out, ".part"));
+    Ok(session)
+}
+
+impl Session {
+    /// Does work in a silent session beside this one, and adds its time to a stage. What it writes and says is thrown away; it
+    /// stops where this one does.
+    ///
+    /// # Errors
+    /// Those of the work, and where no temporary file can be written.
+    pub fn beside<R>(
+        &mut self,
+        name: &'static str,
+        work: impl FnOnce(&mut Self) -> Result<R, Failure>,
+    ) -> Result<R, Failure> {
+        let mut other = silent(self.header.clone())?;
+        other.interrupt = self.interrupt.clone();
+        self.timed(name, || work(&mut other))
+    }
 }
