@@ -11,7 +11,9 @@ use crate::lab::{Lab, LabError};
 pub(super) struct EmAxisymmetricSphere;
 
 /// Frequencies, and layers beside the surface over those at 100 kHz.
-const METHODS: &[&str] = &["100-khz", "30-khz", "1-mhz", THIN, REGIONS, LINEAR, IRON];
+const METHODS: &[&str] = &[
+    "100-khz", "30-khz", "1-mhz", THIN, REGIONS, LINEAR, IRON, PLAIN,
+];
 
 /// At 100 kHz, with wires so thin that no rule for currents over their section stands between tool and reference.
 const THIN: &str = "100-khz-thin-wires";
@@ -21,6 +23,9 @@ const REGIONS: &str = "100-khz-coils-of-points";
 
 /// Of a hundred times the permeability, at 1 kHz, where the skin is as thin as at 100 kHz, with thin wires.
 const IRON: &str = "iron";
+
+/// The same of which nothing but the spacing is given: points far away are as the program has them.
+const PLAIN: &str = "iron-plain";
 
 /// At 100 kHz, with slopes of linear polynomials, on points half as far apart.
 const LINEAR: &str = "100-khz-linear";
@@ -44,7 +49,7 @@ impl Case for EmAxisymmetricSphere {
 
     fn targets(&self) -> Vec<Target> {
         let mut targets = Vec::new();
-        for method in METHODS.iter().filter(|m| **m != LINEAR) {
+        for method in METHODS.iter().filter(|m| ![LINEAR, PLAIN].contains(m)) {
             for quantity in [
                 "lift_volume",
                 "lift_maxwell",
@@ -71,6 +76,9 @@ impl Case for EmAxisymmetricSphere {
             targets.push(Target::order(quantity, 1.8).of(IRON));
         }
         targets.push(Target::order("flux_linf", 2.5).of(IRON));
+        for quantity in ["lift_volume", "lift_coil", "power_volume"] {
+            targets.push(Target::order(quantity, 1.5).of(PLAIN));
+        }
         targets.push(Target::error("flux_linf", 2e-3).of(REGIONS));
         targets.push(Target::order("lift_enclosed", 1.5).of(THIN));
         targets.push(Target::order("flux_linf", 2.5).of(THIN));
@@ -100,20 +108,24 @@ impl Case for EmAxisymmetricSphere {
         let (frequency, first) = match method {
             "30-khz" => (3e4, 0.3),
             "1-mhz" => (1e6, 0.15),
-            IRON => (1e3, 0.3),
+            IRON | PLAIN => (1e3, 0.3),
             _ => (1e5, 0.3),
         };
         let mut patch = json!({
             "points": {"spacing_m": spacing, "layers": {"first_m": first * spacing}},
             "eddy_currents": {"harmonic": {"frequency_hz": frequency}}
         });
-        if method == IRON {
+        if method == PLAIN {
+            patch["points"]["outward"] = Value::Null;
+            patch["method"] = Value::Null;
+        }
+        if method == IRON || method == PLAIN {
             let mut scene = planned(lab, self.name(), &patch)?;
             let mut bodies = scene["bodies"].take();
             bodies[0]["relative_permeability"] = json!(100.0);
             patch["bodies"] = bodies;
         }
-        if method == THIN || method == IRON {
+        if [THIN, IRON, PLAIN].contains(&method) {
             let mut scene = planned(lab, self.name(), &patch)?;
             let coils = scene["eddy_currents"]["coils"].take();
             patch["eddy_currents"]["coils"] = thin(coils);

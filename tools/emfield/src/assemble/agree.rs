@@ -90,6 +90,26 @@ impl Ways<'_> {
     }
 }
 
+/// What to say of a heat by volume and by what flows in through surfaces, if they disagree; `gross` is what that comes to without
+/// its phase.
+fn heats(ways: [f64; 2], gross: f64, (unit, at): (&str, Vector)) -> Option<Doubt> {
+    let apart = (ways[0] - ways[1]).abs();
+    let most = ways[0].abs().max(ways[1].abs());
+    let share = apart / most.max(NOISE * gross);
+    // Nothing over nothing is no doubt.
+    (share > APART).then(|| Doubt {
+        of: "heat".to_owned(),
+        share,
+        what: format!(
+            "heat in all conductors: {:.3e} {unit} by volume, {:.3e} {unit} by what flows in through their surfaces: they differ by {apart:.2e} {unit}, {:.0} % of the larger, {}: {HELP}",
+            ways[0],
+            ways[1],
+            100.0 * share,
+            told(at.into()),
+        ),
+    })
+}
+
 /// Tractions added up over some surfaces.
 #[derive(Clone, Copy, Default)]
 struct Pulled {
@@ -276,32 +296,18 @@ impl<const D: usize> Setting<'_, D> {
         if self.omega.is_none() || self.unknown == Unknown::Axial || self.walled(acting) {
             return None;
         }
-        let ways = [totals.heat_volume, totals.heat_surface];
-        let apart = (ways[0] - ways[1]).abs();
-        let most = ways[0].abs().max(ways[1].abs());
-        let share = apart / most.max(NOISE * totals.heat_gross);
-        // Nothing over nothing is no doubt.
-        if share.is_nan() || share <= APART {
-            return None;
-        }
         let heat = |i: &usize| (self.weights[*i] * fields.heat[*i]).abs();
-        let hottest = (0..self.weights.len()).max_by(|a, b| heat(a).total_cmp(&heat(b)));
-        let unit = if self.scene.geometry == Geometry::Plane {
-            "W/m"
-        } else {
-            "W"
+        let hottest = (0..self.weights.len()).max_by(|a, b| heat(a).total_cmp(&heat(b)))?;
+        let unit = match self.scene.geometry {
+            Geometry::Plane => "W/m",
+            _ => "W",
         };
-        Some(Doubt {
-            of: "heat".to_owned(),
-            share,
-            what: format!(
-                "heat in all conductors: {:.3e} {unit} by volume, {:.3e} {unit} by what flows in through their surfaces: they differ by {apart:.2e} {unit}, {:.0} % of the larger, {}: {HELP}",
-                ways[0],
-                ways[1],
-                100.0 * share,
-                told(self.cloud.position[hottest?].into()),
-            ),
-        })
+        let at = (unit, self.cloud.position[hottest]);
+        heats(
+            [totals.heat_volume, totals.heat_surface],
+            totals.heat_gross,
+            at,
+        )
     }
 
     /// What the stresses on surfaces of bodies come to without their directions, from without \[N\].
@@ -365,6 +371,21 @@ mod tests {
         assert_eq!(ways(&[[1e-3, 0.0, 0.0], [-1e-3, 0.0, 0.0]], 1.0), None);
         assert!(ways(&[[4e-3, 0.0, 0.0], [-4e-3, 0.0, 0.0]], 1.0).is_some());
         assert_eq!(ways(&[[0.0; 3], [0.0; 3]], 0.0), None);
+    }
+
+    #[test]
+    fn heats_that_disagree_are_told() {
+        let told = |ways, gross| heats(ways, gross, ("W", [0.0; 3]));
+        let far = told([34.6, 1.7e-6], 100.0).unwrap();
+        assert!(
+            far.share > 0.99 && far.what.contains("3.460e1 W by volume, 1.700e-6 W by"),
+            "{far:?}"
+        );
+        assert!((told([60.8, 30.3], 100.0).unwrap().share - 30.5 / 60.8).abs() < 1e-12);
+        assert_eq!(told([1.0, 1.04], 100.0), None);
+        // Noise of the solve beside fields that bring no heat.
+        assert_eq!(told([1e-12, 2e-10], 1.0), None);
+        assert_eq!(told([0.0; 2], 0.0), None);
     }
 
     #[test]

@@ -17,7 +17,7 @@ const WIDER: f64 = 1.5;
 /// What is left of errors over the change.
 const LEFT: f64 = 1.0 / (WIDER * WIDER - 1.0);
 /// Rises of the spacing up to which points far away leave less than what is told.
-const SLOW: f64 = 0.085;
+const SLOW: f64 = 0.125;
 /// Error over the field from which it is told, and from which it is a warning that matters.
 const TOLD: f64 = 0.005;
 const MATTERS: f64 = 0.02;

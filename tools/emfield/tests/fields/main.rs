@@ -11,6 +11,7 @@ mod halves;
 mod magnets;
 mod open;
 mod saturation;
+mod skins;
 mod ways;
 
 use std::path::{Path, PathBuf};

@@ -6,10 +6,8 @@ use std::time::{Duration, Instant};
 use crate::failure::Failure;
 use crate::machine;
 
-/// Time that plan and estimate may take, as work and by the clock. A machine that has other work to do may take longer by the
-/// clock, at most so much.
-const BOUND: Duration = Duration::from_secs(2);
-const MOST: Duration = Duration::from_secs(8);
+/// A bound is one of work: a machine that has other work to do may take longer by the clock, at most so many times.
+const LONGER: u32 = 4;
 /// Between two looks at the work done.
 const LOOK: Duration = Duration::from_millis(20);
 /// Stack of the thread that plans: that of the main thread.
@@ -36,16 +34,12 @@ pub(crate) struct Known<P, E> {
     pub(crate) estimate: Option<E>,
 }
 
-/// The bound in words.
-pub(crate) fn bound() -> String {
-    format!("{} s", BOUND.as_secs())
-}
-
 /// Does work that tells its steps, on a thread of its own; gives up on what it has not told within the bound.
 ///
 /// # Errors
 /// That with which the work ends, and where no thread can be had.
 pub(crate) fn bounded<P: Send + 'static, E: Send + 'static>(
+    bound: Duration,
     work: impl FnOnce(&dyn Fn(Step<P, E>)) -> Result<(), Failure> + Send + 'static,
 ) -> Result<Known<P, E>, Failure> {
     let (tell, told) = channel();
@@ -62,12 +56,12 @@ pub(crate) fn bounded<P: Send + 'static, E: Send + 'static>(
         .stack_size(STACK)
         .spawn(working)
         .map_err(|e| Failure::Other(format!("cannot begin to plan: {e}")))?;
-    listen(&told)
+    listen(&told, bound)
 }
 
 type Told<P, E> = Result<Step<P, E>, Failure>;
 
-fn listen<P, E>(told: &Receiver<Told<P, E>>) -> Result<Known<P, E>, Failure> {
+fn listen<P, E>(told: &Receiver<Told<P, E>>, bound: Duration) -> Result<Known<P, E>, Failure> {
     let mut known = Known {
         outline: None,
         plan: None,
@@ -85,28 +79,32 @@ fn listen<P, E>(told: &Receiver<Told<P, E>>) -> Result<Known<P, E>, Failure> {
             Err(RecvTimeoutError::Disconnected) => return Ok(known),
             Err(RecvTimeoutError::Timeout) => {}
         }
-        if begun.is_some_and(passed) {
+        if begun.is_some_and(|begun| passed(begun, bound)) {
             return Ok(known);
         }
     }
 }
 
 /// Whether the bound has passed since then, when so much work had been done.
-fn passed((since, before): (Instant, Option<f64>)) -> bool {
+fn passed((since, before): (Instant, Option<f64>), bound: Duration) -> bool {
     let clock = since.elapsed();
     let work = before.zip(machine::work_s()).map(|(then, now)| now - then);
-    let worked = work.is_none_or(|work| work >= BOUND.as_secs_f64());
-    clock >= MOST || clock >= BOUND && worked
+    let worked = work.is_none_or(|work| work >= bound.as_secs_f64());
+    clock >= bound.saturating_mul(LONGER) || clock >= bound && worked
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
     use std::sync::atomic::{AtomicBool, Ordering};
+
+    const BOUND: Duration = Duration::from_millis(500);
 
     #[test]
     fn what_is_known_in_time_is_told() {
-        let known = bounded(|tell| {
+        static HEARD: AtomicBool = AtomicBool::new(false);
+        let known = bounded(BOUND, |tell| {
             tell(Step::Read);
             tell(Step::Plan(1));
             tell(Step::Estimate("two"));
@@ -114,9 +112,8 @@ mod tests {
         });
         let known = known.unwrap();
         assert_eq!((known.plan, known.estimate), (Some(1), Some("two")));
-        static HEARD: AtomicBool = AtomicBool::new(false);
         let began = Instant::now();
-        let known = bounded::<_, ()>(|tell| {
+        let known = bounded::<_, ()>(BOUND, |tell| {
             tell(Step::Read);
             tell(Step::Plan(1));
             while !HEARD.load(Ordering::Relaxed) {
@@ -127,12 +124,12 @@ mod tests {
         HEARD.store(true, Ordering::Relaxed);
         let known = known.unwrap();
         assert_eq!((known.plan, known.estimate), (Some(1), None));
-        assert!(began.elapsed() < MOST + BOUND);
+        assert!(began.elapsed() < (LONGER + 1) * BOUND);
     }
 
     #[test]
     fn failures_are_told() {
-        let known = bounded::<(), ()>(|tell| {
+        let known = bounded::<(), ()>(BOUND, |tell| {
             tell(Step::Read);
             Err(Failure::Usage("so".to_owned()))
         });

@@ -1,10 +1,13 @@
 //! `TOOL check`: the plan of a scene and what a run will take, within a bound of time.
 
-use crate::bounded::{Step, bound, bounded};
+use std::time::Duration;
+
+use crate::bounded::{Step, bounded};
 use crate::command::Study;
 use crate::failure::Failure;
-use crate::plan::{Estimate, Plan};
+use crate::plan::{Estimate, Plan, bytes, duration};
 use crate::ready::{caught, prepare, read};
+use crate::room::memory_room;
 use crate::tool::Tool;
 
 /// The plan of a study, and whether all of it could be judged within the bound.
@@ -12,21 +15,25 @@ use crate::tool::Tool;
 /// # Errors
 /// All faults of the scene; a panic, wherever it happens.
 pub(crate) fn check<T: Tool>(study: &Study) -> Result<(Plan, bool), Failure> {
+    let bound = Duration::try_from_secs_f64(T::CHECK_S).unwrap_or(Duration::MAX);
     let known = {
         let study = study.clone();
-        bounded(move |tell| steps::<T>(&study, tell))?
+        bounded(bound, move |tell| steps::<T>(&study, tell))?
     };
     Ok(match (known.plan, known.estimate) {
         (Some((plan, grows)), Some(estimate)) => (told(plan, estimate, grows), true),
         (Some((plan, _)), None) => {
-            let late = format!("time: not told, as a trial takes longer than {}", bound());
+            let late = format!(
+                "time: not told, as a trial takes longer than {}",
+                duration(T::CHECK_S)
+            );
             (plan.note(late), true)
         }
         (None, _) => {
             let outline = known.outline.map(|(plan, _)| plan);
             let late = format!(
                 "not judged: the plan takes longer than {}; a run makes it first, and tells what does not fit",
-                bound()
+                duration(T::CHECK_S)
             );
             (outline.unwrap_or_default().note(late), false)
         }
@@ -54,8 +61,20 @@ fn steps<T: Tool>(study: &Study, tell: &dyn Fn(Step<Planned, Estimated>)) -> Res
 /// A plan with its estimate, or why there is none.
 fn told(plan: Plan, estimate: Estimated, grows: Option<&'static str>) -> Plan {
     match estimate {
-        Ok(estimate) => plan.estimate(estimate, grows).roomy(),
+        Ok(estimate) => roomy(plan.estimate(estimate, grows)),
         Err(failure) => plan.note(format!("time: not told: in a trial, {failure}")),
+    }
+}
+
+/// A plan that tells where it comes to more memory than there is.
+fn roomy(plan: Plan) -> Plan {
+    let wanted = plan.memory_bytes();
+    match memory_room() {
+        Some(room) if wanted > room.bytes => {
+            let (wanted, there) = (bytes(wanted), bytes(room.bytes));
+            plan.note(format!("memory: about {wanted}, {} {there}", room.whose))
+        }
+        _ => plan,
     }
 }
 

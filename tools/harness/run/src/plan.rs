@@ -3,7 +3,6 @@
 use std::fmt;
 
 use crate::ledger::{Bytes, LeftOut, Limit};
-use crate::room::memory_room;
 
 /// What a run would do. Built by [`crate::Tool::plan`], shown by `TOOL check` and at the head of
 /// every run, and kept in the run record.
@@ -128,23 +127,6 @@ impl Plan {
     pub fn note(mut self, text: impl Into<String>) -> Self {
         self.notes.push(text.into());
         self
-    }
-
-    /// Tells where an estimate comes to more memory than there is.
-    pub(crate) fn roomy(self) -> Self {
-        let wanted = self.memory_bytes();
-        match memory_room() {
-            Some(room) if wanted > room.bytes => {
-                let told = format!(
-                    "memory: about {}, {} {}",
-                    bytes(wanted),
-                    room.whose,
-                    bytes(room.bytes)
-                );
-                self.note(told)
-            }
-            _ => self,
-        }
     }
 
     /// What is said of the output: the whole, and each channel.

@@ -36,6 +36,9 @@ pub trait Tool: 'static {
     /// Wall time between checkpoints \[s\].
     const CHECKPOINT_S: f64 = 60.0;
 
+    /// Work that `check` may take for plan and estimate, beyond reading the scene \[s\]; what is known by then is told.
+    const CHECK_S: f64 = f64::INFINITY;
+
     /// Its scene; doc comments become descriptions, `#[schemars(range(..))]` becomes a check.
     type Scene: DeserializeOwned + JsonSchema;
 
