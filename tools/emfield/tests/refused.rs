@@ -66,7 +66,7 @@ fn a_check_of_many_points_ends_in_time() {
     let (code, said) = check(&ball(1.0));
     assert!(matches!(code, Some(0 | 3)), "{said}");
     // 2 s of work; by the clock more where other work is done.
-    assert!(began.elapsed().as_secs_f64() < 10.0);
+    assert!(began.elapsed().as_secs_f64() < 70.0);
 }
 
 /// It panicked at the first point that iron does not have, and `check` did not tell.
