@@ -89,6 +89,7 @@ fn method_patch(method: &str) -> Value {
             let probes = places.map(|(name, z)| json!({"name": name, "place_m": [0, 0, z]}));
             json!({
                 "geometry": SPACE,
+                "points": {"outward": 0.15},
                 "domain": {"sphere": {"centre_m": [0, 0, 0]}},
                 "bodies": [{"name": "ring",
                     "shape": {"difference": [bar(RADIUS + HALF), bar(RADIUS - HALF)]}}],
