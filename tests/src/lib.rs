@@ -19,6 +19,7 @@ pub mod cases;
 pub mod certify;
 pub mod em;
 pub mod extreme;
+mod flow;
 mod grains;
 pub mod heat;
 pub mod keep;

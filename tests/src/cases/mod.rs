@@ -39,6 +39,17 @@ mod em_sphere_uniform_ac;
 mod em_transient_cylinder;
 mod em_transient_gauge;
 mod em_transient_sphere;
+mod flow_cavity;
+mod flow_channel;
+mod flow_dam_break;
+mod flow_drop;
+mod flow_invariance;
+mod flow_marangoni;
+mod flow_mirror;
+mod flow_pressure;
+mod flow_sessile;
+mod flow_sloshing;
+mod flow_taylor_green;
 mod fracture_energy;
 mod fracture_pull;
 mod gas_argon;
@@ -61,6 +72,7 @@ mod pool_drop_oscillation;
 mod pool_drop_pressure;
 mod pool_hydrostatic;
 mod pool_rosenthal;
+mod pool_similar;
 mod pool_stefan;
 mod pool_surface_heat;
 mod solid_patch;
@@ -74,6 +86,7 @@ use crate::case::Case;
 #[must_use]
 pub fn all() -> Vec<Box<dyn Case>> {
     let mut all = continua();
+    all.extend(pools());
     all.extend(grains());
     all.extend(jets());
     all
@@ -109,7 +122,33 @@ fn jets() -> Vec<Box<dyn Case>> {
     ]
 }
 
-/// Fields and liquids.
+/// Pools of metal, and its flow.
+fn pools() -> Vec<Box<dyn Case>> {
+    vec![
+        Box::new(pool_dimple::PoolDimple),
+        Box::new(pool_drop_oscillation::PoolDropOscillation),
+        Box::new(pool_drop_pressure::PoolDropPressure),
+        Box::new(pool_hydrostatic::PoolHydrostatic),
+        Box::new(pool_rosenthal::PoolRosenthal),
+        Box::new(pool_similar::PoolSimilar),
+        Box::new(pool_stefan::PoolStefan),
+        Box::new(pool_surface_heat::PoolSurfaceHeat),
+        Box::new(flow_channel::FlowChannel::POISEUILLE),
+        Box::new(flow_channel::FlowChannel::COUETTE),
+        Box::new(flow_marangoni::FlowMarangoni),
+        Box::new(flow_pressure::FlowPressure),
+        Box::new(flow_cavity::FlowCavity),
+        Box::new(flow_taylor_green::FlowTaylorGreen),
+        Box::new(flow_sloshing::FlowSloshing),
+        Box::new(flow_dam_break::FlowDamBreak),
+        Box::new(flow_drop::FlowDrop),
+        Box::new(flow_sessile::FlowSessile),
+        Box::new(flow_mirror::FlowMirror),
+        Box::new(flow_invariance::FlowInvariance),
+    ]
+}
+
+/// Fields.
 fn continua() -> Vec<Box<dyn Case>> {
     vec![
         Box::new(arc_cells::ArcCells),
@@ -155,13 +194,6 @@ fn continua() -> Vec<Box<dyn Case>> {
         Box::new(heat_cylinder_flux::HeatCylinderFlux),
         Box::new(heat_two_slabs::HeatTwoSlabs),
         Box::new(heat_shock_disc::HeatShockDisc),
-        Box::new(pool_dimple::PoolDimple),
-        Box::new(pool_drop_oscillation::PoolDropOscillation),
-        Box::new(pool_drop_pressure::PoolDropPressure),
-        Box::new(pool_hydrostatic::PoolHydrostatic),
-        Box::new(pool_rosenthal::PoolRosenthal),
-        Box::new(pool_stefan::PoolStefan),
-        Box::new(pool_surface_heat::PoolSurfaceHeat),
         Box::new(wls_operators::WlsOperators),
     ]
 }

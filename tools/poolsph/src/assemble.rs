@@ -11,12 +11,13 @@ use crate::domain::bodies::{self, Body, Filled};
 use crate::domain::bounds::Bounds;
 use crate::domain::droplet::Droplets;
 use crate::domain::fitting::fitting;
-use crate::faces::Faces;
+use crate::faces::{self, Faces};
 use crate::forces::arc_pressure::{ArcPressure, Pressure};
 use crate::forces::buoyancy::Buoyancy;
 use crate::forces::gas_shear::{Gas, GasShear};
 use crate::forces::lorentz::Lorentz;
 use crate::forces::marangoni::Marangoni;
+use crate::forces::surface_stress::SurfaceStress;
 use crate::forces::tension::Tension;
 use crate::frames::{Layout, PlateNote};
 use crate::grains::{self, fill::fill};
@@ -281,7 +282,13 @@ impl<'a> Source<'a> {
             return Ok(());
         };
         let mut conduction = Conduction::new(heat, caloric.clone(), self.scene.metal())
-            .map_err(|fault| fault.within("/heat"))?;
+            .map_err(|fault| fault.within("/heat"))?
+            .beside_walls(
+                self.scene
+                    .faces
+                    .as_ref()
+                    .is_some_and(faces::Parameters::holds_heat),
+            );
         for (particles, curve) in held {
             conduction.hold(particles, curve);
         }
@@ -306,6 +313,12 @@ impl<'a> Source<'a> {
         let flow = scene.flow.as_ref();
         parts.when("marangoni", scene.marangoni, |marangoni| {
             Ok(Box::new(Marangoni::new(marangoni)))
+        })?;
+        parts.when("surface_stress", scene.surface_stress.as_ref(), |given| {
+            let stage = SurfaceStress::new(given, metal);
+            Ok(Box::new(
+                stage.map_err(|fault| fault.within("/surface_stress"))?,
+            ))
         })?;
         parts.when("gas_shear", scene.gas_shear.as_ref(), |shear| {
             let viscosity = flow.map_or(Ok(Law::Uniform(0.0)), |flow| self.viscosity(flow))?;

@@ -305,3 +305,73 @@ fn the_last_state_is_written_whatever_the_intervals_and_the_step() {
         }
     }
 }
+
+#[test]
+fn beside_faces_threads_do_not_show_and_totals_close() {
+    let folder = folder();
+    let hot = json!({"expr": "2100 + 1e5*x"});
+    let layer = json!({
+        "kind": "poolsph.scene", "version": 1, "title": "A layer between faces",
+        "spacing_m": 5e-4, "time": {"step_s": 2e-4, "end_s": 0.02}, "density_kg_m3": 7850,
+        "bodies": [{
+            "shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-3, 3e-3, 2e-3]}}, "state": "liquid", "temperature_k": hot,
+            "velocity_m_s": [0, 0, {"expr": "0.1*sin(2000*y)"}]
+        }],
+        "faces": {
+            "min_m": [0, 0, 0], "max_m": [4e-3, 3e-3, 4e-3], "periodic": ["y"], "mirror": ["x-"],
+            "wall": [{"face": "x+", "velocity_m_s": [0, 0.1, 0], "temperature_k": 2000}, {"face": "z-", "temperature_k": hot}]
+        },
+        "flow": {"viscosity_pa_s": 0.02, "gravity_m_s2": [0, 0, -9.8]},
+        "tension": {"surface_tension_n_m": 1.0},
+        "marangoni": {"slope_n_m_k": -1e-4},
+        "surface_stress": {"stress_pa": [0, 5, 0]},
+        "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700},
+        "output": {"particles_interval_s": 5e-3, "precision": "f64"}
+    });
+    let scene = write(folder.path(), "layer.json", &layer);
+    let (one, two) = (
+        folder.path().join("one.mcap"),
+        folder.path().join("two.mcap"),
+    );
+    let first = finished(&scene, &one, &["--threads", "1"]);
+    assert_eq!(first, finished(&scene, &two, &["--threads", "2"]));
+    let record = record(&one);
+    assert!(closing(&record, "energy_balance").abs() < 1e-9);
+    assert!(closing(&record, "energy_out_walls_j") > 0.0);
+}
+
+#[test]
+fn faces_off_the_bodies_are_refused_by_name() {
+    let folder = folder();
+    let told = |faces: Value, more: Value| {
+        let mut scene = scene();
+        scene["bodies"] = json!([{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 4e-3]}}, "state": "liquid",
+            "temperature_k": 2000}]);
+        scene["faces"] = faces;
+        for (key, value) in more.as_object().unwrap() {
+            scene[key] = value.clone();
+        }
+        let path = write(folder.path(), "faces.json", &scene);
+        let output = run(&path, &folder.path().join("out.mcap"), &[]);
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let off = json!({"min_m": [-1e-3, 0, 0], "max_m": [4e-3, 4e-3, 1], "mirror": ["x-"]});
+    let said = told(off, json!({}));
+    assert!(
+        said.contains("/faces/min_m/0") && said.contains("the mirror 'x-'"),
+        "{said}"
+    );
+    let held = json!({"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 1], "wall": [{"face": "z-", "temperature_k": 300}]});
+    let solid = json!({"shape": {"box": {"min_m": [5e-3, 0, 0], "max_m": [6e-3, 1e-3, 1e-3]}}, "state": "solid",
+        "temperature_k": 300});
+    let bodies = json!([{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 4e-3]}}, "state": "liquid",
+        "temperature_k": 2000}, solid]);
+    let said = told(held.clone(), json!({ "bodies": bodies }));
+    assert!(said.contains("/faces/wall/0/temperature_k"), "{said}");
+    let said = told(
+        held,
+        json!({"flow": {"viscosity_pa_s": 0.004, "method": "homogenising"}}),
+    );
+    assert!(said.contains("/flow/method"), "{said}");
+}

@@ -34,8 +34,8 @@ pub struct Body {
     pub phase: Phase,
     /// Belongs to the container.
     pub wall: bool,
-    /// u at the start \[m/s\].
-    pub velocity: [f64; 3],
+    /// u at the start \[m/s\] over x, y, z, r.
+    pub velocity: [Curve; 3],
     /// T at the start \[K\] over x, y, z, r.
     pub temperature: Curve,
     /// T that it keeps \[K\] over x, y, z, r, t.
@@ -109,9 +109,11 @@ pub fn fill(
         for &position in &kept {
             let (temperature, enthalpy) = warmth(body, position, caloric)
                 .map_err(|what| Fault::at(&format!("/bodies/{i}/temperature_k"), what))?;
+            let velocity = speed(body, position)
+                .map_err(|what| Fault::at(&format!("/bodies/{i}/velocity_m_s"), what))?;
             state.push(Particle {
                 position,
-                velocity: body.velocity,
+                velocity,
                 phase: body.phase,
                 droplet: false,
                 wall: body.wall,
@@ -126,6 +128,16 @@ pub fn fill(
         });
     }
     Ok(filled)
+}
+
+/// Velocity \[m/s\] of a body at a place.
+fn speed(body: &Body, position: [f64; 3]) -> Result<[f64; 3], String> {
+    let at = Arguments::at(position, 0.0);
+    let mut velocity = [0.0; 3];
+    for (component, curve) in velocity.iter_mut().zip(&body.velocity) {
+        *component = curve.value(&at).map_err(|fault| fault.to_string())?;
+    }
+    Ok(velocity)
 }
 
 /// Temperature \[K\] and specific enthalpy \[J/kg\] of a body at a place.
@@ -197,7 +209,7 @@ mod tests {
             cuts: Vec::new(),
             phase,
             wall: false,
-            velocity: [0.0; 3],
+            velocity: [const { Curve::Constant(0.0) }; 3],
             temperature: Curve::Constant(300.0),
             held: None,
         }

@@ -101,6 +101,12 @@ pub struct WallParameters {
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
 impl Parameters {
+    /// True if a wall keeps a temperature.
+    #[must_use]
+    pub fn holds_heat(&self) -> bool {
+        self.wall.iter().any(|wall| wall.temperature_k.is_some())
+    }
+
     /// The faces, checked; `support` is that of the kernel \[m\], `heat` whether temperatures are followed.
     ///
     /// # Errors

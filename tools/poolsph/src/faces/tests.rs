@@ -1,4 +1,8 @@
 use super::*;
+use crate::heat::{self, Conduction};
+use crate::motion::around::Around;
+use crate::motion::noise::Noise;
+use crate::motion::viscosity::Viscosity;
 use crate::motion::{self, Law, Motion};
 use crate::stage::Stage;
 use crate::state::{Column, Metal, Particle, Phase, State};
@@ -251,4 +255,94 @@ fn faces_that_cannot_be_are_refused_by_name() {
     assert!(across.contains("/wall/0/velocity_m_s/0"), "{across}");
     let cold = told(&box_of(r#""wall": [{"face": "x-", "temperature_k": 300}]"#));
     assert!(cold.contains("/wall/0/temperature_k"), "{cold}");
+}
+
+/// A lattice of 5 x 5 x 6 cells between two walls.
+fn between(text: &str) -> State {
+    let cell = |n: i32| [n % 5, n / 5 % 5, n / 25].map(|i| f64::from(i) + 0.5);
+    let mut state = body(
+        faces(text),
+        (0..150).map(|n| (cell(n), [cell(n)[2], 0.0, 0.0])),
+    );
+    for (a, x) in state.position.clone().iter().enumerate() {
+        state.velocity[a] = [2.0 * x[2] / 6.0, 0.0, 0.0];
+    }
+    state
+}
+
+const BETWEEN: &str = r#"{"min_m": [0, 0, 0], "max_m": [5, 5, 6], "periodic": ["x", "y"],
+    "wall": [{"face": "z-", "temperature_k": 300},
+             {"face": "z+", "velocity_m_s": [2, 0, 0], "temperature_k": 360}]}"#;
+
+#[test]
+fn a_linear_profile_between_walls_feels_no_viscosity() {
+    let mut state = between(BETWEEN);
+    state.gather();
+    let near = &state.near;
+    let (mut around, mut change) = (Around::default(), vec![[0.0; 3]; near.len()]);
+    around.sum(near, &near.velocity);
+    let mut viscosity = Viscosity::new(Law::Uniform(3.0), METAL);
+    viscosity.apply(near, &around, 1.0, &mut change);
+    let mut noise = Noise::new(9.8, METAL);
+    noise.damp(near, &mut around, (&viscosity, 1.0), &mut change);
+    for (a, change) in change.iter().enumerate() {
+        assert!(squared(*change).sqrt() < 1e-14, "{a}: {change:?}");
+    }
+}
+
+#[test]
+fn between_walls_heat_flows_as_fourier_says() {
+    let text = r#"{"thermal_conductivity_w_m_k": 7.0, "specific_heat_j_kg_k": 1.0}"#;
+    let parameters: heat::Parameters = serde_json::from_str(text).unwrap();
+    let caloric = parameters.caloric().unwrap();
+    let cells = between(BETWEEN);
+    let mut state = State::new(METAL, vec![Column::Temperature, Column::Enthalpy]);
+    (state.faces, state.flowing) = (cells.faces, true);
+    for position in cells.position {
+        let temperature = 300.0 + 10.0 * position[2];
+        state.push(Particle {
+            position,
+            velocity: [0.0; 3],
+            phase: Phase::Liquid,
+            droplet: false,
+            wall: false,
+            temperature,
+            enthalpy: caloric.enthalpy(temperature),
+        });
+    }
+    let mut conduction = Conduction::new(&parameters, caloric, METAL)
+        .unwrap()
+        .beside_walls(true);
+    for _ in 0..3 {
+        state.gather();
+        conduction.advance(&mut state, 1.0).unwrap();
+    }
+    for (x, kelvin) in state.position.iter().zip(&state.temperature) {
+        assert!(
+            (kelvin - 300.0 - 10.0 * x[2]).abs() < 1e-9,
+            "{x:?} {kelvin}"
+        );
+    }
+    // What comes in above goes out below.
+    let out = conduction.figures();
+    let out = out
+        .iter()
+        .find(|figure| figure.name == "energy_out_walls_j")
+        .unwrap();
+    assert!(out.value.abs() < 1e-9, "{}", out.value);
+    // A colder floor takes k/(d/2) times the difference from the layer beside it, as far as the layers reach.
+    let mut colder = faces(&BETWEEN.replace("300", "290"));
+    std::mem::swap(&mut state.faces, &mut colder);
+    state.gather();
+    conduction.advance(&mut state, 1.0).unwrap();
+    let figures = conduction.figures();
+    let out = figures
+        .iter()
+        .find(|figure| figure.name == "energy_out_walls_j")
+        .unwrap();
+    assert!(
+        (out.value / (25.0 * 7.0 * 10.0) - 2.0).abs() < 0.35,
+        "{}",
+        out.value
+    );
 }

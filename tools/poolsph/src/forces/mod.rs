@@ -5,6 +5,7 @@ pub mod buoyancy;
 pub mod gas_shear;
 pub mod lorentz;
 pub mod marangoni;
+pub mod surface_stress;
 pub mod tension;
 
 #[cfg(test)]

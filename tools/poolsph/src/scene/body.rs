@@ -1,7 +1,7 @@
 //! Bodies in a scene.
 
 use run::Fault;
-use run::property::Property;
+use run::property::{Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,10 +40,10 @@ pub struct BodyScene {
     pub shape: Shape,
     /// Solid, liquid or wall.
     pub state: StartState,
-    /// u at the start \[m/s\]; rest if absent.
+    /// u at the start \[m/s\], each component a number or a formula in x, y, z, r; rest if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s"))]
-    pub velocity_m_s: Option<[f64; 3]>,
+    pub velocity_m_s: Option<[Property; 3]>,
     /// T at the start \[K\], a number or a formula in x, y, z, r; needed where the scene has heat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "K"))]
@@ -73,7 +73,7 @@ impl BodyScene {
             (Some(property), _) => {
                 property.compile(&format!("{at}/temperature_k"), &["x", "y", "z", "r"])?
             }
-            (None, false) => run::property::Curve::Constant(0.0),
+            (None, false) => Curve::Constant(0.0),
             (None, true) => {
                 let what = "has no key 'temperature_k' in K, which a scene with heat needs";
                 return Err(Fault::at(at, what));
@@ -103,10 +103,21 @@ impl BodyScene {
                 StartState::Solid | StartState::Wall => Phase::Solid,
             },
             wall: self.state == StartState::Wall,
-            velocity: self.velocity_m_s.unwrap_or_default(),
+            velocity: self.velocity(at)?,
             temperature,
             held,
         })
+    }
+
+    /// u over x, y, z, r.
+    fn velocity(&self, at: &str) -> Result<[Curve; 3], Fault> {
+        let mut velocity = [const { Curve::Constant(0.0) }; 3];
+        let written = self.velocity_m_s.iter().flatten().enumerate();
+        for (k, component) in written {
+            let key = format!("{at}/velocity_m_s/{k}");
+            velocity[k] = component.compile(&key, &["x", "y", "z", "r"])?;
+        }
+        Ok(velocity)
     }
 
     fn check(&self, at: &str) -> Result<(), Fault> {
@@ -126,7 +137,8 @@ impl BodyScene {
         }
         let moves = self
             .velocity_m_s
-            .is_some_and(|v| v.iter().any(|u| *u != 0.0));
+            .as_ref()
+            .is_some_and(|v| v.iter().any(|u| *u != Property::Constant(0.0)));
         if moves && self.state != StartState::Liquid {
             let what = "only a liquid body can have a velocity";
             return Err(Fault::at(&format!("{at}/velocity_m_s"), what));

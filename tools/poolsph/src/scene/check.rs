@@ -180,6 +180,7 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
         ("losses", scene.losses.is_some(), vec![heat]),
         ("tension", scene.tension.is_some(), vec![flow]),
         ("marangoni", scene.marangoni.is_some(), vec![flow, heat]),
+        ("surface_stress", scene.surface_stress.is_some(), vec![flow]),
         ("buoyancy", scene.buoyancy.is_some(), vec![flow, heat]),
         ("gas_shear", scene.gas_shear.is_some(), vec![flow, source]),
         ("lorentz", scene.lorentz.is_some(), vec![flow, source]),

@@ -15,7 +15,9 @@ pub use odd::{notes, thin};
 pub use output::{FloatWidth, Output, PoolOutput, due};
 
 use crate::domain::{bounds, droplet};
-use crate::forces::{arc_pressure, buoyancy, gas_shear, lorentz, marangoni, tension};
+use crate::forces::{
+    arc_pressure, buoyancy, gas_shear, lorentz, marangoni, surface_stress, tension,
+};
 use crate::state::Metal;
 use crate::{faces, grains, heat, motion, source};
 
@@ -58,6 +60,9 @@ pub struct Scene {
     /// Pull of the surface towards greater tension; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marangoni: Option<marangoni::Parameters>,
+    /// A given stress on the surface; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface_stress: Option<surface_stress::Parameters>,
     /// Buoyancy; absent: the density does not depend on the temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buoyancy: Option<buoyancy::Parameters>,

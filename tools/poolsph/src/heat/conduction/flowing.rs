@@ -19,7 +19,7 @@ impl Conduction {
     ) -> Result<(), StageError> {
         let near = &state.near;
         self.beside.clear();
-        if state.faces.holds_heat() {
+        if self.walls {
             let time = (&state.faces, state.time);
             let found = near.temperatures(time, &state.temperature, &mut self.beside);
             found.map_err(|fault| StageError::Data(format!("temperature of a wall: {fault}")))?;

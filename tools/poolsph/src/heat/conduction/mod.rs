@@ -97,6 +97,8 @@ pub struct Conduction {
     out_open: Sum,
     out_held: Sum,
     out_walls: Sum,
+    /// Faces of the flow hold a temperature.
+    walls: bool,
 }
 
 impl Conduction {
@@ -136,6 +138,7 @@ impl Conduction {
             out_open: Sum::default(),
             out_held: Sum::default(),
             out_walls: Sum::default(),
+            walls: false,
             caloric,
             metal,
         })
@@ -147,6 +150,12 @@ impl Conduction {
             particles,
             temperature,
         });
+    }
+
+    /// Takes account of walls in the planes of faces, which hold a temperature.
+    #[must_use]
+    pub fn beside_walls(self, walls: bool) -> Self {
+        Self { walls, ..self }
     }
 
     /// The largest step of the explicit scheme \[s\].
@@ -330,7 +339,7 @@ impl Stage for Conduction {
         if !self.held.is_empty() {
             figures.push(figure("energy_out_held_j", "J", self.out_held.value()));
         }
-        if !self.beside.is_empty() {
+        if self.walls {
             figures.push(figure("energy_out_walls_j", "J", self.out_walls.value()));
         }
         figures

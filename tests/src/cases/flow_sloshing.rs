@@ -1,0 +1,84 @@
+//! `flow-sloshing`: the first mode of water in a tank with smooth walls.
+
+use std::f64::consts::PI;
+
+use crate::case::{Case, Errors, Measurement, Target};
+use crate::flow::zeros;
+use crate::lab::{Finished, Lab, LabError};
+use crate::particles::{Frames, mean, measurement, number};
+
+/// The case.
+pub(super) struct FlowSloshing;
+
+impl Case for FlowSloshing {
+    fn name(&self) -> &'static str {
+        "flow-sloshing"
+    }
+
+    fn tool(&self) -> &'static str {
+        "poolsph"
+    }
+
+    fn reference(&self) -> &'static str {
+        "potential theory: omega^2 = g k tanh(k h); Lamb (1932), section 228"
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        vec![
+            Target::error("period", 0.005),
+            Target::error("energy_gained", 1e-3),
+        ]
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+        // 10, 15 and 20 layers.
+        let spacing = 0.5 / f64::from(5 + 5 * level);
+        let patch = serde_json::json!({"spacing_m": spacing});
+        let run = lab.run("poolsph", self.name(), &format!("level{level}"), &patch)?;
+        let frames = Frames::read(&run.artefact, "pressure")?;
+        let errors = errors(&run, &frames)?;
+        measurement(run, frames.liquid.len(), errors)
+    }
+}
+
+/// Twice the mean time between the moments at which the mode stands still; what the energy of motion and height has gained
+/// at most on what it was before, over that of the start.
+fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
+    let (long, high) = (
+        number(run, "/faces/max_m/0")?,
+        number(run, "/bodies/0/shape/box/max_m/2")?,
+    );
+    let gravity = -number(run, "/flow/gravity_m_s2/2")?;
+    let wave = PI / long;
+    let exact = 2.0 * PI / (gravity * wave * (wave * high).tanh()).sqrt();
+    let frame = |k: usize| frames.position[k].iter().zip(&frames.velocity[k]);
+    let along = |k: usize| {
+        let mode = |x: &[f64; 3]| (wave * x[0]).sin() * (wave * x[2]).cosh();
+        mean(frame(k).map(|(x, u)| u[0] * mode(x)))
+    };
+    let energy = |k: usize| {
+        mean(frame(k).map(|(x, u)| 0.5 * u.iter().map(|u| u * u).sum::<f64>() + gravity * x[2]))
+    };
+    let count = frames.time.len();
+    let swing: Vec<f64> = (0..count).map(along).collect();
+    let stills = zeros(&frames.time, &swing);
+    let (Some(first), Some(last), true) = (stills.first(), stills.last(), stills.len() > 2) else {
+        return Err(LabError::Content {
+            path: run.artefact.clone(),
+            what: format!("stands still {} times, not three", stills.len()),
+        });
+    };
+    let period = 2.0 * (last - first) / (stills.len() - 1) as f64;
+    let moving = mean(frame(0).map(|(_, u)| 0.5 * u.iter().map(|u| u * u).sum::<f64>()));
+    let (mut least, mut gained): (f64, f64) = (f64::INFINITY, 0.0);
+    for k in 0..count {
+        let energy = energy(k);
+        least = least.min(energy);
+        gained = gained.max((energy - least) / moving);
+    }
+    let errors = [
+        ("period", (period / exact - 1.0).abs()),
+        ("energy_gained", gained),
+    ];
+    Ok(errors.map(|(name, error)| (name.to_owned(), error)).into())
+}
