@@ -77,6 +77,16 @@ pub(crate) fn layers(
         .collect()
 }
 
+/// Greatest difference of two profiles, over the layers that hold something in both.
+pub(crate) fn apart(one: &[[f64; 2]], other: &[[f64; 2]], (high, n): (f64, usize)) -> f64 {
+    let layer = |z: f64| ((z / high * n as f64).max(0.0) as usize).min(n - 1);
+    let of = |at: usize| other.iter().find(|[z, _]| layer(*z) == at);
+    let differences = one
+        .iter()
+        .filter_map(|[z, u]| Some((u - of(layer(*z))?[1]).abs()));
+    differences.fold(0.0, f64::max)
+}
+
 /// Times at which `y` changes its sign, between the rows on a line.
 pub(crate) fn zeros(time: &[f64], y: &[f64]) -> Vec<f64> {
     let pairs = time.windows(2).zip(y.windows(2));

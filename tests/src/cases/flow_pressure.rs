@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::layers;
+use crate::flow::{apart, layers};
 use crate::lab::{Finished, Lab, LabError};
 use crate::particles::{Frames, number};
 
@@ -149,12 +149,7 @@ fn errors(without: &Finished, with: &Finished) -> Result<Errors, LabError> {
         for [_, u] in &a {
             (least, greatest) = (least.min(*u), greatest.max(*u));
         }
-        if a.len() != b.len() {
-            profile = f64::INFINITY;
-        }
-        for ([_, u], [_, v]) in a.iter().zip(&b) {
-            profile = profile.max((u - v).abs());
-        }
+        profile = profile.max(apart(&a, &b, (high, n)));
         surface = surface.max((top(&one, k) - top(&other, k)).abs() / high);
     }
     let errors = [

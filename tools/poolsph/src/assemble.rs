@@ -304,7 +304,15 @@ impl<'a> Source<'a> {
         })?;
         parts.when("melting", heat.melting, |_| {
             let start = self.scene.flow_start;
-            Ok(Box::new(heat::Phase::new(caloric.clone(), start)))
+            let bodies = &self.scene.bodies;
+            // Metal on a wall is backed by it.
+            let backed = bodies.iter().any(|b| b.state == StartState::Wall);
+            let base = bodies
+                .iter()
+                .find(|b| b.state == StartState::Solid && !backed);
+            let underside = base.map(|b| b.shape.bounds().0[2]);
+            let stage = heat::Phase::new(caloric.clone(), start).above(underside);
+            Ok(Box::new(stage))
         })
     }
 

@@ -99,6 +99,11 @@ pub trait Stage: Send {
         Vec::new()
     }
 
+    /// What a reader of the run must be told when it has ended.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Bytes that the stage holds beside the state's columns.
     fn bytes(&self) -> usize {
         0

@@ -5,7 +5,8 @@
 //!
 //! The image is never colder than the surroundings. Without this bound a face loses more than it
 //! gains wherever the conductivity falls with temperature, and the more so the colder it gets: it
-//! would run away to 0 K.
+//! would run away to 0 K. All images of a particle together take heat and give none: where the plate is hotter the nearer
+//! it comes to the face, as behind a torch that has left it, its continuation would be a source.
 
 use super::caloric::Caloric;
 use super::parameters::Parameters;
@@ -71,6 +72,7 @@ impl Open {
                 lost += link.weight * 2.0 / (resistivity + resists) * (temperature - image);
             }
         }
-        lost
+        // Hotter metal farther in would be continued by a plate that is hotter still and heats: it only takes.
+        lost.max(0.0)
     }
 }

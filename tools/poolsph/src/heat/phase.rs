@@ -27,6 +27,10 @@ pub struct Phase {
     caloric: Arc<Caloric>,
     start: Option<usize>,
     liquid: usize,
+    /// Height of the underside of the base metal \[m\].
+    underside: Option<f64>,
+    /// When and where the base metal was first molten down to it \[s, m\].
+    through: Option<[f64; 4]>,
 }
 
 impl Phase {
@@ -37,6 +41,23 @@ impl Phase {
             caloric,
             start: start.map(|s| s.liquid_particles),
             liquid: 0,
+            underside: None,
+            through: None,
+        }
+    }
+
+    /// Looks out for base metal that melts down to its underside at this height \[m\].
+    #[must_use]
+    pub fn above(self, underside: Option<f64>) -> Self {
+        Self { underside, ..self }
+    }
+
+    /// Keeps when and where particle `a` of the lowest layer melted, if it is the first of all.
+    fn melts(&mut self, state: &State, a: usize) {
+        let lowest = |underside: f64| state.position[a][2] < underside + state.metal.spacing;
+        if self.through.is_none() && !state.droplet[a] && self.underside.is_some_and(lowest) {
+            let [x, y, z] = state.position[a];
+            self.through = Some([state.time, x, y, z]);
         }
     }
 }
@@ -63,6 +84,7 @@ impl Stage for Phase {
             match (state.phase[a], liquid) {
                 (state::Phase::Solid, true) => {
                     state.phase[a] = state::Phase::Liquid;
+                    self.melts(state, a);
                 }
                 (state::Phase::Liquid, false) => {
                     state.phase[a] = state::Phase::Solid;
@@ -83,5 +105,67 @@ impl Stage for Phase {
             unit: "1",
             value: self.liquid as f64,
         }]
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let told = |[time, x, y, z]: [f64; 4]| {
+            format!(
+                "burn-through: the base metal is molten down to its underside from {time:.4} s on, at ({x:.4e}, {y:.4e}, {z:.4e}) m"
+            )
+        };
+        self.through.map(told).into_iter().collect()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        self.through.map_or(Vec::new(), Vec::from)
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.through = saved.first_chunk().copied();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::heat::caloric::tests::steel;
+    use crate::state::{Metal, Particle};
+
+    #[test]
+    fn the_first_melt_at_the_underside_is_told_and_kept() {
+        let metal = Metal {
+            density: 7850.0,
+            spacing: 1e-3,
+            smoothing_length: 1e-3,
+        };
+        let caloric = Arc::new(steel());
+        let mut state = State::new(metal, vec![Column::Temperature, Column::Enthalpy]);
+        for z in [-0.5e-3, -1.5e-3, -2.5e-3] {
+            state.push(Particle {
+                position: [2e-3, 0.0, z],
+                velocity: [0.0; 3],
+                phase: state::Phase::Solid,
+                droplet: false,
+                wall: false,
+                temperature: 1500.0,
+                enthalpy: caloric.enthalpy(1500.0),
+            });
+        }
+        let mut phase = Phase::new(caloric.clone(), None).above(Some(-3e-3));
+        let mut warned = |state: &mut State, molten: usize, time: f64| {
+            state.time = time;
+            state.enthalpy[molten] = caloric.enthalpy(2500.0);
+            phase.advance(state, 1e-3).unwrap();
+            (phase.warnings(), phase.save())
+        };
+        assert_eq!(warned(&mut state, 0, 0.1).0, [""; 0]);
+        let (told, saved) = warned(&mut state, 2, 0.25);
+        assert!(
+            told[0].contains("0.2500 s") && told[0].contains("-2.5000e-3"),
+            "{told:?}"
+        );
+        let mut other = Phase::new(caloric.clone(), None);
+        other.restore(&saved);
+        assert_eq!(other.warnings(), told);
     }
 }

@@ -90,6 +90,8 @@ pub struct Motion {
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
     solved: Solved,
+    /// Step in which a particle at rest falls by COURANT d \[s\].
+    fall: f64,
     substeps: u32,
     speed: f64,
 }
@@ -109,6 +111,7 @@ impl Motion {
             predicted: Vec::new(),
             multiplier: Vec::new(),
             solved: Solved::default(),
+            fall: (COURANT * metal.spacing / squared(gravity).sqrt()).sqrt(),
             substeps: 0,
             speed: 0.0,
         }
@@ -181,7 +184,8 @@ impl Motion {
             .ceil()
             .max(1.0);
         let viscous = (dt / self.viscosity.limit()).ceil().max(1.0);
-        Ok(courant.max(viscous) as u32)
+        let falling = (dt / self.fall).ceil();
+        Ok(courant.max(viscous).max(falling) as u32)
     }
 
     /// Takes the results of the copy back to the particles.
@@ -221,7 +225,12 @@ impl Stage for Motion {
     fn dt_limit(&self, state: &State) -> Option<Limit> {
         let courant = COURANT * state.metal.spacing / self.speed;
         let viscous = self.viscosity.limit();
-        Some(if courant < viscous {
+        Some(if self.fall < courant.min(viscous) {
+            Limit {
+                seconds: self.fall,
+                name: "fall",
+            }
+        } else if courant < viscous {
             Limit {
                 seconds: courant,
                 name: "courant",
