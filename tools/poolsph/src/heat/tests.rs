@@ -282,7 +282,9 @@ fn an_open_face_lets_a_steady_gradient_through() {
     }
     march(&mut state, &mut stage, 1e-4, 100);
     let errors = state.position.iter().zip(&state.temperature);
-    let worst = errors
+    let free = errors.enumerate().filter(|(a, _)| a % size[0] >= 2);
+    let worst = free
+        .map(|(_, pair)| pair)
         .map(|(x, t)| (t - slope(*x)).abs())
         .fold(0.0, f64::max);
     assert!(worst < 1e-10, "{worst}");
