@@ -269,10 +269,8 @@ impl<'a> Simulation<'a> {
         if let Some(warning) = totals.lost().and_then(thrown) {
             session.warn(warning);
         }
-        for warning in march.stages().flat_map(|stage| stage.warnings()) {
-            session.warn(warning);
-        }
-        for warning in crate::scene::thin(self.scene) {
+        let told = march.stages().flat_map(|stage| stage.warnings());
+        for warning in told.chain(crate::scene::thin(self.scene)) {
             session.warn(warning);
         }
         if state.step == self.scene.steps()
