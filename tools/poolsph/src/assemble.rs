@@ -111,7 +111,10 @@ type Held = Vec<(Range<usize>, Curve)>;
 pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let mut faults = crate::scene::faults(scene);
     let bodies = checked_bodies(scene, &mut faults);
-    let faces = checked_faces(scene, &mut faults);
+    let faces = scene.flow_faces().unwrap_or_else(|fault| {
+        faults.push(fault);
+        Faces::default()
+    });
     if !faults.is_empty() {
         return Err(Failure::Scene(faults));
     }
@@ -152,20 +155,6 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         grain_counts,
         left_out: parts.left_out,
     })
-}
-
-/// The faces of the flow; none where the scene has none.
-fn checked_faces(scene: &Scene, faults: &mut Vec<Fault>) -> Faces {
-    let Some(parameters) = &scene.faces else {
-        return Faces::default();
-    };
-    match parameters.faces(scene.metal().support(), scene.heat.is_some()) {
-        Ok(faces) => faces,
-        Err(fault) => {
-            faults.push(fault.within("/faces"));
-            Faces::default()
-        }
-    }
 }
 
 /// Grains of the input `bed`, if the scene wants them.

@@ -6,6 +6,7 @@ mod odd;
 mod output;
 mod size;
 
+use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -145,6 +146,18 @@ impl Scene {
         self.grains
             .as_ref()
             .is_some_and(|grains| grains.until.is_some())
+    }
+
+    /// The faces beside which the flow goes on; none where the scene has none.
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn flow_faces(&self) -> Result<faces::Faces, Fault> {
+        let Some(faces) = &self.faces else {
+            return Ok(faces::Faces::default());
+        };
+        let compiled = faces.faces(self.metal().support(), self.heat.is_some());
+        compiled.map_err(|fault| fault.within("/faces"))
     }
 
     /// Number of steps.
