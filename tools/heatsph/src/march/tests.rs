@@ -188,3 +188,66 @@ fn stages_follow_a_conductivity_that_rises_within_a_step() {
         assert!(low > -0.2 && high < 1.2, "{low} to {high}");
     }
 }
+
+/// Temperature of a slab from -half to half that cools from 1 to 0 by convection, `biot = psi half / k`, at x over
+/// half and the time over half^2 over diffusivity (Carslaw and Jaeger 1959, section 3.11).
+fn cooling(x: f64, time: f64, biot: f64) -> f64 {
+    let mut sum = 0.0;
+    for n in 0..40 {
+        let (mut low, mut high) = (
+            std::f64::consts::PI * f64::from(n),
+            std::f64::consts::PI * (f64::from(n) + 0.5),
+        );
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            // b tan b rises through the biot number between n pi and the pole behind it.
+            if middle * middle.tan() < biot {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let b = 0.5 * (low + high);
+        let share = 4.0 * b.sin() / (2.0 * b + (2.0 * b).sin());
+        sum += share * (-b * b * time).exp() * (b * x).cos();
+    }
+    sum
+}
+
+/// Greatest error of a rectangle of 8 by 13 that cools on all sides, in the corners too.
+fn rectangle(cells: f64) -> f64 {
+    let (psi, kappa, end) = (2.5, 0.6, 2.0);
+    let text = format!(
+        r#"{{"dimensions": 2, "body": {{"box": {{"min_m": [-4, -6.5], "max_m": [4, 6.5]}}}},
+            "points": {{"spacing_m": {}}}, "initial_temperature_k": 1,
+            "materials": [{{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": {kappa}}}],
+            "boundaries": [{{"on": ["x-", "x+", "y-", "y+"],
+              "convection": {{"coefficient_w_m2_k": {psi}, "ambient_k": 0}}}}],
+            "time": {{"end_s": {end}}}}}"#,
+        1.0 / cells,
+    );
+    let scene: Scene = serde_json::from_str(&text).unwrap();
+    let system = assemble::system(&scene).unwrap().0;
+    let (mut state, mut rates) = start(&system, |_| 1.0);
+    let mut method = Stabilised::default();
+    let steps = (40.0 * cells) as usize;
+    for _ in 0..steps {
+        method
+            .advance(&system, &mut state, &mut rates, end / steps as f64)
+            .unwrap();
+    }
+    let error = |i: usize| {
+        let [x, y, _] = system.place(i);
+        let of =
+            |x: f64, half: f64| cooling(x / half, kappa * end / (half * half), psi * half / kappa);
+        (state.temperature[i] - of(x, 4.0) * of(y, 6.5)).abs()
+    };
+    (0..system.len()).map(error).fold(0.0, f64::max)
+}
+
+#[test]
+fn corners_that_cool_on_both_sides_are_of_second_order() {
+    let [coarse, fine] = [2.0, 4.0].map(rectangle);
+    let order = (coarse / fine).log2();
+    assert!(order > 1.8, "order {order}: {coarse:.2e} {fine:.2e}");
+}

@@ -15,6 +15,7 @@
 
 pub mod balance;
 mod basis;
+mod corner;
 pub mod kernel;
 mod net;
 
@@ -116,7 +117,10 @@ impl Links {
 
     /// Balanced links of the given smoothing length over spacing.
     fn balanced(cloud: &Cloud, smoothing: f64) -> Result<Self, OperatorError> {
-        let (pattern, weight) = kernel::pair(cloud, smoothing)?;
+        let (pattern, mut weight) = kernel::pair(cloud, smoothing)?;
+        if cloud.lattice && smoothing <= LATTICE {
+            corner::straighten(cloud, &pattern, &mut weight);
+        }
         balance::balanced(cloud, pattern, weight)
     }
 
