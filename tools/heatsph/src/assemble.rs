@@ -9,6 +9,7 @@ use crate::material::cells::Ground;
 use crate::material::{Materials, PLACE};
 use crate::operator::Links;
 use crate::scene::Scene;
+use crate::source::Source;
 use crate::system::{System, extent};
 use shapes::Body;
 
@@ -51,6 +52,9 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     };
     let links = Links::new(&cloud, scene.operator)
         .map_err(|error| vec![Fault::at("/operator", error.to_string())])?;
+    let spread = |curve| Source::new(curve, (&cloud, &links.volume), &body);
+    let source = source.map(spread).transpose();
+    let source = source.map_err(|error| fault("/source_w_m3", error))?;
     let ground = Ground {
         cloud: &cloud,
         links: &links,

@@ -7,6 +7,7 @@
 //! - [`operator`] weighs the links between points: the pair form of the paper, or weights balanced so that linear
 //!   fields are exact on any cloud while no heat is lost;
 //! - [`material`] says how links conduct and cells store, [`boundary`] what passes through the surface;
+//! - [`source`] spreads heat sources over cells, however narrow they are;
 //! - [`system`] is the equation of every point, `C dT/dt = W`, and its Newton matrix;
 //! - [`course`] finds where what varies in time jumps or peaks, and what heat is prescribed;
 //! - [`mod@march`] takes it through time (explicit, stabilised or implicit), [`steady`] to its end at once, with
@@ -26,6 +27,7 @@ pub mod pace;
 pub mod scene;
 pub mod simulate;
 pub mod solve;
+pub mod source;
 pub mod stage;
 pub mod steady;
 pub mod system;

@@ -325,6 +325,9 @@ impl March<'_> {
 
     /// Tells heat prescribed beside heat delivered.
     fn compare(&self, session: &mut Session) -> Result<(), Failure> {
+        if self.rates.hidden {
+            session.warn(crate::source::HIDDEN);
+        }
         if !self.course.resolved {
             session.warn(
                 "what varies in time has more jumps and peaks than could be followed: heat may have been missed",

@@ -121,6 +121,9 @@ fn shown(scene: &Scene, system: &System, rates: &Rates) -> Plan {
         .column("volume", if scene.dimensions == 2 { "m2" } else { "m3" })
         .memory("links", system.links.bytes())
         .memory("conductance of links", system.conduction().bytes());
+    if let Some(source) = &system.source {
+        plan = plan.memory("cells of the source", source.bytes());
+    }
     plan = match scene.steady {
         Some(_) => plan
             .stage("solve")

@@ -67,6 +67,9 @@ pub fn solve(
         }
     }
     session.stopped()?;
+    if rates.hidden {
+        session.warn(crate::source::HIDDEN);
+    }
     session.steps(newton as u64);
     session.closing("newton_steps", "1", newton as f64);
     session.closing("linear_iterations", "1", iterations as f64);

@@ -3,11 +3,12 @@
 use run::Fault;
 use run::property::{Curve, Property};
 
-use super::{Condition, Film, Held, Surface};
+use super::{Condition, Film, Flux, Held, Surface};
 use crate::cloud::{Cloud, Patch};
 use crate::scene::{Boundary, Scene};
+use crate::source::cubature::Piece;
 use shapes::Body;
-use shapes::frame::along;
+use shapes::frame::{Frame, along};
 
 /// What a property of the surface may depend on.
 const NAMES: [&str; 5] = ["x", "y", "z", "r", "t"];
@@ -51,6 +52,7 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
         }
     }
     surface.films.sort_by_key(|film| film.point);
+    surround(&mut surface);
     surface.held.sort_by_key(|held| (held.point, held.entry));
     surface.held.dedup_by_key(|held| held.point);
     for (entry, area) in surface.area.iter().enumerate() {
@@ -143,11 +145,52 @@ fn cover(
             depth: if on { 0.0 } else { depth },
             area: patch.area,
             place: patch.place,
+            piece: tangent(patch, cloud.dimensions),
             above: along(cloud.position[patch.point as usize], depth, patch.normal),
             entries,
         }),
     }
     Ok(())
+}
+
+/// A patch as a line or a square that touches the surface.
+fn tangent(patch: &Patch, dimensions: usize) -> Piece {
+    let [first, second, _] = Frame::facing(patch.place, patch.normal).axes;
+    let size = 0.5 * patch.area.powf(1.0 / (dimensions - 1) as f64);
+    let [x, y, _] = patch.normal;
+    let half = if dimensions == 2 {
+        [[-y, x, 0.0], [0.0; 3], [0.0; 3]]
+    } else {
+        [first, second, [0.0; 3]]
+    };
+    Piece {
+        centre: patch.place,
+        half: half.map(|axis| axis.map(|c| size * c)),
+        rank: dimensions - 1,
+    }
+}
+
+/// Tells fluxes that depend on place where their patches are.
+fn surround(surface: &mut Surface) {
+    for (entry, condition) in surface.conditions.iter_mut().enumerate() {
+        let Condition::Flux(flux) = condition else {
+            continue;
+        };
+        let places = ["x", "y", "z", "r"];
+        if !places.iter().any(|name| flux.curve.depends_on(name)) {
+            continue;
+        }
+        let own = |film: &&Film| film.entries.contains(&(entry as u32));
+        let films = surface.films.iter().filter(own);
+        flux.around = films
+            .map(|film| film.piece.around())
+            .reduce(|[a, b], [c, d]| {
+                [
+                    std::array::from_fn(|k| a[k].min(c[k])),
+                    std::array::from_fn(|k| b[k].max(d[k])),
+                ]
+            });
+    }
 }
 
 /// The one condition of an entry.
@@ -177,7 +220,10 @@ fn condition(entry: &Boundary, at: &str) -> Result<Condition, Vec<Fault>> {
         return Ok(Condition::Temperature(kelvin(property, "temperature_k")?));
     }
     if let Some(property) = &entry.heat_flux_w_m2 {
-        return Ok(Condition::Flux(curve(property, "heat_flux_w_m2")?));
+        return Ok(Condition::Flux(Flux::new(curve(
+            property,
+            "heat_flux_w_m2",
+        )?)));
     }
     if let Some(robin) = &entry.convection {
         let coefficient = curve(&robin.coefficient_w_m2_k, "convection/coefficient_w_m2_k")?;

@@ -17,6 +17,7 @@ mod compile;
 
 use run::property::{Arguments, Curve, OutOfRange};
 
+use crate::source::cubature::{Piece, When, ends};
 use shapes::frame::Vector;
 
 pub use compile::compile;
@@ -26,13 +27,52 @@ pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Iterations for the temperature of a radiating surface.
 const NEWTON: usize = 40;
 
+/// A heat flux into the body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flux {
+    /// \[W/m2\].
+    pub curve: Curve,
+    /// The box that holds its patches, where it depends on place \[m\].
+    around: Option<[Vector; 2]>,
+}
+
+impl Flux {
+    /// The flux of a curve, still of no place.
+    #[must_use]
+    pub fn new(curve: Curve) -> Self {
+        Self {
+            curve,
+            around: None,
+        }
+    }
+
+    /// Mean over a patch, however narrow the flux is \[W/m2\]; whether its peaks were resolved.
+    ///
+    /// # Errors
+    /// Where the curve has no value.
+    pub fn mean(&self, film: &Film, time: f64) -> Result<(f64, bool), OutOfRange> {
+        let Some(around) = self.around else {
+            let value = self.curve.value(&Arguments::at(film.place, time))?;
+            return Ok((value, true));
+        };
+        let when = When {
+            time,
+            temperature: 0.0,
+        };
+        let [from, to] = ends(around, when);
+        let greatest = self.curve.bounds(&from, &to).most();
+        let mean = film.piece.mean(&self.curve, when, greatest)?;
+        Ok((mean.above + mean.below, mean.resolved))
+    }
+}
+
 /// What happens on a face.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Condition {
     /// Temperature \[K\].
     Temperature(Curve),
     /// Heat flux into the body \[W/m2\].
-    Flux(Curve),
+    Flux(Flux),
     /// Coefficient \[W/(m2 K)\] and temperature of the surroundings \[K\].
     Convection(Curve, Curve),
     /// Emissivity and temperature of the surroundings \[K\].
@@ -52,6 +92,8 @@ pub struct Film {
     pub place: Vector,
     /// Place above the point: where temperatures are prescribed \[m\].
     pub above: Vector,
+    /// The patch.
+    pub piece: Piece,
     /// Numbers of the entries that hold here.
     pub entries: Vec<u32>,
 }
@@ -89,6 +131,8 @@ pub struct Passed {
     pub slope: f64,
     /// Temperature of the surface \[K\].
     pub temperature: f64,
+    /// Whether peaks of a flux were too narrow to be found.
+    pub hidden: bool,
 }
 
 /// `q = constant - slope T - radiant T^4` of a patch, and the parts of each entry.
@@ -121,7 +165,8 @@ impl Surface {
     #[must_use]
     pub fn varies(&self) -> bool {
         self.conditions.iter().any(|condition| match condition {
-            Condition::Temperature(curve) | Condition::Flux(curve) => curve.depends_on("t"),
+            Condition::Temperature(curve) => curve.depends_on("t"),
+            Condition::Flux(flux) => flux.curve.depends_on("t"),
             Condition::Convection(a, b) | Condition::Radiation(a, b) => {
                 a.depends_on("t") || b.depends_on("t")
             }
@@ -168,7 +213,7 @@ impl Surface {
         conductivity: impl Fn(f64, f64) -> f64,
     ) -> Result<Passed, OutOfRange> {
         let at = Arguments::at(film.place, time);
-        let mut sum = Balance::default();
+        let (mut sum, mut hidden) = (Balance::default(), false);
         for entry in &film.entries {
             match &self.conditions[*entry as usize] {
                 Condition::Temperature(curve) => {
@@ -178,9 +223,14 @@ impl Surface {
                         heat: across * (surface - temperature),
                         slope: -film.area * conductivity(temperature, temperature) / film.depth,
                         temperature: surface,
+                        hidden: false,
                     });
                 }
-                Condition::Flux(curve) => sum.flux += curve.value(&at)?,
+                Condition::Flux(flux) => {
+                    let (mean, resolved) = flux.mean(film, time)?;
+                    sum.flux += mean;
+                    hidden |= !resolved;
+                }
                 Condition::Convection(coefficient, ambient) => {
                     let h = coefficient.value(&at)?;
                     sum.coefficient += h;
@@ -199,6 +249,7 @@ impl Surface {
                 heat: film.area * q,
                 slope: film.area * slope,
                 temperature,
+                hidden,
             });
         }
         let across = conductivity(temperature, temperature) / film.depth;
@@ -208,6 +259,7 @@ impl Surface {
             heat: film.area * q,
             slope: film.area * slope * across / (across - slope),
             temperature: surface,
+            hidden,
         })
     }
 
@@ -226,7 +278,7 @@ impl Surface {
         let t = passed.temperature;
         Ok(match &self.conditions[entry as usize] {
             Condition::Temperature(_) => passed.heat,
-            Condition::Flux(curve) => film.area * curve.value(&at)?,
+            Condition::Flux(flux) => film.area * flux.mean(film, time)?.0,
             Condition::Convection(coefficient, ambient) => {
                 film.area * coefficient.value(&at)? * (ambient.kelvin(&at)? - t)
             }
@@ -259,84 +311,4 @@ fn skin(sum: &Balance, across: f64, temperature: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn film(depth: f64, entries: Vec<u32>) -> Film {
-        Film {
-            point: 0,
-            depth,
-            area: 2.0,
-            place: [0.0; 3],
-            above: [0.0; 3],
-            entries,
-        }
-    }
-
-    fn surface(conditions: Vec<Condition>) -> Surface {
-        Surface {
-            conditions,
-            ..Surface::default()
-        }
-    }
-
-    fn number(value: f64) -> Curve {
-        Curve::Constant(value)
-    }
-
-    #[test]
-    fn conditions_add_on_a_surface() {
-        let all = surface(vec![
-            Condition::Flux(number(10.0)),
-            Condition::Convection(number(3.0), number(400.0)),
-            Condition::Radiation(number(0.5), number(1000.0)),
-        ]);
-        let film = film(0.0, vec![0, 1, 2]);
-        let passed = all.pass(&film, 300.0, 0.0, |_, _| 1.0).unwrap();
-        let radiant = 0.5 * STEFAN_BOLTZMANN * (1e12 - 300.0_f64.powi(4));
-        let exact = 2.0 * (10.0 + 300.0 + radiant);
-        assert!((passed.heat - exact).abs() < 1e-9 * exact);
-        let sum: f64 = (0..3)
-            .map(|e| all.part(&film, e, passed, 0.0).unwrap())
-            .sum();
-        assert!((sum - exact).abs() < 1e-9 * exact);
-    }
-
-    #[test]
-    fn a_deep_point_and_its_surface_are_resistances_in_series() {
-        let robin = surface(vec![Condition::Convection(number(4.0), number(100.0))]);
-        let passed = robin
-            .pass(&film(0.5, vec![0]), 0.0, 0.0, |_, _| 2.0)
-            .unwrap();
-        // 1/h + d/k = 1/4 + 1/4.
-        assert!((passed.heat - 2.0 * 100.0 / 0.5).abs() < 1e-12);
-        assert!((passed.slope + 2.0 / 0.5).abs() < 1e-12);
-        assert!((passed.temperature - 50.0).abs() < 1e-12);
-        let held = surface(vec![Condition::Temperature(number(100.0))]);
-        let passed = held
-            .pass(&film(0.5, vec![0]), 0.0, 0.0, |_, _| 2.0)
-            .unwrap();
-        assert!((passed.heat - 800.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_radiating_surface_finds_its_temperature() {
-        let hot = surface(vec![Condition::Radiation(number(1.0), number(3000.0))]);
-        for (t, k) in [(300.0, 1e-3), (300.0, 1e4), (4000.0, 1.0)] {
-            let passed = hot.pass(&film(0.01, vec![0]), t, 0.0, |_, _| k).unwrap();
-            let through = 2.0 * k / 0.01 * (passed.temperature - t);
-            assert!(
-                (through - passed.heat).abs() < 1e-9 * passed.heat.abs(),
-                "{t} {k}: {passed:?}"
-            );
-            let step = 1e-3 * t;
-            let near = |t: f64| {
-                hot.pass(&film(0.01, vec![0]), t, 0.0, |_, _| k)
-                    .unwrap()
-                    .heat
-            };
-            let slope = (near(t + step) - near(t - step)) / (2.0 * step);
-            assert!((slope - passed.slope).abs() < 1e-3 * slope.abs());
-        }
-    }
-}
+mod tests;

@@ -1,7 +1,7 @@
 //! Heat prescribed by fluxes and sources, integrated over time apart from the march, beside the heat delivered.
 
 use rayon::prelude::*;
-use run::property::{Arguments, OutOfRange};
+use run::property::OutOfRange;
 
 use super::Course;
 use crate::boundary::Condition;
@@ -65,7 +65,7 @@ impl Course {
         let conditions = system.surface.conditions.iter().enumerate();
         let fluxes = conditions.filter(|(_, c)| matches!(c, Condition::Flux(_)));
         let mut givers: Vec<_> = fluxes.map(|(e, _)| Giver::Entry(e as u32)).collect();
-        let blind = |c: &run::property::Curve| !c.depends_on("T");
+        let blind = |source: &crate::source::Source| !source.depends_on("T");
         if system.source.as_ref().is_some_and(blind) {
             givers.push(Giver::Source);
         }
@@ -147,30 +147,24 @@ fn integral(
 fn power(system: &System, giver: Giver, time: f64) -> Result<(f64, f64), OutOfRange> {
     let sums: Vec<Result<(f64, f64), OutOfRange>> = match giver {
         Giver::Entry(entry) => {
-            let Condition::Flux(curve) = &system.surface.conditions[entry as usize] else {
+            let Condition::Flux(flux) = &system.surface.conditions[entry as usize] else {
                 return Ok((0.0, 0.0));
             };
             let films = system.surface.films.par_chunks(ROWS);
             let of = |films: &[crate::boundary::Film]| {
                 let own = films.iter().filter(|f| f.entries.contains(&entry));
-                sum(own.map(|f| Ok(f.area * curve.value(&Arguments::at(f.place, time))?)))
+                sum(own.map(|f| Ok(f.area * flux.mean(f, time)?.0)))
             };
             films.map(of).collect()
         }
         Giver::Source => {
-            let Some(curve) = &system.source else {
+            let Some(source) = &system.source else {
                 return Ok((0.0, 0.0));
             };
-            let points = system
-                .cloud
-                .position
-                .par_chunks(ROWS)
-                .zip(system.links.volume.par_chunks(ROWS));
-            let of = |(places, volumes): (&[[f64; 3]], &[f64])| {
-                let own = places.iter().zip(volumes);
-                sum(own.map(|(x, v)| Ok(v * curve.value(&Arguments::at(*x, time))?)))
-            };
-            points.map(of).collect()
+            let (cold, mut heat) = (vec![0.0; system.len()], Vec::new());
+            let points = (&system.cloud, system.links.volume.as_slice());
+            source.heat(points, (&cold, time), &mut heat)?;
+            vec![sum(heat.into_iter().map(Ok))]
         }
     };
     let mut total = (0.0, 0.0);

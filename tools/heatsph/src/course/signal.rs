@@ -5,6 +5,7 @@ use run::property::{Arguments, Bounds, Curve};
 use super::pieces::{Pieces, Varies};
 use crate::boundary::Condition;
 use crate::material::arguments;
+use crate::source::Source;
 use crate::system::System;
 use shapes::frame::Vector;
 
@@ -49,7 +50,8 @@ pub(super) fn signals<'a>(system: &'a System, temperature: &[f64]) -> Vec<Signal
         };
         match condition {
             Condition::Temperature(curve) => add(curve, &held, Acts::Temperature),
-            Condition::Flux(curve) => {
+            Condition::Flux(flux) => {
+                let curve = &flux.curve;
                 let mut films_of = system.surface.films.iter().filter(|f| own(&f.entries));
                 let across =
                     |i: usize| system.cloud.spacing[i] / system.conductivity(i, temperature[i]);
@@ -65,7 +67,7 @@ pub(super) fn signals<'a>(system: &'a System, temperature: &[f64]) -> Vec<Signal
             }
         }
     }
-    if let Some(source) = &system.source {
+    if let Some(source) = system.source.as_ref().map(Source::curve) {
         let points = || {
             let each = temperature.iter().enumerate();
             each.map(|(i, t)| arguments(system.place(i), *t, 0.0))

@@ -114,7 +114,11 @@ impl System {
         let mut slopes = Vec::with_capacity(self.len());
         for (i, t) in temperature.iter().enumerate() {
             let step = 1e-6 * t.abs().max(1e-3);
-            let at = |t: f64| source.value(&arguments(self.cloud.position[i], t, time));
+            let at = |t: f64| {
+                source
+                    .curve()
+                    .value(&arguments(self.cloud.position[i], t, time))
+            };
             let slope = (at(t + step)? - at(t - step)?) / (2.0 * step);
             // A source that grows with temperature is left to the iteration: the matrix keeps its sign.
             slopes.push(slope.min(0.0) * self.links.volume[i]);

@@ -10,12 +10,13 @@ mod rates;
 
 pub use rates::Rates;
 
-use run::property::{Curve, OutOfRange};
+use run::property::OutOfRange;
 
 use crate::boundary::{Film, Passed, Surface};
 use crate::cloud::Cloud;
 use crate::material::{Law, Materials, arguments};
 use crate::operator::Links;
+use crate::source::Source;
 use conduction::Conduction;
 use shapes::frame::Vector;
 
@@ -34,8 +35,8 @@ pub struct System {
     pub capacity: Vec<f64>,
     /// Material of each point.
     pub material: Vec<u32>,
-    /// Heat source \[W/m3\].
-    pub source: Option<Curve>,
+    /// Heat source.
+    pub source: Option<Source>,
     conduction: Conduction,
     /// First film of each point.
     films: Vec<u32>,
@@ -55,7 +56,7 @@ impl System {
     pub fn new(
         (cloud, links): (Cloud, Links),
         (materials, surface): (Materials, Surface),
-        (capacity, source): (Vec<f64>, Option<Curve>),
+        (capacity, source): (Vec<f64>, Option<Source>),
     ) -> Result<Self, OutOfRange> {
         let conduction = Conduction::new(&materials, &cloud.position, &links)?;
         let material = cloud

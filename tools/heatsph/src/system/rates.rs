@@ -22,6 +22,12 @@ pub struct Rates {
     pub entries: Vec<f64>,
     /// Heat of the source \[W\].
     pub source: f64,
+    /// Whether peaks of a source or flux were too narrow to be found in their cells and patches.
+    pub hidden: bool,
+    /// Heat of the source at each point \[W\].
+    sources: Vec<f64>,
+    /// The time that this is of \[s\], and whether the source was resolved.
+    sourced: Option<(f64, bool)>,
     pub(super) nodes: Vec<Node>,
     /// Mean conductivity of each link through several materials \[W/(m K)\].
     pub(super) means: Vec<f64>,
@@ -111,10 +117,20 @@ impl System {
             });
         }
         rates.source = 0.0;
+        rates.hidden = rates.passed.iter().any(|passed| passed.hidden);
         if let Some(source) = &self.source {
-            for (i, heat) in rates.heat.iter_mut().enumerate() {
-                let at = arguments(self.cloud.position[i], temperature[i], time);
-                let own = source.value(&at)? * self.links.volume[i];
+            let points = (&self.cloud, self.links.volume.as_slice());
+            // Iterations at one instant meet the same source, unless it depends on temperature.
+            let known = rates
+                .sourced
+                .filter(|(then, _)| then.to_bits() == time.to_bits());
+            let resolved = match known.filter(|_| !source.depends_on("T")) {
+                Some((_, resolved)) => resolved,
+                None => source.heat(points, (temperature, time), &mut rates.sources)?,
+            };
+            rates.sourced = Some((time, resolved));
+            rates.hidden |= !resolved;
+            for (heat, own) in rates.heat.iter_mut().zip(&rates.sources) {
                 *heat += own;
                 rates.source += own;
             }

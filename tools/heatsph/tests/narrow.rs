@@ -1,0 +1,77 @@
+//! Heat that is narrower than the spacing of points.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+/// What `more` in the scene of a plate stores in 1 s \[J/m\].
+fn stored(points: &Value, more: &Value) -> f64 {
+    let mut scene = json!({
+        "kind": "heatsph.scene", "version": 1, "dimensions": 2,
+        "body": {"box": {"min_m": [0, 0], "max_m": [0.2, 0.1]}}, "points": points,
+        "materials": [{"name": "steel", "density_kg_m3": 7800, "specific_heat_j_kg_k": 500, "conductivity_w_m_k": 40}],
+        "initial_temperature_k": 300, "time": {"end_s": 1}
+    });
+    scene
+        .as_object_mut()
+        .unwrap()
+        .extend(more.as_object().unwrap().clone());
+    let folder = tempfile::tempdir().unwrap();
+    let [path, out] = ["scene.json", "out.mcap"].map(|name| folder.path().join(name));
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_heatsph"))
+        .arg("run")
+        .arg(&path)
+        .arg("--out")
+        .arg(&out)
+        .args(["--progress", "none", "--threads", "1"])
+        .output()
+        .unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let text = std::fs::read_to_string(out.with_extension("run.json")).unwrap();
+    let record: Value = serde_json::from_str(&text).unwrap();
+    let rows = record["closing"].as_array().unwrap();
+    let row = rows
+        .iter()
+        .find(|row| row["name"] == "heat_stored")
+        .unwrap();
+    row["value"].as_f64().unwrap()
+}
+
+#[test]
+fn a_spot_on_a_face_and_a_source_within_keep_their_power() {
+    let [plain, shifted] = [
+        json!({"spacing_m": 0.01}),
+        json!({"spacing_m": 0.01, "jitter": 0.3}),
+    ];
+    for points in [plain, shifted] {
+        for width in [2e-3, 1e-4] {
+            for x in [0.1, 0.095, 0.1037] {
+                let spot = json!({"expr": format!("1e8*exp(-((x - {x})/{width})^2)")});
+                let heat = stored(
+                    &points,
+                    &json!({"boundaries": [{"on": ["y+"], "heat_flux_w_m2": spot}]}),
+                );
+                let exact = 1e8 * width * std::f64::consts::PI.sqrt();
+                assert!(
+                    (heat / exact - 1.0).abs() < 0.01,
+                    "spot {width} at {x}: {heat} of {exact}"
+                );
+                let spot = format!("1e10*exp(-((x - {x})^2 + (y - 0.043)^2)/{width}^2)");
+                let heat = stored(&points, &json!({"source_w_m3": {"expr": spot}}));
+                let exact = 1e10 * width * width * std::f64::consts::PI;
+                assert!(
+                    (heat / exact - 1.0).abs() < 0.01,
+                    "source {width} at {x}: {heat} of {exact}"
+                );
+            }
+        }
+    }
+}
