@@ -60,6 +60,8 @@ pub struct Layout {
     pub walls: bool,
     /// Frames have a column `surface`.
     pub surface: bool,
+    /// Pressures of single particles differ like the contacts of grains: frames show their kernel mean.
+    pub uneven: bool,
 }
 
 impl Layout {
@@ -82,8 +84,7 @@ impl Layout {
             frame = frame.scalar("temperature", "K", temperature);
         }
         if state.has(Column::Pressure) {
-            let pressure = state.near.liquid_mean(&state.pressure);
-            frame = frame.scalar("pressure", "Pa", ids.iter().map(|a| pressure[*a]));
+            frame = frame.scalar("pressure", "Pa", self.pressure(state, ids));
         }
         let liquid = |a: &usize| u8::from(state.phase[*a] != Phase::Solid);
         frame = frame
@@ -99,6 +100,14 @@ impl Layout {
             frame = frame.flag("surface", ids.iter().map(exposed));
         }
         frame.id("id", ids.iter().map(|a| *a as u32))
+    }
+
+    /// Pressure of the particles `ids` \[Pa\].
+    fn pressure(&self, state: &State, ids: &[usize]) -> impl Iterator<Item = f64> {
+        let means = self.uneven.then(|| state.near.liquid_mean(&state.pressure));
+        let pressure = means.as_ref().unwrap_or(&state.pressure);
+        let shown: Vec<f64> = ids.iter().map(|a| pressure[*a]).collect();
+        shown.into_iter()
     }
 
     /// Writes all particles to `/particles`.

@@ -81,6 +81,14 @@ impl Images {
         &self.list
     }
 
+    /// The point that the entry `k` of a column that goes on with images is an image of; itself for a point.
+    #[must_use]
+    #[inline]
+    pub fn original(&self, k: usize) -> usize {
+        let image = k.checked_sub(self.points).and_then(|k| self.list.get(k));
+        image.map_or(k, |image| image.of as usize)
+    }
+
     /// How the entry `k` of a column that goes on with images follows from its original; none for a point.
     #[must_use]
     #[inline]

@@ -58,6 +58,27 @@ impl Turn {
         std::array::from_fn(|k| self.sign[k] * x[k] + self.shift[k])
     }
 
+    /// True if it goes through a mirror or a wall, not through periodic faces alone.
+    #[must_use]
+    #[inline]
+    pub fn is_turned(&self) -> bool {
+        self.sign.iter().any(|sign| *sign < 0.0)
+    }
+
+    /// The way from `x` to its image but for whole periods \[m\].
+    #[must_use]
+    #[inline]
+    pub fn across(&self, x: [f64; 3]) -> [f64; 3] {
+        let to = self.place(x);
+        std::array::from_fn(|k| {
+            if self.sign[k] < 0.0 {
+                to[k] - x[k]
+            } else {
+                0.0
+            }
+        })
+    }
+
     /// A vector of the image: for velocities in the continuity equation, forces and normals.
     #[must_use]
     #[inline]

@@ -6,6 +6,9 @@
 //! else feel no sideways force at all, however it is inclined. What a particle has of the plan lies around it, and
 //! takes the pressure there; its wall lies before it on the surface.
 //!
+//! Where the flow is without divergence ([`crate::motion::divergence_free`]) it is no force but the pressure at the
+//! surface, of which one that is the same everywhere moves nothing.
+//!
 //! Komen (2019, section 4.4.1) takes the pressure from the gas speed by Bernoulli's law and finds it
 //! too small; here it is the arc's own, at the same distance from the axis, or that of a formula.
 
@@ -74,16 +77,19 @@ impl Pressure {
 pub struct ArcPressure {
     pressure: Pressure,
     volume: f64,
+    /// The pressure is a condition at the surface, not a force.
+    bound: bool,
     pressed: f64,
 }
 
 impl ArcPressure {
-    /// This pressure on `metal`.
+    /// This pressure on `metal`; `bound`: as a condition at the surface, not as a force.
     #[must_use]
-    pub fn new(pressure: Pressure, metal: Metal) -> Self {
+    pub fn new(pressure: Pressure, metal: Metal, bound: bool) -> Self {
         Self {
             pressure,
             volume: metal.volume(),
+            bound,
             pressed: 0.0,
         }
     }
@@ -104,13 +110,25 @@ impl Stage for ArcPressure {
             return Ok(());
         };
         let (near, surface) = (&mut state.near, &state.surface);
+        if self.bound {
+            near.outer.resize(near.len(), 0.0);
+        }
         for k in 0..near.len() {
             let patch = &surface[near.id[k] as usize];
+            let x = near.position[k];
+            let pressure = |x| self.pressure.at(axis.around(x).0, state.time);
+            if self.bound && near.role[k] == Role::Liquid {
+                // What lies hidden is reached as far as its surface is; hollows inside have no surface.
+                let hidden = patch.area > 0.0 && patch.seen <= 0.0;
+                let reached = if hidden { patch.reached() } else { 1.0 };
+                let above = pressure(x)?;
+                near.outer[k] = reached * above;
+                self.pressed += above * patch.seen;
+                continue;
+            }
             if near.role[k] != Role::Liquid || patch.area.max(patch.seen) <= 0.0 {
                 continue;
             }
-            let x = near.position[k];
-            let pressure = |x| self.pressure.at(axis.around(x).0, state.time);
             let (above, beside) = (pressure(x)?, pressure(patch.foot(x))?);
             let side = beside * patch.reached() * patch.area;
             let down = above * patch.seen;
@@ -150,7 +168,7 @@ mod tests {
         let d = state.metal.spacing;
         on_top(&mut state, d * d);
         state.surface.iter_mut().for_each(shape);
-        let mut stage = ArcPressure::new(pressure, state.metal);
+        let mut stage = ArcPressure::new(pressure, state.metal, false);
         stage.advance(&mut state, 1e-4).unwrap();
         let volume = state.metal.volume();
         let total = |i: usize| -> f64 { state.near.force.iter().map(|f| f[i] * volume).sum() };

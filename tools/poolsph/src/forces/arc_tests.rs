@@ -98,7 +98,7 @@ fn sum(state: &State, part: impl Fn([f64; 3], [f64; 3]) -> f64) -> f64 {
 
 /// Force of a pressure of the peak 500 Pa \[N\].
 fn pressed(state: &mut State) -> [f64; 3] {
-    let mut stage = ArcPressure::new(Pressure::Table(cone(500.0)), METAL);
+    let mut stage = ArcPressure::new(Pressure::Table(cone(500.0)), METAL, false);
     stage.advance(state, 1e-4).unwrap();
     [0, 1, 2].map(|axis| sum(state, |_, f| f[axis]))
 }

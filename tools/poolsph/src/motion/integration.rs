@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::around::Around;
+use super::divergence_free::DivergenceFree;
 use super::homogenising::Homogenising;
 use super::law::Law;
 use super::noise::Noise;
@@ -21,7 +22,7 @@ use crate::vector::{plus, squared};
 
 /// A particle may cross this part of its diameter in one substep.
 const COURANT: f64 = 0.4;
-/// Pressure is the mean over about this time \[s\]: single steps push unevenly, as the
+/// Pressure is the mean over about this time \[s\], but for [`Method::DivergenceFree`]: single steps push unevenly, as the
 /// density is kept only to a tolerance, and it is their mean that balances the forces.
 const PRESSURE_TIME: f64 = 5e-3;
 /// More substeps than this are no longer a flow.
@@ -36,6 +37,9 @@ pub enum Method {
     Projection,
     /// [`super::homogenising`]: Komen (2019), section 3.3.4.
     Homogenising,
+    /// [`super::divergence_free`]: no divergence of the velocity, on particles that are kept even. Flows as a liquid does
+    /// where the others bear a stress.
+    DivergenceFree,
 }
 
 /// How the liquid moves.
@@ -86,6 +90,7 @@ pub struct Motion {
     around: Around,
     projection: Projection,
     homogenising: Homogenising,
+    divergence_free: DivergenceFree,
     predicted: Vec<[f64; 3]>,
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
@@ -102,12 +107,13 @@ impl Motion {
     pub fn new(parameters: Parameters, law: Law, metal: Metal) -> Self {
         let gravity = parameters.gravity_m_s2.unwrap_or_default();
         Self {
-            viscosity: Viscosity::new(law, metal),
+            viscosity: Viscosity::new(law, metal, parameters.method == Method::DivergenceFree),
             noise: Noise::new(squared(gravity).sqrt(), metal),
             parameters,
             around: Around::default(),
             projection: Projection::new(metal),
             homogenising: Homogenising::new(metal),
+            divergence_free: DivergenceFree::new(metal),
             predicted: Vec::new(),
             multiplier: Vec::new(),
             solved: Solved::default(),
@@ -129,7 +135,10 @@ impl Motion {
             })
             .collect_into_vec(&mut self.predicted);
         let (around, predicted) = (&mut self.around, &mut self.predicted);
-        if self.viscosity.acts() || self.noise.acts() {
+        if self.parameters.method == Method::DivergenceFree {
+            around.sum(near, &near.velocity);
+            self.viscosity.apply(near, around, dt, predicted);
+        } else if self.viscosity.acts() || self.noise.acts() {
             around.sum(near, &near.velocity);
             self.viscosity.apply(near, around, dt, predicted);
             self.noise
@@ -149,6 +158,7 @@ impl Motion {
         let solved = match self.parameters.method {
             Method::Projection => self.projection.solve(near, predicted, step, tolerance),
             Method::Homogenising => self.homogenising.solve(near, predicted, step, tolerance),
+            Method::DivergenceFree => self.divergence_free.solve(near, predicted, step, tolerance),
         };
         self.solved.sweeps += solved.sweeps;
         self.solved.density_error = self.solved.density_error.max(solved.density_error);
@@ -157,6 +167,9 @@ impl Motion {
         points
             .with_min_len(GRAIN)
             .for_each(|(x, u)| *x = plus(*x, dt, *u));
+        if self.parameters.method == Method::DivergenceFree {
+            self.divergence_free.even(near, dt);
+        }
     }
 
     /// Number of substeps for the fastest particle; an error if it is no longer a flow.
@@ -190,9 +203,19 @@ impl Motion {
 
     /// Takes the results of the copy back to the particles.
     fn scatter(&mut self, state: &mut State, dt: f64) {
-        let weight = (dt / PRESSURE_TIME).min(1.0);
+        let free = self.parameters.method == Method::DivergenceFree;
+        let weight = if free {
+            1.0
+        } else {
+            (dt / PRESSURE_TIME).min(1.0)
+        };
         self.multiplier.resize(state.len(), 0.0);
-        let (near, found) = (&state.near, &self.projection.pressure);
+        let found = if free {
+            &self.divergence_free.pressure
+        } else {
+            &self.projection.pressure
+        };
+        let near = &state.near;
         let places = state.position.par_iter_mut().zip(&mut state.velocity);
         let pressures = state.pressure.par_iter_mut().zip(&mut self.multiplier);
         let members = state.phase.par_iter().zip(near.members());
@@ -255,6 +278,9 @@ impl Stage for Motion {
         self.projection
             .pressure
             .extend(state.near.id.iter().map(start));
+        self.divergence_free
+            .pressure
+            .clone_from(&self.projection.pressure);
         let step = Step {
             metal: state.metal,
             dt: dt / f64::from(self.substeps),
@@ -300,6 +326,7 @@ impl Stage for Motion {
     fn bytes(&self) -> usize {
         self.projection.bytes()
             + self.homogenising.bytes()
+            + self.divergence_free.bytes()
             + self.noise.bytes()
             + self.viscosity.bytes()
             + self.around.bytes()

@@ -1,6 +1,7 @@
 //! Motion of the liquid: viscosity and forces predict, a pressure corrects.
 
 pub mod around;
+pub mod divergence_free;
 pub mod homogenising;
 pub mod integration;
 pub mod lattice;

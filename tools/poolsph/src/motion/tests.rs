@@ -7,7 +7,7 @@ use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, Metal, Particle, Phase, State};
 
-const METAL: Metal = Metal {
+pub(super) const METAL: Metal = Metal {
     density: 7850.0,
     spacing: 0.5e-3,
     smoothing_length: 0.5e-3,
@@ -22,7 +22,7 @@ fn parameters(method: Method) -> Parameters {
 }
 
 /// The cells of a box, each as `phase` says, with velocities as `velocity` says.
-fn block(
+pub(super) fn block(
     cells: [i32; 3],
     phase: impl Fn([i32; 3]) -> Phase,
     velocity: impl Fn([f64; 3]) -> [f64; 3],
@@ -55,7 +55,7 @@ fn block(
 }
 
 /// A tank of 6 x 6 x 8 liquid cells with two layers of wall.
-fn tank() -> State {
+pub(super) fn tank() -> State {
     block(
         [10, 10, 12],
         |[i, j, k]| {
@@ -71,7 +71,7 @@ fn tank() -> State {
     )
 }
 
-fn march(method: Method, gravity: bool, tension: bool) -> March {
+pub(super) fn march(method: Method, gravity: bool, tension: bool) -> March {
     let mut after: Vec<Box<dyn Stage>> = Vec::new();
     if tension {
         let parameters = tension::Parameters {
@@ -91,7 +91,7 @@ fn march(method: Method, gravity: bool, tension: bool) -> March {
     March::new(Vec::new(), after, 1e-4)
 }
 
-fn steps(march: &mut March, state: &mut State, steps: u32) -> Result<(), StageError> {
+pub(super) fn steps(march: &mut March, state: &mut State, steps: u32) -> Result<(), StageError> {
     for _ in 0..steps {
         march.step(state, |_, work| work())?;
     }
@@ -196,7 +196,7 @@ fn a_parabola_feels_its_curvature() {
 fn viscous(near: &Near, change: &mut [[f64; 3]]) {
     let mut around = around::Around::default();
     around.sum(near, &near.velocity);
-    let mut viscosity = viscosity::Viscosity::new(Law::Uniform(0.004), METAL);
+    let mut viscosity = viscosity::Viscosity::new(Law::Uniform(0.004), METAL, false);
     viscosity.apply(near, &around, 1.0, change);
     noise::Noise::new(0.0, METAL).damp(near, &mut around, (&viscosity, 1.0), change);
 }
@@ -397,7 +397,7 @@ fn sheared(mu: impl Fn(i32) -> f64, exact: impl Fn(i32) -> f64) -> Vec<f64> {
         .collect();
     state.gather();
     let near = &mut state.near;
-    let mut viscosity = viscosity::Viscosity::new(layers(mu), METAL);
+    let mut viscosity = viscosity::Viscosity::new(layers(mu), METAL, false);
     viscosity.take(near, &state.temperature).unwrap();
     let around = around::Around::default();
     let layers: Vec<i32> = near.position.iter().map(|x| layer(*x)).collect();

@@ -44,6 +44,8 @@ pub struct Viscosity {
     limit: f64,
     /// 1/nu \[1/m3\].
     number: f64,
+    /// Walls hold the velocity at their face, half way to the liquid, and not at their particles.
+    mirrored: bool,
     /// mu of each particle \[Pa s\], `[m]` in the order of [`Near`]; empty where it is the same for all.
     each: Vec<f64>,
     /// Sum of mu_ab (u_b - u_a) W_ab, and the smallest mu_ab of the row \[Pa s\].
@@ -51,9 +53,10 @@ pub struct Viscosity {
 }
 
 impl Viscosity {
-    /// The viscosity of a `law` in `metal`.
+    /// The viscosity of a `law` in `metal`; `mirrored`: walls hold the velocity at their face, half way to the liquid, and
+    /// not at their particles.
     #[must_use]
-    pub fn new(law: Law, metal: Metal) -> Self {
+    pub fn new(law: Law, metal: Metal, mirrored: bool) -> Self {
         let kernel = CubicSpline::<3>::new(metal.smoothing_length);
         let reach = (kernel.support() / metal.spacing).ceil() as i32;
         let (mut moment, mut number) = (0.0, 0.0);
@@ -77,6 +80,7 @@ impl Viscosity {
             law,
             limit: 1.0 / (largest * number),
             number: Lattice::of(metal).number,
+            mirrored,
             each: Vec::new(),
             sums: Vec::new(),
         }
@@ -153,7 +157,7 @@ impl Viscosity {
     }
 
     fn same(&self, near: &Near, around: &Around, dt: f64, predicted: &mut [[f64; 3]]) {
-        let own = near.kernel.value(0.0);
+        let (own, mirrored) = (near.kernel.value(0.0), self.mirrored);
         let rows = near.velocity.par_iter().zip(&near.role).zip(&near.number);
         predicted
             .par_iter_mut()
@@ -163,7 +167,10 @@ impl Viscosity {
             .for_each(|((out, sum), ((u, role), number))| {
                 if *role == Role::Liquid {
                     // Without neighbours the number is zero.
-                    let weight = (number - own).max(0.0);
+                    let mut weight = (number - own).max(0.0);
+                    if mirrored {
+                        weight += (weight - sum[3]).max(0.0);
+                    }
                     let sum = std::array::from_fn(|i| sum[i] - weight * u[i]);
                     *out = plus(*out, dt * self.scale, sum);
                 }
@@ -172,6 +179,7 @@ impl Viscosity {
 
     fn pairs(&mut self, near: &Near, dt: f64, predicted: &mut [[f64; 3]]) {
         let (each, scale) = (&self.each, self.scale);
+        let solid = if self.mirrored { 2.0 } else { 1.0 };
         self.sums.resize(near.len(), ([0.0; 3], 0.0));
         near.each_row(&mut self.sums, |a, row, (out, least)| {
             (*out, *least) = ([0.0; 3], each[a]);
@@ -181,7 +189,7 @@ impl Viscosity {
             let own = each[a];
             for (b, w) in row.values() {
                 let mean = match b {
-                    _ if !near.role[b].flows() => own,
+                    _ if !near.role[b].flows() => solid * own,
                     _ if own + each[b] > 0.0 => 2.0 * own * each[b] / (own + each[b]),
                     _ => 0.0,
                 };

@@ -53,6 +53,12 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         );
         faults.push(Fault::at("/smoothing_length_m", what));
     }
+    let flow = scene.flow.as_ref();
+    if scene.tension.is_some() && flow.is_some_and(|f| f.method == Method::DivergenceFree) {
+        let what =
+            "\"divergence_free\" knows no tension: its cohesion is calibrated with \"projection\"";
+        faults.push(Fault::at("/flow/method", what));
+    }
     faults.extend(dependences(scene));
     faults.extend(hollows(scene));
     faults.extend(beside(scene));

@@ -98,7 +98,8 @@ pub struct State {
     /// Specific enthalpy \[J/kg\], `[n]` or empty.
     pub enthalpy: Vec<f64>,
     /// p \[Pa\], `[n]` or empty: the pressure that the metal carries, from all pair forces, as the mean over some
-    /// milliseconds. Single particles differ like the contacts of grains; frames show [`Near::liquid_mean`].
+    /// milliseconds (that of the last step where the flow is without divergence).
+    /// Single particles differ like the contacts of grains; frames show [`Near::liquid_mean`].
     pub pressure: Vec<f64>,
     /// What the surface is at each particle, `[n]` or empty.
     pub surface: Vec<Patch>,

@@ -71,6 +71,9 @@ pub struct Near {
     pub velocity: Vec<[f64; 3]>,
     /// Force density \[N/m3\], `[m][3]`; zero after gathering, force stages add to it.
     pub force: Vec<[f64; 3]>,
+    /// Pressure upon the surface at each liquid particle \[Pa\], `[m]`; empty without one. Empty after gathering, a force
+    /// stage may fill it.
+    pub outer: Vec<f64>,
     /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
     /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
     pub virial: Vec<f64>,
@@ -115,6 +118,7 @@ impl Near {
             position: Vec::new(),
             velocity: Vec::new(),
             force: Vec::new(),
+            outer: Vec::new(),
             virial: Vec::new(),
             number: Vec::new(),
             gradient: Vec::new(),
@@ -204,6 +208,7 @@ impl Near {
         members.map(moving).collect_into_vec(&mut self.velocity);
         self.force.clear();
         self.force.resize(self.len, [0.0; 3]);
+        self.outer.clear();
         self.virial.clear();
         self.virial.resize(self.len, 0.0);
         if state.faces.any() {

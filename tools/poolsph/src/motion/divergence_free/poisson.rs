@@ -1,0 +1,172 @@
+//! Conjugate gradients with the diagonal for the equation of the pressure, in single precision.
+
+use rayon::prelude::*;
+
+use neighbours::ROWS;
+
+use crate::motion::step::{Solved, Tolerance};
+use crate::near::{Near, Role};
+
+/// Rows of sum of w (p_a - p_b) + ... = right; zero for solid particles.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Poisson {
+    /// Diagonal \[1/m5\] and right side \[Pa/m5\], `[m]`.
+    pub(super) equations: Vec<[f32; 2]>,
+    /// No particle lies at a surface.
+    pub(super) closed: bool,
+    /// Change of volume within a step for a residual of 1 \[m5/Pa\].
+    scale: f64,
+    residual: Vec<f32>,
+    direction: Vec<f32>,
+    product: Vec<f32>,
+    partial: Vec<f64>,
+}
+
+impl Poisson {
+    /// Room for `n` rows.
+    pub(super) fn resize(&mut self, n: usize, scale: f64) {
+        self.scale = scale;
+        self.equations.resize(n, [0.0; 2]);
+        for column in [&mut self.residual, &mut self.direction, &mut self.product] {
+            column.resize(n, 0.0);
+        }
+        self.partial.resize(n.div_ceil(ROWS), 0.0);
+    }
+
+    /// Improves `p` until the mean change of volume that is left is within the tolerance.
+    pub(super) fn solve(&mut self, near: &Near, p: &mut Vec<f32>, tolerance: Tolerance) -> Solved {
+        let liquid = near.liquid_count().max(1) as f64;
+        if self.closed {
+            self.level(liquid);
+        }
+        near.complete(p, |p, _, _| p);
+        multiply(near, &self.equations, p, &mut self.product);
+        let rows = self.residual.par_iter_mut().zip(&self.equations);
+        rows.zip(&self.product)
+            .with_min_len(ROWS)
+            .for_each(|((residual, [_, right]), product)| *residual = right - product);
+        self.direction.fill(0.0);
+        let mut solved = Solved::default();
+        let mut last = 0.0;
+        loop {
+            let sum = self.sum(|[_, _], residual, _, _| residual.abs());
+            solved.density_error = self.scale * sum / liquid;
+            let enough =
+                solved.sweeps >= tolerance.sweeps_min && solved.density_error <= tolerance.density;
+            if enough || solved.sweeps >= tolerance.sweeps_max {
+                break;
+            }
+            let square = self.sum(|[diagonal, _], r, _, _| {
+                if diagonal > 0.0 {
+                    r * r / diagonal
+                } else {
+                    0.0
+                }
+            });
+            if square <= 0.0 {
+                break;
+            }
+            self.turn(if last > 0.0 { square / last } else { 0.0 });
+            last = square;
+            near.complete(&mut self.direction, |p, _, _| p);
+            multiply(near, &self.equations, &self.direction, &mut self.product);
+            let bend = self.sum(|_, _, direction, product| direction * product);
+            if bend <= 0.0 {
+                break;
+            }
+            self.go((square / bend) as f32, p);
+            solved.sweeps += 1;
+        }
+        near.complete(p, |p, _, _| p);
+        solved
+    }
+
+    /// Without a surface the pressure is known but for a constant, and what the right sides sum to cannot be met: their
+    /// mean is taken away.
+    fn level(&mut self, liquid: f64) {
+        let mean = (self.sum(|[_, right], _, _, _| right) / liquid) as f32;
+        for [diagonal, right] in &mut self.equations {
+            if *diagonal > 0.0 {
+                *right -= mean;
+            }
+        }
+    }
+
+    /// direction = residual/diagonal + part direction.
+    fn turn(&mut self, part: f64) {
+        let part = part as f32;
+        let rows = self.direction.par_iter_mut().zip(&self.equations);
+        rows.zip(&self.residual).with_min_len(ROWS).for_each(
+            |((direction, [diagonal, _]), residual)| {
+                let steep = if *diagonal > 0.0 {
+                    residual / diagonal
+                } else {
+                    0.0
+                };
+                *direction = steep + part * *direction;
+            },
+        );
+    }
+
+    /// p + way direction.
+    fn go(&mut self, way: f32, p: &mut [f32]) {
+        let rows = self.residual.par_iter_mut().zip(p);
+        rows.zip(&self.direction)
+            .zip(&self.product)
+            .with_min_len(ROWS)
+            .for_each(|(((residual, p), direction), product)| {
+                *p += way * direction;
+                *residual -= way * product;
+            });
+    }
+
+    /// Sum of what `each` makes of equation, residual, direction and product, chunks in their order.
+    fn sum(&mut self, each: impl Fn([f64; 2], f64, f64, f64) -> f64 + Sync) -> f64 {
+        let rows = self
+            .partial
+            .par_iter_mut()
+            .zip(self.equations.par_chunks(ROWS));
+        let rows = rows.zip(self.residual.par_chunks(ROWS));
+        rows.zip(self.direction.par_chunks(ROWS))
+            .zip(self.product.par_chunks(ROWS))
+            .for_each(|((((sum, equations), residual), direction), product)| {
+                let rows = equations.iter().zip(residual).zip(direction).zip(product);
+                *sum = rows
+                    .map(|(((e, r), d), p)| {
+                        each(e.map(f64::from), (*r).into(), (*d).into(), (*p).into())
+                    })
+                    .sum();
+            });
+        self.partial.iter().sum()
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        (8 + 3 * 4) * self.equations.capacity()
+    }
+}
+
+/// diagonal p_a - sum of w p_b; `p` is zero for solid particles.
+fn multiply(near: &Near, equations: &[[f32; 2]], p: &[f32], out: &mut [f32]) {
+    near.each_row(
+        out,
+        #[inline(always)]
+        |a, row, out| {
+            *out = 0.0;
+            if near.role[a] == Role::Liquid {
+                let mut parts = [0.0_f32; 4];
+                let ((fours, rest), (slopes, last)) =
+                    (row.index.as_chunks::<4>(), row.slope.as_chunks::<4>());
+                for (b, s) in fours.iter().zip(slopes) {
+                    for k in 0..4 {
+                        parts[k] += s[k] * p[b[k] as usize];
+                    }
+                }
+                for (b, s) in rest.iter().zip(last) {
+                    parts[0] += s * p[*b as usize];
+                }
+                *out = equations[a][0] * p[a] + ((parts[0] + parts[1]) + (parts[2] + parts[3]));
+            }
+        },
+    );
+}

@@ -1,0 +1,177 @@
+//! Exact cases of the operators and of a step.
+
+use super::*;
+use crate::motion::tests::{METAL, block, march, steps, tank};
+use crate::motion::{Method, Motion, Parameters};
+use crate::stage::Stage;
+use crate::state::{Phase, State};
+
+/// A shaken block: places are moved by up to a tenth of a spacing.
+fn shaken(cells: [i32; 3], phase: impl Fn([i32; 3]) -> Phase) -> State {
+    let mut state = block(cells, phase, |_| [0.0; 3]);
+    let mut seed = 11_u64;
+    for x in state.position.iter_mut().flatten() {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        *x += METAL.spacing * 0.2 * ((seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5);
+    }
+    state.gather();
+    state
+}
+
+fn inner(near: &Near, a: usize, cells: f64) -> bool {
+    let within = |x: &f64| (2.6..cells - 2.6).contains(&(x / METAL.spacing));
+    near.position[a].iter().all(within)
+}
+
+#[test]
+fn slopes_are_exact_in_a_cloud_in_disorder() {
+    let state = shaken([10; 3], |_| Phase::Liquid);
+    let near = &state.near;
+    let turn = [[1.0, 2.0, -3.0], [0.5, -4.0, 2.0], [7.0, 1.0, 3.5]];
+    let u: Vec<[f64; 3]> = near
+        .position
+        .iter()
+        .map(|x| turn.map(|line| dot(line, *x)))
+        .collect();
+    let mut solver = DivergenceFree::new(METAL);
+    solver.sum(near, &u);
+    let asked = [3e5, -2e5, 1e5];
+    solver.total = near.position.iter().map(|x| 4e3 + dot(asked, *x)).collect();
+    solver.differ(near);
+    let mut seen = 0;
+    for a in (0..near.len()).filter(|a| inner(near, *a, 10.0)) {
+        assert!(
+            (solver.rows[a].divergence - 0.5).abs() < 1e-5,
+            "{:?}",
+            solver.rows[a]
+        );
+        for (found, asked) in solver.slope[a].iter().zip(asked) {
+            assert!((found - asked).abs() < 1e-6 * 3e5, "{:?}", solver.slope[a]);
+        }
+        seen += 1;
+    }
+    assert!(seen > 50, "{seen}");
+}
+
+#[test]
+fn pressure_below_a_plane_surface_is_exact_on_the_lattice() {
+    let state = {
+        let mut state = block([10; 3], |_| Phase::Liquid, |_| [0.0; 3]);
+        state.gather();
+        state
+    };
+    let near = &state.near;
+    let still = vec![[0.0; 3]; near.len()];
+    let mut solver = DivergenceFree::new(METAL);
+    solver.sum(near, &still);
+    let top = 10.0 * METAL.spacing;
+    solver.total = near.position.iter().map(|x| 8e4 * (top - x[2])).collect();
+    solver.differ(near);
+    for a in 0..near.len() {
+        let [x, y, z] = near.position[a].map(|x| x / METAL.spacing);
+        if [x, y].iter().all(|x| (2.6..7.4).contains(x)) && z > 2.6 {
+            let [p, q, r] = solver.slope[a];
+            assert!(
+                p.abs() + q.abs() < 1.0 && (r + 8e4).abs() < 1.0,
+                "{:?} at {z}",
+                solver.slope[a]
+            );
+        }
+    }
+}
+
+#[test]
+fn liquid_at_rest_carries_its_weight_and_stays() {
+    let mut state = tank();
+    let mut march = march(Method::DivergenceFree, true, false);
+    steps(&mut march, &mut state, 200).unwrap();
+    let top = 10.0 * METAL.spacing;
+    let (mut energy, mut count) = (0.0, 0.0);
+    let bottom = METAL.density * 9.8 * 8.0 * METAL.spacing;
+    for a in (0..state.len()).filter(|a| state.phase[*a] == Phase::Liquid) {
+        let asked = METAL.density * 9.8 * (top - state.position[a][2]);
+        let error = (state.pressure[a] - asked).abs() / bottom;
+        assert!(error < 0.01, "{error} at {:?}", state.position[a]);
+        energy += squared(state.velocity[a]);
+        count += 1.0;
+    }
+    let speed = f64::sqrt(energy / count / (9.8 * 8.0 * METAL.spacing));
+    assert!(speed < 1e-3, "{speed}");
+}
+
+#[test]
+fn a_body_that_touches_nothing_keeps_its_momentum() {
+    let mut state = shaken([7; 3], |_| Phase::Liquid);
+    for (k, u) in state.velocity.iter_mut().enumerate() {
+        *u = [0, 1, 2].map(|i| 0.3 * ((k * (7 + 5 * i)) as f64).sin());
+    }
+    state.gather();
+    let momentum = |state: &State| {
+        state
+            .velocity
+            .iter()
+            .fold([0.0; 3], |sum, u| plus(sum, 1.0, *u))
+    };
+    let before = momentum(&state);
+    let size: f64 = state.velocity.iter().map(|u| squared(*u).sqrt()).sum();
+    let text = r#"{"viscosity_pa_s": 0.004, "method": "divergence_free"}"#;
+    let parameters: Parameters = serde_json::from_str(text).unwrap();
+    let mut motion = Motion::new(parameters, crate::motion::Law::Uniform(0.004), METAL);
+    motion.advance(&mut state, 1e-4).unwrap();
+    let change = minus(momentum(&state), before);
+    assert!(
+        squared(change).sqrt() < 1e-12 * size,
+        "{change:?} of {size}"
+    );
+    let after: f64 = state.velocity.iter().map(|u| squared(*u).sqrt()).sum();
+    assert!(after < 0.98 * size, "nothing happened: {after} of {size}");
+}
+
+/// Presses on all of the surface alike.
+struct Gas(f64);
+
+impl Stage for Gas {
+    fn name(&self) -> &'static str {
+        "gas"
+    }
+
+    fn advance(&mut self, state: &mut State, _: f64) -> Result<(), crate::stage::StageError> {
+        state.near.outer.clear();
+        state.near.outer.resize(state.near.len(), self.0);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_pressure_upon_the_whole_surface_moves_nothing() {
+    let after = |pressure: f64| {
+        let mut state = shaken([10, 10, 8], |[i, j, k]| {
+            let wall = k < 2 || [i, j].iter().any(|i| !(2..8).contains(i));
+            if wall { Phase::Solid } else { Phase::Liquid }
+        });
+        let text = r#"{"viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8], "method": "divergence_free"}"#;
+        let parameters: Parameters = serde_json::from_str(text).unwrap();
+        let law = crate::motion::Law::Uniform(0.004);
+        let motion = Motion::new(parameters, law, METAL);
+        let after: Vec<Box<dyn Stage>> = vec![Box::new(Gas(pressure)), Box::new(motion)];
+        let mut march = crate::march::March::new(Vec::new(), after, 1e-4);
+        steps(&mut march, &mut state, 20).unwrap();
+        state
+    };
+    let (without, with) = (after(0.0), after(2e4));
+    let fastest = without
+        .velocity
+        .iter()
+        .map(|u| squared(*u))
+        .fold(0.0, f64::max)
+        .sqrt();
+    assert!(fastest > 1e-3, "{fastest}");
+    for a in 0..without.len() {
+        let change = squared(minus(with.velocity[a], without.velocity[a])).sqrt();
+        assert!(change < 1e-6 * fastest, "{change} of {fastest}");
+        if without.phase[a] == Phase::Liquid {
+            let more = with.pressure[a] - without.pressure[a];
+            assert!((more / 2e4 - 1.0).abs() < 1e-6, "{more}");
+        }
+    }
+}
