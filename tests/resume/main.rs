@@ -32,15 +32,18 @@ enum Scene {
     Field,
     /// The same in space, with charges on the ball.
     Charges,
+    /// A drop of liquid that swings and falls.
+    Liquid,
 }
 
-const SCENES: [Scene; 6] = [
+const SCENES: [Scene; 7] = [
     Scene::Drop,
     Scene::Weld,
     Scene::Heat,
     Scene::Rod,
     Scene::Field,
     Scene::Charges,
+    Scene::Liquid,
 ];
 
 impl Scene {
@@ -52,6 +55,7 @@ impl Scene {
             Self::Rod => "rod.json",
             Self::Field => "field.json",
             Self::Charges => "charges.json",
+            Self::Liquid => "liquid.json",
         };
         Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("resume")
@@ -62,7 +66,7 @@ impl Scene {
         match self {
             Self::Drop | Self::Weld => "poolsph",
             Self::Heat | Self::Rod => "heatsph",
-            Self::Field | Self::Charges => "emfield",
+            Self::Field | Self::Charges | Self::Liquid => "emfield",
         }
     }
 
@@ -70,7 +74,7 @@ impl Scene {
     fn frames(self) -> &'static str {
         match self {
             Self::Drop | Self::Weld => "/particles",
-            Self::Heat | Self::Rod | Self::Field | Self::Charges => "/points",
+            Self::Heat | Self::Rod | Self::Field | Self::Charges | Self::Liquid => "/points",
         }
     }
 
@@ -114,6 +118,7 @@ impl Scene {
         static ROD: OnceLock<Vec<u8>> = OnceLock::new();
         static FIELD: OnceLock<Vec<u8>> = OnceLock::new();
         static CHARGES: OnceLock<Vec<u8>> = OnceLock::new();
+        static LIQUID: OnceLock<Vec<u8>> = OnceLock::new();
         let bytes = match self {
             Self::Drop => &DROP,
             Self::Weld => &WELD,
@@ -121,6 +126,7 @@ impl Scene {
             Self::Rod => &ROD,
             Self::Field => &FIELD,
             Self::Charges => &CHARGES,
+            Self::Liquid => &LIQUID,
         };
         bytes.get_or_init(|| {
             let folder = folder();
@@ -130,6 +136,7 @@ impl Scene {
                 Self::Drop | Self::Weld => happens(&reader),
                 Self::Heat | Self::Rod => warms(&reader),
                 Self::Field | Self::Charges => enters(&reader),
+                Self::Liquid => swings(&reader),
             }
             bytes
         })
@@ -153,6 +160,15 @@ fn happens(reader: &Reader) {
     let (start, end) = (at(frames - 2), at(frames - 1));
     let moved = start.iter().zip(&end).map(|(a, b)| (a[2] - b[2]).abs());
     assert!(moved.fold(0.0, f64::max) > 1e-4);
+}
+
+/// The drop must change its shape, and fall.
+fn swings(reader: &Reader) {
+    let rows = reader.records("/liquid").unwrap();
+    let at = |i: usize, name: &str| rows[i].1.get(name).unwrap();
+    let last = rows.len() - 1;
+    assert!(at(0, "axis_ratio") - at(last, "axis_ratio") > 0.01);
+    assert!(at(last, "centre_z") < -1e-5);
 }
 
 /// Temperatures must change, and heat must not be lost.

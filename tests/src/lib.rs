@@ -10,13 +10,14 @@
 //! - [`certify`] tells the error of a study against its run time.
 //! - [`keep`] writes records whole or not at all.
 //! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction,
-//!   [`em`] those for electric and magnetic fields, [`operators`] the clouds of weighted least squares.
+//!   [`em`] those for electric and magnetic fields, [`drop`] those for drops, [`operators`] the clouds of weighted least squares.
 
 pub mod bell;
 pub mod bench;
 pub mod case;
 pub mod cases;
 pub mod certify;
+pub mod drop;
 pub mod em;
 pub mod extreme;
 mod flow;

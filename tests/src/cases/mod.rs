@@ -67,6 +67,9 @@ mod heat_two_slabs;
 mod jet_plate;
 mod jet_still;
 mod jet_threshold;
+mod liquid_drop;
+mod liquid_field_drop;
+mod liquid_rest;
 mod pool_dimple;
 mod pool_drop_oscillation;
 mod pool_drop_pressure;
@@ -89,6 +92,7 @@ pub fn all() -> Vec<Box<dyn Case>> {
     all.extend(pools());
     all.extend(grains());
     all.extend(jets());
+    all.extend(liquids());
     all
 }
 
@@ -195,5 +199,15 @@ fn continua() -> Vec<Box<dyn Case>> {
         Box::new(heat_two_slabs::HeatTwoSlabs),
         Box::new(heat_shock_disc::HeatShockDisc),
         Box::new(wls_operators::WlsOperators),
+    ]
+}
+
+/// Drops that swing and rest.
+fn liquids() -> Vec<Box<dyn Case>> {
+    vec![
+        Box::new(liquid_drop::LiquidDrop),
+        Box::new(liquid_drop::LiquidDropViscous),
+        Box::new(liquid_rest::LiquidRest),
+        Box::new(liquid_field_drop::LiquidFieldDrop),
     ]
 }

@@ -9,6 +9,7 @@
 
 pub mod assemble;
 pub mod cloud;
+pub mod liquid;
 pub mod output;
 pub mod scene;
 mod solution;

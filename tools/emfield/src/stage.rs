@@ -61,6 +61,9 @@ impl Tool for EmField {
         if !faults.is_empty() {
             return Err(faults.into());
         }
+        if let Some(liquid) = &scene.liquid {
+            return assemble::plan_flow(scene, liquid);
+        }
         let planned = planned(scene)?;
         let cloud = &planned.cloud;
         if let Some(currents) = &scene.eddy_currents {
@@ -90,10 +93,20 @@ impl Tool for EmField {
     }
 
     fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
+        if let Some(liquid) = &scene.liquid {
+            return assemble::estimate_flow(scene, liquid);
+        }
         trial::estimate(scene, &ready(scene)?).map(Some)
     }
 
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
+        if let Some(liquid) = &scene.liquid {
+            return match (&liquid.march, &liquid.equilibrium) {
+                (Some(march), _) => assemble::flow(scene, (liquid, march), session),
+                (None, Some(rest)) => assemble::rest(scene, (liquid, rest), session),
+                (None, None) => Ok(()),
+            };
+        }
         let planned = session.timed("points", || ready(scene))?;
         solution::solve(scene, &planned.cloud, session)
     }

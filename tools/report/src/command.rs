@@ -7,7 +7,8 @@ use clap::{Parser, Subcommand};
 use run::{Failure, Form, Owned};
 
 use crate::files::{
-    FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PassesFiles, perhaps_named,
+    DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PassesFiles,
+    perhaps_named,
 };
 use crate::{figures, index, page, validate};
 
@@ -41,6 +42,9 @@ enum Action {
     /// One page about electric and magnetic fields, of one run or of several.
     #[command(after_help = FIELD)]
     Field(FieldFiles),
+    /// One page about drops that move or are at rest, of one run or of several.
+    #[command(after_help = DROP)]
+    Drop(DropFiles),
     /// One page about tables of gases: curves, composition, published values, uncertain inputs.
     #[command(after_help = GAS)]
     Gas(GasFiles),
@@ -81,6 +85,10 @@ const JET: &str = "Example, from the repository root:\n  \
 const FIELD: &str = "Example, from the repository root:\n  \
     target/release/report field --study levitation-field --out build/levitation-field/report.html \\\n    \
     --fields drop=build/levitation-field/fields.mcap --exact drop=build/levitation-field/exact.json";
+
+const DROP: &str = "Example, from the repository root:\n  \
+    target/release/report drop --study drop-oscillation --out build/drop-oscillation/report.html \\\n    \
+    --drop water=build/drop-oscillation/drop.mcap";
 
 const GAS: &str = "Example, from the repository root:\n  \
     target/release/report gas --study gases --out build/gases/report.html \\\n    \
@@ -124,6 +132,7 @@ impl Action {
             Self::Heat(f) => Some(&mut f.out),
             Self::Jet(f) => Some(&mut f.out),
             Self::Field(f) => Some(&mut f.out),
+            Self::Drop(f) => Some(&mut f.out),
             Self::Gas(f) => Some(&mut f.out),
             Self::Index(f) => Some(&mut f.out),
             Self::Validate { .. } | Self::Figures { .. } => None,
@@ -155,6 +164,7 @@ impl Action {
             Self::Heat(f) => named(&[&f.frames]),
             Self::Jet(f) => named(&[&f.frames]),
             Self::Field(f) => named(&[&f.fields, &f.exact]),
+            Self::Drop(f) => named(&[&f.drops]),
             Self::Gas(f) => named(&[&f.table, &f.reference, &f.variant]),
             Self::Index(f) => f.read(),
             Self::Validate { .. } | Self::Figures { .. } => Vec::new(),
@@ -192,6 +202,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
         Action::Figures { .. } => ("--pool", true),
         Action::Heat(_) | Action::Jet(_) => ("--frames", true),
         Action::Field(_) => ("--fields", true),
+        Action::Drop(_) => ("--drop", true),
         Action::Gas(_) => ("--table", true),
     };
     if !given {
@@ -208,6 +219,7 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Heat(files) => page::heat::write(files).map(|()| ExitCode::SUCCESS),
         Action::Jet(files) => page::jet::write(files).map(|()| ExitCode::SUCCESS),
         Action::Field(files) => page::field::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Drop(files) => page::drop::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Figures { pool } => figures::run(pool),

@@ -93,6 +93,20 @@ pub(crate) struct FieldFiles {
     pub(crate) exact: Vec<(String, PathBuf)>,
 }
 
+/// Files of a page about drops.
+#[derive(Debug, clap::Args)]
+pub(crate) struct DropFiles {
+    /// Name of the study.
+    #[arg(long)]
+    pub(crate) study: String,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// A drop, and what the page calls it; once for each run.
+    #[arg(long = "drop", required = true, value_name = "NAME=FILE", value_parser = named)]
+    pub(crate) drops: Vec<(String, PathBuf)>,
+}
+
 /// Files of a page about gases.
 #[derive(Debug, clap::Args)]
 pub(crate) struct GasFiles {

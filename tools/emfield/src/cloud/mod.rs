@@ -19,6 +19,7 @@ mod seed;
 mod surface;
 
 pub use surface::Curvature;
+pub(crate) use surface::seeds;
 
 use crate::scene::{Geometry, Scene};
 use run::Fault;

@@ -90,6 +90,16 @@ pub enum Domain {
     Sphere(SphereDomain),
 }
 
+impl Default for Domain {
+    /// No domain at all: a ball without a radius.
+    fn default() -> Self {
+        Self::Sphere(SphereDomain {
+            centre_m: Vec::new(),
+            radius_m: 0.0,
+        })
+    }
+}
+
 /// Properties of a medium, constant within it; where it saturates, with its permeability in weak fields.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

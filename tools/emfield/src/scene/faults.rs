@@ -19,7 +19,16 @@ impl Scene {
     pub fn faults(&self) -> Vec<Fault> {
         let mut misfits = Vec::new();
         let dimensions = self.geometry.dimensions();
-        self.domain.check(self.geometry, &mut misfits);
+        let fields = self.electrostatics.is_some() || self.eddy_currents.is_some();
+        if self.domain != Domain::default() {
+            self.domain.check(self.geometry, &mut misfits);
+        } else if fields {
+            misfits.push(Misfit::at(
+                "",
+                "\"domain\" is wanted: fields are sought there",
+            ));
+            return faulty(misfits);
+        }
         for (number, refinement) in self.points.refinements.iter().enumerate() {
             let at = format!("/points/refinements/{number}/shape");
             check::check(&refinement.shape, &at, dimensions, &mut misfits);
@@ -42,11 +51,14 @@ impl Scene {
         self.ways(&mut misfits);
         self.enclosures(&mut misfits);
         self.times(&mut misfits);
-        if self.electrostatics.is_none() && self.eddy_currents.is_none() {
+        if !fields && self.liquid.is_none() {
             misfits.push(Misfit::at(
                 "",
-                "at least one of \"electrostatics\" and \"eddy_currents\" is wanted",
+                "at least one of \"electrostatics\", \"eddy_currents\" and \"liquid\" is wanted",
             ));
+        }
+        if let Some(liquid) = &self.liquid {
+            liquid.check(self, &mut misfits);
         }
         if let Some(electrostatics) = &self.electrostatics {
             electrostatics.check(self, &mut misfits);
@@ -54,10 +66,7 @@ impl Scene {
         if let Some(currents) = &self.eddy_currents {
             currents.check(self, &mut misfits);
         }
-        let mut faults: Vec<Fault> = misfits
-            .into_iter()
-            .map(|m| Fault::at(&m.path, m.what))
-            .collect();
+        let mut faults = faulty(misfits);
         faults.extend(self.formulas());
         faults
     }
@@ -128,9 +137,11 @@ impl Scene {
     /// Times of frames lie in a march and rise.
     fn times(&self, misfits: &mut Vec<Misfit>) {
         let march = self.eddy_currents.as_ref();
+        let flow = self.liquid.as_ref().and_then(|l| l.march);
+        let flow = flow.map(|m| m.end_s);
         let end = march
             .and_then(|e| e.transient.as_ref())
-            .map_or(0.0, |t| t.end_s);
+            .map_or(flow.unwrap_or(0.0), |t| t.end_s);
         for (number, at) in self.output.at_s.iter().enumerate() {
             let path = format!("/output/at_s/{number}");
             if !(*at >= 0.0 && *at <= end) {
@@ -159,6 +170,9 @@ impl Scene {
         if let Some(electrostatics) = &self.electrostatics {
             electrostatics.formulas(&mut faults);
         }
+        if let Some(liquid) = &self.liquid {
+            liquid.formulas(&mut faults);
+        }
         let transient = self
             .eddy_currents
             .as_ref()
@@ -168,6 +182,11 @@ impl Scene {
         }
         faults
     }
+}
+
+fn faulty(misfits: Vec<Misfit>) -> Vec<Fault> {
+    let located = misfits.into_iter().map(|m| Fault::at(&m.path, m.what));
+    located.collect()
 }
 
 fn check_bodies(bodies: &[BodyScene], dimensions: usize, misfits: &mut Vec<Misfit>) {

@@ -4,6 +4,7 @@ pub(crate) mod faults;
 
 pub mod currents;
 pub mod domain;
+pub mod liquid;
 pub mod method;
 pub mod output;
 pub(crate) mod permeability;
@@ -15,6 +16,7 @@ use serde::Deserialize;
 
 pub use currents::{Amplitude, Coil, EddyCurrents, ElectricPotential, Magnet};
 pub use domain::{BodyScene, Domain, Geometry, Medium};
+pub use liquid::{Equilibrium, Liquid, LiquidMarch};
 pub use method::{Interfaces, Method, Solver};
 pub use output::Output;
 pub use permeability::Permeability;
@@ -30,7 +32,8 @@ pub struct Scene {
     /// Plane (x, y; per metre of depth), axisymmetric (r, z) or in space (x, y, z): the coordinates of all places
     /// and shapes of the scene.
     pub geometry: Geometry,
-    /// Where fields are sought.
+    /// Where fields are sought; absent where none are.
+    #[serde(default)]
     pub domain: Domain,
     /// What fills the domain outside the bodies; vacuum when it is absent.
     #[serde(default)]
@@ -43,6 +46,8 @@ pub struct Scene {
     pub electrostatics: Option<Electrostatics>,
     /// Currents that a changing magnetic field drives; left out when it is absent.
     pub eddy_currents: Option<EddyCurrents>,
+    /// A liquid that moves; left out when it is absent.
+    pub liquid: Option<Liquid>,
     /// How points fill the domain.
     pub points: Points,
     /// How derivatives are formed.

@@ -7,6 +7,7 @@ mod arcs;
 mod balance;
 mod bead;
 mod compare;
+pub(crate) mod drop;
 mod exchange;
 pub(crate) mod field;
 pub(crate) mod gas;

@@ -1,0 +1,150 @@
+//! Period and decay of a swing, by its zeros and by a fit.
+
+use std::f64::consts::PI;
+
+use super::Series;
+
+/// Rounds of Gauss and Newton's method.
+const ROUNDS: usize = 60;
+
+/// Times at which a series changes its sign, through cubics of the four values about each.
+#[must_use]
+pub fn zeros(series: &Series) -> Vec<f64> {
+    let (t, y) = (&series.time, &series.value);
+    let mut found = Vec::new();
+    for k in 1..t.len().saturating_sub(2) {
+        if (y[k] > 0.0) == (y[k + 1] > 0.0) {
+            continue;
+        }
+        let (mut low, mut high) = (t[k], t[k + 1]);
+        let four = [k - 1, k, k + 1, k + 2];
+        let cubic = |x: f64| -> f64 {
+            four.iter()
+                .map(|&a| {
+                    let others = four.iter().filter(|b| **b != a);
+                    y[a] * others.map(|&b| (x - t[b]) / (t[a] - t[b])).product::<f64>()
+                })
+                .sum()
+        };
+        let rises = y[k + 1] > y[k];
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if (cubic(middle) > 0.0) == rises {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        found.push(0.5 * (low + high));
+    }
+    found
+}
+
+/// `y = c + exp(-d t) (a cos w t + b sin w t)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// w \[1/s\].
+    pub frequency: f64,
+    /// d \[1/s\].
+    pub decay: f64,
+}
+
+impl Fit {
+    /// Period \[s\].
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        2.0 * PI / self.frequency
+    }
+}
+
+/// The fit of least squares, from about known frequency and decay: those two by Gauss and Newton's method, the others, in which
+/// y is linear, exactly in each round.
+#[must_use]
+pub fn fit(series: &Series, guess: Fit) -> Fit {
+    let mut now = guess;
+    for _ in 0..ROUNDS {
+        let scale = now.frequency;
+        let left = residual(series, now);
+        let step = 1e-5 * scale;
+        let turned = |frequency: f64, decay: f64| {
+            let moved = residual(series, Fit { frequency, decay });
+            let pairs = moved.iter().zip(&left);
+            pairs.map(|(a, b)| (a - b) / step).collect::<Vec<f64>>()
+        };
+        let a = turned(now.frequency + step, now.decay);
+        let b = turned(now.frequency, now.decay + step);
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let (aa, ab, bb) = (dot(&a, &a), dot(&a, &b), dot(&b, &b));
+        let (ra, rb) = (dot(&a, &left), dot(&b, &left));
+        let whole = aa * bb - ab * ab;
+        let (da, db) = ((bb * ra - ab * rb) / whole, (aa * rb - ab * ra) / whole);
+        now.frequency -= da;
+        now.decay -= db;
+        if da.hypot(db) < 1e-12 * scale {
+            break;
+        }
+    }
+    now
+}
+
+/// What the best a, b, c leave.
+fn residual(series: &Series, fit: Fit) -> Vec<f64> {
+    let rows: Vec<[f64; 3]> = series
+        .time
+        .iter()
+        .map(|t| {
+            let damped = (-fit.decay * t).exp();
+            let (sine, cosine) = (fit.frequency * t).sin_cos();
+            [damped * cosine, damped * sine, 1.0]
+        })
+        .collect();
+    let mut bases: Vec<Vec<f64>> = Vec::new();
+    let mut left = series.value.clone();
+    for k in 0..3 {
+        let mut column: Vec<f64> = rows.iter().map(|r| r[k]).collect();
+        for _ in 0..2 {
+            for basis in &bases {
+                let along: f64 = basis.iter().zip(&column).map(|(a, b)| a * b).sum();
+                column
+                    .iter_mut()
+                    .zip(basis)
+                    .for_each(|(c, b)| *c -= along * b);
+            }
+        }
+        let size = column.iter().map(|c| c * c).sum::<f64>().sqrt();
+        column.iter_mut().for_each(|c| *c /= size);
+        let along: f64 = column.iter().zip(&left).map(|(a, b)| a * b).sum();
+        left.iter_mut()
+            .zip(&column)
+            .for_each(|(l, c)| *l -= along * c);
+        bases.push(column);
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_damped_swing_tells_its_period_and_decay() {
+        let time: Vec<f64> = (0..90).map(|k| 0.03 * f64::from(k)).collect();
+        let value = time
+            .iter()
+            .map(|t| 0.1 + (-0.3 * t).exp() * (5.0 * t + 0.4).sin())
+            .collect();
+        let series = Series { time, value };
+        let guess = Fit {
+            frequency: 4.8,
+            decay: 0.0,
+        };
+        let found = fit(&series, guess);
+        assert!((found.frequency - 5.0).abs() < 1e-9 && (found.decay - 0.3).abs() < 1e-9);
+        let even = Series {
+            value: series.time.iter().map(|t| (5.0 * t).sin()).collect(),
+            ..series
+        };
+        let zeros = zeros(&even);
+        assert!((zeros[1] - zeros[0] - PI / 5.0).abs() < 1e-5, "{zeros:?}");
+    }
+}

@@ -1,0 +1,278 @@
+//! The march of a liquid: its steps, what they keep, and what is written.
+
+use artefact::{Checkpoint, Precision};
+use run::{Failure, Session};
+
+use super::liquid::{fastest, filled, matter, start, steps, way};
+use super::steps::Steps;
+use crate::liquid::operators::{divergence, operators};
+use crate::liquid::outline::Outline;
+use crate::liquid::step::{Effort, Liquid, Matter, Way};
+use crate::liquid::surface::Patch;
+use crate::liquid::told::{self, Totals};
+use crate::liquid::vector::{along, difference};
+use crate::scene::output::Precision as Wanted;
+use crate::scene::{Liquid as Part, LiquidMarch, Scene};
+
+/// Spacings that a point may move in a step; longer ones are divided.
+const FARTHEST: f64 = 0.5;
+/// Divergence over gradient of a velocity at the start that is no longer called free of divergence.
+const SOURCES: f64 = 0.05;
+
+/// What a march keeps beside the liquid.
+struct March {
+    matter: Matter<3>,
+    way: Way,
+    precision: Precision,
+    /// Volume at the start \[m3\], where the outline tells it.
+    volume: Option<f64>,
+    /// Velocity of the centre, as gravity says \[m/s\].
+    drift: [f64; 3],
+    /// Centre that was told last \[m\].
+    centre: [f64; 3],
+    effort: Effort,
+    /// Steps that were divided.
+    divided: u64,
+    taken: u64,
+}
+
+/// Moves the liquid of a scene from its start to the end.
+///
+/// # Errors
+/// Where fits or equations fail, the user interrupts, or the disk refuses.
+pub fn flow(
+    scene: &Scene,
+    (part, marched): (&Part, &LiquidMarch),
+    session: &mut Session,
+) -> Result<(), Failure> {
+    let filled = session.timed("points", || filled(scene, part))?;
+    let mut liquid = start(part, filled)?;
+    let steps = steps(scene, (part, marched), &liquid);
+    let mut march = March {
+        matter: matter(part),
+        way: way(scene, part),
+        precision: match scene.output.precision {
+            Wanted::F32 => Precision::F32,
+            Wanted::F64 => Precision::F64,
+        },
+        volume: None,
+        drift: [0.0; 3],
+        centre: [0.0; 3],
+        effort: Effort::default(),
+        divided: 0,
+        taken: 0,
+    };
+    if let Some(mut checkpoint) = session.restored() {
+        march.restore(&mut liquid, &mut checkpoint)?;
+    } else {
+        march.begin(&mut liquid, session)?;
+    }
+    while march.taken < steps.count() {
+        let (_, length) = steps.step(march.taken);
+        let made = march.step(&mut liquid, length, session)?;
+        march.taken += 1;
+        let (time, written) = steps.end(march.taken);
+        march.tell(&mut liquid, time, session)?;
+        if written {
+            march.write(&liquid, (time, &made), session)?;
+        }
+        let speed = fastest(&liquid);
+        session.progress(march.taken, steps.count(), || {
+            vec![
+                ("time", time, "s"),
+                ("step", length, "s"),
+                ("fastest", speed, "m/s"),
+            ]
+        });
+        if march.taken < steps.count() {
+            session.keep(|checkpoint| march.save(&liquid, checkpoint))?;
+        }
+    }
+    march.close(&steps, session);
+    Ok(())
+}
+
+impl March {
+    /// The liquid at its start: what it is, and its pressure.
+    fn begin(&mut self, liquid: &mut Liquid<3>, session: &mut Session) -> Result<(), Failure> {
+        let made = liquid.balance(&self.matter, &self.way, &mut self.effort)?;
+        let surface = &liquid.position[..liquid.surface()];
+        for x in surface {
+            self.centre = along(&self.centre, 1.0 / surface.len() as f64, x);
+        }
+        let rows = operators(&liquid.position, (self.way.spacing, self.way.order));
+        let rows = rows.map_err(|e| Failure::Other(format!("liquid: {e}")))?;
+        let (mut sources, mut slopes) = (0.0_f64, 0.0_f64);
+        for i in 0..liquid.position.len() {
+            sources += divergence(&rows, &liquid.velocity, i).powi(2);
+            for k in 0..3 {
+                let slope = rows.derivative(i, k).apply_with(|j| liquid.velocity[j][k]);
+                slopes += slope * slope;
+            }
+        }
+        if sources > SOURCES * SOURCES * slopes {
+            session.warn(format!(
+                "the velocity at the start has sources: the root of the mean square of its divergence is {:.3e} 1/s",
+                (sources / liquid.position.len() as f64).sqrt()
+            ));
+        }
+        self.tell(liquid, 0.0, session)?;
+        self.write(liquid, (0.0, &made), session)
+    }
+
+    /// One step, in parts where points would move too far.
+    fn step(
+        &mut self,
+        liquid: &mut Liquid<3>,
+        length: f64,
+        session: &mut Session,
+    ) -> Result<Vec<Patch<3>>, Failure> {
+        let far = fastest(liquid) * length / (FARTHEST * self.way.spacing);
+        let parts = far.ceil().max(1.0);
+        if parts > 1.0 {
+            self.divided += 1;
+            session.substepped();
+        }
+        let mut made = Vec::new();
+        for _ in 0..parts as u64 {
+            let how = (&self.way, length / parts);
+            let ended = session.timed("step", || {
+                liquid.advance(&self.matter, how, &mut self.effort)
+            })?;
+            liquid.smooth(&ended.patches);
+            liquid.spread(&ended.rows, &ended.patches, self.way.spacing);
+            made = ended.patches;
+        }
+        self.drift = along(&self.drift, length, &self.matter.gravity);
+        Ok(made)
+    }
+
+    /// Keeps volume and momentum, and writes a row.
+    fn tell(
+        &mut self,
+        liquid: &mut Liquid<3>,
+        time: f64,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        let Some((_, totals)) = self.outline(liquid) else {
+            session.warn("the drop is no longer one whose surface every ray from its centre meets once: its radii, modes and volume are neither told nor kept");
+            return Ok(());
+        };
+        match self.volume {
+            None => {
+                self.volume = Some(totals.volume);
+                self.drift = totals.drift;
+            }
+            Some(volume) => {
+                liquid.swell((volume - totals.volume) / totals.area);
+                let lack = difference(&self.drift, &totals.drift);
+                for u in &mut liquid.velocity {
+                    *u = along(u, 1.0, &lack);
+                }
+            }
+        }
+        if let Some((outline, totals)) = self.outline(liquid) {
+            self.centre = totals.centre;
+            session.record("/liquid", time, &totals.row(&self.matter, &outline))?;
+        }
+        Ok(())
+    }
+
+    /// The outline from the centre that was told last.
+    fn outline(&self, liquid: &Liquid<3>) -> Option<(Outline, Totals)> {
+        let surface = &liquid.position[..liquid.surface()];
+        let outline = Outline::new(surface, &liquid.normal, self.centre)?;
+        let totals = Totals::new(liquid, &self.matter, &outline)?;
+        Some((outline, totals))
+    }
+
+    fn write(
+        &self,
+        liquid: &Liquid<3>,
+        (time, patches): (f64, &[Patch<3>]),
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        session.frame("/points", time, &told::points(liquid, self.precision))?;
+        session.frame(
+            "/surface",
+            time,
+            &told::surface(liquid, patches, self.precision),
+        )
+    }
+
+    fn save(&self, liquid: &Liquid<3>, checkpoint: &mut Checkpoint) -> artefact::Result<()> {
+        checkpoint.put_vectors("position", &liquid.position);
+        checkpoint.put_vectors("velocity", &liquid.velocity);
+        checkpoint.put_vectors("rate", &liquid.rate);
+        checkpoint.put_vectors("normal", &liquid.normal);
+        checkpoint.put_f64("pressure", &liquid.pressure);
+        checkpoint.put_f64("stress", &liquid.stress);
+        let volume: Vec<f64> = self.volume.into_iter().collect();
+        checkpoint.put_f64("volume", &volume);
+        checkpoint.put_vectors("centre", &[self.drift, self.centre]);
+        checkpoint.put_f64("residual", &[self.effort.residual]);
+        let e = &self.effort;
+        let counts = [
+            self.taken,
+            self.divided,
+            e.products,
+            e.unsolved,
+            e.unsettled,
+        ];
+        checkpoint.put_u64("counts", &counts);
+        Ok(())
+    }
+
+    fn restore(
+        &mut self,
+        liquid: &mut Liquid<3>,
+        checkpoint: &mut Checkpoint,
+    ) -> Result<(), Failure> {
+        liquid.position = checkpoint.vectors("position")?;
+        liquid.velocity = checkpoint.vectors("velocity")?;
+        liquid.rate = checkpoint.vectors("rate")?;
+        liquid.normal = checkpoint.vectors("normal")?;
+        liquid.pressure = checkpoint.f64("pressure")?;
+        liquid.stress = checkpoint.f64("stress")?;
+        self.volume = checkpoint.f64("volume")?.first().copied();
+        if let [drift, centre] = checkpoint.vectors("centre")?[..] {
+            (self.drift, self.centre) = (drift, centre);
+        }
+        let residual = checkpoint.f64("residual")?;
+        self.effort.residual = residual.first().copied().unwrap_or(0.0);
+        if let [taken, divided, products, unsolved, unsettled] = checkpoint.u64("counts")?[..] {
+            (self.taken, self.divided) = (taken, divided);
+            self.effort.products = products;
+            (self.effort.unsolved, self.effort.unsettled) = (unsolved, unsettled);
+        }
+        Ok(())
+    }
+
+    fn close(&self, steps: &Steps, session: &mut Session) {
+        session.steps(steps.count());
+        session.closing("step", "s", steps.longest());
+        session.closing("products", "1", self.effort.products as f64);
+        session.closing("residual", "1", self.effort.residual);
+        if let Some(volume) = self.volume {
+            session.closing("volume", "m3", volume);
+        }
+        if self.divided > 0 {
+            session.note(format!(
+                "{} steps were divided: points would have moved farther than {FARTHEST} spacings",
+                self.divided
+            ));
+        }
+        if self.effort.unsolved > 0 {
+            session.warn(format!(
+                "not converged: {} solves of the liquid",
+                self.effort.unsolved
+            ));
+        }
+        if self.effort.unsettled > 0 {
+            session.warn(format!(
+                "not converged: friction and pressure of {} stages",
+                self.effort.unsettled
+            ));
+        }
+    }
+}

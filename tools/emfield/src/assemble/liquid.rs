@@ -1,0 +1,194 @@
+//! From a scene to a liquid at its start, the plan of its motion and its steps.
+
+use run::property::Arguments;
+use run::{Estimate, Failure, Fault, Plan};
+use shapes::Body;
+
+use super::steps::Steps;
+use crate::liquid::fill::{Filled, fill};
+use crate::liquid::step::{Effort, Liquid, Matter, Way};
+use crate::liquid::surface::patches;
+use crate::liquid::vector::length;
+use crate::scene::currents::Transient;
+use crate::scene::{Liquid as Part, LiquidMarch, Scene};
+
+/// Part of the time of a ripple of the drop that a step takes, over h/R.
+const RIPPLE: f64 = 0.3;
+/// Part of the time in which a spacing is fallen or passed.
+const PASSED: f64 = 0.25;
+/// Most points of a liquid.
+const MOST: f64 = 5e6;
+/// Bytes that a step holds for each point, about: weights, rows and factors.
+const BYTES: u64 = 6_000;
+
+/// The points of the liquid of a scene.
+///
+/// # Errors
+/// Where the spacing suits the shape ill.
+pub(super) fn filled(scene: &Scene, liquid: &Part) -> Result<Filled<3>, Failure> {
+    let body = Body::new(&liquid.shape, 3);
+    let spacing = scene.points.spacing_m;
+    let [low, high] = body.bounds();
+    let room: f64 = (0..3).map(|k| (high[k] - low[k]) / spacing).product();
+    let fault = |what: String| Failure::from(vec![Fault::at("/points/spacing_m", what)]);
+    if room.is_nan() || room > MOST {
+        let what = format!(
+            "{spacing} m: some {room:.0} points would fill the liquid, at most {MOST:e} can"
+        );
+        return Err(fault(what));
+    }
+    let filled = fill::<3>(&body, spacing);
+    let surface = filled.normal.len();
+    let made = patches(&filled.position[..surface], &filled.normal, spacing);
+    made.map_err(|e| fault(e.to_string()))?;
+    if filled.position.len() == surface {
+        return Err(fault(format!(
+            "{spacing} m: no point fits inside the liquid"
+        )));
+    }
+    Ok(filled)
+}
+
+pub(super) fn matter(liquid: &Part) -> Matter<3> {
+    let gravity = liquid.gravity_m_s2.as_deref().unwrap_or(&[]);
+    Matter {
+        density: liquid.density_kg_m3,
+        viscosity: liquid.viscosity_pa_s,
+        tension: liquid.surface_tension_n_m.unwrap_or(0.0),
+        gas: liquid.gas_pressure_pa,
+        gravity: std::array::from_fn(|k| gravity.get(k).copied().unwrap_or(0.0)),
+    }
+}
+
+pub(super) fn way(scene: &Scene, liquid: &Part) -> Way {
+    Way {
+        spacing: scene.points.spacing_m,
+        order: liquid.order,
+        tolerance: scene.solver.tolerance,
+        products: scene.solver.iterations,
+    }
+}
+
+/// The liquid at its start.
+pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure> {
+    let n = filled.position.len();
+    let mut velocity = vec![[0.0; 3]; n];
+    for (k, v) in part.velocity_m_s.iter().flatten().enumerate() {
+        let curve = v.compile(&format!("/liquid/velocity_m_s/{k}"), &["x", "y", "z", "r"])?;
+        for (x, v) in filled.position.iter().zip(&mut velocity) {
+            let value = curve.value(&Arguments::at(*x, 0.0));
+            v[k] = value.map_err(|e| Failure::Other(format!("velocity at {x:?} m: {e}")))?;
+        }
+    }
+    Ok(Liquid {
+        stress: vec![0.0; filled.normal.len()],
+        position: filled.position,
+        velocity,
+        pressure: vec![part.gas_pressure_pa; n],
+        rate: vec![[0.0; 3]; n],
+        normal: filled.normal,
+    })
+}
+
+/// The longest step \[s\].
+fn longest(scene: &Scene, (part, march): (&Part, &LiquidMarch), liquid: &Liquid<3>) -> f64 {
+    if let Some(step) = march.step_s {
+        return step;
+    }
+    let spacing = scene.points.spacing_m;
+    let matter = matter(part);
+    let mut step = march.end_s;
+    if matter.tension > 0.0 {
+        let volume = liquid.position.len() as f64 * spacing.powi(3);
+        let radius = (0.75 * volume / std::f64::consts::PI).cbrt();
+        let ripple = (matter.density * radius.powi(3) / matter.tension).sqrt();
+        step = step.min(RIPPLE * ripple * spacing / radius);
+    }
+    let gravity = length(&matter.gravity);
+    if gravity > 0.0 {
+        step = step.min(PASSED * (spacing / gravity).sqrt());
+    }
+    let fastest = fastest(liquid);
+    if fastest > 0.0 {
+        step = step.min(PASSED * spacing / fastest);
+    }
+    step
+}
+
+pub(super) fn fastest(liquid: &Liquid<3>) -> f64 {
+    liquid.velocity.iter().map(length).fold(0.0, f64::max)
+}
+
+pub(super) fn steps(scene: &Scene, part: (&Part, &LiquidMarch), liquid: &Liquid<3>) -> Steps {
+    let transient = Transient {
+        end_s: part.1.end_s,
+        step_s: longest(scene, part, liquid),
+        wave: None,
+    };
+    Steps::new(&transient, &scene.output)
+}
+
+/// What a run would do.
+///
+/// # Errors
+/// Those of [`filled`], and of formulas.
+pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
+    let faults = scene.faults();
+    if !faults.is_empty() {
+        return Err(faults.into());
+    }
+    let Some(march) = &part.march else {
+        return Ok(Plan::new()
+            .stage("equilibrium")
+            .left_out("points", "no key 'march' of 'liquid'"));
+    };
+    let liquid = start(part, filled(scene, part)?)?;
+    let steps = steps(scene, (part, march), &liquid);
+    let points = liquid.position.len() as u64;
+    let mut plan = Plan::new()
+        .stage("liquid")
+        .count("points", points)
+        .count("on the surface", liquid.surface() as u64)
+        .count("steps", steps.count())
+        .column("velocity", "m/s")
+        .column("pressure", "Pa")
+        .limit("step", steps.longest(), "s")
+        .memory("equations", BYTES * points)
+        .left_out("electrostatics", "no key 'electrostatics'")
+        .left_out("eddy currents", "no key 'eddy_currents'");
+    for (absent, name, key) in [
+        (part.viscosity_pa_s.is_none(), "viscosity", "viscosity_pa_s"),
+        (
+            part.surface_tension_n_m.is_none(),
+            "surface tension",
+            "surface_tension_n_m",
+        ),
+        (part.gravity_m_s2.is_none(), "gravity", "gravity_m_s2"),
+    ] {
+        if absent {
+            plan = plan.left_out(name, &format!("no key '{key}' of 'liquid'"));
+        }
+    }
+    Ok(plan)
+}
+
+/// Time of a run, from a step at its start.
+///
+/// # Errors
+/// Those of a step.
+pub fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure> {
+    let Some(march) = &part.march else {
+        return Ok(None);
+    };
+    let mut liquid = start(part, filled(scene, part)?)?;
+    let steps = steps(scene, (part, march), &liquid);
+    let began = std::time::Instant::now();
+    let how = (&way(scene, part), steps.step(0).1);
+    liquid.advance(&matter(part), how, &mut Effort::default())?;
+    let each = began.elapsed().as_secs_f64();
+    Ok(Some(Estimate {
+        seconds: each * steps.count() as f64,
+        basis: format!("{:.3} s a step, as at the start", each),
+        memory: Vec::new(),
+    }))
+}

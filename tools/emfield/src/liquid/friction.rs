@@ -1,0 +1,147 @@
+//! Viscosity: the velocity at the end of a stage with its own friction, and no shear on the surface.
+//!
+//! `u - tau nu div grad u = u0`, all components together. On the surface the fits of the Laplacian know the slope of the
+//! velocity along the normal, which the gas does not shear and which has no divergence: with the gradient along the surface
+//!
+//! ```text
+//! du/dn = g(u) = -(grad_s u) . n - n (div_s u)
+//! ```
+//!
+//! (the first term: no tangential stress; the second: div u = 0). The normal stress `2 mu du_n/dn = 2 mu n . g(u)` belongs to
+//! the pressure. The balance along the outward normal is `-p + 2 mu du_n/dn = -p_gas - gamma kappa`, so that it **raises** p
+//! where the liquid is drawn outward.
+
+use krylov::{Rows, Rule, Solved, System};
+use wls::{Cloud, Condition, Metric, Plan, Rules, Search, Stencils, Wants};
+
+use super::pressure::options;
+use super::surface::Patch;
+use super::vector::{along, dot};
+
+/// Rows of the Laplacian at the points of the surface.
+struct Surface<'a, const D: usize> {
+    points: &'a [[f64; D]],
+    patches: &'a [Patch<D>],
+}
+
+impl<const D: usize> Rules<D> for Surface<'_, D> {
+    fn wanted(&self, i: usize) -> bool {
+        i < self.patches.len()
+    }
+
+    fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
+        conditions.push(Condition::Flux {
+            at: self.points[i],
+            normal: self.patches[i].normal,
+        });
+    }
+}
+
+/// Why there are no equations.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A fit fails.
+    #[error(transparent)]
+    Fit(#[from] wls::Error),
+    /// Rows cannot be solved.
+    #[error(transparent)]
+    Rows(#[from] krylov::Error),
+}
+
+/// The equations of a velocity.
+pub struct Friction {
+    system: System<f64, f64>,
+}
+
+impl Friction {
+    /// Makes them; `diffusion` is `tau nu` \[m2\].
+    ///
+    /// # Errors
+    /// Where fits or equations cannot be made.
+    pub fn new<const D: usize>(
+        points: &[[f64; D]],
+        (inside, patches): (&Stencils<D>, &[Patch<D>]),
+        (spacing, order): (f64, u8),
+        diffusion: f64,
+    ) -> Result<Self, Error> {
+        let metrics = vec![Metric::round(spacing); points.len()];
+        let search = Search::new(Cloud {
+            points,
+            metrics: &metrics,
+        })?;
+        let wants = Wants {
+            laplacian: true,
+            ..Wants::default()
+        };
+        let plan = Plan::new::<D>(order, wants);
+        let surface = Stencils::build(&search, &plan, &Surface { points, patches })?;
+        let number = |j: usize, b: usize| (D * j + b) as u32;
+        let matrix = Rows::gathered(D * points.len(), 0.0, |row, entries| {
+            let (i, b) = (row / D, row % D);
+            entries.push((number(i, b), 1.0));
+            let Some(patch) = patches.get(i) else {
+                let all = inside.laplacian(i).iter();
+                entries.extend(all.map(|(j, w)| (number(j, b), -diffusion * w)));
+                return;
+            };
+            let laplacian = surface.laplacian(i);
+            entries.extend(
+                laplacian
+                    .iter()
+                    .map(|(j, w)| (number(j, b), -diffusion * w)),
+            );
+            let share: f64 = laplacian.conditions().sum();
+            for (&j, slope) in patch.neighbours.iter().zip(&patch.slope) {
+                for c in 0..D {
+                    let g = -(slope[b] * patch.normal[c] + patch.normal[b] * slope[c]);
+                    entries.push((number(j as usize, c), -diffusion * share * g));
+                }
+            }
+        });
+        let system = System::new(matrix, Vec::new(), options())?;
+        Ok(Self { system })
+    }
+
+    /// Solves for the velocity, which is the first guess.
+    pub fn solve<const D: usize>(
+        &mut self,
+        right: &[[f64; D]],
+        velocity: &mut [[f64; D]],
+        rule: Rule<'_>,
+    ) -> Solved {
+        let sides: Vec<[f64; 1]> = right.as_flattened().iter().map(|v| [*v]).collect();
+        let mut unknown: Vec<[f64; 1]> = velocity.as_flattened().iter().map(|v| [*v]).collect();
+        let solved = self.system.solve(&sides, &mut unknown, rule);
+        for (v, x) in velocity.as_flattened_mut().iter_mut().zip(&unknown) {
+            *v = x[0];
+        }
+        solved
+    }
+}
+
+/// `du_n/dn = n . g(u)` at a point of the surface \[1/s\].
+#[must_use]
+pub fn stretch<const D: usize>(patch: &Patch<D>, velocity: &[[f64; D]]) -> f64 {
+    let near = patch.neighbours.iter().zip(&patch.slope);
+    -near
+        .map(|(&j, slope)| dot(slope, &velocity[j as usize]))
+        .sum::<f64>()
+}
+
+/// `((w - u) . grad) u` of points that move at w = (u . n) n on the surface \[m/s2\].
+#[must_use]
+pub fn drift<const D: usize>(patches: &[Patch<D>], velocity: &[[f64; D]]) -> Vec<[f64; D]> {
+    let mut drift = vec![[0.0; D]; velocity.len()];
+    for (i, patch) in patches.iter().enumerate() {
+        let own = &velocity[i];
+        let back = along(
+            &patch.normal.map(|c| c * dot(own, &patch.normal)),
+            -1.0,
+            own,
+        );
+        for (&j, slope) in patch.neighbours.iter().zip(&patch.slope) {
+            drift[i] = along(&drift[i], dot(&back, slope), &velocity[j as usize]);
+        }
+    }
+    drift
+}

@@ -1,0 +1,17 @@
+//! A liquid with a free surface on moving points, by weighted least squares.
+//!
+//! After Matsuzawa (2017), chapter 2.2, with the errata.
+
+pub mod balance;
+pub mod equilibrium;
+pub mod fill;
+pub mod friction;
+pub mod operators;
+pub mod outline;
+pub mod pressure;
+mod settle;
+mod spheroidal;
+pub mod step;
+pub mod surface;
+pub mod told;
+pub mod vector;

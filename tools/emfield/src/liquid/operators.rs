@@ -1,0 +1,45 @@
+//! Gradients and Laplacians at all points of the liquid, by weighted least squares.
+
+use wls::{Cloud, Error, Everything, Metric, Plan, Search, Stencils, Wants};
+
+/// Gradient and Laplacian rows of a cloud of points with one spacing \[m\].
+///
+/// # Errors
+/// Where points coincide or no fit has the derivatives.
+pub fn operators<const D: usize>(
+    points: &[[f64; D]],
+    (spacing, order): (f64, u8),
+) -> Result<Stencils<D>, Error> {
+    let metrics = vec![Metric::round(spacing); points.len()];
+    let search = Search::new(Cloud {
+        points,
+        metrics: &metrics,
+    })?;
+    let wants = Wants {
+        gradient: true,
+        laplacian: true,
+        ..Wants::default()
+    };
+    Stencils::build(&search, &Plan::new::<D>(order, wants), &Everything)
+}
+
+/// Divergence of a velocity at point `i` \[1/s\].
+#[must_use]
+pub fn divergence<const D: usize>(rows: &Stencils<D>, velocity: &[[f64; D]], i: usize) -> f64 {
+    (0..D)
+        .map(|k| rows.derivative(i, k).apply_with(|j| velocity[j][k]))
+        .sum()
+}
+
+/// `d_i u_j d_j u_i` at point `i`: what the divergence of a liquid without forces would grow by \[1/s2\].
+#[must_use]
+pub fn stretching<const D: usize>(rows: &Stencils<D>, velocity: &[[f64; D]], i: usize) -> f64 {
+    let mut gradient = [[0.0; D]; D];
+    for (a, row) in gradient.iter_mut().enumerate() {
+        for (j, w) in rows.derivative(i, a).iter() {
+            *row = super::vector::along(row, w, &velocity[j]);
+        }
+    }
+    let products = (0..D).flat_map(|a| (0..D).map(move |b| (a, b)));
+    products.map(|(a, b)| gradient[a][b] * gradient[b][a]).sum()
+}

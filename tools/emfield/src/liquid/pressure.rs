@@ -1,0 +1,145 @@
+//! The pressure that keeps the velocity free of divergence, with the surface as it will be.
+//!
+//! Inside, (2.49) of Matsuzawa (2017): `div grad p = rho/tau div u*`. On the surface p is given by its tension at the **end**
+//! of the stage: the surface there lies `tau n . u` from where the stage began, and `u = u* - tau/rho grad p`, so that with
+//! `dkappa/dn = K = -(Laplacian along the surface + kappa1^2 + kappa2^2)`
+//!
+//! ```text
+//! p + gamma tau^2/rho K (n . grad p) = p_gas + gamma kappa + gamma K n . (x- + tau u* - x~) + 2 mu du_n/dn
+//! ```
+//!
+//! with kappa that of the predicted surface x~. Waves of the surface that a step does not resolve are damped, and none has a
+//! limit of the step. The slope `q = n . grad p` of each surface point is an unknown of its own: rows stay short.
+
+use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
+use rayon::prelude::*;
+use wls::Stencils;
+
+use super::surface::Patch;
+use super::vector::dot;
+
+/// Entries of factors below this share of their row are dropped.
+const DROP: f64 = 1e-2;
+/// Most entries of factors over those of the rows.
+const FILL: f64 = 1.5;
+
+/// Residual, over the wanted one of the whole pressure, below which its differences are no longer sought.
+const ENOUGH: f64 = 1e-2;
+
+/// What the pressure obeys in a stage.
+#[derive(Debug, Clone, Copy)]
+pub struct Conditions<'a, const D: usize> {
+    /// Rows of derivatives.
+    pub rows: &'a Stencils<D>,
+    /// The surface, whose points come first.
+    pub patches: &'a [Patch<D>],
+    /// Unit of lengths \[m\].
+    pub spacing: f64,
+    /// Surface tension times square of the stage over density \[m3\].
+    pub stiffness: f64,
+}
+
+/// K f at surface point `own`: what a displacement f along the normal adds to the curvature.
+pub fn bending<const D: usize>(patch: &Patch<D>, own: usize, f: impl Fn(usize) -> f64) -> f64 {
+    let near = patch.neighbours.iter().zip(&patch.laplace);
+    let along: f64 = near.map(|(&j, w)| w * f(j as usize)).sum();
+    -(along + patch.squares * f(own))
+}
+
+/// Incomplete factors by size.
+#[must_use]
+pub(super) fn options() -> Options {
+    Options {
+        method: Method::Incomplete(Keep::Threshold {
+            drop: DROP,
+            fill: FILL,
+        }),
+        ..Options::default()
+    }
+}
+
+/// The equations of the pressure of a stage.
+pub struct Equations<'a, const D: usize> {
+    conditions: Conditions<'a, D>,
+    system: System<f64, f64>,
+}
+
+impl<'a, const D: usize> Equations<'a, D> {
+    /// Makes them, for `n` points.
+    ///
+    /// # Errors
+    /// Where the equations have no solution.
+    pub fn new(conditions: Conditions<'a, D>, n: usize) -> Result<Self, krylov::Error> {
+        let Conditions {
+            rows,
+            patches,
+            spacing,
+            stiffness,
+        } = conditions;
+        let surface = patches.len();
+        let square = spacing * spacing;
+        let stiff = stiffness / spacing;
+        let matrix = Rows::gathered(n + surface, 0.0, |i, row| {
+            if i >= n {
+                let own = i - n;
+                row.push((i as u32, 1.0));
+                for k in 0..D {
+                    let factor = -spacing * patches[own].normal[k];
+                    let slopes = rows.derivative(own, k).iter();
+                    row.extend(slopes.map(|(j, w)| (j as u32, factor * w)));
+                }
+            } else if i < surface {
+                let patch = &patches[i];
+                row.push((i as u32, 1.0));
+                row.push(((n + i) as u32, -stiff * patch.squares));
+                let along = patch.neighbours.iter().zip(&patch.laplace);
+                row.extend(along.map(|(&j, w)| (n as u32 + j, -stiff * w)));
+            } else {
+                let all = rows.laplacian(i).iter();
+                row.extend(all.map(|(j, w)| (j as u32, -square * w)));
+            }
+        });
+        let system = System::new(matrix, Vec::new(), options())?;
+        Ok(Self { conditions, system })
+    }
+
+    /// Solves for the pressure; `right` is `rho/tau div u*` inside and what stands on the right of the condition on the
+    /// surface, `pressure` the first guess.
+    pub fn solve(&mut self, right: &[f64], pressure: &mut [f64], rule: Rule<'_>) -> Solved {
+        let Conditions {
+            rows,
+            patches,
+            spacing,
+            ..
+        } = self.conditions;
+        let (n, surface) = (right.len(), patches.len());
+        let square = spacing * spacing;
+        // Slopes know no constant: what all of the surface has in common is no part of what is solved for.
+        let even = right[..surface].iter().sum::<f64>() / surface as f64;
+        let whole: f64 = right[..surface].iter().map(|r| r * r).sum();
+        let slope = |s: usize| -> f64 {
+            let gradient = rows.gradient_of(pressure, s);
+            spacing * dot(&patches[s].normal, &gradient)
+        };
+        let mut unknown: Vec<[f64; 1]> = pressure.iter().map(|p| [*p - even]).collect();
+        unknown.extend((0..surface).map(|s| [slope(s)]));
+        let side = |i: usize| {
+            if i < surface {
+                right[i] - even
+            } else {
+                -square * right[i]
+            }
+        };
+        let mut sides: Vec<[f64; 1]> = (0..n).into_par_iter().map(|i| [side(i)]).collect();
+        sides.resize(n + surface, [0.0]);
+        let rule = Rule {
+            floor: ENOUGH * rule.reduction * whole.sqrt(),
+            ..rule
+        };
+        let solved = self.system.solve(&sides, &mut unknown, rule);
+        for (p, x) in pressure.iter_mut().zip(&unknown) {
+            *p = x[0] + even;
+        }
+        solved
+    }
+}

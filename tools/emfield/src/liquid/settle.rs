@@ -1,0 +1,74 @@
+//! After a step: the surface on its fit (2.2.4, Matsuzawa 2017), its volume, and points apart.
+
+use wls::Stencils;
+
+use super::fill::pushes;
+use super::step::Liquid;
+use super::surface::Patch;
+use super::vector::{across, along, dot, length};
+
+/// Part of the way to the fitted surface that a step goes.
+const SMOOTHED: f64 = 0.5;
+/// Points that neighbours push less far, in spacings, stay.
+const CALM: f64 = 0.03;
+/// Part of a push that a step follows.
+const YIELD: f64 = 0.3;
+
+impl<const D: usize> Liquid<D> {
+    /// Moves surface points toward the fitted surface, as a whole neither out nor in.
+    pub fn smooth(&mut self, patches: &[Patch<D>]) {
+        let area: f64 = patches.iter().map(|p| p.area).sum();
+        let out: f64 = patches.iter().map(|p| p.area * p.offset).sum();
+        let mean = out / area;
+        for (x, p) in self.position.iter_mut().zip(patches) {
+            *x = along(x, SMOOTHED * (p.offset - mean), &p.normal);
+        }
+    }
+
+    /// Moves the surface evenly along its normals by `distance` \[m\].
+    pub fn swell(&mut self, distance: f64) {
+        for (x, n) in self.position.iter_mut().zip(&self.normal) {
+            *x = along(x, distance, n);
+        }
+    }
+
+    /// Moves points that have come too close apart, those of the surface along it; they take the values of their new
+    /// places.
+    pub fn spread(&mut self, rows: &Stencils<D>, patches: &[Patch<D>], spacing: f64) {
+        let surface = patches.len();
+        let mut push = pushes(&self.position, spacing);
+        let shell = pushes(&self.position[..surface], spacing);
+        for (s, (p, along_surface)) in push.iter_mut().zip(&shell).enumerate() {
+            *p = across(along_surface, &patches[s].normal);
+        }
+        let (velocity, rate) = (self.velocity.clone(), self.rate.clone());
+        let pressure = self.pressure.clone();
+        for (i, p) in push.iter().enumerate() {
+            if length(p) < CALM * spacing {
+                continue;
+            }
+            let step = p.map(|c| YIELD * c);
+            self.position[i] = along(&self.position[i], 1.0, &step);
+            let [v, r] = [&velocity, &rate].map(|f| carried(rows, f, i, &step));
+            self.velocity[i] = along(&self.velocity[i], 1.0, &v);
+            self.rate[i] = along(&self.rate[i], 1.0, &r);
+            self.pressure[i] += dot(&rows.gradient_of(&pressure, i), &step);
+        }
+    }
+}
+
+/// `(step . grad) f`.
+fn carried<const D: usize>(
+    rows: &Stencils<D>,
+    field: &[[f64; D]],
+    i: usize,
+    step: &[f64; D],
+) -> [f64; D] {
+    let mut sum = [0.0; D];
+    for (a, part) in step.iter().enumerate() {
+        for (j, w) in rows.derivative(i, a).iter() {
+            sum = along(&sum, part * w, &field[j]);
+        }
+    }
+    sum
+}

@@ -1,0 +1,344 @@
+//! The free surface: normal, curvature and rows of derivatives along it, by fits in axes aligned with the normal.
+
+use nalgebra::{DMatrix, DVector};
+use neighbours::Tree;
+use rayon::prelude::*;
+
+use super::vector::{along, difference, direction, dot, length, spatial};
+
+/// Degree of the fit: curvature is then right to order 3, on even points to order 4.
+const DEGREE: i32 = 4;
+/// Radius of a support in spacings: twice as many points as monomials and more.
+const RADIUS: f64 = 3.4;
+/// A support grows by this factor until it has points enough.
+const GROWTH: f64 = 1.2;
+/// Growths at most.
+const GROWTHS: usize = 12;
+/// Fits of a point, each in the axes, and beside the sphere, that the one before it found.
+const TURNS: usize = 3;
+/// Farthest point from the axis of a sphere beside which the surface is fitted, over its radius.
+const CAP: f64 = 0.9;
+/// Normals further apart than this cosine belong to another side.
+const SIDE: f64 = 0.0;
+
+/// The surface near one of its points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Patch<const D: usize> {
+    /// Unit normal, out of the liquid.
+    pub normal: [f64; D],
+    /// Sum of the principal curvatures, that of a sphere 2/R \[1/m\].
+    pub curvature: f64,
+    /// Sum of their squares \[1/m2\].
+    pub squares: f64,
+    /// How far along the normal the fit passes from the point \[m\].
+    pub offset: f64,
+    /// Area that belongs to the point \[m2; m in a plane\].
+    pub area: f64,
+    /// Points of the fit, the own one among them.
+    pub neighbours: Vec<u32>,
+    /// Weights of the Laplacian along the surface \[1/m2\].
+    pub laplace: Vec<f64>,
+    /// Weights of the gradient along the surface, in the axes of the scene \[1/m\].
+    pub slope: Vec<[f64; D]>,
+}
+
+/// Why a surface has no fit at a point.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "the surface of the liquid has too few points for a fit at {place:?} m: {found} within {radius:.3e} m, {wanted} are wanted; take a smaller spacing"
+)]
+pub struct Bare {
+    /// Where \[m\].
+    pub place: Vec<f64>,
+    /// Points found.
+    pub found: usize,
+    /// Points wanted.
+    pub wanted: usize,
+    /// Within this distance \[m\].
+    pub radius: f64,
+}
+
+/// Patches of all surface points, from about known `normals`.
+///
+/// # Errors
+/// Where too few points are near.
+pub fn patches<const D: usize>(
+    points: &[[f64; D]],
+    normals: &[[f64; D]],
+    spacing: f64,
+) -> Result<Vec<Patch<D>>, Bare> {
+    let places: Vec<[f64; 3]> = points.iter().map(spatial).collect();
+    let tree = Tree::new(&places);
+    let exponents = exponents(D - 1);
+    (0..points.len())
+        .into_par_iter()
+        .map(|i| {
+            let near = support(i, (points, normals), &tree, (spacing, exponents.len()))?;
+            Ok(fit(i, points, normals[i], &near, &exponents))
+        })
+        .collect()
+}
+
+/// Exponents of the monomials of a fit in one or two variables, by degree.
+fn exponents(variables: usize) -> Vec<[i32; 2]> {
+    let mut all = Vec::new();
+    for degree in 0..=DEGREE {
+        let last = if variables == 1 { 0 } else { degree };
+        all.extend((0..=last).map(|second| [degree - second, second]));
+    }
+    all
+}
+
+/// Points of a fit and the radius that holds them.
+struct Near {
+    points: Vec<u32>,
+    radius: f64,
+}
+
+fn support<const D: usize>(
+    i: usize,
+    (points, normals): (&[[f64; D]], &[[f64; D]]),
+    tree: &Tree,
+    (spacing, terms): (f64, usize),
+) -> Result<Near, Bare> {
+    let wanted = if D == 2 { terms + 2 } else { 2 * terms };
+    let mut radius = RADIUS * spacing;
+    let mut near = Vec::new();
+    for _ in 0..GROWTHS {
+        near.clear();
+        tree.within(spatial(&points[i]), radius, |j, _| {
+            if dot(&normals[i], &normals[j]) > SIDE {
+                near.push(j as u32);
+            }
+        });
+        if near.len() >= wanted {
+            near.sort_unstable();
+            return Ok(Near {
+                points: near,
+                radius,
+            });
+        }
+        radius *= GROWTH;
+    }
+    Err(Bare {
+        place: points[i].to_vec(),
+        found: near.len(),
+        wanted,
+        radius,
+    })
+}
+
+/// Unit vectors across a normal; the second is zero in a plane.
+#[must_use]
+pub fn tangents<const D: usize>(n: &[f64; D]) -> [[f64; D]; 2] {
+    if D == 2 {
+        let mut t = [0.0; D];
+        (t[0], t[1]) = (-n[1], n[0]);
+        return [t, [0.0; D]];
+    }
+    let least = (0..D).fold(0, |k, j| if n[j].abs() < n[k].abs() { j } else { k });
+    let mut axis = [0.0; D];
+    axis[least] = 1.0;
+    let first = direction(&along(&axis, -dot(&axis, n), n));
+    let mut second = [0.0; D];
+    for (k, c) in second.iter_mut().enumerate() {
+        let (a, b) = ((k + 1) % D, (k + 2) % D);
+        *c = n[a] * first[b] - n[b] * first[a];
+    }
+    [first, second]
+}
+
+/// z(x, y) = sum a_k x^p y^q by weighted least squares, z along the normal, turned until the surface does not rise at the
+/// point: then (2.44), Matsuzawa (2017), with its exponent put right, is kappa = -(z_xx + z_yy).
+fn fit<const D: usize>(
+    i: usize,
+    points: &[[f64; D]],
+    guess: [f64; D],
+    near: &Near,
+    exponents: &[[i32; 2]],
+) -> Patch<D> {
+    let (mut normal, mut bow) = (guess, 0.0_f64);
+    let mut turn = 0;
+    loop {
+        let axes = tangents(&normal);
+        let local = Local::new(i, points, (normal, axes), near, exponents);
+        let bow_now = if bow.abs() * near.radius < CAP {
+            bow
+        } else {
+            0.0
+        };
+        let [offset, x, y, xx, xy, yy] = local.derivatives(bow_now, D == 3);
+        let rise = [x, y];
+        turn += 1;
+        if turn <= TURNS {
+            let turned = along(&along(&normal, -rise[0], &axes[0]), -rise[1], &axes[1]);
+            normal = direction(&turned);
+            bow = -(xx + yy) / (D - 1) as f64;
+            continue;
+        }
+        let steep = 1.0 + rise[0] * rise[0] + rise[1] * rise[1];
+        let bent = xx * (1.0 + rise[1] * rise[1]) - 2.0 * rise[0] * rise[1] * xy
+            + yy * (1.0 + rise[0] * rise[0]);
+        let slope = |m: usize| {
+            along(
+                &axes[0].map(|a| a * local.weights[1][m]),
+                local.weights[2][m],
+                &axes[1],
+            )
+        };
+        return Patch {
+            normal,
+            curvature: -bent / steep.powf(1.5),
+            squares: xx * xx + 2.0 * xy * xy + yy * yy,
+            offset,
+            area: area(i, points, &near.points, (axes, D)),
+            laplace: (0..near.points.len())
+                .map(|m| local.weights[3][m] + local.weights[5][m])
+                .collect(),
+            slope: (0..near.points.len()).map(slope).collect(),
+            neighbours: near.points.clone(),
+        };
+    }
+}
+
+/// Neighbours in the axes of a point.
+struct Local {
+    /// Along the normal \[m\].
+    heights: Vec<f64>,
+    /// Squares of the distance from the normal \[m2\].
+    squares: Vec<f64>,
+    /// Weights of the value, of d/dx, d/dy, d2/dx2, d2/dx dy and d2/dy2; zeros where there is no y.
+    weights: [Vec<f64>; 6],
+}
+
+impl Local {
+    fn new<const D: usize>(
+        i: usize,
+        points: &[[f64; D]],
+        (normal, axes): ([f64; D], [[f64; D]; 2]),
+        near: &Near,
+        exponents: &[[i32; 2]],
+    ) -> Self {
+        let (many, terms) = (near.points.len(), exponents.len());
+        let scale = near.radius.recip();
+        let mut basis = DMatrix::<f64>::zeros(terms, many);
+        let mut share = vec![0.0; many];
+        let mut heights = vec![0.0; many];
+        let mut squares = vec![0.0; many];
+        for (m, &j) in near.points.iter().enumerate() {
+            let d = difference(&points[j as usize], &points[i]);
+            let (x, y) = (dot(&d, &axes[0]) * scale, dot(&d, &axes[1]) * scale);
+            heights[m] = dot(&d, &normal);
+            squares[m] = (x * x + y * y) * near.radius * near.radius;
+            share[m] = wls::quartic(length(&d) * scale).max(1e-12);
+            for (k, e) in exponents.iter().enumerate() {
+                basis[(k, m)] = x.powi(e[0]) * y.powi(e[1]);
+            }
+        }
+        let mut weighted = basis.clone();
+        for (m, w) in share.iter().enumerate() {
+            weighted.column_mut(m).scale_mut(*w);
+        }
+        let gram = &weighted * basis.transpose();
+        let inverse = gram.clone().cholesky().map(|c| c.inverse());
+        let inverse = inverse.or_else(|| gram.pseudo_inverse(1e-12).ok());
+        let inverse = inverse.unwrap_or_else(|| DMatrix::zeros(terms, terms));
+        let row = |exponent: [i32; 2], factor: f64| {
+            let Some(k) = exponents.iter().position(|e| *e == exponent) else {
+                return vec![0.0; many];
+            };
+            let coefficients: DVector<f64> = inverse.column(k) * factor;
+            (weighted.tr_mul(&coefficients)).as_slice().to_vec()
+        };
+        let weights = [
+            row([0, 0], 1.0),
+            row([1, 0], scale),
+            row([0, 1], scale),
+            row([2, 0], 2.0 * scale * scale),
+            row([1, 1], scale * scale),
+            row([0, 2], 2.0 * scale * scale),
+        ];
+        Self {
+            heights,
+            squares,
+            weights,
+        }
+    }
+
+    /// Height at the point and its derivatives d/dx, d/dy, d2/dx2, d2/dx dy, d2/dy2 \[m, 1, 1/m\], by a fit of what the
+    /// surface has beside a sphere (a circle without y) of curvature `bow` \[1/m\]: it is small and fitted the better.
+    fn derivatives(&self, bow: f64, has_y: bool) -> [f64; 6] {
+        let cap = |far: f64| bow * far / (1.0 + (1.0 - bow * bow * far).max(0.0).sqrt());
+        let raised = self.heights.iter().zip(&self.squares);
+        let heights: Vec<f64> = raised.map(|(z, far)| z + cap(*far)).collect();
+        let own = [0.0, 0.0, 0.0, bow, 0.0, if has_y { bow } else { 0.0 }];
+        std::array::from_fn(|k| {
+            let terms = heights.iter().zip(&self.weights[k]);
+            terms.map(|(z, w)| z * w).sum::<f64>() - own[k]
+        })
+    }
+}
+
+/// The part of the tangent plane that is nearer to the point than to any neighbour.
+fn area<const D: usize>(
+    i: usize,
+    points: &[[f64; D]],
+    near: &[u32],
+    (axes, dimensions): ([[f64; D]; 2], usize),
+) -> f64 {
+    let flat = near.iter().filter(|j| **j as usize != i).map(|&j| {
+        let d = difference(&points[j as usize], &points[i]);
+        let (x, y) = (dot(&d, &axes[0]), dot(&d, &axes[1]));
+        // A step along the surface is as long as the way there, not as its shadow.
+        let shadow = x.hypot(y);
+        let longer = if shadow > 0.0 {
+            length(&d) / shadow
+        } else {
+            1.0
+        };
+        [x * longer, y * longer]
+    });
+    if dimensions == 2 {
+        let (mut ahead, mut behind) = (f64::INFINITY, f64::INFINITY);
+        for [x, _] in flat {
+            if x > 0.0 {
+                ahead = ahead.min(x);
+            } else {
+                behind = behind.min(-x);
+            }
+        }
+        return 0.5 * (ahead + behind);
+    }
+    let mut neighbours: Vec<[f64; 2]> = flat.collect();
+    neighbours.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
+    let far = neighbours.last().map_or(0.0, |p| p[0].hypot(p[1]));
+    let mut cell = vec![[-far, -far], [far, -far], [far, far], [-far, far]];
+    let mut next = Vec::new();
+    for p in &neighbours {
+        let half = 0.5 * (p[0] * p[0] + p[1] * p[1]);
+        let beyond = |q: &[f64; 2]| q[0] * p[0] + q[1] * p[1] - half;
+        next.clear();
+        for (k, a) in cell.iter().enumerate() {
+            let b = cell[(k + 1) % cell.len()];
+            let (u, v) = (beyond(a), beyond(&b));
+            if u <= 0.0 {
+                next.push(*a);
+            }
+            if (u < 0.0) != (v < 0.0) && (u > 0.0) != (v > 0.0) {
+                let t = u / (u - v);
+                next.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
+            }
+        }
+        std::mem::swap(&mut cell, &mut next);
+        if cell.is_empty() {
+            return 0.0;
+        }
+    }
+    let twice: f64 = (0..cell.len())
+        .map(|k| {
+            let (a, b) = (cell[k], cell[(k + 1) % cell.len()]);
+            a[0] * b[1] - a[1] * b[0]
+        })
+        .sum();
+    0.5 * twice
+}

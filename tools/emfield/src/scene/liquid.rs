@@ -1,0 +1,157 @@
+//! A liquid with a free surface.
+
+use run::Fault;
+use run::property::Property;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use shapes::Shape;
+use shapes::check::{self, Misfit};
+
+use super::faults::PLACE;
+use super::{Domain, Geometry, Scene};
+
+/// How the liquid moves in time.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LiquidMarch {
+    /// End.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub end_s: f64,
+    /// Longest step; when it is absent, with the spacing h and the radius R of a sphere of the same volume: 0.3 h/R of
+    /// sqrt(rho R^3/gamma), a quarter of sqrt(h/g) and of h over the fastest speed at the start, whichever is least.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub step_s: Option<f64>,
+}
+
+/// The shape of a drop at rest in a uniform field along z, found without a march. It begins as the sphere that `shape` is.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Equilibrium {
+    /// Field far away.
+    #[schemars(extend("x-unit" = "V/m", "exclusiveMinimum" = 0.0))]
+    pub field_v_m: f64,
+    /// Permittivity of the liquid over that of the gas; a conductor when it is absent.
+    #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub relative_permittivity: Option<f64>,
+    /// Whether the greatest field in which a drop is at rest is found too.
+    #[serde(default)]
+    pub limit: bool,
+}
+
+/// A liquid with a free surface, on points that move with it (Matsuzawa 2017, chapter 2.2). The spacing of `points` is the one
+/// number that refines.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Liquid {
+    /// What it fills at the start.
+    pub shape: Shape,
+    /// Density.
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
+    pub density_kg_m3: f64,
+    /// Viscosity; none when it is absent.
+    #[schemars(extend("x-unit" = "Pa s", "exclusiveMinimum" = 0.0))]
+    pub viscosity_pa_s: Option<f64>,
+    /// Surface tension; none when it is absent.
+    #[schemars(extend("x-unit" = "N/m", "exclusiveMinimum" = 0.0))]
+    pub surface_tension_n_m: Option<f64>,
+    /// Pressure of the gas around.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "Pa"))]
+    pub gas_pressure_pa: f64,
+    /// Acceleration of gravity; none when it is absent.
+    #[schemars(extend("x-unit" = "m/s2"), length(min = 2, max = 3))]
+    pub gravity_m_s2: Option<Vec<f64>>,
+    /// Velocity at the start, functions of x, y, z, r without divergence; at rest when it is absent.
+    #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
+    pub velocity_m_s: Option<Vec<Property>>,
+    /// Degree of the polynomials of derivatives.
+    #[serde(default = "order")]
+    #[schemars(range(min = 2, max = 3))]
+    pub order: u8,
+    /// Motion in time; this or `equilibrium`.
+    pub march: Option<LiquidMarch>,
+    /// Rest in a field; this or `march`.
+    pub equilibrium: Option<Equilibrium>,
+}
+
+fn order() -> u8 {
+    3
+}
+
+impl Liquid {
+    pub(super) fn check(&self, scene: &Scene, misfits: &mut Vec<Misfit>) {
+        let dimensions = scene.geometry.dimensions();
+        check::check(&self.shape, "/liquid/shape", dimensions, misfits);
+        if scene.geometry != Geometry::Space {
+            let what = "a liquid moves in space: take \"space\"";
+            misfits.push(Misfit::at("/geometry", what));
+        }
+        if let Some(g) = &self.gravity_m_s2 {
+            check::coordinates(g, "/liquid/gravity_m_s2", dimensions, misfits);
+        }
+        if let Some(v) = &self.velocity_m_s
+            && v.len() != dimensions
+        {
+            let what = format!("{} components; {dimensions} are wanted", v.len());
+            misfits.push(Misfit::at("/liquid/velocity_m_s", what));
+        }
+        match (&self.march, &self.equilibrium) {
+            (Some(march), None) => {
+                if let Some(step) = march.step_s
+                    && step > march.end_s
+                {
+                    let what = format!("{step} s is beyond the end at {} s", march.end_s);
+                    misfits.push(Misfit::at("/liquid/march/step_s", what));
+                }
+            }
+            (None, Some(_)) => self.check_rest(misfits),
+            (None, None) => {
+                let what = "one of \"march\" and \"equilibrium\" is wanted";
+                misfits.push(Misfit::at("/liquid", what));
+            }
+            (Some(_), Some(_)) => {
+                let what = "\"march\" and \"equilibrium\" exclude each other";
+                misfits.push(Misfit::at("/liquid/equilibrium", what));
+            }
+        }
+        let fields = scene.electrostatics.is_some() || scene.eddy_currents.is_some();
+        if fields {
+            let what = "the fields of a liquid that moves are not computed: leave \"electrostatics\" and \"eddy_currents\" away";
+            misfits.push(Misfit::at("/liquid", what));
+        } else if !scene.bodies.is_empty() {
+            let what = "bodies act by their fields, and the scene has none: leave them away";
+            misfits.push(Misfit::at("/bodies", what));
+        } else if scene.domain != Domain::default() {
+            let what = "fields are sought in a domain, and the scene has none: leave it away";
+            misfits.push(Misfit::at("/domain", what));
+        }
+    }
+
+    /// What a drop at rest in a field is and is not.
+    fn check_rest(&self, misfits: &mut Vec<Misfit>) {
+        if !matches!(self.shape, Shape::Sphere(_)) {
+            let what = "a drop at rest in a field has the volume of a sphere: take \"sphere\"";
+            misfits.push(Misfit::at("/liquid/shape", what));
+        }
+        if self.surface_tension_n_m.is_none() {
+            let what = "\"surface_tension_n_m\" is wanted: it holds the drop together";
+            misfits.push(Misfit::at("/liquid", what));
+        }
+        for (given, key) in [
+            (self.gravity_m_s2.is_some(), "gravity_m_s2"),
+            (self.velocity_m_s.is_some(), "velocity_m_s"),
+        ] {
+            if given {
+                let what = "has no part in a drop at rest that nothing holds: leave it away";
+                misfits.push(Misfit::at(&format!("/liquid/{key}"), what));
+            }
+        }
+    }
+
+    pub(super) fn formulas(&self, faults: &mut Vec<Fault>) {
+        for (k, v) in self.velocity_m_s.iter().flatten().enumerate() {
+            let at = format!("/liquid/velocity_m_s/{k}");
+            faults.extend(v.compile(&at, &PLACE).err());
+        }
+    }
+}

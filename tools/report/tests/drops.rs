@@ -1,0 +1,75 @@
+//! The page of drops, from a drop with known content.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use artefact::{Frame, Header, Precision, Record, Table, Version, Writer};
+use serde_json::Value;
+
+fn write(path: &Path, fill: impl FnOnce(&mut Writer)) {
+    let header = Header {
+        kind: "point-fields".to_owned(),
+        version: Version::new(1, 0),
+        tool: "emfield".to_owned(),
+        tool_version: "0.1.0".to_owned(),
+        scene: Value::Null,
+        inputs: BTreeMap::new(),
+    };
+    let mut writer = Writer::create(path, &header).unwrap();
+    fill(&mut writer);
+    writer.finish().unwrap();
+}
+
+#[test]
+fn a_study_of_drops_shows_motion_curves_and_shapes() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("drops");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    write(&folder.join("moves.mcap"), |writer| {
+        for step in 0..5 {
+            let time = 1e-6 * f64::from(step);
+            let long = 1e-3 * (1.0 + 0.02 * f64::from(step));
+            let row = Record::new()
+                .with("radius_z", "m", long)
+                .with("mode_2", "m", long - 1e-3);
+            writer.record("/liquid", time, &row).unwrap();
+            let places = (0..400).map(|k| {
+                let (z, turn) = (1.0 - (f64::from(k) + 0.5) / 200.0, 2.4 * f64::from(k));
+                let ring = 1e-3 * (1.0 - z * z).sqrt();
+                [ring * turn.cos(), ring * turn.sin(), long * z]
+            });
+            let frame = Frame::new(Precision::F32).positions(places);
+            writer.frame("/surface", time, &frame).unwrap();
+        }
+    });
+    write(&folder.join("rests.mcap"), |writer| {
+        let row = Record::new().with("deformation", "1", 0.125);
+        writer.record("/liquid", 0.0, &row).unwrap();
+        let table = Table::new(3).column("r_m", "m", [1e-3, 7e-4, 0.0]).column(
+            "z_m",
+            "m",
+            [0.0, 7e-4, 1e-3],
+        );
+        writer.table("/outline", 0.0, &table).unwrap();
+    });
+    let named = |name: &str| format!("{name}={}", folder.join(format!("{name}.mcap")).display());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_report"));
+    command.args(["drop", "--study", "sample", "--out"]);
+    command.arg(folder.join("report.html"));
+    command.args(["--drop", &named("moves"), "--drop", &named("rests")]);
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let html = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    for words in [
+        "<animate",
+        "5 frames",
+        "moves: radii over time",
+        "Outlines of drops at rest",
+        "deformation",
+        "1.250000e-1",
+    ] {
+        assert!(html.contains(words), "{words}");
+    }
+}
