@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -13,7 +14,7 @@ use serde_json::Value;
 
 use crate::atomic::write_atomically;
 use crate::error::{Error, Result, io_error};
-use crate::header::{Header, Identity};
+use crate::header::{Header, Identity, sha256_file};
 
 const MAGIC: &[u8; 8] = b"FLCKPT01";
 
@@ -27,6 +28,9 @@ enum Array {
 #[derive(Serialize, Deserialize)]
 struct Head {
     identity: Identity,
+    /// Hash of the program that wrote it: what it keeps is the inside of that program alone.
+    #[serde(default)]
+    build: String,
     json: BTreeMap<String, Value>,
     arrays: Vec<(String, String, u64)>,
 }
@@ -35,6 +39,7 @@ struct Head {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checkpoint {
     identity: Identity,
+    build: String,
     json: BTreeMap<String, Value>,
     arrays: BTreeMap<String, Array>,
     path: PathBuf,
@@ -46,6 +51,7 @@ impl Checkpoint {
     pub fn new(header: &Header) -> Self {
         Self {
             identity: header.identity(),
+            build: build().to_owned(),
             json: BTreeMap::new(),
             arrays: BTreeMap::new(),
             path: PathBuf::new(),
@@ -169,6 +175,7 @@ impl Checkpoint {
             .collect();
         let head = Head {
             identity: self.identity.clone(),
+            build: self.build.clone(),
             json: self.json.clone(),
             arrays,
         };
@@ -190,12 +197,21 @@ impl Checkpoint {
     /// Reads a checkpoint of the run that `header` describes.
     ///
     /// # Errors
-    /// When the file is foreign, truncated, damaged, or of another scene, input, tool or version.
+    /// When the file is foreign, truncated, damaged, or of another scene, input, tool, version or build.
     pub fn read(path: impl AsRef<Path>, header: &Header) -> Result<Self> {
         let checkpoint = Self::open(path)?;
         header
             .identity()
             .must_equal(&checkpoint.identity, &checkpoint.path)?;
+        if checkpoint.build != build() {
+            let short = |hash: &str| hash.get(..12).unwrap_or("(none)").to_owned();
+            return Err(Error::NotSame {
+                what: "build".to_owned(),
+                expected: short(build()),
+                found: short(&checkpoint.build),
+                path: checkpoint.path,
+            });
+        }
         Ok(checkpoint)
     }
 
@@ -259,8 +275,12 @@ impl Checkpoint {
             };
             arrays.insert(name, array);
         }
+        if !rest.is_empty() {
+            return Err(damaged("it is longer than its head says".to_owned()));
+        }
         Ok(Self {
             identity: head.identity,
+            build: head.build,
             json: head.json,
             arrays,
             path: path.to_owned(),
@@ -283,4 +303,15 @@ impl Checkpoint {
             what: what.to_string(),
         }
     }
+}
+
+/// Hash of the program that runs.
+fn build() -> &'static str {
+    static BUILD: OnceLock<String> = OnceLock::new();
+    BUILD.get_or_init(|| {
+        // The file that runs, also where another has taken its name meanwhile.
+        let hash = sha256_file(Path::new("/proc/self/exe"));
+        // Where the system does not show it, the version has to do.
+        hash.unwrap_or_default()
+    })
 }

@@ -127,6 +127,12 @@ pub enum Error {
         /// What is wrong with it.
         what: String,
     },
+    /// What the file holds is not what it says: `artefact validate` tells all of it.
+    #[error("{what}")]
+    Unsound {
+        /// File, place, and what is wrong there.
+        what: String,
+    },
     /// Another kind of artefact than the one asked for.
     #[error("{path}: is of kind '{found}', wanted is kind '{expected}'")]
     Kind {

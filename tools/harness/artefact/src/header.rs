@@ -15,14 +15,14 @@ use crate::version::Version;
 /// Name of the metadata record that makes an MCAP file one of ours.
 pub const METADATA: &str = "fusionline";
 
-/// Kinds of artefacts that the stages write, each with its major version.
-pub const KINDS: [(&str, u32); 6] = [
-    ("arc-source", 1),
-    ("gas-table", 1),
-    ("mean-fields", 1),
-    ("particle-frames", 1),
-    ("jet-frames", 1),
-    ("point-fields", 1),
+/// Kinds of artefacts, each with its major version and the stages that write it.
+pub const KINDS: [(&str, u32, &[&str]); 6] = [
+    ("arc-source", 1, &["arcfvm"]),
+    ("gas-table", 1, &["gasprop"]),
+    ("mean-fields", 1, &["avg"]),
+    ("particle-frames", 1, &["poolsph"]),
+    ("jet-frames", 1, &["jetsph"]),
+    ("point-fields", 1, &["heatsph", "emfield"]),
 ];
 
 /// Who wrote a file, from what. Two runs with equal headers write equal bytes.

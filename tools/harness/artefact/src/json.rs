@@ -61,7 +61,7 @@ pub fn json_artefact<T: DeserializeOwned>(
 /// When the file cannot be read or is no text in UTF-8, with line and column, and what it is where that
 /// can be told.
 pub fn json_text(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(io_error(path, "read"))?;
+    let bytes = bounded(path)?;
     let wrong = |line, column, what: String| Error::Json {
         path: path.to_owned(),
         line,
@@ -90,6 +90,26 @@ pub fn json_text(path: &Path) -> Result<String> {
             Err(wrong(line, column, what))
         }
     }
+}
+
+/// Longest JSON file that is read \[byte\].
+const LONGEST: u64 = 1 << 28;
+
+/// The bytes of a regular file that is not too long: a device may have no end, and a pipe no writer.
+fn bounded(path: &Path) -> Result<Vec<u8>> {
+    let found = std::fs::metadata(path).map_err(io_error(path, "read"))?;
+    let refused = |what: String| Err(io_error(path, "read")(std::io::Error::other(what)));
+    if found.is_dir() {
+        return refused("it is a folder".to_owned());
+    }
+    if !found.is_file() {
+        return refused("it is no regular file".to_owned());
+    }
+    if found.len() > LONGEST {
+        let (long, most) = (found.len(), LONGEST);
+        return refused(format!("it has {long} bytes, at most {most} are read"));
+    }
+    std::fs::read(path).map_err(io_error(path, "read"))
 }
 
 /// The error for a JSON file where an artefact is wanted; `None` for any other file.

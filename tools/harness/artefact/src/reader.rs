@@ -23,8 +23,8 @@ type Chunk = Arc<Vec<Stored>>;
 pub struct Reader {
     pub(crate) store: Store,
     header: Header,
-    channels: BTreeMap<String, Indexed>,
-    chunks: Vec<ChunkPlace>,
+    pub(crate) channels: BTreeMap<String, Indexed>,
+    pub(crate) chunks: Vec<ChunkPlace>,
     metadata: BTreeMap<String, BTreeMap<String, String>>,
     last: Mutex<Option<(usize, Chunk)>>,
     lost: Vec<Lost>,
@@ -113,12 +113,12 @@ impl Reader {
     /// # Errors
     /// [`Error::UnknownKind`] or [`Error::Version`].
     pub fn must_be_known(&self) -> Result<()> {
-        match KINDS.iter().find(|(kind, _)| *kind == self.header.kind) {
-            Some((kind, major)) => self.must_be(kind, *major),
+        match KINDS.iter().find(|(kind, ..)| *kind == self.header.kind) {
+            Some((kind, major, _)) => self.must_be(kind, *major),
             None => Err(Error::UnknownKind {
                 path: self.store.path.clone(),
                 found: self.header.kind.clone(),
-                known: KINDS.map(|(kind, _)| kind).join(", "),
+                known: KINDS.map(|(kind, ..)| kind).join(", "),
             }),
         }
     }

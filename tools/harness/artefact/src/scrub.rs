@@ -1,13 +1,13 @@
 //! Checks every byte of a finished file against the checksums that it carries.
 
-use mcap::parse_record;
 use mcap::records::{Record, op};
 use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Result};
 use crate::header::hexadecimal;
 use crate::reader::Reader;
-use crate::store::{PREFIX, Store};
+use crate::record::{PREFIX, record};
+use crate::store::Store;
 
 /// Bytes read at a time.
 const BLOCK: u64 = 1 << 20;
@@ -70,11 +70,11 @@ impl Seal {
         let Some((_, body)) = store.record_at(end)? else {
             return Err(store.truncated());
         };
-        match parse_record(op::DATA_END, &body) {
+        match record(op::DATA_END, &body) {
             // A longer record of this kind could hide bytes that no checksum covers.
-            Ok(Record::DataEnd(record)) if body.len() == 4 => Ok(Self {
+            Ok(Record::DataEnd(found)) if body.len() == 4 => Ok(Self {
                 end,
-                crc: record.data_section_crc,
+                crc: found.data_section_crc,
             }),
             _ => Err(store.damaged(format!("byte {end}"), "the end of data cannot be read")),
         }

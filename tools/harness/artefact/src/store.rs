@@ -7,14 +7,13 @@ use std::path::{Path, PathBuf};
 
 use mcap::records::{self, Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
-use mcap::{MAGIC, McapError, parse_record};
+use mcap::{MAGIC, McapError};
 
 use crate::error::{Error, Result, io_error};
 use crate::header::hexadecimal;
 use crate::json;
+use crate::record::{PREFIX, record, split_record, unfolded};
 
-/// Opcode and length before each record \[byte\].
-pub(crate) const PREFIX: u64 = 9;
 /// Footer record with its prefix \[byte\].
 const FOOTER: u64 = PREFIX + 20;
 
@@ -215,7 +214,7 @@ impl Store {
         let Some((op::FOOTER, body)) = self.record_at(footer_at)? else {
             return Err(self.damaged(format!("byte {footer_at}"), "the footer is not there"));
         };
-        let Ok(Record::Footer(footer)) = parse_record(op::FOOTER, &body) else {
+        let Ok(Record::Footer(footer)) = record(op::FOOTER, &body) else {
             return Err(self.damaged(format!("byte {footer_at}"), "the footer cannot be read"));
         };
         if footer.summary_start == 0 || footer.summary_start > footer_at {
@@ -245,13 +244,13 @@ impl Store {
         let mut counts = BTreeMap::new();
         while let Some((opcode, body, rest)) = split_record(bytes) {
             bytes = rest;
-            match parse_record(opcode, body).map_err(|e| self.damaged("the summary", e))? {
+            match record(opcode, body).map_err(|e| self.damaged("the summary", e))? {
                 Record::ChunkIndex(chunk) => places.push(chunk),
                 Record::Statistics(statistics) => counts = statistics.channel_message_counts,
                 Record::MetadataIndex(m) => {
                     if let Some((op::METADATA, body)) = self.record_at(m.offset)? {
                         index.learn(
-                            parse_record(op::METADATA, &body)
+                            record(op::METADATA, &body)
                                 .map_err(|e| self.damaged("a metadata record", e))?,
                         );
                     }
@@ -278,7 +277,7 @@ impl Store {
             let Some((op::MESSAGE_INDEX, body)) = self.record_at(offset)? else {
                 return wrong("it is not there");
             };
-            match parse_record(op::MESSAGE_INDEX, &body) {
+            match record(op::MESSAGE_INDEX, &body) {
                 Ok(Record::MessageIndex(m)) if m.channel_id == channel => {
                     times.insert(channel, m.records.iter().map(|r| r.log_time).collect());
                 }
@@ -314,10 +313,12 @@ impl Store {
     ) -> Result<Vec<Stored>> {
         let bytes = self.read(offset, length)?;
         let place = || format!("chunk at byte {offset}");
-        self.check_sizes(&bytes, offset)?;
+        let whole = unfolded(&bytes).map_err(|what| self.damaged(place(), what))?;
+        let longest = whole.max(bytes.len() as u64);
         let options = LinearReaderOptions::default()
             .with_skip_start_magic(true)
             .with_skip_end_magic(true)
+            .with_record_length_limit(usize::try_from(longest).unwrap_or(usize::MAX))
             .with_prevalidate_chunk_crcs(true);
         let mut reader = LinearReader::new_with_options(options);
         let mut rest = bytes.as_slice();
@@ -334,7 +335,7 @@ impl Store {
                     rest = &rest[n..];
                 }
                 LinearReadEvent::Record { data, opcode } => {
-                    match parse_record(opcode, data).map_err(|e| self.damaged(place(), e))? {
+                    match record(opcode, data).map_err(|e| self.damaged(place(), e))? {
                         Record::Message { header, data } => messages.push(Stored {
                             channel: header.channel_id,
                             log_time: header.log_time,
@@ -348,26 +349,6 @@ impl Store {
         Ok(messages)
     }
 
-    /// Refuses sizes that no writer of ours makes, before memory is asked for.
-    fn check_sizes(&self, bytes: &[u8], offset: u64) -> Result<()> {
-        let wrong = |what: &str| self.damaged(format!("chunk at byte {offset}"), what);
-        let Some((op::CHUNK, body, [])) = split_record(bytes) else {
-            return Err(wrong("it is not there"));
-        };
-        match parse_record(op::CHUNK, body) {
-            Ok(Record::Chunk { header, data }) => {
-                let limit = (data.len() as u64).saturating_mul(40_000).max(1 << 20);
-                if header.uncompressed_size > limit {
-                    return Err(wrong(
-                        "its stated size is more than compression can make of its bytes",
-                    ));
-                }
-                Ok(())
-            }
-            _ => Err(wrong("its header cannot be read")),
-        }
-    }
-
     fn chunk_error(&self, error: McapError, place: String) -> Error {
         match error {
             McapError::BadChunkCrc { saved, calculated } => Error::Crc {
@@ -379,13 +360,4 @@ impl Store {
             other => self.damaged(place, other),
         }
     }
-}
-
-/// Opcode and body of the first record, and what follows it.
-fn split_record(bytes: &[u8]) -> Option<(u8, &[u8], &[u8])> {
-    let (&opcode, rest) = bytes.split_first()?;
-    let (length, rest) = rest.split_first_chunk::<8>()?;
-    let length = usize::try_from(u64::from_le_bytes(*length)).ok()?;
-    let body = rest.get(..length)?;
-    Some((opcode, body, &rest[length..]))
 }

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use mcap::MAGIC;
-use mcap::parse_record;
 use mcap::records::{Record, op};
 
 use crate::error::{Error, Result};
 use crate::header::METADATA;
 use crate::message::time_s;
-use crate::store::{ChannelInfo, ChunkPlace, Index, PREFIX, Store, Stored};
+use crate::record::{PREFIX, record};
+use crate::store::{ChannelInfo, ChunkPlace, Index, Store, Stored};
 
 /// A chunk that was found whole, with its messages.
 pub(crate) struct Whole {
@@ -68,15 +68,15 @@ impl<'a> Walk<'a> {
                     let Some((_, body)) = self.store.record_at(at)? else {
                         return Ok(Step::End);
                     };
-                    match parse_record(opcode, &body) {
+                    match record(opcode, &body) {
                         Ok(Record::MessageIndex(m)) if self.after_broken => {
                             if let Some(broken) = self.broken.last_mut() {
                                 let times = m.records.iter().map(|r| r.log_time).collect();
                                 broken.times.insert(m.channel_id, times);
                             }
                         }
-                        Ok(record @ Record::Metadata(_)) => {
-                            self.index.learn(record);
+                        Ok(metadata @ Record::Metadata(_)) => {
+                            self.index.learn(metadata);
                         }
                         _ => {}
                     }

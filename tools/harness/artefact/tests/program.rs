@@ -123,6 +123,22 @@ fn ls_lists_messages_in_order_of_time() {
 }
 
 #[test]
+fn a_name_of_any_length_is_listed() {
+    let folder = folder();
+    let path = folder.path().join("long.mcap");
+    let mut writer = Writer::create(&path, &header()).unwrap();
+    let name = format!("/{}", "long".repeat(20_000));
+    let record = Record::new().with("mass_kg", "kg", 0.25);
+    writer.record(&name, 0.0, &record).unwrap();
+    writer.record("/short", 0.0, &record).unwrap();
+    writer.finish().unwrap();
+    for command in ["ls", "info", "validate"] {
+        let told = artefact(&[command, text(&path)]);
+        assert_eq!(told.code, 0, "{command}: {}", told.err);
+    }
+}
+
+#[test]
 fn diff_measures_what_differs_and_says_where() {
     let folder = folder();
     let a = sample(folder.path(), "a.mcap", 0.0);

@@ -13,7 +13,7 @@ use super::{Source, Streams};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
   target/release/artefact verify-hash build/gmaw-quick/pool.mcap --scene pipelines/gmaw-300a/pool.json \\
-    --patch pipelines/gmaw-quick/pool.patch.json --input arc=build/gmaw-quick/arc.mcap
+    --patch pipelines/gmaw-quick/pool.patch.json --input arc=build/gmaw-300a/arc.mcap
 The hash of a scene is the SHA-256 of its canonical JSON (patches applied, keys sorted, no white
 space): spaces and the order of keys change nothing. The hash of an input is that of its bytes.
 Without --scene and --input it prints the hashes in the file, whose scene is compared with its own.")]
@@ -36,7 +36,7 @@ fn name_and_file(text: &str) -> Result<(String, PathBuf), String> {
         Some((name, file)) if !name.is_empty() && !file.is_empty() => {
             Ok((name.to_owned(), file.into()))
         }
-        _ => Err("wanted is NAME=FILE, for example arc=build/gmaw-quick/arc.mcap".to_owned()),
+        _ => Err("wanted is NAME=FILE, for example arc=build/gmaw-300a/arc.mcap".to_owned()),
     }
 }
 

@@ -10,7 +10,7 @@ use super::{Source, Streams, json};
 /// Arguments of `info`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
-  target/release/artefact info build/gmaw-quick/arc.mcap
+  target/release/artefact info build/gmaw-300a/arc.mcap
 For each channel it lists the columns of the last message with unit, type and range.
 For a run record (.run.json) it lists how the run went: outcome, time and memory per stage.")]
 pub(crate) struct Arguments {

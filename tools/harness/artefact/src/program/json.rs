@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use artefact::json_error;
+use artefact::{json_error, schema_faults};
 use serde_json::Value;
 
 use super::Streams;
-use super::schema::schema_faults;
 use super::sheet::{Sheet, short};
 use super::trouble::{Trouble, file_error};
 

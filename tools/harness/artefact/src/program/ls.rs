@@ -18,6 +18,9 @@ pub(crate) struct Arguments {
     channel: Vec<String>,
 }
 
+/// Widest that a column of names may be.
+const WIDEST: usize = 60;
+
 pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Verdict, Trouble> {
     let reader = open(&arguments.source.file, streams)?;
     let channels = channels(&reader, &arguments.channel)?;
@@ -27,7 +30,8 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
         messages.extend(times.into_iter().enumerate().map(|(i, t)| (t, channel, i)));
     }
     messages.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let width = channels.iter().map(|c| c.name.len()).max().unwrap_or(0);
+    let longest = channels.iter().map(|c| c.name.len()).max();
+    let width = longest.unwrap_or(0).min(WIDEST);
     for (time, channel, index) in messages {
         let sheet = Sheet::read(&reader, channel, index)?;
         let rows = match sheet.form {

@@ -8,7 +8,6 @@ mod json;
 mod ls;
 mod open;
 mod recover;
-mod schema;
 mod sheet;
 mod trouble;
 mod validate;
@@ -17,6 +16,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use artefact::Shown;
 use clap::{Parser, Subcommand};
 
 use trouble::{Trouble, Verdict};
@@ -80,9 +80,12 @@ pub(crate) struct Source {
 }
 
 pub(crate) fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let mut out = BufWriter::new(io::stdout().lock());
-    let mut err = io::stderr().lock();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(e) => return refused(&e),
+    };
+    let mut out = Shown(BufWriter::new(io::stdout().lock()));
+    let mut err = Shown(io::stderr().lock());
     let mut streams = Streams {
         out: &mut out,
         err: &mut err,
@@ -103,6 +106,17 @@ pub(crate) fn main() -> ExitCode {
             ExitCode::from(trouble.code())
         }
     }
+}
+
+/// Help and version go to stdout with code 0, what is wrong with a command line to stderr with code 2.
+fn refused(e: &clap::Error) -> ExitCode {
+    if e.use_stderr() {
+        let text = e.render().to_string();
+        let _ = write!(Shown(io::stderr().lock()), "{text}");
+    } else {
+        let _ = e.print();
+    }
+    ExitCode::from(u8::try_from(e.exit_code()).unwrap_or(2))
 }
 
 impl Command {

@@ -35,7 +35,7 @@ enum Target {
 #[command(after_help = "Examples:
   target/release/artefact export build/gmaw-quick/pool.mcap --to vtu --out build/paraview --channel /particles
     then open build/paraview/particles.pvd in ParaView
-  target/release/artefact export build/gmaw-quick/arc.mcap --to csv --out build/csv
+  target/release/artefact export build/gmaw-300a/arc.mcap --to csv --out build/csv
 Frames, tables and grids become one file per message, CHANNEL/CHANNEL_00012.vtu; records and other
 scalars become one file per channel with a row per message. Coordinates and units are those of the
 artefact (SI); ParaView shows units where they are stored as UNITS_LABEL. Of a damaged file all that

@@ -4,12 +4,7 @@ use jsonschema::Validator;
 use serde_json::Value;
 
 /// What in `value` does not fit its schema, with the names of column and row where there are such.
-pub(crate) fn schema_faults(
-    validator: &Validator,
-    value: &Value,
-    at: &str,
-    found: &mut Vec<String>,
-) {
+pub fn schema_faults(validator: &Validator, value: &Value, at: &str, found: &mut Vec<String>) {
     for error in validator.iter_errors(value) {
         let path = error.instance_path().as_str();
         let what = match error.instance().as_ref() {
