@@ -33,10 +33,10 @@ impl Inputs {
         Self::default()
     }
 
-    /// Names and files; each file is read once, for its hash and an artefact for its checksums.
+    /// Names and files; each file is read for its hash, and an artefact for all that `artefact validate` looks at.
     ///
     /// # Errors
-    /// When a name stands twice, a file cannot be read, or an artefact is damaged anywhere.
+    /// When a name stands twice, a file cannot be read, or an artefact is damaged or contradicts itself anywhere.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a Path)>) -> Result<Self, Failure> {
         let mut all = Self::default();
         for (name, path) in files {
@@ -56,7 +56,11 @@ impl Inputs {
             }
             // What is no artefact, or another kind of one, is told by who reads it.
             let hash = match Reader::open(path) {
-                Ok(artefact) => artefact.scrub_and_hash()?,
+                Ok(artefact) => {
+                    let hash = artefact.scrub_and_hash()?;
+                    artefact.must_be_sound()?;
+                    hash
+                }
                 Err(_) => artefact::sha256_file(path)?,
             };
             all.hashes.insert(name.to_owned(), hash);

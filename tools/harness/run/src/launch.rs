@@ -33,7 +33,7 @@ pub fn main<T: Tool>() -> ExitCode {
         Ok(line) => line,
         Err(e) => {
             // Help and version go to stdout with code 0, errors to stderr with code 2.
-            let _ = e.print();
+            say_usage(&e);
             return ExitCode::from(u8::try_from(e.exit_code()).unwrap_or(2));
         }
     };
@@ -43,6 +43,16 @@ pub fn main<T: Tool>() -> ExitCode {
         Action::Run(run) => run_scene::<T>(run),
     };
     done.unwrap_or_else(|failure| report_failure(T::NAME, &failure))
+}
+
+/// Says what is wrong with a command line, or prints the help that was asked for.
+pub fn say_usage(e: &clap::Error) {
+    if e.use_stderr() {
+        line(e.render().to_string().trim_end());
+    } else {
+        // A closed stdout wants no help.
+        let _ = e.print();
+    }
 }
 
 /// Says on stderr why there is no result, and gives the exit code that goes with it.
@@ -157,10 +167,22 @@ fn tight(plan: &Plan, out: &Path) -> Option<String> {
     })
 }
 
+/// More threads than these for each that the machine runs at once only wait for each other.
+const THREADS_PER_CORE: usize = 8;
+
 /// This thread works with the others: a step is hundreds of short parallel loops, and to hand each over
 /// to sleeping threads and be woken at its end costs more than many of them.
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
     let builder = rayon::ThreadPoolBuilder::new().use_current_thread();
+    if let Some(threads) = threads {
+        let cores = machine::cores();
+        let most = THREADS_PER_CORE * cores;
+        if usize::from(threads) > most {
+            return Err(Failure::Usage(format!(
+                "--threads {threads}: this machine runs {cores} at once: at most {most}, best {cores}"
+            )));
+        }
+    }
     let Some(threads) = threads else {
         // Only where the process already has its threads does this fail, and then they serve.
         builder.build_global().ok();

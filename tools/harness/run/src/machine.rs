@@ -20,15 +20,19 @@ pub(crate) struct Machine {
 
 impl Machine {
     pub(crate) fn here() -> Self {
-        let cores = std::thread::available_parallelism();
         Self {
             processor: std::fs::read_to_string("/proc/cpuinfo")
                 .ok()
                 .and_then(|text| processor(&text)),
-            cores: cores.map_or(1, std::num::NonZero::get),
+            cores: cores(),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
         }
     }
+}
+
+/// Threads that the machine runs at once.
+pub(crate) fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
 /// The first model that `/proc/cpuinfo` names.

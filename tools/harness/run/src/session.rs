@@ -50,7 +50,7 @@ pub struct Session {
     level: Level,
     pub(crate) interrupt: Interrupt,
     checkpoint: PathBuf,
-    every: Duration,
+    pub(crate) every: Duration,
     last: Instant,
     restored: Option<Checkpoint>,
     /// What stages of a trial keep of memory.

@@ -1,6 +1,7 @@
 //! Work in a session that is thrown away, to tell what a run will take.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 use artefact::{Header, beside};
 
@@ -81,7 +82,8 @@ pub(crate) fn silent(header: Header) -> Result<Session, Failure> {
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
     let name = format!("{}-trial-{}-{number}.mcap", header.tool, std::process::id());
     let out = std::env::temp_dir().join(name);
-    let session = Session::quiet(&out, header)?;
+    let mut session = Session::quiet(&out, header)?;
+    session.every = Duration::MAX;
     // The open file lasts without its name: however the process ends, nothing is left. What cannot be removed is in nobody's way.
     let _ = std::fs::remove_file(beside(&out, ".part"));
     Ok(session)

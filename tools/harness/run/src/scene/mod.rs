@@ -2,11 +2,14 @@
 
 mod choice;
 mod migrate;
+mod names;
 mod origin;
 mod patch;
+mod quantity;
 mod schema;
 mod suggest;
 mod validate;
+mod whole;
 mod words;
 
 use std::path::{Path, PathBuf};
@@ -82,7 +85,12 @@ fn typed<S: DeserializeOwned>(
 ) -> Result<Loaded<S>, Failure> {
     check_kind(&merged, expected)?;
     let migrated = migrate::migrate(&mut merged, expected)?;
-    let faults = validate::faults(schema, merged.value());
+    let mut faults = validate::faults(&whole::bounded(schema.clone()), merged.value());
+    let more = quantity::faults(merged.value()).into_iter();
+    faults.extend(
+        more.filter(|new| faults.iter().all(|known| known.path() != new.path()))
+            .collect::<Vec<_>>(),
+    );
     if !faults.is_empty() {
         return Err(Failure::Scene(located(faults, &merged)));
     }
@@ -92,9 +100,12 @@ fn typed<S: DeserializeOwned>(
             map.shift_remove(key);
         }
     }
-    let scene = serde_json::from_value(plain).map_err(|e| {
-        let fault = Fault::at("", format!("passes the schema but cannot be read: {e}"));
-        Failure::Scene(located(vec![fault], &merged))
+    let scene = whole::read(plain).map_err(|e| {
+        let what = format!(
+            "passes the schema but cannot be read{}: {e}",
+            merged.patched()
+        );
+        Failure::Scene(located(vec![Fault::at("", what)], &merged))
     })?;
     Ok(Loaded {
         scene,

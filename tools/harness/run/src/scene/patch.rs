@@ -45,6 +45,16 @@ impl Merged {
         &self.value
     }
 
+    /// The patches in words: ", as A.json and B.json patch it"; nothing where there are none.
+    pub(crate) fn patched(&self) -> String {
+        let names = self.documents[1..].iter();
+        let names: Vec<String> = names.map(|d| d.path.display().to_string()).collect();
+        if names.is_empty() {
+            return String::new();
+        }
+        format!(", as {} patches it", names.join(" and "))
+    }
+
     /// Changes the scene itself; what it adds has the origin of what is around it.
     pub(crate) fn change(
         &mut self,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde_json::{Map, Value, json};
 
-use super::Expected;
+use super::{Expected, names};
 
 /// Keys that every scene has or may have besides those of its type.
 pub(crate) const ENVELOPE: [&str; 4] = ["kind", "version", "$schema", "comment"];
@@ -13,6 +13,7 @@ pub(crate) const ENVELOPE: [&str; 4] = ["kind", "version", "$schema", "comment"]
 pub fn schema_of<S: JsonSchema>(expected: Expected) -> Value {
     let mut schema = schemars::schema_for!(S).to_value();
     close(&mut schema, true);
+    names::after_things(&mut schema);
     if let Value::Object(map) = &mut schema {
         map.insert(
             "title".to_owned(),

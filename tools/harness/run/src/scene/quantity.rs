@@ -1,0 +1,98 @@
+//! Ranges that belong to a quantity and not to a key: they hold in the scenes of all tools.
+
+use serde_json::Value;
+
+use super::origin::escaped;
+use crate::fault::Fault;
+
+/// Endings of keys that state a temperature on the absolute scale. Other keys in K state differences, which may be
+/// negative.
+const TEMPERATURES: [&str; 8] = [
+    "temperature_k",
+    "ambient_k",
+    "surroundings_k",
+    "point_k",
+    "reference_k",
+    "boiling_k",
+    "from_k",
+    "to_k",
+];
+/// Key of the temperatures of a table.
+const OF_TABLE: &str = "t_k";
+/// 0 degrees Celsius \[K\].
+const CELSIUS: f64 = 273.15;
+
+/// Values that their quantity cannot have.
+pub(super) fn faults(scene: &Value) -> Vec<Fault> {
+    let mut found = Vec::new();
+    walk(scene, "", false, &mut found);
+    found
+}
+
+/// Goes over a value; `absolute` says whether its numbers are temperatures.
+fn walk(value: &Value, at: &str, absolute: bool, found: &mut Vec<Fault>) {
+    match value {
+        Value::Number(number) if absolute => {
+            let kelvin = number.as_f64().unwrap_or(f64::NAN);
+            if kelvin < 0.0 {
+                let meant = kelvin + CELSIUS;
+                let hint = if meant >= 0.0 {
+                    format!("; {kelvin} degrees Celsius are {meant:.2} K")
+                } else {
+                    String::new()
+                };
+                let what = format!("{number} K is out of range: at least 0 K{hint}");
+                found.push(Fault::at(at, what));
+            }
+        }
+        Value::Array(list) => {
+            for (i, value) in list.iter().enumerate() {
+                walk(value, &format!("{at}/{i}"), absolute, found);
+            }
+        }
+        Value::Object(map) => {
+            for (key, value) in map {
+                let is_temperature = key == OF_TABLE
+                    || TEMPERATURES.iter().any(|ending| key.ends_with(ending))
+                    || (absolute && key == "value");
+                walk(
+                    value,
+                    &format!("{at}/{}", escaped(key)),
+                    is_temperature,
+                    found,
+                );
+            }
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn temperatures_below_zero_are_found_wherever_they_stand() {
+        let scene = json!({
+            "initial_temperature_k": -40,
+            "faces": [{"ambient_k": {"t_s": [-1, 0], "value": [300, -5]}}, {"surroundings_k": 0}],
+            "density_kg_m3": {"t_k": [-1, 300], "value": [-1, -2]},
+            "step_k": -3,
+            "velocity_m_s": -2
+        });
+        let found = faults(&scene);
+        let paths: Vec<&str> = found.iter().map(Fault::path).collect();
+        let expected = [
+            "/initial_temperature_k",
+            "/faces/0/ambient_k/value/1",
+            "/density_kg_m3/t_k/0",
+        ];
+        assert_eq!(paths, expected);
+        let text = found[1].to_string();
+        assert!(
+            text.contains("-5 K is out of range: at least 0 K; -5 degrees Celsius are 268.15 K"),
+            "{text}"
+        );
+    }
+}
