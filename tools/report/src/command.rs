@@ -101,7 +101,7 @@ pub fn main() -> ExitCode {
         Ok(line) => line,
         Err(e) => {
             // Help and version go to stdout with code 0, errors to stderr with code 2.
-            let _ = e.print();
+            run::say_usage(&e);
             return ExitCode::from(u8::try_from(e.exit_code()).unwrap_or(2));
         }
     };
@@ -191,9 +191,12 @@ fn complete(action: &Action) -> Result<(), Failure> {
             ("--arc, --pool or --mean", given)
         }
         Action::Index(f) => {
-            let folders = [&f.verify, &f.stability, &f.bench, &f.studies];
+            let folders = [&f.verify, &f.stability, &f.bench, &f.faults, &f.studies];
             let given = folders.iter().any(|folder| folder.is_some());
-            ("--verify, --stability, --bench or --studies", given)
+            (
+                "--verify, --stability, --bench, --faults or --studies",
+                given,
+            )
         }
         Action::Validate { pool, arc, .. } => {
             let given = pool.is_some() || !arc.is_empty();

@@ -16,7 +16,7 @@ use crate::weld::Weld;
 /// `{"penetration": {"value": 0.0035, "unit": "m", "range": [0.003, 0.004], "frozen": true}, ...}`; an empty object where
 /// nothing has ever melted.
 pub(crate) fn run(pool: &Path) -> Result<ExitCode, Failure> {
-    let reader = Reader::open_kind(pool, "particle-frames", 1)?;
+    let reader = Reader::open_sound(pool, "particle-frames", 1)?;
     let stretch = Weld::last(&reader)?.and_then(|weld| weld.bead());
     let mut told = Map::new();
     for named in &MEASURES {

@@ -145,6 +145,9 @@ pub(crate) struct Folders {
     /// Records of studies with their numerical bands.
     #[arg(long)]
     pub(crate) certify: Option<PathBuf>,
+    /// The table of what machines do to runs.
+    #[arg(long)]
+    pub(crate) faults: Option<PathBuf>,
     /// Where each study has a folder with its report.
     #[arg(long)]
     pub(crate) studies: Option<PathBuf>,
@@ -153,7 +156,13 @@ pub(crate) struct Folders {
 impl Folders {
     /// Every record that is read, with what it is.
     pub(crate) fn read(&self) -> Vec<(String, PathBuf)> {
-        let folders = [&self.verify, &self.stability, &self.bench, &self.certify];
+        let folders = [
+            &self.verify,
+            &self.stability,
+            &self.bench,
+            &self.certify,
+            &self.faults,
+        ];
         let files = folders.into_iter().flatten().flat_map(|folder| {
             let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
             entries.map(|entry| entry.path())
@@ -195,7 +204,9 @@ pub(crate) fn save(path: &Path, html: &str) -> Result<(), Failure> {
 /// Writes data to stdout.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    let written = out
+        .write_all(artefact::shown(text).as_bytes())
+        .and_then(|()| out.flush());
     written.map_err(|source| Failure::Io {
         path: "stdout".into(),
         action: "write",

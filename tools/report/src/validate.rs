@@ -18,14 +18,14 @@ pub(crate) fn run(
 ) -> Result<ExitCode, Failure> {
     let stretch = match pool {
         Some(pool) => {
-            let reader = Reader::open_kind(pool, "particle-frames", 1)?;
+            let reader = Reader::open_sound(pool, "particle-frames", 1)?;
             Weld::last(&reader)?.and_then(|weld| weld.bead())
         }
         None => None,
     };
     let mut balances = Vec::new();
     for (name, path) in arcs {
-        let reader = Reader::open_kind(path, "arc-source", 1)?;
+        let reader = Reader::open_sound(path, "arc-source", 1)?;
         balances.push((name.clone(), reader.record("/balance")?));
     }
     let targets = Targets::read(targets, &balances)?;
@@ -46,7 +46,7 @@ pub(crate) fn run(
 /// The rows for people, in columns of fixed width.
 fn table(rows: &[Row]) -> String {
     let titles = rows.iter().map(|r| r.target.title.chars().count());
-    let wide = titles.chain([7]).max().unwrap_or(7);
+    let wide = titles.chain([7]).max().unwrap_or(7).min(60);
     let mut text = format!(
         "{:<wide$}  {:<11} {:>9} {:>9} {:>10}  {:<16} verdict\n",
         "measure", "kind", "published", "found", "difference", "tolerance"

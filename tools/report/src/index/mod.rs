@@ -4,6 +4,7 @@ mod absence;
 mod bench;
 mod certified;
 mod cost;
+mod faults;
 mod map;
 mod others;
 mod stability;
@@ -56,6 +57,12 @@ pub(crate) fn write(folders: &Folders) -> Result<(), Failure> {
         page.section(
             "Other programs",
             speed.others.iter().map(others::section).collect(),
+        );
+    }
+    if let Some(folder) = &folders.faults {
+        page.section(
+            "What machines do to runs",
+            all(folder, |_| String::new(), faults::section)?,
         );
     }
     save(&folders.out, &page.render())
@@ -266,11 +273,15 @@ fn relative(from: &Path, to: &Path) -> String {
 
 /// A heading with a place that links can point to.
 fn heading(name: &str, holds: bool, words: (&str, &str)) -> String {
-    let word = if holds { words.0 } else { words.1 };
+    judged(name, if holds { words.0 } else { words.1 }, Some(holds))
+}
+
+/// The same with a verdict that may be open.
+fn judged(name: &str, word: &str, holds: Option<bool>) -> String {
     format!(
         "<h3 id=\"{0}\">{0} {1}</h3>\n",
         escape(name),
-        crate::html::verdict(word, Some(holds))
+        crate::html::verdict(word, holds)
     )
 }
 

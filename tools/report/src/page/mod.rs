@@ -32,12 +32,12 @@ type Named = (String, RunRecord);
 /// Writes the page of a study.
 pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     let open = |path: &Option<PathBuf>, kind| match path {
-        Some(path) => Reader::open_kind(path, kind, 1).map(Some),
+        Some(path) => Reader::open_sound(path, kind, 1).map(Some),
         None => Ok(None),
     };
     let mut arcs = Vec::new();
     for (name, path) in &files.arc {
-        arcs.push((name.clone(), Reader::open_kind(path, "arc-source", 1)?));
+        arcs.push((name.clone(), Reader::open_sound(path, "arc-source", 1)?));
     }
     let balances = arcs::balances(&arcs)?;
     let pool = open(&files.pool, "particle-frames")?;

@@ -65,7 +65,7 @@ const MEASURES: [(&str, &str); 4] = [
 pub(crate) fn write(files: &PassesFiles) -> Result<(), Failure> {
     let open = |list: &Each<std::path::PathBuf>, kind| -> Result<Each<Reader>, Failure> {
         let each = list.iter();
-        each.map(|(name, path)| Ok((name.clone(), Reader::open_kind(path, kind, 1)?)))
+        each.map(|(name, path)| Ok((name.clone(), Reader::open_sound(path, kind, 1)?)))
             .collect()
     };
     let arcs = open(&files.arc, "arc-source")?;

@@ -5,7 +5,7 @@ mod record;
 use std::collections::BTreeMap;
 
 use super::cost::{self, Cost, Prices};
-use super::heading;
+use super::judged;
 use crate::html::{Rows, escape, figure, paragraph, side_by_side, verdict};
 use crate::plot::{Line, Plot};
 use crate::records::{bytes, figure as digits};
@@ -51,13 +51,21 @@ pub(super) fn summary(studies: &[Study]) -> String {
             format!("{} s", digits(finest.run_time_s)),
             error,
             order,
-            verdict(&word, Some(study.holds)),
+            match study.standing() {
+                (why, None) => verdict(&format!("{word}, {why}"), None),
+                (_, holds) => verdict(&word, holds),
+            },
         ]);
     }
-    let held = studies.iter().filter(|s| s.holds).count();
+    let stand = |holds| studies.iter().filter(|s| s.standing().1 == holds).count();
+    let open = match stand(None) {
+        0 => String::new(),
+        n => format!(" {n} are not judged: not all of their levels were run."),
+    };
     let words = format!(
-        "{held} of {} cases meet all of their targets. Errors are computed from the written files by code that \
+        "{} of {} cases meet all of their targets.{open} Errors are computed from the written files by code that \
          shares nothing with the solvers.",
+        stand(Some(true)),
         studies.len()
     );
     paragraph(&words) + &table.render()
@@ -72,7 +80,8 @@ fn order(orders: &BTreeMap<String, Option<f64>>, quantity: &str) -> String {
 
 /// Plots and tables of a case.
 pub(super) fn section(study: &Study, prices: &Prices) -> String {
-    let mut out = heading(&study.case, study.holds, ("targets met", "targets missed"));
+    let (word, holds) = study.standing();
+    let mut out = judged(&study.case, &word, holds);
     out += &paragraph(&study.reference);
     let plotted = study.plotted();
     if study.series.is_empty() {

@@ -95,6 +95,27 @@ pub(in crate::index) struct Study {
 }
 
 impl Study {
+    /// Whether all targets are met, in words as well; `None` where none is missed but some could not be judged, since
+    /// their level was not run or their method refused the patch.
+    pub(super) fn standing(&self) -> (String, Option<bool>) {
+        let holds = |word| self.targets.values().any(|t| t.holds == word);
+        if holds(Some(false)) || (self.targets.is_empty() && !self.holds) {
+            return ("targets missed".to_owned(), Some(false));
+        }
+        if !holds(None) {
+            return ("targets met".to_owned(), Some(true));
+        }
+        let open = self.targets.values().filter(|t| t.holds.is_none());
+        let levels: BTreeSet<u32> = open.filter_map(|t| t.at_level).collect();
+        let levels: Vec<String> = levels.iter().map(u32::to_string).collect();
+        let why = match levels.as_slice() {
+            [] => "a method refused the patch".to_owned(),
+            [one] => format!("level {one} was not run"),
+            several => format!("levels {} were not run", several.join(" and ")),
+        };
+        (format!("not judged: {why}"), None)
+    }
+
     /// All methods, the first first.
     pub(super) fn all(&self) -> impl Iterator<Item = &Series> {
         std::iter::once(&self.first).chain(&self.series)

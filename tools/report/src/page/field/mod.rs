@@ -31,7 +31,7 @@ struct Run {
 pub(crate) fn write(files: &FieldFiles) -> Result<(), Failure> {
     let mut all = Vec::new();
     for (name, path) in &files.fields {
-        let reader = Reader::open_kind(path, "point-fields", 1)?;
+        let reader = Reader::open_sound(path, "point-fields", 1)?;
         let Some(points) = Points::last(&reader)? else {
             return Err(Failure::Other(format!("{}: no points", path.display())));
         };

@@ -67,7 +67,7 @@ pub(crate) fn write(files: &GasFiles) -> Result<(), Failure> {
 }
 
 fn read(name: &str, path: &std::path::Path) -> Result<Table, Failure> {
-    let reader = Reader::open_kind(path, "gas-table", 1)?;
+    let reader = Reader::open_sound(path, "gas-table", 1)?;
     Ok(Table {
         name: name.to_owned(),
         gas: Gas::read(&reader)?,

@@ -27,7 +27,7 @@ pub(crate) fn write(files: &HeatFiles) -> Result<(), Failure> {
     let mut all = Vec::new();
     let mut records: Vec<Named> = Vec::new();
     for (name, path) in &files.frames {
-        let reader = Reader::open_kind(path, "point-fields", 1)?;
+        let reader = Reader::open_sound(path, "point-fields", 1)?;
         all.push(Run {
             name: name.clone(),
             points: Points::last(&reader)?,
