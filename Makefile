@@ -9,7 +9,7 @@ SHELL := /bin/sh
 THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 PROGRESS ?= auto
 BIN := target/release
-PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield jetsph avg report artefact verify stability bench certify exact)
+PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield jetsph avg report artefact verify stability bench certify exact fuzz faults)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 # Runs a stage only if the bytes of what it depends on, or of what it made, have changed. Times tell nothing of that, so
 # it is asked for every stage each time (`always`). What it makes is written whole or not at all, maybe by another make
@@ -110,9 +110,20 @@ build/em/.installed: pipelines/bench/em/requirements.txt
 	build/em/bin/pip install --quiet --disable-pip-version-check -r $<
 	@touch $@
 
+# Changed files and failing machines. N and SEED fix what is changed; what failed is kept in build/fuzz/found.
+N ?= 1000
+SEED ?= 1
+KILLS ?= 300
+.PHONY: fuzz faults
+fuzz: programs ## changed scenes and artefacts: no panic, no hang, nothing read that is not sound (N=10000 SEED=1)
+	$(BIN)/fuzz --number $(N) --seed $(SEED) --threads $(THREADS) --out build/fuzz
+
+faults: programs ## kills, full disks, second writers, places of others, over all stages: one table (KILLS=300)
+	$(BIN)/faults --kills $(KILLS) --seed $(SEED) --out build/faults
+
 report: programs ## gather all evidence into build/report/index.html
 	$(BIN)/report index --out build/report/index.html --verify build/verify --stability build/stability \
-	  --bench build/bench --certify build/certify --studies build
+	  --bench build/bench --certify build/certify --faults build/faults --studies build
 
 clean-%: ## forget the results of one study: make clean-gmaw-quick
 	rm -rf build/$*

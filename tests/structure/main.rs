@@ -33,7 +33,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "contact" => &["shapes"],
         "kernels" | "particles" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],
-        "run" => &["artefact"],
+        "run" | "fuzz" => &["artefact"],
         "report" => &["artefact", "run"],
         "verification" => &["artefact", "kernels", "neighbours", "relax", "run", "wls"],
         _ => return NUMERICS.iter().chain(&HARNESS).copied().collect(),

@@ -17,7 +17,7 @@ use verification::{
 
 /// Runs the stiff and extreme cases of pipelines/stability and writes one record each.
 ///
-/// Example: stability --case pool-stiff --out build/stability
+/// Example: stability --case pool-steps --out build/stability
 #[derive(Parser)]
 struct Arguments {
     /// Cases to run; all when none is named.
