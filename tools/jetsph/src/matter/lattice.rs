@@ -4,7 +4,7 @@ use shapes::frame::Frame;
 use shapes::{Body, Kind};
 
 /// Most particles of a body.
-const MOST: f64 = 2e8;
+const MOST: f64 = 1e7;
 /// Cells of a box may differ by this part from the spacing that was asked for.
 const FIT: f64 = 0.26;
 
