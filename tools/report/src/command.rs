@@ -191,10 +191,17 @@ fn complete(action: &Action) -> Result<(), Failure> {
             ("--arc, --pool or --mean", given)
         }
         Action::Index(f) => {
-            let folders = [&f.verify, &f.stability, &f.bench, &f.faults, &f.studies];
+            let folders = [
+                &f.verify,
+                &f.stability,
+                &f.bench,
+                &f.certify,
+                &f.faults,
+                &f.studies,
+            ];
             let given = folders.iter().any(|folder| folder.is_some());
             (
-                "--verify, --stability, --bench, --faults or --studies",
+                "--verify, --stability, --bench, --certify, --faults or --studies",
                 given,
             )
         }
