@@ -106,10 +106,19 @@ fn another_kind_is_refused_with_both_names() {
     let place = Place::new();
     let arc = Header {
         kind: "arc-source".to_owned(),
+        tool: "arcfvm".to_owned(),
+        scene: serde_json::json!({"kind": "arcfvm.scene", "version": 1}),
         ..header()
     };
     let path = place.frames("arc.mcap", &arc);
     keeps_the_old_output(&place, &path, &["'arc-source'", "'particle-frames'"]);
+    // What contradicts itself is refused for that.
+    let both = Header {
+        kind: "arc-source".to_owned(),
+        ..header()
+    };
+    let path = place.frames("both.mcap", &both);
+    keeps_the_old_output(&place, &path, &["of kind 'arc-source' by 'poolsph'"]);
 }
 
 #[test]

@@ -89,7 +89,15 @@ fn rules() -> String {
         .unwrap()
         .flatten()
     {
-        text += &std::fs::read_to_string(entry.path().join("rules.mk")).unwrap_or_default();
+        let own = std::fs::read_to_string(entry.path().join("rules.mk")).unwrap_or_default();
+        // Names of folders that a study gives itself stand for them.
+        let given = own.lines().filter_map(|line| line.split_once(" := "));
+        let given: Vec<(String, String)> = given
+            .map(|(name, value)| (format!("$({})", name.trim()), value.trim().to_owned()))
+            .collect();
+        text += &given
+            .iter()
+            .fold(own.clone(), |text, (name, value)| text.replace(name, value));
     }
     text
 }

@@ -84,7 +84,7 @@ const JET: &str = "Example, from the repository root:\n  \
 
 const FIELD: &str = "Example, from the repository root:\n  \
     target/release/report field --study levitation-field --out build/levitation-field/report.html \\\n    \
-    --fields drop=build/levitation-field/fields.mcap --exact drop=build/levitation-field/exact.json";
+    --fields drop=build/levitation-field/drop.mcap --exact drop=build/levitation-field/exact.json";
 
 const DROP: &str = "Example, from the repository root:\n  \
     target/release/report drop --study drop-oscillation --out build/drop-oscillation/report.html \\\n    \

@@ -55,7 +55,7 @@ mod tests {
         assert_eq!(shown("a\u{1b}[2Jb\u{7}\r"), "a\\u{1b}[2Jb\\u{7}\\u{d}");
         assert_eq!(shown("x\u{202e}y\u{9b}"), "x\\u{202e}y\\u{9b}");
         let mut out = Shown(Vec::new());
-        write!(out, "{}", "\u{1b}]0;title\u{7}").unwrap();
+        out.write_all("\u{1b}]0;title\u{7}".as_bytes()).unwrap();
         assert_eq!(out.0, b"\\u{1b}]0;title\\u{7}");
     }
 }
