@@ -356,17 +356,6 @@ fn the_index_plots_errors_and_links_studies() {
         "series": [{"method": "sor", "levels": [level(20.0, 2.0), level(40.0, 2.1)], "order": {"temperature_linf": 1.9}}]}),
     );
     put(
-        "verify/short.json",
-        serde_json::json!({"case": "short", "tool": "poolsph", "reference": "somebody (1959)",
-        "levels": [level(20.0, 1.0), level(40.0, 1.0)], "order": {"temperature_linf": 2.0}, "holds": false,
-        "targets": {"temperature_linf": {"at_level": 3, "max": 1e-3, "found": null, "holds": null}}}),
-    );
-    put(
-        "faults/faults.json",
-        serde_json::json!({"kind": "faults", "version": "1.0", "seed": 7, "holds": true, "rows": [{"fault": "killed at a random moment",
-        "who": "avg", "times": 30, "expected": "the same bytes", "found": "the same bytes", "holds": true}]}),
-    );
-    put(
         "stability/stiff.json",
         serde_json::json!({"case": "stiff", "tool": "poolsph", "holds": false, "runs": [
         {"name": "large-step", "parameters": {"time": {"step_s": 1.0}}, "outcome": "failed", "expected": ["refused"],
@@ -389,8 +378,6 @@ fn the_index_plots_errors_and_links_studies() {
         &at("stability"),
         "--bench",
         &at("bench"),
-        "--faults",
-        &at("faults"),
         "--studies",
         &at("studies"),
     ]);
@@ -401,12 +388,41 @@ fn the_index_plots_errors_and_links_studies() {
     );
     let html = std::fs::read_to_string(folder.join("report/index.html")).unwrap();
     assert!(html.contains("../studies/gmaw/report.html"));
-    assert!(html.contains("1 of 2 cases meet all of their targets. 1 are not judged"));
-    assert!(html.contains("not judged: level 3 was not run") && !html.contains("targets missed"));
-    assert!(html.contains("30 kills at random moments (seed 7)"));
+    assert!(html.contains("1 of 1 cases meet all of their targets"));
     assert!(html.contains("0 of 1 runs with stiff or extreme parameters"));
     assert!(html.contains("broken.json is not a record that can be shown"));
     assert!(html.contains("pair sweep") && html.contains("3.250"));
-    // Two methods: a pair of plots for each of the two quantities that have numbers; one for the other case.
-    assert_eq!(html.matches("<svg").count(), 6);
+    // Two methods: a pair of plots for each of the two quantities that have numbers.
+    assert_eq!(html.matches("<svg").count(), 4);
+}
+
+#[test]
+fn what_was_not_run_is_not_judged_and_failing_machines_have_a_table() {
+    let folder = folder("open");
+    let put = |path: &str, value: serde_json::Value| {
+        let path = folder.join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, value.to_string()).unwrap();
+    };
+    put(
+        "verify/short.json",
+        serde_json::json!({"case": "short", "tool": "poolsph", "reference": "somebody (1959)", "holds": false,
+        "levels": [{"points": 400, "run_time_s": 0.1, "errors": {"temperature_linf": 2e-3}}], "order": {},
+        "targets": {"temperature_linf": {"at_level": 3, "max": 1e-3, "found": null, "holds": null}}}),
+    );
+    put(
+        "faults/faults.json",
+        serde_json::json!({"kind": "faults", "version": "1.0", "seed": 7, "holds": true, "rows": [{"fault": "killed at a random moment",
+        "who": "avg", "times": 30, "expected": "the same bytes", "found": "the same bytes", "holds": true}]}),
+    );
+    let at = |name: &str| folder.join(name).display().to_string();
+    let [out, verify, faults] = ["index.html", "verify", "faults"].map(at);
+    let output = report(&[
+        "index", "--out", &out, "--verify", &verify, "--faults", &faults,
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let html = std::fs::read_to_string(out).unwrap();
+    assert!(html.contains("0 of 1 cases meet all of their targets. 1 are not judged"));
+    assert!(html.contains("not judged: level 3 was not run") && !html.contains("targets missed"));
+    assert!(html.contains("30 kills at random moments (seed 7)"));
 }
