@@ -175,7 +175,7 @@ fn scenes_of_samples_are_good() {
                 continue;
             }
             let out = words.iter().position(|word| *word == "--out").unwrap();
-            let mut check = vec!["check", "--within", "0.1"];
+            let mut check = vec!["check"];
             check.extend(words[1..out].iter().chain(&words[out + 2..]));
             let output = Command::new(program(name))
                 .current_dir(root())
