@@ -84,7 +84,8 @@ impl Tool for EmField {
 
     fn outline(scene: &Scene) -> Plan {
         let plan = Plan::new();
-        if !scene.faults().is_empty() {
+        // A liquid has no domain to fill: its plan counts its points at once.
+        if scene.liquid.is_some() || !scene.faults().is_empty() {
             return plan;
         }
         let [points, bytes] = Cloud::least(scene);
