@@ -281,7 +281,7 @@ fn a_linear_profile_between_walls_feels_no_viscosity() {
     let near = &state.near;
     let (mut around, mut change) = (Around::default(), vec![[0.0; 3]; near.len()]);
     around.sum(near, &near.velocity);
-    let mut viscosity = Viscosity::new(Law::Uniform(3.0), METAL);
+    let mut viscosity = Viscosity::new(Law::Uniform(3.0), METAL, false);
     viscosity.apply(near, &around, 1.0, &mut change);
     let mut noise = Noise::new(9.8, METAL);
     noise.damp(near, &mut around, (&viscosity, 1.0), &mut change);
