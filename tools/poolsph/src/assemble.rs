@@ -148,7 +148,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
             width: scene.output.precision,
             walls: state.wall.contains(&true),
             surface: state.has(Column::Surface),
-            uneven: uneven(scene),
+            uneven: !scene.even(),
         },
         plate: source.plate(),
         state,
@@ -184,12 +184,6 @@ fn grain_motion(
         None => None,
     };
     grains::Motion::new(scene, set, heat)
-}
-
-/// True if single particles have pressures that mean little.
-fn uneven(scene: &Scene) -> bool {
-    let flow = scene.flow.as_ref();
-    flow.is_some_and(|flow| flow.method != motion::Method::DivergenceFree)
 }
 
 fn held(bodies: &[Body], filled: &[Filled]) -> Held {
@@ -343,7 +337,7 @@ impl<'a> Source<'a> {
                 Some(formula) => formula,
                 None => Pressure::Table(self.arc()?.radial("arc_pressure_pa")?),
             };
-            Ok(Box::new(ArcPressure::new(pressure, metal, !uneven(scene))))
+            Ok(Box::new(ArcPressure::new(pressure, metal, scene.even())))
         })?;
         parts.when("buoyancy", scene.buoyancy, |buoyancy| {
             let gravity = flow.and_then(|flow| flow.gravity_m_s2).unwrap_or_default();

@@ -118,6 +118,13 @@ pub struct Time {
 }
 
 impl Scene {
+    /// True if the flow is without divergence: single particles then have pressures that mean something.
+    #[must_use]
+    pub fn even(&self) -> bool {
+        let flow = self.flow.as_ref();
+        flow.is_some_and(|flow| flow.method == motion::Method::DivergenceFree)
+    }
+
     /// The metal with its lattice.
     #[must_use]
     pub fn metal(&self) -> Metal {
