@@ -1,7 +1,7 @@
 # jet-tofu-5: a jet of water of 5 m/s cuts a soft solid, in the plane.
 
 .PHONY: jet-tofu-5
-jet-tofu-5: build/jet-tofu-5/report.html ## a jet of 5 m/s cuts a soft solid, with its film
+jet-tofu-5: build/jet-tofu-5/report.html ## a jet of 5 m/s strikes a soft solid, with its film
 
 build/jet-tofu-5/jet.mcap: pipelines/jet-tofu-5/scene.json $(BIN)/jetsph always
 	$(RERUN) $(BIN)/jetsph run pipelines/jet-tofu-5/scene.json --out $@ $(MACHINE)
