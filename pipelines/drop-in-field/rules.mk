@@ -13,4 +13,4 @@ build/drop-in-field/report.html: build/drop-in-field/3.mcap build/drop-in-field/
 	$(RERUN) $(BIN)/report drop --study drop-in-field --out $@ --drop 3MV/m=build/drop-in-field/3.mcap \
 	  --drop 5MV/m=build/drop-in-field/5.mcap --drop 6MV/m=build/drop-in-field/6.mcap
 
-.PRECIOUS: build/drop-in-field/3.mcap build/drop-in-field/5.mcap build/drop-in-field/6.mcap build/drop-in-field/report.html
+.PRECIOUS: build/drop-in-field/%.mcap build/drop-in-field/3.mcap build/drop-in-field/5.mcap build/drop-in-field/6.mcap build/drop-in-field/report.html

@@ -30,5 +30,5 @@ fn nothing_that_is_given_to_the_programs_harms() {
     };
     let outcome = fuzz::run(&campaign).unwrap();
     assert!(outcome.findings.is_empty(), "{}", outcome.table());
-    assert!(outcome.programs > 4 * TRIALS, "{}", outcome.table());
+    assert!(outcome.programs > 3 * TRIALS, "{}", outcome.table());
 }
