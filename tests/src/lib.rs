@@ -10,7 +10,7 @@
 //! - [`certify`] tells the error of a study against its run time.
 //! - [`keep`] writes records whole or not at all.
 //! - [`cases`] holds one file per exact solution; [`heat`] holds the references for conduction,
-//!   [`em`] those for electric and magnetic fields, [`drop`] those for drops, [`operators`] the clouds of weighted least squares.
+//!   [`em`] those for electric and magnetic fields, [`mod@drop`] those for drops, [`operators`] the clouds of weighted least squares.
 
 pub mod bell;
 pub mod bench;

@@ -131,7 +131,7 @@ pub(super) fn steps(scene: &Scene, part: (&Part, &LiquidMarch), liquid: &Liquid<
 /// What a run would do.
 ///
 /// # Errors
-/// Those of [`filled`], and of formulas.
+/// Those of `filled`, and of formulas.
 pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
     let faults = scene.faults();
     if !faults.is_empty() {

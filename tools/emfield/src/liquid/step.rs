@@ -7,7 +7,7 @@
 //! `x = x- + tau w`, `u = u- + tau (-grad p/rho + nu div grad u + g + ((w - u) . grad) u)` with `div u = 0` (2.38 to 2.50,
 //! Matsuzawa 2017). Points inside move with the liquid, w = u; those of the surface along its normal, w = (u . n) n.
 //!
-//! What divergence fits leave is not taken away at once but by the share [`CLEANED`] in each stage: divergence and gradient of
+//! What divergence fits leave is not taken away at once but by the share `CLEANED` in each stage: divergence and gradient of
 //! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface.
 
 use krylov::{Anderson, Ending, Rule, Solved};

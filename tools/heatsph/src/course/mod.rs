@@ -1,7 +1,7 @@
 //! What varies in time: where steps have to end, how long they may be, and what heat is prescribed.
 //!
 //! A march that looks at a property only where its steps end can step over a pulse and never know. The course of
-//! every property that depends on time is known before the march: [`pieces`] divides the time until the trapezoidal
+//! every property that depends on time is known before the march: `pieces` divides the time until the trapezoidal
 //! rule is good in each piece, led by bounds of the property over whole pieces, from which no pulse hides, however
 //! short. Where it jumps, time is cut between two neighbouring numbers: a step ends at the first, and the next
 //! begins at the second. [`prescribed`] integrates prescribed heat, apart from the march.

@@ -54,7 +54,7 @@ impl Criterion {
     }
 }
 
-/// Energy of what is stretched, by the logarithmic principal strains \[J/m3\]: mu sum <e_i>^2 + lambda/2 <sum e_i>^2.
+/// Energy of what is stretched, by the logarithmic principal strains \[J/m3\]: `mu sum <e_i>^2 + lambda/2 <sum e_i>^2`.
 #[must_use]
 pub fn stretched(law: &Law, deformation: &Matrix) -> f64 {
     let squares = eigenvalues(&transposed_times(deformation, deformation));
