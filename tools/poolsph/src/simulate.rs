@@ -69,7 +69,7 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     for (name, why) in &assembled.left_out {
         plan = plan.left_out(name, why);
     }
-    for note in (crate::scene::notes(scene).into_iter()).chain(crate::scene::thin(scene)) {
+    for note in (crate::scene::notes(scene).into_iter()).chain(crate::scene::doubts(scene)) {
         plan = plan.note(note);
     }
     Ok(plan)
@@ -270,7 +270,7 @@ impl<'a> Simulation<'a> {
             session.warn(warning);
         }
         let told = march.stages().flat_map(|stage| stage.warnings());
-        for warning in told.chain(crate::scene::thin(self.scene)) {
+        for warning in told.chain(crate::scene::doubts(self.scene)) {
             session.warn(warning);
         }
         if state.step == self.scene.steps()

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
-pub use odd::{notes, thin};
+pub use odd::{doubts, notes};
 pub use output::{FloatWidth, Output, PoolOutput, due};
 
 use crate::domain::{bounds, droplet};
