@@ -54,6 +54,7 @@ mod fracture_energy;
 mod fracture_pull;
 mod gas_argon;
 mod heat_block_3d;
+mod heat_c_t;
 mod heat_cylinder_flux;
 mod heat_exp_t;
 mod heat_exp_t_transient;
@@ -192,6 +193,7 @@ fn continua() -> Vec<Box<dyn Case>> {
         Box::new(heat_exp_x_transient::HeatExpXTransient),
         Box::new(heat_sin_xy::HeatSinXy),
         Box::new(heat_exp_t::HeatExpT),
+        Box::new(heat_c_t::HeatCT),
         Box::new(heat_exp_t_transient::HeatExpTTransient),
         Box::new(heat_block_3d::HeatBlock3d),
         Box::new(heat_robin_square::HeatRobinSquare),

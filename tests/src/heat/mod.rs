@@ -8,6 +8,7 @@
 //! - [`robin`]: a square that cools by convection, eqs 8 to 10.
 //! - [`cylinder`]: a cylinder heated on its side, eq. 11.
 //! - [`slabs`]: two half spaces brought together.
+//! - [`stefan`]: a half space that melts.
 //! - [`disc`]: a layered disc cooled from above, finite volumes in r and z.
 
 pub mod bar;
@@ -22,3 +23,4 @@ pub mod robin;
 pub mod sdirk;
 pub mod slabs;
 pub mod square;
+pub mod stefan;

@@ -64,12 +64,12 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         .cells(ground, &curve)
         .map_err(|e| fault("/materials", e))?;
     hold(&surface, &cloud, &mut cells.temperature)?;
-    let system = System::new(
-        (cloud, links),
-        (materials, surface),
-        (cells.capacity, source),
-    )
-    .map_err(|error| fault("/materials", error))?;
+    let storage = match scene.steady {
+        Some(_) => cells.storage.still(&cells.temperature),
+        None => cells.storage,
+    };
+    let system = System::new((cloud, links), (materials, surface), (storage, source))
+        .map_err(|error| fault("/materials", error))?;
     Ok((system, cells.temperature))
 }
 

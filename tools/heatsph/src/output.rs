@@ -7,6 +7,7 @@ use crate::march::State;
 use crate::monitor::Monitor;
 use crate::scene::Scene;
 use crate::scene::method::Precision as Wanted;
+use crate::system::storage::Storage;
 use crate::system::{Rates, System};
 
 /// Part of the heat of a body that is none.
@@ -37,6 +38,8 @@ pub struct Output {
     events: Vec<Event>,
     /// Temperatures at the start \[K\].
     first: Vec<f64>,
+    /// Heats of the cells then \[J\], where capacities depend on temperature.
+    heat: Vec<f64>,
     outer: Vec<u8>,
 }
 
@@ -61,6 +64,7 @@ impl Output {
                 .collect(),
             events: events(scene),
             first: temperature.to_vec(),
+            heat: State::new(system, temperature.to_vec()).heat,
             outer,
         }
     }
@@ -119,12 +123,12 @@ impl Output {
 
     /// Heat stored since the start, and the sum of what each point has stored or given up \[J\].
     fn stored(&self, system: &System, state: &State) -> (f64, f64) {
-        let each = state
-            .temperature
-            .iter()
-            .zip(&self.first)
-            .zip(&system.capacity);
-        each.map(|((t, first), c)| c * (t - first))
+        let risen = |i: usize| match &system.storage {
+            Storage::Fixed(capacity) => capacity[i] * (state.temperature[i] - self.first[i]),
+            Storage::Varies(_) => state.heat[i] - self.heat[i],
+        };
+        (0..system.len())
+            .map(risen)
             .fold((0.0, 0.0), |(sum, gross), heat| {
                 (sum + heat, gross + heat.abs())
             })

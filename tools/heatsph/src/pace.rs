@@ -4,6 +4,7 @@ use artefact::Checkpoint;
 use run::Failure;
 
 use crate::march::State;
+use crate::system::System;
 
 /// What of the march changes from step to step.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +50,9 @@ impl Pace {
     pub fn save(&self, state: &State, checkpoint: &mut Checkpoint) -> artefact::Result<()> {
         checkpoint.put_f64("time", &[state.time, state.source]);
         checkpoint.put_f64("temperature", &state.temperature);
+        if !state.heat.is_empty() {
+            checkpoint.put_f64("heat", &state.heat);
+        }
         checkpoint.put_f64("entries", &state.entries);
         let [most, least] = self.taken;
         checkpoint.put_f64("pace", &[self.step, self.range, self.limit, most, least]);
@@ -64,13 +68,17 @@ impl Pace {
     ///
     /// # Errors
     /// When the checkpoint lacks a part.
-    pub fn restore(checkpoint: &mut Checkpoint) -> Result<(Self, State), Failure> {
+    pub fn restore(checkpoint: &mut Checkpoint, system: &System) -> Result<(Self, State), Failure> {
         let (time, pace, count) = (
             checkpoint.f64("time")?,
             checkpoint.f64("pace")?,
             checkpoint.u64("count")?,
         );
         let temperature = checkpoint.f64("temperature")?;
+        let heat = match system.storage.varies() {
+            Some(_) => checkpoint.f64("heat")?,
+            None => Vec::new(),
+        };
         let entries = checkpoint.f64("entries")?;
         let (
             &[time, source],
@@ -93,6 +101,7 @@ impl Pace {
         let state = State {
             time,
             temperature,
+            heat,
             entries,
             source,
         };

@@ -50,7 +50,7 @@ pub fn march(
     let mut output = Output::new(scene, system, &temperature);
     let mut march = March {
         course: Course::new(system, &temperature, time.end_s),
-        state: State::new(temperature, system.surface.conditions.len()),
+        state: State::new(system, temperature),
         system,
         method,
         steps,
@@ -63,7 +63,7 @@ pub fn march(
     let resumed = session.restored();
     let fresh = resumed.is_none();
     if let Some(mut checkpoint) = resumed {
-        (march.pace, march.state) = Pace::restore(&mut checkpoint)?;
+        (march.pace, march.state) = Pace::restore(&mut checkpoint, march.system)?;
     }
     march.begin(session, fresh)?;
     if fresh {
@@ -147,7 +147,7 @@ impl March<'_> {
     fn jump(&mut self, after: f64) -> Result<(), Failure> {
         let before = self.state.temperature.clone();
         self.state.time = after;
-        let held = self.system.hold(&mut self.state.temperature, after);
+        let held = self.state.hold(self.system);
         held.map_err(|error| self.diverged("property", &error.to_string(), None))?;
         self.state.settle(self.system, &before);
         self.evaluate()?;
@@ -327,6 +327,12 @@ impl March<'_> {
     fn compare(&self, session: &mut Session) -> Result<(), Failure> {
         if self.rates.hidden {
             session.warn(crate::source::HIDDEN);
+        }
+        let content = self.system.storage.varies();
+        if content.is_some_and(|content| !content.is_resolved()) {
+            session.warn(
+                "density times specific heat has more peaks over temperature than could be followed: heat may be missed",
+            );
         }
         if !self.course.resolved {
             session.warn(

@@ -1,4 +1,4 @@
-//! Linear and Newton solves of `shift C (T - T0) = W(T)`.
+//! Linear and Newton solves of `shift C (T - T0) = W(T)`, or `shift (E(T) - E0) = W(T)` where heat is what is stored.
 //!
 //! A stage of the implicit march has a shift of one over its step; the steady state has none.
 
@@ -8,6 +8,7 @@ use krylov::{
 use rayon::prelude::*;
 use run::property::OutOfRange;
 
+use crate::system::storage::{self, Storage};
 use crate::system::{Rates, System};
 
 /// Own part of the diagonal above which its inverse alone is a good preconditioner: a hierarchy of grids costs as
@@ -54,7 +55,7 @@ pub enum SolveError {
 pub struct Problem<'a> {
     /// One over a time \[1/s\]; 0 for the steady state.
     pub shift: f64,
-    /// T0 \[K\].
+    /// T0 \[K\], or E0 \[J\] where capacities depend on temperature.
     pub from: &'a [f64],
     /// Time at which properties are taken \[s\].
     pub time: f64,
@@ -173,8 +174,10 @@ impl Solver {
         system.fill(&mut self.matrix, problem.shift, at)?;
         system.scale(rates, &mut self.scale);
         let scale = |i: usize| self.scale.get(i).copied().unwrap_or(1.0);
-        let dominance =
-            |i: usize| problem.shift * system.capacity[i] / (scale(i) * self.matrix.diagonal()[i]);
+        let dominance = |i: usize| {
+            problem.shift * system.storage.capacity(i, temperature[i])
+                / (scale(i) * self.matrix.diagonal()[i])
+        };
         let least = (0..system.len())
             .filter(|i| !system.is_held(*i))
             .map(dominance)
@@ -256,8 +259,17 @@ impl Solver {
                 *residual = 0.0;
                 continue;
             }
-            let shift = problem.shift * system.capacity[i];
-            let stored = shift * (temperature[i] - problem.from[i]);
+            let (shift, stored) = match &system.storage {
+                Storage::Fixed(capacity) => {
+                    let shift = problem.shift * capacity[i];
+                    (shift, shift * (temperature[i] - problem.from[i]))
+                }
+                Storage::Varies(content) => {
+                    let (capacity, heat) = content.at(i, temperature[i]);
+                    let stored = problem.shift * (heat - problem.from[i]);
+                    (problem.shift * capacity, stored)
+                }
+            };
             *residual = rates.heat[i] - stored;
             norm.residual += *residual * *residual;
             norm.passing += stored * stored;
@@ -347,6 +359,16 @@ impl Solver {
         norm: f64,
     ) -> Result<Norm, SolveError> {
         let mut length = 1.0;
+        let varies = system.storage.varies().is_some();
+        let stiffness = if varies {
+            rates.stiffness.clone()
+        } else {
+            Vec::new()
+        };
+        let own = Own {
+            shift: problem.shift,
+            stiffness: &stiffness,
+        };
         for _ in 0..=HALVINGS {
             let each = temperature.par_iter().zip(&self.change).enumerate();
             let to = |(i, (t, change)): (usize, (&f64, &f64))| {
@@ -354,7 +376,7 @@ impl Solver {
                 if system.is_held(i) || change == 0.0 {
                     *t
                 } else {
-                    moved(system, i, *t, change)
+                    own.moved(system, i, *t, change)
                 }
             };
             each.with_min_len(POINTS)
@@ -379,9 +401,51 @@ impl Solver {
     }
 }
 
+/// What a point's own balance does with a change of its temperature, as far as that is known without its neighbours.
+#[derive(Clone, Copy)]
+struct Own<'a> {
+    shift: f64,
+    stiffness: &'a [f64],
+}
+
+impl Own<'_> {
+    /// The temperature of point `i` after a change of it.
+    fn moved(&self, system: &System, i: usize, from: f64, change: f64) -> f64 {
+        match &system.storage {
+            Storage::Varies(content) if self.shift > 0.0 => {
+                self.stored(system, content, (i, from, change))
+            }
+            _ => conducted(system, i, from, change),
+        }
+    }
+
+    /// The change is one of the heat that the point stores and conducts, `shift E(T) + stiffness theta(T) / k`: where
+    /// capacity has a peak, a temperature stops in it as long as there is no heat for more.
+    fn stored(
+        &self,
+        system: &System,
+        content: &storage::Content,
+        (i, from, change): (usize, f64, f64),
+    ) -> f64 {
+        let (capacity, heat) = content.at(i, from);
+        let k = system.conductivity(i, from);
+        let stiffness = self.stiffness[i];
+        let wanted = (self.shift * capacity + stiffness) * change;
+        let of = |t: f64| {
+            let (capacity, now) = content.at(i, t);
+            let mean = system.mean_conductivity(i, from, t) / k;
+            let own = system.conductivity(i, t) / k;
+            let value = self.shift * (now - heat) + stiffness * mean * (t - from);
+            (self.shift * capacity + stiffness * own, value)
+        };
+        let to = storage::solve(wanted, from, of);
+        if to.is_finite() { to } else { from + change }
+    }
+}
+
 /// The temperature of point `i` after a change that is a change of the integral of conductivity: with it, the
 /// steady state of any k(T) is a linear problem.
-fn moved(system: &System, i: usize, from: f64, change: f64) -> f64 {
+fn conducted(system: &System, i: usize, from: f64, change: f64) -> f64 {
     if system.conduction().is_fixed() {
         return from + change;
     }

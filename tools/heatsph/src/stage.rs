@@ -60,7 +60,7 @@ impl Tool for HeatSph {
         let (system, temperature) = ready(scene)?;
         let (mut method, steps) = choice::method(scene, &system);
         let mut rates = Rates::default();
-        let mut state = State::new(temperature, system.surface.conditions.len());
+        let mut state = State::new(&system, temperature);
         let failed = |error: String| Failure::Other(error);
         system
             .rates(0.0, &state.temperature, &mut rates)
@@ -121,6 +121,9 @@ fn shown(scene: &Scene, system: &System, rates: &Rates) -> Plan {
         .column("volume", if scene.dimensions == 2 { "m2" } else { "m3" })
         .memory("links", system.links.bytes())
         .memory("conductance of links", system.conduction().bytes());
+    if let Some(content) = system.storage.varies() {
+        plan = plan.memory("heat of cells by temperature", content.bytes());
+    }
     if let Some(source) = &system.source {
         plan = plan.memory("cells of the source", source.bytes());
     }
@@ -143,6 +146,9 @@ fn shown(scene: &Scene, system: &System, rates: &Rates) -> Plan {
     }
     if system.conduction().is_fixed() {
         plan = plan.left_out("conductivity of temperature", "no material has one");
+    }
+    if scene.steady.is_none() && system.storage.varies().is_none() {
+        plan = plan.left_out("heat capacity of temperature", "no material has one");
     }
     if scene.contacts.is_empty() && scene.materials.len() > 1 {
         plan = plan.left_out("contact resistance", "no key 'contacts'");

@@ -26,7 +26,7 @@ pub fn solve(
     (system, temperature): (&mut System, Vec<f64>),
     session: &mut Session,
 ) -> Result<(), Failure> {
-    let mut state = State::new(temperature, system.surface.conditions.len());
+    let mut state = State::new(system, temperature);
     let mut rates = Rates::default();
     let mut solver = Solver::new(system);
     let goal = Goal {

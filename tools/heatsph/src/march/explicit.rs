@@ -23,12 +23,10 @@ impl Method for Explicit {
             // Heat that varies in time is taken at the middle of the step: its sum is of second order.
             system.rates(state.time + 0.5 * step, &state.temperature, rates)?;
         }
-        for (i, t) in state.temperature.iter_mut().enumerate() {
-            *t += step * rates.heat[i] / system.capacity[i];
-        }
+        state.take(system, |i| step * rates.heat[i]);
         state.pass(rates, step);
         state.time += step;
-        system.hold(&mut state.temperature, state.time)?;
+        state.hold(system)?;
         state.settle(system, &self.before);
         system.rates(state.time, &state.temperature, rates)?;
         self.steps += 1;

@@ -5,6 +5,8 @@
 //! T1 = T + gamma dt F(T1),   T2 = T + (1 - gamma) dt F(T1) + gamma dt F(T2)
 //! ```
 //!
+//! with heats in the place of temperatures on the left, `E(T1) = E(T) + ...`, where capacities depend on temperature.
+//!
 //! No method of second order keeps temperatures between their neighbours at any step (Bolley and Crouzeix 1978).
 //! Where a step of given length is so long that the error estimate is a good part of the range of temperature, or
 //! where its result leaves the range of what came before, it is taken by the implicit Euler method, which does.
@@ -97,12 +99,13 @@ impl Implicit {
         rates: &mut Rates,
         step: f64,
     ) -> Result<(), StepError> {
-        self.base.clone_from(&state.temperature);
+        self.base.clone_from(stored(system, state));
         let mut temperature = state.temperature.clone();
         let end = state.time + step;
         self.solver.forget();
         self.stage(system, (end, step), (&mut temperature, rates))?;
         let before = std::mem::replace(&mut state.temperature, temperature);
+        keep(system, state);
         state.pass(rates, step);
         state.time = end;
         state.settle(system, &before);
@@ -125,7 +128,7 @@ impl Method for Implicit {
         self.first.clone_from(rates);
         let before = state.clone();
         // First stage.
-        self.base.clone_from(&before.temperature);
+        self.base.clone_from(stored(system, &before));
         let mut temperature = std::mem::take(&mut self.guess);
         temperature.clone_from(&before.temperature);
         let mut middle = std::mem::take(&mut self.middle);
@@ -140,7 +143,14 @@ impl Method for Implicit {
         // Second stage, from where the first one's rate leads.
         for (i, base) in self.base.iter_mut().enumerate() {
             let rate = (temperature[i] - before.temperature[i]) / gamma;
-            *base = before.temperature[i] + (1.0 - gamma) * rate;
+            *base = match system.storage.varies() {
+                None => before.temperature[i] + (1.0 - gamma) * rate,
+                Some(content) => {
+                    let heat = before.heat[i];
+                    let risen = content.at(i, temperature[i]).1 - heat;
+                    heat + (1.0 - gamma) / gamma * risen
+                }
+            };
             temperature[i] = before.temperature[i] + rate.clamp(-f64::MAX, f64::MAX);
         }
         let end = before.time + step;
@@ -152,13 +162,19 @@ impl Method for Implicit {
         }
         self.stage(system, (end, gamma * step), (&mut temperature, rates))?;
         self.guess = std::mem::replace(&mut state.temperature, temperature);
+        keep(system, state);
         state.pass(&self.middle, (1.0 - gamma) * step);
         state.pass(rates, gamma * step);
         state.time = end;
         state.settle(system, &before.temperature);
         // The estimate, filtered: a stiff part that the step has damped is no error.
-        let both = (before.temperature.as_slice(), state.temperature.as_slice());
-        estimate(system, both, (&self.first, rates), step, &mut self.error);
+        estimate(
+            system,
+            (&before, &*state),
+            (&self.first, rates),
+            step,
+            &mut self.error,
+        );
         let shift = 1.0 / (gamma * step);
         let scaled: Vec<f64> = self.error.iter().map(|e| shift * e).collect();
         let problem = Problem {
@@ -186,6 +202,21 @@ impl Method for Implicit {
             ("linear_iterations", self.iterations as f64),
             ("euler_steps", self.euler as f64),
         ]
+    }
+}
+
+/// What a stage starts from: heats where capacities depend on temperature, else temperatures.
+fn stored<'a>(system: &System, state: &'a State) -> &'a Vec<f64> {
+    match system.storage.varies() {
+        None => &state.temperature,
+        Some(_) => &state.heat,
+    }
+}
+
+/// The heats that go with the temperatures of a stage.
+fn keep(system: &System, state: &mut State) {
+    if let Some(content) = system.storage.varies() {
+        state.heat = content.heats(&state.temperature);
     }
 }
 

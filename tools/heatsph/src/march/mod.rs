@@ -6,10 +6,15 @@ pub mod explicit;
 pub mod implicit;
 pub mod stabilised;
 
+use rayon::prelude::*;
 use run::property::OutOfRange;
 
 use crate::solve::SolveError;
+use crate::system::storage::{Content, Storage};
 use crate::system::{Rates, System};
+
+/// Cells that one task goes over.
+const CELLS: usize = 256;
 
 /// Temperatures at an instant, and what has passed until then.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,6 +23,8 @@ pub struct State {
     pub time: f64,
     /// Of each point \[K\].
     pub temperature: Vec<f64>,
+    /// Heat of each point's cell \[J\], where capacities depend on temperature: temperatures follow from it.
+    pub heat: Vec<f64>,
     /// Heat through each entry of the surface since the start \[J\].
     pub entries: Vec<f64>,
     /// Heat of the source since the start \[J\].
@@ -60,13 +67,55 @@ pub trait Method {
 impl State {
     /// The state at the start.
     #[must_use]
-    pub fn new(temperature: Vec<f64>, entries: usize) -> Self {
+    pub fn new(system: &System, temperature: Vec<f64>) -> Self {
+        let content = system.storage.varies();
         Self {
             time: 0.0,
+            heat: content.map_or_else(Vec::new, |content| content.heats(&temperature)),
             temperature,
-            entries: vec![0.0; entries],
+            entries: vec![0.0; system.surface.conditions.len()],
             source: 0.0,
         }
+    }
+
+    /// Gives held points their temperatures at its time.
+    ///
+    /// # Errors
+    /// Where a property has no value.
+    pub fn hold(&mut self, system: &System) -> Result<(), OutOfRange> {
+        system.hold(&mut self.temperature, self.time)?;
+        if let Some(content) = system.storage.varies() {
+            for held in &system.surface.held {
+                let i = held.point as usize;
+                self.heat[i] = content.at(i, self.temperature[i]).1;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes heat \[J\] into every cell, and the temperatures that follow.
+    pub(crate) fn take(&mut self, system: &System, heat: impl Fn(usize) -> f64 + Sync) {
+        match &system.storage {
+            Storage::Fixed(capacity) => {
+                for (i, t) in self.temperature.iter_mut().enumerate() {
+                    *t += heat(i) / capacity[i];
+                }
+            }
+            Storage::Varies(content) => {
+                for (i, stored) in self.heat.iter_mut().enumerate() {
+                    *stored += heat(i);
+                }
+                self.follow(content);
+            }
+        }
+    }
+
+    /// Temperatures that follow from the heats.
+    pub(crate) fn follow(&mut self, content: &Content) {
+        let cells = self.temperature.par_iter_mut().zip(&self.heat).enumerate();
+        cells.with_min_len(CELLS).for_each(|(i, (t, heat))| {
+            *t = content.temperature(i, *heat, *t);
+        });
     }
 
     /// Adds the heat of `rates` over `time` \[s\].
@@ -81,8 +130,8 @@ impl State {
     pub(crate) fn settle(&mut self, system: &System, before: &[f64]) {
         for held in &system.surface.held {
             let i = held.point as usize;
-            let rise = self.temperature[i] - before[i];
-            self.entries[held.entry as usize] += system.capacity[i] * rise;
+            let heat = system.storage.rise(i, before[i], self.temperature[i]);
+            self.entries[held.entry as usize] += heat;
         }
     }
 
@@ -97,17 +146,22 @@ impl State {
 /// 1998, eq. 2.9): `(12 (T_n - T_n+1) + 6 dt (F_n + F_n+1)) / 15`, here times the capacity \[J\].
 pub(crate) fn estimate(
     system: &System,
-    (before, after): (&[f64], &[f64]),
+    (before, after): (&State, &State),
     (first, last): (&Rates, &Rates),
     step: f64,
     out: &mut Vec<f64>,
 ) {
     out.clear();
-    out.extend((0..before.len()).map(|i| {
+    out.extend((0..before.temperature.len()).map(|i| {
         if system.is_held(i) {
             return 0.0;
         }
-        let change = system.capacity[i] * (before[i] - after[i]);
+        let change = match &system.storage {
+            Storage::Fixed(capacity) => {
+                capacity[i] * (before.temperature[i] - after.temperature[i])
+            }
+            Storage::Varies(_) => before.heat[i] - after.heat[i],
+        };
         (12.0 * change + 6.0 * step * (first.heat[i] + last.heat[i])) / 15.0
     }));
 }

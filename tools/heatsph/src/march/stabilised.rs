@@ -109,15 +109,21 @@ impl Stabilised {
             let mix = |a: f64, b: f64, c: f64| mu * a + nu * b + (1.0 - mu - nu) * c;
             new.clone_from(state);
             new.time = mix(old.time, older.time, state.time) + mu_rate + first_rate;
-            for i in 0..new.temperature.len() {
-                let heat = mu_rate * self.rates.heat[i] + first_rate * self.first.heat[i];
-                let base = mix(
-                    old.temperature[i],
-                    older.temperature[i],
-                    state.temperature[i],
-                );
-                new.temperature[i] = base + heat / system.capacity[i];
+            let (before, all) = (&self.first, &self.rates);
+            let heat = |i: usize| mu_rate * all.heat[i] + first_rate * before.heat[i];
+            for i in 0..new.heat.len() {
+                new.heat[i] = mix(old.heat[i], older.heat[i], state.heat[i]);
             }
+            if system.storage.varies().is_none() {
+                for i in 0..new.temperature.len() {
+                    new.temperature[i] = mix(
+                        old.temperature[i],
+                        older.temperature[i],
+                        state.temperature[i],
+                    );
+                }
+            }
+            new.take(system, heat);
             for e in 0..new.entries.len() {
                 new.entries[e] = mix(old.entries[e], older.entries[e], state.entries[e]);
             }
@@ -127,7 +133,7 @@ impl Stabilised {
             if j == s {
                 new.time = state.time + step;
             }
-            system.hold(&mut new.temperature, new.time)?;
+            new.hold(system)?;
             std::mem::swap(older, old);
             std::mem::swap(old, new);
         }
@@ -146,11 +152,17 @@ impl Stabilised {
         old.settle(system, &state.temperature);
         system.rates(old.time, &old.temperature, rates)?;
         self.evaluations += 1;
-        let both = (state.temperature.as_slice(), old.temperature.as_slice());
-        estimate(system, both, (&self.first, rates), step, &mut self.error);
+        estimate(
+            system,
+            (&*state, &*old),
+            (&self.first, rates),
+            step,
+            &mut self.error,
+        );
         std::mem::swap(state, old);
-        let error = self.error.iter().zip(&system.capacity);
-        Ok(error.fold(0.0, |m, (e, c)| m.max((e / c).abs())))
+        let error = self.error.iter().zip(&state.temperature).enumerate();
+        let kelvin = error.map(|(i, (e, t))| (e / system.storage.capacity(i, *t)).abs());
+        Ok(kelvin.fold(0.0, f64::max))
     }
 }
 
@@ -162,12 +174,10 @@ fn euler(
     rates: &Rates,
     step: f64,
 ) -> Result<(), StepError> {
-    for (i, t) in new.temperature.iter_mut().enumerate() {
-        *t = old.temperature[i] + step * rates.heat[i] / system.capacity[i];
-    }
+    new.take(system, |i| step * rates.heat[i]);
     new.pass(rates, step);
     new.time = old.time + step;
-    Ok(system.hold(&mut new.temperature, new.time)?)
+    Ok(new.hold(system)?)
 }
 
 #[cfg(test)]

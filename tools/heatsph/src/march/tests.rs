@@ -26,7 +26,7 @@ fn start(system: &System, initial: impl Fn(f64) -> f64) -> (State, Rates) {
     let temperature = (0..system.len())
         .map(|i| initial(system.place(i)[0]))
         .collect();
-    let mut state = State::new(temperature, system.surface.conditions.len());
+    let mut state = State::new(system, temperature);
     system.hold(&mut state.temperature, 0.0).unwrap();
     let mut rates = Rates::default();
     system.rates(0.0, &state.temperature, &mut rates).unwrap();

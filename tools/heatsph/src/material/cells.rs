@@ -10,8 +10,10 @@ use rayon::prelude::*;
 use run::property::{Arguments, Curve, OutOfRange};
 
 use super::Materials;
+use super::holds::Holds;
 use crate::cloud::Cloud;
 use crate::operator::Links;
+use crate::system::storage::Storage;
 use shapes::Body;
 use shapes::frame::{Vector, along, difference, dot, length};
 
@@ -21,14 +23,15 @@ const SAMPLES: [usize; 2] = [8, 4];
 /// Most of its own part that a cell gives to others.
 const MOST: f64 = 0.4;
 
-/// Capacity of a material's part of a cell \[J/(m3 K)\], and its heat \[J/m3\].
+/// How much of its function of temperature a material's part of a cell holds (capacity \[J/(m3 K)\] where there is
+/// none), and its heat \[J/m3\].
 type Part = (f64, f64);
 
 /// What the cells store at the start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cells {
-    /// Heat capacity of each \[J/K\] (per metre of depth in a plane scene).
-    pub capacity: Vec<f64>,
+    /// What each holds \[J\] (per metre of depth in a plane scene).
+    pub storage: Storage,
     /// Temperature at which each holds the heat of its parts \[K\].
     pub temperature: Vec<f64>,
 }
@@ -132,7 +135,7 @@ impl Materials {
     pub fn cells(&self, ground: Ground<'_>, initial: &Curve) -> Result<Cells, OutOfRange> {
         let (cloud, volume) = (ground.cloud, &ground.links.volume);
         let start = |x: Vector| initial.value(&Arguments::at(x, 0.0));
-        let mut capacity = vec![0.0; volume.len()];
+        let mut holds = Holds::new(self, &cloud.position)?;
         let mut temperature = Vec::with_capacity(volume.len());
         // Heat above that at the temperature of the point itself.
         let mut surplus = vec![0.0; volume.len()];
@@ -147,15 +150,22 @@ impl Materials {
         for (i, parts) in crossed.into_iter().enumerate() {
             let own = self.at(cloud.position[i]);
             let Some(parts) = parts else {
-                capacity[i] += self.stored(own, cloud.position[i])? * volume[i];
+                let stored = self.stored(own, cloud.position[i])? * volume[i];
+                let function = holds.function(own, i)?;
+                holds.add(i, function, stored);
                 continue;
             };
             let parts = parts?;
             let ways = self.ways(ground, (i, own), temperature[i])?;
             for (material, (stored, heat)) in parts.into_iter().enumerate() {
+                if stored <= 0.0 {
+                    continue;
+                }
+                let function = holds.function(material, i)?;
                 let mut give = |j: usize, stored: f64, heat: f64| {
-                    capacity[j] += stored * volume[i];
-                    surplus[j] += (heat - stored * temperature[j]) * volume[i];
+                    holds.add(j, function, stored * volume[i]);
+                    surplus[j] +=
+                        holds.surplus(function, (stored, heat), temperature[j]) * volume[i];
                 };
                 if material == own {
                     // What of the own part lies beyond the middle of a way, at most a good part of it.
@@ -179,11 +189,18 @@ impl Materials {
                 give(i, kept * stored, kept * heat);
             }
         }
-        for ((t, surplus), capacity) in temperature.iter_mut().zip(&surplus).zip(&capacity) {
-            *t += surplus / capacity;
+        let storage = holds.storage();
+        for (i, (t, surplus)) in temperature.iter_mut().zip(&surplus).enumerate() {
+            match &storage {
+                Storage::Fixed(capacity) => *t += surplus / capacity[i],
+                Storage::Varies(content) if *surplus != 0.0 => {
+                    *t = content.temperature(i, content.at(i, *t).1 + surplus, *t);
+                }
+                Storage::Varies(_) => {}
+            }
         }
         Ok(Cells {
-            capacity,
+            storage,
             temperature,
         })
     }
@@ -276,7 +293,8 @@ impl Materials {
                     _ => (left, self.beyond(place, size)),
                 };
                 let stored = part * self.stored(material, own)?;
-                *sum = (sum.0 + stored, sum.1 + stored * value(own)?);
+                let heat = self.specific(material, value(own)?);
+                *sum = (sum.0 + stored, sum.1 + stored * heat);
                 left -= part;
             }
         }
@@ -286,7 +304,7 @@ impl Materials {
         }
         let own = self.at(x);
         let stored = self.stored(own, x)?;
-        parts[own] = (stored, stored * value(x)?);
+        parts[own] = (stored, stored * self.specific(own, value(x)?));
         Ok(parts)
     }
 

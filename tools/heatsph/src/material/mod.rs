@@ -2,15 +2,20 @@
 
 pub mod cells;
 pub mod conductor;
+pub mod enthalpy;
+mod holds;
 pub mod path;
+mod stored;
 
 use run::property::{Arguments, Curve, OutOfRange};
 use run::{Fault, property::Property};
 
 use crate::scene::{Material, Scene};
 use conductor::Conductor;
+use enthalpy::Enthalpy;
 use shapes::Body;
 use shapes::frame::Vector;
+use stored::Stored;
 
 /// What a property of place may depend on.
 pub const PLACE: [&str; 4] = ["x", "y", "z", "r"];
@@ -37,8 +42,7 @@ pub enum Law {
 #[derive(Debug, Clone, PartialEq)]
 struct Kind {
     region: Option<Body>,
-    density: Curve,
-    specific_heat: Curve,
+    stored: Stored,
     law: Law,
 }
 
@@ -48,6 +52,10 @@ pub struct Materials {
     kinds: Vec<Kind>,
     /// All functions of temperature.
     pub conductors: Vec<Conductor>,
+    /// All functions of temperature of what is stored.
+    enthalpies: Vec<Enthalpy>,
+    /// First range of temperature \[K\].
+    range: (f64, f64),
     /// Resistance between materials i and j \[m2 K/W\] at `i * kinds + j`.
     contact: Vec<f64>,
     dimensions: usize,
@@ -60,7 +68,7 @@ impl Materials {
     /// Faults of the scene.
     pub fn new(scene: &Scene, (low, high): (f64, f64)) -> Result<Self, Vec<Fault>> {
         let mut faults = Vec::new();
-        let mut conductors = Vec::new();
+        let (mut conductors, mut enthalpies) = (Vec::new(), Vec::new());
         let mut kinds = Vec::new();
         for (number, material) in scene.materials.iter().enumerate() {
             let at = format!("/materials/{number}");
@@ -69,7 +77,7 @@ impl Materials {
                 &at,
                 scene.dimensions,
                 (low, high),
-                &mut conductors,
+                (&mut conductors, &mut enthalpies),
             ) {
                 Ok(kind) => kinds.push(kind),
                 Err(found) => faults.extend(found),
@@ -100,6 +108,8 @@ impl Materials {
         Ok(Self {
             kinds,
             conductors,
+            enthalpies,
+            range: (low, high),
             contact,
             dimensions: scene.dimensions,
         })
@@ -196,14 +206,35 @@ impl Materials {
         self.kinds.len() > 1 && self.kinds.iter().any(close)
     }
 
-    /// rho c of a material at a place \[J/(m3 K)\].
+    /// rho c of a material at a place, or its factor that depends on place alone \[J/(m3 K)\].
     pub(crate) fn stored(&self, material: usize, x: Vector) -> Result<f64, OutOfRange> {
-        let (kind, at) = (&self.kinds[material], Arguments::at(x, 0.0));
-        let value = kind.density.value(&at)? * kind.specific_heat.value(&at)?;
-        if value > 0.0 {
-            Ok(value)
-        } else {
-            Err(OutOfRange::Formula { value, at })
+        self.kinds[material].stored.factor(x)
+    }
+
+    /// Whether what is stored depends on temperature anywhere.
+    #[must_use]
+    pub fn stores_by_temperature(&self) -> bool {
+        self.kinds.iter().any(|kind| kind.stored.varies())
+    }
+
+    /// Number of the function of temperature of what a material stores, where all places share one.
+    fn enthalpy(&self, material: usize) -> Option<usize> {
+        self.kinds[material].stored.temperature
+    }
+
+    /// That of one place, where each has its own.
+    fn own_enthalpy(&self, material: usize, x: Vector) -> Option<Result<Enthalpy, OutOfRange>> {
+        self.kinds[material].stored.own(x, self.range)
+    }
+
+    /// Heat at a temperature over what is gathered of a material; the temperature itself where it stores the same at
+    /// all, and where each place has its own function.
+    fn specific(&self, material: usize, temperature: f64) -> f64 {
+        let stored = &self.kinds[material].stored;
+        match stored.temperature {
+            Some(function) => self.enthalpies[function].at(temperature).1,
+            None if stored.varies() || !self.stores_by_temperature() => temperature,
+            None => temperature - self.range.0,
         }
     }
 }
@@ -226,16 +257,9 @@ fn kind(
     at: &str,
     dimensions: usize,
     range: (f64, f64),
-    conductors: &mut Vec<Conductor>,
+    (conductors, enthalpies): (&mut Vec<Conductor>, &mut Vec<Enthalpy>),
 ) -> Result<Kind, Vec<Fault>> {
-    let density = material
-        .density_kg_m3
-        .compile_positive(&format!("{at}/density_kg_m3"), &PLACE, "kg/m3")
-        .map_err(alone)?;
-    let specific_heat = material
-        .specific_heat_j_kg_k
-        .compile_positive(&format!("{at}/specific_heat_j_kg_k"), &PLACE, "J/(kg K)")
-        .map_err(alone)?;
+    let stored = Stored::new(material, at, range, enthalpies).map_err(alone)?;
     let law = match (&material.conductivity_w_m_k, &material.mixture) {
         (Some(property), None) => law(
             property,
@@ -277,8 +301,7 @@ fn kind(
             .region
             .as_ref()
             .map(|shape| Body::new(shape, dimensions)),
-        density,
-        specific_heat,
+        stored,
         law,
     })
 }

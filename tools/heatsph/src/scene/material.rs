@@ -26,10 +26,11 @@ pub struct Material {
     pub name: String,
     /// Where it is: the first material whose region holds a place. The last may have none: it is elsewhere.
     pub region: Option<Shape>,
-    /// Density, a function of place.
+    /// Density: a number, a table over temperature, or a formula in x, y, z, r, T. Cells keep their volume: density
+    /// times specific heat is what they store.
     #[schemars(extend("x-unit" = "kg/m3"))]
     pub density_kg_m3: Property,
-    /// Specific heat, a function of place.
+    /// Specific heat: a number, a table over temperature, or a formula in x, y, z, r, T; latent heat is a peak of it.
     #[schemars(extend("x-unit" = "J/(kg K)"))]
     pub specific_heat_j_kg_k: Property,
     /// Conductivity: a number, a table over temperature, or a formula in x, y, z, r, T.

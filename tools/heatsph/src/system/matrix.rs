@@ -32,7 +32,9 @@ impl System {
         let own = |i: usize| {
             let films = &rates.passed[self.films[i] as usize..self.films[i + 1] as usize];
             let slopes: f64 = films.iter().map(|passed| passed.slope).sum();
-            shift * self.capacity[i] - slopes - heating.get(i).copied().unwrap_or(0.0)
+            shift * self.storage.capacity(i, temperature[i])
+                - slopes
+                - heating.get(i).copied().unwrap_or(0.0)
         };
         let slopes = {
             let ends =

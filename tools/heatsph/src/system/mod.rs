@@ -3,10 +3,13 @@
 //! ```text
 //! C_i dT_i/dt = sum_j a_ij k_ij (T_j - T_i) + heat of its patches + Q V_i = W_i
 //! ```
+//!
+//! Where rho c depends on temperature the left side is that of the heat itself, `dE_i(T_i)/dt`.
 
 pub mod conduction;
 mod matrix;
 mod rates;
+pub mod storage;
 
 pub use rates::Rates;
 
@@ -19,6 +22,7 @@ use crate::operator::Links;
 use crate::source::Source;
 use conduction::Conduction;
 use shapes::frame::Vector;
+use storage::Storage;
 
 /// A body ready to conduct.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,8 +35,8 @@ pub struct System {
     pub materials: Materials,
     /// Surface.
     pub surface: Surface,
-    /// Heat capacity of each point's cell \[J/K\].
-    pub capacity: Vec<f64>,
+    /// What each point's cell holds.
+    pub storage: Storage,
     /// Material of each point.
     pub material: Vec<u32>,
     /// Heat source.
@@ -56,7 +60,7 @@ impl System {
     pub fn new(
         (cloud, links): (Cloud, Links),
         (materials, surface): (Materials, Surface),
-        (capacity, source): (Vec<f64>, Option<Source>),
+        (storage, source): (Storage, Option<Source>),
     ) -> Result<Self, OutOfRange> {
         let conduction = Conduction::new(&materials, &cloud.position, &links)?;
         let material = cloud
@@ -86,7 +90,7 @@ impl System {
             links,
             materials,
             surface,
-            capacity,
+            storage,
             material,
             source,
             conduction,
@@ -119,6 +123,7 @@ impl System {
         let radiates =
             |c: &crate::boundary::Condition| matches!(c, crate::boundary::Condition::Radiation(..));
         self.conduction.is_fixed()
+            && self.storage.varies().is_none()
             && self.source.is_none()
             && !self.surface.conditions.iter().any(radiates)
     }
@@ -186,7 +191,7 @@ impl System {
         }
     }
 
-    /// Makes the tables of conductivity span all temperatures; tells whether they did not.
+    /// Makes the tables of conductivity and heat span all temperatures; tells whether they did not.
     ///
     /// # Errors
     /// Where a property has no value.
@@ -200,27 +205,32 @@ impl System {
                 grown = true;
             }
         }
+        if let Storage::Varies(content) = &mut self.storage {
+            grown |= content.widen((low, high))?;
+        }
         Ok(grown)
     }
 
     /// The greatest step of the explicit Euler method at which every new temperature is a mean of old ones \[s\]:
-    /// it is stable, bounded and monotone.
+    /// it is stable, bounded and monotone. Where capacities depend on temperature, each point has the least between its
+    /// own temperature and those of its neighbours.
     #[must_use]
     pub fn explicit_limit(&self, rates: &Rates) -> f64 {
-        let each = self.capacity.iter().zip(&rates.stiffness).zip(&self.held);
+        let capacity = match &self.storage {
+            Storage::Fixed(capacity) => capacity,
+            Storage::Varies(_) => &rates.capacity,
+        };
+        let each = capacity.iter().zip(&rates.stiffness).zip(&self.held);
         each.filter(|(_, held)| !**held)
             .map(|((c, s), _)| if *s > 0.0 { c / s } else { f64::INFINITY })
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Heat that is stored above 0 K \[J\].
+    /// Heat that would be stored above 0 K with the capacities of now \[J\].
     #[must_use]
     pub fn stored(&self, temperature: &[f64]) -> f64 {
-        self.capacity
-            .iter()
-            .zip(temperature)
-            .map(|(c, t)| c * t)
-            .sum()
+        let each = temperature.iter().enumerate();
+        each.map(|(i, t)| self.storage.capacity(i, *t) * t).sum()
     }
 
     /// The difference of temperature that fluxes at the surface make over a spacing \[K\].

@@ -10,6 +10,8 @@ use crate::material::arguments;
 
 /// Points that one task gathers.
 const ROWS: usize = 256;
+/// Temperatures nearer than this part of the greatest have one capacity.
+const NEAR: f64 = 1e-9;
 
 /// Heat at an instant.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,6 +20,9 @@ pub struct Rates {
     pub heat: Vec<f64>,
     /// Sum of the conductances of each point, and of its films' slopes \[W/K\].
     pub stiffness: Vec<f64>,
+    /// Least heat capacity of each cell between its temperature and those of its neighbours \[J/K\], where
+    /// capacities depend on temperature.
+    pub capacity: Vec<f64>,
     /// Heat through each entry of the surface \[W\]; of prescribed temperatures what their points pass on.
     pub entries: Vec<f64>,
     /// Heat of the source \[W\].
@@ -77,6 +82,29 @@ impl System {
         }
     }
 
+    /// Least capacities: at the own temperature, and as a mean from there to the coldest and warmest neighbour.
+    fn capacities(&self, temperature: &[f64], capacity: &mut Vec<f64>) {
+        let Some(content) = self.storage.varies() else {
+            return;
+        };
+        let blur = NEAR * temperature.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+        let least = |i: usize| {
+            let row = &self.links.pattern.columns()[self.links.pattern.row(i)];
+            let near = row.iter().map(|j| temperature[*j as usize]);
+            let own = temperature[i];
+            let (low, high) = near.fold((own, own), |(low, high), t| (low.min(t), high.max(t)));
+            let (slope, heat) = content.at(i, own);
+            [low, high].into_iter().fold(slope, |least, to| {
+                if (to - own).abs() <= blur {
+                    return least;
+                }
+                least.min((content.at(i, to).1 - heat) / (to - own))
+            })
+        };
+        let points = (0..temperature.len()).into_par_iter().with_min_len(ROWS);
+        points.map(least).collect_into_vec(capacity);
+    }
+
     /// Heat at `time` with the given temperatures.
     ///
     /// # Errors
@@ -108,6 +136,7 @@ impl System {
                     *stiffness -= passed.slope;
                 }
             });
+        self.capacities(temperature, &mut rates.capacity);
         let lost = temperature.iter().any(|t| !t.is_finite());
         // No formula is to blame for temperatures that are no numbers: who took the step finds them.
         if let (Some(i), false) = (rates.heat.iter().position(|heat| heat.is_nan()), lost) {
