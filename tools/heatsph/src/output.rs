@@ -12,6 +12,8 @@ use crate::system::{Rates, System};
 
 /// Part of the heat of a body that is none.
 const NOTHING: f64 = 1e-10;
+/// Part of the heat that has moved by which the balance of a march may be off: its solves leave 1e-8.
+const UNBALANCED: f64 = 1e-6;
 
 /// An instant at which something is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,6 +168,11 @@ impl Output {
         }
         let relative = if whole > 0.0 { imbalance / whole } else { 0.0 };
         session.closing("energy_balance", "1", relative);
+        if relative.is_nan() || relative > UNBALANCED {
+            session.warn(format!(
+                "heat stored and heat that came in differ by {relative:.1e} of what has moved, beyond {UNBALANCED:.0e}"
+            ));
+        }
     }
 
     /// Totals of a steady state.

@@ -55,11 +55,8 @@ impl Flux {
             let value = self.curve.value(&Arguments::at(film.place, time))?;
             return Ok((value, true));
         };
-        let when = When {
-            time,
-            temperature: 0.0,
-        };
-        let [from, to] = ends(around, when);
+        let when = When::even(time, 0.0);
+        let [from, to] = ends(around, time, [0.0; 2]);
         let greatest = self.curve.bounds(&from, &to).most();
         let mean = film.piece.mean(&self.curve, when, greatest)?;
         Ok((mean.above + mean.below, mean.resolved))

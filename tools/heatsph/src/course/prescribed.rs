@@ -6,6 +6,7 @@ use run::property::OutOfRange;
 use super::Course;
 use crate::boundary::Condition;
 use crate::march::State;
+use crate::source::Warmth;
 use crate::system::System;
 
 /// Largest difference of the heat delivered, over the heat prescribed.
@@ -163,7 +164,12 @@ fn power(system: &System, giver: Giver, time: f64) -> Result<(f64, f64), OutOfRa
             };
             let (cold, mut heat) = (vec![0.0; system.len()], Vec::new());
             let points = (&system.cloud, system.links.volume.as_slice());
-            source.heat(points, (&cold, time), &mut heat)?;
+            let cold = Warmth {
+                temperature: &cold,
+                cells: &[],
+                time,
+            };
+            source.heat(points, cold, &mut heat)?;
             vec![sum(heat.into_iter().map(Ok))]
         }
     };

@@ -91,6 +91,23 @@ impl Implicit {
         Ok(())
     }
 
+    /// What the second stage starts from, and its first guess: on with the rate of the first, which has ended at
+    /// `temperature`.
+    fn lead(&mut self, system: &System, before: &State, temperature: &mut [f64]) {
+        let gamma = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+        for (i, base) in self.base.iter_mut().enumerate() {
+            let rate = (temperature[i] - before.temperature[i]) / gamma;
+            *base = match system.storage.varies() {
+                None => before.temperature[i] + (1.0 - gamma) * rate,
+                Some(content) => {
+                    let heat = before.heat[i];
+                    heat + (1.0 - gamma) / gamma * (content.at(i, temperature[i]).1 - heat)
+                }
+            };
+            temperature[i] = before.temperature[i] + rate.clamp(-f64::MAX, f64::MAX);
+        }
+    }
+
     /// A step of the implicit Euler method.
     fn euler(
         &mut self,
@@ -141,18 +158,7 @@ impl Method for Implicit {
         self.middle = middle;
         solved?;
         // Second stage, from where the first one's rate leads.
-        for (i, base) in self.base.iter_mut().enumerate() {
-            let rate = (temperature[i] - before.temperature[i]) / gamma;
-            *base = match system.storage.varies() {
-                None => before.temperature[i] + (1.0 - gamma) * rate,
-                Some(content) => {
-                    let heat = before.heat[i];
-                    let risen = content.at(i, temperature[i]).1 - heat;
-                    heat + (1.0 - gamma) / gamma * risen
-                }
-            };
-            temperature[i] = before.temperature[i] + rate.clamp(-f64::MAX, f64::MAX);
-        }
+        self.lead(system, &before, &mut temperature);
         let end = before.time + step;
         let (low, high) = extent(&before.temperature);
         let outside = |t: &f64| !(*t >= low && *t <= high);

@@ -36,6 +36,25 @@ pub struct Cells {
     pub temperature: Vec<f64>,
 }
 
+impl Cells {
+    /// Cells at the temperatures of their points, with the heat that their parts have above these.
+    fn of(storage: Storage, mut temperature: Vec<f64>, surplus: &[f64]) -> Self {
+        for (i, (t, surplus)) in temperature.iter_mut().zip(surplus).enumerate() {
+            match &storage {
+                Storage::Fixed(capacity) => *t += surplus / capacity[i],
+                Storage::Varies(content) if *surplus != 0.0 => {
+                    *t = content.temperature(i, content.at(i, *t).1 + surplus, *t);
+                }
+                Storage::Varies(_) => {}
+            }
+        }
+        Self {
+            storage,
+            temperature,
+        }
+    }
+}
+
 /// A cloud with its links and the body that it fills.
 #[derive(Debug, Clone, Copy)]
 pub struct Ground<'a> {
@@ -189,20 +208,7 @@ impl Materials {
                 give(i, kept * stored, kept * heat);
             }
         }
-        let storage = holds.storage();
-        for (i, (t, surplus)) in temperature.iter_mut().zip(&surplus).enumerate() {
-            match &storage {
-                Storage::Fixed(capacity) => *t += surplus / capacity[i],
-                Storage::Varies(content) if *surplus != 0.0 => {
-                    *t = content.temperature(i, content.at(i, *t).1 + surplus, *t);
-                }
-                Storage::Varies(_) => {}
-            }
-        }
-        Ok(Cells {
-            storage,
-            temperature,
-        })
+        Ok(Cells::of(holds.storage(), temperature, &surplus))
     }
 
     /// The ways from point `i` of material `own` across an interface.

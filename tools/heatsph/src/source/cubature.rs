@@ -6,7 +6,7 @@
 use run::property::{Arguments, Bounds, Curve, OutOfRange};
 
 use crate::material::arguments;
-use shapes::frame::{Vector, along};
+use shapes::frame::{Vector, along, difference, dot};
 
 /// Error of a mean over the mean of the magnitude.
 const TOLERANCE: f64 = 2e-3;
@@ -33,13 +33,59 @@ pub struct Piece {
     pub rank: usize,
 }
 
-/// When and how warm.
+/// When and how warm: the temperature is linear in place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct When {
     /// \[s\].
     pub time: f64,
-    /// \[K\].
+    /// At `about` \[K\].
     pub temperature: f64,
+    /// Slope of temperature \[K/m\].
+    pub slope: Vector,
+    /// Where \[m\].
+    pub about: Vector,
+    /// Temperatures that are neither passed below nor above \[K\].
+    pub within: [f64; 2],
+}
+
+impl When {
+    /// One temperature everywhere.
+    #[must_use]
+    pub fn even(time: f64, temperature: f64) -> Self {
+        Self {
+            time,
+            temperature,
+            slope: [0.0; 3],
+            about: [0.0; 3],
+            within: [temperature; 2],
+        }
+    }
+
+    /// The temperature at a place \[K\].
+    #[inline]
+    fn at(&self, x: Vector) -> f64 {
+        let [low, high] = self.within;
+        let linear = self.temperature + dot(self.slope, difference(x, self.about));
+        linear.clamp(low, high)
+    }
+
+    /// The least and the greatest temperature in a piece \[K\].
+    fn over(&self, piece: &Piece) -> [f64; 2] {
+        let middle = self.temperature + dot(self.slope, difference(piece.centre, self.about));
+        let reach: f64 = piece.half.iter().map(|h| dot(self.slope, *h).abs()).sum();
+        let [low, high] = self.within;
+        [middle - reach, middle + reach].map(|t| t.clamp(low, high))
+    }
+
+    /// Warmer or colder everywhere.
+    #[must_use]
+    pub fn shifted(self, by: f64) -> Self {
+        Self {
+            temperature: self.temperature + by,
+            within: self.within.map(|t| t + by),
+            ..self
+        }
+    }
 }
 
 /// Means of what is above and of what is below zero, and whether they were found.
@@ -53,9 +99,9 @@ pub struct Mean {
     pub resolved: bool,
 }
 
-/// Least and greatest arguments in a box.
+/// Least and greatest arguments in a box at temperatures from the first to the second.
 #[must_use]
-pub fn ends([low, high]: [Vector; 2], when: When) -> [Arguments; 2] {
+pub fn ends([low, high]: [Vector; 2], time: f64, warm: [f64; 2]) -> [Arguments; 2] {
     let nearest = |k: usize| {
         if low[k] <= 0.0 && high[k] >= 0.0 {
             0.0
@@ -64,7 +110,7 @@ pub fn ends([low, high]: [Vector; 2], when: When) -> [Arguments; 2] {
         }
     };
     let farthest = |k: usize| low[k].abs().max(high[k].abs());
-    let [mut from, mut to] = [low, high].map(|x| arguments(x, when.temperature, when.time));
+    let [mut from, mut to] = [(low, warm[0]), (high, warm[1])].map(|(x, t)| arguments(x, t, time));
     from.r = nearest(0).hypot(nearest(1));
     to.r = farthest(0).hypot(farthest(1));
     [from, to]
@@ -154,7 +200,7 @@ struct Part {
 
 impl Part {
     fn new(piece: &Piece, curve: &Curve, when: When, share: f64) -> Result<Self, OutOfRange> {
-        let value = |x: Vector| curve.value(&arguments(x, when.temperature, when.time));
+        let value = |x: Vector| curve.value(&arguments(x, when.at(x), when.time));
         let middle = value(piece.centre)?;
         let (mut above, mut below, mut low, mut high) = (0.0, 0.0, middle, middle);
         let count = 1 << piece.rank;
@@ -168,7 +214,7 @@ impl Part {
             above / f64::from(count as u32),
             below / f64::from(count as u32),
         );
-        let [from, to] = ends(piece.around(), when);
+        let [from, to] = ends(piece.around(), when.time, when.over(piece));
         let bounds: Bounds = curve.bounds(&from, &to);
         let trusted = bounds.width() <= TRUST * (high - low) + 1e-12 * bounds.most();
         let error = if trusted {

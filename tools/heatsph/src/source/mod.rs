@@ -3,9 +3,11 @@
 //! A point gets the mean of the source over its cell, not its value at the point, so that a source narrower than the
 //! spacing brings its whole power wherever it lies: `W_i = V_i <Q>_i`. Cells are the places nearest to a point; where
 //! their volumes are not those of the points (irregular clouds), all positive heat and all negative heat are scaled to
-//! the integrals over the body. A source that is the same everywhere needs no cells. One that
-//! changes with time or temperature is still taken at the points: its cells would have to be searched at every
-//! evaluation.
+//! the integrals over the body. A source that is the same everywhere needs no cells.
+//!
+//! One that moves, or depends on temperature, is integrated at every evaluation. Temperature is linear within a cell,
+//! with the slope that the neighbours of its point give, so that a zone of temperatures that is narrower than the spacing
+//! has its power too.
 
 pub mod cubature;
 
@@ -17,6 +19,33 @@ use shapes::frame::{Vector, difference, dot};
 use crate::cloud::Cloud;
 use cubature::{Mean, Piece, When, ends};
 
+/// Temperatures of points and how they change within cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Warmth<'a> {
+    /// Of each point \[K\].
+    pub temperature: &'a [f64],
+    /// In each cell: slope \[K/m\], least and greatest temperature \[K\]; none where temperature does not matter.
+    pub cells: &'a [(Vector, [f64; 2])],
+    /// \[s\].
+    pub time: f64,
+}
+
+impl Warmth<'_> {
+    /// When and how warm it is in the cell of point `i` about `x`.
+    fn of(&self, i: usize, x: Vector) -> When {
+        let even = When::even(self.time, self.temperature[i]);
+        match self.cells.get(i) {
+            None => even,
+            Some((slope, within)) => When {
+                slope: *slope,
+                about: x,
+                within: *within,
+                ..even
+            },
+        }
+    }
+}
+
 /// What is told of a source whose peaks are not found.
 pub const HIDDEN: &str =
     "a source or flux is too narrow to be found within its cells: its power is not all there";
@@ -24,6 +53,8 @@ pub const HIDDEN: &str =
 const ROWS: usize = 64;
 /// Boxes along the spacing of an irregular cloud.
 const FINE: f64 = 2.0;
+/// Part of a temperature over which a derivative is taken.
+const STEP: f64 = 1e-6;
 
 /// A heat source.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +66,8 @@ pub struct Source {
     boxes: Vec<(Piece, f64)>,
     /// The box that holds the body.
     body: [Vector; 2],
+    /// Whether it depends on place: its integrals over cells then make up that over the body.
+    somewhere: bool,
     /// Heat of each point, if it is always the same \[W\], and whether it was resolved.
     still: Option<(Vec<f64>, bool)>,
 }
@@ -54,11 +87,13 @@ impl Source {
             begin: Vec::new(),
             boxes: Vec::new(),
             body: body.bounds(),
+            somewhere: false,
             still: None,
         };
         let still = !source.depends_on("T") && !source.depends_on("t");
-        let somewhere = ["x", "y", "z", "r"];
-        if still && somewhere.iter().any(|name| source.depends_on(name)) {
+        let place = ["x", "y", "z", "r"];
+        source.somewhere = place.iter().any(|name| source.depends_on(name));
+        if source.somewhere || source.depends_on("T") {
             let mut cells = lattice(cloud, body).unwrap_or_else(|| nearest(cloud, body));
             cells.sort_by_key(|(point, ..)| *point);
             let mut rest = cells.as_slice();
@@ -76,7 +111,12 @@ impl Source {
         if still {
             let cold = vec![0.0; cloud.position.len()];
             let mut heat = Vec::new();
-            let resolved = source.heat((cloud, volume), (&cold, 0.0), &mut heat)?;
+            let cold = Warmth {
+                temperature: &cold,
+                cells: &[],
+                time: 0.0,
+            };
+            let resolved = source.heat((cloud, volume), cold, &mut heat)?;
             source.still = Some((heat, resolved));
         }
         Ok(source)
@@ -100,36 +140,44 @@ impl Source {
         (size_of::<(Piece, f64)>() * self.boxes.len() + 4 * self.begin.len()) as u64
     }
 
-    /// Heat of every point at its temperature \[W\]; tells whether its peaks were resolved.
+    /// Heat of every point \[W\]; tells whether its peaks were resolved.
     ///
     /// # Errors
     /// Where the curve has no value.
     pub fn heat(
         &self,
         (cloud, volume): (&Cloud, &[f64]),
-        (temperature, time): (&[f64], f64),
+        warmth: Warmth<'_>,
         heat: &mut Vec<f64>,
     ) -> Result<bool, OutOfRange> {
         if let Some((still, resolved)) = &self.still {
             heat.clone_from(still);
             return Ok(*resolved);
         }
-        let ends_of = |(low, high): (f64, f64), t: &f64| (low.min(*t), high.max(*t));
-        let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = temperature.iter().fold(none, ends_of);
-        let at = |temperature: f64| ends(self.body, When { time, temperature });
-        let greatest = self.curve.bounds(&at(low)[0], &at(high)[1]).most();
+        let greatest = self.greatest(warmth);
         let each = |i: usize| {
-            let temperature = temperature[i];
-            self.cell(i, cloud.position[i], When { time, temperature }, greatest)
+            let x = cloud.position[i];
+            self.cell(i, x, warmth.of(i, x), greatest)
         };
         let points = (0..volume.len()).into_par_iter().with_min_len(ROWS);
         let cells: Vec<_> = points.map(each).collect::<Result<_, _>>()?;
+        // What is the same everywhere heats the volume of the points, of which cells are parts.
+        let sizes = || {
+            cells
+                .iter()
+                .zip(volume)
+                .map(|((_, size), v)| size.unwrap_or(*v))
+        };
+        let parts = if self.somewhere {
+            1.0
+        } else {
+            volume.iter().sum::<f64>() / sizes().sum::<f64>()
+        };
         // Integrals over the cells, and what the volumes of the points make of them.
         let mut sums = [(0.0, 0.0); 2];
-        for ((mean, size), v) in cells.iter().zip(volume) {
+        for (((mean, _), size), v) in cells.iter().zip(sizes()).zip(volume) {
             for (sum, mean) in sums.iter_mut().zip([mean.above, mean.below]) {
-                *sum = (sum.0 + mean * size.unwrap_or(*v), sum.1 + mean * v);
+                *sum = (sum.0 + mean * (parts * size), sum.1 + mean * v);
             }
         }
         let [more, less] = sums.map(|(cells, points)| {
@@ -145,6 +193,37 @@ impl Source {
         };
         heat.extend(cells.iter().zip(volume).map(of));
         Ok(cells.iter().all(|(mean, _)| mean.resolved))
+    }
+
+    /// Greatest magnitude that it can have anywhere in the body.
+    fn greatest(&self, warmth: Warmth<'_>) -> f64 {
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let wider = |[low, high]: [f64; 2], t: &f64| [low.min(*t), high.max(*t)];
+        let warm = warmth.temperature.iter().fold(none, wider);
+        let [from, to] = ends(self.body, warmth.time, warm);
+        self.curve.bounds(&from, &to).most()
+    }
+
+    /// Derivative of every point's heat by its temperature \[W/K\].
+    ///
+    /// # Errors
+    /// Where the curve has no value.
+    pub fn slopes(
+        &self,
+        (cloud, volume): (&Cloud, &[f64]),
+        warmth: Warmth<'_>,
+    ) -> Result<Vec<f64>, OutOfRange> {
+        let greatest = self.greatest(warmth);
+        let each = |i: usize| {
+            let (x, t) = (cloud.position[i], warmth.temperature[i]);
+            let step = STEP * t.abs().max(1e-3);
+            let when = warmth.of(i, x);
+            let at = |by: f64| self.cell(i, x, when.shifted(by), greatest);
+            let [more, less] = [at(step)?.0, at(-step)?.0].map(|mean| mean.above + mean.below);
+            Ok((more - less) / (2.0 * step) * volume[i])
+        };
+        let points = (0..volume.len()).into_par_iter().with_min_len(ROWS);
+        points.map(each).collect()
     }
 
     /// Mean over the cell of point `i`, and the cell's volume if it is known \[m3\].

@@ -21,9 +21,12 @@ fn heat(body: &str, points: &str, dimensions: usize, text: &str) -> (Vec<f64>, V
     let source = Source::new(curve(text), (&cloud, &volume), &body).unwrap();
     let cold = vec![0.0; volume.len()];
     let mut heat = Vec::new();
-    let resolved = source
-        .heat((&cloud, &volume), (&cold, 0.0), &mut heat)
-        .unwrap();
+    let cold = Warmth {
+        temperature: &cold,
+        cells: &[],
+        time: 0.0,
+    };
+    let resolved = source.heat((&cloud, &volume), cold, &mut heat).unwrap();
     assert!(resolved, "{text}");
     (heat, volume)
 }

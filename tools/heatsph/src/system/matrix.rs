@@ -8,7 +8,7 @@ use run::property::OutOfRange;
 
 use super::conduction::Conduction;
 use super::{Rates, System};
-use crate::material::arguments;
+use crate::source::Warmth;
 
 impl System {
     /// A matrix of the pattern of the links.
@@ -113,18 +113,20 @@ impl System {
         let Some(source) = &self.source else {
             return Ok(Vec::new());
         };
-        let mut slopes = Vec::with_capacity(self.len());
-        for (i, t) in temperature.iter().enumerate() {
-            let step = 1e-6 * t.abs().max(1e-3);
-            let at = |t: f64| {
-                source
-                    .curve()
-                    .value(&arguments(self.cloud.position[i], t, time))
-            };
-            let slope = (at(t + step)? - at(t - step)?) / (2.0 * step);
-            // A source that grows with temperature is left to the iteration: the matrix keeps its sign.
-            slopes.push(slope.min(0.0) * self.links.volume[i]);
+        if !source.depends_on("T") {
+            return Ok(Vec::new());
         }
+        let mut cells = Vec::new();
+        self.within(temperature, &mut cells);
+        let warmth = Warmth {
+            temperature,
+            cells: &cells,
+            time,
+        };
+        let points = (&self.cloud, self.links.volume.as_slice());
+        let mut slopes = source.slopes(points, warmth)?;
+        // A source that grows with temperature is left to the iteration: the matrix keeps its sign.
+        slopes.iter_mut().for_each(|slope| *slope = slope.min(0.0));
         Ok(slopes)
     }
 }

@@ -1,5 +1,6 @@
 //! Heat into every point at an instant.
 
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use run::property::OutOfRange;
 
@@ -7,6 +8,8 @@ use super::System;
 use super::conduction::{Conduction, Ends, Node, kirchhoff};
 use crate::boundary::Passed;
 use crate::material::arguments;
+use crate::source::Warmth;
+use shapes::frame::{Vector, difference};
 
 /// Points that one task gathers.
 const ROWS: usize = 256;
@@ -31,6 +34,8 @@ pub struct Rates {
     pub hidden: bool,
     /// Heat of the source at each point \[W\].
     sources: Vec<f64>,
+    /// How temperature changes within cells, where the source depends on it.
+    within: Vec<(Vector, [f64; 2])>,
     /// The time that this is of \[s\], and whether the source was resolved.
     sourced: Option<(f64, bool)>,
     pub(super) nodes: Vec<Node>,
@@ -155,7 +160,18 @@ impl System {
                 .filter(|(then, _)| then.to_bits() == time.to_bits());
             let resolved = match known.filter(|_| !source.depends_on("T")) {
                 Some((_, resolved)) => resolved,
-                None => source.heat(points, (temperature, time), &mut rates.sources)?,
+                None => {
+                    rates.within.clear();
+                    if source.depends_on("T") {
+                        self.within(temperature, &mut rates.within);
+                    }
+                    let warmth = Warmth {
+                        temperature,
+                        cells: &rates.within,
+                        time,
+                    };
+                    source.heat(points, warmth, &mut rates.sources)?
+                }
             };
             rates.sourced = Some((time, resolved));
             rates.hidden |= !resolved;
@@ -165,6 +181,34 @@ impl System {
             }
         }
         self.entries(time, rates)
+    }
+
+    /// The slope of temperature in every cell \[K/m\], by least squares over its links, and the temperatures of the
+    /// point and its neighbours, beyond which it does not go \[K\].
+    pub(super) fn within(&self, temperature: &[f64], cells: &mut Vec<(Vector, [f64; 2])>) {
+        let position = &self.cloud.position;
+        let of = |i: usize| {
+            let mut moments = Matrix3::<f64>::zeros();
+            let mut rises = Vector3::<f64>::zeros();
+            let (own, mut low, mut high) = (temperature[i], temperature[i], temperature[i]);
+            for j in &self.links.pattern.columns()[self.links.pattern.row(i)] {
+                let j = *j as usize;
+                let d = Vector3::from(difference(position[j], position[i]));
+                let weight = d.norm_squared().recip();
+                moments += weight * d * d.transpose();
+                rises += weight * (temperature[j] - own) * d;
+                (low, high) = (low.min(temperature[j]), high.max(temperature[j]));
+            }
+            // In a plane nothing changes across it.
+            let trace = moments.trace().max(f64::MIN_POSITIVE);
+            let flat = Matrix3::from_diagonal_element(1e-12 * trace);
+            let slope = (moments + flat)
+                .try_inverse()
+                .map(|inverse| inverse * rises);
+            (slope.map_or([0.0; 3], Into::into), [low, high])
+        };
+        let points = (0..temperature.len()).into_par_iter().with_min_len(ROWS);
+        points.map(of).collect_into_vec(cells);
     }
 
     /// Heat through films and from the source where the whole body has one temperature \[W\].
