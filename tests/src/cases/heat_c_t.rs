@@ -105,7 +105,7 @@ impl Case for HeatCT {
 /// A number of the closing block.
 fn closing(run: &Finished, name: &str) -> f64 {
     let rows = run.record["closing"].as_array().into_iter().flatten();
-    let value = rows.filter(|row| row["name"] == name).last();
+    let value = rows.rev().find(|row| row["name"] == name);
     value
         .and_then(|row| row["value"].as_f64())
         .unwrap_or(f64::NAN)
