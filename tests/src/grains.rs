@@ -73,6 +73,11 @@ impl Swing {
         [fade * s, fade * (c - z * s)]
     }
 
+    /// Share of critical damping.
+    pub(crate) fn damping_ratio(self) -> f64 {
+        self.zeta
+    }
+
     /// Whether it ends where the force is zero.
     pub(crate) fn ends_at_force(self) -> bool {
         self.at_zero_force

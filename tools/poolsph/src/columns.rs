@@ -1,7 +1,7 @@
 //! Frames and checkpoints of sets of particles, read off the columns that were declared.
 
 use artefact::{Checkpoint, Frame, Precision, Result};
-use particles::{Set, Store};
+use particles::{ID, Set, Store};
 
 use crate::scene::FloatWidth;
 
@@ -11,9 +11,17 @@ pub fn channel(set: &Set) -> String {
     format!("/{}", set.name())
 }
 
-/// A set as a frame: the columns that are shown.
+/// A set as a frame: the columns that are shown, by the numbers of the particles, in whatever order they are kept.
 #[must_use]
 pub fn frame(set: &Set, width: FloatWidth) -> Frame {
+    let ids = set.column(&ID);
+    if !ids.is_sorted() {
+        let mut order: Vec<u32> = (0..ids.len() as u32).collect();
+        order.sort_unstable_by_key(|row| ids[*row as usize]);
+        let mut sorted = set.clone();
+        sorted.arrange(&order);
+        return frame(&sorted, width);
+    }
     let precision = match width {
         FloatWidth::F32 => Precision::F32,
         FloatWidth::F64 => Precision::F64,

@@ -254,6 +254,10 @@ impl<'a> Simulation<'a> {
             for (name, unit, value) in totals.closing() {
                 session.closing(name, unit, value);
             }
+            let figures = march.figures().into_iter();
+            for (_, figure) in figures.filter(|(stage, _)| *stage == "grains") {
+                session.closing(figure.name, figure.unit, figure.value);
+            }
         }
         let totals = Balance::of(state, &march.figures());
         if self.scene.has_metal() {

@@ -1,6 +1,6 @@
 //! Push, friction and rolling of one contact put together.
 
-use shapes::frame::{Vector, along, cross};
+use shapes::frame::{Vector, along, cross, scaled};
 
 use crate::meeting::Meeting;
 use crate::normal::Normal;
@@ -35,7 +35,7 @@ impl<N: Normal> Contact<N> {
     /// Force and moments of a contact after a step of `step` \[s\].
     ///
     /// The tangential dashpot has the share of critical damping of the normal one, on its own spring.
-    #[inline]
+    #[inline(always)]
     pub fn act(&self, meeting: &Meeting, history: &mut History, step: f64) -> Reply {
         let push = self.normal.push(meeting);
         let friction = match self.friction {
@@ -46,14 +46,14 @@ impl<N: Normal> Contact<N> {
         Reply {
             force: along(friction, push, meeting.normal),
             friction,
-            moment: moment.map(|m| -meeting.arms[0] * m),
-            moment_on_b: moment.map(|m| -meeting.arms[1] * m),
+            moment: scaled(-meeting.arms[0], moment),
+            moment_on_b: scaled(-meeting.arms[1], moment),
             push,
         }
     }
 
     /// The same with resistance to rolling, whose stretch is `rolled` \[m\].
-    #[inline]
+    #[inline(always)]
     pub fn act_rolling(
         &self,
         meeting: &Meeting,
@@ -71,7 +71,7 @@ impl<N: Normal> Contact<N> {
     }
 
     /// Stiffness \[N/m\] and damping \[N s/m\] across the normal.
-    #[inline]
+    #[inline(always)]
     fn across(&self, meeting: &Meeting) -> [f64; 2] {
         let stiffness = self.normal.tangential(meeting);
         let damping = 2.0 * self.normal.damping_ratio() * (meeting.mass * stiffness).sqrt();

@@ -65,6 +65,7 @@ impl Hertz {
         2.943_275_105_6 * self.deepest(mass, radius, speed) / speed
     }
 
+    #[inline(always)]
     fn spring(&self, meeting: &Meeting) -> f64 {
         4.0 / 3.0 * self.modulus * meeting.radius.sqrt()
     }
@@ -73,7 +74,7 @@ impl Hertz {
 impl Normal for Hertz {
     const STIFFENS: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn push(&self, meeting: &Meeting) -> f64 {
         let spring = self.spring(meeting);
         let root = meeting.overlap.sqrt();
@@ -85,16 +86,17 @@ impl Normal for Hertz {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn stiffness(&self, meeting: &Meeting) -> f64 {
         1.5 * self.spring(meeting) * meeting.overlap.sqrt()
     }
 
-    #[inline]
+    #[inline(always)]
     fn tangential(&self, meeting: &Meeting) -> f64 {
         8.0 * self.shear * (meeting.radius * meeting.overlap).sqrt()
     }
 
+    #[inline(always)]
     fn damping_ratio(&self) -> f64 {
         self.damping_ratio
     }

@@ -43,7 +43,7 @@ impl Linear {
 impl Normal for Linear {
     const STIFFENS: bool = false;
 
-    #[inline]
+    #[inline(always)]
     fn push(&self, meeting: &Meeting) -> f64 {
         let damping = 2.0 * self.damping_ratio * (meeting.mass * self.stiffness).sqrt();
         let push = self.stiffness * meeting.overlap + damping * meeting.approach;
@@ -53,16 +53,17 @@ impl Normal for Linear {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn stiffness(&self, _: &Meeting) -> f64 {
         self.stiffness
     }
 
-    #[inline]
+    #[inline(always)]
     fn tangential(&self, _: &Meeting) -> f64 {
         self.tangential
     }
 
+    #[inline(always)]
     fn damping_ratio(&self) -> f64 {
         self.damping_ratio
     }

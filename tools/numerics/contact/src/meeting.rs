@@ -1,6 +1,6 @@
 //! The geometry of one contact.
 
-use shapes::frame::{Vector, along, cross, difference, dot, length};
+use shapes::frame::{Vector, along, cross, difference, dot, length, scaled};
 
 /// A grain as a contact sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +55,14 @@ impl Meeting {
         Some(Self::at(a, b, (apart, squared)))
     }
 
+    /// The contact of two grains that are known to overlap.
+    #[inline(always)]
+    #[must_use]
+    pub fn overlapping(a: &Grain, b: &Grain) -> Self {
+        let apart = difference(a.position, b.position);
+        Self::at(a, b, (apart, dot(apart, apart)))
+    }
+
     /// Two grains that have just parted: the overlap is what is between them, below zero.
     #[must_use]
     pub fn parted(a: &Grain, b: &Grain) -> Option<Self> {
@@ -63,17 +71,18 @@ impl Meeting {
         (squared > f64::MIN_POSITIVE).then(|| Self::at(a, b, (apart, squared)))
     }
 
-    #[inline]
+    #[inline(always)]
     fn at(a: &Grain, b: &Grain, (apart, squared): (Vector, f64)) -> Self {
         let reach = a.radius + b.radius;
         let distance = squared.sqrt();
-        let normal = apart.map(|x| x / distance);
-        let lens = (a.radius - b.radius) * reach / distance;
+        let inverse = 1.0 / distance;
+        let normal = scaled(inverse, apart);
+        let lens = (a.radius - b.radius) * reach * inverse;
         let arms = [0.5 * (distance + lens), 0.5 * (distance - lens)];
         // u_t = u - (u.n) n - (l_a w_a + l_b w_b) x n, n from b to a (eq. 3.113 with its sign made right).
         let past = difference(a.velocity, b.velocity);
         let opening = dot(past, normal);
-        let rolled = [0, 1, 2].map(|i| arms[0] * a.spin[i] + arms[1] * b.spin[i]);
+        let rolled = along(scaled(arms[0], a.spin), arms[1], b.spin);
         Self {
             normal,
             overlap: reach - distance,
@@ -132,7 +141,7 @@ impl Meeting {
         let past = difference(a.velocity, velocity);
         let opening = dot(past, normal);
         let arm = distance.max(0.0);
-        let rolled = a.spin.map(|w| arm * w);
+        let rolled = scaled(arm, a.spin);
         Self {
             normal,
             overlap: a.radius - distance,

@@ -11,10 +11,10 @@
 //! Spring, dashpot and slider (Ai et al. 2011, model C): what rests stays at rest on a slope up to tan = mu_r R* / r, and the
 //! moment neither drives nor hums where rolling ends.
 
-use shapes::frame::{Vector, along, cross, length};
+use shapes::frame::{Vector, along, cross, length, scaled};
 
 use crate::meeting::Meeting;
-use crate::slider::turned;
+use crate::slider::{left, let_through, turned};
 
 /// Rolling resistance of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +29,7 @@ impl Rolling {
     /// Moment on a \[N m\] (on b the opposite) under the push `push` \[N\] after a step of `step` \[s\]; the stretch r \[m\] moves on.
     ///
     /// `stiffness` and `damping` are those of the tangential spring and dashpot \[N/m, N s/m\].
-    #[inline]
+    #[inline(always)]
     pub fn moment(
         self,
         meeting: &Meeting,
@@ -42,16 +42,13 @@ impl Rolling {
             self.stiffness_ratio * stiffness,
             self.stiffness_ratio.sqrt() * damping,
         ];
-        let velocity = cross(meeting.turn, meeting.normal).map(|v| meeting.radius * v);
-        *rolled = along(turned(*rolled, meeting.normal), step, velocity);
-        let mut force = [0, 1, 2].map(|i| -stiffness * rolled[i] - damping * velocity[i]);
-        let (most, size) = (self.coefficient * push.max(0.0), length(force));
-        if size > most {
-            force = force.map(|f| f * (most / size));
-            if stiffness > 0.0 {
-                *rolled = [0, 1, 2].map(|i| -(force[i] + damping * velocity[i]) / stiffness);
-            }
-        }
-        cross(meeting.normal, force).map(|m| meeting.radius * m)
+        let velocity = scaled(meeting.radius, cross(meeting.turn, meeting.normal));
+        let whole = along(turned(*rolled, meeting.normal), step, velocity);
+        let pull = along(scaled(stiffness, whole), damping, velocity);
+        let most = self.coefficient * push.max(0.0);
+        let part = let_through(length(pull), most);
+        let force = scaled(-part, pull);
+        *rolled = left(whole, part, force, (stiffness, scaled(damping, velocity)));
+        scaled(meeting.radius, cross(meeting.normal, force))
     }
 }

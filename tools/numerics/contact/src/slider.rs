@@ -10,7 +10,7 @@
 //! reverses. Where the tangential spring stiffens with the overlap (Mindlin), new area of contact carries no load: the stretch
 //! shrinks so that the force stays (Thornton, Cummins and Cleary 2013), and unloading never makes energy.
 
-use shapes::frame::{Vector, along, dot, length};
+use shapes::frame::{Vector, along, dot, length, scaled};
 
 use crate::meeting::Meeting;
 
@@ -31,24 +31,43 @@ pub struct History {
 }
 
 /// A stretch turned into the plane of `normal`, its length kept.
-#[inline]
+///
+/// What is chosen is chosen between numbers, here and in the forces below: several contacts are then reckoned at once.
+#[inline(always)]
 pub(crate) fn turned(stretch: Vector, normal: Vector) -> Vector {
     let across = dot(stretch, normal);
     let flat = along(stretch, -across, normal);
     let (old, new) = (dot(stretch, stretch), dot(flat, flat));
-    if new > 0.0 {
-        let keep = (old / new).sqrt();
-        flat.map(|x| keep * x)
-    } else {
-        [0.0; 3]
-    }
+    let keep = if new > 0.0 { (old / new).sqrt() } else { 0.0 };
+    scaled(keep, flat)
+}
+
+/// The part of a force of `size` \[N\] that a slider of at most `most` \[N\] lets through.
+#[inline(always)]
+pub(crate) fn let_through(size: f64, most: f64) -> f64 {
+    if size > most { most / size } else { 1.0 }
+}
+
+/// The stretch of the spring beside a dashpot that pulls with `damped` \[N\], where the slider lets `part` of their force through,
+/// `force` \[N\]; `whole` is the stretch before it slides.
+#[inline(always)]
+pub(crate) fn left(
+    whole: Vector,
+    part: f64,
+    force: Vector,
+    (stiffness, damped): (f64, Vector),
+) -> Vector {
+    let slides = part < 1.0 && stiffness > 0.0;
+    let sprung = scaled(-1.0 / stiffness, along(force, 1.0, damped));
+    let choose = |k: usize| if slides { sprung[k] } else { whole[k] };
+    [choose(0), choose(1), choose(2)]
 }
 
 impl Friction {
     /// Force on a in the plane of contact \[N\] under the push `push` \[N\] after a step of `step` \[s\]; the history moves on.
     ///
     /// `stiffness` and `damping` are those of the tangential spring and dashpot \[N/m, N s/m\].
-    #[inline]
+    #[inline(always)]
     pub fn force(
         self,
         meeting: &Meeting,
@@ -62,16 +81,18 @@ impl Friction {
         } else {
             1.0
         };
-        let kept = turned(history.stretch, meeting.normal).map(|x| grown * x);
-        let mut stretch = along(kept, step, meeting.slide);
-        let mut force = [0, 1, 2].map(|i| -stiffness * stretch[i] - damping * meeting.slide[i]);
-        let (most, size) = (self.coefficient * push.max(0.0), length(force));
-        if size > most {
-            force = force.map(|f| f * (most / size));
-            if stiffness > 0.0 {
-                stretch = [0, 1, 2].map(|i| -(force[i] + damping * meeting.slide[i]) / stiffness);
-            }
-        }
+        let kept = scaled(grown, turned(history.stretch, meeting.normal));
+        let whole = along(kept, step, meeting.slide);
+        let pull = along(scaled(stiffness, whole), damping, meeting.slide);
+        let most = self.coefficient * push.max(0.0);
+        let part = let_through(length(pull), most);
+        let force = scaled(-part, pull);
+        let stretch = left(
+            whole,
+            part,
+            force,
+            (stiffness, scaled(damping, meeting.slide)),
+        );
         *history = History { stretch, stiffness };
         force
     }

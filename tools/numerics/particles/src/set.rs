@@ -188,6 +188,22 @@ impl Set {
         self.rows = (0..rows).filter(|row| !leaves(*row)).count();
     }
 
+    /// Puts the particle of the row `order[k]` into the row k, for all k; `order` names every row once.
+    ///
+    /// # Panics
+    /// When `order` names another number of rows.
+    pub fn arrange(&mut self, order: &[u32]) {
+        assert!(
+            order.len() == self.rows,
+            "{} of {} rows",
+            order.len(),
+            self.rows
+        );
+        for held in &mut self.held {
+            held.values.arrange(order);
+        }
+    }
+
     /// Moves the particles for which `leaves` says so behind those of another set, in their order. Columns that both
     /// hold go along, the id among them; the others of the new set get their defaults.
     pub fn transfer(&mut self, to: &mut Self, leaves: impl Fn(usize) -> bool) {
@@ -302,6 +318,16 @@ mod tests {
         assert_eq!(debris.column(&STRESS).len(), 3);
         let row = solid.push(&mut ids);
         assert_eq!(solid.column(&ID)[row], 5, "no number is given twice");
+    }
+
+    #[test]
+    fn rows_are_put_in_another_order() {
+        let mut set = set("a", &mut Ids::default(), 3);
+        set.column_mut(&SPEED)[2] = 7.0;
+        set.arrange(&[2, 0, 1]);
+        assert_eq!(set.column(&ID), [2, 0, 1]);
+        assert!(alike(set.column(&SPEED), &[7.0, 1.5, 1.5]));
+        assert!(alike(&set.column(&POSITION)[0], &[2.0, 0.0, 0.0]));
     }
 
     #[test]

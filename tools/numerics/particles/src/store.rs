@@ -83,6 +83,14 @@ impl Store {
         each!(self, values => values.retain(|_| row.next().is_some_and(&keeps)));
     }
 
+    /// Puts the value of the row `order[k]` into the row k, for all k.
+    pub(crate) fn arrange(&mut self, order: &[u32]) {
+        each!(self, values => {
+            let arranged = order.iter().map(|row| values[*row as usize]).collect();
+            *values = arranged;
+        });
+    }
+
     /// Whether both hold values of one kind.
     #[must_use]
     pub fn alike(&self, other: &Self) -> bool {

@@ -17,6 +17,13 @@ pub fn along(a: Vector, s: f64, b: Vector) -> Vector {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
+/// `s a`.
+#[inline]
+#[must_use]
+pub fn scaled(s: f64, a: Vector) -> Vector {
+    [s * a[0], s * a[1], s * a[2]]
+}
+
 /// `a - b`.
 #[inline]
 #[must_use]

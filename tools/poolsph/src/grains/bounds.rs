@@ -105,6 +105,13 @@ impl Setting {
         Slack::of(0.5 * m, 2.0 / m, zeta, self.inertia_factor)
     }
 
+    /// The step \[s\] in which grains do not go too far at the speed `fastest` \[m/s\]: all that bounds grains that are driven.
+    #[must_use]
+    pub fn far(&self, fastest: f64) -> (f64, &'static str) {
+        let seconds = FAR * self.radii[0] / fastest.max(f64::MIN_POSITIVE);
+        (seconds, "grain_speed")
+    }
+
     /// The longest step \[s\] and what bounds it. `elastic` gives overlap and duration of an elastic impact of two of the lightest
     /// grains at a speed \[m/s\].
     #[must_use]
@@ -138,10 +145,7 @@ impl Setting {
             ),
             (tangential, "grain_tangential"),
             (duration / self.steps_per_contact, "grain_contact"),
-            (
-                FAR * self.radii[0] / doing.fastest.max(f64::MIN_POSITIVE),
-                "grain_speed",
-            ),
+            self.far(doing.fastest),
         ];
         bounds
             .into_iter()

@@ -150,17 +150,14 @@ impl Heat {
         let done: Result<(), OutOfRange> = chunks
             .map(|(c, (conductance, chunk))| {
                 conductance.clear();
-                for k in 0..chunk.rows() {
-                    for place in chunk.row(k) {
-                        let other = &chunk.pairs[place];
-                        let touching = other.state == Touch::Touching;
-                        let h = if touching {
-                            pair(c * ROWS + k, other.other as usize)?
-                        } else {
-                            0.0
-                        };
-                        conductance.push(h);
-                    }
+                for other in &chunk.pairs {
+                    let touching = other.state == Touch::Touching;
+                    let h = if touching {
+                        pair(c * ROWS + other.own as usize, other.other as usize)?
+                    } else {
+                        0.0
+                    };
+                    conductance.push(h);
                 }
                 Ok(())
             })
@@ -201,24 +198,31 @@ impl Heat {
         solid + gas.map_or(0.0, |k_g| conductance::gas(k_g, wide, r_c))
     }
 
-    /// Sums H times `weight(a, b)` over the contacts of each grain a, in the order of rows.
+    /// Sums H times `weight(a, b)` over the contacts of each grain a, in the order of the list.
     fn gather(&self, lists: &Lists, sums: &mut [f64], weight: impl Fn(usize, usize) -> f64 + Sync) {
         let chunks = sums.par_chunks_mut(ROWS).zip(&lists.chunks).enumerate();
         chunks.for_each(|(c, (sums, chunk))| {
-            for (k, sum) in sums.iter_mut().enumerate() {
-                let a = c * ROWS + k;
-                let incoming = chunk.incoming(k).iter().map(|[from, place]| {
-                    let (from, place) = (*from as usize, *place as usize);
-                    (lists.lower(from, place), self.conductance[from][place])
-                });
-                let own = chunk.row(k).map(|place| {
-                    (
-                        chunk.pairs[place].other as usize,
-                        self.conductance[c][place],
-                    )
-                });
-                let each = incoming.chain(own).filter(|(_, h)| *h > 0.0);
-                *sum = each.fold(0.0, |sum, (b, h)| sum + h * weight(a, b));
+            let first = c * ROWS;
+            sums.fill(0.0);
+            for (place, pair) in chunk.pairs.iter().enumerate() {
+                let (own, b) = (pair.own as usize, pair.other as usize);
+                let h = self.conductance[c][place];
+                if h > 0.0 {
+                    sums[own] += h * weight(first + own, b);
+                    if place < chunk.inner {
+                        sums[b - first] += h * weight(b, first + own);
+                    }
+                }
+            }
+            for incoming in &chunk.incoming {
+                let from = &lists.chunks[incoming.chunk as usize];
+                let place = from.place(*incoming);
+                let h = self.conductance[incoming.chunk as usize][place];
+                if h > 0.0 {
+                    let row = incoming.row as usize;
+                    let b = incoming.chunk as usize * ROWS + from.pairs[place].own as usize;
+                    sums[row] += h * weight(first + row, b);
+                }
             }
         });
     }

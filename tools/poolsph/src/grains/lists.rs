@@ -3,6 +3,9 @@
 //! A list holds pairs of grains that are nearer than touching plus a skin, each for the grain of the lower row, by the row of the
 //! other. It depends on places alone, and where those were when it was made is a column: a run that is taken up makes
 //! the same list again.
+//!
+//! Rows are in the order of cells ([`super::order`]), and [`ROWS`] of them make a chunk: some eight grains along each side. A
+//! chunk holds its inner pairs first, both of whose grains are its own, and then those with a grain of a later chunk.
 
 use contact::{Grain, History};
 use neighbours::Grid;
@@ -10,23 +13,22 @@ use rayon::prelude::*;
 use shapes::frame::Vector;
 
 use super::bounds::Slack;
+use super::memory::Memory;
 
 /// Rows of a chunk, the unit of parallel work.
-pub const ROWS: usize = 256;
+pub const ROWS: usize = 512;
 /// Skin over the least radius. Wider lists last longer and cost more in each step.
 const SKIN: f64 = 0.25;
 
-/// A pair and what its contact remembers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Two grains that may touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pair {
     /// Row of the other grain.
     pub other: u32,
     /// Row of the lower grain within its chunk.
-    own: u8,
-    /// What it does.
+    pub own: u16,
+    /// What the pair does.
     pub state: Touch,
-    /// The spring across the contact.
-    pub history: History,
 }
 
 /// What a pair does.
@@ -40,129 +42,119 @@ pub enum Touch {
     Parting,
 }
 
-/// What a contact does.
+/// What a contact does to the grain of the higher row, to be taken away from its force and added to its moment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Action {
+pub struct Push {
     /// Force on the grain of the lower row \[N\].
     pub force: Vector,
-    /// Moment on it \[N m\].
+    /// Moment on the grain of the higher row \[N m\].
     pub moment: Vector,
-    /// Moment on the other \[N m\].
-    pub moment_on_other: Vector,
 }
 
-/// A contact that is remembered beyond its list.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Memory {
-    /// Row of a grain.
+/// A pair whose higher row is one of a chunk, and whose lower row is not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Incoming {
+    /// The higher row within its chunk.
     pub row: u32,
-    /// Row of a higher one, or the number of a wall.
-    pub other: u32,
-    /// The spring across.
-    pub history: History,
-    /// The spring of rolling \[m\].
-    pub rolled: Vector,
-}
-
-impl Memory {
-    /// As numbers.
-    #[must_use]
-    pub fn save(&self) -> [f64; 9] {
-        let ([x, y, z], [p, q, r]) = (self.history.stretch, self.rolled);
-        let rows = [f64::from(self.row), f64::from(self.other)];
-        [rows[0], rows[1], x, y, z, self.history.stiffness, p, q, r]
-    }
-
-    /// From the numbers of [`Memory::save`].
-    #[must_use]
-    pub fn restored([row, other, x, y, z, stiffness, p, q, r]: [f64; 9]) -> Self {
-        Self {
-            row: row as u32,
-            other: other as u32,
-            history: History {
-                stretch: [x, y, z],
-                stiffness,
-            },
-            rolled: [p, q, r],
-        }
-    }
+    /// Chunk of the lower row.
+    pub chunk: u32,
+    /// Number among the outgoing pairs there.
+    pub number: u32,
 }
 
 /// Pairs of [`ROWS`] consecutive rows.
 #[derive(Debug, Clone, Default)]
 pub struct Chunk {
-    /// Ends of the rows within `pairs`.
-    ends: Vec<u32>,
-    /// Pairs whose lower row is one of these.
+    /// Pairs whose lower row is one of these, by rows; those whose other row is too come first.
     pub pairs: Vec<Pair>,
+    /// How many come first.
+    pub inner: usize,
+    /// The spring across each pair.
+    pub histories: Vec<History>,
     /// Springs of rolling; none where nothing resists rolling.
     pub rolled: Vec<Vector>,
-    /// What each pair does.
-    pub actions: Vec<Action>,
-    /// Ends of the rows within `incoming`.
-    incoming_ends: Vec<u32>,
-    /// Chunk and place of the pairs whose higher row is one of these.
-    incoming: Vec<[u32; 2]>,
+    /// What the outgoing pairs do, those that are not inner.
+    pub outgoing: Vec<Push>,
+    /// Pairs of other chunks that end in this one.
+    pub incoming: Vec<Incoming>,
+    /// Places of pairs: those that go on touching, and those that begin or part. Room for each step.
+    pub(super) touching: Vec<u32>,
+    pub(super) turning: Vec<u32>,
     /// Greatest overlap \[m\].
     pub deepest: f64,
 }
 
 impl Chunk {
-    /// Places of the pairs of the row with number `k` of the chunk.
+    /// Place of an incoming pair among the pairs of this chunk, which it comes from.
     #[inline]
     #[must_use]
-    pub fn row(&self, k: usize) -> std::ops::Range<usize> {
-        range(&self.ends, k)
-    }
-
-    /// Rows.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        self.ends.len()
-    }
-
-    /// Chunk and place of the pairs in which the row with number `k` is the higher one.
-    #[inline]
-    #[must_use]
-    pub fn incoming(&self, k: usize) -> &[[u32; 2]] {
-        &self.incoming[range(&self.incoming_ends, k)]
+    pub fn place(&self, incoming: Incoming) -> usize {
+        self.inner + incoming.number as usize
     }
 
     fn list(&mut self, first: usize, (grains, grid): (&[Grain], &Grid), skin: (f64, f64)) {
         let (skin, widest) = skin;
-        self.ends.clear();
         self.pairs.clear();
         let end = (first + ROWS).min(grains.len());
+        let mut outgoing: Vec<Pair> = Vec::new();
         for (a, own) in grains.iter().enumerate().take(end).skip(first) {
-            let start = self.pairs.len();
+            let starts = (self.pairs.len(), outgoing.len());
             let reach = own.radius + widest + skin;
+            let far = own.radius + skin;
             grid.runs(own.position, reach, |run| {
                 for (at, b) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
-                    let far = own.radius + skin;
                     if (*b as usize) > a {
                         let within = far + grains[*b as usize].radius;
                         if squared(own.position, *at) < within * within {
-                            self.pairs.push(Pair {
+                            let pair = Pair {
                                 other: *b,
-                                own: (a - first) as u8,
+                                own: (a - first) as u16,
                                 state: Touch::Apart,
-                                history: History::default(),
-                            });
+                            };
+                            if (*b as usize) < end {
+                                self.pairs.push(pair);
+                            } else {
+                                outgoing.push(pair);
+                            }
                         }
                     }
                 }
             });
-            self.pairs[start..].sort_unstable_by_key(|pair| pair.other);
-            self.ends.push(self.pairs.len() as u32);
+            self.pairs[starts.0..].sort_unstable_by_key(|pair| pair.other);
+            outgoing[starts.1..].sort_unstable_by_key(|pair| pair.other);
         }
-        self.actions.resize(self.pairs.len(), Action::default());
+        self.inner = self.pairs.len();
+        self.pairs.append(&mut outgoing);
+        let number = self.pairs.len();
+        self.histories.clear();
+        self.histories.resize(number, History::default());
+        self.outgoing.resize(number - self.inner, Push::default());
+        self.touching.resize(number, 0);
+        self.turning.resize(number, 0);
     }
-}
 
-#[inline]
-fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
-    let start = if k == 0 { 0 } else { ends[k - 1] };
-    start as usize..ends[k] as usize
+    /// Gives the pairs what they remember: `memories` are those of the rows from `first` on.
+    fn remember(&mut self, first: usize, memories: &[Memory]) {
+        for memory in memories {
+            let own = (memory.row as usize - first) as u16;
+            let inner = (memory.other as usize) < first + ROWS;
+            let (start, part) = if inner {
+                (0, &self.pairs[..self.inner])
+            } else {
+                (self.inner, &self.pairs[self.inner..])
+            };
+            let found = part.binary_search_by_key(&(own, memory.other), |p| (p.own, p.other));
+            // What has parted beyond the skin within a step is forgotten.
+            let Ok(place) = found.map(|place| start + place) else {
+                continue;
+            };
+            self.pairs[place].state = Touch::Touching;
+            self.histories[place] = memory.history;
+            if let Some(rolled) = self.rolled.get_mut(place) {
+                *rolled = memory.rolled;
+            }
+        }
+    }
 }
 
 #[inline]
@@ -215,76 +207,62 @@ impl Lists {
         let (grid, rolls) = (&*grid, self.rolls);
         let chunks = self.chunks.par_iter_mut().enumerate();
         chunks.for_each(|(c, chunk)| {
-            chunk.list(c * ROWS, (grains, grid), (skin, widest));
+            let first = c * ROWS;
+            chunk.list(first, (grains, grid), (skin, widest));
             chunk.rolled.clear();
             if rolls {
                 chunk.rolled.resize(chunk.pairs.len(), [0.0; 3]);
             }
-            remember(chunk, c * ROWS, memories);
+            let from = |row: usize| memories.partition_point(|m| (m.row as usize) < row);
+            chunk.remember(first, &memories[from(first)..from(first + ROWS)]);
         });
         self.turn_round(grains.len());
     }
 
-    /// Finds for each row the pairs in which it is the higher one, by the lower.
+    /// Finds for each chunk the pairs of others that end in it, and counts the pairs of each row.
     fn turn_round(&mut self, rows: usize) {
         self.contacts.clear();
         self.contacts.resize(rows, 0);
-        for chunk in &self.chunks {
-            for pair in &chunk.pairs {
-                self.contacts[pair.other as usize] += 1;
-            }
-        }
-        let chunks = self.chunks.iter_mut().enumerate();
-        for (c, chunk) in chunks {
-            let mut end = 0;
-            chunk.incoming_ends.clear();
-            for k in 0..chunk.ends.len() {
-                // The start for now: filling moves it to the end.
-                chunk.incoming_ends.push(end);
-                end += self.contacts[c * ROWS + k];
-            }
+        for chunk in &mut self.chunks {
             chunk.incoming.clear();
-            chunk.incoming.resize(end as usize, [0; 2]);
         }
         for c in 0..self.chunks.len() {
-            for k in 0..self.chunks[c].ends.len() {
-                let row = self.chunks[c].row(k);
-                self.contacts[c * ROWS + k] += row.len() as u32;
-                for place in row {
-                    let other = self.chunks[c].pairs[place].other as usize;
-                    let to = &mut self.chunks[other / ROWS];
-                    let next = &mut to.incoming_ends[other % ROWS];
-                    to.incoming[*next as usize] = [c as u32, place as u32];
-                    *next += 1;
+            for place in 0..self.chunks[c].pairs.len() {
+                let pair = self.chunks[c].pairs[place];
+                let other = pair.other as usize;
+                self.contacts[c * ROWS + pair.own as usize] += 1;
+                self.contacts[other] += 1;
+                if let Some(number) = place.checked_sub(self.chunks[c].inner) {
+                    self.chunks[other / ROWS].incoming.push(Incoming {
+                        row: (other % ROWS) as u32,
+                        chunk: c as u32,
+                        number: number as u32,
+                    });
                 }
             }
         }
     }
 
-    /// Row of the lower grain of a pair by its chunk and place.
-    #[inline]
-    #[must_use]
-    pub fn lower(&self, chunk: usize, place: usize) -> usize {
-        chunk * ROWS + self.chunks[chunk].pairs[place].own as usize
-    }
-
-    /// Contacts that touch, by rows.
+    /// Contacts that touch, by the chunks of their lower rows.
     pub fn memories(&self, memories: &mut Vec<Memory>) {
         memories.clear();
         for (c, chunk) in self.chunks.iter().enumerate() {
-            for k in 0..chunk.rows() {
-                let row = (c * ROWS + k) as u32;
-                memories.extend(chunk.row(k).filter_map(|place| {
-                    let pair = &chunk.pairs[place];
-                    (pair.state == Touch::Touching).then(|| Memory {
-                        row,
-                        other: pair.other,
-                        history: pair.history,
-                        rolled: chunk.rolled.get(place).copied().unwrap_or_default(),
-                    })
-                }));
-            }
+            let touching = chunk.pairs.iter().enumerate();
+            let touching = touching.filter(|(_, pair)| pair.state == Touch::Touching);
+            memories.extend(touching.map(|(place, pair)| Memory {
+                row: (c * ROWS) as u32 + u32::from(pair.own),
+                other: pair.other,
+                history: chunk.histories[place],
+                rolled: chunk.rolled.get(place).copied().unwrap_or_default(),
+            }));
         }
+    }
+
+    /// Pairs that touch.
+    #[must_use]
+    pub fn touching(&self) -> usize {
+        let pairs = self.chunks.iter().flat_map(|chunk| &chunk.pairs);
+        pairs.filter(|pair| pair.state == Touch::Touching).count()
     }
 
     /// Least slack of all pairs; `walls` tells how many walls a row may touch.
@@ -292,17 +270,12 @@ impl Lists {
     pub fn slack(&self, grains: &[Grain], walls: &[u32], (zeta, c): (f64, f64)) -> Option<Slack> {
         let number = |a: usize| f64::from(self.contacts[a] + walls.get(a).copied().unwrap_or(0));
         let of = |(place, chunk): (usize, &Chunk)| {
-            let rows = (0..chunk.rows()).flat_map(|k| {
-                let a = place * ROWS + k;
-                let own = number(a) / grains[a].mass;
-                let pairs = chunk.pairs[chunk.row(k)].iter();
-                pairs.map(move |pair| {
-                    let b = pair.other as usize;
-                    let (m, n) = (grains[a].mass, grains[b].mass);
-                    Slack::of(m * n / (m + n), own + number(b) / n, zeta, c)
-                })
+            let pairs = chunk.pairs.iter().map(|pair| {
+                let (a, b) = (place * ROWS + pair.own as usize, pair.other as usize);
+                let (m, n) = (grains[a].mass, grains[b].mass);
+                Slack::of(m * n / (m + n), number(a) / m + number(b) / n, zeta, c)
             });
-            rows.reduce(Slack::least)
+            pairs.reduce(Slack::least)
         };
         let chunks = self.chunks.par_iter().enumerate();
         chunks.filter_map(of).reduce_with(Slack::least)
@@ -313,51 +286,12 @@ impl Lists {
     pub fn bytes(&self) -> usize {
         let chunk = |c: &Chunk| {
             size_of::<Pair>() * c.pairs.capacity()
-                + 24 * c.rolled.capacity()
-                + size_of::<Action>() * c.actions.capacity()
-                + 8 * c.incoming.capacity()
-                + 8 * c.ends.capacity()
+                + size_of::<History>() * c.histories.capacity()
+                + size_of::<Vector>() * c.rolled.capacity()
+                + size_of::<Push>() * c.outgoing.capacity()
+                + size_of::<Incoming>() * c.incoming.capacity()
+                + 4 * (c.touching.capacity() + c.turning.capacity())
         };
         self.chunks.iter().map(chunk).sum::<usize>() + 28 * self.places.capacity()
-    }
-}
-
-/// Gives contacts between grains, and those at walls, the rows that are left where some grains leave.
-pub fn renumber([between, at_walls]: &mut [Vec<Memory>; 2], leaves: &[bool]) {
-    let mut next = 0;
-    let each = leaves.iter().map(|leaves| {
-        next += u32::from(!leaves);
-        (!leaves).then(|| next - 1)
-    });
-    let rows: Vec<Option<u32>> = each.collect();
-    let row = |row: u32| rows[row as usize];
-    between.retain_mut(|m| match (row(m.row), row(m.other)) {
-        (Some(a), Some(b)) => {
-            (m.row, m.other) = (a, b);
-            true
-        }
-        _ => false,
-    });
-    at_walls.retain_mut(|m| row(m.row).map(|a| m.row = a).is_some());
-}
-
-/// Gives the pairs of a chunk what they remember.
-fn remember(chunk: &mut Chunk, first: usize, memories: &[Memory]) {
-    let mut at = memories.partition_point(|m| (m.row as usize) < first);
-    for k in 0..chunk.rows() {
-        let row = chunk.row(k);
-        while let Some(memory) = memories.get(at).filter(|m| m.row as usize == first + k) {
-            at += 1;
-            let found = chunk.pairs[row.clone()].binary_search_by_key(&memory.other, |p| p.other);
-            // What has parted beyond the skin within a step is forgotten.
-            let Ok(place) = found.map(|place| row.start + place) else {
-                continue;
-            };
-            let pair = &mut chunk.pairs[place];
-            (pair.state, pair.history) = (Touch::Touching, memory.history);
-            if let Some(rolled) = chunk.rolled.get_mut(place) {
-                *rolled = memory.rolled;
-            }
-        }
     }
 }

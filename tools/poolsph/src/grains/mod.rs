@@ -14,17 +14,20 @@
 //! u += dt/2 (a' - a)                            correct
 //! ```
 //!
-//! Each contact is reckoned once, for the grain of the lower row; then every grain gathers its contacts in the order of
-//! rows. So the bits do not depend on threads, momentum and angular momentum are kept to round-off, and what is far away
+//! Each contact is reckoned once, for the grain of the lower row, and added to both of its grains in the order of the list.
+//! So the bits do not depend on threads, momentum and angular momentum are kept to round-off, and what is far away
 //! adds nothing.
 
+pub mod block;
 pub mod bounds;
 pub mod faces;
 pub mod fill;
 pub mod heat;
 pub mod lists;
+pub mod memory;
 pub mod motion;
 pub mod moving;
+pub mod order;
 pub mod pairs;
 pub mod parameters;
 pub mod pressure;

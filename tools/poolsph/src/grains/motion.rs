@@ -8,11 +8,12 @@ use shapes::frame::{Vector, dot};
 
 use super::bounds::{Doing, Setting, Slack};
 use super::heat::Heat;
-use super::lists::{Lists, Memory, renumber};
+use super::lists::Lists;
+use super::memory::{Memory, closed_up, renumber};
 use super::moving::Moving;
 use super::parameters::{BoundsScene, Law, Parameters, RestScene};
 use super::walls::{self, Walls};
-use super::{MASS, RADIUS, VELOCITY, pairs};
+use super::{MASS, RADIUS, VELOCITY, order, pairs};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::State;
 
@@ -29,6 +30,8 @@ pub struct Motion {
     /// How long no grain has been faster than at rest \[s\].
     quiet: f64,
     lists: Lists,
+    /// Lists made since rows were last put in order.
+    listings: f64,
     wall_contacts: Vec<u32>,
     moving: Moving,
     memories: [Vec<Memory>; 2],
@@ -41,7 +44,9 @@ pub struct Motion {
 }
 
 /// Numbers of a checkpoint ahead of the walls.
-const HEAD: usize = 9;
+const HEAD: usize = 10;
+/// Lists that are made until rows are put in order anew.
+const LISTINGS: f64 = 20.0;
 
 impl Motion {
     /// The motion of the grains of `set` as the scene has it.
@@ -71,6 +76,7 @@ impl Motion {
             until: scene.until,
             quiet: 0.0,
             lists: Lists::new(scene.contact.rolling.is_some()),
+            listings: 0.0,
             wall_contacts: Vec::new(),
             moving: Moving::new(gravity, scene.inertia_factor, drives),
             memories: [Vec::new(), Vec::new()],
@@ -92,6 +98,8 @@ impl Motion {
         let (setting, doing) = (&self.setting, self.doing);
         let (mass, radius) = (0.5 * setting.lightest, 0.5 * setting.radii[0]);
         let (seconds, name) = match &self.law {
+            // What grains that are held do to each other moves nothing, and without friction no contact has a history.
+            _ if self.moving.all_driven() && self.friction.is_none() => setting.far(doing.fastest),
             Law::Linear(law) => setting.limit(law, doing, |_| [0.0, law.duration(mass)]),
             Law::Hertz(law) => setting.limit(law, doing, |speed| {
                 let speed = speed.max(f64::MIN_POSITIVE);
@@ -103,7 +111,7 @@ impl Motion {
     }
 
     /// Forces of the start, or lists as they were when a checkpoint was written.
-    fn begin(&mut self, time: f64) -> Result<(), OutOfRange> {
+    fn begin(&mut self, set: &mut Set, time: f64) -> Result<(), OutOfRange> {
         self.begun = true;
         if let Some(saved) = self.restored.take() {
             self.relist_as_saved(&saved);
@@ -111,7 +119,7 @@ impl Motion {
         }
         self.walls.begin(time)?;
         self.moving.begin(time)?;
-        self.list();
+        self.put_in_order(set);
         self.walls.spread(&self.moving.grains);
         self.act(0.0);
         Ok(())
@@ -119,12 +127,31 @@ impl Motion {
 
     /// Lists neighbours afresh; contacts that touch go along.
     fn list(&mut self) {
-        self.lists.memories(&mut self.memories[0]);
-        self.walls.memories(&mut self.memories[1]);
+        self.remember();
         self.list_with_memories();
     }
 
+    /// Takes down what the contacts that touch remember.
+    fn remember(&mut self) {
+        self.lists.memories(&mut self.memories[0]);
+        self.walls.memories(&mut self.memories[1]);
+    }
+
+    /// Puts grains that are near each other in rows that are near each other.
+    fn put_in_order(&mut self, set: &mut Set) {
+        let [least, widest] = self.setting.radii;
+        let order = order::by_cells(&self.moving.grains, 2.0 * widest + Lists::skin(least));
+        self.remember();
+        renumber(&mut self.memories, &order::inverse(&order));
+        self.moving.put(set);
+        set.arrange(&order);
+        self.moving.take(set);
+        self.list_with_memories();
+        self.listings = 0.0;
+    }
+
     fn list_with_memories(&mut self) {
+        self.listings += 1.0;
         let (grains, radii) = (&self.moving.grains, self.setting.radii);
         let [between, at_walls] = &self.memories;
         self.moving.listed.clear();
@@ -154,8 +181,18 @@ impl Motion {
         ) else {
             return;
         };
-        let [pairs, deep, fast, left, mass, steps, brought, limit, quiet] = *head;
-        self.quiet = quiet;
+        let [
+            pairs,
+            deep,
+            fast,
+            left,
+            mass,
+            steps,
+            brought,
+            limit,
+            quiet,
+            listings,
+        ] = *head;
         if let Some(heat) = &mut self.heat {
             (heat.brought, heat.limit) = (brought, limit);
         }
@@ -181,6 +218,7 @@ impl Motion {
         }
         self.walls.place(&moved);
         (self.doing.deepest, self.doing.fastest) = (deep, fast);
+        (self.quiet, self.listings) = (quiet, listings);
     }
 
     /// Forces and moments of all contacts.
@@ -200,8 +238,13 @@ impl Motion {
         let rows = self.moving.grains.len();
         self.moving.force.resize(rows, [0.0; 3]);
         self.moving.moment.resize(rows, [0.0; 3]);
-        pairs::act(&mut self.lists, &self.moving.grains, laws, step);
-        pairs::gather(&self.lists, &mut self.moving.force, &mut self.moving.moment);
+        let Moving {
+            grains,
+            force,
+            moment,
+            ..
+        } = &mut self.moving;
+        pairs::act(&mut self.lists, grains, laws, step, [force, moment]);
         let at_walls = self.walls.act(&self.moving.grains, laws, step);
         self.walls
             .add(&mut self.moving.force, &mut self.moving.moment);
@@ -211,16 +254,15 @@ impl Motion {
 
     /// One step of `step` \[s\] to `time` \[s\].
     fn step(&mut self, time: f64, step: f64) -> Result<(), OutOfRange> {
-        self.moving.predict(step);
+        let far = self.moving.predict(step);
         self.walls.drift(time, step)?;
-        self.moving.drive(time, step)?;
-        if self.strayed() {
+        let driven = self.moving.drive(time, step)?;
+        if self.strayed(far.max(driven)) || far.is_nan() {
             self.list();
         }
         self.moving.turn();
         self.act(step);
-        self.moving.correct(step);
-        let fastest = self.moving.fastest();
+        let fastest = self.moving.correct(step);
         self.doing.fastest = if fastest.is_nan() {
             fastest
         } else {
@@ -230,9 +272,8 @@ impl Motion {
         Ok(())
     }
 
-    /// Whether someone may touch who is not listed.
-    fn strayed(&self) -> bool {
-        let far = self.moving.strayed();
+    /// Whether someone may touch who is not listed, where grains have gone as far as `far` \[m\].
+    fn strayed(&self, far: f64) -> bool {
         let skin = Lists::skin(self.setting.radii[0]);
         // What is no number has strayed.
         let near = far + far.max(self.walls.strayed()) <= skin;
@@ -252,13 +293,18 @@ impl Motion {
             self.lost[0] += 1.0;
             self.lost[1] += grain.mass;
         }
-        self.lists.memories(&mut self.memories[0]);
-        self.walls.memories(&mut self.memories[1]);
-        renumber(&mut self.memories, &leaves);
+        self.remember();
+        renumber(&mut self.memories, &closed_up(&leaves));
         self.moving.put(set);
         set.remove(|row| leaves[row]);
         self.moving.take(set);
         self.list_with_memories();
+    }
+
+    /// Contacts of a grain with others that touch, in the mean.
+    fn contacts(&self) -> f64 {
+        let grains = self.moving.grains.len().max(1);
+        2.0 * self.lists.touching() as f64 / grains as f64
     }
 
     fn diverged(&self, state: &State) -> Option<StageError> {
@@ -301,7 +347,10 @@ impl Stage for Motion {
         self.moving.take(&mut set);
         let mut march = || -> Result<(), OutOfRange> {
             if !self.begun {
-                self.begin(state.time)?;
+                self.begin(&mut set, state.time)?;
+            }
+            if self.listings >= LISTINGS {
+                self.put_in_order(&mut set);
             }
             self.walls.spread(&self.moving.grains);
             let mut done = 0.0;
@@ -344,6 +393,7 @@ impl Stage for Motion {
             figure("grain_overlap", "m", self.doing.deepest),
             figure("grain_speed", "m/s", self.doing.fastest),
             figure("grain_steps", "1", self.steps),
+            figure("grain_contacts", "1", self.contacts()),
         ];
         let heat = self.heat.as_ref();
         figures.extend(heat.map(|heat| figure("grain_heat_held_j", "J", heat.brought)));
@@ -380,6 +430,7 @@ impl Stage for Motion {
             brought,
             limit,
             self.quiet,
+            self.listings,
         ];
         saved.extend(self.walls.save());
         let memories = between.iter().chain(&at_walls);

@@ -2,9 +2,11 @@
 
 use contact::Grain;
 use particles::{POSITION, Set, sweep};
+use rayon::prelude::*;
 use run::property::{Curve, OutOfRange};
 use shapes::frame::{Vector, difference, dot};
 
+use super::lists::ROWS;
 use super::walls::velocity;
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, VELOCITY};
 
@@ -84,6 +86,12 @@ impl Moving {
         self.listed = set.take(&LISTED);
     }
 
+    /// Whether no grain is free.
+    #[must_use]
+    pub fn all_driven(&self) -> bool {
+        !self.grains.is_empty() && self.driven.len() == self.grains.len()
+    }
+
     /// Puts the columns back.
     pub fn put(&mut self, set: &mut Set) {
         let grains = &self.grains;
@@ -110,23 +118,37 @@ impl Moving {
         Ok(())
     }
 
-    /// x += dt u + dt^2/2 a, u += dt a.
-    pub fn predict(&mut self, step: f64) {
-        let (force, moment) = (&self.force, &self.moment);
+    /// x += dt u + dt^2/2 a, u += dt a. Gives the farthest way since neighbours were listed \[m\]; no number where one is none.
+    pub fn predict(&mut self, step: f64) -> f64 {
         let (gravity, c) = (self.gravity, self.inertia_factor);
         for driven in &mut self.driven {
             driven.from = self.grains[driven.row].position;
         }
-        sweep::change(&mut self.grains, |row, grain| {
-            let inverse = 1.0 / grain.mass;
-            let turns = step * inverse / (c * grain.radius * grain.radius);
-            for k in 0..3 {
-                let gained = step * (force[row][k] * inverse + gravity[k]);
-                grain.position[k] += step * (grain.velocity[k] + 0.5 * gained);
-                grain.velocity[k] += gained;
-                grain.spin[k] += turns * moment[row][k];
+        let forces = self
+            .force
+            .par_chunks(ROWS)
+            .zip(self.moment.par_chunks(ROWS));
+        let places = self.listed.par_chunks(ROWS);
+        let grains = self.grains.par_chunks_mut(ROWS);
+        let far = grains.zip(forces).zip(places);
+        let far = far.map(|((grains, (force, moment)), listed)| {
+            let mut far = 0.0;
+            let each = grains.iter_mut().zip(force).zip(moment).zip(listed);
+            for (((grain, force), moment), listed) in each {
+                let inverse = 1.0 / grain.mass;
+                let turns = step * inverse / (c * grain.radius * grain.radius);
+                for k in 0..3 {
+                    let gained = step * (force[k] * inverse + gravity[k]);
+                    grain.position[k] += step * (grain.velocity[k] + 0.5 * gained);
+                    grain.velocity[k] += gained;
+                    grain.spin[k] += turns * moment[k];
+                }
+                let way = difference(grain.position, *listed);
+                far = greater(far, dot(way, way));
             }
+            far
         });
+        far.reduce(|| 0.0, greater).sqrt()
     }
 
     /// Keeps the forces of the step before; new ones take their place.
@@ -136,29 +158,49 @@ impl Moving {
         std::mem::swap(moment, &mut self.moment);
     }
 
-    /// u += dt/2 (a' - a).
-    pub fn correct(&mut self, step: f64) {
-        let (force, moment, [before, turned]) = (&self.force, &self.moment, &self.before);
+    /// u += dt/2 (a' - a). Gives the greatest speed \[m/s\]; no number where one is none.
+    pub fn correct(&mut self, step: f64) -> f64 {
         let c = self.inertia_factor;
-        sweep::change(&mut self.grains, |row, grain| {
-            let half = 0.5 * step / grain.mass;
-            let turns = half / (c * grain.radius * grain.radius);
-            for k in 0..3 {
-                grain.velocity[k] += half * (force[row][k] - before[row][k]);
-                grain.spin[k] += turns * (moment[row][k] - turned[row][k]);
+        let forces = self
+            .force
+            .par_chunks(ROWS)
+            .zip(self.moment.par_chunks(ROWS));
+        let [before, turned] = &self.before;
+        let old = before.par_chunks(ROWS).zip(turned.par_chunks(ROWS));
+        let grains = self.grains.par_chunks_mut(ROWS);
+        let fastest = grains.zip(forces).zip(old);
+        let fastest = fastest.map(|((grains, (force, moment)), (before, turned))| {
+            let mut fastest = 0.0;
+            let forces = force.iter().zip(before).zip(moment.iter().zip(turned));
+            for (grain, ((force, before), (moment, turned))) in grains.iter_mut().zip(forces) {
+                let half = 0.5 * step / grain.mass;
+                let turns = half / (c * grain.radius * grain.radius);
+                for k in 0..3 {
+                    grain.velocity[k] += half * (force[k] - before[k]);
+                    grain.spin[k] += turns * (moment[k] - turned[k]);
+                }
+                fastest = greater(fastest, dot(grain.velocity, grain.velocity));
             }
+            fastest
         });
+        let fastest = fastest.reduce(|| 0.0, greater).sqrt();
         for driven in &self.driven {
             let grain = &mut self.grains[driven.row];
             (grain.velocity, grain.spin) = (driven.velocity[1], [0.0; 3]);
         }
+        if self.driven.is_empty() {
+            fastest
+        } else {
+            self.fastest()
+        }
     }
 
-    /// Moves the grains that are held to a velocity.
+    /// Moves the grains that are held to a velocity. Gives the farthest way of these since neighbours were listed \[m\].
     ///
     /// # Errors
     /// Where a formula has no value.
-    pub fn drive(&mut self, time: f64, step: f64) -> Result<(), OutOfRange> {
+    pub fn drive(&mut self, time: f64, step: f64) -> Result<f64, OutOfRange> {
+        let mut far = 0.0;
         for driven in &mut self.driven {
             let Some(curves) = &self.drives[driven.body] else {
                 continue;
@@ -171,28 +213,21 @@ impl Moving {
                 grain.position[k] = driven.from[k] + 0.5 * step * (before[k] + now[k]);
             }
             (grain.velocity, grain.spin) = (now, [0.0; 3]);
+            let way = difference(grain.position, self.listed[driven.row]);
+            far = greater(far, dot(way, way));
         }
-        Ok(())
+        Ok(far.sqrt())
     }
 
-    /// The greatest speed \[m/s\]; none where one is no number.
-    #[must_use]
-    pub fn fastest(&self) -> f64 {
-        let grains = &self.grains;
-        let speed = sweep::greatest(grains.len(), |a| {
-            dot(grains[a].velocity, grains[a].velocity)
-        });
-        speed.map_or(0.0, |(_, squared)| squared.sqrt())
+    /// The greatest speed \[m/s\]; no number where one is none.
+    fn fastest(&self) -> f64 {
+        let squares = self.grains.iter().map(|g| dot(g.velocity, g.velocity));
+        squares.fold(0.0, greater).sqrt()
     }
+}
 
-    /// The farthest way since neighbours were listed \[m\].
-    #[must_use]
-    pub fn strayed(&self) -> f64 {
-        let (grains, listed) = (&self.grains, &self.listed);
-        let far = sweep::greatest(grains.len(), |a| {
-            let way = difference(grains[a].position, listed[a]);
-            dot(way, way)
-        });
-        far.map_or(0.0, |(_, squared)| squared.sqrt())
-    }
+/// The greater of two; what is no number is greater.
+#[inline]
+fn greater(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
 }

@@ -1,35 +1,102 @@
-//! Contacts of grains: each reckoned once, then gathered by every grain.
+//! Contacts of grains: each is reckoned once, for both of its grains.
+//!
+//! A chunk goes over its pairs and divides those that go on touching from those that begin or end. The first are many and alike:
+//! they are reckoned [`LANES`](super::block::LANES) at a time. What a contact does to the grain of the other row is taken
+//! at once where it is a row of the same chunk, and fetched by the other chunk afterwards where it is not. So every grain
+//! adds in an order that hangs on the list alone, not on threads.
 
 use contact::{Contact, Grain, History, Meeting, Normal, Reply, Rolling};
 use rayon::prelude::*;
-use shapes::frame::Vector;
+use shapes::frame::{Vector, difference, dot};
 
-use super::lists::{Action, Chunk, Lists, Pair, ROWS, Touch};
+use super::block::Block;
+use super::lists::{Chunk, Lists, Push, ROWS, Touch};
 
-/// Reckons all contacts after a step of `step` \[s\].
+/// Forces \[N\] and moments \[N m\] of the contacts of all grains with each other after a step of `step` \[s\].
 pub fn act<N: Normal + Copy + Sync>(
     lists: &mut Lists,
     grains: &[Grain],
     (contact, rolling): (&Contact<N>, Option<Rolling>),
     step: f64,
+    [force, moment]: [&mut [Vector]; 2],
 ) {
-    let chunks = lists.chunks.par_iter_mut().enumerate();
-    chunks.for_each(|(c, chunk)| {
+    let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
+    let chunks = lists.chunks.par_iter_mut().zip(sums).enumerate();
+    chunks.for_each(|(c, (chunk, (force, moment)))| {
         let work = Work {
             grains,
             contact,
             first: c * ROWS,
             step,
         };
+        let sums = [force, moment];
+        let arch = pulp::Arch::new();
         match rolling {
-            None => work.each(chunk, |meeting, pair, _, step| {
-                contact.act(meeting, &mut pair.history, step)
-            }),
-            Some(rolling) => work.each(chunk, |meeting, pair, rolled, step| {
-                contact.act_rolling(meeting, rolling, (&mut pair.history, rolled), step)
-            }),
+            None => arch.dispatch(Wide(work, chunk, sums, Sliding(contact))),
+            Some(rolling) => {
+                arch.dispatch(Wide(work, chunk, sums, SlidingAndRolling(contact, rolling)));
+            }
         }
     });
+    fetch(lists, [force, moment]);
+}
+
+/// Adds what pairs of other chunks do to the grains of each.
+fn fetch(lists: &Lists, [force, moment]: [&mut [Vector]; 2]) {
+    let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
+    let chunks = lists.chunks.par_iter().zip(sums);
+    chunks.for_each(|(chunk, (force, moment))| {
+        for incoming in &chunk.incoming {
+            let from = &lists.chunks[incoming.chunk as usize];
+            let push = from.outgoing[incoming.number as usize];
+            let row = incoming.row as usize;
+            for k in 0..3 {
+                force[row][k] -= push.force[k];
+                moment[row][k] += push.moment[k];
+            }
+        }
+    });
+}
+
+/// What resists the motion of grains past each other. A trait and no closure: what is called within is then compiled for wide
+/// vectors too.
+pub(super) trait Resistance {
+    /// Force and moments of a contact after a step of `step` \[s\].
+    fn reply(&self, meeting: &Meeting, memory: (&mut History, &mut Vector), step: f64) -> Reply;
+}
+
+/// A chunk, its sums and what resists, to be reckoned in the widest vectors that the machine has. No operation is fused or
+/// reordered for it.
+struct Wide<'a, N, R>(Work<'a, N>, &'a mut Chunk, [&'a mut [Vector]; 2], R);
+
+impl<N: Normal, R: Resistance> pulp::NullaryFnOnce for Wide<'_, N, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self(work, chunk, sums, resistance) = self;
+        work.each(chunk, sums, &resistance);
+    }
+}
+
+/// Friction alone.
+struct Sliding<'a, N>(&'a Contact<N>);
+
+/// Friction, and resistance to rolling.
+struct SlidingAndRolling<'a, N>(&'a Contact<N>, Rolling);
+
+impl<N: Normal> Resistance for Sliding<'_, N> {
+    #[inline(always)]
+    fn reply(&self, meeting: &Meeting, memory: (&mut History, &mut Vector), step: f64) -> Reply {
+        self.0.act(meeting, memory.0, step)
+    }
+}
+
+impl<N: Normal> Resistance for SlidingAndRolling<'_, N> {
+    #[inline(always)]
+    fn reply(&self, meeting: &Meeting, memory: (&mut History, &mut Vector), step: f64) -> Reply {
+        self.0.act_rolling(meeting, self.1, memory, step)
+    }
 }
 
 /// What the contacts of a chunk are reckoned from.
@@ -45,96 +112,114 @@ impl<N: Normal> Work<'_, N> {
     fn each(
         &self,
         chunk: &mut Chunk,
-        reply: impl Fn(&Meeting, &mut Pair, &mut Vector, f64) -> Reply,
+        [force, moment]: [&mut [Vector]; 2],
+        resistance: &impl Resistance,
     ) {
-        let mut deepest = 0.0_f64;
-        let mut still = [0.0; 3];
-        for k in 0..chunk.rows() {
-            let a = &self.grains[self.first + k];
-            for place in chunk.row(k) {
-                let pair = &mut chunk.pairs[place];
-                let b = &self.grains[pair.other as usize];
-                let Some(meeting) = Meeting::of(a, b) else {
-                    if pair.state != Touch::Apart {
-                        let rolled = chunk.rolled.get_mut(place);
-                        chunk.actions[place] = self.part((a, b), pair, rolled);
-                    }
-                    continue;
-                };
-                deepest = deepest.max(meeting.overlap);
-                let (meeting, step) = if pair.state == Touch::Touching {
-                    (meeting, self.step)
-                } else {
-                    meeting.begun(self.step)
-                };
-                pair.state = Touch::Touching;
-                let rolled = chunk.rolled.get_mut(place).unwrap_or(&mut still);
-                let reply = reply(&meeting, pair, rolled, step);
-                chunk.actions[place] = Action {
-                    force: reply.force,
-                    moment: reply.moment,
-                    moment_on_other: reply.moment_on_b,
-                };
+        force.fill([0.0; 3]);
+        moment.fill([0.0; 3]);
+        chunk.outgoing.fill(Push::default());
+        chunk.deepest = 0.0;
+        let [touching, turning] = self.divide(chunk);
+        for k in 0..turning {
+            let place = chunk.turning[k] as usize;
+            if let Some(done) = self.turn(chunk, place, resistance) {
+                self.add(chunk, place, [force, moment], &done);
             }
         }
-        chunk.deepest = deepest;
+        let mut block = Block::default();
+        let mut from = 0;
+        while from < touching {
+            let places = chunk.touching[from..touching].iter().copied();
+            block.gather(self.grains, self.first, chunk, places);
+            block.reckon(resistance, self.step);
+            for lane in 0..block.filled() {
+                let place = chunk.touching[from + lane] as usize;
+                let done = block.reply(lane);
+                block.keep(lane, chunk, place);
+                self.add(chunk, place, [force, moment], &done);
+            }
+            from += block.filled();
+        }
     }
 
-    /// The last that a contact does.
-    #[cold]
-    fn part(
-        &self,
-        (a, b): (&Grain, &Grain),
-        pair: &mut Pair,
-        rolled: Option<&mut Vector>,
-    ) -> Action {
-        let pulls = pair.state == Touch::Touching && self.contact.normal.pulls_at_the_end();
-        pair.history = History::default();
-        if let Some(rolled) = rolled {
-            *rolled = [0.0; 3];
+    /// Divides the pairs that go on touching from those that begin or end; gives how many there are of each.
+    #[inline(always)]
+    fn divide(&self, chunk: &mut Chunk) -> [usize; 2] {
+        let (mut touching, mut turning) = (0, 0);
+        for (place, pair) in chunk.pairs.iter().enumerate() {
+            let a = &self.grains[self.first + pair.own as usize];
+            let b = &self.grains[pair.other as usize];
+            let apart = difference(a.position, b.position);
+            let (squared, reach) = (dot(apart, apart), a.radius + b.radius);
+            let touches = (squared < reach * reach) & (squared > f64::MIN_POSITIVE);
+            let goes_on = touches & (pair.state == Touch::Touching);
+            let stays_away = !touches & (pair.state == Touch::Apart);
+            // Written each time and counted where it holds: no branch to be guessed wrong.
+            chunk.touching[touching] = place as u32;
+            touching += usize::from(goes_on);
+            chunk.turning[turning] = place as u32;
+            turning += usize::from(!goes_on & !stays_away);
         }
+        [touching, turning]
+    }
+
+    /// The first or the last that a contact does.
+    #[cold]
+    fn turn(&self, chunk: &mut Chunk, place: usize, resistance: &impl Resistance) -> Option<Reply> {
+        let pair = &mut chunk.pairs[place];
+        let a = &self.grains[self.first + pair.own as usize];
+        let b = &self.grains[pair.other as usize];
+        let mut still = [0.0; 3];
+        let rolled = chunk.rolled.get_mut(place).unwrap_or(&mut still);
+        let history = &mut chunk.histories[place];
+        if let Some(meeting) = Meeting::of(a, b) {
+            chunk.deepest = chunk.deepest.max(meeting.overlap);
+            let (meeting, step) = meeting.begun(self.step);
+            pair.state = Touch::Touching;
+            return Some(resistance.reply(&meeting, (history, rolled), step));
+        }
+        let pulls = pair.state == Touch::Touching && self.contact.normal.pulls_at_the_end();
+        (*history, *rolled) = (History::default(), [0.0; 3]);
+        pair.state = Touch::Apart;
         let parted = if pulls { Meeting::parted(a, b) } else { None };
-        let Some(meeting) = parted else {
-            pair.state = Touch::Apart;
-            return Action::default();
-        };
-        let meeting = meeting.ended(self.step);
+        let meeting = parted?.ended(self.step);
         pair.state = Touch::Parting;
         let push = self.contact.normal.push(&meeting);
-        Action {
+        Some(Reply {
             force: meeting.normal.map(|n| push * n),
-            ..Action::default()
+            friction: [0.0; 3],
+            moment: [0.0; 3],
+            moment_on_b: [0.0; 3],
+            push,
+        })
+    }
+
+    /// Adds what a contact does to both of its grains.
+    #[inline(always)]
+    fn add(
+        &self,
+        chunk: &mut Chunk,
+        place: usize,
+        [force, moment]: [&mut [Vector]; 2],
+        done: &Reply,
+    ) {
+        let pair = chunk.pairs[place];
+        let a = pair.own as usize;
+        for k in 0..3 {
+            force[a][k] += done.force[k];
+            moment[a][k] += done.moment[k];
+        }
+        if place < chunk.inner {
+            let b = pair.other as usize - self.first;
+            for k in 0..3 {
+                force[b][k] -= done.force[k];
+                moment[b][k] += done.moment_on_b[k];
+            }
+        } else {
+            chunk.outgoing[place - chunk.inner] = Push {
+                force: done.force,
+                moment: done.moment_on_b,
+            };
         }
     }
-}
-
-/// Gives every grain the force \[N\] and the moment \[N m\] of its contacts with other grains.
-pub fn gather(lists: &Lists, force: &mut [Vector], moment: &mut [Vector]) {
-    let forces = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
-    let chunks = lists.chunks.par_iter().zip(forces);
-    chunks.for_each(|(chunk, (forces, moments))| {
-        for (k, (force, moment)) in forces.iter_mut().zip(moments).enumerate() {
-            let (mut f, mut m) = ([0.0; 3], [0.0; 3]);
-            for &[from, place] in chunk.incoming(k) {
-                let from = &lists.chunks[from as usize];
-                if from.pairs[place as usize].state != Touch::Apart {
-                    let action = &from.actions[place as usize];
-                    for i in 0..3 {
-                        f[i] -= action.force[i];
-                        m[i] += action.moment_on_other[i];
-                    }
-                }
-            }
-            for place in chunk.row(k) {
-                if chunk.pairs[place].state != Touch::Apart {
-                    let action = &chunk.actions[place];
-                    for i in 0..3 {
-                        f[i] += action.force[i];
-                        m[i] += action.moment[i];
-                    }
-                }
-            }
-            (*force, *moment) = (f, m);
-        }
-    });
 }

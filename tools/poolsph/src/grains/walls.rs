@@ -7,7 +7,7 @@ use run::property::{Arguments, Curve, OutOfRange, Property};
 use shapes::frame::{Vector, along, difference, length};
 
 use super::faces::Face;
-use super::lists::Memory;
+use super::memory::Memory;
 use super::parameters::WallScene;
 use super::pressure::Pressed;
 
