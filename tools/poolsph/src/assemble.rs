@@ -14,6 +14,7 @@ use crate::domain::fitting::fitting;
 use crate::faces::{self, Faces};
 use crate::forces::arc_pressure::{ArcPressure, Pressure};
 use crate::forces::buoyancy::Buoyancy;
+use crate::forces::capillary::Capillary;
 use crate::forces::gas_shear::{Gas, GasShear};
 use crate::forces::lorentz::Lorentz;
 use crate::forces::marangoni::Marangoni;
@@ -344,6 +345,9 @@ impl<'a> Source<'a> {
             Ok(Box::new(Buoyancy::new(buoyancy, gravity, metal)))
         })?;
         parts.when("tension", scene.tension, |tension| {
+            if scene.even() {
+                return Ok(Box::new(Capillary::new(tension)));
+            }
             Ok(Box::new(Tension::new(tension, metal)))
         })
     }

@@ -16,6 +16,8 @@ pub struct Images {
     points: usize,
     list: Vec<Image>,
     turns: Vec<Turn>,
+    /// Faces of each axis, and whether they are periodic.
+    planes: [([Option<f64>; 2], bool); 3],
 }
 
 impl Images {
@@ -28,19 +30,34 @@ impl Images {
         }
         if self.turns.is_empty() {
             self.turns = faces.turns().to_vec();
+            self.planes = [0, 1, 2].map(|axis| (faces.planes(axis), faces.is_periodic(axis)));
         }
+        self.reflect(reach, places);
+    }
+
+    /// As [`Images::place`], beyond the faces of `other` images.
+    pub fn place_beside(&mut self, other: &Self, reach: f64, places: &mut Vec<[f64; 3]>) {
+        self.points = places.len();
+        self.list.clear();
+        if other.turns.is_empty() {
+            return;
+        }
+        if self.turns.is_empty() {
+            self.turns.clone_from(&other.turns);
+            self.planes = other.planes;
+        }
+        self.reflect(reach, places);
+    }
+
+    fn reflect(&mut self, reach: f64, places: &mut Vec<[f64; 3]>) {
         for axis in 0..3 {
-            let planes = faces.planes(axis);
+            let (planes, periodic) = self.planes[axis];
             // Images in the faces of an axis have images in those of the next.
             for k in 0..places.len() {
                 let x = places[k][axis];
                 for side in 0..2 {
                     // What lies at one face of a periodic box stands beyond the other.
-                    let from = if faces.is_periodic(axis) {
-                        1 - side
-                    } else {
-                        side
-                    };
+                    let from = if periodic { 1 - side } else { side };
                     let near = planes[from].is_some_and(|plane| (x - plane).abs() < reach);
                     if planes[side].is_some() && near {
                         self.add(places, k, (axis, side));

@@ -2,6 +2,7 @@
 
 pub mod arc_pressure;
 pub mod buoyancy;
+pub mod capillary;
 pub mod gas_shear;
 pub mod lorentz;
 pub mod marangoni;

@@ -14,6 +14,7 @@ use super::noise::Noise;
 use super::projection::Projection;
 use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
+use crate::forces::capillary;
 use crate::near::{Near, Role};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::{Column, Metal, Phase, State};
@@ -138,6 +139,8 @@ impl Motion {
         if self.parameters.method == Method::DivergenceFree {
             around.sum(near, &near.velocity);
             self.viscosity.apply(near, around, dt, predicted);
+            let viscosity = &self.viscosity;
+            (self.divergence_free).slacken(near, viscosity, dt, predicted);
         } else if self.viscosity.acts() || self.noise.acts() {
             around.sum(near, &near.velocity);
             self.viscosity.apply(near, around, dt, predicted);
@@ -198,7 +201,9 @@ impl Motion {
             .max(1.0);
         let viscous = (dt / self.viscosity.limit()).ceil().max(1.0);
         let falling = (dt / self.fall).ceil();
-        Ok(courant.max(viscous).max(falling) as u32)
+        let capillary = (dt / capillary::limit(near, state.metal)).ceil();
+        let substeps = courant.max(viscous).max(falling).max(capillary);
+        Ok(substeps as u32)
     }
 
     /// Takes the results of the copy back to the particles.

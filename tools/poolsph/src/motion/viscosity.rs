@@ -118,6 +118,13 @@ impl Viscosity {
         Ok(())
     }
 
+    /// mu of particle `a` \[Pa s\].
+    #[must_use]
+    #[inline]
+    pub fn at(&self, a: usize) -> f64 {
+        self.each.get(a).copied().unwrap_or(self.law.largest())
+    }
+
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {

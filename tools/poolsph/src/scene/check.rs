@@ -46,18 +46,12 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
             metal.smoothing_length
         );
         faults.push(Fault::at("/smoothing_length_m", what));
-    } else if scene.tension.is_some() && (ratio - 1.0).abs() > 1e-6 {
+    } else if scene.tension.is_some() && !scene.even() && (ratio - 1.0).abs() > 1e-6 {
         let what = format!(
-            "{} m is {ratio:.2} particle diameters; the surface tension is calibrated for 1 only",
+            "{} m is {ratio:.2} particle diameters; the cohesion of this method is calibrated for 1 only",
             metal.smoothing_length
         );
         faults.push(Fault::at("/smoothing_length_m", what));
-    }
-    let flow = scene.flow.as_ref();
-    if scene.tension.is_some() && flow.is_some_and(|f| f.method == Method::DivergenceFree) {
-        let what =
-            "\"divergence_free\" knows no tension: its cohesion is calibrated with \"projection\"";
-        faults.push(Fault::at("/flow/method", what));
     }
     faults.extend(dependences(scene));
     faults.extend(hollows(scene));

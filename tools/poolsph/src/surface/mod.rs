@@ -17,6 +17,7 @@
 mod area;
 mod band;
 mod columns;
+pub mod curvature;
 mod depth;
 
 use kernels::CubicSpline;

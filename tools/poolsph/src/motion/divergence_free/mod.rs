@@ -8,7 +8,7 @@
 //! ```
 //!
 //! where e is a small part of the excess of density (Pozorski and Wawrenczuk 2002), so that the volume does not drift.
-//! The pressure p_s upon the surface is that of `Near::outer`, or zero; its mean is taken from all pressures until the
+//! The pressure p_s upon the surface is that of `Near::outer`, with the tension's (`pull`), or zero; its mean is taken from all pressures until the
 //! end, so that one that is the same everywhere moves nothing, however it comes and goes. The sign of p is free: nothing
 //! locks. A condition on the density itself makes layers of particles that slide over one another lift the weight above
 //! them, and they bear a stress of 0.4 % of the pressure as a solid does; a velocity without divergence asks nothing of
@@ -29,11 +29,16 @@
 mod islands;
 mod operators;
 mod poisson;
+mod pull;
+mod ripples;
 mod shift;
+mod traction;
 
 use rayon::prelude::*;
 
 use super::step::{Solved, Step, Tolerance};
+use super::viscosity::Viscosity;
+use crate::forces::capillary;
 use crate::near::{Near, Role};
 use crate::state::Metal;
 use crate::sweep::GRAIN;
@@ -42,10 +47,16 @@ use crate::vector::{dot, minus, plus, squared};
 use self::islands::Islands;
 use self::operators::{Filled, Sums, times};
 use self::poisson::Poisson;
+use self::pull::Pull;
+use self::ripples::Ripples;
 use self::shift::Shift;
+use self::traction::Traction;
 
 /// Part of the excess of density that a step takes away.
 const RELAXED: f64 = 0.02;
+/// The same where tension acts, in the time in which the shortest waves of the surface go half their length: a surface that
+/// swings draws its layers together and apart, and must not be stiff for it.
+const SLOW: f64 = 0.004;
 /// Most excess that counts.
 const MOST: f64 = 0.05;
 /// Way of the fastest particle in a step, in spacings, from which on the tolerance is that of the scene; slower flow
@@ -69,10 +80,15 @@ pub struct DivergenceFree {
     total: Vec<f64>,
     /// Mean of the pressure upon the surface, from which p counts \[Pa\].
     level: f64,
+    /// The same of the gas alone \[Pa\].
+    gas: f64,
     /// grad p \[Pa/m\].
     slope: Vec<[f64; 3]>,
     islands: Islands,
+    pull: Pull,
+    ripples: Ripples,
     shift: Shift,
+    traction: Traction,
 }
 
 impl DivergenceFree {
@@ -88,10 +104,26 @@ impl DivergenceFree {
             change: Vec::new(),
             total: Vec::new(),
             level: 0.0,
+            gas: 0.0,
             slope: Vec::new(),
             islands: Islands::default(),
+            pull: Pull::new(metal),
+            ripples: Ripples::default(),
             shift: Shift::default(),
+            traction: Traction::new(metal),
         }
+    }
+
+    /// Adds to `predicted` what viscosity does at the surface in `dt` \[s\].
+    pub fn slacken(
+        &mut self,
+        near: &Near,
+        viscosity: &Viscosity,
+        dt: f64,
+        predicted: &mut [[f64; 3]],
+    ) {
+        let with = (viscosity, &mut self.islands);
+        self.traction.apply(near, with, dt, predicted);
     }
 
     /// Finds p for the predicted velocities and turns these into the final ones. `near.virial` gets the share of p in
@@ -107,6 +139,13 @@ impl DivergenceFree {
             return Solved::default();
         }
         self.sum(near, predicted);
+        if !near.tension.is_empty() {
+            let part = step.dt / capillary::limit(near, step.metal);
+            self.ripples.damp(near, &self.rows, part, predicted);
+            self.sum(near, predicted);
+        }
+        self.gas = self.settle(near);
+        self.pull.press(near, &self.rows);
         self.level = self.settle(near);
         self.equations(near, step);
         let fastest = predicted
@@ -122,12 +161,19 @@ impl DivergenceFree {
         self.differ(near);
         self.balance(near);
         self.push(near, predicted, step);
+        self.pull.release(near);
         solved
     }
 
     /// Moves particles to where they lie evenly, after a step of `dt` \[s\].
     pub fn even(&mut self, near: &mut Near, dt: f64) {
         self.shift.apply(near, dt, self.filled);
+    }
+
+    /// Particles of the surface whose curvature is bounded.
+    #[must_use]
+    pub fn bounded(&self) -> usize {
+        self.pull.bounded()
     }
 
     /// What the operators know of each row.
@@ -168,6 +214,7 @@ impl DivergenceFree {
     fn equations(&mut self, near: &Near, step: Step) {
         let (rows, filled, level) = (&self.rows, self.filled, self.level);
         let scale = 2.0 * step.dt * step.dt / (step.metal.density * filled.moment);
+        let relaxed = relaxed(near, step);
         self.poisson.resize(near.len(), scale);
         self.poisson.closed = rows.iter().all(|row| row.missing <= 0.0);
         self.pressure.resize(near.len(), 0.0);
@@ -184,7 +231,7 @@ impl DivergenceFree {
                 if row.missing > 0.0 {
                     excess = excess.max(0.0);
                 }
-                let gone = RELAXED * excess.clamp(-MOST, MOST) - step.dt * row.divergence;
+                let gone = relaxed * excess.clamp(-MOST, MOST) - step.dt * row.divergence;
                 let diagonal = (row.liquid + 2.0 * row.missing).max(1e-6 * filled.weight);
                 let upon = near.outer.get(a).map_or(0.0, |outer| outer - level);
                 let right = gone / scale + 2.0 * row.missing * upon;
@@ -238,11 +285,12 @@ impl DivergenceFree {
         );
     }
 
-    /// What touches no wall moves as a whole by the pressure upon its surface alone.
+    /// What touches no wall moves as a whole by the pressure of the gas upon its surface alone.
     fn balance(&mut self, near: &Near) {
-        let (rows, level, moment) = (&self.rows, self.level, self.filled.moment);
+        let (rows, pull, moment) = (&self.rows, &self.pull, self.filled.moment);
+        let gas = self.gas;
         let upon = |a: usize| {
-            let pressure = near.outer.get(a).map_or(0.0, |outer| outer - level);
+            let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a) - gas);
             rows[a].open.map(|x| -2.0 * pressure * x / moment)
         };
         self.islands.balance(near, &mut self.slope, upon);
@@ -271,9 +319,22 @@ impl DivergenceFree {
         (size_of::<Sums>() + 3 * 24 + 8 + 4) * self.rows.capacity()
             + self.poisson.bytes()
             + self.islands.bytes()
+            + self.pull.bytes()
+            + self.ripples.bytes()
             + self.shift.bytes()
+            + self.traction.bytes()
     }
 }
 
+/// Part of the excess of density that goes in a step.
+fn relaxed(near: &Near, step: Step) -> f64 {
+    if near.tension.is_empty() {
+        return RELAXED;
+    }
+    RELAXED.min(SLOW * step.dt / capillary::limit(near, step.metal))
+}
+
+#[cfg(test)]
+mod drops;
 #[cfg(test)]
 mod tests;

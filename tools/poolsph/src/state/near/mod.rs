@@ -74,6 +74,9 @@ pub struct Near {
     /// Pressure upon the surface at each liquid particle \[Pa\], `[m]`; empty without one. Empty after gathering, a force
     /// stage may fill it.
     pub outer: Vec<f64>,
+    /// Surface tension of each liquid particle \[N/m\], `[m]`, where it acts by the curvature of the surface; empty without. Empty
+    /// after gathering, a force stage may fill it.
+    pub tension: Vec<f64>,
     /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
     /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
     pub virial: Vec<f64>,
@@ -119,6 +122,7 @@ impl Near {
             velocity: Vec::new(),
             force: Vec::new(),
             outer: Vec::new(),
+            tension: Vec::new(),
             virial: Vec::new(),
             number: Vec::new(),
             gradient: Vec::new(),
@@ -209,6 +213,7 @@ impl Near {
         self.force.clear();
         self.force.resize(self.len, [0.0; 3]);
         self.outer.clear();
+        self.tension.clear();
         self.virial.clear();
         self.virial.resize(self.len, 0.0);
         if state.faces.any() {

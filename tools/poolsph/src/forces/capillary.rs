@@ -1,0 +1,66 @@
+//! Surface tension where the flow is without divergence ([`crate::motion::divergence_free`]): a pressure at the surface, its
+//! curvature times gamma.
+//!
+//! Waves of the surface bound the step: the shortest that particles carry, of two spacings, goes half of its length in
+//! `sqrt(rho d^3/(2 pi gamma))` (Brackbill, Kothe and Zemach 1992). The motion divides longer steps.
+
+use crate::near::{Near, Role};
+use crate::stage::{Limit, Stage, StageError};
+use crate::state::{Metal, State};
+
+use super::tension::Parameters;
+
+/// The stage that says what tension the surface has.
+pub struct Capillary {
+    tension: f64,
+}
+
+impl Capillary {
+    /// The tension of a surface.
+    #[must_use]
+    pub fn new(parameters: Parameters) -> Self {
+        Self {
+            tension: parameters.surface_tension_n_m,
+        }
+    }
+}
+
+/// Longest step for waves of the surface of `near` \[s\]; infinite without tension.
+#[must_use]
+pub fn limit(near: &Near, metal: Metal) -> f64 {
+    let greatest = near.tension.iter().fold(0.0, |most: f64, x| most.max(*x));
+    longest(metal, greatest)
+}
+
+/// sqrt(rho d^3/(2 pi gamma)) \[s\].
+fn longest(metal: Metal, tension: f64) -> f64 {
+    (metal.mass() / (2.0 * std::f64::consts::PI * tension)).sqrt()
+}
+
+impl Stage for Capillary {
+    fn name(&self) -> &'static str {
+        "tension"
+    }
+
+    fn dt_limit(&self, state: &State) -> Option<Limit> {
+        (state.near.liquid_count() > 0).then(|| Limit {
+            seconds: longest(state.metal, self.tension),
+            name: "capillary",
+        })
+    }
+
+    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+        let near = &mut state.near;
+        let of = |role: &Role| {
+            if *role == Role::Liquid {
+                self.tension
+            } else {
+                0.0
+            }
+        };
+        near.tension.clear();
+        near.tension
+            .extend(near.role[..near.force.len()].iter().map(of));
+        Ok(())
+    }
+}

@@ -1,0 +1,113 @@
+//! What viscosity does at a free surface.
+//!
+//! Pairs of particles that slow each other ([`crate::motion::viscosity`]) are mu times the Laplacian inside, and leave the surface to a stress
+//! mu (n . grad) u. The surface bears none of mu (grad u + grad u^T): what the transposed part has there,
+//!
+//! ```text
+//! F = 2 mu grad(u).grad C        F_i = 2 mu (d u_j/d x_i) (d C/d x_j)
+//! ```
+//!
+//! is a force on the surface layer. The gradient of the colour C is the normal times what the surface has in a volume, half of it within
+//! the metal. Inside the transposed part is the gradient of the divergence, which is zero, so that over a closed surface it adds up to nothing. Without it a drop that stretches pays half
+//! of what it should, and one that turns as a whole is slowed. A shear along a plane surface has none of it.
+
+use kernels::CubicSpline;
+use rayon::prelude::*;
+
+use super::islands::Islands;
+use crate::motion::lattice::Lattice;
+use crate::motion::viscosity::Viscosity;
+use crate::near::{Near, Role, Row};
+use crate::state::Metal;
+use crate::sweep::GRAIN;
+use crate::vector::{dot, minus, plus};
+
+/// Lack of neighbours, in parts of the lattice's, from which on a particle lies at the surface, and at which it does so
+/// wholly. A particle of a plane surface lacks 0.22.
+const LACKS: [f64; 2] = [0.08, 0.16];
+/// Least determinant of the moments, over the cube of their mean, that tells a gradient.
+const FLAT: f64 = 1e-3;
+
+/// The force with its scratch.
+#[derive(Debug, Clone)]
+pub(super) struct Traction {
+    /// V \[m3\].
+    volume: f64,
+    density: f64,
+    /// Sum of W over the neighbours in the lattice \[1/m3\].
+    full: f64,
+    /// 2 mu grad(u).grad C, `[m]` \[N/m3\].
+    pull: Vec<[f64; 3]>,
+}
+
+impl Traction {
+    /// That of `metal`.
+    pub(super) fn new(metal: Metal) -> Self {
+        Self {
+            volume: metal.volume(),
+            density: metal.density,
+            full: Lattice::of(metal).number
+                - CubicSpline::<3>::new(metal.smoothing_length).value(0.0),
+            pull: Vec::new(),
+        }
+    }
+
+    /// Adds to `predicted` what the surface does in `dt` \[s\] with `near.velocity`.
+    pub(super) fn apply(
+        &mut self,
+        near: &Near,
+        (viscosity, islands): (&Viscosity, &mut Islands),
+        dt: f64,
+        predicted: &mut [[f64; 3]],
+    ) {
+        if !viscosity.acts() {
+            return;
+        }
+        let (volume, full, own) = (self.volume, self.full, near.kernel.value(0.0));
+        let [from, to] = LACKS;
+        self.pull.resize(near.len(), [0.0; 3]);
+        near.each_row(&mut self.pull, |a, row, pull| {
+            let lack = 1.0 - (near.number[a] - own) / full;
+            let part = ((lack - from) / (to - from)).clamp(0.0, 1.0);
+            *pull = [0.0; 3];
+            if part > 0.0 && near.role[a] == Role::Liquid {
+                let along = near.gradient[a].map(|x| part * volume * x);
+                let strength = 2.0 * viscosity.at(a);
+                *pull = turned(near, a, row, along).map(|x| strength * x);
+            }
+        });
+        islands.balance(near, &mut self.pull, |_| [0.0; 3]);
+        let rows = predicted.par_iter_mut().zip(&self.pull);
+        rows.with_min_len(GRAIN)
+            .for_each(|(u, pull)| *u = plus(*u, dt / self.density, *pull));
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        24 * self.pull.capacity()
+    }
+}
+
+/// grad(u) . v at `a`, with the velocities of the liquid around: by M^-1 of the moments, sum of w x_i (u_b - u_a) . v;
+/// zero where the neighbours span no space.
+fn turned(near: &Near, a: usize, row: Row<'_>, v: [f64; 3]) -> [f64; 3] {
+    let (mut sum, mut moment) = ([0.0; 3], [[0.0; 3]; 3]);
+    for (b, slope) in row.slopes().filter(|(b, _)| near.role[*b].flows()) {
+        let x = minus(near.position[b], near.position[a]);
+        let rise = dot(minus(near.velocity[b], near.velocity[a]), v);
+        sum = plus(sum, -slope * rise, x);
+        for (line, part) in moment.iter_mut().zip(x) {
+            *line = plus(*line, -slope * part, x);
+        }
+    }
+    let minor = |i: usize, j: usize| {
+        let (r, s, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+        moment[r][c] * moment[s][d] - moment[r][d] * moment[s][c]
+    };
+    let determinant: f64 = (0..3).map(|j| moment[0][j] * minor(0, j)).sum();
+    let size = (moment[0][0] + moment[1][1] + moment[2][2]) / 3.0;
+    if size <= 0.0 || determinant <= FLAT * size.powi(3) {
+        return [0.0; 3];
+    }
+    [0, 1, 2].map(|i| (0..3).map(|j| minor(i, j) * sum[j]).sum::<f64>() / determinant)
+}

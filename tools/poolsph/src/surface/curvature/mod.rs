@@ -1,0 +1,253 @@
+//! The curvature of the free surface, from the particles that lie along it.
+//!
+//! 1. Every particle at the surface tells a place on it and the normal there: the colour and its gradient tell how far the surface is
+//!    ([`depth`](super)), and the gradient, averaged once over neighbours, where it is. Of a face with the curvature kappa the smoothed
+//!    colour is one half at `sigma^2 kappa/2` below it, where sigma^2 is the kernel's second moment along an axis; the curvature is taken back from there
+//!    to the face.
+//! 2. At each of them places and normals within three smoothing lengths are fitted ([`shape`]).
+//! 3. Means and fit take a part of every wave of the surface, and a mean of the curvature tells which: it is given back.
+//! 4. Single particles and drops of a few know no more of a shape than their size: they have the greatest curvature 2/d.
+//!    No curvature is larger in size, and those that would be are counted.
+//!
+//! Solid metal counts as metal, so that a pool's surface goes on over its edge. Images stand beyond faces, and there the surface meets a
+//! mirror at a right angle.
+
+mod quadric;
+
+use kernels::CubicSpline;
+use neighbours::{Grid, Lists, ROWS};
+use rayon::prelude::*;
+
+pub use self::quadric::{Sample, Shape, shape};
+use super::depth::Depth;
+use crate::faces::Images;
+use crate::near::{Near, Role};
+use crate::state::Metal;
+use crate::vector::{plus, squared};
+
+/// Distance up to which places are fitted, in smoothing lengths.
+const REACH: f64 = 3.0;
+/// h |grad C| from which on a particle tells something of the surface, and from which on it is believed: the outermost layer of a
+/// lattice has 0.49.
+const STEEP: [f64; 2] = [0.25, 0.40];
+/// Greatest depth of a particle that tells of the surface, in spacings.
+const DEEPEST: f64 = 1.0;
+/// Second moment of the cubic spline along an axis, in h^2.
+const MOMENT: f64 = 0.3;
+/// c of the sharpening: what the kernel's means and the fit take of a wave k, 0.83 (k h)^2, over what the mean takes,
+/// (k reach)^2/16.
+const SHARPENED: f64 = 1.5;
+/// Colour below which a particle without a shape is one of a few: at the corner of a cube it is 0.61, in a film of one layer 0.70.
+const SINGLE: f64 = 0.6;
+/// Greatest curvature, in 1/d.
+const SHARPEST: f64 = 2.0;
+
+/// The curvature with its scratch.
+#[derive(Debug, Clone)]
+pub struct Curvature {
+    /// kappa at the liquid particles of the surface \[1/m\], `[m]`; none elsewhere.
+    pub mean: Vec<Option<f64>>,
+    /// Places at which the fit wanted more than the greatest curvature, or knew too little.
+    pub bounded: usize,
+    depth: Depth,
+    volume: f64,
+    spacing: f64,
+    smoothing_length: f64,
+    /// grad C of members and images, and its average \[1/m\].
+    gradient: Vec<[f64; 3]>,
+    turned: Vec<[f64; 3]>,
+    /// Members that tell of the surface.
+    members: Vec<u32>,
+    places: Vec<[f64; 3]>,
+    samples: Vec<Sample>,
+    images: Images,
+    grid: Grid,
+    lists: Lists,
+    found: Vec<Option<Shape>>,
+    sharpened: Vec<Option<Shape>>,
+}
+
+impl Curvature {
+    /// The curvature of surfaces of `metal`.
+    #[must_use]
+    pub fn new(metal: Metal) -> Self {
+        Self {
+            mean: Vec::new(),
+            bounded: 0,
+            depth: Depth::new(CubicSpline::new(metal.smoothing_length)),
+            volume: metal.volume(),
+            spacing: metal.spacing,
+            smoothing_length: metal.smoothing_length,
+            gradient: Vec::new(),
+            turned: Vec::new(),
+            members: Vec::new(),
+            places: Vec::new(),
+            samples: Vec::new(),
+            images: Images::default(),
+            grid: Grid::new(REACH * metal.smoothing_length),
+            lists: Lists::new(),
+            found: Vec::new(),
+            sharpened: Vec::new(),
+        }
+    }
+
+    /// Finds the curvature at all liquid particles along the surface.
+    pub fn measure(&mut self, near: &Near) {
+        self.turn(near);
+        self.sample(near);
+        self.search(near);
+        self.fit();
+        self.sharpen();
+        self.scatter(near);
+    }
+
+    /// grad C, averaged over the neighbours; its sum is not divided by that of the weights, so that what is steep counts
+    /// most.
+    fn turn(&mut self, near: &Near) {
+        let volume = self.volume;
+        self.gradient.clear();
+        let gradients = near.gradient.iter();
+        (self.gradient).extend(gradients.map(|gradient| gradient.map(|x| volume * x)));
+        near.complete(&mut self.gradient, |g, _, turn| turn.vector(g));
+        let (gradient, own) = (&self.gradient, near.kernel.value(0.0));
+        self.turned.resize(near.len(), [0.0; 3]);
+        near.each_row(&mut self.turned, |a, row, out| {
+            let start = gradient[a].map(|x| volume * own * x);
+            let values = row.values();
+            *out = values.fold(start, |sum, (b, w)| plus(sum, volume * w, gradient[b]));
+        });
+    }
+
+    /// What the particles along the surface tell of it.
+    fn sample(&mut self, near: &Near) {
+        let [from, to] = STEEP;
+        let own = near.kernel.value(0.0);
+        self.members.clear();
+        self.places.clear();
+        self.samples.clear();
+        for a in 0..near.len() {
+            let (slope, turned) = (squared(self.gradient[a]).sqrt(), self.turned[a]);
+            let steep = slope * self.smoothing_length;
+            let size = squared(turned).sqrt();
+            if near.role[a] == Role::Backing || steep <= from || size <= 0.0 {
+                continue;
+            }
+            let colour = self.volume * near.number[a].max(own);
+            let depth = self.depth.at(colour, slope);
+            if depth > DEEPEST * self.spacing {
+                continue;
+            }
+            let normal = turned.map(|x| -x / size);
+            let place = plus(near.position[a], depth, normal);
+            self.members.push(a as u32);
+            self.places.push(place);
+            self.samples.push(Sample {
+                place,
+                normal,
+                trust: ((steep - from) / (to - from)).min(1.0),
+            });
+        }
+    }
+
+    /// Places around each other, those beyond faces included.
+    fn search(&mut self, near: &Near) {
+        let reach = REACH * self.smoothing_length;
+        let points = self.samples.len();
+        (self.images).place_beside(near.images(), reach, &mut self.places);
+        let places = &self.places;
+        self.images
+            .complete(&mut self.samples, |sample, k, turn| Sample {
+                place: places[k],
+                normal: turn.vector(sample.normal),
+                ..sample
+            });
+        self.grid.bin(&self.places);
+        let (members, role) = (&self.members, &near.role);
+        let liquid = |k: usize| role[members[k] as usize] == Role::Liquid;
+        let cloud = (&self.grid, &self.places[..points], reach);
+        self.lists
+            .build(cloud.0, cloud.1, cloud.2, liquid, |_, _| true);
+    }
+
+    /// Shapes at all places of liquid particles.
+    fn fit(&mut self) {
+        let reach = REACH * self.smoothing_length;
+        let (samples, lists) = (&self.samples, &self.lists);
+        let places = 0..self.members.len();
+        places
+            .into_par_iter()
+            .with_min_len(ROWS / 4)
+            .map(|k| {
+                let around = lists.row(k).iter().map(|b| &samples[*b as usize]);
+                shape(&samples[k], around, reach)
+            })
+            .collect_into_vec(&mut self.found);
+    }
+
+    /// kappa + c (kappa - S kappa) with the mean S over the places around, weighted as in the fit.
+    fn sharpen(&mut self) {
+        let reach = REACH * self.smoothing_length;
+        let (samples, lists, images) = (&self.samples, &self.lists, &self.images);
+        let found = &self.found;
+        (0..found.len())
+            .into_par_iter()
+            .with_min_len(ROWS / 4)
+            .map(|k| {
+                let mut shape = found[k]?;
+                let (mut sum, mut weight) = (0.0, 0.0);
+                let row = lists.row(k).iter().map(|b| *b as usize);
+                for b in std::iter::once(k).chain(row) {
+                    if let Some(other) = found[images.original(b)] {
+                        let part = samples[k].weight(&samples[b], reach);
+                        sum += part * other.curvature;
+                        weight += part;
+                    }
+                }
+                if weight > 0.0 {
+                    shape.curvature += SHARPENED * (shape.curvature - sum / weight);
+                }
+                Some(shape)
+            })
+            .collect_into_vec(&mut self.sharpened);
+    }
+
+    /// Brings the curvatures to the particles.
+    fn scatter(&mut self, near: &Near) {
+        let most = SHARPEST / self.spacing;
+        let inward = 0.5 * MOMENT * self.smoothing_length * self.smoothing_length;
+        self.mean.clear();
+        self.mean.resize(near.len(), None);
+        self.bounded = 0;
+        for (a, shape) in self.members.iter().zip(&self.sharpened) {
+            let a = *a as usize;
+            if near.role[a] != Role::Liquid {
+                continue;
+            }
+            let curvature = match shape {
+                Some(shape) => shape.curvature * (1.0 - inward * shape.squares).max(0.5),
+                None => continue,
+            };
+            self.bounded += usize::from(curvature.abs() > most);
+            self.mean[a] = Some(curvature.clamp(-most, most));
+        }
+        let own = near.kernel.value(0.0);
+        for (a, mean) in self.mean.iter_mut().enumerate() {
+            let colour = self.volume * near.number[a].max(own);
+            if near.role[a] == Role::Liquid && mean.is_none() && colour < SINGLE {
+                *mean = Some(most);
+                self.bounded += 1;
+            }
+        }
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        (2 * 24 + 16) * self.gradient.capacity()
+            + (size_of::<Sample>() + 24 + 4 + 32) * self.samples.capacity()
+            + self.lists.bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,135 @@
+//! The curvature of a piece of surface from places on it and normals there.
+//!
+//! In axes x, y across the normal of the middle, z along it, with the chord l = |(x, y, z)|, the places and normals around
+//! are fitted by weighted least squares to
+//!
+//! ```text
+//! z = c - t.x - x.K x l^2/(2 x.x)        n = t + K x        x = (x, y)
+//! ```
+//!
+//! for the height c, the tilt t and the shape K, whose trace is the mean curvature kappa (both principal curvatures added; positive where the
+//! metal bulges). Planes, spheres and, by their normals, cylinders are met exactly at any distance: along a sphere normals turn as
+//! chords grow, and -2 z/kappa is the square of the chord, where a paraboloid of that curvature errs by (l/2R)^2.
+
+use crate::surface::tangents;
+use crate::vector::{dot, minus, squared};
+
+/// A place on the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sample {
+    /// x \[m\].
+    pub place: [f64; 3],
+    /// Unit normal, outwards.
+    pub normal: [f64; 3],
+    /// How far it is to be believed, 0 to 1.
+    pub trust: f64,
+}
+
+impl Sample {
+    /// Weight of `other` in what is asked of the surface here, out to `reach` \[m\].
+    #[must_use]
+    #[inline]
+    pub fn weight(&self, other: &Self, reach: f64) -> f64 {
+        let [from, to] = SAME;
+        let same = ((dot(self.normal, other.normal) - from) / (to - from)).clamp(0.0, 1.0);
+        let chord = squared(minus(other.place, self.place)) / (reach * reach);
+        other.trust * same * (1.0 - chord).max(0.0).powi(2)
+    }
+}
+
+/// Shape of a piece of surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shape {
+    /// kappa, both principal curvatures added \[1/m\].
+    pub curvature: f64,
+    /// Sum of the squares of the principal curvatures \[1/m2\].
+    pub squares: f64,
+    /// Places that took part.
+    pub places: u32,
+}
+
+/// Cosine of the angle between two normals up to which they belong to different pieces of surface, and from which on to one.
+const SAME: [f64; 2] = [0.2, 0.5];
+/// Fewest places that tell a shape, the middle included.
+const FEWEST: u32 = 6;
+/// What is added to the diagonal of the equations, in places of full weight: of K, which few places leave open, and of
+/// what they always tell.
+const DAMPING: [f64; 2] = [1e-3, 1e-9];
+
+/// Normal equations of the fit in units of the reach: lower half, row by row, and the right side.
+#[derive(Default)]
+struct Equations {
+    matrix: [[f64; 6]; 6],
+    right: [f64; 6],
+}
+
+impl Equations {
+    /// Adds a row `f . unknowns = value` with a weight.
+    #[inline(always)]
+    fn add(&mut self, weight: f64, f: [f64; 6], value: f64) {
+        for i in 0..6 {
+            let part = weight * f[i];
+            self.right[i] += part * value;
+            for (entry, f) in self.matrix[i].iter_mut().zip(&f[..=i]) {
+                *entry += part * f;
+            }
+        }
+    }
+
+    /// c, t, K: xx, xy, yy, by Cholesky's factors.
+    fn solve(mut self) -> [f64; 6] {
+        for i in 0..6 {
+            self.matrix[i][i] += DAMPING[usize::from(i < 3)];
+        }
+        let (m, x) = (&mut self.matrix, &mut self.right);
+        for i in 0..6 {
+            for j in 0..=i {
+                let dot: f64 = (0..j).map(|k| m[i][k] * m[j][k]).sum();
+                let rest = m[i][j] - dot;
+                m[i][j] = if i == j { rest.sqrt() } else { rest / m[j][j] };
+            }
+            let dot: f64 = (0..i).map(|k| m[i][k] * x[k]).sum();
+            x[i] = (x[i] - dot) / m[i][i];
+        }
+        for i in (0..6).rev() {
+            let dot: f64 = (i + 1..6).map(|k| m[k][i] * x[k]).sum();
+            x[i] = (x[i] - dot) / m[i][i];
+        }
+        *x
+    }
+}
+
+/// Shape of the surface at `middle` from the places `around` within `reach` \[m\]; none from fewer than six.
+#[must_use]
+pub fn shape<'a>(
+    middle: &'a Sample,
+    around: impl Iterator<Item = &'a Sample>,
+    reach: f64,
+) -> Option<Shape> {
+    let (u, v) = tangents(middle.normal);
+    let mut equations = Equations::default();
+    let mut places = 0;
+    for sample in std::iter::once(middle).chain(around) {
+        let way = minus(sample.place, middle.place).map(|x| x / reach);
+        let chord = squared(way);
+        let weight = middle.weight(sample, reach);
+        if weight <= 0.0 {
+            continue;
+        }
+        let [x, y, z] = [u, v, middle.normal].map(|axis| dot(way, axis));
+        let flat = x * x + y * y;
+        let stretch = if flat > 0.0 { chord / flat } else { 1.0 };
+        let [a, b, c] = [0.5 * x * x, x * y, 0.5 * y * y].map(|x| -stretch * x);
+        let [p, q] = [u, v].map(|axis| dot(sample.normal, axis));
+        equations.add(weight, [1.0, -x, -y, a, b, c], z);
+        equations.add(weight, [0.0, 1.0, 0.0, x, y, 0.0], p);
+        equations.add(weight, [0.0, 0.0, 1.0, 0.0, x, y], q);
+        places += 1;
+    }
+    let [.., xx, xy, yy] = equations.solve().map(|x| x / reach);
+    (places >= FEWEST).then_some(Shape {
+        curvature: xx + yy,
+        squares: xx * xx + 2.0 * xy * xy + yy * yy,
+        places,
+    })
+}
