@@ -79,6 +79,7 @@ mod pool_rosenthal;
 mod pool_similar;
 mod pool_stefan;
 mod pool_surface_heat;
+mod saw_layer;
 mod solid_patch;
 mod solid_swing;
 mod solid_turn;
@@ -109,6 +110,7 @@ fn grains() -> Vec<Box<dyn Case>> {
         Box::new(dem_wire::DemWire),
         Box::new(dem_wire::DemCavity),
         Box::new(dem_pile::DemPile),
+        Box::new(saw_layer::SawLayer),
     ]
 }
 

@@ -1,12 +1,14 @@
 //! From the scene to stages and particles: the only place that asks what the scene contains.
 
+mod grains;
+
 use std::ops::Range;
 use std::sync::Arc;
 
-use particles::Set;
 use run::property::Curve;
 use run::{Failure, Fault, Inputs};
 
+use self::grains::Beside;
 use crate::domain::bodies::{self, Body, Filled};
 use crate::domain::bounds::Bounds;
 use crate::domain::droplet::Droplets;
@@ -21,7 +23,6 @@ use crate::forces::marangoni::Marangoni;
 use crate::forces::surface_stress::SurfaceStress;
 use crate::forces::tension::Tension;
 use crate::frames::{Layout, PlateNote};
-use crate::grains::{self, fill::fill};
 use crate::heat::{self, Caloric, Conduction};
 use crate::march::March;
 use crate::motion::{self, Law, Motion};
@@ -122,24 +123,25 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let source = Source::read(scene, inputs)?;
     // The columns come from stages that know nothing of particles; then the particles, some of
     // which the stages keep at a temperature.
-    let columns = columns(&source.stages(Vec::new())?);
+    let columns = columns(&source.stages(Vec::new(), None)?);
     let mut state = State::new(scene.metal(), columns);
     let filled = bodies::fill(&mut state, &bodies, source.caloric.as_deref())?;
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
-    let mut parts = source.stages(held(&bodies, &filled))?;
-    let mut grain_counts = Vec::new();
-    match &scene.grains {
-        Some(grains) => {
-            let bed = bed(grains, inputs)?;
-            let (mut set, counts) = fill(grains, &bed);
-            let motion = grain_motion(grains, &mut set, &counts);
-            let motion = motion.map_err(|fault| fault.within("/grains"))?;
-            parts.after.push(Box::new(motion));
+    let grains = match &scene.grains {
+        Some(grains) => Some(source.grains(grains, inputs)?),
+        None => None,
+    };
+    let (stages, grain_counts) = match grains {
+        Some((stages, set, counts)) => {
             state.grains = Some(set);
-            grain_counts = counts;
+            (Some(stages), counts)
         }
-        None => parts.leave_out("grains"),
+        None => (None, Vec::new()),
+    };
+    let mut parts = source.stages(held(&bodies, &filled), stages)?;
+    if scene.grains.is_none() {
+        parts.leave_out("grains");
     }
     state.flowing = scene.flow.is_some() && scene.flow_start.is_none();
     state.source = scene.source.map(|source| source.place(0.0));
@@ -157,34 +159,6 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         grain_counts,
         left_out: parts.left_out,
     })
-}
-
-/// Grains of the input `bed`, if the scene wants them.
-fn bed(scene: &grains::Parameters, inputs: &Inputs) -> Result<Vec<grains::fill::Lying>, Failure> {
-    match (scene.bodies.iter().any(|body| body.bed), inputs.get("bed")) {
-        (false, _) => Ok(Vec::new()),
-        (true, Some(path)) => crate::source::bed::read(path),
-        (true, None) => Err(Failure::Usage(
-            "this scene needs --input bed=FILE".to_owned(),
-        )),
-    }
-}
-
-/// Motion and heat of grains.
-fn grain_motion(
-    scene: &grains::Parameters,
-    set: &mut Set,
-    counts: &[usize],
-) -> Result<grains::Motion, Fault> {
-    let heat = match &scene.heat {
-        Some(heat) => {
-            let heat = grains::Heat::new(scene, heat)?;
-            grains::heat::warm(scene, &heat, set, counts)?;
-            Some(heat)
-        }
-        None => None,
-    };
-    grains::Motion::new(scene, set, heat)
 }
 
 fn held(bodies: &[Body], filled: &[Filled]) -> Held {
@@ -240,7 +214,7 @@ impl<'a> Source<'a> {
     }
 
     /// The stages in the order of a step (Komen 2019, fig. 3.16).
-    fn stages(&self, held: Held) -> Result<Parts, Failure> {
+    fn stages(&self, held: Held, beside: Option<Beside>) -> Result<Parts, Failure> {
         let mut parts = Parts::default();
         let scene = self.scene;
         parts.ahead("source", scene.source, |source| Ok(Box::new(Path(source))))?;
@@ -254,6 +228,13 @@ impl<'a> Source<'a> {
             Ok(Box::new(stage.map_err(|fault| fault.within("/bounds"))?))
         })?;
         self.heat(&mut parts, held)?;
+        // Grains heat metal before it changes its phase, and push it before it flows.
+        let mut cover = None;
+        if let Some(beside) = beside {
+            parts.after.push(Box::new(beside.motion));
+            cover = beside.cover;
+        }
+        self.melting(&mut parts)?;
         self.forces(&mut parts)?;
         parts.when("flow", scene.flow.as_ref(), |flow| {
             let law = self.viscosity(flow)?;
@@ -263,6 +244,9 @@ impl<'a> Source<'a> {
         if surface {
             let surface = Surface::new(scene.metal());
             parts.after.insert(0, Box::new(surface));
+            if let Some(cover) = cover {
+                parts.after.insert(1, Box::new(cover));
+            }
         }
         Ok(parts)
     }
@@ -292,7 +276,14 @@ impl<'a> Source<'a> {
         })?;
         parts.when("losses", self.scene.losses, |losses| {
             Ok(Box::new(heat::Losses::new(losses, caloric.clone())))
-        })?;
+        })
+    }
+
+    /// The change between solid and liquid.
+    fn melting(&self, parts: &mut Parts) -> Result<(), Failure> {
+        let (Some(heat), Some(caloric)) = (&self.scene.heat, &self.caloric) else {
+            return Ok(());
+        };
         parts.when("melting", heat.melting, |_| {
             let start = self.scene.flow_start;
             let bodies = &self.scene.bodies;

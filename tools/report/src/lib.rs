@@ -11,6 +11,7 @@ mod draw;
 mod field;
 mod figures;
 mod files;
+mod flux;
 mod gas;
 mod heat;
 mod html;

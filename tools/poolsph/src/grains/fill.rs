@@ -177,6 +177,15 @@ pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
     (set, counts)
 }
 
+/// Least and greatest radius \[m\].
+#[must_use]
+pub fn radii(set: &Set) -> [f64; 2] {
+    let radii = set.column(&RADIUS).iter();
+    radii.fold([f64::INFINITY, 0.0], |[least, widest], r| {
+        [least.min(*r), widest.max(*r)]
+    })
+}
+
 /// A number between -1 and 1 that looks like chance and is always the same (splitmix64).
 fn noise(number: usize) -> f64 {
     let mut z = (number as u64)

@@ -15,17 +15,21 @@
 
 use std::sync::Arc;
 
-use contact::{Grain, Meeting, Normal, heat as conductance};
+use contact::Meeting;
 use particles::{Column, POSITION, Set, sweep};
 use rayon::prelude::*;
 use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange};
 
+use super::MASS;
+use super::conducting::Conducting;
+use super::light::Lighting;
 use super::lists::{Lists, ROWS, Touch};
+use super::metal::Metal;
 use super::parameters::{ConductanceScene, GrainHeat, Law, Parameters};
-use super::{MASS, RADIUS};
+use super::walls::Walls;
 use crate::heat::Caloric;
-use crate::stage::StageError;
+use crate::stage::{Figure, StageError};
 use crate::state::{LIQUID, State};
 
 /// T \[K\].
@@ -49,7 +53,7 @@ const PART: f64 = 0.5;
 
 /// How the radius of a contact is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Radius {
+pub(super) enum Radius {
     /// From the push, by the effective modulus \[Pa\].
     Force(f64),
     /// From the overlap; `printed` takes half of the conductance.
@@ -58,12 +62,12 @@ enum Radius {
 
 /// Heat of grains as a stage.
 pub struct Heat {
-    caloric: Arc<Caloric>,
-    law: Law,
-    radius: Radius,
-    gas: Option<Curve>,
-    slag: f64,
-    held: Vec<Option<Curve>>,
+    pub(super) caloric: Arc<Caloric>,
+    pub(super) law: Law,
+    pub(super) radius: Radius,
+    pub(super) gas: Option<Curve>,
+    pub(super) slag: f64,
+    pub(super) held: Vec<Option<Curve>>,
     /// H of each pair of each chunk \[W/K\].
     conductance: Vec<Vec<f64>>,
     /// Sum of H of each grain \[W/K\], and the heat that it gets \[W\].
@@ -71,6 +75,11 @@ pub struct Heat {
     rate: Vec<f64>,
     /// Heat that kept temperatures have brought \[J\].
     pub(super) brought: f64,
+    /// h at which slag boils \[J/kg\], and the heat that went off with vapour \[J\].
+    boiling: Option<f64>,
+    pub(super) boiled: f64,
+    /// Light on grains.
+    pub(super) lighting: Lighting,
     /// The longest step \[s\].
     pub(super) limit: f64,
 }
@@ -91,8 +100,22 @@ impl Heat {
                 .map(|t| t.compile(&format!("/bodies/{i}/held_temperature_k"), &["t"]))
                 .transpose()
         };
+        let caloric = heat.caloric().map_err(|fault| fault.within("/heat"))?;
+        let boiling = heat.melting.and_then(|melting| melting.boiling_k);
+        if let (Some(t), Some(melting)) = (boiling, heat.melting)
+            && t <= melting.point_k
+        {
+            let what = format!(
+                "{t} K is not above the melting point, {} K",
+                melting.point_k
+            );
+            return Err(Fault::at("/heat/melting/boiling_k", what));
+        }
         Ok(Self {
-            caloric: heat.caloric().map_err(|fault| fault.within("/heat"))?,
+            boiling: boiling.map(|t| caloric.enthalpy(t)),
+            boiled: 0.0,
+            lighting: Lighting::new(scene.walls.iter().any(|wall| wall.light.is_some())),
+            caloric,
             law: scene.contact.law(),
             radius: match heat.contact {
                 ConductanceScene::Elastic(elastic) => Radius::Force(elastic.effective()),
@@ -116,34 +139,21 @@ impl Heat {
     }
 
     /// Conductances of all contacts \[W/K\] and the longest step \[s\].
-    fn conduct(&mut self, set: &Set, lists: &Lists) -> Result<(), OutOfRange> {
+    fn conduct(
+        &mut self,
+        (set, state): (&Set, &State),
+        lists: &Lists,
+        metal: Option<&mut Metal>,
+    ) -> Result<(), OutOfRange> {
         let mut all = std::mem::take(&mut self.conductance);
-        let columns = (
-            set.column(&POSITION),
-            set.column(&RADIUS),
-            set.column(&MASS),
-        );
-        let (temperature, states) = (set.column(&TEMPERATURE), set.column(&STATE));
-        let grain = |a: usize| Grain {
-            position: columns.0[a],
-            velocity: [0.0; 3],
-            spin: [0.0; 3],
-            radius: columns.1[a],
-            mass: columns.2[a],
-        };
-        let own = |a: usize| {
-            let k = self.caloric.conductivity(temperature[a]);
-            if states[a] == SLAG { self.slag * k } else { k }
-        };
+        let grains = Conducting::of(self, set);
         let pair = |a: usize, b: usize| -> Result<f64, OutOfRange> {
-            let Some(meeting) = Meeting::of(&grain(a), &grain(b)) else {
+            let Some(meeting) = Meeting::of(&grains.grain(a), &grains.grain(b)) else {
                 return Ok(0.0);
             };
-            let gas = match &self.gas {
-                None => None,
-                Some(gas) => Some(gas.at_temperature(0.5 * (temperature[a] + temperature[b]))?),
-            };
-            Ok(self.of_contact(&meeting, columns.1[a], [own(a), own(b)], gas))
+            let gas = grains.gas(0.5 * (grains.temperature[a] + grains.temperature[b]))?;
+            let k = [grains.conductivity(a), grains.conductivity(b)];
+            Ok(grains.of_contact(&meeting, grains.radii[a], k, gas))
         };
         all.resize_with(lists.chunks.len(), Vec::new);
         let chunks = all.par_iter_mut().zip(&lists.chunks).enumerate();
@@ -167,35 +177,21 @@ impl Heat {
         let mut sum = std::mem::take(&mut self.sum);
         sum.resize(set.len(), 0.0);
         self.gather(lists, &mut sum, |_, _| 1.0);
-        let least = self.caloric.least_heat();
-        let fastest = sweep::greatest(set.len(), |a| sum[a] / (columns.2[a] * least));
-        self.sum = sum;
-        self.limit = fastest.map_or(f64::INFINITY, |(_, rate)| PART / rate);
-        Ok(())
-    }
-
-    fn of_contact(&self, meeting: &Meeting, radius: f64, k: [f64; 2], gas: Option<f64>) -> f64 {
-        let wide = 2.0 * meeting.radius;
-        let arm = meeting.arms[0];
-        let by_overlap = (radius * radius - arm * arm).max(0.0).sqrt();
-        let (r_c, solid) = match self.radius {
-            Radius::Force(modulus) => {
-                let push = match &self.law {
-                    Law::Linear(law) => law.push(&still(meeting)),
-                    Law::Hertz(law) => law.push(&still(meeting)),
-                };
-                let r_c = conductance::radius_by_force(push, meeting.radius, modulus);
-                (r_c, conductance::constriction(k, r_c))
-            }
-            Radius::Overlap { printed: false } => {
-                (by_overlap, conductance::constriction(k, by_overlap))
-            }
-            Radius::Overlap { printed: true } => (
-                by_overlap,
-                conductance::constriction_as_printed(k, by_overlap),
-            ),
+        let grains = Conducting::of(self, set);
+        let of_metal = match metal.and_then(Metal::exchange) {
+            Some((exchange, pairs)) => exchange.conduct(pairs, &grains, state, &mut sum)?,
+            None => 0.0,
         };
-        solid + gas.map_or(0.0, |k_g| conductance::gas(k_g, wide, r_c))
+        let least = self.caloric.least_heat();
+        let masses = set.column(&MASS);
+        let fastest = sweep::greatest(set.len(), |a| sum[a] / (masses[a] * least));
+        self.sum = sum;
+        let shine = self
+            .lighting
+            .fastest(set.column(&TEMPERATURE), |a| masses[a] * least);
+        let rate = fastest.map_or(of_metal, |(_, rate)| rate.max(of_metal)) + shine;
+        self.limit = PART / rate;
+        Ok(())
     }
 
     /// Sums H times `weight(a, b)` over the contacts of each grain a, in the order of the list.
@@ -230,17 +226,29 @@ impl Heat {
     /// One step of `step` \[s\] to `time` \[s\].
     fn step(
         &mut self,
-        (set, lists): (&mut Set, &Lists),
-        time: f64,
-        step: f64,
+        (set, state): (&mut Set, &mut State),
+        lists: &Lists,
+        metal: Option<&mut Metal>,
+        (time, step): (f64, f64),
     ) -> Result<(), OutOfRange> {
         let mut rate = std::mem::take(&mut self.rate);
         rate.resize(set.len(), 0.0);
         let temperature = set.column(&TEMPERATURE);
         self.gather(lists, &mut rate, |a, b| temperature[b] - temperature[a]);
+        if let Some((exchange, (_, bodies))) = metal.and_then(Metal::exchange) {
+            exchange.flow(bodies, (temperature, &state.temperature), &mut rate);
+            exchange.take(bodies, state, step);
+        }
+        self.lighting.heat(temperature, &mut rate, step);
         let mut enthalpy = set.take(&ENTHALPY);
         let mass = set.column(&MASS);
         sweep::change(&mut enthalpy, |a, h| *h += step * rate[a] / mass[a]);
+        if let Some(boiling) = self.boiling {
+            for (h, mass) in enthalpy.iter_mut().zip(mass).filter(|(h, _)| **h > boiling) {
+                self.boiled += mass * (*h - boiling);
+                *h = boiling;
+            }
+        }
         let held = set.column(&HELD).iter().enumerate();
         for (a, body) in held.filter(|(_, body)| **body > 0) {
             if let Some(curve) = &self.held[*body as usize - 1] {
@@ -260,7 +268,7 @@ impl Heat {
     }
 
     /// Powder melts to slag, slag sets.
-    fn change(&self, set: &mut Set) {
+    pub(super) fn change(&self, set: &mut Set) {
         let mut states = set.take(&STATE);
         let enthalpy = set.column(&ENTHALPY);
         sweep::change(&mut states, |a, state| {
@@ -291,87 +299,63 @@ impl Heat {
     }
 }
 
-/// A contact whose overlap stands still.
-fn still(meeting: &Meeting) -> Meeting {
-    Meeting {
-        approach: 0.0,
-        ..*meeting
-    }
-}
-
-/// Gives the grains of a scene the columns of heat and their first temperatures.
-///
-/// # Errors
-/// A body without a temperature, or one that the properties do not hold.
-pub fn warm(scene: &Parameters, heat: &Heat, set: &mut Set, counts: &[usize]) -> Result<(), Fault> {
-    for column in [&TEMPERATURE, &ENTHALPY] {
-        set.declare(column);
-    }
-    set.declare(&STATE);
-    if heat.held.iter().any(Option::is_some) {
-        set.declare(&HELD);
-    }
-    let mut row = 0;
-    for (i, (body, count)) in scene.bodies.iter().zip(counts).enumerate() {
-        let at = format!("/bodies/{i}");
-        let first = match (&body.temperature_k, &heat.held[i]) {
-            (Some(property), _) => {
-                property.compile(&format!("{at}/temperature_k"), &["x", "y", "z", "r"])?
-            }
-            (None, Some(held)) => held.clone(),
-            (None, None) => {
-                return Err(Fault::at(
-                    &at,
-                    "has no key 'temperature_k' in K, which grains with heat need",
-                ));
-            }
-        };
-        for _ in 0..*count {
-            let place = set.column(&POSITION)[row];
-            let value = first.value(&Arguments::at(place, 0.0));
-            let value = value
-                .map_err(|what| Fault::at(&format!("{at}/temperature_k"), what.to_string()))?;
-            if !heat.caloric.covers(value) {
-                let (low, high) = heat.caloric.range();
-                let what = format!("gives {value} K; the properties hold from {low} to {high} K");
-                return Err(Fault::at(&format!("{at}/temperature_k"), what));
-            }
-            set.column_mut(&TEMPERATURE)[row] = value;
-            let enthalpy = heat.caloric.enthalpy(value);
-            set.column_mut(&ENTHALPY)[row] = enthalpy;
-            if heat.held[i].is_some() {
-                set.column_mut(&HELD)[row] = i as u8 + 1;
-            }
-            row += 1;
-        }
-    }
-    heat.change(set);
-    Ok(())
-}
-
 impl Heat {
-    /// Heat over `dt` \[s\] between grains of `set` that touch by `lists`.
+    /// Heat over `dt` \[s\] between grains of `set` that touch by `lists`, and with the metal beside them.
     ///
     /// # Errors
     /// A temperature that the properties do not hold.
     pub fn advance(
         &mut self,
-        (set, lists): (&mut Set, &Lists),
-        state: &State,
+        set: &mut Set,
+        (lists, walls, mut metal): (&Lists, &Walls, Option<&mut Metal>),
+        state: &mut State,
         dt: f64,
     ) -> Result<(), StageError> {
         let mut march = || -> Result<(), OutOfRange> {
-            self.conduct(set, lists)?;
+            self.lighting.fall(walls.lit(), state.time)?;
+            self.conduct((set, state), lists, metal.as_deref_mut())?;
             let parts = (dt / self.limit - 1e-9).ceil().max(1.0);
             let step = dt / parts;
             for part in 1..=parts as u64 {
-                self.step((set, lists), state.time + part as f64 * step, step)?;
+                let time = (state.time + part as f64 * step, step);
+                self.step((set, state), lists, metal.as_deref_mut(), time)?;
             }
             Ok(())
         };
         march().map_err(|what| StageError::Data(what.to_string()))?;
         self.change(set);
+        if let Some((exchange, (_, bodies))) = metal.and_then(Metal::exchange) {
+            exchange.beyond(bodies, state)?;
+        }
         self.beyond(set, state.step).map_or(Ok(()), Err)
+    }
+
+    /// Sums and the longest step, for a checkpoint.
+    pub(super) fn saved(&self) -> [f64; 7] {
+        let [taken, given, through, left] = self.lighting.sums;
+        let own = [self.brought, self.limit, self.boiled];
+        [own[0], own[1], own[2], taken, given, through, left]
+    }
+
+    /// Takes back what [`Heat::saved`] gave.
+    pub(super) fn take_back(&mut self, [brought, limit, boiled, sums @ ..]: [f64; 7]) {
+        (self.brought, self.limit, self.boiled) = (brought, limit, boiled);
+        self.lighting.sums = sums;
+    }
+
+    /// Sums over the run.
+    pub(super) fn figures(&self) -> Vec<Figure> {
+        let figure = |name, value| Figure {
+            name,
+            unit: "J",
+            value,
+        };
+        let mut figures = vec![figure("grain_heat_held_j", self.brought)];
+        if self.boiling.is_some() {
+            figures.push(figure("grain_vapour_j", self.boiled));
+        }
+        figures.extend(self.lighting.figures());
+        figures
     }
 
     /// Bytes held.

@@ -20,25 +20,38 @@
 
 pub mod block;
 pub mod bounds;
+mod conducting;
+pub mod cover;
 pub mod faces;
 pub mod fill;
 pub mod heat;
+pub mod light;
+mod limits;
 pub mod lists;
 pub mod memory;
+pub mod metal;
+mod metal_heat;
+mod metal_list;
+pub mod metal_parameters;
 pub mod motion;
 pub mod moving;
 pub mod order;
 pub mod pairs;
 pub mod parameters;
 pub mod pressure;
+mod saved;
 pub mod totals;
 pub mod walls;
+mod warm;
 
 use particles::Column;
 
 pub use heat::Heat;
+pub use metal::Metal;
+pub use metal_heat::Exchange;
 pub use motion::Motion;
 pub use parameters::Parameters;
+pub use warm::warm;
 
 /// u \[m/s\].
 pub const VELOCITY: Column<[f64; 3]> = Column::new("velocity", "m/s", [0.0; 3]).saved().shown();

@@ -4,12 +4,13 @@ use contact::{Contact, Friction, Grain, Normal, Rolling};
 use particles::Set;
 use run::Fault;
 use run::property::OutOfRange;
-use shapes::frame::{Vector, dot};
+use shapes::frame::dot;
 
 use super::bounds::{Doing, Setting, Slack};
 use super::heat::Heat;
 use super::lists::Lists;
 use super::memory::{Memory, closed_up, renumber};
+use super::metal::Metal;
 use super::moving::Moving;
 use super::parameters::{BoundsScene, Law, Parameters, RestScene};
 use super::walls::{self, Walls};
@@ -19,32 +20,31 @@ use crate::state::State;
 
 /// The motion of grains.
 pub struct Motion {
-    law: Law,
-    friction: Option<Friction>,
+    pub(super) law: Law,
+    pub(super) friction: Option<Friction>,
     rolling: Option<Rolling>,
-    setting: Setting,
+    pub(super) setting: Setting,
     zeta: f64,
-    walls: Walls,
+    pub(super) walls: Walls,
     bounds: Option<BoundsScene>,
     until: Option<RestScene>,
     /// How long no grain has been faster than at rest \[s\].
-    quiet: f64,
-    lists: Lists,
+    pub(super) quiet: f64,
+    pub(super) lists: Lists,
     /// Lists made since rows were last put in order.
-    listings: f64,
+    pub(super) listings: f64,
     wall_contacts: Vec<u32>,
-    moving: Moving,
-    memories: [Vec<Memory>; 2],
-    doing: Doing,
+    pub(super) moving: Moving,
+    pub(super) memories: [Vec<Memory>; 2],
+    pub(super) doing: Doing,
     begun: bool,
     restored: Option<Vec<f64>>,
-    lost: [f64; 2],
-    steps: f64,
-    heat: Option<Heat>,
+    pub(super) lost: [f64; 2],
+    pub(super) steps: f64,
+    pub(super) heat: Option<Heat>,
+    pub(super) metal: Option<Metal>,
 }
 
-/// Numbers of a checkpoint ahead of the walls.
-const HEAD: usize = 10;
 /// Lists that are made until rows are put in order anew.
 const LISTINGS: f64 = 20.0;
 
@@ -90,24 +90,14 @@ impl Motion {
             lost: [0.0; 2],
             steps: 0.0,
             heat,
+            metal: None,
         })
     }
 
-    /// The longest step \[s\] and what bounds it.
-    fn limit(&self) -> Limit {
-        let (setting, doing) = (&self.setting, self.doing);
-        let (mass, radius) = (0.5 * setting.lightest, 0.5 * setting.radii[0]);
-        let (seconds, name) = match &self.law {
-            // What grains that are held do to each other moves nothing, and without friction no contact has a history.
-            _ if self.moving.all_driven() && self.friction.is_none() => setting.far(doing.fastest),
-            Law::Linear(law) => setting.limit(law, doing, |_| [0.0, law.duration(mass)]),
-            Law::Hertz(law) => setting.limit(law, doing, |speed| {
-                let speed = speed.max(f64::MIN_POSITIVE);
-                let duration = law.elastic_duration(mass, radius, speed);
-                [law.deepest(mass, radius, speed), duration]
-            }),
-        };
-        Limit { seconds, name }
+    /// With metal beside the grains.
+    #[must_use]
+    pub fn beside(self, metal: Option<Metal>) -> Self {
+        Self { metal, ..self }
     }
 
     /// Forces of the start, or lists as they were when a checkpoint was written.
@@ -120,9 +110,19 @@ impl Motion {
         self.walls.begin(time)?;
         self.moving.begin(time)?;
         self.put_in_order(set);
+        self.list_metal();
         self.walls.spread(&self.moving.grains);
         self.act(0.0);
         Ok(())
+    }
+
+    /// Lists afresh who may touch metal.
+    fn list_metal(&mut self) {
+        let contacts = [&*self.lists.contacts, &*self.wall_contacts];
+        if let Some(metal) = &mut self.metal {
+            let damping = (self.zeta, self.setting.inertia_factor);
+            metal.list(&self.moving.grains, contacts, damping);
+        }
     }
 
     /// Lists neighbours afresh; contacts that touch go along.
@@ -137,12 +137,20 @@ impl Motion {
         self.walls.memories(&mut self.memories[1]);
     }
 
+    /// Gives what is remembered of contacts the new rows of their grains.
+    fn renumber(&mut self, rows: &[Option<u32>]) {
+        renumber(&mut self.memories, rows);
+        if let Some(metal) = &mut self.metal {
+            metal.renumber(rows);
+        }
+    }
+
     /// Puts grains that are near each other in rows that are near each other.
     fn put_in_order(&mut self, set: &mut Set) {
         let [least, widest] = self.setting.radii;
         let order = order::by_cells(&self.moving.grains, 2.0 * widest + Lists::skin(least));
         self.remember();
-        renumber(&mut self.memories, &order::inverse(&order));
+        self.renumber(&order::inverse(&order));
         self.moving.put(set);
         set.arrange(&order);
         self.moving.take(set);
@@ -150,7 +158,7 @@ impl Motion {
         self.listings = 0.0;
     }
 
-    fn list_with_memories(&mut self) {
+    pub(super) fn list_with_memories(&mut self) {
         self.listings += 1.0;
         let (grains, radii) = (&self.moving.grains, self.setting.radii);
         let [between, at_walls] = &self.memories;
@@ -170,55 +178,6 @@ impl Motion {
         });
         let least = walls.fold(pairs.unwrap_or(alone), Slack::least);
         self.doing.slack = least.least(alone);
-    }
-
-    fn relist_as_saved(&mut self, saved: &[f64]) {
-        let walls = HEAD + self.walls.saved_numbers();
-        let (Some(head), Some(places), Some(rest)) = (
-            saved.first_chunk::<HEAD>(),
-            saved.get(HEAD..walls),
-            saved.get(walls..),
-        ) else {
-            return;
-        };
-        let [
-            pairs,
-            deep,
-            fast,
-            left,
-            mass,
-            steps,
-            brought,
-            limit,
-            quiet,
-            listings,
-        ] = *head;
-        if let Some(heat) = &mut self.heat {
-            (heat.brought, heat.limit) = (brought, limit);
-        }
-        let memories = rest.as_chunks::<9>().0;
-        let split = (pairs as usize).min(memories.len());
-        for (to, from) in self
-            .memories
-            .iter_mut()
-            .zip([&memories[..split], &memories[split..]])
-        {
-            to.clear();
-            to.extend(from.iter().map(|saved| Memory::restored(*saved)));
-        }
-        (self.lost, self.steps) = ([left, mass], steps);
-        let moved = self.walls.restore(places);
-        let now: Vec<Vector> = self.moving.grains.iter().map(|g| g.position).collect();
-        for (grain, listed) in self.moving.grains.iter_mut().zip(&self.moving.listed) {
-            grain.position = *listed;
-        }
-        self.list_with_memories();
-        for (grain, now) in self.moving.grains.iter_mut().zip(now) {
-            grain.position = now;
-        }
-        self.walls.place(&moved);
-        (self.doing.deepest, self.doing.fastest) = (deep, fast);
-        (self.quiet, self.listings) = (quiet, listings);
     }
 
     /// Forces and moments of all contacts.
@@ -245,11 +204,12 @@ impl Motion {
             ..
         } = &mut self.moving;
         pairs::act(&mut self.lists, grains, laws, step, [force, moment]);
-        let at_walls = self.walls.act(&self.moving.grains, laws, step);
-        self.walls
-            .add(&mut self.moving.force, &mut self.moving.moment);
+        let at_walls = self.walls.act(grains, laws, step);
+        self.walls.add(force, moment);
+        let in_metal = (self.metal.as_mut())
+            .map_or(0.0, |metal| metal.act(grains, laws, step, (force, moment)));
         let overlaps = self.lists.chunks.iter().map(|chunk| chunk.deepest);
-        self.doing.deepest = overlaps.fold(at_walls, f64::max);
+        self.doing.deepest = overlaps.fold(at_walls.max(in_metal), f64::max);
     }
 
     /// One step of `step` \[s\] to `time` \[s\].
@@ -260,9 +220,18 @@ impl Motion {
         if self.strayed(far.max(driven)) || far.is_nan() {
             self.list();
         }
+        if let Some(metal) = &mut self.metal {
+            metal.predict(step);
+            if metal.strayed(&self.moving.grains) {
+                self.list_metal();
+            }
+        }
         self.moving.turn();
         self.act(step);
         let fastest = self.moving.correct(step);
+        if let Some(metal) = &mut self.metal {
+            metal.correct(step);
+        }
         self.doing.fastest = if fastest.is_nan() {
             fastest
         } else {
@@ -294,33 +263,18 @@ impl Motion {
             self.lost[1] += grain.mass;
         }
         self.remember();
-        renumber(&mut self.memories, &closed_up(&leaves));
+        self.renumber(&closed_up(&leaves));
         self.moving.put(set);
         set.remove(|row| leaves[row]);
         self.moving.take(set);
         self.list_with_memories();
+        self.walls.spread(&self.moving.grains);
     }
 
     /// Contacts of a grain with others that touch, in the mean.
     fn contacts(&self) -> f64 {
         let grains = self.moving.grains.len().max(1);
         2.0 * self.lists.touching() as f64 / grains as f64
-    }
-
-    fn diverged(&self, state: &State) -> Option<StageError> {
-        self.doing.fastest.is_nan().then(|| {
-            let bad = |g: &Grain| !(g.velocity[0] + g.velocity[1] + g.velocity[2]).is_finite();
-            let row = self.moving.grains.iter().position(bad).unwrap_or(0);
-            StageError::Diverged {
-                step: state.step,
-                particle: row,
-                place: self.moving.grains[row].position,
-                quantity: "speed of a grain",
-                value: f64::NAN,
-                limit: self.setting.radii[0] / self.limit().seconds,
-                unit: "m/s",
-            }
-        })
     }
 }
 
@@ -345,6 +299,9 @@ impl Stage for Motion {
             return Ok(());
         };
         self.moving.take(&mut set);
+        if let Some(metal) = &mut self.metal {
+            metal.take(state, &self.moving.grains, self.doing.fastest, dt);
+        }
         let mut march = || -> Result<(), OutOfRange> {
             if !self.begun {
                 self.begin(&mut set, state.time)?;
@@ -352,6 +309,7 @@ impl Stage for Motion {
             if self.listings >= LISTINGS {
                 self.put_in_order(&mut set);
             }
+            self.list_metal();
             self.walls.spread(&self.moving.grains);
             let mut done = 0.0;
             while done < dt {
@@ -371,11 +329,15 @@ impl Stage for Motion {
             .until
             .is_some_and(|rest| self.doing.fastest < rest.speed_m_s);
         self.quiet = if still { self.quiet + dt } else { 0.0 };
+        if let Some(metal) = &mut self.metal {
+            metal.give(state, dt);
+        }
         self.leave(&mut set);
         let diverged = self.diverged(state);
         self.moving.put(&mut set);
+        let touching = (&self.lists, &self.walls, self.metal.as_mut());
         let warmed = match &mut self.heat {
-            Some(heat) if marched.is_ok() => heat.advance((&mut set, &self.lists), state, dt),
+            Some(heat) if marched.is_ok() => heat.advance(&mut set, touching, state, dt),
             _ => Ok(()),
         };
         state.grains = Some(set);
@@ -395,50 +357,28 @@ impl Stage for Motion {
             figure("grain_steps", "1", self.steps),
             figure("grain_contacts", "1", self.contacts()),
         ];
-        let heat = self.heat.as_ref();
-        figures.extend(heat.map(|heat| figure("grain_heat_held_j", "J", heat.brought)));
+        figures.extend(self.heat.iter().flat_map(Heat::figures));
+        figures.extend(self.metal.iter().flat_map(Metal::figures));
         figures
     }
 
     fn bytes(&self) -> usize {
         let grains = size_of::<Grain>() * self.moving.grains.capacity();
         let heat = self.heat.as_ref().map_or(0, Heat::bytes);
-        grains + self.lists.bytes() + self.walls.bytes() + heat
+        let metal = self.metal.as_ref().map_or(0, Metal::bytes);
+        grains + self.lists.bytes() + self.walls.bytes() + heat + metal
     }
 
     fn save(&self) -> Vec<f64> {
         if !self.begun {
             return Vec::new();
         }
-        let (mut between, mut at_walls) = (Vec::new(), Vec::new());
-        self.lists.memories(&mut between);
-        self.walls.memories(&mut at_walls);
-        let Doing {
-            deepest, fastest, ..
-        } = self.doing;
-        let [left, mass] = self.lost;
-        let [brought, limit] =
-            (self.heat.as_ref()).map_or([0.0; 2], |heat| [heat.brought, heat.limit]);
-        let steps = self.steps;
-        let mut saved = vec![
-            between.len() as f64,
-            deepest,
-            fastest,
-            left,
-            mass,
-            steps,
-            brought,
-            limit,
-            self.quiet,
-            self.listings,
-        ];
-        saved.extend(self.walls.save());
-        let memories = between.iter().chain(&at_walls);
-        saved.extend(memories.flat_map(Memory::save));
-        saved
+        self.saved()
     }
 
     fn restore(&mut self, saved: &[f64]) {
+        let metal = self.metal.as_mut();
+        let saved = metal.map_or(saved, |metal| metal.detach(saved));
         self.restored = (!saved.is_empty()).then(|| saved.to_vec());
     }
 }

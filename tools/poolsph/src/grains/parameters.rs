@@ -9,6 +9,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::Shape;
 
+use super::light::LightScene;
+use super::metal_parameters::{HertzScene, MetalScene};
 use crate::heat::{self, Caloric};
 
 /// Grains, what they are made of and what holds them.
@@ -37,6 +39,8 @@ pub struct Parameters {
     pub bounds: Option<BoundsScene>,
     /// Heat between grains that touch; absent: temperatures are of no account.
     pub heat: Option<GrainHeat>,
+    /// What metal is to grains, where a scene has both; absent: it rubs as grains do, and is as hard as steel.
+    pub metal: Option<MetalScene>,
     /// The run ends when the grains have come to rest; absent: at its time.
     pub until: Option<RestScene>,
     /// Steps in the duration of a contact of two of the lightest grains, at least; stability may ask for more.
@@ -97,18 +101,6 @@ pub struct LinearScene {
 
 fn one() -> f64 {
     1.0
-}
-
-/// Elastic spheres.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HertzScene {
-    /// E.
-    #[schemars(extend("x-unit" = "Pa", "exclusiveMinimum" = 0.0))]
-    pub youngs_modulus_pa: f64,
-    /// nu.
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = -1.0, "exclusiveMaximum" = 0.5))]
-    pub poisson_ratio: f64,
 }
 
 /// Where a contact ends.
@@ -210,6 +202,17 @@ pub enum ConductanceScene {
     Printed,
 }
 
+impl ConductanceScene {
+    /// What makes contacts wide, where that is elasticity.
+    #[must_use]
+    pub fn elastic(self) -> Option<HertzScene> {
+        match self {
+            Self::Elastic(elastic) => Some(elastic),
+            Self::Overlap | Self::Printed => None,
+        }
+    }
+}
+
 impl Default for ConductanceScene {
     /// Soda-lime glass, the silicate best known: 70 GPa, 0.22.
     fn default() -> Self {
@@ -217,14 +220,6 @@ impl Default for ConductanceScene {
             youngs_modulus_pa: 70e9,
             poisson_ratio: 0.22,
         })
-    }
-}
-
-impl HertzScene {
-    /// Effective modulus of two of it \[Pa\].
-    #[must_use]
-    pub fn effective(self) -> f64 {
-        0.5 * self.youngs_modulus_pa / (1.0 - self.poisson_ratio * self.poisson_ratio)
     }
 }
 
@@ -242,6 +237,9 @@ pub struct GrainMelting {
     #[serde(default = "three")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub slag_conductivity_ratio: f64,
+    /// T at which slag boils: what heat it gets beyond goes off with vapour, whose mass is of no account. Absent: it never boils.
+    #[schemars(extend("x-unit" = "K"), range(min = 1.0, max = 1e4))]
+    pub boiling_k: Option<f64>,
 }
 
 fn three() -> f64 {
@@ -287,6 +285,8 @@ pub struct WallScene {
     /// Pressure of its surface on the grains beside it: a cavity. Absent: none.
     #[schemars(extend("x-unit" = "Pa"))]
     pub pressure_pa: Option<f64>,
+    /// Light of an arc on the grains behind its surface, and what they give off; absent: none.
+    pub light: Option<LightScene>,
     /// Coefficient of friction on this wall, if it is another.
     #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
     pub friction: Option<f64>,

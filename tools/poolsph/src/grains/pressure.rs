@@ -83,6 +83,11 @@ impl Pressed {
         pieces.map(bearer).collect_into_vec(&mut self.bearers);
     }
 
+    /// Each piece, and the row of the grain that bears it.
+    pub fn pieces(&self) -> impl Iterator<Item = (&Piece, Option<u32>)> {
+        self.pieces.iter().zip(self.bearers.iter().copied())
+    }
+
     /// Adds the force of each piece \[N\] to who bears it.
     pub fn add(&self, force: &mut [Vector]) {
         for (piece, bearer) in self.pieces.iter().zip(&self.bearers) {

@@ -7,19 +7,20 @@ use run::property::{Arguments, Curve, OutOfRange, Property};
 use shapes::frame::{Vector, along, difference, length};
 
 use super::faces::Face;
+use super::light::Light;
 use super::memory::Memory;
 use super::parameters::WallScene;
 use super::pressure::Pressed;
 
-/// A grain near a face.
+/// A grain near a face, or near a particle of metal.
 #[derive(Debug, Clone, Copy)]
-struct Near {
-    row: u32,
-    touching: bool,
-    history: History,
-    rolled: Vector,
-    reply: Option<Reply>,
-    overlap: f64,
+pub(super) struct Near {
+    pub(super) row: u32,
+    pub(super) touching: bool,
+    pub(super) history: History,
+    pub(super) rolled: Vector,
+    pub(super) reply: Option<Reply>,
+    pub(super) overlap: f64,
 }
 
 /// A face that may move.
@@ -32,6 +33,7 @@ struct Wall {
     slides: Option<[Curve; 3]>,
     sliding: Vector,
     pressed: Option<Pressed>,
+    light: Option<Light>,
     friction: Option<f64>,
     velocity: Vector,
     /// How far it has moved since the start \[m\], and where that was when neighbours were listed.
@@ -82,6 +84,7 @@ impl Walls {
                 slides: slides.clone(),
                 sliding: [0.0; 3],
                 pressed: None,
+                light: None,
                 friction: wall.friction,
                 velocity: [0.0; 3],
                 moved: [0.0; 3],
@@ -89,8 +92,12 @@ impl Walls {
                 near: Vec::new(),
             }));
             // All faces of a wall are one surface.
-            if let (Some(pressure), Some(first)) = (wall.pressure_pa, walls.get_mut(before)) {
+            let light = wall.light.as_ref();
+            let light = light.map(|l| l.light(&format!("/walls/{i}/light")));
+            let borne = wall.pressure_pa.or(light.is_some().then_some(0.0));
+            if let (Some(pressure), Some(first)) = (borne, walls.get_mut(before)) {
                 first.pressed = Some(Pressed::new(&wall.shape, pressure, radii));
+                first.light = light.transpose()?;
             }
         }
         Ok(Self { walls })
@@ -165,22 +172,13 @@ impl Walls {
                     pressed.rows.push(row as u32);
                 }
                 if distance < grain.radius + skin {
-                    wall.near.push(Near {
-                        row: row as u32,
-                        touching: false,
-                        history: History::default(),
-                        rolled: [0.0; 3],
-                        reply: None,
-                        overlap: 0.0,
-                    });
+                    wall.near.push(Near::new(row as u32));
                     contacts[row] += 1;
                 }
             }
             for memory in memories.iter().filter(|m| m.other as usize == w) {
                 if let Ok(at) = wall.near.binary_search_by_key(&memory.row, |n| n.row) {
-                    let near = &mut wall.near[at];
-                    (near.touching, near.history) = (true, memory.history);
-                    near.rolled = memory.rolled;
+                    wall.near[at].remember(memory);
                 }
             }
         }
@@ -190,13 +188,7 @@ impl Walls {
     pub fn memories(&self, memories: &mut Vec<Memory>) {
         memories.clear();
         for (w, wall) in self.walls.iter().enumerate() {
-            let touching = wall.near.iter().filter(|near| near.touching);
-            memories.extend(touching.map(|near| Memory {
-                row: near.row,
-                other: w as u32,
-                history: near.history,
-                rolled: near.rolled,
-            }));
+            memories.extend(wall.near.iter().filter_map(|near| near.memory(w as u32)));
         }
     }
 
@@ -251,6 +243,12 @@ impl Walls {
         }
     }
 
+    /// Walls in the light.
+    pub(super) fn lit(&self) -> impl Iterator<Item = (&Light, &Pressed)> {
+        let walls = self.walls.iter();
+        walls.filter_map(|wall| wall.light.as_ref().zip(wall.pressed.as_ref()))
+    }
+
     /// Where the walls are, as numbers for a checkpoint.
     #[must_use]
     pub fn save(&self) -> Vec<f64> {
@@ -294,7 +292,35 @@ impl Walls {
 }
 
 impl Near {
-    fn meet<N: Normal>(
+    /// A grain that touches nothing yet.
+    pub(super) fn new(row: u32) -> Self {
+        Self {
+            row,
+            touching: false,
+            history: History::default(),
+            rolled: [0.0; 3],
+            reply: None,
+            overlap: 0.0,
+        }
+    }
+
+    /// Goes on with a contact of an earlier list.
+    pub(super) fn remember(&mut self, memory: &Memory) {
+        (self.touching, self.history) = (true, memory.history);
+        self.rolled = memory.rolled;
+    }
+
+    /// The contact as a memory, if it touches; `other` is who it touches.
+    pub(super) fn memory(&self, other: u32) -> Option<Memory> {
+        self.touching.then_some(Memory {
+            row: self.row,
+            other,
+            history: self.history,
+            rolled: self.rolled,
+        })
+    }
+
+    pub(super) fn meet<N: Normal>(
         &mut self,
         meeting: Meeting,
         (contact, rolling): (&Contact<N>, Option<Rolling>),

@@ -18,6 +18,7 @@ mod radial;
 mod vapour;
 
 pub use arc::{Arc, ArcParameters, Onto, Part};
+pub(crate) use bounds::outside;
 pub use caloric::Caloric;
 pub use cathode::Cathode;
 pub use conduction::Conduction;

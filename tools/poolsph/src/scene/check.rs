@@ -89,7 +89,12 @@ fn without_metal(scene: &Scene) -> Vec<Fault> {
         ("bounds", scene.bounds.is_some()),
         ("droplets", scene.droplets.is_some()),
     ];
-    let there = keys.into_iter().filter(|(_, there)| *there);
+    let metal = scene
+        .grains
+        .as_ref()
+        .is_some_and(|grains| grains.metal.is_some());
+    let keys = keys.into_iter().chain([("grains/metal", metal)]);
+    let there = keys.filter(|(_, there)| *there);
     let fault = |key: &str| Fault::at(&format!("/{key}"), "means nothing without the key 'bodies'");
     there.map(|(key, _)| fault(key)).collect()
 }

@@ -10,6 +10,7 @@ mod compare;
 pub(crate) mod drop;
 mod exchange;
 pub(crate) mod field;
+mod flux;
 pub(crate) mod gas;
 pub(crate) mod heat;
 pub(crate) mod jet;
@@ -56,6 +57,9 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     if let (Some(reader), Some(weld)) = (&pool, &weld) {
         page.section("The bead", bead::section(reader, weld, stretch.as_ref())?);
     }
+    if let Some(body) = under_flux(pool.as_ref(), &records)? {
+        page.section("Powder, slag and metal", body);
+    }
     if let Some(targets) = &targets {
         let body = compare::section(targets, stretch.as_ref(), &balances);
         page.section("Against experiment and simulation", body);
@@ -75,10 +79,10 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         };
         page.section(&title, arc::section(reader)?);
     }
-    let only = arcs
-        .first()
-        .filter(|_| arcs.len() == 1)
-        .map(|(_, reader)| reader);
+    let only = match arcs.as_slice() {
+        [(_, reader)] => Some(reader),
+        _ => None,
+    };
     let mut body = match (only, &pool) {
         (Some(arc), Some(pool)) => exchange::section(arc, pool)?,
         _ => String::new(),
@@ -87,6 +91,15 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     page.section("Mass and energy", body);
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
+}
+
+/// What is told of grains beside the metal of a pool; nothing where there are none.
+fn under_flux(pool: Option<&Reader>, records: &[Named]) -> Result<Option<String>, Failure> {
+    let record = records.iter().find(|(name, _)| name == "pool");
+    match (pool, record) {
+        (Some(reader), Some((_, record))) => flux::section(reader, &record.scene),
+        _ => Ok(None),
+    }
 }
 
 /// The record beside each artefact that has one.

@@ -4,6 +4,7 @@ pub(crate) mod arc;
 pub(crate) mod bead;
 pub(crate) mod cross;
 pub(crate) mod field;
+pub(crate) mod flux;
 pub(crate) mod heat;
 pub(crate) mod jet;
 pub(crate) mod mean;

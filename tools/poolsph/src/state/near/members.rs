@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{GRAIN, MARGIN, Near, Role};
+use super::{GRAIN, MARGIN, NONE, Near, Role};
 use crate::state::{Phase, State};
 
 impl Near {
@@ -41,6 +41,13 @@ impl Near {
             }
         }
         self.solid = solid;
+    }
+
+    /// Place in the copy of a particle of [`State`], if it is in it.
+    #[must_use]
+    pub fn member(&self, id: usize) -> Option<usize> {
+        let place = self.member.get(id).copied().filter(|place| *place != NONE);
+        place.map(|place| place as usize)
     }
 
     /// Takes a particle in.

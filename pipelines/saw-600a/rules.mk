@@ -1,0 +1,17 @@
+# saw-600a: submerged arc welding at 600 A and 5 mm/s: a bed of flux at rest, then powder, slag and metal in one run.
+
+.PHONY: saw-600a
+saw-600a: build/saw-600a/report.html ## powder, slag and metal of a submerged arc weld of 5 s (many hours)
+
+build/saw-600a/bed.mcap: pipelines/saw-600a/bed.json $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/bed.json --out $@ $(MACHINE)
+
+build/saw-600a/weld.mcap: pipelines/saw-600a/weld.json build/saw-600a/bed.mcap build/gmaw-600a/arc.mcap $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/weld.json \
+	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-600a/bed.mcap --out $@ $(MACHINE)
+
+build/saw-600a/report.html: build/gmaw-600a/arc.mcap build/saw-600a/weld.mcap $(BIN)/report always
+	$(RERUN) $(BIN)/report page --study saw-600a --out $@ \
+	  --arc build/gmaw-600a/arc.mcap --pool build/saw-600a/weld.mcap
+
+.PRECIOUS: build/saw-600a/bed.mcap build/saw-600a/weld.mcap build/saw-600a/report.html

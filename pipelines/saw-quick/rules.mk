@@ -1,0 +1,20 @@
+# saw-quick: the first 0.6 s of saw-600a on particles of 1 mm, in a smaller box. The arc is that of gmaw-600a.
+
+.PHONY: saw-quick
+saw-quick: build/saw-quick/report.html ## the first 0.6 s of a submerged arc weld on coarse particles (minutes)
+
+build/saw-quick/bed.mcap: pipelines/saw-600a/bed.json pipelines/saw-quick/bed.patch.json $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/bed.json \
+	  --patch pipelines/saw-quick/bed.patch.json --out $@ $(MACHINE)
+
+build/saw-quick/weld.mcap: pipelines/saw-600a/weld.json pipelines/saw-quick/weld.patch.json \
+  build/saw-quick/bed.mcap build/gmaw-600a/arc.mcap $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/weld.json \
+	  --patch pipelines/saw-quick/weld.patch.json \
+	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-quick/bed.mcap --out $@ $(MACHINE)
+
+build/saw-quick/report.html: build/gmaw-600a/arc.mcap build/saw-quick/weld.mcap $(BIN)/report always
+	$(RERUN) $(BIN)/report page --study saw-quick --out $@ \
+	  --arc build/gmaw-600a/arc.mcap --pool build/saw-quick/weld.mcap
+
+.PRECIOUS: build/saw-quick/bed.mcap build/saw-quick/weld.mcap build/saw-quick/report.html

@@ -1,0 +1,60 @@
+//! Grains and what they meet.
+
+use particles::Set;
+use run::{Failure, Fault, Inputs};
+
+use super::Source;
+use crate::grains::cover::Cover;
+use crate::grains::{self, fill::fill};
+
+/// Stages of grains: their motion and heat, and what they cover of the metal.
+pub(super) struct Beside {
+    pub(super) motion: grains::Motion,
+    pub(super) cover: Option<Cover>,
+}
+
+impl Source<'_> {
+    /// Motion and heat of grains, the grains, and how many each body holds.
+    pub(super) fn grains(
+        &self,
+        scene: &grains::Parameters,
+        inputs: &Inputs,
+    ) -> Result<(Beside, Set, Vec<usize>), Failure> {
+        let within = |fault: Fault| fault.within("/grains");
+        let bed = bed(scene, inputs)?;
+        let (mut set, counts) = fill(scene, &bed);
+        let heat = scene.heat.as_ref();
+        let mut warmed = None;
+        if let Some(heat) = heat {
+            let heat = grains::Heat::new(scene, heat).map_err(within)?;
+            grains::warm(scene, &heat, &mut set, &counts).map_err(within)?;
+            warmed = Some(heat);
+        }
+        let radii = grains::fill::radii(&set);
+        let metal = self.scene.has_metal().then(|| {
+            let of = scene.metal.unwrap_or_default();
+            let exchange = heat.zip(self.caloric.as_ref());
+            let exchange = exchange.map(|(heat, caloric)| {
+                grains::Exchange::new(caloric.clone(), of.modulus(heat.contact.elastic()))
+            });
+            grains::Metal::new(self.scene.spacing_m, radii, of.friction).heated(exchange)
+        });
+        let cover = metal
+            .is_some()
+            .then(|| Cover::new(self.scene.spacing_m, radii[1]));
+        let motion = grains::Motion::new(scene, &set, warmed).map_err(within)?;
+        let motion = motion.beside(metal);
+        Ok((Beside { motion, cover }, set, counts))
+    }
+}
+
+/// Grains of the input `bed`, if the scene wants them.
+fn bed(scene: &grains::Parameters, inputs: &Inputs) -> Result<Vec<grains::fill::Lying>, Failure> {
+    match (scene.bodies.iter().any(|body| body.bed), inputs.get("bed")) {
+        (false, _) => Ok(Vec::new()),
+        (true, Some(path)) => crate::source::bed::read(path),
+        (true, None) => Err(Failure::Usage(
+            "this scene needs --input bed=FILE".to_owned(),
+        )),
+    }
+}

@@ -1,0 +1,307 @@
+//! Metal beside grains: particles of metal that grains touch, and what both do to each other.
+//!
+//! ```text
+//! F_a = sum over b of F_ab,      F_b = - sum over a of F_ab              (Komen 2019, eqs 3.104 to 3.118; 5.31)
+//! J_b = integral of F_b over the step of the metal,    f_b = J_b / (dt V)   is what the flow is given (eq. 5.32)
+//! ```
+//!
+//! A particle of metal is a sphere of its spacing. What rests gives way to nothing; what flows is a free mass of its own during the steps
+//! of the grains, so that a contact is that of two bodies and as stable as among grains, and then the flow takes the
+//! impulse and its pressure passes it on. Where the metal was at the end of the grains' steps is forgotten: it goes where
+//! the flow carries it. The force of a step's beginning is that of the last step's end, on both sides, so that what
+//! grains lose metal gets to the last bit that sums keep, whatever the metal has done in between. Metal has no
+//! spin: the moment of a rub goes to the grain alone.
+
+use contact::{Contact, Grain, Meeting, Normal, Rolling};
+use neighbours::Grid;
+use rayon::prelude::*;
+use shapes::frame::{Vector, along, difference};
+
+use super::bounds::Slack;
+use super::memory::Memory;
+use super::metal_heat::Exchange;
+use super::walls::Near;
+use crate::stage::Figure;
+use crate::state::State;
+
+/// Skin of the list over the least radius.
+const SKIN: f64 = 0.25;
+
+/// A particle of metal that grains may touch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Body {
+    /// Its index in [`State`].
+    pub(super) id: u32,
+    /// Its place in the copy of the flow, if it moves.
+    pub(super) member: Option<u32>,
+    pub(super) grain: Grain,
+    /// Force of all grains \[N\], and that of the step before.
+    pub(super) force: Vector,
+    pub(super) before: Vector,
+    /// Integral of the force over the step of the metal \[N s\].
+    pub(super) impulse: Vector,
+    /// Grains that may touch it.
+    pub(super) contacts: u32,
+}
+
+/// A grain and a particle of metal.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) near: Near,
+    /// Place among the bodies.
+    pub(super) body: u32,
+}
+
+/// The exchange of heat, and pairs and bodies that take part in it.
+pub(super) type Exchanged<'a> = (&'a mut Exchange, (&'a [Pair], &'a [Body]));
+
+/// The metal that grains touch.
+#[derive(Debug, Clone)]
+pub struct Metal {
+    friction: Option<f64>,
+    pub(super) radius: f64,
+    pub(super) skin: f64,
+    /// Radius of the largest grain \[m\].
+    pub(super) widest: f64,
+    /// By index.
+    pub(super) bodies: Vec<Body>,
+    /// By rows of grains, then by bodies.
+    pub(super) pairs: Vec<Pair>,
+    /// Contacts and forces that outlive a list: those of a checkpoint.
+    pub(super) memories: Vec<Memory>,
+    pub(super) forces: Vec<(u32, Vector)>,
+    /// Where bodies and grains were when they were listed \[m\].
+    pub(super) listed: [Vec<Vector>; 2],
+    pub(super) grid: Option<Grid>,
+    pub(super) places: Vec<Vector>,
+    pub(super) near: Vec<bool>,
+    pub(super) slack: Option<Slack>,
+    /// Force of the grains on metal at rest and in flow, along z \[N\].
+    pub(super) borne: [f64; 2],
+    /// Heat between both, if both have heat.
+    pub(super) heat: Option<Exchange>,
+}
+
+impl Metal {
+    /// Metal of the spacing `spacing` \[m\] beside grains whose radii go from `least` to `widest` \[m\]; `friction` if it is another.
+    #[must_use]
+    pub fn new(spacing: f64, [least, widest]: [f64; 2], friction: Option<f64>) -> Self {
+        let radius = 0.5 * spacing;
+        Self {
+            friction,
+            radius,
+            skin: SKIN * least.min(radius),
+            widest,
+            bodies: Vec::new(),
+            pairs: Vec::new(),
+            memories: Vec::new(),
+            forces: Vec::new(),
+            listed: [Vec::new(), Vec::new()],
+            grid: None,
+            places: Vec::new(),
+            near: Vec::new(),
+            slack: None,
+            borne: [0.0; 2],
+            heat: None,
+        }
+    }
+
+    /// With heat between both.
+    #[must_use]
+    pub fn heated(self, heat: Option<Exchange>) -> Self {
+        Self { heat, ..self }
+    }
+
+    /// The exchange of heat, and pairs and bodies that take part in it; none without heat.
+    pub(super) fn exchange(&mut self) -> Option<Exchanged<'_>> {
+        let (pairs, bodies) = (&*self.pairs, &*self.bodies);
+        self.heat.as_mut().map(|heat| (heat, (pairs, bodies)))
+    }
+
+    /// The lesser of `slack` and that of the contacts with metal.
+    #[must_use]
+    pub fn least(&self, slack: Slack) -> Slack {
+        self.slack.map_or(slack, |own| own.least(slack))
+    }
+
+    /// x += dt u + dt^2/2 a, u += dt a of what moves.
+    pub fn predict(&mut self, step: f64) {
+        for body in self.bodies.iter_mut().filter(|body| body.member.is_some()) {
+            let gained = body.force.map(|f| step * f / body.grain.mass);
+            let grain = &mut body.grain;
+            for ((x, u), gained) in (grain.position.iter_mut().zip(&mut grain.velocity)).zip(gained)
+            {
+                *x += step * (*u + 0.5 * gained);
+                *u += gained;
+            }
+        }
+    }
+
+    /// Reckons all contacts after a step of `step` \[s\], and adds them to the force \[N\] and the moment \[N m\] of the grains; gives the
+    /// greatest overlap \[m\].
+    pub fn act<N: Normal + Copy + Sync>(
+        &mut self,
+        grains: &[Grain],
+        (contact, rolling): (&Contact<N>, Option<Rolling>),
+        step: f64,
+        (force, moment): (&mut [Vector], &mut [Vector]),
+    ) -> f64 {
+        let mut own = *contact;
+        if let Some(coefficient) = self.friction {
+            own.friction = Some(contact::Friction { coefficient });
+        }
+        let bodies = &self.bodies;
+        let pairs = self.pairs.par_iter_mut().with_min_len(256);
+        pairs.for_each(|pair| {
+            let (grain, body) = (&grains[pair.near.row as usize], &bodies[pair.body as usize]);
+            if let Some(meeting) = body.meeting(grain) {
+                pair.near.meet(meeting, (&own, rolling), step);
+            }
+        });
+        for body in &mut self.bodies {
+            (body.before, body.force) = (body.force, [0.0; 3]);
+        }
+        let mut deepest = 0.0_f64;
+        for pair in &self.pairs {
+            deepest = deepest.max(pair.near.overlap);
+            if let Some(reply) = pair.near.reply {
+                let (row, body) = (pair.near.row as usize, &mut self.bodies[pair.body as usize]);
+                force[row] = along(force[row], 1.0, reply.force);
+                moment[row] = along(moment[row], 1.0, reply.moment);
+                body.force = difference(body.force, reply.force);
+            }
+        }
+        deepest
+    }
+
+    /// u += dt/2 (a' - a) of what moves, J += dt/2 (F + F').
+    pub fn correct(&mut self, step: f64) {
+        for body in &mut self.bodies {
+            for k in 0..3 {
+                let (old, new) = (body.before[k], body.force[k]);
+                body.impulse[k] += 0.5 * step * (old + new);
+                if body.member.is_some() {
+                    body.grain.velocity[k] += 0.5 * step * (new - old) / body.grain.mass;
+                }
+            }
+        }
+    }
+
+    /// Gives the flow the impulses of a step of `dt` \[s\].
+    pub fn give(&mut self, state: &mut State, dt: f64) {
+        let scale = 1.0 / (dt * state.metal.volume());
+        self.borne = [0.0; 2];
+        for body in &self.bodies {
+            let moves = usize::from(body.member.is_some());
+            self.borne[moves] += body.impulse[2] / dt;
+            if let Some(member) = body.member {
+                let force = &mut state.near.force[member as usize];
+                *force = along(*force, scale, body.impulse);
+            }
+        }
+    }
+
+    /// Whether none of it flows.
+    #[must_use]
+    pub fn rests(&self) -> bool {
+        self.bodies.iter().all(|body| body.member.is_none())
+    }
+
+    /// Gives contacts the new rows of their grains: `rows` has that of each old row, none where a grain leaves.
+    pub fn renumber(&mut self, rows: &[Option<u32>]) {
+        self.pairs.retain_mut(|pair| {
+            let row = rows[pair.near.row as usize];
+            row.map(|row| pair.near.row = row).is_some()
+        });
+    }
+
+    /// Numbers of the last step.
+    pub fn figures(&self) -> Vec<Figure> {
+        let figure = |name, unit, value| Figure { name, unit, value };
+        let [rests, flows] = self.borne;
+        let mut figures = vec![
+            figure("grain_force_on_solid", "N", rests),
+            figure("grain_force_on_liquid", "N", flows),
+        ];
+        let heat = self.heat.as_ref();
+        figures.extend(heat.map(|heat| figure("energy_in_grains_j", "J", heat.given())));
+        figures
+    }
+
+    /// What a checkpoint keeps of it, its number of numbers last.
+    #[must_use]
+    pub fn append(&self) -> Vec<f64> {
+        let mut saved = self.save();
+        saved.push(saved.len() as f64);
+        saved
+    }
+
+    /// Takes back what [`Metal::append`] added to `saved`; gives the rest.
+    pub fn detach<'a>(&mut self, saved: &'a [f64]) -> &'a [f64] {
+        let Some((number, before)) = saved.split_last() else {
+            return saved;
+        };
+        let (rest, own) = before.split_at(before.len().saturating_sub(*number as usize));
+        self.restore(own);
+        rest
+    }
+
+    /// Contacts, forces and heat, as numbers.
+    fn save(&self) -> Vec<f64> {
+        let mut kept = self.clone();
+        kept.remember();
+        let mut saved = vec![kept.memories.len() as f64, kept.forces.len() as f64];
+        saved.extend(kept.memories.iter().flat_map(Memory::save));
+        let forces = kept.forces.iter();
+        saved.extend(forces.flat_map(|(id, [x, y, z])| [f64::from(*id), *x, *y, *z]));
+        saved.extend(self.heat.iter().flat_map(Exchange::save));
+        saved
+    }
+
+    /// Takes back what [`Metal::save`] gave.
+    fn restore(&mut self, saved: &[f64]) {
+        let Some(([memories, forces], rest)) = saved.split_first_chunk() else {
+            return;
+        };
+        let (memories, forces) = (9 * *memories as usize, 4 * *forces as usize);
+        let (Some(all), Some(acting)) =
+            (rest.get(..memories), rest.get(memories..memories + forces))
+        else {
+            return;
+        };
+        let all = all.as_chunks::<9>().0.iter();
+        self.memories = all.map(|saved| Memory::restored(*saved)).collect();
+        let acting = acting.as_chunks::<4>().0.iter();
+        self.forces = acting
+            .map(|[id, x, y, z]| (*id as u32, [*x, *y, *z]))
+            .collect();
+        if let Some(heat) = &mut self.heat {
+            heat.restore(&rest[memories + forces..]);
+        }
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let listed: usize = self.listed.iter().map(Vec::capacity).sum();
+        size_of::<Body>() * self.bodies.capacity()
+            + size_of::<Pair>() * self.pairs.capacity()
+            + 24 * (listed + self.places.capacity())
+            + self.near.capacity()
+    }
+}
+
+impl Body {
+    /// How a grain meets it; the overlap is below zero where they are apart.
+    pub(super) fn meeting(&self, grain: &Grain) -> Option<Meeting> {
+        let meeting = Meeting::parted(grain, &self.grain)?;
+        Some(match self.member {
+            Some(_) => meeting,
+            // What rests gives way to nothing.
+            None => Meeting {
+                mass: grain.mass,
+                ..meeting
+            },
+        })
+    }
+}

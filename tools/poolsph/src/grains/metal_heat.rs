@@ -1,0 +1,214 @@
+//! Heat between grains and the metal that they touch.
+//!
+//! ```text
+//! m_a dh_a/dt += sum over b of H_ab (T_b - T_a),     m_b dh_b/dt -= the same          (Komen 2019, eq. 5.33)
+//! sum over b of H_ab = 4 k_a k_b / (k_a + k_b) r_c + 2 H_g               shared by the push of each b on a
+//! ```
+//!
+//! Metal is flat to a grain, however its particles lie: one contact, whose push is that of all of them together, with the radius
+//! of an elastic sphere on a flat face (Hertz 1881). The face stands where the plane of symmetry of two grains would: the gas
+//! has half the way of eq. 5.36 and conducts twice as well. Four particles under a grain, each with a
+//! contact of its own, would let through four times the gas. With contacts as wide as the overlap (5.34) each is counted by itself and as
+//! between two grains, as the source does.
+//!
+//! What a grain gets metal gives, number for number, so the energy of both is kept as sums keep it.
+
+use std::sync::Arc;
+
+use contact::{Grain, Meeting, heat as conductance};
+use run::property::OutOfRange;
+use shapes::frame::{along, length};
+
+use super::conducting::Conducting;
+use super::heat::Radius;
+use super::metal::{Body, Pair};
+use crate::heat::Caloric;
+use crate::heat::ledger::Sum;
+use crate::stage::StageError;
+use crate::state::State;
+
+/// A contact that conducts.
+#[derive(Debug, Clone, Copy)]
+struct Link {
+    row: u32,
+    body: u32,
+    /// H \[W/K\].
+    conductance: f64,
+    /// Heat into the grain \[W\].
+    rate: f64,
+}
+
+/// Heat between grains and metal.
+#[derive(Debug, Clone)]
+pub struct Exchange {
+    /// That of the metal.
+    caloric: Arc<Caloric>,
+    /// Effective modulus of a grain on metal \[Pa\].
+    modulus: f64,
+    links: Vec<Link>,
+    /// Sum of H of each body \[W/K\].
+    sums: Vec<f64>,
+    /// Heat that grains have given to metal \[J\].
+    given: Sum,
+}
+
+impl Exchange {
+    /// Heat between grains and metal of these properties; `modulus` is the effective one of both \[Pa\].
+    #[must_use]
+    pub fn new(caloric: Arc<Caloric>, modulus: f64) -> Self {
+        Self {
+            caloric,
+            modulus,
+            links: Vec::new(),
+            sums: Vec::new(),
+            given: Sum::default(),
+        }
+    }
+
+    /// Heat that grains have given to metal \[J\].
+    #[must_use]
+    pub fn given(&self) -> f64 {
+        self.given.value()
+    }
+
+    /// Conductances of all contacts; adds those of each grain to `sums` \[W/K\], and gives the fastest rate of a particle of metal \[1/s\].
+    pub(super) fn conduct(
+        &mut self,
+        (pairs, bodies): (&[Pair], &[Body]),
+        grains: &Conducting<'_>,
+        state: &State,
+        sums: &mut [f64],
+    ) -> Result<f64, OutOfRange> {
+        self.links.clear();
+        for row in pairs.chunk_by(|a, b| a.near.row == b.near.row) {
+            self.of_grain((row, bodies), grains, state)?;
+        }
+        self.sums.clear();
+        self.sums.resize(bodies.len(), 0.0);
+        for link in &self.links {
+            sums[link.row as usize] += link.conductance;
+            self.sums[link.body as usize] += link.conductance;
+        }
+        let greatest = self.sums.iter().copied().fold(0.0, f64::max);
+        Ok(greatest / (state.metal.mass() * self.caloric.least_heat()))
+    }
+
+    /// The contacts of one grain.
+    fn of_grain(
+        &mut self,
+        (row, bodies): (&[Pair], &[Body]),
+        grains: &Conducting<'_>,
+        state: &State,
+    ) -> Result<(), OutOfRange> {
+        let a = row[0].near.row as usize;
+        let grain = grains.grain(a);
+        let touching = row.iter().filter_map(|pair| {
+            let meeting = bodies[pair.body as usize].meeting(&grain)?;
+            (meeting.overlap > 0.0).then_some((pair.body, meeting))
+        });
+        let own = grains.conductivity(a);
+        let first = self.links.len();
+        let (mut all, mut sum) = ([0.0; 3], 0.0);
+        for (body, meeting) in touching {
+            let push = grains.push(&meeting);
+            (all, sum) = (along(all, push, meeting.normal), sum + push);
+            let id = bodies[body as usize].id as usize;
+            let metal = state.temperature[id];
+            let pair = [own, self.caloric.conductivity(metal)];
+            let gas = grains.gas(0.5 * (grains.temperature[a] + metal))?;
+            let conductance = match grains.radius() {
+                // For now the push alone: the width follows from that of all together.
+                Radius::Force(_) => push,
+                Radius::Overlap { printed } => {
+                    self.by_overlap(&grain, &meeting, (pair, gas), printed)
+                }
+            };
+            self.links.push(Link {
+                row: a as u32,
+                body,
+                conductance,
+                rate: 0.0,
+            });
+        }
+        if matches!(grains.radius(), Radius::Force(_)) && sum > 0.0 {
+            let r_c = conductance::radius_by_force(length(all), grain.radius, self.modulus);
+            for link in &mut self.links[first..] {
+                let id = bodies[link.body as usize].id as usize;
+                let metal = state.temperature[id];
+                let gas = grains.gas(0.5 * (grains.temperature[a] + metal))?;
+                let solid = conductance::constriction([own, self.caloric.conductivity(metal)], r_c);
+                let around = gas.map_or(0.0, |k| 2.0 * conductance::gas(k, grain.radius, r_c));
+                link.conductance *= (solid + around) / sum;
+            }
+        }
+        Ok(())
+    }
+
+    /// The conductance of a contact as wide as its overlap \[W/K\] (eqs 5.34 to 5.36).
+    fn by_overlap(
+        &self,
+        grain: &Grain,
+        meeting: &Meeting,
+        (pair, gas): ([f64; 2], Option<f64>),
+        printed: bool,
+    ) -> f64 {
+        let (r, arm) = (grain.radius, meeting.arms[0]);
+        let r_c = (r * r - arm * arm).max(0.0).sqrt();
+        let solid = if printed {
+            conductance::constriction_as_printed(pair, r_c)
+        } else {
+            conductance::constriction(pair, r_c)
+        };
+        solid + gas.map_or(0.0, |k| conductance::gas(k, r, r_c))
+    }
+
+    /// Adds the heat that each grain gets from metal to `rates` \[W\].
+    pub(super) fn flow(
+        &mut self,
+        bodies: &[Body],
+        (grains, metal): (&[f64], &[f64]),
+        rates: &mut [f64],
+    ) {
+        for link in &mut self.links {
+            let (a, id) = (link.row as usize, bodies[link.body as usize].id as usize);
+            link.rate = link.conductance * (metal[id] - grains[a]);
+            rates[a] += link.rate;
+        }
+    }
+
+    /// Takes from the metal what the grains have got in a step of `step` \[s\].
+    pub(super) fn take(&mut self, bodies: &[Body], state: &mut State, step: f64) {
+        let mass = state.metal.mass();
+        for link in &self.links {
+            let id = bodies[link.body as usize].id as usize;
+            state.enthalpy[id] -= step * link.rate / mass;
+            self.given.add(-step * link.rate);
+        }
+        for link in &self.links {
+            let id = bodies[link.body as usize].id as usize;
+            state.temperature[id] = self.caloric.temperature(state.enthalpy[id]);
+        }
+    }
+
+    /// An error where metal has left what its properties hold for.
+    pub(super) fn beyond(&self, bodies: &[Body], state: &State) -> Result<(), StageError> {
+        let ids = self.links.iter().map(|link| bodies[link.body as usize].id);
+        for id in ids.map(|id| id as usize) {
+            let value = state.temperature[id];
+            if !self.caloric.covers(value) {
+                return Err(crate::heat::outside(state, id, value, &self.caloric));
+            }
+        }
+        Ok(())
+    }
+
+    /// The heat given, as numbers for a checkpoint.
+    pub(super) fn save(&self) -> [f64; 2] {
+        self.given.save()
+    }
+
+    /// Takes back what [`Exchange::save`] gave.
+    pub(super) fn restore(&mut self, saved: &[f64]) {
+        self.given = Sum::restored(saved);
+    }
+}

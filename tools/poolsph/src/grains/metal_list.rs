@@ -1,0 +1,176 @@
+//! Who may touch whom, of grains and metal: a list made afresh at each step of the metal, and again where someone has strayed.
+//!
+//! It holds all pairs that are nearer than touching plus a skin, by the rows of the grains and then by the metal. It depends
+//! on places alone; contacts that touch and forces that act go along by the numbers of both.
+
+use contact::Grain;
+use neighbours::Grid;
+use rayon::prelude::*;
+use shapes::frame::{Vector, difference, dot};
+
+use super::bounds::Slack;
+use super::metal::{Body, Metal, Pair};
+use super::walls::Near;
+use crate::near::Role;
+use crate::state::{Phase, State};
+
+/// Metal is looked for so many skins, and so many times the way of the fastest within a step, beyond what may touch.
+const AHEAD: f64 = 2.0;
+
+impl Metal {
+    /// Takes the metal near `grains`, which are no faster than `fastest` \[m/s\], for a step of `dt` \[s\].
+    pub fn take(&mut self, state: &State, grains: &[Grain], fastest: f64, dt: f64) {
+        self.remember();
+        let speed = fastest + state.near.fastest_squared().sqrt();
+        let ahead = AHEAD * (self.skin + dt * speed);
+        // Metal no number away is near: the flow tells of it.
+        let reach = self.widest + self.radius + ahead.min(self.widest + self.radius);
+        self.places.clear();
+        self.places.extend(grains.iter().map(|g| g.position));
+        let grid = self
+            .grid
+            .get_or_insert_with(|| Grid::new(2.0 * (self.widest + self.radius)));
+        grid.bin(&self.places);
+        let grid = &*grid;
+        let places = state.position.par_iter().zip(&state.phase);
+        places
+            .with_min_len(1024)
+            .map(|(x, phase)| *phase != Phase::Flying && grid.any_within(*x, reach))
+            .collect_into_vec(&mut self.near);
+        for (id, _) in &self.forces {
+            self.near[*id as usize] = true;
+        }
+        self.bodies.clear();
+        let near = self.near.iter().enumerate().filter(|(_, near)| **near);
+        let mass = state.metal.mass();
+        self.bodies.extend(near.map(|(id, _)| {
+            let member = state.near.member(id);
+            let moving = member.filter(|m| state.near.role[*m] == Role::Liquid);
+            let velocity = moving.map_or([0.0; 3], |m| state.near.velocity[m]);
+            Body {
+                id: id as u32,
+                member: moving.map(|m| m as u32),
+                grain: Grain {
+                    position: state.position[id],
+                    velocity,
+                    spin: [0.0; 3],
+                    radius: self.radius,
+                    mass,
+                },
+                force: [0.0; 3],
+                before: [0.0; 3],
+                impulse: [0.0; 3],
+                contacts: 0,
+            }
+        }));
+        for (id, force) in self.forces.drain(..) {
+            if let Ok(place) = self.bodies.binary_search_by_key(&id, |body| body.id) {
+                self.bodies[place].force = force;
+            }
+        }
+    }
+
+    /// Keeps contacts that touch and forces that act.
+    pub(super) fn remember(&mut self) {
+        let (pairs, bodies) = (&self.pairs, &self.bodies);
+        let touching = pairs
+            .iter()
+            .filter_map(|pair| pair.near.memory(bodies[pair.body as usize].id));
+        self.memories.extend(touching);
+        let acting = bodies
+            .iter()
+            .filter(|body| body.force.iter().any(|f| f.abs() > 0.0));
+        self.forces.extend(acting.map(|body| (body.id, body.force)));
+        self.pairs.clear();
+    }
+
+    /// Lists who may touch whom; `contacts` are those of each grain with grains and with walls.
+    pub fn list(&mut self, grains: &[Grain], contacts: [&[u32]; 2], (zeta, c): (f64, f64)) {
+        let bodies = &self.bodies;
+        let touching = self.pairs.iter();
+        let touching = touching.filter_map(|pair| pair.near.memory(bodies[pair.body as usize].id));
+        self.memories.extend(touching);
+        self.pairs.clear();
+        self.places.clear();
+        self.places.extend(grains.iter().map(|g| g.position));
+        let Some(grid) = &mut self.grid else { return };
+        grid.bin(&self.places);
+        for (place, body) in self.bodies.iter_mut().enumerate() {
+            let (at, own) = (body.grain.position, self.radius + self.skin);
+            body.contacts = 0;
+            grid.runs(at, own + self.widest, |run| {
+                for (x, row) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
+                    let (way, within) = (difference(*x, at), own + grains[*row as usize].radius);
+                    if dot(way, way) < within * within {
+                        body.contacts += 1;
+                        self.pairs.push(Pair {
+                            near: Near::new(*row),
+                            body: place as u32,
+                        });
+                    }
+                }
+            });
+        }
+        self.pairs
+            .sort_unstable_by_key(|pair| (pair.near.row, pair.body));
+        for memory in self.memories.drain(..) {
+            let body = self.bodies.binary_search_by_key(&memory.other, |b| b.id);
+            let key = body.map(|body| (memory.row, body as u32));
+            let place = key.and_then(|key| {
+                let of = |pair: &Pair| (pair.near.row, pair.body);
+                self.pairs.binary_search_by_key(&key, of)
+            });
+            if let Ok(place) = place {
+                self.pairs[place].near.remember(&memory);
+            }
+        }
+        let [of_bodies, of_grains] = &mut self.listed;
+        of_bodies.clear();
+        of_bodies.extend(self.bodies.iter().map(|body| body.grain.position));
+        of_grains.clear();
+        of_grains.extend(grains.iter().map(|grain| grain.position));
+        self.bound(grains, contacts, (zeta, c));
+    }
+
+    /// The least slack of the contacts of grains that may touch metal, with metal and among each other.
+    fn bound(&mut self, grains: &[Grain], contacts: [&[u32]; 2], (zeta, c): (f64, f64)) {
+        let of_row = |row: &[Pair]| {
+            let a = row[0].near.row as usize;
+            let others = contacts.map(|of| of.get(a).copied().unwrap_or(0));
+            let mass = grains[a].mass;
+            let load = (f64::from(others[0] + others[1]) + row.len() as f64) / mass;
+            let with_metal = row.iter().map(|pair| {
+                let body = &self.bodies[pair.body as usize];
+                let m = body.grain.mass;
+                match body.member {
+                    None => Slack::of(mass, load, zeta, c),
+                    Some(_) => {
+                        let load = load + f64::from(body.contacts) / m;
+                        Slack::of(mass * m / (mass + m), load, zeta, c)
+                    }
+                }
+            });
+            // A grain beside it is as crowded.
+            let beside = Slack::of(0.5 * mass, 2.0 * load, zeta, c);
+            with_metal.fold(beside, Slack::least)
+        };
+        let rows = self.pairs.chunk_by(|a, b| a.near.row == b.near.row);
+        self.slack = rows.map(of_row).reduce(Slack::least);
+    }
+
+    /// Whether someone may touch who is not listed.
+    #[must_use]
+    pub fn strayed(&self, grains: &[Grain]) -> bool {
+        let [of_bodies, of_grains] = &self.listed;
+        let squared = |(now, then): (Vector, &Vector)| {
+            let way = difference(now, *then);
+            dot(way, way)
+        };
+        let bodies = self.bodies.iter().map(|body| body.grain.position);
+        let far = bodies.zip(of_bodies).map(squared).fold(0.0, f64::max);
+        let grains = grains.par_iter().with_min_len(4096).map(|g| g.position);
+        let farther = grains.zip(of_grains).map(squared);
+        let farther = farther.reduce(|| 0.0, f64::max);
+        far.sqrt() + farther.sqrt() > self.skin
+    }
+}

@@ -1,0 +1,93 @@
+//! What a checkpoint keeps of the motion of grains beside their columns: contacts that touch, walls, metal, and sums.
+
+use shapes::frame::Vector;
+
+use super::bounds::Doing;
+use super::heat::Heat;
+use super::memory::Memory;
+use super::motion::Motion;
+
+/// Numbers of a checkpoint ahead of the walls.
+const HEAD: usize = 15;
+
+impl Motion {
+    /// All of it as numbers.
+    pub(super) fn saved(&self) -> Vec<f64> {
+        let (mut between, mut at_walls) = (Vec::new(), Vec::new());
+        self.lists.memories(&mut between);
+        self.walls.memories(&mut at_walls);
+        let Doing {
+            deepest, fastest, ..
+        } = self.doing;
+        let [left, mass] = self.lost;
+        let heat = self.heat.as_ref().map_or([0.0; 7], Heat::saved);
+        let steps = self.steps;
+        let mut saved = vec![
+            between.len() as f64,
+            deepest,
+            fastest,
+            left,
+            mass,
+            steps,
+            self.quiet,
+            self.listings,
+        ];
+        saved.extend(heat);
+        saved.extend(self.walls.save());
+        let memories = between.iter().chain(&at_walls);
+        saved.extend(memories.flat_map(Memory::save));
+        if let Some(metal) = &self.metal {
+            saved.extend(metal.append());
+        }
+        saved
+    }
+
+    /// Lists neighbours as they were when `saved` was.
+    pub(super) fn relist_as_saved(&mut self, saved: &[f64]) {
+        let walls = HEAD + self.walls.saved_numbers();
+        let (Some(head), Some(places), Some(rest)) = (
+            saved.first_chunk::<HEAD>(),
+            saved.get(HEAD..walls),
+            saved.get(walls..),
+        ) else {
+            return;
+        };
+        let [
+            pairs,
+            deep,
+            fast,
+            left,
+            mass,
+            steps,
+            quiet,
+            listings,
+            heat @ ..,
+        ] = *head;
+        if let Some(own) = &mut self.heat {
+            own.take_back(heat);
+        }
+        let memories = rest.as_chunks::<9>().0;
+        let split = (pairs as usize).min(memories.len());
+        for (to, from) in self
+            .memories
+            .iter_mut()
+            .zip([&memories[..split], &memories[split..]])
+        {
+            to.clear();
+            to.extend(from.iter().map(|saved| Memory::restored(*saved)));
+        }
+        (self.lost, self.steps) = ([left, mass], steps);
+        let moved = self.walls.restore(places);
+        let now: Vec<Vector> = self.moving.grains.iter().map(|g| g.position).collect();
+        for (grain, listed) in self.moving.grains.iter_mut().zip(&self.moving.listed) {
+            grain.position = *listed;
+        }
+        self.list_with_memories();
+        for (grain, now) in self.moving.grains.iter_mut().zip(now) {
+            grain.position = now;
+        }
+        self.walls.place(&moved);
+        (self.doing.deepest, self.doing.fastest) = (deep, fast);
+        (self.quiet, self.listings) = (quiet, listings);
+    }
+}

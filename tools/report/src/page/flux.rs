@@ -1,0 +1,78 @@
+//! Powder, slag and metal: pictures of the section along the weld over time, and what has melted.
+
+use artefact::Reader;
+use run::Failure;
+use serde_json::Value;
+
+use super::encoding;
+use crate::flux::{Flux, GRAINS, POWDER, SLAG};
+use crate::html::{figure, picture};
+use crate::picture::flux::{Tells, along, scale};
+use crate::plot::{Line, Plot};
+use crate::weld::PARTICLES;
+
+/// Most moments that are shown.
+const MOMENTS: usize = 6;
+
+/// The section; nothing where there are no grains beside metal.
+pub(super) fn section(reader: &Reader, scene: &Value) -> Result<Option<String>, Failure> {
+    let count = reader.count(PARTICLES).min(reader.count(GRAINS));
+    if count == 0 {
+        return Ok(None);
+    }
+    let shown = MOMENTS.min(count);
+    let mut moments = Vec::new();
+    for k in 0..shown {
+        // The last one and as many before it at equal times; the start shows nothing yet.
+        let index = ((k + 1) as f64 * (count - 1) as f64 / shown as f64).round() as usize;
+        moments.extend(Flux::read(reader, scene, index)?);
+    }
+    let mut body = String::new();
+    for (tells, words) in [
+        (Some(Tells::States), "What each particle is"),
+        (scale(&moments).map(Tells::Temperature), "Temperature"),
+    ] {
+        let Some(tells) = tells else { continue };
+        for moment in &moments {
+            let caption = format!(
+                "{words} at {:.2} s, in the section along the weld. The arc moves to the right.",
+                moment.weld.time
+            );
+            if let Some(canvas) = along(moment, &tells) {
+                let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;
+                body += &figure(&image, &caption);
+            }
+        }
+    }
+    Ok(Some(body + &melted(reader, scene, count)?))
+}
+
+/// Masses over time, by numbers of particles.
+fn melted(reader: &Reader, scene: &Value, count: usize) -> Result<String, Failure> {
+    let mut lines = [Vec::new(), Vec::new(), Vec::new()];
+    for index in 0..count {
+        let Some(flux) = Flux::read(reader, scene, index)? else {
+            continue;
+        };
+        let (slag, all) = (flux.number(SLAG), flux.state.len());
+        let frozen = all - slag - flux.number(POWDER);
+        let liquid = flux.weld.liquid.iter().filter(|l| **l).count();
+        for (line, value) in lines.iter_mut().zip([slag, frozen, liquid]) {
+            line.push([flux.weld.time, value as f64]);
+        }
+    }
+    let mut plot = Plot::new("time [s]", "particles").through(0.0);
+    for (name, points) in ["slag", "frozen slag", "liquid metal"]
+        .into_iter()
+        .zip(lines)
+    {
+        plot.add(Line::new(name, points).marked());
+    }
+    if plot.is_empty() {
+        return Ok(String::new());
+    }
+    Ok(figure(
+        &plot.svg(),
+        "How much is slag, has set again, and is liquid metal. Slag comes first: light strikes the wall of the cavity.",
+    ))
+}
