@@ -1,7 +1,7 @@
 # saw-600a: submerged arc welding at 600 A and 5 mm/s: a bed of flux at rest, then powder, slag and metal in one run.
 
 .PHONY: saw-600a
-saw-600a: build/saw-600a/report.html ## powder, slag and metal of a submerged arc weld of 5 s (many hours)
+saw-600a: build/saw-600a/report.html ## powder, slag and metal of a submerged arc weld of 5 s (long)
 
 build/saw-600a/bed.mcap: pipelines/saw-600a/bed.json $(BIN)/poolsph always
 	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/bed.json --out $@ $(MACHINE)

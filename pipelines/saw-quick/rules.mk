@@ -13,8 +13,19 @@ build/saw-quick/weld.mcap: pipelines/saw-600a/weld.json pipelines/saw-quick/weld
 	  --patch pipelines/saw-quick/weld.patch.json \
 	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-quick/bed.mcap --out $@ $(MACHINE)
 
+SAW_QUICK_VARIANTS := wire overlap
+.PHONY: saw-quick-variants
+saw-quick-variants: $(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap) ## saw-quick with other drops, and with wider contacts (minutes)
+
+$(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap): build/saw-quick/%.mcap: pipelines/saw-600a/weld.json \
+  pipelines/saw-quick/weld.patch.json pipelines/saw-quick/%.patch.json \
+  build/saw-quick/bed.mcap build/gmaw-600a/arc.mcap $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/weld.json \
+	  --patch pipelines/saw-quick/weld.patch.json --patch pipelines/saw-quick/$*.patch.json \
+	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-quick/bed.mcap --out $@ $(MACHINE)
+
 build/saw-quick/report.html: build/gmaw-600a/arc.mcap build/saw-quick/weld.mcap $(BIN)/report always
 	$(RERUN) $(BIN)/report page --study saw-quick --out $@ \
 	  --arc build/gmaw-600a/arc.mcap --pool build/saw-quick/weld.mcap
 
-.PRECIOUS: build/saw-quick/bed.mcap build/saw-quick/weld.mcap build/saw-quick/report.html
+.PRECIOUS: $(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap) build/saw-quick/bed.mcap build/saw-quick/weld.mcap build/saw-quick/report.html

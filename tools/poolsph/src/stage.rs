@@ -10,7 +10,10 @@
 //! domain   source moves, droplets appear and arrive, box moves      writes State
 //! gather   moving particles and all that they touch                 writes State::near (march)
 //! surface  free surface, normals, areas                             writes its own columns
-//! heat     conduction, arc, phase change                            writes enthalpy, temperature, phase
+//! cover    what grains lie on                                       takes it out of State::exposed
+//! heat     conduction, arc, losses                                  writes enthalpy, temperature
+//! grains   their steps within the step, heat with metal, impulses   writes State::grains, enthalpy; adds to State::near.force
+//! melting  phase change                                             writes phase
 //! forces   each adds a force density                                adds to State::near.force
 //! motion   viscosity, prediction, density homogenising              writes position, velocity, pressure
 //! ```

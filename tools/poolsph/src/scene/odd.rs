@@ -15,6 +15,7 @@ pub fn notes(scene: &Scene) -> Vec<String> {
     notes.extend(unwritten(scene));
     notes.extend(outside(scene));
     notes.extend(still(scene));
+    notes.extend(apart(scene));
     notes
 }
 
@@ -180,6 +181,19 @@ fn still(scene: &Scene) -> Option<String> {
         .then(|| "nothing will move: no body is liquid, none can melt, no droplets come".to_owned())
 }
 
+/// Grains and metal of which one has no heat to give.
+fn apart(scene: &Scene) -> Option<String> {
+    let grains = scene.grains.as_ref().filter(|_| scene.has_metal())?;
+    let key = match (grains.heat.is_some(), scene.heat.is_some()) {
+        (true, false) => "heat",
+        (false, true) => "grains/heat",
+        _ => return None,
+    };
+    Some(format!(
+        "grains and metal exchange no heat: there is no key '{key}'"
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use serde_json::{Value, json};
@@ -304,5 +318,24 @@ mod tests {
     fn a_flow_without_liquid_is_told() {
         let solid = json!([{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "solid"}]);
         assert!(told(&json!({"bodies": solid}))[0].contains("nothing will move"));
+    }
+
+    #[test]
+    fn grains_and_metal_of_which_one_is_without_heat_are_told() {
+        let heat = json!({"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700});
+        let grains = |heat: Option<&Value>| {
+            let mut grains = json!({"density_kg_m3": 3230, "bodies": [{"places_m": [[0, 0, 0.01]], "radius_m": 1e-3}],
+                "contact": {"law": {"linear": {"stiffness_n_m": 75}}, "restitution": 0.75}});
+            if let Some(heat) = heat {
+                grains["heat"] = heat.clone();
+            }
+            grains
+        };
+        let one = told(&json!({"grains": grains(Some(&heat))}));
+        assert!(one[0].contains("'heat'"), "{one:?}");
+        let other = told(&json!({"grains": grains(None), "heat": heat}));
+        assert!(other[0].contains("'grains/heat'"), "{other:?}");
+        assert!(told(&json!({"grains": grains(Some(&heat)), "heat": heat})).is_empty());
+        assert!(told(&json!({"grains": grains(None)})).is_empty());
     }
 }
