@@ -1,10 +1,11 @@
 //! `fracture-energy`: the energy of a crack does not depend on the spacing.
 
 use artefact::Reader;
+use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Finished, Lab, LabError};
-use crate::solid::{fault, finer};
+use crate::solid::{changed, fault};
 
 /// Way of the crack \[m\].
 const LENGTH: f64 = 0.032;
@@ -25,18 +26,44 @@ impl Case for FractureEnergy {
         "the energy of the crack that the scene tells; the same at all spacings"
     }
 
-    fn targets(&self) -> Vec<Target> {
-        vec![
-            Target::error("spread", 0.1).at_level(2),
-            Target::error("spread", 0.1).at_level(3),
-        ]
+    fn methods(&self) -> &'static [&'static str] {
+        &["straight", "shaken"]
     }
 
-    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
-        let at = |level: u32| -> Result<(Finished, f64), LabError> {
+    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
+        let most = if method == "shaken" { 1 } else { 3 };
+        asked.iter().copied().filter(|l| *l <= most).collect()
+    }
+
+    fn targets(&self) -> Vec<Target> {
+        let each = [1, 2, 3].into_iter().flat_map(|level| {
+            [
+                ("crack_energy", 0.1),
+                ("spread", 0.1),
+                ("energy_unclosed", 0.02),
+            ]
+            .map(|(what, most)| Target::error(what, most).at_level(level))
+        });
+        let shaken = Target::error("energy_unclosed", 0.02).at_level(1);
+        each.chain([shaken.of("shaken")]).collect()
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        let at = |level: u32| -> Result<(Finished, f64, f64), LabError> {
             let by = f64::from(1 << (level.clamp(1, 4) - 1));
-            let patch = finer(lab, self.name(), by)?;
-            let run = lab.run("jetsph", self.name(), &format!("level{level}"), &patch)?;
+            let patch = changed(lab, self.name(), |plate| {
+                let spacing = plate["spacing_m"].as_f64().unwrap_or(f64::NAN) / by;
+                plate["spacing_m"] = json!(spacing);
+                // A notch as sharp as the lattice has: two rows, so that no link bridges it.
+                let notch = &mut plate["body"]["difference"][1]["box"];
+                notch["min_m"][1] = json!(-spacing);
+                notch["max_m"][1] = json!(spacing);
+                if method == "shaken" {
+                    plate["lattice"] = json!({"jitter": 0.05});
+                }
+            })?;
+            let label = format!("{method}-{level}");
+            let run = lab.run("jetsph", self.name(), &label, &patch)?;
             let reader = Reader::open_kind(&run.artefact, "jet-frames", 1)?;
             let records = reader.records("/balance")?;
             let (_, last) = records
@@ -45,11 +72,15 @@ impl Case for FractureEnergy {
             if last.get("plate_largest_piece")? > 0.6 {
                 return Err(fault(&run, "does not part"));
             }
-            let energy = last.get("plate_fracture_energy")? / LENGTH;
-            Ok((run, energy))
+            let energy = last.get("spent_energy_j")? / LENGTH;
+            let mut unclosed = 0.0_f64;
+            for (_, record) in &records {
+                unclosed = unclosed.max(record.get("energy_error")?.abs());
+            }
+            Ok((run, energy, unclosed))
         };
-        let (_, first) = at(1)?;
-        let (run, energy) = at(level)?;
+        let (_, first, _) = at(1)?;
+        let (run, energy, unclosed) = at(level)?;
         let told = run.scene["solids"][0]["fracture"]["energy_release_j_m2"]
             .as_f64()
             .unwrap_or(f64::NAN);
@@ -62,6 +93,7 @@ impl Case for FractureEnergy {
         let errors = Errors::from([
             ("crack_energy".to_owned(), (energy / told - 1.0).abs()),
             ("spread".to_owned(), (energy / first - 1.0).abs()),
+            ("energy_unclosed".to_owned(), unclosed),
         ]);
         Ok(Measurement::of(run, points, spacing, errors))
     }

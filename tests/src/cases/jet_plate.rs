@@ -122,17 +122,19 @@ impl Case for JetPlate {
     }
 }
 
-/// Mean force on the plate in the second half of the run \[N\].
+/// Mean force on the plate in the second half of the run, by what it was given \[N\].
 fn force(reader: &Reader, (axis, end): (char, f64)) -> Result<f64, LabError> {
-    let name = format!("water_force_on_plate_{axis}");
-    let (mut sum, mut count) = (0.0, 0.0);
+    let name = format!("water_impulse_on_plate_{axis}");
+    let mut course = Vec::new();
     for (time, record) in reader.records("/balance")? {
-        if time > 0.5 * end {
-            sum += record.get(&name)?;
-            count += 1.0;
+        if time >= 0.5 * end {
+            course.push((time, record.get(&name)?));
         }
     }
-    Ok(sum / count)
+    let ends = course.first().zip(course.last());
+    Ok(ends.map_or(f64::NAN, |((from, before), (to, after))| {
+        (after - before) / (to - from)
+    }))
 }
 
 /// Mean pressure of water at a distance from the axis, below a height \[Pa\].
@@ -160,7 +162,7 @@ fn mean_pressure(
 
 /// p/(rho V^2/2) under a plane jet at a distance from its axis, in widths: with the speed q along the wall over V,
 /// `x = (2 arctan q + ln((1 + q)/(1 - q)))/pi`.
-fn free_jet(x: f64) -> f64 {
+pub(super) fn free_jet(x: f64) -> f64 {
     let place = |q: f64| (2.0 * q.atan() + ((1.0 + q) / (1.0 - q)).ln()) / std::f64::consts::PI;
     let (mut low, mut high) = (0.0, 1.0 - 1e-15);
     for _ in 0..200 {

@@ -66,6 +66,7 @@ mod heat_shock_disc;
 mod heat_sin_xy;
 mod heat_two_slabs;
 mod jet_plate;
+mod jet_press;
 mod jet_still;
 mod jet_threshold;
 mod liquid_drop;
@@ -80,9 +81,12 @@ mod pool_similar;
 mod pool_stefan;
 mod pool_surface_heat;
 mod saw_layer;
+mod solid_cook;
 mod solid_patch;
+mod solid_plastic;
 mod solid_swing;
 mod solid_turn;
+mod solid_wave;
 mod wls_operators;
 
 use crate::case::Case;
@@ -120,12 +124,16 @@ fn jets() -> Vec<Box<dyn Case>> {
         Box::new(fracture_pull::FracturePull),
         Box::new(fracture_energy::FractureEnergy),
         Box::new(jet_plate::JetPlate),
+        Box::new(jet_press::JetPress),
         Box::new(jet_still::JetStill),
         Box::new(jet_threshold::JetThreshold),
         Box::new(solid_swing::SolidSwing::BAR),
         Box::new(solid_swing::SolidSwing::PLATE),
         Box::new(solid_patch::SolidPatch),
         Box::new(solid_turn::SolidTurn),
+        Box::new(solid_wave::SolidWave),
+        Box::new(solid_cook::SolidCook),
+        Box::new(solid_plastic::SolidPlastic),
     ]
 }
 

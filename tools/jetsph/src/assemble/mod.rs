@@ -55,7 +55,8 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
     }
     let touches = solid::touches(scene);
     if touches {
-        stages.insert(0, solid::contact(scene, &solids));
+        // After the solids: what breaks between two steps is a contact in the next.
+        stages.push(solid::contact(scene, &solids));
     }
     if let Some(gravity) = &scene.gravity_m_s2 {
         stages.push(Box::new(Gravity::new(vector(Some(gravity)))));

@@ -10,7 +10,6 @@ use crate::matter::meeting::contact::{Contact, Party};
 use crate::matter::solid::bound::{self, Anchor, Load};
 use crate::matter::solid::cell::Cell;
 use crate::matter::solid::elastic::REST;
-use crate::matter::solid::fracture::Criterion;
 use crate::matter::solid::law::Law;
 use crate::matter::solid::shocks::Shocks;
 use crate::matter::solid::tensor::Matrix;
@@ -80,9 +79,9 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
     set.column_mut(&MASS)
         .fill(solid.density_kg_m3 * cell.volume);
     let (stage, loose) = if dimensions == 2 {
-        staged::<2, 5>(body, &set, (solid.fracture, axes(&lattice)))
+        staged::<2, 5>(body, &set, (solid, axes(&lattice)))
     } else {
-        staged::<4, 9>(body, &set, (solid.fracture, axes(&lattice)))
+        staged::<4, 9>(body, &set, (solid, axes(&lattice)))
     };
     if let Some(a) = loose.first() {
         let what = format!(
@@ -133,10 +132,14 @@ fn filled(solid: &Solid, dimensions: usize) -> Result<(shapes::Body, Lattice), F
 fn staged<const L: usize, const T: usize>(
     body: Body,
     set: &Set,
-    (fracture, axes): (Option<Criterion>, Matrix),
+    (solid, axes): (&Solid, Matrix),
 ) -> (Box<dyn Stage>, Vec<usize>) {
     let (stage, loose) = Elastic::<L, T>::new(body, set);
-    let stage = match fracture {
+    let stage = match solid.plasticity {
+        Some(law) => stage.flowing(law),
+        None => stage,
+    };
+    let stage = match solid.fracture {
         Some(criterion) => stage.breaking(criterion, set, axes),
         None => stage,
     };
@@ -266,11 +269,13 @@ fn bounds(
     }
     for (k, load) in solid.loads.iter().enumerate() {
         let pieces = next_to(&load.on, load.within.as_ref(), &format!("/loads/{k}"))?;
-        loads.extend(bound::loads(
-            &pieces,
-            lattice,
-            super::vector(Some(&load.traction_pa)),
-        ));
+        let (along, pressure) = (super::vector(load.traction_pa.as_deref()), load.pressure_pa);
+        let traction = |normal: [f64; 3]| match pressure {
+            Some(p) => normal.map(|n| -p * n),
+            None => along,
+        };
+        let rising = (traction, load.rise_s.unwrap_or(0.0));
+        loads.extend(bound::loads(&pieces, lattice, rising));
     }
     Ok((anchors, loads))
 }

@@ -5,6 +5,8 @@ use shapes::Shape;
 use shapes::check::{Misfit, check};
 
 use super::{Scene, Solid};
+use crate::matter::solid::fracture::Criterion;
+use crate::matter::solid::law::Plane;
 
 /// Most frames and balances of a run.
 const EVENTS_MOST: f64 = 1e7;
@@ -43,7 +45,8 @@ impl Scene {
                 let what = "\"water\" is the channel of the water";
                 faults.push(Fault::at(&format!("/solids/{i}/name"), what));
             }
-            solid.faults(&format!("/solids/{i}"), self.dimensions, &mut faults);
+            let scene = (self.dimensions, self.plane);
+            solid.faults(&format!("/solids/{i}"), scene, &mut faults);
             if let Some(k) = self.solids[..i]
                 .iter()
                 .position(|other| other.name == solid.name)
@@ -148,9 +151,40 @@ fn wrong_length(length: usize, dimensions: usize) -> String {
 }
 
 impl Solid {
-    fn faults(&self, at: &str, dimensions: usize, faults: &mut Vec<Fault>) {
+    /// Faults of what flows.
+    fn flow_faults(&self, at: &str, plane: Option<Plane>, faults: &mut Vec<Fault>) {
+        if self.plasticity.is_none() {
+            return;
+        }
+        if plane == Some(Plane::Stress) {
+            let what =
+                "a thin sheet does not flow yet: take \"plane\": \"strain\" or three dimensions";
+            faults.push(Fault::at(&format!("{at}/plasticity"), what));
+        }
+        if matches!(
+            self.fracture,
+            Some(Criterion::Stress(_) | Criterion::Energy(_))
+        ) {
+            let what = "what flows breaks by 'equivalent_strain' alone";
+            faults.push(Fault::at(&format!("{at}/fracture"), what));
+        }
+    }
+
+    fn faults(
+        &self,
+        at: &str,
+        (dimensions, plane): (usize, Option<Plane>),
+        faults: &mut Vec<Fault>,
+    ) {
         let mut misfits = Vec::new();
         check(&self.body, &format!("{at}/body"), dimensions, &mut misfits);
+        for (k, load) in self.loads.iter().enumerate() {
+            if load.traction_pa.is_some() == load.pressure_pa.is_some() {
+                let what = "wants either 'traction_pa' or 'pressure_pa'";
+                faults.push(Fault::at(&format!("{at}/loads/{k}"), what));
+            }
+        }
+        self.flow_faults(at, plane, faults);
         let mut within = |shape: Option<&Shape>, at: &str| {
             if let Some(shape) = shape {
                 check(shape, &format!("{at}/within"), dimensions, &mut misfits);
@@ -176,7 +210,7 @@ impl Solid {
         let lengths = lengths.chain(self.loads.iter().enumerate().map(|(k, load)| {
             (
                 format!("{at}/loads/{k}/traction_pa"),
-                Some(load.traction_pa.len()),
+                load.traction_pa.as_ref().map(Vec::len),
             )
         }));
         let own = (

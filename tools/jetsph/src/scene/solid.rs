@@ -7,6 +7,7 @@ use shapes::Shape;
 
 use crate::matter::solid::fracture::Criterion;
 use crate::matter::solid::law::Elastic;
+use crate::matter::solid::plastic::Plasticity;
 use crate::matter::water::friction::ArtificialViscosity;
 
 /// A solid body.
@@ -28,6 +29,8 @@ pub struct Solid {
     pub density_kg_m3: f64,
     /// Elastic constants: E and nu, or K and G.
     pub elastic: Elastic,
+    /// Plastic flow of metals; none if absent.
+    pub plasticity: Option<Plasticity>,
     /// When it breaks; never if absent.
     pub fracture: Option<Criterion>,
     /// Artificial viscosity of what approaches in it (38); none if absent.
@@ -84,7 +87,13 @@ pub struct LoadScene {
     pub within: Option<Shape>,
     /// Force on the area at rest, along each axis.
     #[schemars(extend("x-unit" = "Pa"), length(min = 2, max = 3))]
-    pub traction_pa: Vec<f64>,
+    pub traction_pa: Option<Vec<f64>>,
+    /// In place of it a pressure on the area at rest, into the body.
+    #[schemars(extend("x-unit" = "Pa"))]
+    pub pressure_pa: Option<f64>,
+    /// Time in which it rises from nothing; it is there from the start if absent.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub rise_s: Option<f64>,
 }
 
 /// Contact of solids with each other and with plain walls.

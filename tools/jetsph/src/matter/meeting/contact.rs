@@ -150,21 +150,51 @@ impl Contact {
         sum
     }
 
-    /// Energy that contacts gain because particles broke since the last step \[J\]: what breaking costs is less by that.
-    fn jump(&mut self, before: &[bool]) -> Option<f64> {
-        let now: Vec<bool> = self.seen.iter().map(|s| s.broken).collect();
+    /// Which particles are broken, as last seen.
+    fn flags(&self) -> Vec<bool> {
+        self.seen.iter().map(|s| s.broken).collect()
+    }
+
+    /// Force, energy and loss by pairs that each particle gains because some broke, if any did.
+    fn jump(&mut self, before: &[bool]) -> Option<Vec<[f64; 5]>> {
+        let now = self.flags();
         if before.len() != now.len() || before == now {
             return None;
         }
-        let stored = |this: &Self| sweep::sum(this.seen.len(), |a| [this.pairs(a)[3]])[0];
-        let after = stored(self);
+        let mut gained = vec![[0.0; 5]; self.seen.len()];
+        sweep::fill(&mut gained, |a| self.pairs(a));
         let mark = |seen: &mut [Seen], flags: &[bool]| {
             seen.iter_mut().zip(flags).for_each(|(s, b)| s.broken = *b);
         };
         mark(&mut self.seen, before);
-        let jump = after - stored(self);
+        sweep::change(&mut gained, |a, sum| {
+            let before = self.pairs(a);
+            (0..5).for_each(|k| sum[k] -= before[k]);
+        });
         mark(&mut self.seen, &now);
-        Some(jump)
+        Some(gained)
+    }
+
+    /// Books the energy that contacts gain because particles broke \[J\]: what breaking costs is less by that.
+    fn book(&mut self, gained: &[[f64; 5]]) {
+        let [stored] = sweep::sum(gained.len(), |a| [gained[a][3]]);
+        self.entry.spent -= stored;
+        self.stored += stored;
+    }
+
+    /// Adds forces \[N\] to the accelerations of all parties.
+    fn accelerate(&self, state: &mut State, forces: &[[f64; 5]]) {
+        let mut first = 0;
+        for party in &self.parties {
+            let set = &mut state.sets[party.set];
+            let mut acceleration = set.take(&ACCELERATION);
+            let mass = set.column(&MASS);
+            sweep::change(&mut acceleration, |a, own| {
+                (0..3).for_each(|k| own[k] += forces[first + a][k] / mass[a]);
+            });
+            first += mass.len();
+            set.put(&ACCELERATION, acceleration);
+        }
     }
 
     /// The same by one wall.
@@ -205,10 +235,11 @@ impl Stage for Contact {
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        let before: Vec<bool> = self.seen.iter().map(|s| s.broken).collect();
+        let before = self.flags();
         self.look(state);
-        if let Some(jump) = self.jump(&before) {
-            self.entry.spent -= jump;
+        // What a step turned inside out broke before its forces.
+        if let Some(gained) = self.jump(&before) {
+            self.book(&gained);
         }
         let mut found = vec![[0.0; 5]; self.seen.len()];
         sweep::fill(&mut found, |a| self.pairs(a));
@@ -230,16 +261,27 @@ impl Stage for Contact {
         let given = self.entry.impulse.iter_mut().zip([x, y, z]);
         given.for_each(|(sum, part)| *sum += part);
         self.entry.spent += lost;
-        let mut first = 0;
-        for party in &self.parties {
-            let set = &mut state.sets[party.set];
-            let mut acceleration = set.take(&ACCELERATION);
-            let mass = set.column(&MASS);
-            sweep::change(&mut acceleration, |a, own| {
-                (0..3).for_each(|k| own[k] += found[first + a][k] / mass[a]);
-            });
-            first += mass.len();
-            set.put(&ACCELERATION, acceleration);
+        self.accelerate(state, &found);
+        Ok(())
+    }
+
+    fn exchange(&mut self, state: &mut State, _: f64) -> Result<(), StageError> {
+        // What broke since the last forces is a contact from the next step on.
+        let broke = |party: &Party| {
+            state.sets[party.set]
+                .column(&BROKEN)
+                .iter()
+                .filter(|b| **b > 0)
+                .count()
+        };
+        let broken: usize = self.parties.iter().map(broke).sum();
+        let before = self.flags();
+        if broken != before.iter().filter(|b| **b).count() {
+            self.look(state);
+            if let Some(gained) = self.jump(&before) {
+                self.book(&gained);
+                self.accelerate(state, &gained);
+            }
         }
         Ok(())
     }

@@ -100,7 +100,7 @@ impl<K: Kernel> Wet<K> {
             if row.is_empty() {
                 return Vec::new();
             }
-            let volume = mass[a] / density[a];
+            let volume = mass[a] / self.law.filling(density[a]);
             let pressure = 2.0 * self.law.pressure(density[a]);
             let pair = |p: &u32| {
                 let point = &self.skin.points[*p as usize];

@@ -24,8 +24,36 @@ pub struct Load {
     pub particle: usize,
     /// The middle of the piece, seen from the particle along the axes of the lattice \[m\].
     pub offset: [f64; 3],
+    /// Where the middle of the piece is at rest \[m\].
+    pub place: [f64; 3],
     /// Force at full load \[N\], in the plane \[N/m\].
     pub force: [f64; 3],
+    /// Time in which it rises to that \[s\]; 0 where it is there from the start.
+    pub rise: f64,
+}
+
+impl Load {
+    /// Force at a time \[N\].
+    #[must_use]
+    pub fn at(&self, time: f64) -> [f64; 3] {
+        let part = if time < self.rise {
+            time / self.rise
+        } else {
+            1.0
+        };
+        self.force.map(|f| part * f)
+    }
+
+    /// Rate of the force at a time \[N/s\].
+    #[must_use]
+    pub fn rate(&self, time: f64) -> [f64; 3] {
+        let rate = if time < self.rise {
+            1.0 / self.rise
+        } else {
+            0.0
+        };
+        self.force.map(|f| rate * f)
+    }
 }
 
 /// Pieces of the named faces of a body, with the particles next to them.
@@ -92,9 +120,13 @@ pub fn anchors(pieces: &[(usize, Piece)], velocity: [f64; 3]) -> Vec<Anchor> {
     sorted.chunk_by(same).map(middle).collect()
 }
 
-/// The loads of a traction \[Pa\] on pieces of surface.
+/// The loads of a traction \[Pa\], which a normal of the surface gives, on pieces of it; it rises over a time \[s\].
 #[must_use]
-pub fn loads(pieces: &[(usize, Piece)], lattice: &Lattice, traction: [f64; 3]) -> Vec<Load> {
+pub fn loads(
+    pieces: &[(usize, Piece)],
+    lattice: &Lattice,
+    (traction, rise): (impl Fn([f64; 3]) -> [f64; 3], f64),
+) -> Vec<Load> {
     let load = |(particle, piece): &(usize, Piece)| {
         let (own, rest) = (
             lattice.own(piece.place),
@@ -103,7 +135,9 @@ pub fn loads(pieces: &[(usize, Piece)], lattice: &Lattice, traction: [f64; 3]) -
         Load {
             particle: *particle,
             offset: std::array::from_fn(|k| own[k] - rest[k]),
-            force: traction.map(|t| t * piece.area),
+            place: piece.place,
+            force: traction(piece.normal).map(|t| t * piece.area),
+            rise,
         }
     };
     pieces.iter().map(load).collect()

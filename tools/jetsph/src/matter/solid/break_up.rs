@@ -6,11 +6,13 @@ use rayon::prelude::*;
 use super::breaking::Breaking;
 use super::cell::gradient;
 use super::elastic::Elastic;
-use super::fracture::BROKEN;
+use super::fracture::{BROKEN, Criterion};
+use super::release::Trial;
+use super::sound::stiffness;
 use super::tensor::determinant;
-use crate::matter::meeting::skin::{DEFORMATION, DEFORMATION_RATE};
+use crate::matter::meeting::skin::{DEFORMATION, DEFORMATION_RATE, TWIST};
 use crate::stage::Figure;
-use crate::state::{MASS, State};
+use crate::state::{ACCELERATION, MASS, State};
 
 /// A broken cell keeps its shape for the water, if it has at least this part of its volume and at most its inverse.
 const SHAPE: f64 = 0.5;
@@ -28,10 +30,9 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
 
     /// Energy of the cells that are whole \[J\]; one that is turned inside out has none that can be told.
     pub(super) fn stored(&self) -> f64 {
-        let whole = |a: usize| self.breaking.as_ref().is_none_or(|b| !b.broken[a]);
         sweep::sum(self.answers.len(), |a| {
-            let energy = if whole(a) {
-                self.body.cell.energy(&self.derivatives(a))
+            let energy = if self.is_whole(a) {
+                self.cell_energy(a)
             } else {
                 0.0
             };
@@ -43,37 +44,104 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         })[0]
     }
 
-    /// Breaks what is due; tells whether anything broke.
-    pub(super) fn breaks(&mut self, set: &mut Set) -> bool {
-        let Some(breaking) = self.breaking.take() else {
-            return false;
+    /// Cells that a step turned inside out: nothing can be reckoned with them.
+    fn inside_out(&self) -> Vec<usize> {
+        let Some(breaking) = &self.breaking else {
+            return Vec::new();
+        };
+        let all = (0..breaking.broken.len()).into_par_iter().with_min_len(32);
+        let is_one = |a: &usize| {
+            let volume = determinant(&gradient(&self.derivatives(*a)));
+            !breaking.broken[*a] && (volume.is_nan() || volume <= 0.0)
+        };
+        all.filter(is_one).collect()
+    }
+
+    /// Those that the criterion breaks.
+    fn due(&mut self) -> Vec<usize> {
+        let Some(mut breaking) = self.breaking.take() else {
+            return Vec::new();
         };
         let law = self.body.cell.law;
         let is_due = |a: &usize| {
             let deformation = law.completed(gradient(&self.derivatives(*a)));
-            !breaking.broken[*a] && breaking.criterion.breaks(&law, &deformation, breaking.size)
+            !breaking.broken[*a] && breaking.criterion.breaks(&law, &deformation)
         };
         let all = (0..breaking.broken.len()).into_par_iter().with_min_len(32);
-        let mut fresh: Vec<usize> = all.filter(is_due).collect();
-        if fresh.is_empty() {
-            self.breaking = Some(breaking);
-            return false;
+        let mut due: Vec<usize> = all.filter(is_due).collect();
+        if let Criterion::Energy(limit) = breaking.criterion {
+            due.extend(self.released(&mut breaking, limit));
+            due.sort_unstable();
+            due.dedup();
         }
         self.breaking = Some(breaking);
-        let before = self.stored() - self.load_potential(set.column(&POSITION));
+        due
+    }
+
+    /// Breaks some particles and what they held, and books the energy that goes with their links.
+    fn break_all(&mut self, mut fresh: Vec<usize>, set: &mut Set, time: f64) {
+        let before = self.stored() - self.load_potential(set.column(&POSITION), time);
+        // What is left of a fit, from one side, can be turned inside out where the whole was not.
         while !fresh.is_empty() {
             fresh = self.break_up(&fresh, set);
+            if fresh.is_empty() {
+                fresh = self.inside_out();
+            }
         }
-        let after = self.stored() - self.load_potential(set.column(&POSITION));
+        let after = self.stored() - self.load_potential(set.column(&POSITION), time);
         self.entry.spent += before - after;
         if let Some(breaking) = &mut self.breaking {
             breaking.energy += before - after;
         }
-        true
+    }
+
+    /// Breaks what a step has turned inside out, before its forces; tells whether anything broke.
+    pub(super) fn breaks(&mut self, set: &mut Set, time: f64) -> bool {
+        let fresh = self.inside_out();
+        let any = !fresh.is_empty();
+        if any {
+            self.break_all(fresh, set, time);
+        }
+        any
+    }
+
+    /// Breaks what is due between two steps: the last one ends with the forces of the whole solid, the next begins with
+    /// those of what is left, so that each step has one energy.
+    pub(super) fn break_between(&mut self, state: &mut State, dt: f64) {
+        let fresh = self.due();
+        if fresh.is_empty() {
+            return;
+        }
+        // The time of the state is that of the begin of the step.
+        let time = state.time + dt;
+        let set = &mut state.sets[self.body.set];
+        let mut acceleration = set.take(&ACCELERATION);
+        let before = self.own_accelerations(set, time);
+        self.break_all(fresh, set, time);
+        self.answer(time);
+        self.twisted(set.column(&TWIST));
+        let after = self.own_accelerations(set, time);
+        sweep::change(&mut acceleration, |a, own| {
+            (0..3).for_each(|k| own[k] += after[a][k] - before[a][k]);
+        });
+        set.put(&ACCELERATION, acceleration);
+        self.hold_anew();
+    }
+
+    /// Accelerations by the cells and by the loads.
+    fn own_accelerations(&self, set: &Set, time: f64) -> Vec<[f64; 3]> {
+        let mass = set.column(&MASS);
+        let mut all = vec![[0.0; 3]; mass.len()];
+        self.accelerate(&mut all, mass);
+        for load in &self.body.loads {
+            let (a, force) = (load.particle, load.at(time));
+            (0..3).for_each(|k| all[a][k] += force[k] / mass[a]);
+        }
+        all
     }
 
     /// Breaks particles and gives those that nothing holds any more.
-    fn break_up(&mut self, fresh: &[usize], set: &mut Set) -> Vec<usize> {
+    pub(super) fn break_up(&mut self, fresh: &[usize], set: &mut Set) -> Vec<usize> {
         let Some(mut breaking) = self.breaking.take() else {
             return Vec::new();
         };
@@ -92,22 +160,57 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         loose
     }
 
-    fn cut(&mut self, breaking: &mut Breaking, fresh: &[usize]) -> Vec<usize> {
+    fn cut(&mut self, breaking: &mut Breaking<T>, fresh: &[usize]) -> Vec<usize> {
+        breaking.forget(fresh);
         let broken = &breaking.broken;
         breaking.list = (0..broken.len()).filter(|a| broken[*a]).collect();
         let touched = breaking.cracks.touched(fresh, broken);
         let (cracks, size) = (&breaking.cracks, self.body.size);
         let loose = self.links.cut(cracks, size, broken, (fresh, &touched));
         self.body.loads.retain(|load| !broken[load.particle]);
+        let moment = self.body.cell.moment;
+        for a in fresh.iter().chain(&touched) {
+            breaking.stiffness.0[*a] = stiffness(&self.links.row(*a), moment);
+        }
+        let (now, rest) = &breaking.stiffness;
+        let most = now.iter().fold(0.0, |most: f64, x| most.max(*x));
+        self.raised = (most / rest).max(1.0);
         loose
     }
 
+    /// What a checkpoint keeps of trials: their number, and of each the particle and what was reckoned.
+    pub(super) fn saved_trials(&self) -> Vec<f64> {
+        let trials = self.breaking.iter().flat_map(|breaking| &breaking.trials);
+        let all: Vec<f64> = trials
+            .flat_map(|(a, trial)| [*a as f64, trial.ratio, trial.asked])
+            .collect();
+        [&[(all.len() / 3) as f64], &all[..]].concat()
+    }
+
+    /// Takes trials up; gives the rest.
+    pub(super) fn take_trials<'a>(&mut self, saved: &'a [f64]) -> &'a [f64] {
+        let [count, rest @ ..] = saved else {
+            return saved;
+        };
+        let (trials, rest) = rest.split_at(3 * *count as usize);
+        if let Some(mut breaking) = self.breaking.take() {
+            for of in trials.as_chunks::<3>().0 {
+                let around = (of[0] as usize, breaking.broken.as_slice());
+                let mut trial = Trial::new(&self.links, &breaking.cracks, around, self.body.size);
+                (trial.ratio, trial.asked) = (of[1], of[2]);
+                breaking.trials.insert(of[0] as usize, trial);
+            }
+            self.breaking = Some(breaking);
+        }
+        rest
+    }
+
     /// Takes up what was broken when a checkpoint was written.
-    pub(super) fn take_up(&mut self, flags: &[u8], energy: f64) {
+    pub(super) fn take_up(&mut self, flags: &[u8], [energy, released]: [f64; 2]) {
         let Some(mut breaking) = self.breaking.take() else {
             return;
         };
-        breaking.energy = energy;
+        (breaking.energy, breaking.released) = (energy, released);
         breaking.broken = flags.iter().map(|flag| *flag > 0).collect();
         let fresh: Vec<usize> = (0..flags.len()).filter(|a| flags[*a] > 0).collect();
         let _ = self.cut(&mut breaking, &fresh);
@@ -117,7 +220,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     /// Shows the water how the cells are deformed; broken ones keep their shape.
     pub(super) fn show_shape(&mut self, set: &mut Set, time: f64) {
         let since = time - std::mem::replace(&mut self.looked, time);
-        let whole = |a: usize| self.breaking.as_ref().is_none_or(|b| !b.broken[a]);
+        let whole = |a: usize| self.is_whole(a);
         let mut rate = set.take(&DEFORMATION_RATE);
         let before = set.column(&DEFORMATION);
         sweep::fill(&mut rate, |a| {
@@ -150,6 +253,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         };
         vec![
             figure("fracture_energy", "J", breaking.energy),
+            figure("released_energy", "J", breaking.released),
             figure("debris", "kg", debris),
             figure("largest_piece", "1", self.largest_piece(&breaking.broken)),
         ]

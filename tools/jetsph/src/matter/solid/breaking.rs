@@ -1,12 +1,15 @@
 //! What fracture knows of a solid: who is broken, and who was next to whom.
 
-use super::cracks::Cracks;
+use std::collections::BTreeMap;
+
+use super::cracks::{AROUND, Cracks};
 use super::fracture::Criterion;
+use super::release::Trial;
 use super::tensor::Matrix;
 
 /// What fracture knows.
 #[derive(Debug, Clone)]
-pub struct Breaking {
+pub struct Breaking<const T: usize> {
     pub(super) criterion: Criterion,
     /// Size of a cell \[m\].
     pub(super) size: f64,
@@ -18,17 +21,25 @@ pub struct Breaking {
     pub(super) list: Vec<usize>,
     /// Energy that cracks have taken \[J\].
     pub(super) energy: f64,
+    /// Energy that the body was to release for them \[J\], by the criterion of the energy.
+    pub(super) released: f64,
+    /// What is left around those that may break next, where the criterion asks.
+    pub(super) trials: BTreeMap<usize, Trial<T>>,
+    /// How stiff each cell is for its neighbours \[1/m2\], 0 of broken ones, and the most that any was at rest.
+    pub(super) stiffness: (Vec<f64>, f64),
 }
 
-impl Breaking {
+impl<const T: usize> Breaking<T> {
     /// Of an unbroken solid.
     #[must_use]
     pub fn new(
         criterion: Criterion,
         cracks: Cracks,
-        (size, particles): (f64, usize),
+        (size, stiffness): (f64, Vec<f64>),
         axes: Matrix,
     ) -> Self {
+        let particles = stiffness.len();
+        let most = stiffness.iter().fold(0.0, |most: f64, x| most.max(*x));
         Self {
             criterion,
             size,
@@ -37,12 +48,26 @@ impl Breaking {
             broken: vec![false; particles],
             list: Vec::new(),
             energy: 0.0,
+            released: 0.0,
+            trials: BTreeMap::new(),
+            stiffness: (stiffness, most),
         }
+    }
+
+    /// Forgets what was tried near those that broke.
+    pub(super) fn forget(&mut self, fresh: &[usize]) {
+        let cracks = &self.cracks;
+        let far = |a: &usize| {
+            fresh
+                .iter()
+                .all(|b| cracks.distance(*a, *b) >= 2.0 * AROUND)
+        };
+        self.trials.retain(|a, _| far(a));
     }
 
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.cracks.bytes() + self.broken.len()
+        self.cracks.bytes() + 9 * self.broken.len()
     }
 }

@@ -37,7 +37,7 @@ pub type Derivatives<const L: usize, const T: usize> = [[f64; L]; T];
 
 /// Terms of a quadratic in the plane have two axes, those in space three.
 #[inline(always)]
-const fn dimensions(terms: usize) -> usize {
+pub(super) const fn dimensions(terms: usize) -> usize {
     if terms == 5 { 2 } else { 3 }
 }
 
@@ -56,7 +56,10 @@ pub fn gradient<const L: usize, const T: usize>(derivatives: &Derivatives<L, T>)
 
 /// dF/dX_k.
 #[inline(always)]
-fn slope<const L: usize, const T: usize>(derivatives: &Derivatives<L, T>, k: usize) -> Matrix {
+pub(super) fn slope<const L: usize, const T: usize>(
+    derivatives: &Derivatives<L, T>,
+    k: usize,
+) -> Matrix {
     let mut f = [[0.0; 3]; 3];
     for i in 0..dimensions(T) {
         for j in 0..dimensions(T) {
@@ -86,8 +89,15 @@ impl Cell {
     /// e_k and C' : e_k.
     #[inline(always)]
     fn varying(&self, f: &Matrix, slope: &Matrix, d: usize) -> (Matrix, Matrix) {
+        let strain = Self::bending(f, slope, d);
+        (strain, self.bent(&strain, d))
+    }
+
+    /// e_k = sym(F^T dF/dX_k).
+    #[inline(always)]
+    pub(super) fn bending(f: &Matrix, slope: &Matrix, d: usize) -> Matrix {
         let part = |i: usize, j: usize| (0..d).map(|a| f[a][i] * slope[a][j]).sum::<f64>();
-        let strain: Matrix = std::array::from_fn(|i| {
+        std::array::from_fn(|i| {
             std::array::from_fn(|j| {
                 let inside = i < d && j < d;
                 if inside {
@@ -96,11 +106,16 @@ impl Cell {
                     0.0
                 }
             })
-        });
+        })
+    }
+
+    /// C' : e_k.
+    #[inline(always)]
+    pub(super) fn bent(&self, strain: &Matrix, d: usize) -> Matrix {
         let bulk = self.varying_lame * (strain[0][0] + strain[1][1] + strain[2][2]);
         let mut stress = strain.map(|row| row.map(|e| 2.0 * self.law.shear * e));
         (0..d).for_each(|k| stress[k][k] += bulk);
-        (strain, stress)
+        stress
     }
 
     /// Slope of the energy with each derivative \[J\], \[J m\], and how many times stiffer the solid is than at rest.
@@ -113,15 +128,35 @@ impl Cell {
         let d = dimensions(T);
         let f = self.law.completed(gradient(derivatives));
         let answer = self.law.answer(&f);
+        let varying = std::array::from_fn(|k| {
+            if k < d {
+                self.varying(&f, &slope(derivatives, k), d).1
+            } else {
+                [[0.0; 3]; 3]
+            }
+        });
+        let out = self.slopes(derivatives, (&f, &answer.stress), &varying);
+        (out, answer.stiffer)
+    }
+
+    /// Slopes of the energy by the stress P of the middle and the stresses that vary along each axis.
+    #[inline(always)]
+    pub(super) fn slopes<const L: usize, const T: usize>(
+        &self,
+        derivatives: &Derivatives<L, T>,
+        (f, middle): (&Matrix, &Matrix),
+        varying: &[Matrix; 3],
+    ) -> Derivatives<L, T> {
+        let d = dimensions(T);
         let mut out = [[0.0; L]; T];
         for (j, column) in out.iter_mut().enumerate().take(d) {
-            (0..d).for_each(|i| column[i] = answer.stress[i][j]);
+            (0..d).for_each(|i| column[i] = middle[i][j]);
         }
         for k in 0..d {
             let slope = slope(derivatives, k);
-            let (_, stress) = self.varying(&f, &slope, d);
-            let own = product(&f, &stress);
-            let first = product(&slope, &stress);
+            let stress = &varying[k];
+            let own = product(f, stress);
+            let first = product(&slope, stress);
             for (j, column) in out.iter_mut().enumerate().take(d) {
                 (0..d).for_each(|i| column[i] += self.moment[k] * first[i][j]);
             }
@@ -133,7 +168,7 @@ impl Cell {
         for column in &mut out {
             column.iter_mut().for_each(|x| *x *= self.volume);
         }
-        (out, answer.stiffer)
+        out
     }
 
     /// Energy of the cell \[J\].

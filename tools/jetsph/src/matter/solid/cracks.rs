@@ -1,5 +1,7 @@
 //! Links that cracks cut: who is left to whom, and the fits that are left.
 
+use std::collections::BTreeSet;
+
 use neighbours::Grid;
 use particles::Rows;
 use rayon::prelude::*;
@@ -8,7 +10,7 @@ use super::fracture::crossed;
 use super::links::{Links, SUPPORT, fit};
 
 /// What may stand between two linked places is nearer than this to either \[cells\].
-const AROUND: f64 = SUPPORT + 0.5;
+pub(super) const AROUND: f64 = SUPPORT + 0.5;
 
 /// The neighbours that there were at rest.
 #[derive(Debug, Clone)]
@@ -52,8 +54,35 @@ impl Cracks {
         touched
     }
 
+    /// Distance at rest \[cells\].
+    #[must_use]
+    pub fn distance(&self, a: usize, b: usize) -> f64 {
+        let [x, y] = [self.places[a], self.places[b]];
+        (0..3).map(|k| (x[k] - y[k]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// The neighbours that particle `a` had at rest.
+    pub(super) fn row(&self, a: usize) -> &[u32] {
+        self.rows.row(a)
+    }
+
+    /// The particles nearer than a radius \[cells\] at rest, in order.
+    pub(super) fn near(&self, a: usize, radius: f64) -> Vec<u32> {
+        let (mut found, mut open) = (BTreeSet::from([a as u32]), vec![a as u32]);
+        while let Some(b) = open.pop() {
+            for c in self.rows.row(b as usize) {
+                let is_one =
+                    (*c as usize) < self.rows.len() && self.distance(a, *c as usize) < radius;
+                if is_one && found.insert(*c) {
+                    open.push(*c);
+                }
+            }
+        }
+        found.into_iter().collect()
+    }
+
     /// The neighbours that particle `a` still has.
-    fn left(&self, a: usize, broken: &[bool]) -> Vec<u32> {
+    pub(super) fn left(&self, a: usize, broken: &[bool]) -> Vec<u32> {
         let is_broken = |b: &u32| broken.get(*b as usize).is_some_and(|b| *b);
         let between: Vec<[f64; 3]> = self
             .around
@@ -67,6 +96,13 @@ impl Cracks {
             !is_broken(b) && !crossed(self.places[a], to, between.iter().copied())
         };
         self.rows.row(a).iter().filter(is_left).copied().collect()
+    }
+
+    /// Weights in cells of the neighbours `row` that are left to particle `a`, and whether they hold it.
+    pub(super) fn refit<const T: usize>(&self, a: usize, row: &[u32]) -> (Vec<[f64; T]>, bool) {
+        let fewest = if T == 5 { 4 } else { 7 };
+        let (weights, held) = fit::<T>(&self.places, a, row);
+        (weights, held && row.len() >= fewest)
     }
 
     /// Bytes held.
@@ -87,11 +123,9 @@ impl<const T: usize> Links<T> {
         broken: &[bool],
         (fresh, touched): (&[usize], &[usize]),
     ) -> Vec<usize> {
-        let fewest = if T == 5 { 4 } else { 7 };
         let refit = |a: &usize| {
             let row = cracks.left(*a, broken);
-            let (weights, held) = fit::<T>(&cracks.places, *a, &row);
-            let held = held && row.len() >= fewest;
+            let (weights, held) = cracks.refit::<T>(*a, &row);
             (*a, row, weights, held)
         };
         let mut found: Vec<_> = touched.par_iter().map(refit).collect();

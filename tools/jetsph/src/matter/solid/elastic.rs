@@ -7,13 +7,15 @@ use super::body::Body;
 use super::breaking::Breaking;
 use super::cell::{Derivatives, gradient};
 use super::cracks::Cracks;
+use super::flowing::{PLASTIC_STRAIN, Plastic};
 use super::fracture::{BROKEN, Criterion};
 use super::law::equivalent_strain;
 use super::links::{Links, terms};
-use super::sound::fastest;
+use super::plastic::History;
+use super::sound::{fastest, stiffness};
 use super::tensor::{Matrix, UNIT};
 use crate::matter::meeting::skin::{DEFORMATION, TWIST};
-use crate::stage::{Entry, Figure, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State};
 
 /// Place at rest, along the axes of the lattice \[m\].
@@ -28,7 +30,7 @@ const SAFETY: f64 = 0.9;
 /// The same where cracks may leave particles with fits that are stiffer than any at rest.
 const CRACKED: f64 = 0.6;
 /// Particles per unit of parallel work.
-const GRAIN: usize = 32;
+pub(super) const GRAIN: usize = 32;
 
 /// An elastic solid: `L` numbers hold a vector, `T` terms a quadratic (2 and 5 in the plane, 4 and 9 in space).
 pub struct Elastic<const L: usize, const T: usize> {
@@ -42,10 +44,15 @@ pub struct Elastic<const L: usize, const T: usize> {
     pub(super) stiffer: Vec<f64>,
     /// Greatest angular frequency at rest \[rad/s\].
     fastest: f64,
+    /// How many times faster the square of it is beside cracks.
+    pub(super) raised: f64,
     /// Force on the body at the anchors \[N\], as one sum, and the power of moving ones \[W\].
     pub(super) held: ([f64; 3], f64),
     pub(super) entry: Entry,
-    pub(super) breaking: Option<Breaking>,
+    /// Rate at which what rising loads can do grows \[W\].
+    pub(super) rising: Course<1>,
+    pub(super) breaking: Option<Breaking<T>>,
+    pub(super) plastic: Option<Plastic>,
     /// When water last looked at its shape \[s\].
     pub(super) looked: f64,
 }
@@ -63,9 +70,12 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             answers: vec![[[0.0; L]; T]; n],
             stiffer: vec![1.0; n],
             fastest: 0.0,
+            raised: 1.0,
             held: ([0.0; 3], 0.0),
             entry: Entry::default(),
+            rising: Course::default(),
             breaking: None,
+            plastic: None,
             looked: 0.0,
             links,
             body,
@@ -88,7 +98,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             .volume
             .powf(if T == 5 { 0.5 } else { 1.0 / 3.0 });
         let cracks = Cracks::new(&rest, n, self.body.size);
-        self.breaking = Some(Breaking::new(criterion, cracks, (size, n), axes));
+        let moment = self.body.cell.moment;
+        let stiffness = (0..n).map(|a| stiffness(&self.links.row(a), moment));
+        let stiffness = stiffness.collect();
+        self.breaking = Some(Breaking::new(criterion, cracks, (size, stiffness), axes));
         self
     }
 
@@ -146,10 +159,8 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         sum
     }
 
-    /// Slopes of the energy of all cells, less the work of the loads.
-    fn answer(&mut self, load: f64) {
-        let mut answers = std::mem::take(&mut self.answers);
-        let mut stiffer = std::mem::take(&mut self.stiffer);
+    /// Slopes of the energy of all cells that are elastic.
+    fn answer_whole(&self, answers: &mut [Derivatives<L, T>], stiffer: &mut [f64]) {
         let each = answers
             .par_chunks_mut(GRAIN)
             .zip(stiffer.par_chunks_mut(GRAIN));
@@ -162,11 +173,23 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
                 }
             });
         });
-        for force in self.body.loads.iter().filter(|_| load > 0.0) {
-            let parts: [f64; T] = terms(force.offset);
-            let columns = answers[force.particle].iter_mut().zip(parts);
+    }
+
+    /// Slopes of the energy of all cells, less the work of the loads at a time \[s\].
+    pub(super) fn answer(&mut self, time: f64) {
+        let mut answers = std::mem::take(&mut self.answers);
+        let mut stiffer = std::mem::take(&mut self.stiffer);
+        if let Some(mut plastic) = self.plastic.take() {
+            self.answer_flowing(&mut plastic, &mut answers, &mut stiffer);
+            self.plastic = Some(plastic);
+        } else {
+            self.answer_whole(&mut answers, &mut stiffer);
+        }
+        for load in &self.body.loads {
+            let parts: [f64; T] = terms(load.offset);
+            let (force, columns) = (load.at(time), answers[load.particle].iter_mut().zip(parts));
             columns.for_each(|(column, part)| {
-                (0..L.min(3)).for_each(|k| column[k] -= load * force.force[k] * part);
+                (0..L.min(3)).for_each(|k| column[k] -= force[k] * part);
             });
         }
         self.answers = answers;
@@ -175,7 +198,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     }
 
     /// Adds the accelerations of all particles: what their own cell does to them, less what those of the others do.
-    fn accelerate(&self, acceleration: &mut [[f64; 3]], mass: &[f64]) {
+    pub(super) fn accelerate(&self, acceleration: &mut [[f64; 3]], mass: &[f64]) {
         let n = self.answers.len();
         let each = acceleration.par_chunks_mut(GRAIN).enumerate();
         each.for_each(|(chunk, acceleration)| {
@@ -226,9 +249,14 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
             } else {
                 SAFETY
             } * 2.0
-                / (self.fastest * stiffer.sqrt()),
+                / (self.fastest * (stiffer * self.raised).sqrt()),
             name: "elastic_waves",
         })
+    }
+
+    fn exchange(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        self.break_between(state, dt);
+        Ok(())
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
@@ -238,9 +266,9 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         self.locate(&position, time);
         set.put(&POSITION, position);
         let n = set.len();
-        self.answer(1.0);
-        if self.breaks(set) {
-            self.answer(1.0);
+        self.answer(time);
+        if self.breaks(set, time) {
+            self.answer(time);
         }
         if let Some((a, _)) =
             sweep::greatest(n, |a| self.stiffer[a]).filter(|(_, most)| most.is_nan())
@@ -287,7 +315,18 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
             law.completed(shape)
         };
         let set = &mut state.sets[self.body.set];
-        sweep::fill(set.column_mut(&STRESS), |a| law.cauchy(&deformation(a)));
+        sweep::fill(set.column_mut(&STRESS), |a| {
+            let flowing = if whole(a) {
+                self.flowing_stress(a)
+            } else {
+                None
+            };
+            flowing.unwrap_or_else(|| law.cauchy(&deformation(a)))
+        });
+        if let Some(plastic) = &self.plastic {
+            let strain = |a: usize| plastic.histories[a].strain;
+            sweep::fill(set.column_mut(&PLASTIC_STRAIN), strain);
+        }
         sweep::fill(set.column_mut(&EQUIVALENT_STRAIN), |a| {
             equivalent_strain(&deformation(a))
         });
@@ -300,13 +339,17 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         if self.breaking.is_some() {
             set.declare(&BROKEN);
         }
+        if self.plastic.is_some() {
+            set.declare(&PLASTIC_STRAIN);
+        }
     }
 
     fn entry(&self, state: &State) -> Entry {
         // A dead load stores what it can still do.
         let position = state.sets[self.body.set].column(&POSITION);
         Entry {
-            stored: self.stored() - self.load_potential(position),
+            stored: self.stored() - self.load_potential(position, state.time),
+            spent: self.entry.spent + self.taken(),
             ..self.entry
         }
     }
@@ -333,22 +376,38 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
 
     fn save(&self) -> Vec<f64> {
         let (force, power) = self.held;
-        let cracks = self.breaking.as_ref().map_or(0.0, |b| b.energy);
-        [
+        let breaking = self.breaking.as_ref();
+        let [energy, released] = breaking.map_or([0.0; 2], |b| [b.energy, b.released]);
+        let mut saved = [
             &self.entry.save()[..],
             &force,
-            &[power, cracks, self.looked],
+            &[power, energy, released, self.looked],
+            &self.rising.last(),
         ]
-        .concat()
+        .concat();
+        saved.extend(self.saved_trials());
+        let plastic = self.plastic.iter();
+        saved.extend(plastic.flat_map(|p| p.histories.iter().flat_map(History::save)));
+        saved
     }
 
     fn restore(&mut self, state: &State, saved: &[f64]) {
-        if let [fx, fy, fz, power, cracks, looked] = *self.entry.restore(saved) {
-            self.held = ([fx, fy, fz], power);
-            self.looked = looked;
-            self.take_up(state.sets[self.body.set].column(&BROKEN), cracks);
+        if let [fx, fy, fz, power, energy, released, looked, rest @ ..] = self.entry.restore(saved)
+        {
+            self.held = ([*fx, *fy, *fz], *power);
+            self.looked = *looked;
+            let flags = state.sets[self.body.set].column(&BROKEN);
+            self.take_up(flags, [*energy, *released]);
+            let rest = self.rising.restore(rest);
+            let histories = self.take_trials(rest);
+            if let Some(plastic) = &mut self.plastic {
+                plastic.histories = History::restored(histories);
+            }
         }
         self.locate(state.sets[self.body.set].column(&POSITION), state.time);
-        self.answer(1.0);
+        // Rounding must not let flow what has flown.
+        let plastic = self.plastic.clone();
+        self.answer(state.time);
+        self.plastic = plastic;
     }
 }

@@ -3,12 +3,11 @@
 //! ```text
 //! strain     e  >= limit,    e the equivalent strain of the principal strains         Shinohara et al. (2004), section 2.3
 //! stress     s1 >= limit,    s1 the greatest principal stress
-//! energy     psi+ d >= Gc,   psi+ the energy of what is stretched, d the size of a cell
+//! energy     G  >= limit,    G the energy that would go with the particle, by the area of the crack: see [`super::release`]
 //! ```
 //!
 //! The formula of the equivalent strain is not in the source; it is von Mises' of the logarithmic principal strains. The
-//! third makes the energy of a crack, which is one cell wide, the same on any spacing (as a crack band, Bazant and Oh
-//! 1983). A broken particle keeps its mass and its motion and loses its links; those that they crossed are lost, too, so
+//! third makes the energy of a crack the same on any spacing. A broken particle keeps its mass and its motion and loses its links; those that they crossed are lost, too, so
 //! that both sides of a crack are free surfaces. From then on it is a contact, which bears compression alone.
 
 use particles::Column;
@@ -37,9 +36,10 @@ pub enum Criterion {
 }
 
 impl Criterion {
-    /// Whether a cell of a size \[m\] breaks at a completed deformation; one that is turned inside out does.
+    /// Whether a cell breaks at a completed deformation; one that is turned inside out does. What goes with it is asked of
+    /// its neighbours, too, and not here.
     #[must_use]
-    pub fn breaks(&self, law: &Law, deformation: &Matrix, size: f64) -> bool {
+    pub fn breaks(&self, law: &Law, deformation: &Matrix) -> bool {
         let volume = super::tensor::determinant(deformation);
         // What is no number is no volume.
         let is_one = volume > 0.0;
@@ -49,7 +49,7 @@ impl Criterion {
         match *self {
             Self::Strain(limit) => equivalent_strain(deformation) >= limit,
             Self::Stress(limit) => eigenvalues(&law.cauchy(deformation))[0] >= limit,
-            Self::Energy(limit) => stretched(law, deformation) * size >= limit,
+            Self::Energy(_) => false,
         }
     }
 }
@@ -64,8 +64,9 @@ pub fn stretched(law: &Law, deformation: &Matrix) -> f64 {
     law.shear * own + 0.5 * law.lame * volume.max(0.0).powi(2)
 }
 
-/// Whether what is broken stands between two places, all in cells: nearer than this to the way between them.
-const BETWEEN: f64 = 0.45;
+/// Whether what is broken stands between two places, all in cells: nearer than this to the way between them. Slanted links of a
+/// straight lattice pass at 0.447 and 0.707, and a little shaking changes neither.
+const BETWEEN: f64 = 0.57;
 
 /// Whether a link from `a` to `b` crosses one of the broken places, all in cells of the lattice.
 #[must_use]
@@ -103,19 +104,18 @@ mod tests {
             f[0][0] = 1.0 + strain;
             f
         };
-        let size = 1e-3;
-        let energy = 0.5 * 1e5 * 0.01 * 0.01 * size;
         for (criterion, strain) in [
             (Criterion::Strain(2.0 / 3.0 * 0.01), 0.01),
             (Criterion::Stress(1e3), 0.01),
-            (Criterion::Energy(energy), 0.01),
         ] {
-            assert!(!criterion.breaks(&law, &pulled(0.97 * strain), size));
-            assert!(criterion.breaks(&law, &pulled(1.03 * strain), size));
-            assert!(criterion.breaks(&law, &pulled(-1.5), size));
+            assert!(!criterion.breaks(&law, &pulled(0.97 * strain)));
+            assert!(criterion.breaks(&law, &pulled(1.03 * strain)));
+            assert!(criterion.breaks(&law, &pulled(-1.5)));
         }
-        assert!(!Criterion::Energy(energy).breaks(&law, &pulled(-0.1), size));
-        assert!(!Criterion::Stress(1e3).breaks(&law, &pulled(-0.1), size));
+        assert!(!Criterion::Stress(1e3).breaks(&law, &pulled(-0.1)));
+        assert!(stretched(&law, &pulled(-0.1)) <= 0.0);
+        let energy = 0.5 * 1e5 * 0.01 * 0.01;
+        assert!((stretched(&law, &pulled(0.01)) / energy - 1.0).abs() < 0.02);
     }
 
     #[test]

@@ -192,7 +192,7 @@ impl<const T: usize> Links<T> {
 pub(super) type Fitted<const T: usize> = (Vec<u32>, Vec<[f64; T]>);
 
 /// From weights in cells to weights in metres.
-fn scale<const T: usize>(cell: [f64; 3]) -> [f64; T] {
+pub(super) fn scale<const T: usize>(cell: [f64; 3]) -> [f64; T] {
     let unit: [f64; T] = terms(cell.map(|c| 1.0 / c));
     // x^2/2 counts d^2 x, not its half.
     std::array::from_fn(|m| {

@@ -1,7 +1,8 @@
 //! What acts on an elastic solid from outside: held faces, loads, damping, water.
 
-use particles::sweep;
+use particles::{POSITION, sweep};
 
+use super::bound::Load;
 use super::elastic::{Elastic, add};
 use super::links::terms;
 use super::tensor::Matrix;
@@ -34,17 +35,23 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         ([x, y, z], power)
     }
 
+    /// Force and power at the anchors with which the next step begins.
+    pub(super) fn hold_anew(&mut self) {
+        self.held = self.reaction();
+    }
+
     /// Accelerations by the loads and by damping, and the balances of all from outside.
     pub(super) fn outside(&mut self, state: &mut State, dt: f64) {
         let set = &mut state.sets[self.body.set];
         let mut acceleration = set.take(&ACCELERATION);
         let (mass, velocity) = (set.column(&MASS), set.column(&VELOCITY));
         let mut total = [0.0; 3];
+        let time = state.time + dt;
         for load in &self.body.loads {
-            let a = load.particle;
+            let (a, force) = (load.particle, load.at(time));
             for k in 0..3 {
-                acceleration[a][k] += load.force[k] / mass[a];
-                total[k] += load.force[k];
+                acceleration[a][k] += force[k] / mass[a];
+                total[k] += force[k];
             }
         }
         if self.body.damping > 0.0 {
@@ -83,6 +90,12 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         for (k, (sum, load)) in impulse.enumerate() {
             *sum += dt * (mean(k) + load);
         }
+        // What a load that rises can still do grows by its rise: no work of the solid's.
+        if self.body.loads.iter().any(|load| load.rise > 0.0) {
+            let position = set.column(&POSITION);
+            let rate = self.load_work(position, |load| load.rate(time));
+            self.entry.work -= self.rising.over(dt, [rate])[0];
+        }
     }
 
     /// Takes the moments of the water's forces off the slopes of the energy.
@@ -96,7 +109,12 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     }
 
     /// Work that loads can no longer do \[J\].
-    pub(super) fn load_potential(&self, position: &[[f64; 3]]) -> f64 {
+    pub(super) fn load_potential(&self, position: &[[f64; 3]], time: f64) -> f64 {
+        self.load_work(position, |load| load.at(time))
+    }
+
+    /// Forces of the loads by the ways of the places where they act \[J\].
+    fn load_work(&self, position: &[[f64; 3]], force: impl Fn(&Load) -> [f64; 3]) -> f64 {
         let each = self.body.loads.iter().map(|load| {
             let derivatives = self.derivatives(load.particle);
             let parts: [f64; T] = terms(load.offset);
@@ -105,9 +123,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
                     .iter()
                     .zip(parts)
                     .map(|(column, part)| part * column[k]);
-                position[load.particle][k] + there.sum::<f64>()
+                position[load.particle][k] - load.place[k] + there.sum::<f64>()
             };
-            (0..L.min(3)).map(|k| load.force[k] * moved(k)).sum::<f64>()
+            let force = force(load);
+            (0..L.min(3)).map(|k| force[k] * moved(k)).sum::<f64>()
         });
         each.sum()
     }

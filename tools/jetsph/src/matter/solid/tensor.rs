@@ -90,6 +90,37 @@ pub fn eigenvalues(a: &Matrix) -> [f64; 3] {
     [first, 3.0 * mean - first - last, last]
 }
 
+/// Eigenvalues of a symmetric matrix and their axes, as columns (Jacobi's turns).
+#[must_use]
+pub fn eigenvectors(a: &Matrix) -> ([f64; 3], Matrix) {
+    let (mut a, mut axes) = (*a, UNIT);
+    let scale = inner(&a, &a);
+    for _ in 0..30 {
+        let off = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];
+        if off <= 1e-32 * scale {
+            break;
+        }
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if a[p][q].abs() > 0.0 {
+                let ratio = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+                let t = ratio.signum() / (ratio.abs() + ratio.hypot(1.0));
+                let c = 1.0 / t.hypot(1.0);
+                let s = t * c;
+                for row in [&mut a, &mut axes] {
+                    for x in row.iter_mut() {
+                        (x[p], x[q]) = (c * x[p] - s * x[q], s * x[p] + c * x[q]);
+                    }
+                }
+                let (x, y) = (a[p], a[q]);
+                for k in 0..3 {
+                    (a[p][k], a[q][k]) = (c * x[k] - s * y[k], s * x[k] + c * y[k]);
+                }
+            }
+        }
+    }
+    ([a[0][0], a[1][1], a[2][2]], axes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -104,6 +135,18 @@ mod tests {
             assert!((found - expected).abs() < 1e-14, "{found} {expected}");
         }
         assert!(eigenvalues(&UNIT).iter().all(|x| (x - 1.0).abs() < 1e-15));
+    }
+
+    #[test]
+    fn a_matrix_is_the_sum_of_its_axes() {
+        let a = [[2.0, 0.3, -0.1], [0.3, 1.5, 0.4], [-0.1, 0.4, 0.9]];
+        let (values, axes) = eigenvectors(&a);
+        for i in 0..3 {
+            for j in 0..3 {
+                let sum: f64 = (0..3).map(|k| values[k] * axes[i][k] * axes[j][k]).sum();
+                assert!((sum - a[i][j]).abs() < 1e-14);
+            }
+        }
     }
 
     #[test]

@@ -7,7 +7,6 @@ use shapes::Body;
 
 use super::diffusion::DensityDiffusion;
 use super::friction::Artificial;
-use super::images::Plane;
 use super::near::{LISTED, Near};
 use super::seen::Seen;
 use super::tait::Tait;
@@ -58,6 +57,12 @@ pub struct Flow<const D: usize, K> {
     pub(super) bodies: Vec<Body>,
     /// Force of the water on each wall \[N\].
     pub(super) forces: Vec<[f64; 3]>,
+    /// Those forces over time.
+    pushes: Vec<Course<3>>,
+    /// What landed on each wall in the last step, over that \[N\].
+    landed: Vec<[f64; 3]>,
+    /// What they have given to each wall, and what landed on it \[N s\].
+    impulses: Vec<[f64; 3]>,
     /// The force of all walls on the water and what friction takes.
     course: Course<4>,
     entry: Entry,
@@ -76,6 +81,9 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
             beside: Vec::new(),
             bodies: water.walls.iter().map(|(_, body)| body.clone()).collect(),
             forces: vec![[0.0; 3]; water.walls.len()],
+            pushes: vec![Course::default(); water.walls.len()],
+            landed: vec![[0.0; 3]; water.walls.len()],
+            impulses: vec![[0.0; 3]; water.walls.len()],
             course: Course::default(),
             entry: Entry::default(),
             water,
@@ -90,11 +98,12 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
         if self.near.refresh(position, &mut listed, exchanges) {
             self.stand_beside(&listed);
         }
+        let law = self.water.law;
         self.seen.resize(position.len(), Seen::default());
         sweep::fill(&mut self.seen, |a| Seen {
             x: position[a],
             u: velocity[a],
-            volume: mass[a] / density[a],
+            volume: mass[a] / law.filling(density[a]),
             value: value(density[a]),
         });
         set.put(&LISTED, listed);
@@ -115,8 +124,10 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
         }
     }
 
-    /// Mirrors what a fast step brought behind a wall.
-    fn bounce(&mut self, state: &mut State) {
+    /// Brings back what came behind a wall, and takes its speed into the wall: thin or parted water has no pressure that
+    /// could stop it, and clings there instead of leaping off. What it gives to the wall is counted.
+    fn land(&mut self, state: &mut State, dt: f64) {
+        self.landed.fill([0.0; 3]);
         let set = &mut state.sets[self.water.set];
         let (mut position, mut velocity) = (set.take(&POSITION), set.take(&VELOCITY));
         let mass = set.column(&MASS);
@@ -125,19 +136,17 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
                 let distance = body.distance(position[a]);
                 if distance < 0.0 {
                     let normal = body.normal(position[a], 1e-3 * self.water.smoothing_length);
-                    let plane = Plane {
-                        wall,
-                        normal,
-                        distance,
-                    };
                     (0..3).for_each(|k| position[a][k] -= 2.0 * distance * normal[k]);
                     let inward: f64 = (0..3).map(|k| velocity[a][k] * normal[k]).sum();
                     if inward < 0.0 {
-                        let turned = plane.mirrored(velocity[a]);
+                        self.entry.spent += 0.5 * mass[a] * inward * inward;
                         for k in 0..3 {
-                            self.entry.impulse[k] += mass[a] * (turned[k] - velocity[a][k]);
+                            let given = -mass[a] * inward * normal[k];
+                            self.entry.impulse[k] += given;
+                            self.impulses[wall][k] -= given;
+                            self.landed[wall][k] -= given / dt;
+                            velocity[a][k] -= inward * normal[k];
                         }
-                        velocity[a] = turned;
                     }
                 }
             }
@@ -225,6 +234,11 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
         let [x, y, z] = self.forces.iter().fold([0.0; 3], |sum, wall| {
             [0, 1, 2].map(|k: usize| sum[k] - wall[k])
         });
+        let pushes = self.pushes.iter_mut().zip(&self.forces);
+        for (impulse, (push, force)) in self.impulses.iter_mut().zip(pushes) {
+            let given = push.over(dt, *force);
+            (0..3).for_each(|k| impulse[k] += given[k]);
+        }
         let [x, y, z, lost] = self.course.over(dt, [x, y, z, lost]);
         let given = self.entry.impulse.iter_mut().zip([x, y, z]);
         given.for_each(|(sum, part)| *sum += part);
@@ -232,9 +246,9 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
         Ok(())
     }
 
-    fn exchange(&mut self, state: &mut State, _: f64) -> Result<(), StageError> {
+    fn exchange(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         if !self.beside.is_empty() {
-            self.bounce(state);
+            self.land(state, dt);
         }
         Ok(())
     }
@@ -258,16 +272,25 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
     }
 
     fn figures(&self, _: &State) -> Vec<Figure> {
-        let walls = self.water.walls.iter().zip(&self.forces);
-        let each = walls.flat_map(|((name, _), force)| {
-            let axes = ["x", "y", "z"].iter().zip(*force).take(D);
-            axes.map(move |(axis, value)| Figure {
-                name: format!("water_force_on_{name}_{axis}"),
-                unit: "N",
-                value,
-            })
-        });
-        each.collect()
+        let of = |what: &'static str, unit, values: &[[f64; 3]]| {
+            let walls = self.water.walls.iter().zip(values);
+            let each = walls.flat_map(|((name, _), value)| {
+                let axes = ["x", "y", "z"].iter().zip(*value).take(D);
+                axes.map(move |(axis, value)| Figure {
+                    name: format!("water_{what}_on_{name}_{axis}"),
+                    unit,
+                    value,
+                })
+            });
+            each.collect::<Vec<_>>()
+        };
+        let both = self.forces.iter().zip(&self.landed);
+        let forces: Vec<[f64; 3]> = both
+            .map(|(force, landed)| [0, 1, 2].map(|k: usize| force[k] + landed[k]))
+            .collect();
+        let mut figures = of("force", "N", &forces);
+        figures.extend(of("impulse", "N s", &self.impulses));
+        figures
     }
 
     fn bytes(&self) -> usize {
@@ -282,15 +305,22 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
         ]
         .concat();
         saved.extend(self.forces.as_flattened());
+        saved.extend(self.impulses.as_flattened());
         saved
     }
 
     fn restore(&mut self, state: &State, saved: &[f64]) {
         let listed = state.sets[self.water.set].column(&LISTED);
         let rest = self.entry.restore(saved);
-        if let [seen, forces @ ..] = self.course.restore(rest) {
+        if let [seen, walls @ ..] = self.course.restore(rest) {
             self.near.restore(listed, *seen);
+            let (forces, impulses) = walls.split_at(3 * self.forces.len());
             self.forces.as_flattened_mut().copy_from_slice(forces);
+            self.impulses.as_flattened_mut().copy_from_slice(impulses);
+            for (push, force) in self.pushes.iter_mut().zip(&self.forces) {
+                // What it has given until now is counted.
+                let _ = push.over(0.0, *force);
+            }
         }
         self.stand_beside(listed);
     }

@@ -39,6 +39,18 @@ impl Tait {
         self.tension == Tension::None && density < self.density
     }
 
+    /// The density by which its mass fills room: that at rest where it has parted. Drops that fly apart do not grow, and
+    /// since they have no pressure, what pressure works is what densities store all the same.
+    #[inline(always)]
+    #[must_use]
+    pub fn filling(&self, density: f64) -> f64 {
+        if self.parted(density) {
+            self.density
+        } else {
+            density
+        }
+    }
+
     /// p \[Pa\] (15).
     #[inline(always)]
     #[must_use]
