@@ -12,7 +12,7 @@ use super::fracture::{BROKEN, Criterion};
 use super::law::equivalent_strain;
 use super::links::{Links, terms};
 use super::plastic::History;
-use super::sound::{fastest, stiffness};
+use super::sound::stiffness;
 use super::tensor::{Matrix, UNIT};
 use crate::matter::meeting::skin::{DEFORMATION, TWIST};
 use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
@@ -105,30 +105,8 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         self
     }
 
-    fn fastest_at_rest(&mut self, rest: &[[f64; 3]], mass: &[f64]) -> f64 {
-        let (anchors, loads) = (
-            self.body.anchor_rest.clone(),
-            std::mem::take(&mut self.body.loads),
-        );
-        let step = 1e-6 * self.body.size[0];
-        let dimensions = if T == 5 { 2 } else { 3 };
-        let mut acceleration = vec![[0.0; 3]; rest.len()];
-        let found = fastest(rest.len(), (step, dimensions), |motion| {
-            let moved = rest.iter().zip(motion);
-            let moved = moved.map(|(x, u)| std::array::from_fn(|k| x[k] + u[k]));
-            let all: Vec<[f64; 3]> = moved.chain(anchors.iter().copied()).collect();
-            self.place(&all);
-            self.answer(0.0);
-            acceleration.fill([0.0; 3]);
-            self.accelerate(&mut acceleration, mass);
-            acceleration.clone()
-        });
-        self.body.loads = loads;
-        found
-    }
-
     /// Takes the places of particles and anchors up.
-    fn place(&mut self, all: &[[f64; 3]]) {
+    pub(super) fn place(&mut self, all: &[[f64; 3]]) {
         for (place, x) in self.places.iter_mut().zip(all) {
             (0..L.min(3)).for_each(|k| place[k] = x[k]);
         }

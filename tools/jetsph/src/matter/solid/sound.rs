@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 use particles::sweep;
 
+use super::elastic::Elastic;
 use super::links::{Row, second};
 
 use crate::matter::lattice::noise;
@@ -37,7 +38,7 @@ pub(super) fn stiffness<const T: usize>(row: &Row<'_, T>, moment: [f64; 3]) -> f
 
 /// Greatest angular frequency \[rad/s\] of small motions about rest, by power iteration: `accelerate` gives the
 /// accelerations of displacements from rest \[m\], `step` is a small length \[m\].
-pub(super) fn fastest(
+fn fastest(
     n: usize,
     (step, dimensions): (f64, usize),
     mut accelerate: impl FnMut(&[[f64; 3]]) -> Vec<[f64; 3]>,
@@ -77,4 +78,29 @@ pub(super) fn fastest(
             .for_each(|x| *x *= whole / grown);
     }
     BEYOND * square.sqrt()
+}
+
+impl<const L: usize, const T: usize> Elastic<L, T> {
+    /// Greatest angular frequency of the body at rest, without loads \[rad/s\].
+    pub(super) fn fastest_at_rest(&mut self, rest: &[[f64; 3]], mass: &[f64]) -> f64 {
+        let (anchors, loads) = (
+            self.body.anchor_rest.clone(),
+            std::mem::take(&mut self.body.loads),
+        );
+        let step = 1e-6 * self.body.size[0];
+        let dimensions = if T == 5 { 2 } else { 3 };
+        let mut acceleration = vec![[0.0; 3]; rest.len()];
+        let found = fastest(rest.len(), (step, dimensions), |motion| {
+            let moved = rest.iter().zip(motion);
+            let moved = moved.map(|(x, u)| std::array::from_fn(|k| x[k] + u[k]));
+            let all: Vec<[f64; 3]> = moved.chain(anchors.iter().copied()).collect();
+            self.place(&all);
+            self.answer(0.0);
+            acceleration.fill([0.0; 3]);
+            self.accelerate(&mut acceleration, mass);
+            acceleration.clone()
+        });
+        self.body.loads = loads;
+        found
+    }
 }
