@@ -180,7 +180,7 @@ fn a_bed_settles_and_a_later_scene_takes_it() {
     walls.remove("velocity_m_s");
     scene["grains"]["bodies"] = json!([{"shape": {"box": {"min_m": [-4e-3, -4e-3, -5e-3], "max_m": [4e-3, 4e-3, 0]}},
         "radius_m": 0.6e-3, "jitter": 0.02, "spacing_m": 1.3e-3}]);
-    scene["grains"]["until"] = json!({"speed_m_s": 1e-3, "held_s": 5e-3});
+    scene["grains"]["until"] = json!({"speed_m_s": 3e-3, "held_s": 2e-3});
     scene["time"]["end_s"] = json!(1.0);
     finished(&scene, "bed.mcap", folder.path(), &[]);
     let last = |name: &str| {
@@ -204,4 +204,106 @@ fn a_bed_settles_and_a_later_scene_takes_it() {
     for (x, y) in then.iter().zip(&now) {
         assert!((0..3).all(|k| (x[k] - y[k]).abs() < 0.6e-4), "{x:?} {y:?}");
     }
+}
+
+/// Four layers of grains along a trough, and a stone that falls on one end of them at 0.03 s.
+fn layers_and_stone() -> Value {
+    let mut scene = shaken();
+    scene["grains"]["walls"] = json!([
+        {"shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-2, 1e-2, 0.1]}}, "hollow": true}
+    ]);
+    scene["grains"]["bodies"] = json!([
+        {"shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-2, 1e-2, 4e-3]}}, "radius_m": 0.5e-3},
+        {"places_m": [[3.1e-3, 4.8e-3, 1.5e-2]], "radius_m": 0.7e-3, "velocity_m_s": [0, 0, -0.3]}
+    ]);
+    scene["time"]["end_s"] = json!(0.06);
+    scene["output"] = json!({"particles_interval_s": 1e-2, "precision": "f64"});
+    scene
+}
+
+fn asleep(mut scene: Value) -> Value {
+    scene["grains"]["sleep"] = json!({"speed_m_s": 3e-3, "held_s": 2e-3});
+    scene
+}
+
+fn closing(folder: &Path, name: &str, figure: &str) -> f64 {
+    let text = std::fs::read_to_string(folder.join(name).with_extension("run.json")).unwrap();
+    let record: Value = serde_json::from_str(&text).unwrap();
+    let figures = record["closing"].as_array().unwrap();
+    let found = figures.iter().find(|f| f["name"] == figure);
+    found.unwrap()["value"].as_f64().unwrap()
+}
+
+fn places(folder: &Path, name: &str, frame: usize) -> Vec<[f64; 3]> {
+    let reader = artefact::Reader::open(folder.join(name)).unwrap();
+    reader
+        .frame("/grains", frame)
+        .unwrap()
+        .position_vectors()
+        .unwrap()
+}
+
+#[test]
+fn what_rests_sleeps_until_it_is_hit_and_lies_where_it_would_have_lain() {
+    let folder = tempfile::tempdir().unwrap();
+    finished(&layers_and_stone(), "awake.mcap", folder.path(), &[]);
+    finished(
+        &asleep(layers_and_stone()),
+        "asleep.mcap",
+        folder.path(),
+        &[],
+    );
+    let share = closing(folder.path(), "asleep.mcap", "grain_moved_share");
+    assert!(
+        share < 0.75,
+        "only {share} of the grains were moved, in the mean"
+    );
+    // Before the stone comes, and when it has come.
+    let reader = artefact::Reader::open(folder.path().join("awake.mcap")).unwrap();
+    let (then, last) = (2, reader.count("/grains") - 1);
+    let apart = |frame: usize| {
+        let awake = places(folder.path(), "awake.mcap", frame);
+        let asleep = places(folder.path(), "asleep.mcap", frame);
+        let far = awake
+            .iter()
+            .zip(&asleep)
+            .map(|(x, y)| (0..3).map(|k| (x[k] - y[k]).powi(2)).sum::<f64>().sqrt());
+        far.fold(0.0, f64::max)
+    };
+    assert!(apart(then) < 1e-6, "{:e} m", apart(then));
+    assert!(apart(last) < 1e-4, "{:e} m", apart(last));
+    let (before, after) = (
+        places(folder.path(), "asleep.mcap", then),
+        places(folder.path(), "asleep.mcap", last),
+    );
+    let moved = before.iter().zip(&after).take(1600);
+    let moved = moved.filter(|(x, y)| (x[2] - y[2]).abs() > 1e-6).count();
+    assert!(moved > 3, "the stone moved {moved} grains");
+    assert!(after[1600][2] < 8e-3, "the stone still flies");
+}
+
+#[test]
+fn sleep_hangs_on_no_thread_and_is_kept_where_a_run_is_interrupted() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = asleep(layers_and_stone());
+    let whole = finished(&scene, "whole.mcap", folder.path(), &["--threads", "1"]);
+    let more = finished(&scene, "more.mcap", folder.path(), &["--threads", "3"]);
+    assert!(whole == more, "the bytes depend on the number of threads");
+    let (path, out) = (
+        folder.path().join("scene.json"),
+        folder.path().join("broken.mcap"),
+    );
+    let mut child = command(&path, &out, &["--checkpoint-s", "0.3"])
+        .spawn()
+        .unwrap();
+    // Some have gone to sleep by then.
+    let checkpoint = folder.path().join("broken.mcap.checkpoint");
+    let start = Instant::now();
+    while !checkpoint.exists() && start.elapsed() < Duration::from_secs(20) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let resumed = finished(&scene, "broken.mcap", folder.path(), &["--resume"]);
+    assert!(whole == resumed, "the resumed run differs");
 }

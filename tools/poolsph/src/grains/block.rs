@@ -96,24 +96,12 @@ impl Side {
 }
 
 impl Block {
-    /// Contacts that it holds.
+    /// Takes the contacts at `places` of a chunk whose first row is `first`, as many as there is room for.
     #[inline(always)]
-    pub fn filled(&self) -> usize {
-        self.filled
-    }
-
-    /// Takes the contacts at the next `places` of a chunk whose first row is `first`, as many as there is room for.
-    #[inline(always)]
-    pub fn gather(
-        &mut self,
-        grains: &[Grain],
-        first: usize,
-        chunk: &Chunk,
-        places: impl Iterator<Item = u32>,
-    ) {
-        self.filled = 0;
-        for (lane, place) in places.take(LANES).enumerate() {
-            let place = place as usize;
+    pub fn gather(&mut self, grains: &[Grain], first: usize, chunk: &Chunk, places: &[u32]) {
+        self.filled = places.len().min(LANES);
+        for (lane, place) in places.iter().take(LANES).enumerate() {
+            let place = *place as usize;
             let pair = chunk.pairs[place];
             self.sides[0].put(lane, &grains[first + pair.own as usize]);
             self.sides[1].put(lane, &grains[pair.other as usize]);
@@ -123,7 +111,6 @@ impl Block {
             if let Some(rolled) = chunk.rolled.get(place) {
                 put(&mut self.rolled, lane, *rolled);
             }
-            self.filled = lane + 1;
         }
     }
 

@@ -77,9 +77,6 @@ pub struct Chunk {
     pub outgoing: Vec<Push>,
     /// Pairs of other chunks that end in this one.
     pub incoming: Vec<Incoming>,
-    /// Places of pairs: those that go on touching, and those that begin or part. Room for each step.
-    pub(super) touching: Vec<u32>,
-    pub(super) turning: Vec<u32>,
     /// Greatest overlap \[m\].
     pub deepest: f64,
 }
@@ -129,8 +126,6 @@ impl Chunk {
         self.histories.clear();
         self.histories.resize(number, History::default());
         self.outgoing.resize(number - self.inner, Push::default());
-        self.touching.resize(number, 0);
-        self.turning.resize(number, 0);
     }
 
     /// Gives the pairs what they remember: `memories` are those of the rows from `first` on.
@@ -290,7 +285,6 @@ impl Lists {
                 + size_of::<Vector>() * c.rolled.capacity()
                 + size_of::<Push>() * c.outgoing.capacity()
                 + size_of::<Incoming>() * c.incoming.capacity()
-                + 4 * (c.touching.capacity() + c.turning.capacity())
         };
         self.chunks.iter().map(chunk).sum::<usize>() + 28 * self.places.capacity()
     }

@@ -20,6 +20,7 @@ use shapes::frame::{Vector, along, difference};
 use super::bounds::Slack;
 use super::memory::Memory;
 use super::metal_heat::Exchange;
+use super::sleep::kept;
 use super::walls::Near;
 use crate::stage::Figure;
 use crate::state::State;
@@ -124,6 +125,11 @@ impl Metal {
         self.slack.map_or(slack, |own| own.least(slack))
     }
 
+    /// Adds the rows of the grains beside metal, which may not sleep.
+    pub fn stirred(&self, rows: &mut Vec<u32>) {
+        rows.extend(self.pairs.iter().map(|pair| pair.near.row));
+    }
+
     /// x += dt u + dt^2/2 a, u += dt a of what moves.
     pub fn predict(&mut self, step: f64) {
         for body in self.bodies.iter_mut().filter(|body| body.member.is_some()) {
@@ -141,7 +147,7 @@ impl Metal {
     /// greatest overlap \[m\].
     pub fn act<N: Normal + Copy + Sync>(
         &mut self,
-        grains: &[Grain],
+        (grains, depth): (&[Grain], &[u8]),
         (contact, rolling): (&Contact<N>, Option<Rolling>),
         step: f64,
         (force, moment): (&mut [Vector], &mut [Vector]),
@@ -166,8 +172,10 @@ impl Metal {
             deepest = deepest.max(pair.near.overlap);
             if let Some(reply) = pair.near.reply {
                 let (row, body) = (pair.near.row as usize, &mut self.bodies[pair.body as usize]);
-                force[row] = along(force[row], 1.0, reply.force);
-                moment[row] = along(moment[row], 1.0, reply.moment);
+                if !kept(depth, row) {
+                    force[row] = along(force[row], 1.0, reply.force);
+                    moment[row] = along(moment[row], 1.0, reply.moment);
+                }
                 body.force = difference(body.force, reply.force);
             }
         }

@@ -40,6 +40,7 @@ pub mod pairs;
 pub mod parameters;
 pub mod pressure;
 mod saved;
+pub mod sleep;
 pub mod totals;
 pub mod walls;
 mod warm;

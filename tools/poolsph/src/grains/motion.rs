@@ -8,13 +8,15 @@ use shapes::frame::dot;
 
 use super::bounds::{Doing, Setting, Slack};
 use super::heat::Heat;
+use super::heat::STATE;
 use super::lists::Lists;
-use super::memory::{Memory, closed_up, renumber};
+use super::memory::Memory;
 use super::metal::Metal;
 use super::moving::Moving;
 use super::parameters::{BoundsScene, Law, Parameters, RestScene};
+use super::sleep::Sleep;
 use super::walls::{self, Walls};
-use super::{MASS, RADIUS, VELOCITY, order, pairs};
+use super::{MASS, RADIUS, VELOCITY, pairs};
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::State;
 
@@ -26,11 +28,16 @@ pub struct Motion {
     pub(super) setting: Setting,
     zeta: f64,
     pub(super) walls: Walls,
-    bounds: Option<BoundsScene>,
+    pub(super) bounds: Option<BoundsScene>,
     until: Option<RestScene>,
     /// How long no grain has been faster than at rest \[s\].
     pub(super) quiet: f64,
     pub(super) lists: Lists,
+    pub(super) sleep: Option<Sleep>,
+    /// Rows that may not sleep.
+    pub(super) stirred: Vec<u32>,
+    /// States of the grains before heat changed them.
+    pub(super) states: Vec<u8>,
     /// Lists made since rows were last put in order.
     pub(super) listings: f64,
     wall_contacts: Vec<u32>,
@@ -76,6 +83,9 @@ impl Motion {
             until: scene.until,
             quiet: 0.0,
             lists: Lists::new(scene.contact.rolling.is_some()),
+            sleep: scene.sleep.map(Sleep::new),
+            stirred: Vec::new(),
+            states: Vec::new(),
             listings: 0.0,
             wall_contacts: Vec::new(),
             moving: Moving::new(gravity, scene.inertia_factor, drives),
@@ -132,30 +142,9 @@ impl Motion {
     }
 
     /// Takes down what the contacts that touch remember.
-    fn remember(&mut self) {
+    pub(super) fn remember(&mut self) {
         self.lists.memories(&mut self.memories[0]);
         self.walls.memories(&mut self.memories[1]);
-    }
-
-    /// Gives what is remembered of contacts the new rows of their grains.
-    fn renumber(&mut self, rows: &[Option<u32>]) {
-        renumber(&mut self.memories, rows);
-        if let Some(metal) = &mut self.metal {
-            metal.renumber(rows);
-        }
-    }
-
-    /// Puts grains that are near each other in rows that are near each other.
-    fn put_in_order(&mut self, set: &mut Set) {
-        let [least, widest] = self.setting.radii;
-        let order = order::by_cells(&self.moving.grains, 2.0 * widest + Lists::skin(least));
-        self.remember();
-        self.renumber(&order::inverse(&order));
-        self.moving.put(set);
-        set.arrange(&order);
-        self.moving.take(set);
-        self.list_with_memories();
-        self.listings = 0.0;
     }
 
     pub(super) fn list_with_memories(&mut self) {
@@ -177,6 +166,9 @@ impl Motion {
             Slack::of(grain.mass, f64::from(pairs + walls) / grain.mass, zeta, c)
         });
         let least = walls.fold(pairs.unwrap_or(alone), Slack::least);
+        if let Some(sleep) = &mut self.sleep {
+            sleep.list(&self.lists, grains.len());
+        }
         self.doing.slack = least.least(alone);
     }
 
@@ -203,18 +195,29 @@ impl Motion {
             moment,
             ..
         } = &mut self.moving;
-        pairs::act(&mut self.lists, grains, laws, step, [force, moment]);
-        let at_walls = self.walls.act(grains, laws, step);
-        self.walls.add(force, moment);
-        let in_metal = (self.metal.as_mut())
-            .map_or(0.0, |metal| metal.act(grains, laws, step, (force, moment)));
+        let depth = depth(&self.sleep);
+        let seen = (&grains[..], depth);
+        pairs::act(&mut self.lists, seen, laws, step, [force, moment]);
+        let at_walls = self.walls.act(seen, laws, step);
+        self.walls.add([force, moment], depth);
+        let in_metal =
+            (self.metal.as_mut()).map_or(0.0, |metal| metal.act(seen, laws, step, (force, moment)));
+        self.moving.keep(depth);
         let overlaps = self.lists.chunks.iter().map(|chunk| chunk.deepest);
         self.doing.deepest = overlaps.fold(at_walls.max(in_metal), f64::max);
     }
 
-    /// One step of `step` \[s\] to `time` \[s\].
-    fn step(&mut self, time: f64, step: f64) -> Result<(), OutOfRange> {
-        let far = self.moving.predict(step);
+    /// One step to `time` \[s\], of which `left` \[s\] are left then in the step of the run. Gives the length of the step that
+    /// follows, if its prediction is made, and how far grains have gone with it since neighbours were listed \[m\].
+    fn step(
+        &mut self,
+        (time, step, left): (f64, f64, f64),
+        predicted: Option<f64>,
+    ) -> Result<Option<[f64; 2]>, OutOfRange> {
+        let far = match predicted {
+            Some(far) => far,
+            None => self.moving.predict(step, depth(&self.sleep)),
+        };
         self.walls.drift(time, step)?;
         let driven = self.moving.drive(time, step)?;
         if self.strayed(far.max(driven)) || far.is_nan() {
@@ -228,7 +231,9 @@ impl Motion {
         }
         self.moving.turn();
         self.act(step);
-        let fastest = self.moving.correct(step);
+        // By the speeds of the step before, which one step hardly changes.
+        let next = (left > 0.0 && !self.moving.drives()).then(|| self.part(left));
+        let [fastest, far] = self.moving.correct(step, next, depth(&self.sleep));
         if let Some(metal) = &mut self.metal {
             metal.correct(step);
         }
@@ -238,7 +243,16 @@ impl Motion {
             fastest.max(self.walls.fastest())
         };
         self.steps += 1.0;
-        Ok(())
+        if let Some(sleep) = &mut self.sleep {
+            sleep.count(self.moving.grains.len());
+        }
+        Ok(next.map(|next| [next, far]))
+    }
+
+    /// The next step of `left` \[s\]: an equal part of it that the limit allows.
+    fn part(&self, left: f64) -> f64 {
+        let parts = (left / self.limit().seconds - 1e-9).ceil().max(1.0);
+        left / parts
     }
 
     /// Whether someone may touch who is not listed, where grains have gone as far as `far` \[m\].
@@ -249,33 +263,16 @@ impl Motion {
         !near
     }
 
-    /// Forgets grains outside of the bounds.
-    fn leave(&mut self, set: &mut Set) {
-        let Some(bounds) = self.bounds else { return };
-        let outside = |grain: &Grain| !bounds.holds(grain.position);
-        if !self.moving.grains.iter().any(outside) {
-            return;
-        }
-        let leaves: Vec<bool> = self.moving.grains.iter().map(outside).collect();
-        let lost = self.moving.grains.iter().filter(|grain| outside(grain));
-        for grain in lost {
-            self.lost[0] += 1.0;
-            self.lost[1] += grain.mass;
-        }
-        self.remember();
-        self.renumber(&closed_up(&leaves));
-        self.moving.put(set);
-        set.remove(|row| leaves[row]);
-        self.moving.take(set);
-        self.list_with_memories();
-        self.walls.spread(&self.moving.grains);
-    }
-
     /// Contacts of a grain with others that touch, in the mean.
     fn contacts(&self) -> f64 {
         let grains = self.moving.grains.len().max(1);
         2.0 * self.lists.touching() as f64 / grains as f64
     }
+}
+
+/// Depth of sleep by cells.
+fn depth(sleep: &Option<Sleep>) -> &[u8] {
+    sleep.as_ref().map_or(&[], Sleep::depth)
 }
 
 impl Stage for Motion {
@@ -311,20 +308,19 @@ impl Stage for Motion {
             }
             self.list_metal();
             self.walls.spread(&self.moving.grains);
-            let mut done = 0.0;
-            while done < dt {
+            let (mut done, mut next) = (0.0, None);
+            while done < dt && !self.doing.fastest.is_nan() {
                 let left = dt - done;
-                let parts = (left / self.limit().seconds - 1e-9).ceil().max(1.0);
-                let step = left / parts;
-                done = if parts < 1.5 { dt } else { done + step };
-                self.step(state.time + done, step)?;
-                if self.doing.fastest.is_nan() {
-                    break;
-                }
+                let step = next.map_or_else(|| self.part(left), |[step, _]: [f64; 2]| step);
+                // The last is what is left, to the bit.
+                done = if step < left { done + step } else { dt };
+                let predicted = next.map(|[_, far]| far);
+                next = self.step((state.time + done, step, dt - done), predicted)?;
             }
             Ok(())
         };
         let marched = march();
+        self.turn_in(dt);
         let still = self
             .until
             .is_some_and(|rest| self.doing.fastest < rest.speed_m_s);
@@ -337,9 +333,18 @@ impl Stage for Motion {
         self.moving.put(&mut set);
         let touching = (&self.lists, &self.walls, self.metal.as_mut());
         let warmed = match &mut self.heat {
-            Some(heat) if marched.is_ok() => heat.advance(&mut set, touching, state, dt),
+            Some(heat) if marched.is_ok() => {
+                if self.sleep.is_some() {
+                    self.states.clear();
+                    self.states.extend(set.column(&STATE));
+                }
+                heat.advance(&mut set, touching, state, dt)
+            }
             _ => Ok(()),
         };
+        if self.heat.is_some() {
+            self.stir_changed(&set);
+        }
         state.grains = Some(set);
         marched.map_err(|what| StageError::Data(what.to_string()))?;
         diverged.map_or(warmed, Err)
@@ -357,6 +362,13 @@ impl Stage for Motion {
             figure("grain_steps", "1", self.steps),
             figure("grain_contacts", "1", self.contacts()),
         ];
+        if let Some(sleep) = &self.sleep {
+            let asleep = sleep.sleeping(self.moving.grains.len());
+            figures.push(figure("grain_asleep", "1", asleep as f64));
+            let [all, moved] = sleep.shares;
+            figures.push(figure("grain_moved_share", "1", moved / all.max(1.0)));
+            figures.push(figure("grain_stilled_j", "J", sleep.taken));
+        }
         figures.extend(self.heat.iter().flat_map(Heat::figures));
         figures.extend(self.metal.iter().flat_map(Metal::figures));
         figures
@@ -370,10 +382,7 @@ impl Stage for Motion {
     }
 
     fn save(&self) -> Vec<f64> {
-        if !self.begun {
-            return Vec::new();
-        }
-        self.saved()
+        if self.begun { self.saved() } else { Vec::new() }
     }
 
     fn restore(&mut self, saved: &[f64]) {

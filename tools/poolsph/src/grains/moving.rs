@@ -7,8 +7,12 @@ use run::property::{Curve, OutOfRange};
 use shapes::frame::{Vector, difference, dot};
 
 use super::lists::ROWS;
+use super::sleep::{CELL, EDGE, asleep, unbalanced};
 use super::walls::velocity;
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, VELOCITY};
+
+/// Cells of a unit of parallel work.
+const CELLS: usize = ROWS / CELL;
 
 /// A grain that is held to a velocity.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +36,8 @@ pub struct Moving {
     pub moment: Vec<Vector>,
     /// Where they were when neighbours were listed \[m\].
     pub listed: Vec<Vector>,
+    /// Greatest speed of each cell since it was last asked for \[m/s\], that of surfaces by spin among it.
+    pub paces: Vec<f64>,
     /// Forces and moments of the step before.
     before: [Vec<Vector>; 2],
     driven: Vec<Driven>,
@@ -39,6 +45,40 @@ pub struct Moving {
     gravity: Vector,
     /// I / (m r^2).
     inertia_factor: f64,
+}
+
+/// Turns force and moment of a step into the motion of a grain.
+#[derive(Debug, Clone, Copy)]
+struct Verlet {
+    step: f64,
+    gravity: Vector,
+    inertia_factor: f64,
+}
+
+impl Verlet {
+    /// x += dt u + dt^2/2 a, u += dt a.
+    #[inline(always)]
+    fn predict(&self, grain: &mut Grain, [force, moment]: [&Vector; 2]) {
+        let (step, inverse) = (self.step, 1.0 / grain.mass);
+        let turns = step * inverse / (self.inertia_factor * grain.radius * grain.radius);
+        for k in 0..3 {
+            let gained = step * (force[k] * inverse + self.gravity[k]);
+            grain.position[k] += step * (grain.velocity[k] + 0.5 * gained);
+            grain.velocity[k] += gained;
+            grain.spin[k] += turns * moment[k];
+        }
+    }
+
+    /// u += dt/2 (a' - a).
+    #[inline(always)]
+    fn correct(&self, grain: &mut Grain, now: [&Vector; 2], before: [&Vector; 2]) {
+        let half = 0.5 * self.step / grain.mass;
+        let turns = half / (self.inertia_factor * grain.radius * grain.radius);
+        for k in 0..3 {
+            grain.velocity[k] += half * (now[0][k] - before[0][k]);
+            grain.spin[k] += turns * (now[1][k] - before[1][k]);
+        }
+    }
 }
 
 impl Moving {
@@ -69,6 +109,8 @@ impl Moving {
             radius: radius[a],
             mass: mass[a],
         }));
+        self.paces.clear();
+        self.paces.resize(set.len().div_ceil(CELL), 0.0);
         self.driven.clear();
         let driven = set.column(&DRIVEN).iter().enumerate();
         self.driven.extend(
@@ -119,30 +161,28 @@ impl Moving {
     }
 
     /// x += dt u + dt^2/2 a, u += dt a. Gives the farthest way since neighbours were listed \[m\]; no number where one is none.
-    pub fn predict(&mut self, step: f64) -> f64 {
-        let (gravity, c) = (self.gravity, self.inertia_factor);
+    ///
+    /// What sleeps by `depth` stands still.
+    pub fn predict(&mut self, step: f64, depth: &[u8]) -> f64 {
+        let verlet = self.verlet(step);
         for driven in &mut self.driven {
             driven.from = self.grains[driven.row].position;
         }
         let forces = self
             .force
-            .par_chunks(ROWS)
-            .zip(self.moment.par_chunks(ROWS));
-        let places = self.listed.par_chunks(ROWS);
-        let grains = self.grains.par_chunks_mut(ROWS);
-        let far = grains.zip(forces).zip(places);
-        let far = far.map(|((grains, (force, moment)), listed)| {
+            .par_chunks(CELL)
+            .zip(self.moment.par_chunks(CELL));
+        let places = self.listed.par_chunks(CELL);
+        let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
+        let far = grains.zip(forces).zip(places).enumerate();
+        let far = far.map(|(cell, ((grains, (force, moment)), listed))| {
             let mut far = 0.0;
+            if asleep(depth, cell * CELL) {
+                return far;
+            }
             let each = grains.iter_mut().zip(force).zip(moment).zip(listed);
             for (((grain, force), moment), listed) in each {
-                let inverse = 1.0 / grain.mass;
-                let turns = step * inverse / (c * grain.radius * grain.radius);
-                for k in 0..3 {
-                    let gained = step * (force[k] * inverse + gravity[k]);
-                    grain.position[k] += step * (grain.velocity[k] + 0.5 * gained);
-                    grain.velocity[k] += gained;
-                    grain.spin[k] += turns * moment[k];
-                }
+                verlet.predict(grain, [force, moment]);
                 let way = difference(grain.position, *listed);
                 far = greater(far, dot(way, way));
             }
@@ -158,40 +198,68 @@ impl Moving {
         std::mem::swap(moment, &mut self.moment);
     }
 
-    /// u += dt/2 (a' - a). Gives the greatest speed \[m/s\]; no number where one is none.
-    pub fn correct(&mut self, step: f64) -> f64 {
-        let c = self.inertia_factor;
+    /// u += dt/2 (a' - a), but for what sleeps by `depth`. Where a step of `next` \[s\] follows, its prediction is made at once, for
+    /// grains are then in fast memory. Gives the greatest speed \[m/s\], and the farthest way since neighbours were listed
+    /// \[m\] where the next step was predicted; no number where one is none.
+    pub fn correct(&mut self, step: f64, next: Option<f64>, depth: &[u8]) -> [f64; 2] {
+        let verlet = self.verlet(step);
+        let following = next.map(|next| self.verlet(next));
         let forces = self
             .force
-            .par_chunks(ROWS)
-            .zip(self.moment.par_chunks(ROWS));
+            .par_chunks(CELL)
+            .zip(self.moment.par_chunks(CELL));
         let [before, turned] = &self.before;
-        let old = before.par_chunks(ROWS).zip(turned.par_chunks(ROWS));
-        let grains = self.grains.par_chunks_mut(ROWS);
-        let fastest = grains.zip(forces).zip(old);
-        let fastest = fastest.map(|((grains, (force, moment)), (before, turned))| {
-            let mut fastest = 0.0;
-            let forces = force.iter().zip(before).zip(moment.iter().zip(turned));
-            for (grain, ((force, before), (moment, turned))) in grains.iter_mut().zip(forces) {
-                let half = 0.5 * step / grain.mass;
-                let turns = half / (c * grain.radius * grain.radius);
-                for k in 0..3 {
-                    grain.velocity[k] += half * (force[k] - before[k]);
-                    grain.spin[k] += turns * (moment[k] - turned[k]);
-                }
-                fastest = greater(fastest, dot(grain.velocity, grain.velocity));
+        let old = before.par_chunks(CELL).zip(turned.par_chunks(CELL));
+        let rest = forces.zip(old).zip(self.listed.par_chunks(CELL));
+        let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
+        let most = grains.zip(&mut self.paces).zip(rest).enumerate();
+        let most = most.map(|(cell, ((grains, pace), ((forces, old), listed)))| {
+            let (mut fastest, mut rolling, mut far) = (0.0, 0.0, 0.0);
+            if asleep(depth, cell * CELL) {
+                return [fastest, far];
             }
-            fastest
+            let forces = (forces.0.iter().zip(forces.1)).zip(old.0.iter().zip(old.1));
+            for ((grain, (now, before)), listed) in grains.iter_mut().zip(forces).zip(listed) {
+                verlet.correct(grain, [now.0, now.1], [before.0, before.1]);
+                fastest = greater(fastest, dot(grain.velocity, grain.velocity));
+                let surface = grain.radius * grain.radius * dot(grain.spin, grain.spin);
+                rolling = greater(rolling, surface);
+                if let Some(following) = &following {
+                    following.predict(grain, [now.0, now.1]);
+                    let way = difference(grain.position, *listed);
+                    far = greater(far, dot(way, way));
+                }
+            }
+            *pace = greater(*pace, greater(fastest, rolling).sqrt());
+            [fastest, far]
         });
-        let fastest = fastest.reduce(|| 0.0, greater).sqrt();
+        let greatest = |a: [f64; 2], b: [f64; 2]| [greater(a[0], b[0]), greater(a[1], b[1])];
+        let [fastest, far] = most.reduce(|| [0.0; 2], greatest).map(f64::sqrt);
         for driven in &self.driven {
             let grain = &mut self.grains[driven.row];
             (grain.velocity, grain.spin) = (driven.velocity[1], [0.0; 3]);
         }
-        if self.driven.is_empty() {
-            fastest
-        } else {
-            self.fastest()
+        [
+            if self.drives() {
+                self.fastest()
+            } else {
+                fastest
+            },
+            far,
+        ]
+    }
+
+    /// Whether grains are driven.
+    #[must_use]
+    pub fn drives(&self) -> bool {
+        !self.driven.is_empty()
+    }
+
+    fn verlet(&self, step: f64) -> Verlet {
+        Verlet {
+            step,
+            gravity: self.gravity,
+            inertia_factor: self.inertia_factor,
         }
     }
 
@@ -217,6 +285,62 @@ impl Moving {
             far = greater(far, dot(way, way));
         }
         Ok(far.sqrt())
+    }
+
+    /// Rows of a cell.
+    #[must_use]
+    pub fn cell(&self, cell: usize) -> std::ops::Range<usize> {
+        cell * CELL..(cell * CELL + CELL).min(self.grains.len())
+    }
+
+    /// Acceleration of a row by what is not balanced \[m/s2\].
+    #[must_use]
+    pub fn unbalanced(&self, row: usize) -> f64 {
+        let forces = [self.force[row], self.moment[row]];
+        unbalanced(&self.grains[row], forces, self.gravity, self.inertia_factor)
+    }
+
+    /// Stops the grains of a cell; gives the kinetic energy that they had \[J\].
+    pub fn stop(&mut self, cell: usize) -> f64 {
+        let rows = self.cell(cell);
+        let c = self.inertia_factor;
+        let mut taken = 0.0;
+        for grain in &mut self.grains[rows] {
+            let turning = c * grain.radius * grain.radius * dot(grain.spin, grain.spin);
+            taken += 0.5 * grain.mass * (dot(grain.velocity, grain.velocity) + turning);
+            (grain.velocity, grain.spin) = ([0.0; 3], [0.0; 3]);
+        }
+        taken
+    }
+
+    /// Keeps the forces of a cell as they are for as long as nobody reckons them.
+    pub fn hold(&mut self, cell: usize) {
+        let rows = self.cell(cell);
+        for (old, now) in self.before.iter_mut().zip([&self.force, &self.moment]) {
+            old.resize(now.len(), [0.0; 3]);
+            old[rows.clone()].copy_from_slice(&now[rows.clone()]);
+        }
+    }
+
+    /// Rows that are held to a velocity that is not zero.
+    pub fn stirred(&self, rows: &mut Vec<u32>) {
+        let moves = |driven: &&Driven| driven.velocity[1].iter().any(|u| u.abs() > 0.0);
+        rows.extend(
+            self.driven
+                .iter()
+                .filter(moves)
+                .map(|driven| driven.row as u32),
+        );
+    }
+
+    /// Gives back the forces that are kept to the cells at the edge of what is reckoned, which others have pushed.
+    pub fn keep(&mut self, depth: &[u8]) {
+        for cell in (0..depth.len()).filter(|cell| depth[*cell] == EDGE) {
+            let rows = self.cell(cell);
+            for (old, now) in self.before.iter().zip([&mut self.force, &mut self.moment]) {
+                now[rows.clone()].copy_from_slice(&old[rows.clone()]);
+            }
+        }
     }
 
     /// The greatest speed \[m/s\]; no number where one is none.

@@ -3,6 +3,11 @@
 //! What a grain touches is then in the same chunk, or in the next but few, and in the fast memory of the processor.
 
 use contact::Grain;
+use particles::Set;
+
+use super::Motion;
+use super::lists::Lists;
+use super::memory::{closed_up, renumber};
 
 /// Bits of a cell along an axis.
 const BITS: u32 = 21;
@@ -41,6 +46,56 @@ pub fn inverse(order: &[u32]) -> Vec<Option<u32>> {
         rows[*old as usize] = Some(new);
     }
     rows
+}
+
+impl Motion {
+    /// Puts grains that are near each other in rows that are near each other.
+    pub(super) fn put_in_order(&mut self, set: &mut Set) {
+        let [least, widest] = self.setting.radii;
+        let order = by_cells(&self.moving.grains, 2.0 * widest + Lists::skin(least));
+        self.remember();
+        let rows = inverse(&order);
+        self.renumber(&rows);
+        self.moving.put(set);
+        set.arrange(&order);
+        self.moving.take(set);
+        self.list_with_memories();
+        self.listings = 0.0;
+    }
+
+    /// Forgets grains outside of the bounds.
+    pub(super) fn leave(&mut self, set: &mut Set) {
+        let Some(bounds) = self.bounds else { return };
+        let outside = |grain: &Grain| !bounds.holds(grain.position);
+        if !self.moving.grains.iter().any(outside) {
+            return;
+        }
+        let leaves: Vec<bool> = self.moving.grains.iter().map(outside).collect();
+        let lost = self.moving.grains.iter().filter(|grain| outside(grain));
+        for grain in lost {
+            self.lost[0] += 1.0;
+            self.lost[1] += grain.mass;
+        }
+        self.remember();
+        let rows = closed_up(&leaves);
+        self.renumber(&rows);
+        self.moving.put(set);
+        set.remove(|row| leaves[row]);
+        self.moving.take(set);
+        self.list_with_memories();
+        self.walls.spread(&self.moving.grains);
+    }
+
+    /// What is kept by rows follows grains to new ones: `rows` has that of each old row, none where a grain leaves.
+    fn renumber(&mut self, rows: &[Option<u32>]) {
+        renumber(&mut self.memories, rows);
+        if let Some(metal) = &mut self.metal {
+            metal.renumber(rows);
+        }
+        if let Some(sleep) = &mut self.sleep {
+            sleep.renumber(rows);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Contacts of grains: each is reckoned once, for both of its grains.
 //!
-//! A chunk goes over its pairs and divides those that go on touching from those that begin or end. The first are many and alike:
-//! they are reckoned [`LANES`](super::block::LANES) at a time. What a contact does to the grain of the other row is taken
+//! A chunk goes over its pairs. Those that go on touching are many and alike: they wait until there are [`LANES`] of them, which
+//! are reckoned at a time. Those that begin or end are reckoned at once. What a contact does to the grain of the other row is taken
 //! at once where it is a row of the same chunk, and fetched by the other chunk afterwards where it is not. So every grain
 //! adds in an order that hangs on the list alone, not on threads.
 
@@ -9,13 +9,15 @@ use contact::{Contact, Grain, History, Meeting, Normal, Reply, Rolling};
 use rayon::prelude::*;
 use shapes::frame::{Vector, difference, dot};
 
-use super::block::Block;
+use super::block::{Block, LANES};
 use super::lists::{Chunk, Lists, Push, ROWS, Touch};
+use super::sleep::{CELL, kept, still};
 
-/// Forces \[N\] and moments \[N m\] of the contacts of all grains with each other after a step of `step` \[s\].
+/// Forces \[N\] and moments \[N m\] of the contacts of all grains with each other after a step of `step` \[s\], but of those that sleep
+/// deep by `depth`.
 pub fn act<N: Normal + Copy + Sync>(
     lists: &mut Lists,
-    grains: &[Grain],
+    (grains, depth): (&[Grain], &[u8]),
     (contact, rolling): (&Contact<N>, Option<Rolling>),
     step: f64,
     [force, moment]: [&mut [Vector]; 2],
@@ -23,8 +25,12 @@ pub fn act<N: Normal + Copy + Sync>(
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
     let chunks = lists.chunks.par_iter_mut().zip(sums).enumerate();
     chunks.for_each(|(c, (chunk, (force, moment)))| {
+        if sleeps(chunk, c * ROWS, depth) {
+            return;
+        }
         let work = Work {
             grains,
+            depth,
             contact,
             first: c * ROWS,
             step,
@@ -39,6 +45,14 @@ pub fn act<N: Normal + Copy + Sync>(
         }
     });
     fetch(lists, [force, moment]);
+}
+
+/// Whether nothing is reckoned between any grains of a chunk, and between these and those of later chunks.
+fn sleeps(chunk: &Chunk, first: usize, depth: &[u8]) -> bool {
+    let cells = first / CELL..depth.len().min((first + ROWS) / CELL);
+    let deep = !depth.is_empty() && cells.into_iter().all(|cell| kept(depth, cell * CELL));
+    let outgoing = || chunk.pairs[chunk.inner..].iter();
+    deep && outgoing().all(|pair| kept(depth, pair.other as usize))
 }
 
 /// Adds what pairs of other chunks do to the grains of each.
@@ -102,6 +116,7 @@ impl<N: Normal> Resistance for SlidingAndRolling<'_, N> {
 /// What the contacts of a chunk are reckoned from.
 struct Work<'a, N> {
     grains: &'a [Grain],
+    depth: &'a [u8],
     contact: &'a Contact<N>,
     first: usize,
     step: f64,
@@ -115,52 +130,51 @@ impl<N: Normal> Work<'_, N> {
         [force, moment]: [&mut [Vector]; 2],
         resistance: &impl Resistance,
     ) {
-        force.fill([0.0; 3]);
-        moment.fill([0.0; 3]);
-        chunk.outgoing.fill(Push::default());
-        chunk.deepest = 0.0;
-        let [touching, turning] = self.divide(chunk);
-        for k in 0..turning {
-            let place = chunk.turning[k] as usize;
-            if let Some(done) = self.turn(chunk, place, resistance) {
-                self.add(chunk, place, [force, moment], &done);
+        let cells = force.chunks_mut(CELL).zip(moment.chunks_mut(CELL));
+        for (cell, (force, moment)) in cells.enumerate() {
+            if !kept(self.depth, self.first + cell * CELL) {
+                force.fill([0.0; 3]);
+                moment.fill([0.0; 3]);
             }
         }
+        chunk.outgoing.fill(Push::default());
+        chunk.deepest = 0.0;
         let mut block = Block::default();
-        let mut from = 0;
-        while from < touching {
-            let places = chunk.touching[from..touching].iter().copied();
-            block.gather(self.grains, self.first, chunk, places);
-            block.reckon(resistance, self.step);
-            for lane in 0..block.filled() {
-                let place = chunk.touching[from + lane] as usize;
-                let done = block.reply(lane);
-                block.keep(lane, chunk, place);
+        let (mut waiting, mut number) = ([0_u32; LANES], 0);
+        for place in 0..chunk.pairs.len() {
+            let pair = chunk.pairs[place];
+            let (a, b) = (self.first + pair.own as usize, pair.other as usize);
+            let touches = self.touch(a, b);
+            let goes_on = touches & (pair.state == Touch::Touching);
+            let stays_away = !touches & (pair.state == Touch::Apart);
+            // Written each time and counted where it goes on: no branch to be guessed wrong.
+            waiting[number] = place as u32;
+            number += usize::from(goes_on & !still(self.depth, a, b));
+            if !(goes_on | stays_away)
+                && let Some(done) = self.turn(chunk, place, resistance)
+            {
                 self.add(chunk, place, [force, moment], &done);
             }
-            from += block.filled();
+            if number == LANES || place + 1 == chunk.pairs.len() {
+                block.gather(self.grains, self.first, chunk, &waiting[..number]);
+                block.reckon(resistance, self.step);
+                for (lane, place) in waiting[..number].iter().enumerate() {
+                    let place = *place as usize;
+                    block.keep(lane, chunk, place);
+                    self.add(chunk, place, [force, moment], &block.reply(lane));
+                }
+                number = 0;
+            }
         }
     }
 
-    /// Divides the pairs that go on touching from those that begin or end; gives how many there are of each.
+    /// Whether two grains touch.
     #[inline(always)]
-    fn divide(&self, chunk: &mut Chunk) -> [usize; 2] {
-        let (mut touching, mut turning) = (0, 0);
-        for (place, pair) in chunk.pairs.iter().enumerate() {
-            let a = &self.grains[self.first + pair.own as usize];
-            let b = &self.grains[pair.other as usize];
-            let apart = difference(a.position, b.position);
-            let (squared, reach) = (dot(apart, apart), a.radius + b.radius);
-            let touches = (squared < reach * reach) & (squared > f64::MIN_POSITIVE);
-            let goes_on = touches & (pair.state == Touch::Touching);
-            let stays_away = !touches & (pair.state == Touch::Apart);
-            // Written each time and counted where it holds: no branch to be guessed wrong.
-            chunk.touching[touching] = place as u32;
-            touching += usize::from(goes_on);
-            chunk.turning[turning] = place as u32;
-            turning += usize::from(!goes_on & !stays_away);
-        }
-        [touching, turning]
+    fn touch(&self, a: usize, b: usize) -> bool {
+        let (a, b) = (&self.grains[a], &self.grains[b]);
+        let apart = difference(a.position, b.position);
+        let (squared, reach) = (dot(apart, apart), a.radius + b.radius);
+        (squared < reach * reach) & (squared > f64::MIN_POSITIVE)
     }
 
     /// The first or the last that a contact does.

@@ -11,6 +11,7 @@ use shapes::Shape;
 
 use super::light::LightScene;
 use super::metal_parameters::{HertzScene, MetalScene};
+use super::sleep::SleepScene;
 use crate::heat::{self, Caloric};
 
 /// Grains, what they are made of and what holds them.
@@ -43,6 +44,8 @@ pub struct Parameters {
     pub metal: Option<MetalScene>,
     /// The run ends when the grains have come to rest; absent: at its time.
     pub until: Option<RestScene>,
+    /// What rests sleeps: it is not moved until it is stirred; absent: all that moves is followed.
+    pub sleep: Option<SleepScene>,
     /// Steps in the duration of a contact of two of the lightest grains, at least; stability may ask for more.
     #[serde(default = "twenty")]
     #[schemars(range(min = 5.0, max = 10000.0), extend("x-unit" = "1"))]

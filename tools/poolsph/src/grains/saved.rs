@@ -6,6 +6,7 @@ use super::bounds::Doing;
 use super::heat::Heat;
 use super::memory::Memory;
 use super::motion::Motion;
+use super::sleep::Sleep;
 
 /// Numbers of a checkpoint ahead of the walls.
 const HEAD: usize = 15;
@@ -34,6 +35,9 @@ impl Motion {
         ];
         saved.extend(heat);
         saved.extend(self.walls.save());
+        if let Some(sleep) = &self.sleep {
+            saved.extend(sleep.save(self.moving.grains.len()));
+        }
         let memories = between.iter().chain(&at_walls);
         saved.extend(memories.flat_map(Memory::save));
         if let Some(metal) = &self.metal {
@@ -65,6 +69,12 @@ impl Motion {
         ] = *head;
         if let Some(own) = &mut self.heat {
             own.take_back(heat);
+        }
+        let rows = self.moving.grains.len();
+        let numbers = self.sleep.as_ref().map_or(0, |_| Sleep::numbers(rows));
+        let (slept, rest) = rest.split_at(numbers.min(rest.len()));
+        if let Some(sleep) = &mut self.sleep {
+            sleep.restore(slept, &mut self.moving);
         }
         let memories = rest.as_chunks::<9>().0;
         let split = (pairs as usize).min(memories.len());

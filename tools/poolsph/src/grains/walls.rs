@@ -11,6 +11,7 @@ use super::light::Light;
 use super::memory::Memory;
 use super::parameters::WallScene;
 use super::pressure::Pressed;
+use super::sleep::kept;
 
 /// A grain near a face, or near a particle of metal.
 #[derive(Debug, Clone, Copy)]
@@ -192,10 +193,10 @@ impl Walls {
         }
     }
 
-    /// Reckons all contacts after a step of `step` \[s\]; gives the greatest overlap \[m\].
+    /// Reckons all contacts but those of grains that sleep deep, after a step of `step` \[s\]; gives the greatest overlap \[m\].
     pub fn act<N: Normal + Copy + Sync>(
         &mut self,
-        grains: &[Grain],
+        (grains, depth): (&[Grain], &[u8]),
         (contact, rolling): (&Contact<N>, Option<Rolling>),
         step: f64,
     ) -> f64 {
@@ -209,6 +210,9 @@ impl Walls {
             let velocity = along(wall.velocity, 1.0, wall.sliding);
             let near = wall.near.par_iter_mut().with_min_len(256);
             near.for_each(|near| {
+                if kept(depth, near.row as usize) {
+                    return;
+                }
                 let grain = &grains[near.row as usize];
                 let (distance, normal) = face.at(difference(grain.position, moved), grain.radius);
                 let meeting = Meeting::beside_wall(grain, distance, normal, velocity);
@@ -221,15 +225,28 @@ impl Walls {
     }
 
     /// Adds force \[N\] and moment \[N m\] of the walls.
-    pub fn add(&self, force: &mut [Vector], moment: &mut [Vector]) {
+    pub fn add(&self, [force, moment]: [&mut [Vector]; 2], depth: &[u8]) {
         for pressed in self.walls.iter().filter_map(|wall| wall.pressed.as_ref()) {
             pressed.add(force);
         }
         for near in self.walls.iter().flat_map(|wall| &wall.near) {
-            if let Some(reply) = near.reply {
-                let row = near.row as usize;
+            let row = near.row as usize;
+            if let Some(reply) = near.reply.filter(|_| !kept(depth, row)) {
                 force[row] = along(force[row], 1.0, reply.force);
                 moment[row] = along(moment[row], 1.0, reply.moment);
+            }
+        }
+    }
+
+    /// Adds the rows of the grains near walls that move, are fed or press.
+    pub fn stirred(&self, rows: &mut Vec<u32>) {
+        let moves = |u: Vector| u.iter().any(|u| u.abs() > 0.0);
+        for wall in &self.walls {
+            if moves(wall.velocity) || moves(wall.sliding) {
+                rows.extend(wall.near.iter().map(|near| near.row));
+            }
+            if let Some(pressed) = &wall.pressed {
+                rows.extend(&pressed.rows);
             }
         }
     }

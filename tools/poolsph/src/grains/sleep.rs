@@ -1,0 +1,296 @@
+//! Sleep: what rests is not moved, and deep within it nothing is reckoned.
+//!
+//! [`CELL`] rows make a cell, some four grains along each side; cells are neighbours where they share a pair. A cell is quiet
+//! where its grains, and their surfaces by their spin, have been slower than v for the time T, and unbalanced forces would
+//! not make them as fast within T:
+//!
+//! ```text
+//! |u|, r |w| < v for T,      |F/m + g|, |M| / (c m r) < v / T
+//! ```
+//!
+//! A quiet cell whose neighbours are quiet falls asleep: so a ring of quiet cells stays awake around what moves. Its grains stand
+//! still, and the energy that they had is told. Cells that sleep beside others that are awake still feel them: forces on
+//! their grains are reckoned, and where one is out of balance by more than twice the above the cell wakes. It also wakes beside what moves, where a
+//! grain melts or sets, and beside a wall that moves, is fed or presses.
+
+use contact::Grain;
+use particles::Set;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use shapes::frame::{Vector, along, dot, scaled};
+
+use super::Motion;
+use super::heat::STATE;
+use super::lists::{Lists, ROWS};
+use super::moving::Moving;
+
+/// Rows of a cell.
+pub const CELL: usize = 64;
+
+/// A cell that is awake.
+const AWAKE: u8 = 0;
+/// One that sleeps beside one that is awake.
+const BORDER: u8 = 1;
+/// One that sleeps beside a border.
+pub(super) const EDGE: u8 = 2;
+/// One that sleeps among such as sleep deeper than a border.
+const DEEP: u8 = 3;
+
+/// When grains fall asleep, by cells of some four grains along each side. What is slower is taken for rest.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SleepScene {
+    /// No grain of the cell and of those beside it is faster, nor its surface by its spin.
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
+    pub speed_m_s: f64,
+    /// For so long; and forces that are out of balance would not make it as fast within this time.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub held_s: f64,
+}
+
+/// Which cells sleep, and how deeply.
+#[derive(Debug, Clone)]
+pub struct Sleep {
+    scene: SleepScene,
+    depth: Vec<u8>,
+    /// How long each cell has been quiet \[s\].
+    quiet: Vec<f64>,
+    /// Cells that share a pair.
+    neighbours: Vec<[u32; 2]>,
+    /// Kinetic energy that was taken from grains that fell asleep \[J\].
+    pub taken: f64,
+    /// Grains times steps, and those of them that were moved.
+    pub shares: [f64; 2],
+}
+
+/// Whether nothing is reckoned between rows of these depths.
+#[inline(always)]
+#[must_use]
+pub fn still(depth: &[u8], a: usize, b: usize) -> bool {
+    !depth.is_empty() && depth[a / CELL].min(depth[b / CELL]) >= EDGE
+}
+
+/// Whether the forces of a row stay as they are.
+#[inline(always)]
+#[must_use]
+pub fn kept(depth: &[u8], row: usize) -> bool {
+    !depth.is_empty() && depth[row / CELL] >= EDGE
+}
+
+/// Whether a row sleeps.
+#[inline(always)]
+#[must_use]
+pub fn asleep(depth: &[u8], row: usize) -> bool {
+    !depth.is_empty() && depth[row / CELL] > AWAKE
+}
+
+impl Sleep {
+    /// All awake.
+    #[must_use]
+    pub fn new(scene: SleepScene) -> Self {
+        Self {
+            scene,
+            depth: Vec::new(),
+            quiet: Vec::new(),
+            neighbours: Vec::new(),
+            taken: 0.0,
+            shares: [0.0; 2],
+        }
+    }
+
+    /// Depth of sleep by cells; empty where all are awake.
+    #[must_use]
+    pub fn depth(&self) -> &[u8] {
+        &self.depth
+    }
+
+    /// Finds which cells share a pair.
+    pub fn list(&mut self, lists: &Lists, rows: usize) {
+        self.neighbours.clear();
+        for (c, chunk) in lists.chunks.iter().enumerate() {
+            let each = chunk.pairs.iter().map(|pair| {
+                let (a, b) = (c * ROWS + pair.own as usize, pair.other as usize);
+                [(a / CELL) as u32, (b / CELL) as u32]
+            });
+            let start = self.neighbours.len();
+            self.neighbours.extend(each.filter(|[a, b]| a != b));
+            self.neighbours[start..].sort_unstable();
+        }
+        self.neighbours.dedup();
+        self.quiet.resize(rows.div_ceil(CELL), 0.0);
+    }
+
+    /// Follows rows to their new places: `rows` has that of each old row, none where a grain leaves.
+    pub fn renumber(&mut self, rows: &[Option<u32>]) {
+        let left = rows.iter().flatten().count();
+        let mut quiet = vec![f64::INFINITY; left.div_ceil(CELL)];
+        let mut depth = vec![BORDER; quiet.len()];
+        for (old, new) in rows.iter().enumerate() {
+            let Some(new) = new else { continue };
+            let cell = *new as usize / CELL;
+            quiet[cell] = quiet[cell].min(self.quiet.get(old / CELL).copied().unwrap_or(0.0));
+            depth[cell] = depth[cell].min(self.depth.get(old / CELL).copied().unwrap_or(AWAKE));
+        }
+        // How deeply they sleep is found anew; until then all that sleep feel the others.
+        (self.quiet, self.depth) = (quiet, depth);
+        self.simplify();
+    }
+
+    /// An empty list where all are awake.
+    fn simplify(&mut self) {
+        if self.depth.iter().all(|depth| *depth == AWAKE) {
+            self.depth.clear();
+        }
+    }
+
+    /// Puts cells to sleep and wakes them after `dt` \[s\]; `stirred` are rows that may not sleep.
+    pub fn turn(&mut self, moving: &mut Moving, stirred: &[u32], dt: f64) {
+        let cells = moving.grains.len().div_ceil(CELL);
+        self.depth.resize(cells, AWAKE);
+        self.quiet.resize(cells, 0.0);
+        for cell in 0..cells {
+            let asleep = self.depth[cell] > AWAKE;
+            let rows = moving.cell(cell);
+            let fast = moving.paces[cell] >= self.scene.speed_m_s;
+            let most = self.scene.speed_m_s / self.scene.held_s * if asleep { 2.0 } else { 1.0 };
+            let loaded =
+                self.depth[cell] < EDGE && rows.clone().any(|a| moving.unbalanced(a) > most);
+            self.quiet[cell] = if fast || loaded {
+                0.0
+            } else {
+                self.quiet[cell] + dt
+            };
+        }
+        stirred.iter().for_each(|row| self.stir(*row as usize));
+        // One pass each, so that nothing hangs on the order of cells.
+        let rests: Vec<bool> = self.quiet.iter().map(|q| *q >= self.scene.held_s).collect();
+        let mut asleep = rests.clone();
+        self.meet(|cell, other| {
+            // What has slept goes on sleeping beside what is quiet but for a while.
+            let calm = rests[other] || (self.depth[cell] > AWAKE && self.quiet[other] > 0.0);
+            asleep[cell] &= calm;
+        });
+        let mut depth: Vec<u8> = asleep
+            .iter()
+            .map(|asleep| if *asleep { DEEP } else { AWAKE })
+            .collect();
+        for (nearer, own) in [(AWAKE, BORDER), (BORDER, EDGE)] {
+            let before = depth.clone();
+            self.meet(|cell, other| {
+                if before[cell] == DEEP && before[other] == nearer {
+                    depth[cell] = own;
+                }
+            });
+        }
+        for (cell, (new, old)) in depth.iter().zip(&self.depth).enumerate() {
+            if *new > AWAKE && *old == AWAKE {
+                self.taken += moving.stop(cell);
+            }
+            if *new >= EDGE && *old < EDGE {
+                moving.hold(cell);
+            }
+        }
+        self.depth = depth;
+        self.simplify();
+    }
+
+    /// Calls `meet` with each cell and each of its neighbours.
+    fn meet(&self, mut meet: impl FnMut(usize, usize)) {
+        for [a, b] in &self.neighbours {
+            let (a, b) = (*a as usize, *b as usize);
+            meet(a, b);
+            meet(b, a);
+        }
+    }
+
+    /// Grains that sleep among `rows`.
+    #[must_use]
+    pub fn sleeping(&self, rows: usize) -> usize {
+        let cells = self.depth.iter().enumerate();
+        let asleep = cells.filter(|(_, depth)| **depth > AWAKE);
+        asleep.map(|(cell, _)| CELL.min(rows - cell * CELL)).sum()
+    }
+
+    /// Counts a step of `rows` grains.
+    pub fn count(&mut self, rows: usize) {
+        self.shares[0] += rows as f64;
+        self.shares[1] += (rows - self.sleeping(rows)) as f64;
+    }
+
+    /// Wakes the cell of a row.
+    pub fn stir(&mut self, row: usize) {
+        if let Some(quiet) = self.quiet.get_mut(row / CELL) {
+            *quiet = 0.0;
+        }
+    }
+
+    /// Numbers of a checkpoint with so many rows.
+    #[must_use]
+    pub fn numbers(rows: usize) -> usize {
+        3 + 2 * rows.div_ceil(CELL)
+    }
+
+    /// As numbers for a checkpoint.
+    #[must_use]
+    pub fn save(&self, rows: usize) -> Vec<f64> {
+        let mut saved = vec![self.taken, self.shares[0], self.shares[1]];
+        let cells = rows.div_ceil(CELL);
+        saved.extend((0..cells).map(|cell| self.quiet.get(cell).copied().unwrap_or(0.0)));
+        saved.extend((0..cells).map(|cell| self.depth.get(cell).copied().map_or(0.0, f64::from)));
+        saved
+    }
+
+    /// Takes back what [`Sleep::save`] gave.
+    pub fn restore(&mut self, saved: &[f64], moving: &mut Moving) {
+        let Some(([taken, all, moved], rest)) = saved.split_first_chunk::<3>() else {
+            return;
+        };
+        (self.taken, self.shares) = (*taken, [*all, *moved]);
+        let (quiet, depth) = rest.split_at(rest.len() / 2);
+        self.quiet = quiet.to_vec();
+        self.depth = depth.iter().map(|depth| *depth as u8).collect();
+        let kept = (0..self.depth.len()).filter(|cell| self.depth[*cell] >= EDGE);
+        kept.for_each(|cell| moving.hold(cell));
+        self.simplify();
+    }
+}
+
+impl Motion {
+    /// Puts to sleep what rests and wakes what is stirred, after `dt` \[s\].
+    pub(super) fn turn_in(&mut self, dt: f64) {
+        if let Some(sleep) = &mut self.sleep {
+            self.walls.stirred(&mut self.stirred);
+            self.moving.stirred(&mut self.stirred);
+            if let Some(metal) = &self.metal {
+                metal.stirred(&mut self.stirred);
+            }
+            sleep.turn(&mut self.moving, &self.stirred, dt);
+            self.stirred.clear();
+        }
+    }
+
+    /// Wakes grains that have melted or set.
+    pub(super) fn stir_changed(&mut self, set: &Set) {
+        if let Some(sleep) = &mut self.sleep {
+            let states = set.column(&STATE);
+            for (row, (now, before)) in states.iter().zip(&self.states).enumerate() {
+                if now != before {
+                    sleep.stir(row);
+                }
+            }
+        }
+    }
+}
+
+/// Acceleration of a grain, and of its surface by its spin, under force and moment \[m/s2\]: the greater of both.
+#[must_use]
+pub fn unbalanced(
+    grain: &Grain,
+    [force, moment]: [Vector; 2],
+    gravity: Vector,
+    inertia_factor: f64,
+) -> f64 {
+    let pull = along(gravity, 1.0 / grain.mass, force);
+    let turn = scaled(1.0 / (inertia_factor * grain.mass * grain.radius), moment);
+    dot(pull, pull).max(dot(turn, turn)).sqrt()
+}
