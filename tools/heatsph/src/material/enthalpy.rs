@@ -8,10 +8,9 @@
 //! samples. Cells of the table stand at places that depend on the first range of temperature alone, so that a table that
 //! was widened in many steps holds the same numbers as one that was widened in one.
 
-use run::property::{Arguments, Bounds, Curve, OutOfRange};
+use run::property::{Arguments, OutOfRange};
 
-use super::arguments;
-use shapes::frame::Vector;
+use super::volumetric::Volumetric;
 
 /// Cells over the first range, and growth of those beyond it from one to the next.
 const CELLS: i64 = 16;
@@ -39,64 +38,6 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 /// Iterations within an interval.
 const ITERATIONS: usize = 80;
-
-/// rho c at a place, or the part of it that depends on temperature: a product.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Volumetric {
-    /// The factors.
-    pub factors: Vec<Curve>,
-    /// Where \[m\].
-    pub place: Vector,
-}
-
-impl Volumetric {
-    fn value(&self, temperature: f64) -> Result<f64, OutOfRange> {
-        let at = arguments(self.place, temperature, 0.0);
-        let mut product = 1.0;
-        for factor in &self.factors {
-            let value = factor.value(&at)?;
-            if value <= 0.0 {
-                return Err(OutOfRange::Formula { value, at });
-            }
-            product *= value;
-        }
-        Ok(product)
-    }
-
-    fn bounds(&self, [from, to]: [f64; 2]) -> Bounds {
-        let ends = [from, to].map(|t| arguments(self.place, t, 0.0));
-        let [a, b]: [&Arguments; 2] = [&ends[0], &ends[1]];
-        // All factors are positive where they have a value.
-        let product = |p: Bounds, f: &Curve| {
-            let b = f.bounds(a, b);
-            Bounds {
-                low: p.low * b.low.max(0.0),
-                high: p.high * b.high,
-            }
-        };
-        self.factors.iter().fold(Bounds::at(1.0), product)
-    }
-
-    /// Temperatures between which it is defined \[K\].
-    fn range(&self) -> (f64, f64) {
-        let all = (f64::NEG_INFINITY, f64::INFINITY);
-        let own = self.factors.iter().filter_map(Curve::range_k);
-        own.fold(all, |(low, high), (a, b)| (low.max(a), high.min(b)))
-    }
-
-    fn constant(&self) -> Option<f64> {
-        self.factors.iter().map(Curve::constant).product()
-    }
-
-    /// Temperatures of rows of its tables \[K\].
-    fn rows(&self) -> impl Iterator<Item = f64> + '_ {
-        let own = |curve: &Curve| match curve {
-            Curve::Table(rows) => rows.temperatures().to_vec(),
-            _ => Vec::new(),
-        };
-        self.factors.iter().flat_map(own)
-    }
-}
 
 /// A knot of the table.
 #[derive(Debug, Clone, Copy, PartialEq)]

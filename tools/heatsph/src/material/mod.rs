@@ -6,6 +6,7 @@ pub mod enthalpy;
 mod holds;
 pub mod path;
 mod stored;
+pub mod volumetric;
 
 use run::property::{Arguments, Curve, OutOfRange};
 use run::{Fault, property::Property};

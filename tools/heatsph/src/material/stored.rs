@@ -3,7 +3,8 @@
 use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange};
 
-use super::enthalpy::{Enthalpy, Volumetric};
+use super::enthalpy::Enthalpy;
+use super::volumetric::Volumetric;
 use crate::scene::Material;
 use shapes::frame::Vector;
 

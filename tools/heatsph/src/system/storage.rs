@@ -180,7 +180,7 @@ pub(crate) fn solve(wanted: f64, near: f64, of: impl Fn(f64) -> (f64, f64)) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::enthalpy::Volumetric;
+    use crate::material::volumetric::Volumetric;
     use run::property::Property;
 
     fn function(text: &str) -> Enthalpy {

@@ -4,7 +4,7 @@ use contact::{Grain, History, Meeting, Reply};
 use shapes::frame::Vector;
 
 use super::lists::Chunk;
-use super::pairs::Resistance;
+use super::resistance::Resistance;
 
 /// Contacts of a block.
 pub const LANES: usize = 32;

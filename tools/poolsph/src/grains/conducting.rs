@@ -1,16 +1,57 @@
 //! Grains as contacts that conduct see them.
 
+use std::sync::Arc;
+
 use contact::{Grain, Meeting, Normal, heat as conductance};
 use particles::{POSITION, Set};
-use run::property::OutOfRange;
+use run::property::{Curve, OutOfRange};
 
-use super::heat::{ENTHALPY, Heat, Radius, TEMPERATURE};
-use super::parameters::Law;
+use super::law::Law;
 use super::{MASS, RADIUS};
+use crate::heat::Caloric;
+
+/// How the radius of a contact is found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Radius {
+    /// From the push, by the effective modulus \[Pa\].
+    Force(f64),
+    /// From the overlap; `printed` takes half of the conductance.
+    Overlap { printed: bool },
+}
+
+/// What makes grains conduct.
+pub(super) struct Conductor {
+    pub(super) caloric: Arc<Caloric>,
+    /// Push of a contact.
+    pub(super) law: Law,
+    pub(super) radius: Radius,
+    /// k of the gas \[W/(m K)\].
+    pub(super) gas: Option<Curve>,
+    /// k of slag over that of powder.
+    pub(super) slag: f64,
+}
+
+impl Conductor {
+    /// Grains of `set` with their enthalpies \[J/kg\] and temperatures \[K\].
+    pub(super) fn sees<'a>(
+        &'a self,
+        set: &'a Set,
+        [enthalpies, temperature]: [&'a [f64]; 2],
+    ) -> Conducting<'a> {
+        Conducting {
+            conductor: self,
+            places: set.column(&POSITION),
+            radii: set.column(&RADIUS),
+            masses: set.column(&MASS),
+            enthalpies,
+            temperature,
+        }
+    }
+}
 
 /// Grains as what they touch sees them.
 pub(super) struct Conducting<'a> {
-    heat: &'a Heat,
+    conductor: &'a Conductor,
     places: &'a [[f64; 3]],
     /// r \[m\].
     pub(super) radii: &'a [f64],
@@ -20,18 +61,7 @@ pub(super) struct Conducting<'a> {
     pub(super) temperature: &'a [f64],
 }
 
-impl<'a> Conducting<'a> {
-    pub(super) fn of(heat: &'a Heat, set: &'a Set) -> Self {
-        Self {
-            heat,
-            places: set.column(&POSITION),
-            radii: set.column(&RADIUS),
-            masses: set.column(&MASS),
-            enthalpies: set.column(&ENTHALPY),
-            temperature: set.column(&TEMPERATURE),
-        }
-    }
-
+impl Conducting<'_> {
     pub(super) fn grain(&self, a: usize) -> Grain {
         Grain {
             position: self.places[a],
@@ -44,20 +74,20 @@ impl<'a> Conducting<'a> {
 
     /// k \[W/(m K)\]; what is molten of a grain conducts as slag does.
     pub(super) fn conductivity(&self, a: usize) -> f64 {
-        let k = self.heat.caloric.conductivity(self.temperature[a]);
-        let molten = self.heat.caloric.molten(self.enthalpies[a]);
-        k * (1.0 + (self.heat.slag - 1.0) * molten)
+        let k = self.conductor.caloric.conductivity(self.temperature[a]);
+        let molten = self.conductor.caloric.molten(self.enthalpies[a]);
+        k * (1.0 + (self.conductor.slag - 1.0) * molten)
     }
 
     /// k of the gas at `t` \[K\], if it conducts \[W/(m K)\].
     pub(super) fn gas(&self, t: f64) -> Result<Option<f64>, OutOfRange> {
-        let gas = self.heat.gas.as_ref();
+        let gas = self.conductor.gas.as_ref();
         gas.map(|gas| gas.at_temperature(t)).transpose()
     }
 
     /// Push of a contact whose overlap stands still \[N\].
     pub(super) fn push(&self, meeting: &Meeting) -> f64 {
-        match &self.heat.law {
+        match &self.conductor.law {
             Law::Linear(law) => law.push(&still(meeting)),
             Law::Hertz(law) => law.push(&still(meeting)),
         }
@@ -74,7 +104,7 @@ impl<'a> Conducting<'a> {
         let wide = 2.0 * meeting.radius;
         let arm = meeting.arms[0];
         let by_overlap = (radius * radius - arm * arm).max(0.0).sqrt();
-        let (r_c, solid) = match self.heat.radius {
+        let (r_c, solid) = match self.conductor.radius {
             Radius::Force(modulus) => {
                 let push = self.push(meeting);
                 let r_c = conductance::radius_by_force(push, meeting.radius, modulus);
@@ -93,7 +123,7 @@ impl<'a> Conducting<'a> {
 
     /// How the radius of a contact is found.
     pub(super) fn radius(&self) -> Radius {
-        self.heat.radius
+        self.conductor.radius
     }
 }
 

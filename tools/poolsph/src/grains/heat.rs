@@ -16,57 +16,30 @@
 use std::sync::Arc;
 
 use contact::Meeting;
-use particles::{Column, POSITION, Set, sweep};
+use particles::{POSITION, Set, sweep};
 use rayon::prelude::*;
 use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange};
 
 use super::MASS;
-use super::conducting::Conducting;
+use super::columns::{ENTHALPY, FROZEN, HELD, SLAG, STATE, TEMPERATURE};
+use super::conducting::{Conductor, Radius};
 use super::light::Lighting;
 use super::lists::{Lists, ROWS, Touch};
 use super::metal::Metal;
-use super::parameters::{ConductanceScene, GrainHeat, Law, Parameters};
+use super::parameters::{ConductanceScene, GrainHeat, Parameters};
 use super::walls::Walls;
 use crate::heat::Caloric;
 use crate::stage::{Figure, StageError};
 use crate::state::{LIQUID, State};
 
-/// T \[K\].
-pub const TEMPERATURE: Column<f64> = Column::new("temperature", "K", 0.0).saved().shown();
-/// Specific enthalpy \[J/kg\].
-pub const ENTHALPY: Column<f64> = Column::new("enthalpy", "J/kg", 0.0).saved();
-/// [`POWDER`], [`SLAG`] or [`FROZEN`].
-pub const STATE: Column<u8> = Column::new("state", "1", POWDER).saved().shown();
-/// Number of the body that keeps its temperature, plus one; 0 for a free grain.
-pub const HELD: Column<u8> = Column::new("held", "1", 0).saved();
-
-/// A grain that has not melted yet.
-pub const POWDER: u8 = 0;
-/// A grain that is molten.
-pub const SLAG: u8 = 1;
-/// A grain that has set again.
-pub const FROZEN: u8 = 2;
-
 /// Part of the longest stable step that is taken.
 const PART: f64 = 0.5;
-
-/// How the radius of a contact is found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Radius {
-    /// From the push, by the effective modulus \[Pa\].
-    Force(f64),
-    /// From the overlap; `printed` takes half of the conductance.
-    Overlap { printed: bool },
-}
 
 /// Heat of grains as a stage.
 pub struct Heat {
     pub(super) caloric: Arc<Caloric>,
-    pub(super) law: Law,
-    pub(super) radius: Radius,
-    pub(super) gas: Option<Curve>,
-    pub(super) slag: f64,
+    conductor: Conductor,
     pub(super) held: Vec<Option<Curve>>,
     /// H of each pair of each chunk \[W/K\].
     conductance: Vec<Vec<f64>>,
@@ -115,15 +88,18 @@ impl Heat {
             boiling: boiling.map(|t| caloric.enthalpy(t)),
             boiled: 0.0,
             lighting: Lighting::new(scene.walls.iter().any(|wall| wall.light.is_some())),
-            caloric,
-            law: scene.contact.law(),
-            radius: match heat.contact {
-                ConductanceScene::Elastic(elastic) => Radius::Force(elastic.effective()),
-                ConductanceScene::Overlap => Radius::Overlap { printed: false },
-                ConductanceScene::Printed => Radius::Overlap { printed: true },
+            conductor: Conductor {
+                caloric: caloric.clone(),
+                law: scene.contact.law(),
+                radius: match heat.contact {
+                    ConductanceScene::Elastic(elastic) => Radius::Force(elastic.effective()),
+                    ConductanceScene::Overlap => Radius::Overlap { printed: false },
+                    ConductanceScene::Printed => Radius::Overlap { printed: true },
+                },
+                gas,
+                slag: heat.melting.map_or(1.0, |m| m.slag_conductivity_ratio),
             },
-            gas,
-            slag: heat.melting.map_or(1.0, |m| m.slag_conductivity_ratio),
+            caloric,
             held: scene
                 .bodies
                 .iter()
@@ -146,7 +122,9 @@ impl Heat {
         metal: Option<&mut Metal>,
     ) -> Result<(), OutOfRange> {
         let mut all = std::mem::take(&mut self.conductance);
-        let grains = Conducting::of(self, set);
+        let grains = self
+            .conductor
+            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
         let pair = |a: usize, b: usize| -> Result<f64, OutOfRange> {
             let Some(meeting) = Meeting::of(&grains.grain(a), &grains.grain(b)) else {
                 return Ok(0.0);
@@ -177,7 +155,9 @@ impl Heat {
         let mut sum = std::mem::take(&mut self.sum);
         sum.resize(set.len(), 0.0);
         self.gather(lists, &mut sum, |_, _| 1.0);
-        let grains = Conducting::of(self, set);
+        let grains = self
+            .conductor
+            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
         let of_metal = match metal.and_then(Metal::exchange) {
             Some((exchange, pairs)) => exchange.conduct(pairs, &grains, state, &mut sum)?,
             None => 0.0,

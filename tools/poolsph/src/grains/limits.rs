@@ -2,9 +2,9 @@
 
 use contact::Grain;
 
+use super::law::Law;
 use super::metal::Metal;
 use super::motion::Motion;
-use super::parameters::Law;
 use crate::stage::{Limit, StageError};
 use crate::state::State;
 

@@ -12,46 +12,21 @@
 //! grains lose metal gets to the last bit that sums keep, whatever the metal has done in between. Metal has no
 //! spin: the moment of a rub goes to the grain alone.
 
-use contact::{Contact, Grain, Meeting, Normal, Rolling};
+use contact::{Contact, Grain, Normal, Rolling};
 use neighbours::Grid;
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference};
 
 use super::bounds::Slack;
+use super::depth::kept;
 use super::memory::Memory;
 use super::metal_heat::Exchange;
-use super::sleep::kept;
-use super::walls::Near;
+use super::metal_pair::{Body, Pair};
 use crate::stage::Figure;
 use crate::state::State;
 
 /// Skin of the list over the least radius.
 const SKIN: f64 = 0.25;
-
-/// A particle of metal that grains may touch.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Body {
-    /// Its index in [`State`].
-    pub(super) id: u32,
-    /// Its place in the copy of the flow, if it moves.
-    pub(super) member: Option<u32>,
-    pub(super) grain: Grain,
-    /// Force of all grains \[N\], and that of the step before.
-    pub(super) force: Vector,
-    pub(super) before: Vector,
-    /// Integral of the force over the step of the metal \[N s\].
-    pub(super) impulse: Vector,
-    /// Grains that may touch it.
-    pub(super) contacts: u32,
-}
-
-/// A grain and a particle of metal.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pair {
-    pub(super) near: Near,
-    /// Place among the bodies.
-    pub(super) body: u32,
-}
 
 /// The exchange of heat, and pairs and bodies that take part in it.
 pub(super) type Exchanged<'a> = (&'a mut Exchange, (&'a [Pair], &'a [Body]));
@@ -296,20 +271,5 @@ impl Metal {
             + size_of::<Pair>() * self.pairs.capacity()
             + 24 * (listed + self.places.capacity())
             + self.near.capacity()
-    }
-}
-
-impl Body {
-    /// How a grain meets it; the overlap is below zero where they are apart.
-    pub(super) fn meeting(&self, grain: &Grain) -> Option<Meeting> {
-        let meeting = Meeting::parted(grain, &self.grain)?;
-        Some(match self.member {
-            Some(_) => meeting,
-            // What rests gives way to nothing.
-            None => Meeting {
-                mass: grain.mass,
-                ..meeting
-            },
-        })
     }
 }

@@ -19,9 +19,8 @@ use contact::{Grain, Meeting, heat as conductance};
 use run::property::OutOfRange;
 use shapes::frame::{along, length};
 
-use super::conducting::Conducting;
-use super::heat::Radius;
-use super::metal::{Body, Pair};
+use super::conducting::{Conducting, Radius};
+use super::metal_pair::{Body, Pair};
 use crate::heat::Caloric;
 use crate::heat::ledger::Sum;
 use crate::stage::StageError;

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use shapes::frame::{Vector, difference, dot};
 
 use super::bounds::Slack;
-use super::metal::{Body, Metal, Pair};
+use super::metal::Metal;
+use super::metal_pair::{Body, Pair};
 use super::walls::Near;
 use crate::near::Role;
 use crate::state::{Phase, State};

@@ -7,13 +7,14 @@ use run::property::OutOfRange;
 use shapes::frame::dot;
 
 use super::bounds::{Doing, Setting, Slack};
+use super::columns::STATE;
 use super::heat::Heat;
-use super::heat::STATE;
+use super::law::Law;
 use super::lists::Lists;
 use super::memory::Memory;
 use super::metal::Metal;
 use super::moving::Moving;
-use super::parameters::{BoundsScene, Law, Parameters, RestScene};
+use super::parameters::{BoundsScene, Parameters, RestScene};
 use super::sleep::Sleep;
 use super::walls::{self, Walls};
 use super::{MASS, RADIUS, VELOCITY, pairs};

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use run::property::{Curve, OutOfRange};
 use shapes::frame::{Vector, difference, dot};
 
+use super::depth::{CELL, EDGE, asleep, unbalanced};
 use super::lists::ROWS;
-use super::sleep::{CELL, EDGE, asleep, unbalanced};
 use super::walls::velocity;
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, VELOCITY};
 

@@ -10,8 +10,9 @@ use rayon::prelude::*;
 use shapes::frame::{Vector, difference, dot};
 
 use super::block::{Block, LANES};
+use super::depth::{CELL, kept, still};
 use super::lists::{Chunk, Lists, Push, ROWS, Touch};
-use super::sleep::{CELL, kept, still};
+use super::resistance::{Resistance, Sliding, SlidingAndRolling};
 
 /// Forces \[N\] and moments \[N m\] of the contacts of all grains with each other after a step of `step` \[s\], but of those that sleep
 /// deep by `depth`.
@@ -72,13 +73,6 @@ fn fetch(lists: &Lists, [force, moment]: [&mut [Vector]; 2]) {
     });
 }
 
-/// What resists the motion of grains past each other. A trait and no closure: what is called within is then compiled for wide
-/// vectors too.
-pub(super) trait Resistance {
-    /// Force and moments of a contact after a step of `step` \[s\].
-    fn reply(&self, meeting: &Meeting, memory: (&mut History, &mut Vector), step: f64) -> Reply;
-}
-
 /// A chunk, its sums and what resists, to be reckoned in the widest vectors that the machine has. No operation is fused or
 /// reordered for it.
 struct Wide<'a, N, R>(Work<'a, N>, &'a mut Chunk, [&'a mut [Vector]; 2], R);
@@ -90,26 +84,6 @@ impl<N: Normal, R: Resistance> pulp::NullaryFnOnce for Wide<'_, N, R> {
     fn call(self) {
         let Self(work, chunk, sums, resistance) = self;
         work.each(chunk, sums, &resistance);
-    }
-}
-
-/// Friction alone.
-struct Sliding<'a, N>(&'a Contact<N>);
-
-/// Friction, and resistance to rolling.
-struct SlidingAndRolling<'a, N>(&'a Contact<N>, Rolling);
-
-impl<N: Normal> Resistance for Sliding<'_, N> {
-    #[inline(always)]
-    fn reply(&self, meeting: &Meeting, memory: (&mut History, &mut Vector), step: f64) -> Reply {
-        self.0.act(meeting, memory.0, step)
-    }
-}
-
-impl<N: Normal> Resistance for SlidingAndRolling<'_, N> {
-    #[inline(always)]
-    fn reply(&self, meeting: &Meeting, memory: (&mut History, &mut Vector), step: f64) -> Reply {
-        self.0.act_rolling(meeting, self.1, memory, step)
     }
 }
 

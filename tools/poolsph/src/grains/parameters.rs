@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use contact::{Elastic, Ending, Friction, Hertz, Linear, Normal, Rolling};
+use contact::{Elastic, Ending, Friction, Hertz, Linear, Rolling};
 use run::Fault;
 use run::property::Property;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::Shape;
 
+use super::law::Law;
 use super::light::LightScene;
 use super::metal_parameters::{HertzScene, MetalScene};
-use super::sleep::SleepScene;
 use crate::heat::{self, Caloric};
 
 /// Grains, what they are made of and what holds them.
@@ -77,6 +77,18 @@ pub struct ContactScene {
     pub friction: Option<f64>,
     /// Resistance to rolling; absent: none.
     pub rolling: Option<RollingScene>,
+}
+
+/// When grains fall asleep, by cells of some four grains along each side. What is slower is taken for rest.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SleepScene {
+    /// No grain of the cell and of those beside it is faster, nor its surface by its spin.
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
+    pub speed_m_s: f64,
+    /// For so long; and forces that are out of balance would not make it as fast within this time.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub held_s: f64,
 }
 
 /// Law of the push.
@@ -317,26 +329,6 @@ pub struct BoundsScene {
     /// Upper corner.
     #[schemars(extend("x-unit" = "m"))]
     pub max_m: [f64; 3],
-}
-
-/// The push of two grains.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Law {
-    /// Spring and dashpot.
-    Linear(Linear),
-    /// Elastic spheres.
-    Hertz(Hertz),
-}
-
-impl Law {
-    /// Share of critical damping.
-    #[must_use]
-    pub fn damping_ratio(&self) -> f64 {
-        match self {
-            Self::Linear(law) => law.damping_ratio(),
-            Self::Hertz(law) => law.damping_ratio(),
-        }
-    }
 }
 
 impl BoundsScene {

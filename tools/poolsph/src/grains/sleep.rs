@@ -13,40 +13,14 @@
 //! their grains are reckoned, and where one is out of balance by more than twice the above the cell wakes. It also wakes beside what moves, where a
 //! grain melts or sets, and beside a wall that moves, is fed or presses.
 
-use contact::Grain;
 use particles::Set;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use shapes::frame::{Vector, along, dot, scaled};
 
 use super::Motion;
-use super::heat::STATE;
+use super::columns::STATE;
+use super::depth::{AWAKE, BORDER, CELL, DEEP, EDGE};
 use super::lists::{Lists, ROWS};
 use super::moving::Moving;
-
-/// Rows of a cell.
-pub const CELL: usize = 64;
-
-/// A cell that is awake.
-const AWAKE: u8 = 0;
-/// One that sleeps beside one that is awake.
-const BORDER: u8 = 1;
-/// One that sleeps beside a border.
-pub(super) const EDGE: u8 = 2;
-/// One that sleeps among such as sleep deeper than a border.
-const DEEP: u8 = 3;
-
-/// When grains fall asleep, by cells of some four grains along each side. What is slower is taken for rest.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SleepScene {
-    /// No grain of the cell and of those beside it is faster, nor its surface by its spin.
-    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
-    pub speed_m_s: f64,
-    /// For so long; and forces that are out of balance would not make it as fast within this time.
-    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
-    pub held_s: f64,
-}
+use super::parameters::SleepScene;
 
 /// Which cells sleep, and how deeply.
 #[derive(Debug, Clone)]
@@ -61,27 +35,6 @@ pub struct Sleep {
     pub taken: f64,
     /// Grains times steps, and those of them that were moved.
     pub shares: [f64; 2],
-}
-
-/// Whether nothing is reckoned between rows of these depths.
-#[inline(always)]
-#[must_use]
-pub fn still(depth: &[u8], a: usize, b: usize) -> bool {
-    !depth.is_empty() && depth[a / CELL].min(depth[b / CELL]) >= EDGE
-}
-
-/// Whether the forces of a row stay as they are.
-#[inline(always)]
-#[must_use]
-pub fn kept(depth: &[u8], row: usize) -> bool {
-    !depth.is_empty() && depth[row / CELL] >= EDGE
-}
-
-/// Whether a row sleeps.
-#[inline(always)]
-#[must_use]
-pub fn asleep(depth: &[u8], row: usize) -> bool {
-    !depth.is_empty() && depth[row / CELL] > AWAKE
 }
 
 impl Sleep {
@@ -280,17 +233,4 @@ impl Motion {
             }
         }
     }
-}
-
-/// Acceleration of a grain, and of its surface by its spin, under force and moment \[m/s2\]: the greater of both.
-#[must_use]
-pub fn unbalanced(
-    grain: &Grain,
-    [force, moment]: [Vector; 2],
-    gravity: Vector,
-    inertia_factor: f64,
-) -> f64 {
-    let pull = along(gravity, 1.0 / grain.mass, force);
-    let turn = scaled(1.0 / (inertia_factor * grain.mass * grain.radius), moment);
-    dot(pull, pull).max(dot(turn, turn)).sqrt()
 }

@@ -4,7 +4,7 @@ use artefact::Record;
 use particles::{POSITION, Set, sweep};
 use shapes::frame::{cross, dot};
 
-use super::heat::ENTHALPY;
+use super::columns::ENTHALPY;
 use super::{FORCE, MASS, RADIUS, SPIN, VELOCITY};
 
 /// Sums over all grains.

@@ -6,12 +6,12 @@ use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange, Property};
 use shapes::frame::{Vector, along, difference, length};
 
+use super::depth::kept;
 use super::faces::Face;
 use super::light::Light;
 use super::memory::Memory;
 use super::parameters::WallScene;
 use super::pressure::Pressed;
-use super::sleep::kept;
 
 /// A grain near a face, or near a particle of metal.
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,8 @@ use particles::{POSITION, Set};
 use run::Fault;
 use run::property::Arguments;
 
-use super::heat::{ENTHALPY, HELD, Heat, STATE, TEMPERATURE};
+use super::columns::{ENTHALPY, HELD, STATE, TEMPERATURE};
+use super::heat::Heat;
 use super::parameters::Parameters;
 
 /// Gives the grains of a scene the columns of heat and their first temperatures.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::cracks::{AROUND, Cracks};
 use super::fracture::Criterion;
-use super::release::Trial;
 use super::tensor::Matrix;
+use super::trial::Trial;
 
 /// What fracture knows.
 #[derive(Debug, Clone)]

@@ -12,7 +12,7 @@ use super::fracture::{BROKEN, Criterion};
 use super::law::equivalent_strain;
 use super::links::{Links, terms};
 use super::plastic::History;
-use super::sound::stiffness;
+use super::stiffness::stiffness;
 use super::tensor::{Matrix, UNIT};
 use crate::matter::meeting::skin::{DEFORMATION, TWIST};
 use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};

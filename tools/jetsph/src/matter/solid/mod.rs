@@ -23,7 +23,10 @@ pub mod release;
 mod relief;
 pub mod shocks;
 mod sound;
+mod stiffness;
 pub mod tensor;
+pub mod trial;
+mod yielding;
 
 pub use body::Body;
 pub use elastic::Elastic;

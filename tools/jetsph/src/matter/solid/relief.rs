@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::breaking::Breaking;
 use super::cell::Derivatives;
 use super::elastic::{Elastic, add};
-use super::release::{Left, Trial};
+use super::trial::{Left, Trial};
 
 /// Those that move are nearer than so many cells: beyond, a crack is felt as one of any other lattice.
 const AROUND: f64 = 4.0;

@@ -2,13 +2,16 @@
 //!
 //! A stage of the implicit march has a shift of one over its step; the steady state has none.
 
-use krylov::{
-    Aggregation, Jacobi, Krylov, Precondition, Sparse, Workspace, conjugate_gradient, gmres,
-};
+mod near;
+mod point;
+
+use krylov::{Aggregation, Jacobi, Krylov, Sparse, Workspace, conjugate_gradient, gmres};
 use rayon::prelude::*;
 use run::property::OutOfRange;
 
-use crate::system::storage::{self, Storage};
+use self::near::Near;
+use self::point::Own;
+use crate::system::storage::Storage;
 use crate::system::{Rates, System};
 
 /// Own part of the diagonal above which its inverse alone is a good preconditioner: a hierarchy of grids costs as
@@ -26,8 +29,6 @@ const LED: f64 = 0.2;
 const HALVINGS: usize = 12;
 /// Points that one task moves.
 const POINTS: usize = 256;
-/// Iterations for a temperature from a rise of the integral of conductivity.
-const INVERSION: usize = 60;
 
 /// Why a solve failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -89,24 +90,6 @@ struct Norm {
     passing: f64,
     /// What rounding may leave of a residual.
     rounding: f64,
-}
-
-/// The preconditioner in use.
-#[derive(Debug)]
-enum Near {
-    Nothing,
-    Diagonal(Jacobi),
-    Grid(Box<Aggregation>),
-}
-
-impl Precondition for Near {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
-        match self {
-            Self::Nothing => out.copy_from_slice(rhs),
-            Self::Diagonal(jacobi) => jacobi.precondition(rhs, out),
-            Self::Grid(grid) => grid.precondition(rhs, out),
-        }
-    }
 }
 
 /// What the matrix is good for.
@@ -399,65 +382,4 @@ impl Solver {
         system.rates(problem.time, temperature, rates)?;
         Ok(self.weigh(system, problem, temperature, rates))
     }
-}
-
-/// What a point's own balance does with a change of its temperature, as far as that is known without its neighbours.
-#[derive(Clone, Copy)]
-struct Own<'a> {
-    shift: f64,
-    stiffness: &'a [f64],
-}
-
-impl Own<'_> {
-    /// The temperature of point `i` after a change of it.
-    fn moved(&self, system: &System, i: usize, from: f64, change: f64) -> f64 {
-        match &system.storage {
-            Storage::Varies(content) if self.shift > 0.0 => {
-                self.stored(system, content, (i, from, change))
-            }
-            _ => conducted(system, i, from, change),
-        }
-    }
-
-    /// The change is one of the heat that the point stores and conducts, `shift E(T) + stiffness theta(T) / k`: where
-    /// capacity has a peak, a temperature stops in it as long as there is no heat for more.
-    fn stored(
-        &self,
-        system: &System,
-        content: &storage::Content,
-        (i, from, change): (usize, f64, f64),
-    ) -> f64 {
-        let (capacity, heat) = content.at(i, from);
-        let k = system.conductivity(i, from);
-        let stiffness = self.stiffness[i];
-        let wanted = (self.shift * capacity + stiffness) * change;
-        let of = |t: f64| {
-            let (capacity, now) = content.at(i, t);
-            let mean = system.mean_conductivity(i, from, t) / k;
-            let own = system.conductivity(i, t) / k;
-            let value = self.shift * (now - heat) + stiffness * mean * (t - from);
-            (self.shift * capacity + stiffness * own, value)
-        };
-        let to = storage::solve(wanted, from, of);
-        if to.is_finite() { to } else { from + change }
-    }
-}
-
-/// The temperature of point `i` after a change that is a change of the integral of conductivity: with it, the
-/// steady state of any k(T) is a linear problem.
-fn conducted(system: &System, i: usize, from: f64, change: f64) -> f64 {
-    if system.conduction().is_fixed() {
-        return from + change;
-    }
-    let rise = system.conductivity(i, from) * change;
-    let mut to = from + change;
-    for _ in 0..INVERSION {
-        let error = rise - system.mean_conductivity(i, from, to) * (to - from);
-        let step = error / system.conductivity(i, to);
-        to += step;
-        if step.abs() <= 1e-13 * (to.abs() + from.abs()) {
-            break;
-        }
-    }
-    if to.is_finite() { to } else { from + change }
 }

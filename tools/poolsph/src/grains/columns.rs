@@ -1,0 +1,19 @@
+//! Columns of grains that have heat.
+
+use particles::Column;
+
+/// T \[K\].
+pub const TEMPERATURE: Column<f64> = Column::new("temperature", "K", 0.0).saved().shown();
+/// Specific enthalpy \[J/kg\].
+pub const ENTHALPY: Column<f64> = Column::new("enthalpy", "J/kg", 0.0).saved();
+/// [`POWDER`], [`SLAG`] or [`FROZEN`].
+pub const STATE: Column<u8> = Column::new("state", "1", POWDER).saved().shown();
+/// Number of the body that keeps its temperature, plus one; 0 for a free grain.
+pub const HELD: Column<u8> = Column::new("held", "1", 0).saved();
+
+/// A grain that has not melted yet.
+pub const POWDER: u8 = 0;
+/// A grain that is molten.
+pub const SLAG: u8 = 1;
+/// A grain that has set again.
+pub const FROZEN: u8 = 2;
