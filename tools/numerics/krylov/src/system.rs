@@ -226,6 +226,28 @@ where
         })
     }
 
+    /// Takes other rows for the same unknowns, near those that it was made of: order and factors stay as they are, and
+    /// serve the worse the further the rows are from theirs. Not for factors that solve directly.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn renew(&mut self, rows: Rows<T>) -> Result<(), Error> {
+        if rows.len() != self.rows.len() {
+            return Err(Error::Size {
+                expected: self.rows.len(),
+                found: rows.len(),
+            });
+        }
+        let mut rows = rows.into_order(&self.order);
+        let mut mixed = self.shift.clone();
+        for (shift, scale) in mixed.iter_mut().zip(&self.scale) {
+            *shift = shift.times_real(scale.recip());
+        }
+        let scale = equilibrate(&mut rows, &mut mixed).map_err(|e| located(e, &self.order))?;
+        (self.rows, self.shift, self.scale) = (rows, mixed, scale);
+        Ok(())
+    }
+
     pub(crate) fn solve_columns<const C: usize>(
         &mut self,
         sides: Sides<S, C>,

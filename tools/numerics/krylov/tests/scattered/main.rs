@@ -64,6 +64,22 @@ fn products_hardly_grow_with_the_number_of_points() {
     assert!(alone > counts[2], "{alone} {counts:?}");
 }
 
+/// Factors of a ball of permittivity 80 serve one of 60; the answer is that of the rows that were taken.
+#[test]
+fn a_system_that_takes_other_rows_solves_those() {
+    let [made, other] = [80.0, 60.0].map(|ratio| Cloud::ball(22, ratio).build());
+    let grids = options(Method::Multigrid(Grids::default()));
+    let (rows, shift) = (made.rows.clone(), made.shift.clone());
+    let mut system = System::<f64, C64>::new(rows, shift, grids).unwrap();
+    system.renew(other.rows.clone()).unwrap();
+    let mut x = vec![[C64::ZERO; 3]; other.rhs.len()];
+    let solved = system.solve(&other.rhs, &mut x, Rule::default());
+    assert!(solved.converged(), "{}", solved.ending);
+    assert!(left(&other, &x) < 1e-5 && left(&made, &x) > 1e-3);
+    let few = Cloud::plain(8).build().rows;
+    assert!(system.renew(few).is_err());
+}
+
 #[test]
 fn products_hardly_grow_with_the_levels() {
     for cloud in [
