@@ -88,14 +88,18 @@ fn rank(n: [i64; 3]) -> u32 {
     2 * zeros + u32::from(odd == 2)
 }
 
+/// The spacing that is wanted nearest to a place within a reach of it \[m\].
+pub(crate) type Wanted<'a> = &'a (dyn Fn(Vector, f64) -> f64 + Sync);
+
 struct Descent<'a> {
     region: &'a Region,
+    wanted: Wanted<'a>,
     frame: Frame,
 }
 
 impl Descent<'_> {
     /// Rank of the lattice of a wanted spacing.
-    fn wanted(&self, spacing: f64) -> u32 {
+    fn rank_of(&self, spacing: f64) -> u32 {
         let least = (0..self.region.dimensions).map(|k| self.frame.step[k]);
         let h = least.fold(f64::INFINITY, f64::min);
         let steps = (2.0 * (spacing / h).log2() + 0.02).floor().max(0.0) as u32;
@@ -124,7 +128,7 @@ impl Descent<'_> {
         if self.region.depth(middle) < -reach * 1.001 {
             return;
         }
-        if level == 0 || self.wanted(self.region.wanted(middle, reach)) >= 2 * level {
+        if level == 0 || self.rank_of((self.wanted)(middle, reach)) >= 2 * level {
             found.extend(self.node(n));
             return;
         }
@@ -139,7 +143,7 @@ impl Descent<'_> {
 
     fn node(&self, n: [i64; 3]) -> Option<Node> {
         let place = self.frame.place(n, self.region);
-        let wanted = self.wanted(self.region.wanted(place, 0.0));
+        let wanted = self.rank_of((self.wanted)(place, 0.0));
         if rank(n) < wanted {
             return None;
         }
@@ -180,8 +184,17 @@ impl Descent<'_> {
 
 /// All nodes, from the coarse cells in order.
 pub(crate) fn nodes(region: &Region) -> Vec<Node> {
+    graded(region, &|x, nearer| region.wanted(x, nearer))
+}
+
+/// The same where the spacing is another one than bodies of the region want.
+pub(crate) fn graded(region: &Region, wanted: Wanted<'_>) -> Vec<Node> {
     let frame = Frame::new(region);
-    let descent = Descent { region, frame };
+    let descent = Descent {
+        region,
+        wanted,
+        frame,
+    };
     let edge = 1_i64 << frame.doublings;
     let counts = frame.last.map(|n| n / edge + 1);
     let cells: i64 = counts.iter().product();

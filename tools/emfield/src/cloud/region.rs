@@ -112,6 +112,22 @@ fn wall(domain: &Domain, (dimensions, axisymmetric): (usize, bool)) -> (Wall, f6
 }
 
 impl Region {
+    /// A ball in space without bodies, with lattices from one spacing to a greater one \[m\].
+    pub(crate) fn ball((centre, radius): (Vector, f64), [spacing, largest]: [f64; 2]) -> Self {
+        Self {
+            dimensions: 3,
+            wall: Wall::Ball { centre, radius },
+            finer: Vec::new(),
+            axisymmetric: false,
+            spacing,
+            plain: largest,
+            largest,
+            wider: 1.0,
+            smooth: true,
+            solids: Vec::new(),
+        }
+    }
+
     /// The region of a scene without faults.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {

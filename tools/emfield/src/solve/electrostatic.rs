@@ -59,8 +59,18 @@ impl Problem {
     /// Rows with one-sided stencils.
     #[must_use]
     pub fn rows<const D: usize>(&self, region: &Region<D>, sides: &Sides<D>) -> Equations {
+        self.rows_of(region, |_| sides)
+    }
+
+    /// The same where points have their stencils from different times.
+    #[must_use]
+    pub fn rows_of<'a, const D: usize>(
+        &self,
+        region: &Region<D>,
+        of: impl Fn(usize) -> &'a Sides<D> + Sync,
+    ) -> Equations {
         self.gather(region, |i, row| {
-            let size = self.size(region, i);
+            let (size, sides) = (self.size(region, i), of(i));
             match region.kinds[i] {
                 Kind::Inside(_) if sides.wall.is_some() => {
                     compare(region, &sides.own, i, |j, w| push(row, j, size * w));

@@ -38,6 +38,18 @@ impl Open {
         enclosed: &Enclosed<D>,
         centre: [f64; D],
     ) -> Self {
+        let wall = |i: usize| matches!(region.kinds[i], Kind::Wall { .. });
+        Self::of(region, enclosed, centre, wall)
+    }
+
+    /// The same where only some walls are open.
+    #[must_use]
+    pub fn of<const D: usize>(
+        region: &Region<D>,
+        enclosed: &Enclosed<D>,
+        centre: [f64; D],
+        opened: impl Fn(usize) -> bool,
+    ) -> Self {
         let harmonics = Harmonics::of(D, region.axial);
         let off = |x: [f64; D]| -> [f64; D] { std::array::from_fn(|k| x[k] - centre[k]) };
         let surface = &enclosed.surface;
@@ -55,7 +67,7 @@ impl Open {
         let sum = |l: usize| enclosed.integral(region, |place| regular[place][l]);
         let mut fields = vec![vec![0.0; region.len()]; count];
         for i in 0..region.len() {
-            if let Kind::Wall { .. } = region.kinds[i] {
+            if opened(i) {
                 let decaying = harmonics.decaying(off(region.places[i]));
                 for (field, value) in fields.iter_mut().zip(decaying) {
                     field[i] = value;

@@ -161,6 +161,34 @@ impl<const D: usize> Rules<D> for Harmonic<'_, D> {
     }
 }
 
+/// Rules of which only some rows are wanted.
+pub(super) struct Part<'a, R> {
+    pub(super) rules: R,
+    pub(super) wanted: &'a (dyn Fn(usize) -> bool + Sync),
+}
+
+impl<const D: usize, R: Rules<D>> Rules<D> for Part<'_, R> {
+    fn wanted(&self, i: usize) -> bool {
+        (self.wanted)(i) && self.rules.wanted(i)
+    }
+
+    fn allowed(&self, i: usize, j: usize) -> bool {
+        self.rules.allowed(i, j)
+    }
+
+    fn side(&self, i: usize) -> Option<[f64; D]> {
+        self.rules.side(i)
+    }
+
+    fn surrounded(&self, i: usize) -> bool {
+        self.rules.surrounded(i)
+    }
+
+    fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
+        self.rules.conditions(i, conditions);
+    }
+}
+
 /// How far below the tangent plane of a surface point points of its side lie beyond an edge, over its spacing.
 const BEHIND: f64 = 0.25;
 /// Layers this many times as wide as thick are too thin for harmonic polynomials: a ball of permeability 100 errs by 2e-2 at

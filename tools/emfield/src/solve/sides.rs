@@ -3,7 +3,7 @@
 use wls::{Error, Plan, Reach, Report, Search, Stencils, Wants};
 
 use super::mirror::Mirror;
-use super::region::{Harmonic, Kind, Own, Region, Side};
+use super::region::{Harmonic, Kind, Own, Part, Region, Side};
 
 /// Radius of the support of cubics over the spacing, for potentials.
 const CUBIC_REACH: f64 = 3.0;
@@ -125,6 +125,18 @@ impl<const D: usize> Sides<D> {
     /// # Errors
     /// Where points are alone, coincide or lie in a plane.
     pub fn new(region: &Region<D>, form: &Form) -> Result<Self, Error> {
+        Self::some(region, form, &|_| true)
+    }
+
+    /// Makes those of some points; the others have none.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn some(
+        region: &Region<D>,
+        form: &Form,
+        wanted: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Result<Self, Error> {
         let mirror = Mirror::new(region);
         let search = Search::new(mirror.cloud())?;
         let gradient = Wants {
@@ -142,12 +154,20 @@ impl<const D: usize> Sides<D> {
                 value: true,
                 ..gradient
             });
-            let own = mirror.stencils(&search, &plan, &harmonic(false))?;
+            let some = |walls| Part {
+                rules: harmonic(walls),
+                wanted,
+            };
+            let own = mirror.stencils(&search, &plan, &some(false))?;
             let wall = form.plan::<D>(gradient);
-            let wall = mirror.stencils(&search, &wall, &harmonic(true))?;
+            let wall = mirror.stencils(&search, &wall, &some(true))?;
             (own, Some(wall))
         } else {
-            let own = mirror.stencils(&search, &form.plan::<D>(both), &Own(region))?;
+            let rules = Part {
+                rules: Own(region),
+                wanted,
+            };
+            let own = mirror.stencils(&search, &form.plan::<D>(both), &rules)?;
             (own, None)
         };
         let side = |inner: bool| {
@@ -158,6 +178,7 @@ impl<const D: usize> Sides<D> {
                 still: form.order > 2,
                 around: form.around,
             };
+            let rules = Part { rules, wanted };
             mirror.stencils(&search, &form.plan::<D>(gradient), &rules)
         };
         Ok(Self {
