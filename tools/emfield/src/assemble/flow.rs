@@ -3,11 +3,14 @@
 use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
 
-use super::liquid::{fastest, filled, matter, start, steps, way};
+use super::liquid::{electric, fastest, filled, matter, start, steps, way};
 use super::steps::Steps;
+use crate::liquid::air::{Place, Skin};
+use crate::liquid::effort::Effort;
+use crate::liquid::electric::Electric;
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
-use crate::liquid::step::{Effort, Liquid, Matter, Way};
+use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::Patch;
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference};
@@ -31,6 +34,8 @@ struct March {
     /// Centre that was told last \[m\].
     centre: [f64; 3],
     effort: Effort,
+    /// The field that acts on the surface.
+    electric: Option<Electric>,
     /// Steps that were divided.
     divided: u64,
     taken: u64,
@@ -59,6 +64,7 @@ pub fn flow(
         drift: [0.0; 3],
         centre: [0.0; 3],
         effort: Effort::default(),
+        electric: electric(part),
         divided: 0,
         taken: 0,
     };
@@ -95,6 +101,7 @@ pub fn flow(
 impl March {
     /// The liquid at its start: what it is, and its pressure.
     fn begin(&mut self, liquid: &mut Liquid<3>, session: &mut Session) -> Result<(), Failure> {
+        self.pull(liquid, 0.0, session)?;
         let made = liquid.balance(&self.matter, &self.way, &mut self.effort)?;
         let surface = &liquid.position[..liquid.surface()];
         for x in surface {
@@ -142,9 +149,48 @@ impl March {
             liquid.smooth(&ended.patches);
             liquid.spread(&ended.rows, &ended.patches, self.way.spacing);
             made = ended.patches;
+            self.pull(liquid, length / parts, session)?;
         }
         self.drift = along(&self.drift, length, &self.matter.gravity);
+        if let (Some(electric), Some(volume)) = (&self.electric, self.volume) {
+            let mass = self.matter.density * volume;
+            self.drift = along(&self.drift, length / mass, &electric.force());
+        }
         Ok(made)
+    }
+
+    /// The traction of the field where the liquid is, `passed` after the last one \[s\].
+    fn pull(
+        &mut self,
+        liquid: &mut Liquid<3>,
+        passed: f64,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        let Some(electric) = &mut self.electric else {
+            return Ok(());
+        };
+        let surface = liquid.surface();
+        let place = Place {
+            skin: Skin {
+                place: &liquid.position[..surface],
+                normal: &liquid.normal,
+                spacing: self.way.spacing,
+            },
+            inside: &liquid.position[surface..],
+        };
+        let (rule, effort) = (self.way.rule(), &mut self.effort);
+        let stood = session.timed("points of the field", || electric.stand(place))?;
+        let sides = session.timed("weights of the field", || electric.fit(&stood))?;
+        let made = (&stood, &sides);
+        let now = session.timed("electric field", || electric.traction(made, rule, effort))?;
+        let before = std::mem::replace(&mut liquid.pull[0], now);
+        liquid.pull[1] = if passed > 0.0 {
+            let both = liquid.pull[0].iter().zip(&before);
+            both.map(|(now, before)| (now - before) / passed).collect()
+        } else {
+            vec![0.0; surface]
+        };
+        Ok(())
     }
 
     /// Keeps volume and momentum, and writes a row.
@@ -207,6 +253,14 @@ impl March {
         checkpoint.put_vectors("normal", &liquid.normal);
         checkpoint.put_f64("pressure", &liquid.pressure);
         checkpoint.put_f64("stress", &liquid.stress);
+        if let Some(electric) = &self.electric {
+            electric.save(checkpoint);
+            checkpoint.put_f64("pull", &liquid.pull[0]);
+            checkpoint.put_f64("pull_rate", &liquid.pull[1]);
+            let e = &self.effort;
+            checkpoint.put_u64("field_counts", &[e.field_products, e.field_unsolved]);
+            checkpoint.put_f64("field_residual", &[e.field_residual]);
+        }
         let volume: Vec<f64> = self.volume.into_iter().collect();
         checkpoint.put_f64("volume", &volume);
         checkpoint.put_vectors("centre", &[self.drift, self.centre]);
@@ -234,6 +288,7 @@ impl March {
         liquid.normal = checkpoint.vectors("normal")?;
         liquid.pressure = checkpoint.f64("pressure")?;
         liquid.stress = checkpoint.f64("stress")?;
+        self.restore_field(liquid, checkpoint)?;
         self.volume = checkpoint.f64("volume")?.first().copied();
         if let [drift, centre] = checkpoint.vectors("centre")?[..] {
             (self.drift, self.centre) = (drift, centre);
@@ -248,6 +303,24 @@ impl March {
         Ok(())
     }
 
+    fn restore_field(
+        &mut self,
+        liquid: &mut Liquid<3>,
+        checkpoint: &mut Checkpoint,
+    ) -> Result<(), Failure> {
+        let Some(electric) = &mut self.electric else {
+            return Ok(());
+        };
+        electric.restore(checkpoint, self.way.spacing)?;
+        if let [products, unsolved] = checkpoint.u64("field_counts")?[..] {
+            (self.effort.field_products, self.effort.field_unsolved) = (products, unsolved);
+        }
+        let residual = checkpoint.f64("field_residual")?;
+        self.effort.field_residual = residual.first().copied().unwrap_or(0.0);
+        liquid.pull = [checkpoint.f64("pull")?, checkpoint.f64("pull_rate")?];
+        Ok(())
+    }
+
     fn close(&self, steps: &Steps, session: &mut Session) {
         session.steps(steps.count());
         session.closing("step", "s", steps.longest());
@@ -255,6 +328,18 @@ impl March {
         session.closing("residual", "1", self.effort.residual);
         if let Some(volume) = self.volume {
             session.closing("volume", "m3", volume);
+        }
+        if let Some(electric) = &self.electric {
+            session.closing("points_field", "1", electric.awake as f64);
+            session.closing("air_renewed", "1", electric.renewed() as f64);
+            session.closing("products_field", "1", self.effort.field_products as f64);
+            session.closing("residual_field", "1", self.effort.field_residual);
+        }
+        if self.effort.field_unsolved > 0 {
+            session.warn(format!(
+                "not converged: {} solves of the electric field",
+                self.effort.field_unsolved
+            ));
         }
         if self.divided > 0 {
             session.note(format!(

@@ -5,8 +5,10 @@ use run::{Estimate, Failure, Fault, Plan};
 use shapes::Body;
 
 use super::steps::Steps;
+use crate::liquid::effort::Effort;
+use crate::liquid::electric::{Applied, Electric};
 use crate::liquid::fill::{Filled, fill};
-use crate::liquid::step::{Effort, Liquid, Matter, Way};
+use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
 use crate::scene::currents::Transient;
@@ -69,6 +71,17 @@ pub(super) fn way(scene: &Scene, liquid: &Part) -> Way {
     }
 }
 
+/// The electric field of a scene.
+pub(super) fn electric(part: &Part) -> Option<Electric> {
+    let given = part.electric.as_ref()?;
+    let applied = Applied {
+        field: std::array::from_fn(|k| given.field_v_m.get(k).copied().unwrap_or(0.0)),
+        permittivity: given.relative_permittivity,
+        charge: given.charge_c.unwrap_or(0.0),
+    };
+    Some(Electric::new(applied, given.order))
+}
+
 /// The liquid at its start.
 pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure> {
     let n = filled.position.len();
@@ -82,6 +95,7 @@ pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure
     }
     Ok(Liquid {
         stress: vec![0.0; filled.normal.len()],
+        pull: [Vec::new(), Vec::new()],
         position: filled.position,
         velocity,
         pressure: vec![part.gas_pressure_pa; n],
@@ -154,8 +168,11 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
         .column("pressure", "Pa")
         .limit("step", steps.longest(), "s")
         .memory("equations", BYTES * points)
-        .left_out("electrostatics", "no key 'electrostatics'")
         .left_out("eddy currents", "no key 'eddy_currents'");
+    plan = match &part.electric {
+        Some(_) => plan.stage("electric field").column("traction", "Pa"),
+        None => plan.left_out("electric field", "no key 'electric' of 'liquid'"),
+    };
     for (absent, name, key) in [
         (part.viscosity_pa_s.is_none(), "viscosity", "viscosity_pa_s"),
         (

@@ -11,10 +11,9 @@
 //! the pressure. The balance along the outward normal is `-p + 2 mu du_n/dn = -p_gas - gamma kappa`, so that it **raises** p
 //! where the liquid is drawn outward.
 
-use krylov::{Rows, Rule, Solved, System};
+use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
 use wls::{Cloud, Condition, Metric, Plan, Rules, Search, Stencils, Wants};
 
-use super::pressure::options;
 use super::surface::Patch;
 use super::vector::{along, dot};
 
@@ -98,7 +97,12 @@ impl Friction {
                 }
             }
         });
-        let system = System::new(matrix, Vec::new(), options())?;
+        // Diffusion within a stage reaches a few spacings at most: factors with the entries of the rows serve.
+        let options = Options {
+            method: Method::Incomplete(Keep::PATTERN),
+            ..Options::default()
+        };
+        let system = System::new(matrix, Vec::new(), options)?;
         Ok(Self { system })
     }
 

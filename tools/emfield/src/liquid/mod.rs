@@ -2,7 +2,10 @@
 //!
 //! After Matsuzawa (2017), chapter 2.2, with the errata.
 
+pub mod air;
 pub mod balance;
+pub mod effort;
+pub mod electric;
 pub mod equilibrium;
 pub mod fill;
 pub mod friction;

@@ -5,11 +5,13 @@
 //! `dkappa/dn = K = -(Laplacian along the surface + kappa1^2 + kappa2^2)`
 //!
 //! ```text
-//! p + gamma tau^2/rho K (n . grad p) = p_gas + gamma kappa + gamma K n . (x- + tau u* - x~) + 2 mu du_n/dn
+//! p + gamma tau^2/rho K (n . grad p) = p_gas + gamma kappa + gamma K n . (x- + tau u* - x~) + 2 mu du_n/dn - t_n
 //! ```
 //!
-//! with kappa that of the predicted surface x~. Waves of the surface that a step does not resolve are damped, and none has a
-//! limit of the step. The slope `q = n . grad p` of each surface point is an unknown of its own: rows stay short.
+//! with kappa that of the predicted surface x~ and t_n the outward traction of fields, which lowers the pressure (2.40 has the
+//! other sign): at the surface `-p + 2 mu du_n/dn + gamma kappa = -p_gas + t_n`. Waves of the surface that a step does not
+//! resolve are damped, and none has a limit of the step. The slope `q = n . grad p` of each surface point is an unknown of
+//! its own: rows stay short.
 
 use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
 use rayon::prelude::*;
@@ -47,8 +49,7 @@ pub fn bending<const D: usize>(patch: &Patch<D>, own: usize, f: impl Fn(usize) -
 }
 
 /// Incomplete factors by size.
-#[must_use]
-pub(super) fn options() -> Options {
+fn options() -> Options {
     Options {
         method: Method::Incomplete(Keep::Threshold {
             drop: DROP,

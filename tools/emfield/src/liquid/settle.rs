@@ -15,13 +15,19 @@ const CALM: f64 = 0.03;
 const YIELD: f64 = 0.3;
 
 impl<const D: usize> Liquid<D> {
-    /// Moves surface points toward the fitted surface, as a whole neither out nor in.
+    /// Moves surface points toward the fitted surface, as a whole neither out nor in, by what the fit of the offsets leaves of
+    /// them: what the fits know of a shape to a part `e` is then damped by `e^2`, the ripples that they do not know as before.
     pub fn smooth(&mut self, patches: &[Patch<D>]) {
+        let known = |p: &Patch<D>| -> f64 {
+            let near = p.neighbours.iter().zip(&p.value);
+            near.map(|(&j, w)| w * patches[j as usize].offset).sum()
+        };
+        let moves: Vec<f64> = patches.iter().map(|p| p.offset - known(p)).collect();
         let area: f64 = patches.iter().map(|p| p.area).sum();
-        let out: f64 = patches.iter().map(|p| p.area * p.offset).sum();
+        let out: f64 = patches.iter().zip(&moves).map(|(p, m)| p.area * m).sum();
         let mean = out / area;
-        for (x, p) in self.position.iter_mut().zip(patches) {
-            *x = along(x, SMOOTHED * (p.offset - mean), &p.normal);
+        for ((x, p), m) in self.position.iter_mut().zip(patches).zip(&moves) {
+            *x = along(x, SMOOTHED * (m - mean), &p.normal);
         }
     }
 

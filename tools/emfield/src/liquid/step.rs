@@ -10,11 +10,12 @@
 //! What divergence fits leave is not taken away at once but by the share `CLEANED` in each stage: divergence and gradient of
 //! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface.
 
-use krylov::{Anderson, Ending, Rule, Solved};
+use krylov::{Anderson, Rule};
 use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
 
+use super::effort::{Effort, failed};
 use super::friction::{Friction, drift, stretch};
 use super::operators::{divergence, operators, stretching};
 use super::pressure::{Conditions, Equations, bending};
@@ -61,6 +62,8 @@ pub struct Liquid<const D: usize> {
     pub normal: Vec<[f64; D]>,
     /// Normal stress of friction on the surface, and what friction adds to its tension within a stage \[Pa\].
     pub stress: Vec<f64>,
+    /// Traction of fields on the surface, outward, and how fast it changes \[Pa, Pa/s\]; none where there is no field.
+    pub pull: [Vec<f64>; 2],
 }
 
 /// How steps are taken.
@@ -77,7 +80,9 @@ pub struct Way {
 }
 
 impl Way {
-    fn rule(&self) -> Rule<'static> {
+    /// When solves end.
+    #[must_use]
+    pub fn rule(&self) -> Rule<'static> {
         Rule {
             reduction: self.tolerance,
             products: self.products,
@@ -86,37 +91,13 @@ impl Way {
     }
 }
 
-/// What steps took.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Effort {
-    /// Products of a matrix.
-    pub products: u64,
-    /// Largest residual.
-    pub residual: f64,
-    /// Solves that did not converge.
-    pub unsolved: u64,
-    /// Stages whose friction and pressure did not settle.
-    pub unsettled: u64,
-}
-
-impl Effort {
-    fn add(&mut self, solved: &Solved) -> Result<(), Failure> {
-        self.products += solved.products as u64;
-        self.residual = self.residual.max(solved.worst());
-        match solved.ending {
-            Ending::Converged => {}
-            Ending::BrokenDown(why) => return Err(failed(&why)),
-            _ => self.unsolved += 1,
-        }
-        Ok(())
-    }
-}
-
 /// Where a stage begins, and how long it is.
 struct Base<const D: usize> {
     position: Vec<[f64; D]>,
     velocity: Vec<[f64; D]>,
     tau: f64,
+    /// Traction of fields at the end of the stage \[Pa\].
+    pull: Vec<f64>,
 }
 
 /// What a stage leaves for what follows it.
@@ -160,6 +141,7 @@ impl<const D: usize> Liquid<D> {
             position: self.position.clone(),
             velocity: self.velocity.clone(),
             tau,
+            pull: self.pulled(tau),
         };
         let first = self.stage(matter, way, &base, effort)?;
         // The rates of the first stage act for what is left of the step.
@@ -168,6 +150,7 @@ impl<const D: usize> Liquid<D> {
             position: stepped(&base.position, rest, &first.moved),
             velocity: stepped(&base.velocity, rest, &self.rate),
             tau,
+            pull: self.pulled(dt),
         };
         drop(first);
         self.stage(matter, way, &base, effort)
@@ -195,6 +178,7 @@ impl<const D: usize> Liquid<D> {
                 Some(patch) => {
                     let stress = drawn * stretch(patch, &self.velocity);
                     matter.gas + matter.tension * patch.curvature + stress
+                        - self.pull[0].get(i).copied().unwrap_or(0.0)
                 }
                 None => -matter.density * stretching(&rows, &self.velocity, i),
             })
@@ -326,6 +310,12 @@ impl<const D: usize> Liquid<D> {
         Ok(())
     }
 
+    /// The traction of fields after some time, as it changes now \[Pa\].
+    fn pulled(&self, time: f64) -> Vec<f64> {
+        let [now, rate] = &self.pull;
+        now.iter().zip(rate).map(|(p, r)| p + time * r).collect()
+    }
+
     /// Velocities of the points of a liquid that moves at `velocity`.
     fn moved(&self, velocity: &[[f64; D]]) -> Vec<[f64; D]> {
         let mut moved = velocity.to_vec();
@@ -364,6 +354,7 @@ fn right<const D: usize>(
         .map(|i| match patches.get(i) {
             Some(patch) => {
                 matter.gas + matter.tension * (patch.curvature + bending(patch, i, ahead))
+                    - base.pull.get(i).copied().unwrap_or(0.0)
             }
             None => {
                 CLEANED * source * divergence(rows, free, i)
@@ -380,8 +371,4 @@ fn stepped<const D: usize>(x: &[[f64; D]], time: f64, v: &[[f64; D]]) -> Vec<[f6
 
 fn norm(values: &[f64]) -> f64 {
     values.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
-pub(super) fn failed(why: &dyn std::fmt::Display) -> Failure {
-    Failure::Other(format!("liquid: {why}"))
 }

@@ -36,6 +36,8 @@ pub struct Patch<const D: usize> {
     pub area: f64,
     /// Points of the fit, the own one among them.
     pub neighbours: Vec<u32>,
+    /// Weights of the value of the fit.
+    pub value: Vec<f64>,
     /// Weights of the Laplacian along the surface \[1/m2\].
     pub laplace: Vec<f64>,
     /// Weights of the gradient along the surface, in the axes of the scene \[1/m\].
@@ -192,6 +194,7 @@ fn fit<const D: usize>(
             squares: xx * xx + 2.0 * xy * xy + yy * yy,
             offset,
             area: area(i, points, &near.points, (axes, D)),
+            value: local.weights[0].clone(),
             laplace: (0..near.points.len())
                 .map(|m| local.weights[3][m] + local.weights[5][m])
                 .collect(),

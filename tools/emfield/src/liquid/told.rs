@@ -102,9 +102,14 @@ pub fn points(liquid: &Liquid<3>, precision: Precision) -> Frame {
 /// Places, normals, areas and curvatures of the surface.
 #[must_use]
 pub fn surface(liquid: &Liquid<3>, patches: &[Patch<3>], precision: Precision) -> Frame {
-    Frame::new(precision)
+    let frame = Frame::new(precision)
         .positions(liquid.position[..patches.len()].iter().copied())
         .vector("normal", "1", patches.iter().map(|p| p.normal))
         .scalar("area", "m2", patches.iter().map(|p| p.area))
-        .scalar("curvature", "1/m", patches.iter().map(|p| p.curvature))
+        .scalar("curvature", "1/m", patches.iter().map(|p| p.curvature));
+    if liquid.pull[0].is_empty() {
+        frame
+    } else {
+        frame.scalar("traction", "Pa", liquid.pull[0].iter().copied())
+    }
 }

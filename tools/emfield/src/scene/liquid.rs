@@ -38,6 +38,25 @@ pub struct Equilibrium {
     pub limit: bool,
 }
 
+/// A uniform electric field about a liquid that moves: its traction on the surface acts at every step.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ElectricField {
+    /// Field far away.
+    #[schemars(extend("x-unit" = "V/m"), length(min = 3, max = 3))]
+    pub field_v_m: Vec<f64>,
+    /// Permittivity of the liquid over that of the gas; a conductor when it is absent.
+    #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub relative_permittivity: Option<f64>,
+    /// Charge of a conductor.
+    #[schemars(extend("x-unit" = "C"))]
+    pub charge_c: Option<f64>,
+    /// Degree of the polynomials of potentials.
+    #[serde(default = "order")]
+    #[schemars(range(min = 3, max = 4))]
+    pub order: u8,
+}
+
 /// A liquid with a free surface, on points that move with it (Matsuzawa 2017, chapter 2.2). The spacing of `points` is the one
 /// number that refines.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -68,6 +87,8 @@ pub struct Liquid {
     #[serde(default = "order")]
     #[schemars(range(min = 2, max = 3))]
     pub order: u8,
+    /// Electric field in which it moves; none when it is absent.
+    pub electric: Option<ElectricField>,
     /// Motion in time; this or `equilibrium`.
     pub march: Option<LiquidMarch>,
     /// Rest in a field; this or `march`.
@@ -114,9 +135,12 @@ impl Liquid {
                 misfits.push(Misfit::at("/liquid/equilibrium", what));
             }
         }
+        if let Some(electric) = &self.electric {
+            self.check_electric(electric, misfits);
+        }
         let fields = scene.electrostatics.is_some() || scene.eddy_currents.is_some();
         if fields {
-            let what = "the fields of a liquid that moves are not computed: leave \"electrostatics\" and \"eddy_currents\" away";
+            let what = "a liquid moves in the field of its key \"electric\" alone: leave \"electrostatics\" and \"eddy_currents\" away";
             misfits.push(Misfit::at("/liquid", what));
         } else if !scene.bodies.is_empty() {
             let what = "bodies act by their fields, and the scene has none: leave them away";
@@ -124,6 +148,20 @@ impl Liquid {
         } else if scene.domain != Domain::default() {
             let what = "fields are sought in a domain, and the scene has none: leave it away";
             misfits.push(Misfit::at("/domain", what));
+        }
+    }
+
+    /// A field that acts on a march.
+    fn check_electric(&self, electric: &ElectricField, misfits: &mut Vec<Misfit>) {
+        let field = &electric.field_v_m;
+        check::coordinates(field, "/liquid/electric/field_v_m", 3, misfits);
+        if self.march.is_none() {
+            let what = "acts on a march: take \"march\"";
+            misfits.push(Misfit::at("/liquid/electric", what));
+        }
+        if electric.charge_c.is_some() && electric.relative_permittivity.is_some() {
+            let what = "a dielectric has no free charge: leave \"relative_permittivity\" away";
+            misfits.push(Misfit::at("/liquid/electric/charge_c", what));
         }
     }
 

@@ -16,7 +16,7 @@ use serde::Deserialize;
 
 pub use currents::{Amplitude, Coil, EddyCurrents, ElectricPotential, Magnet};
 pub use domain::{BodyScene, Domain, Geometry, Medium};
-pub use liquid::{Equilibrium, Liquid, LiquidMarch};
+pub use liquid::{ElectricField, Equilibrium, Liquid, LiquidMarch};
 pub use method::{Interfaces, Method, Solver};
 pub use output::Output;
 pub use permeability::Permeability;

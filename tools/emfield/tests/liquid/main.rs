@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+mod field;
+
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 

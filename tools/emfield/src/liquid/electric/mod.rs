@@ -1,0 +1,188 @@
+//! The electric field about a liquid, and its traction on the surface: a function of where the surface and the points are.
+//!
+//! `div(eps grad V) = 0` inside and in the air (2.60, Matsuzawa 2017), V = -E.x and multipoles on a wall far away. Outward along
+//! the normal the surface is pulled by, with S the ratio of the permittivities and fields inside (the errata's form of 2.62),
+//!
+//! ```text
+//! eps0 (S - 1)/2 (S En^2 + Et^2),        of a conductor eps0 En^2/2 of the field outside.
+//! ```
+//!
+//! A conductor has the potential that its charge Q asks for: V = V_0 + U V_1, V_1 of unit potential on it and none far away.
+//! There is no tangential traction in either case.
+
+mod applied;
+mod kept;
+mod state;
+
+#[cfg(test)]
+mod tests;
+
+use krylov::Rule;
+use run::Failure;
+
+pub use applied::Applied;
+pub use kept::Fitted;
+use kept::{Kept, awake};
+pub use state::State;
+
+use super::air::Place;
+use super::effort::Effort;
+use super::vector::dot;
+use crate::solve::region::{Kind, Region};
+use crate::solve::sides::{Form, Sides};
+use crate::surface::traction::{EPS0, dielectric, electrode};
+
+/// The points of a field where the liquid is.
+pub struct Stood {
+    region: Region<3>,
+    /// Its air was made for it.
+    fresh: bool,
+}
+
+/// The field, with what it keeps from one place of the liquid to the next.
+pub struct Electric {
+    applied: Applied,
+    form: Form,
+    kept: Option<Kept>,
+    /// What a resumed run goes on from.
+    state: State,
+    /// Potential of the conductor \[V\].
+    pub height: f64,
+    /// Points that were awake in the last solve.
+    pub awake: u64,
+}
+
+impl Electric {
+    /// A field that knows no liquid yet, by fits of this degree.
+    #[must_use]
+    pub fn new(applied: Applied, order: u8) -> Self {
+        let form = Form {
+            order,
+            ..Form::default()
+        };
+        Self {
+            applied,
+            form: form.for_harmonics(3),
+            kept: None,
+            state: State::default(),
+            height: 0.0,
+            awake: 0,
+        }
+    }
+
+    /// Force on the liquid as a whole \[N\].
+    #[must_use]
+    pub fn force(&self) -> [f64; 3] {
+        self.applied.field.map(|e| e * self.applied.charge)
+    }
+
+    /// How often the air was made.
+    #[must_use]
+    pub fn renewed(&self) -> u64 {
+        self.state.renewed
+    }
+
+    /// Points of the field where the liquid is now; the air is made anew where the surface has left it, or its factors no
+    /// longer serve.
+    ///
+    /// # Errors
+    /// Where fits or equations cannot be made.
+    pub fn stand(&mut self, place: Place<'_>) -> Result<Stood, Failure> {
+        let serves = |kept: &Kept| !kept.worn && !kept.air.outrun(place.skin);
+        let served = self.kept.take().filter(serves);
+        let fresh = served.is_none();
+        let kept = match served {
+            Some(kept) => kept,
+            None => Kept::new(&self.applied, &self.form, place)?,
+        };
+        let standing = kept.air.standing(place.skin);
+        let region = standing.region(place, &kept.air, self.applied.conducts());
+        if fresh {
+            // First guess: the applied field alone.
+            let guess = self.applied.potential(&region, &kept.air);
+            self.state.begin(place, guess);
+        }
+        self.kept = Some(kept);
+        Ok(Stood { region, fresh })
+    }
+
+    /// Fits of the rows that do not stay, and of the multipoles.
+    ///
+    /// # Errors
+    /// Where fits cannot be made, and where nothing stands.
+    pub fn fit(&self, stood: &Stood) -> Result<Fitted, Failure> {
+        let air = &self.kept.as_ref().ok_or_else(unmade)?.air;
+        Fitted::new(air, &stood.region, &self.form)
+    }
+
+    /// Traction on each surface point, outward along its normal \[Pa\].
+    ///
+    /// # Errors
+    /// Where the equations have no solution, and where nothing stands.
+    pub fn traction(
+        &mut self,
+        (stood, fitted): (&Stood, &Fitted),
+        how: Rule<'_>,
+        effort: &mut Effort,
+    ) -> Result<Vec<f64>, Failure> {
+        let potential = self.potential((stood, fitted), how, effort)?;
+        Ok(self.pulls(&stood.region, &fitted.sides, &potential))
+    }
+
+    /// The potential by point \[V\].
+    fn potential(
+        &mut self,
+        (stood, fitted): (&Stood, &Fitted),
+        how: Rule<'_>,
+        effort: &mut Effort,
+    ) -> Result<Vec<f64>, Failure> {
+        let region = &stood.region;
+        let (kept, last) = (
+            self.kept.as_mut().ok_or_else(unmade)?,
+            &mut self.state.potential,
+        );
+        let mut right = kept.renew(&self.applied, (region, &fitted.sides))?;
+        let without = self.applied.potential(region, &kept.air);
+        fitted.open.applied(&without, &mut right);
+        self.awake = (0..region.len()).filter(|i| awake(region, *i)).count() as u64;
+        let mut products = kept.solve((fitted, &right), (&mut last[0], how), effort)?;
+        let mut potential = last[0].clone();
+        if self.applied.conducts() {
+            let on = |kind: &Kind| f64::from(u8::from(matches!(kind, Kind::Wall { wall: 1, .. })));
+            let unit: Vec<[f64; 1]> = region.kinds.iter().map(|kind| [on(kind)]).collect();
+            products += kept.solve((fitted, &unit), (&mut last[1], how), effort)?;
+            let flux = |v: &[f64]| fitted.open.flux(v);
+            let wanted = self.applied.charge / EPS0;
+            self.height = (wanted - flux(&last[0]) + flux(&without)) / flux(&last[1]);
+            for (v, unit) in potential.iter_mut().zip(&last[1]) {
+                *v += self.height * unit;
+            }
+        }
+        kept.judge(stood.fresh, products);
+        Ok(potential)
+    }
+
+    /// Tractions of a potential.
+    fn pulls(&self, region: &Region<3>, sides: &Sides<3>, potential: &[f64]) -> Vec<f64> {
+        let field = |of: &wls::Stencils<3>, i: usize| of.gradient_of(potential, i).map(|g| -g);
+        let on = |kind: &&Kind| matches!(kind, Kind::Interface(_) | Kind::Wall { wall: 1, .. });
+        // Points of the surface come first.
+        let surface = region.kinds.iter().take_while(on).count();
+        let each = (0..surface).map(|i| {
+            let n = region.wall_normals[i];
+            let pull = match self.applied.permittivity {
+                Some(s) => {
+                    let both = [field(&sides.inner, i), field(&sides.outer, i)];
+                    dielectric([s, 1.0], both, n)
+                }
+                None => electrode(1.0, field(sides.at_walls(), i), n),
+            };
+            dot(&pull, &n)
+        });
+        each.collect()
+    }
+}
+
+fn unmade() -> Failure {
+    Failure::Other("electric field: no points stand yet".to_owned())
+}
