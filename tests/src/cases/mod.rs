@@ -71,6 +71,7 @@ mod jet_still;
 mod jet_threshold;
 mod liquid_drop;
 mod liquid_field_drop;
+mod liquid_field_march;
 mod liquid_rest;
 mod pool_dimple;
 mod pool_drop_oscillation;
@@ -221,5 +222,6 @@ fn liquids() -> Vec<Box<dyn Case>> {
         Box::new(liquid_drop::LiquidDropViscous),
         Box::new(liquid_rest::LiquidRest),
         Box::new(liquid_field_drop::LiquidFieldDrop),
+        Box::new(liquid_field_march::LiquidFieldMarch),
     ]
 }
