@@ -127,7 +127,7 @@ impl Stand<'_> {
         let outcome = match output.status.code() {
             Some(0 | 3) if !numbers_only(self.programs, &artefact)? => Outcome::Failed,
             Some(3) if gave_up(&record) => Outcome::DivergedDetected,
-            Some(0 | 3) if record["substepped"].as_bool() == Some(true) => Outcome::Substepped,
+            Some(0 | 3) if record["steps_divided"].as_u64() > Some(0) => Outcome::Substepped,
             Some(0 | 3) => Outcome::Stable,
             Some(2) => Outcome::Refused,
             Some(1) if record["outcome"].as_str() == Some("diverged") => Outcome::DivergedDetected,

@@ -47,7 +47,6 @@ impl Tool for EmField {
     const SCENE_KIND: &'static str = "emfield.scene";
     const ARTEFACT_KIND: &'static str = "point-fields";
     const ARTEFACT_VERSION: Version = Version::new(1, 0);
-    const CHECK_S: f64 = 2.0;
 
     type Scene = Scene;
 

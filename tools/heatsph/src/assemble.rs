@@ -4,7 +4,7 @@ use run::Fault;
 use run::property::{Arguments, OutOfRange};
 
 use crate::boundary::{self, Surface};
-use crate::cloud::Cloud;
+use crate::cloud::{Cloud, room};
 use crate::material::cells::Ground;
 use crate::material::{Materials, PLACE};
 use crate::operator::Links;
@@ -26,6 +26,15 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         return Err(faults);
     }
     let body = Body::new(&scene.body, scene.dimensions);
+    let spacing = scene.points.spacing_m;
+    let points = room::least_points(&body, spacing, scene.dimensions);
+    let wanted = room::bytes(points, scene.dimensions);
+    let what = format!("at a spacing of {spacing} m there are {points:.1e} points and more");
+    let change = "take a larger spacing or a smaller body";
+    let crowded = run::crowded("/points/spacing_m", &what, wanted, change);
+    if let Some(fault) = crowded.filter(|_| points.is_finite()) {
+        return Err(vec![fault.or_at("/body")]);
+    }
     let cloud = Cloud::fill(&body, &scene.points, scene.dimensions)
         .map_err(|error| vec![Fault::at("/points", error.to_string())])?;
     let surface = boundary::compile(scene, &cloud)?;

@@ -164,9 +164,11 @@ impl March<'_> {
         let step = if step <= longest {
             step
         } else {
+            if let Steps::Given(..) = self.steps {
+                session.substepped();
+            }
             if let (Steps::Given(..), false) = (self.steps, self.pace.substepped) {
                 self.pace.substepped = true;
-                session.substepped();
                 session.note(format!(
                     "steps of {step:.3e} s are divided where what varies in time asks for {longest:.3e} s"
                 ));
@@ -203,9 +205,9 @@ impl March<'_> {
                     return Err(self.diverged("step", &what, None));
                 }
                 let parts = (step / longest).ceil();
+                session.substepped();
                 if !self.pace.substepped {
                     self.pace.substepped = true;
-                    session.substepped();
                     session.note(format!(
                         "steps of {step:.3e} s are beyond the limit of {longest:.3e} s: they are divided by {parts} and more"
                     ));

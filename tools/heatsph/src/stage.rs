@@ -104,7 +104,9 @@ fn refuse(scene: &Scene, limit: f64) -> Result<(), Fault> {
         Some((Some(step), Beyond::Refuse)) if step > limit * (1.0 + 1e-9) => Err(Fault::at(
             "/time/explicit/step_s",
             format!("{step} s is beyond the explicit limit of {limit:.4e} s"),
-        )),
+        )
+        .or_at("/points")
+        .or_at("/materials")),
         _ => Ok(()),
     }
 }

@@ -17,6 +17,8 @@ pub struct Stepped {
     pub dt: f64,
     /// The smallest limit and who set it, if any stage has one.
     pub limit: Option<Limit>,
+    /// Whether a stage has divided the step.
+    pub divided: bool,
 }
 
 impl March {
@@ -78,6 +80,7 @@ impl March {
         Ok(Stepped {
             dt,
             limit: self.limit(state),
+            divided: self.stages().any(|stage| stage.parts() > 1),
         })
     }
 

@@ -11,7 +11,7 @@ use crate::resume;
 use crate::scene::{Scene, due};
 use crate::stage::{Figure, StageError};
 use crate::state::State;
-use crate::watch::{bounded, endless, place, watch};
+use crate::watch::{bounded, endless, place, undivided, watch};
 
 /// All numbers of the state are looked at once in so many steps, and before anything is kept.
 const WATCH_STEPS: u64 = 20;
@@ -45,8 +45,10 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     for stage in assembled.march.stages() {
         plan = plan.stage(stage.name());
         if let Some(limit) = stage.dt_limit(state) {
-            if let Some(what) = endless(scene.step(), limit) {
-                return Err(Fault::at("/time/step_s", what).into());
+            let step = scene.step();
+            if let Some(what) = endless(step, limit).or_else(|| undivided(step, limit)) {
+                let fault = Fault::at("/time/step_s", what).or_at("/spacing_m");
+                return Err(fault.or_at(&format!("/{}", stage.name())).into());
             }
             plan = plan.limit(&format!("step_{}", limit.name), limit.seconds, "s");
         }
@@ -145,12 +147,13 @@ impl<'a> Simulation<'a> {
         let stepped = march
             .step(state, |name, work| session.timed(name, work))
             .map_err(|e| failure(e, state.time))?;
+        if stepped.divided {
+            session.substepped();
+        }
         if let Some(limit) = stepped.limit {
-            if limit.seconds < stepped.dt {
-                session.substepped();
-            }
             session.limit(&format!("step_{}", limit.name), limit.seconds, "s");
-            if let Some(what) = endless(stepped.dt, limit) {
+            let step = stepped.dt;
+            if let Some(what) = endless(step, limit).or_else(|| undivided(step, limit)) {
                 return Err(Failure::Diverged {
                     step: state.step,
                     time_s: state.time,

@@ -58,6 +58,29 @@ pub struct Limit {
     pub seconds: f64,
     /// For example `viscosity`, `courant`, `conduction`.
     pub name: &'static str,
+    /// What becomes of a step beyond it.
+    pub beyond: Beyond,
+}
+
+/// What becomes of a step beyond a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beyond {
+    /// The stage divides it within itself.
+    Divides,
+    /// Nothing divides it: the scene is refused.
+    Refuses,
+}
+
+impl Limit {
+    /// A limit beyond which the stage divides the step.
+    #[must_use]
+    pub fn dividing(name: &'static str, seconds: f64) -> Self {
+        Self {
+            seconds,
+            name,
+            beyond: Beyond::Divides,
+        }
+    }
 }
 
 /// A number that a stage wants shown and recorded.
@@ -84,6 +107,11 @@ pub trait Stage: Send {
     /// Its bound on the step in the present state, if it has one.
     fn dt_limit(&self, _state: &State) -> Option<Limit> {
         None
+    }
+
+    /// In how many parts it has taken the last step.
+    fn parts(&self) -> u64 {
+        1
     }
 
     /// Advances the state by `dt` \[s\].

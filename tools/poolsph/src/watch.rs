@@ -2,7 +2,7 @@
 
 use run::Failure;
 
-use crate::stage::Limit;
+use crate::stage::{Beyond, Limit};
 use crate::state::State;
 use crate::vector::squared;
 
@@ -16,11 +16,21 @@ pub(crate) fn endless(dt: f64, limit: Limit) -> Option<String> {
     let parts = dt / limit.seconds;
     // A limit that is no number is none that can be kept.
     (parts.is_nan() || parts > PARTS_MOST).then(|| {
-        let Limit { seconds, name } = limit;
+        let Limit { seconds, name, .. } = limit;
         format!(
             "{dt} s is {parts:.1e} times the limit of '{name}', {seconds:.3e} s; \
              a step is divided into at most {PARTS_MOST:.0e} parts"
         )
+    })
+}
+
+/// Why a step beyond a limit that nothing divides cannot be taken.
+pub(crate) fn undivided(dt: f64, limit: Limit) -> Option<String> {
+    let Limit { seconds, name, .. } = limit;
+    // A step at the very limit is within it, whatever its last bit.
+    let beyond = dt > seconds * (1.0 + 1e-9) && limit.beyond == Beyond::Refuses;
+    beyond.then(|| {
+        format!("{dt} s is beyond the limit of '{name}', {seconds:.3e} s, and nothing divides it")
     })
 }
 

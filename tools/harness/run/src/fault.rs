@@ -15,6 +15,8 @@ pub(crate) struct Spot {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
     path: String,
+    /// Further places that have a part in it.
+    others: Vec<String>,
     what: String,
     key: Option<String>,
     spot: Option<Spot>,
@@ -29,6 +31,7 @@ impl Fault {
     pub fn at(path: &str, what: impl Into<String>) -> Self {
         Self {
             path: path.to_owned(),
+            others: Vec::new(),
             what: what.into(),
             key: None,
             spot: None,
@@ -51,6 +54,23 @@ impl Fault {
         }
     }
 
+    /// The same, where the value at `path` has as much of a part in it: it is told at the one that the last patch set.
+    #[must_use]
+    pub fn or_at(mut self, path: &str) -> Self {
+        self.others.push(path.to_owned());
+        self
+    }
+
+    /// The fault at the place of all that have a part in it that was set last, as `set` counts.
+    pub(crate) fn latest(mut self, set: impl Fn(&str) -> usize) -> Self {
+        for other in std::mem::take(&mut self.others) {
+            if self.key.is_none() && set(&other) > set(&self.path) {
+                self.path = other;
+            }
+        }
+        self
+    }
+
     /// JSON pointer.
     #[must_use]
     pub fn path(&self) -> &str {
@@ -61,6 +81,9 @@ impl Fault {
     #[must_use]
     pub fn within(mut self, prefix: &str) -> Self {
         self.path = format!("{prefix}{}", self.path);
+        for other in &mut self.others {
+            *other = format!("{prefix}{other}");
+        }
         self
     }
 

@@ -42,7 +42,8 @@ pub(crate) struct Number(#[serde(with = "finite_or_null")] pub(crate) f64);
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Ledger {
     pub(crate) steps: u64,
-    pub(crate) substepped: bool,
+    /// Steps that were divided.
+    pub(crate) divided: u64,
     /// Wall time of the runs that this one takes up \[s\].
     pub(crate) earlier_s: f64,
     pub(crate) resumed: u32,

@@ -10,6 +10,7 @@ use crate::failure::Failure;
 use crate::inputs::Inputs;
 use crate::plan::Plan;
 use crate::room::crowded;
+use crate::scene::quantity;
 use crate::scene::{Loaded, Merged, load, located, schema_of};
 use crate::tool::{Tool, expected};
 
@@ -81,6 +82,8 @@ pub(crate) fn prepare<T: Tool>(
         )),
         None => plan,
     };
+    let doubts = quantity::doubts(merged.value());
+    let plan = doubts.into_iter().fold(plan, Plan::note);
     let header = Header {
         kind: T::ARTEFACT_KIND.to_owned(),
         version: T::ARTEFACT_VERSION,

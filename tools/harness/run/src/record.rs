@@ -44,6 +44,7 @@ pub(crate) struct RunRecord {
     load_average: Option<[f64; 3]>,
     steps: u64,
     substepped: bool,
+    steps_divided: u64,
     pub(crate) warnings: Vec<String>,
     notes: Vec<String>,
     left_out: Vec<LeftOut>,
@@ -74,7 +75,7 @@ impl RunRecord {
         let wall_s = ledger.earlier_s;
         Self {
             kind: "run-record",
-            version: "1.1",
+            version: "1.2",
             tool: header.tool.clone(),
             tool_version: header.tool_version.clone(),
             artefact: out.to_owned(),
@@ -92,7 +93,8 @@ impl RunRecord {
             threads: rayon::current_num_threads(),
             load_average: machine::load_average(),
             steps: ledger.steps,
-            substepped: ledger.substepped,
+            substepped: ledger.divided > 0,
+            steps_divided: ledger.divided,
             warnings: ledger.warnings,
             notes: ledger.notes,
             left_out: ledger.left_out,

@@ -334,9 +334,9 @@ impl Session {
         self.ledger.left_out(name, why);
     }
 
-    /// Records that a step was divided to stay below a limit.
+    /// Records that a step was divided to stay below a limit: once for every step that was.
     pub fn substepped(&mut self) {
-        self.ledger.substepped = true;
+        self.ledger.divided += 1;
     }
 
     /// Records the number of steps, if it is not the `done` of [`Session::progress`].

@@ -37,7 +37,7 @@ pub trait Tool: 'static {
     const CHECKPOINT_S: f64 = 60.0;
 
     /// Work that `check` may take for plan and estimate, beyond reading the scene \[s\]; what is known by then is told.
-    const CHECK_S: f64 = f64::INFINITY;
+    const CHECK_S: f64 = 2.0;
 
     /// Its scene; doc comments become descriptions, `#[schemars(range(..))]` becomes a check.
     type Scene: DeserializeOwned + JsonSchema;

@@ -8,6 +8,7 @@ mod closure;
 mod cut;
 mod lattice;
 mod rings;
+pub mod room;
 mod shells;
 mod shift;
 

@@ -99,3 +99,22 @@ fn compositions_have_no_arrangement_of_their_own() {
     let points = serde_json::from_str(r#"{"spacing_m": 0.1}"#).unwrap();
     assert_eq!(Cloud::fill(&body, &points, 2), Err(CloudError::NotSingle));
 }
+
+#[test]
+fn points_are_counted_before_they_are_made() {
+    for (body, dimensions) in [
+        (r#"{"box": {"min_m": [0, 0], "max_m": [1, 2]}}"#, 2),
+        (r#"{"disc": {"centre_m": [0, 0], "radius_m": 1}}"#, 2),
+        (r#"{"box": {"min_m": [0, 0, 0], "max_m": [1, 1, 1]}}"#, 3),
+        (r#"{"sphere": {"centre_m": [0, 0, 0], "radius_m": 0.5}}"#, 3),
+    ] {
+        let body = Body::new(&serde_json::from_str(body).unwrap(), dimensions);
+        let points = serde_json::from_str(r#"{"spacing_m": 0.1}"#).unwrap();
+        let made = Cloud::fill(&body, &points, dimensions)
+            .unwrap()
+            .position
+            .len() as f64;
+        let least = room::least_points(&body, 0.1, dimensions);
+        assert!(least <= made && least > 0.25 * made, "{least} of {made}");
+    }
+}

@@ -52,10 +52,8 @@ impl Scene {
         match (&self.time, &self.steady) {
             (None, None) => faults.push(Fault::at("", "either \"time\" or \"steady\" is wanted")),
             (Some(_), Some(_)) => {
-                faults.push(Fault::at(
-                    "/steady",
-                    "\"time\" and \"steady\" exclude each other",
-                ));
+                let what = "\"time\" and \"steady\" exclude each other";
+                faults.push(Fault::at("/steady", what).or_at("/time"));
             }
             (Some(time), None) => {
                 time.method(faults);

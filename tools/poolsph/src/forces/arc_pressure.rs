@@ -57,7 +57,7 @@ pub enum Pressure {
 
 impl Pressure {
     /// The pressure at the distance `r` \[m\] \[Pa\].
-    fn at(&self, r: f64, time: f64) -> Result<f64, StageError> {
+    fn at(&self, r: f64, (time, dt): (f64, f64)) -> Result<f64, StageError> {
         match self {
             Self::Table(table) => Ok(table.at(r)),
             Self::Formula(curve) => {
@@ -66,8 +66,8 @@ impl Pressure {
                     time,
                     ..Arguments::default()
                 };
-                let value = curve.value(&at);
-                value.map_err(|fault| StageError::Data(format!("pressure of the arc: {fault}")))
+                let mean = curve.mean_in_time(&at, dt).map(|(mean, _)| mean);
+                mean.map_err(|fault| StageError::Data(format!("pressure of the arc: {fault}")))
             }
         }
     }
@@ -104,7 +104,7 @@ impl Stage for ArcPressure {
         &[Column::Surface]
     }
 
-    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         self.pressed = 0.0;
         let Some(axis) = state.source else {
             return Ok(());
@@ -116,7 +116,7 @@ impl Stage for ArcPressure {
         for k in 0..near.len() {
             let patch = &surface[near.id[k] as usize];
             let x = near.position[k];
-            let pressure = |x| self.pressure.at(axis.around(x).0, state.time);
+            let pressure = |x| self.pressure.at(axis.around(x).0, (state.time, dt));
             if self.bound && near.role[k] == Role::Liquid {
                 // What lies hidden is reached as far as its surface is; hollows inside have no surface.
                 let hidden = patch.area > 0.0 && patch.seen <= 0.0;

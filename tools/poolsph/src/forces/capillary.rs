@@ -43,10 +43,9 @@ impl Stage for Capillary {
     }
 
     fn dt_limit(&self, state: &State) -> Option<Limit> {
-        (state.near.liquid_count() > 0).then(|| Limit {
-            seconds: longest(state.metal, self.tension),
-            name: "capillary",
-        })
+        // The motion divides the step by it.
+        let liquid = state.near.liquid_count() > 0;
+        liquid.then(|| Limit::dividing("capillary", longest(state.metal, self.tension)))
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {

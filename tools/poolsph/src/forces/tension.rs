@@ -32,7 +32,7 @@ use neighbours::ROWS;
 use crate::faces::Turn;
 use crate::motion::lattice::Lattice;
 use crate::near::{Near, Role};
-use crate::stage::{Limit, Stage, StageError};
+use crate::stage::{Beyond, Limit, Stage, StageError};
 use crate::state::{Metal, State};
 use crate::vector::{dot, minus, plus, squared};
 
@@ -198,10 +198,12 @@ impl Stage for Tension {
         "tension"
     }
 
-    fn dt_limit(&self, state: &State) -> Option<Limit> {
-        (state.near.liquid_count() > 0).then_some(Limit {
+    fn dt_limit(&self, _: &State) -> Option<Limit> {
+        // The pull of the begin of a step acts until its end: no part of it is taken anew.
+        Some(Limit {
             seconds: self.limit,
             name: "capillary",
+            beyond: Beyond::Refuses,
         })
     }
 

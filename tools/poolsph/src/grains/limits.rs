@@ -29,7 +29,7 @@ impl Motion {
                 [law.deepest(mass, radius, speed), duration]
             }),
         };
-        Limit { seconds, name }
+        Limit::dividing(name, seconds)
     }
 
     /// The error of grains whose speed is no number.

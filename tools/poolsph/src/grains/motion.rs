@@ -49,6 +49,8 @@ pub struct Motion {
     restored: Option<Vec<f64>>,
     pub(super) lost: [f64; 2],
     pub(super) steps: f64,
+    /// Into how many steps of its own the last step was divided.
+    parts: u64,
     pub(super) heat: Option<Heat>,
     pub(super) metal: Option<Metal>,
 }
@@ -100,6 +102,7 @@ impl Motion {
             restored: None,
             lost: [0.0; 2],
             steps: 0.0,
+            parts: 1,
             heat,
             metal: None,
         })
@@ -283,10 +286,8 @@ impl Stage for Motion {
 
     fn dt_limit(&self, _: &State) -> Option<Limit> {
         let motion = self.limit();
-        let conduction = self.heat.as_ref().map(|heat| Limit {
-            seconds: heat.limit,
-            name: "grain_conduction",
-        });
+        let conduction =
+            (self.heat.as_ref()).map(|heat| Limit::dividing("grain_conduction", heat.limit));
         conduction
             .filter(|limit| limit.seconds < motion.seconds)
             .or(Some(motion))
@@ -310,7 +311,9 @@ impl Stage for Motion {
             self.list_metal();
             self.walls.spread(&self.moving.grains);
             let (mut done, mut next) = (0.0, None);
+            self.parts = 0;
             while done < dt && !self.doing.fastest.is_nan() {
+                self.parts += 1;
                 let left = dt - done;
                 let step = next.map_or_else(|| self.part(left), |[step, _]: [f64; 2]| step);
                 // The last is what is left, to the bit.
@@ -349,6 +352,10 @@ impl Stage for Motion {
         state.grains = Some(set);
         marched.map_err(|what| StageError::Data(what.to_string()))?;
         diverged.map_or(warmed, Err)
+    }
+
+    fn parts(&self) -> u64 {
+        self.parts
     }
 
     fn ends(&self) -> bool {

@@ -189,6 +189,10 @@ pub struct Arc {
     /// Area that takes a step whole, times that step \[m2 s\].
     whole: f64,
     power: f64,
+    /// Into how many parts the last step was divided at most.
+    parts: f64,
+    /// Whether something of a flux that varies in time may have been missed.
+    missed: bool,
     heated: Chunks<Result<Heated, StageError>>,
 }
 
@@ -202,6 +206,10 @@ struct Heated {
     temperature: f64,
     /// Heat by flux \[J\].
     put: [f64; PARTS],
+    /// Into how many parts its step was divided.
+    parts: f64,
+    /// Whether all of a flux that varies in time was found.
+    found: bool,
 }
 
 impl Arc {
@@ -239,6 +247,8 @@ impl Arc {
             fluxes,
             onto: parameters.on,
             power: 0.0,
+            parts: 1.0,
+            missed: false,
             heated: Chunks::default(),
         })
     }
@@ -276,12 +286,16 @@ impl Arc {
             enthalpy: state.enthalpy[a],
             temperature: state.temperature[a],
             put: [0.0; PARTS],
+            parts: (dt * area / self.whole).ceil().max(1.0),
+            found: true,
         };
-        let parts = (dt * area / self.whole).ceil().max(1.0);
+        let parts = heated.parts;
         for _ in 0..parts as u64 {
             let mut gain = 0.0;
             for (put, flux) in heated.put.iter_mut().zip(&self.fluxes) {
-                let heat = flux.at(r, heated.temperature, state.time)? * area * dt / parts;
+                let (mean, found) = flux.at((r, heated.temperature), (state.time, dt))?;
+                let heat = mean * area * dt / parts;
+                heated.found &= found;
                 *put += heat;
                 gain += heat;
             }
@@ -306,8 +320,13 @@ impl Stage for Arc {
 
     fn dt_limit(&self, _state: &State) -> Option<Limit> {
         let seconds = self.whole / (self.metal.spacing * self.metal.spacing);
-        let name = "arc_feedback";
-        seconds.is_finite().then_some(Limit { seconds, name })
+        seconds
+            .is_finite()
+            .then(|| Limit::dividing("arc_feedback", seconds))
+    }
+
+    fn parts(&self) -> u64 {
+        self.parts as u64
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
@@ -317,8 +336,11 @@ impl Stage for Arc {
             Some(self.heat(state, a, lit, dt))
         });
         let mut gain = 0.0;
+        self.parts = 1.0;
         for one in heated.drain() {
             let one = one?;
+            self.parts = self.parts.max(one.parts);
+            self.missed |= !one.found;
             let a = one.a as usize;
             state.enthalpy[a] = one.enthalpy;
             state.temperature[a] = one.temperature;
@@ -346,15 +368,19 @@ impl Stage for Arc {
         std::iter::once(power).chain(put).collect()
     }
 
+    fn warnings(&self) -> Vec<String> {
+        let missed = "flux_w_m2 has more pulses in time than could be followed: heat may be missed";
+        self.missed.then(|| missed.to_owned()).into_iter().collect()
+    }
+
     fn save(&self) -> Vec<f64> {
-        self.fluxes
-            .iter()
-            .flat_map(|flux| flux.put.save())
-            .collect()
+        let put = self.fluxes.iter().flat_map(|flux| flux.put.save());
+        put.chain([f64::from(u8::from(self.missed))]).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) {
-        for (flux, parts) in self.fluxes.iter_mut().zip(saved.chunks(2)) {
+        self.missed = saved.last().is_some_and(|missed| *missed > 0.0);
+        for (flux, parts) in self.fluxes.iter_mut().zip(saved.chunks_exact(2)) {
             flux.put = Sum::restored(parts);
         }
     }

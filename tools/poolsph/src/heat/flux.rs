@@ -36,24 +36,33 @@ impl Flux {
         }
     }
 
-    /// The flux at the distance `r` \[m\] into metal of `t` \[K\] \[W/m2\].
-    pub(super) fn at(&self, r: f64, t: f64, time: f64) -> Result<f64, StageError> {
+    /// The flux at the distance `r` \[m\] into metal of `t` \[K\] \[W/m2\], that of a formula as its mean from `time`
+    /// over `dt` \[s\]; and whether all of it was found.
+    pub(super) fn at(
+        &self,
+        (r, t): (f64, f64),
+        (time, dt): (f64, f64),
+    ) -> Result<(f64, bool), StageError> {
         if r > self.reach() {
-            return Ok(0.0);
+            return Ok((0.0, true));
         }
-        match &self.law {
-            Law::Table(table) => Ok(table.held(r)),
-            Law::Electrons(emitter) => Ok(emitter.electrons(r, t)),
-            Law::Ions(emitter) => Ok(emitter.ions(r, t)),
-            Law::Film(film) => Ok(film.heat(r, t)),
-            Law::Curve(curve) => curve
-                .value(&Arguments {
+        let value = match &self.law {
+            Law::Table(table) => table.held(r),
+            Law::Electrons(emitter) => emitter.electrons(r, t),
+            Law::Ions(emitter) => emitter.ions(r, t),
+            Law::Film(film) => film.heat(r, t),
+            Law::Curve(curve) => {
+                let at = Arguments {
                     r,
                     time,
                     ..Arguments::default()
-                })
-                .map_err(|fault| StageError::Data(format!("heat flux of the arc: {fault}"))),
-        }
+                };
+                let mean = curve.mean_in_time(&at, dt);
+                return mean
+                    .map_err(|fault| StageError::Data(format!("heat flux of the arc: {fault}")));
+            }
+        };
+        Ok((value, true))
     }
 
     /// Distance beyond which there is nothing \[m\].

@@ -254,21 +254,16 @@ impl Stage for Motion {
         let courant = COURANT * state.metal.spacing / self.speed;
         let viscous = self.viscosity.limit();
         Some(if self.fall < courant.min(viscous) {
-            Limit {
-                seconds: self.fall,
-                name: "fall",
-            }
+            Limit::dividing("fall", self.fall)
         } else if courant < viscous {
-            Limit {
-                seconds: courant,
-                name: "courant",
-            }
+            Limit::dividing("courant", courant)
         } else {
-            Limit {
-                seconds: viscous,
-                name: "viscosity",
-            }
+            Limit::dividing("viscosity", viscous)
         })
+    }
+
+    fn parts(&self) -> u64 {
+        u64::from(self.substeps)
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {

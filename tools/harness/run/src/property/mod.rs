@@ -1,6 +1,7 @@
 //! Properties as a person states them: a number, a table over temperature, or an expression.
 
 mod expression;
+mod moment;
 mod operation;
 mod parser;
 mod range;

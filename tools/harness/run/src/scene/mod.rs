@@ -5,7 +5,7 @@ mod migrate;
 mod names;
 mod origin;
 mod patch;
-mod quantity;
+pub(crate) mod quantity;
 mod schema;
 mod suggest;
 mod validate;

@@ -98,6 +98,29 @@ impl Merged {
         }
     }
 
+    /// Number of the last file that set the value at a pointer, or something within it: 0 is the scene.
+    fn set_by(&self, pointer: &str) -> usize {
+        let within = format!("{pointer}/");
+        let inner = self.origins.range(within.clone()..);
+        let inner = inner.take_while(|(path, _)| path.starts_with(&within));
+        let own = self.origins.get(pointer).map_or(0, |(file, _)| *file);
+        inner.map(|(_, (file, _))| *file).fold(own, usize::max)
+    }
+
+    /// Where what a fault is about was set: within the value at a pointer if a patch changed a part of it.
+    fn latest_spot(&self, pointer: &str) -> Spot {
+        let last = self.set_by(pointer);
+        let within = format!("{pointer}/");
+        let inner = self.origins.range(within.clone()..);
+        let mut inner = inner.take_while(|(path, _)| path.starts_with(&within));
+        let own = self.origins.get(pointer).map_or(0, |(file, _)| *file);
+        match inner.find(|(_, (file, _))| *file == last) {
+            // What is said of the scene as a whole is about no key of a patch.
+            Some((path, _)) if last > own && !pointer.is_empty() => self.spot(path),
+            _ => self.spot(pointer),
+        }
+    }
+
     /// Where a key of the object at a pointer was set.
     pub(crate) fn key_spot(&self, pointer: &str, key: &str) -> Spot {
         match self.origins.get(&format!("{pointer}/{}", escaped(key))) {
@@ -112,9 +135,10 @@ impl Merged {
 pub fn located(faults: Vec<Fault>, merged: &Merged) -> Vec<Fault> {
     let place = |path: &str, key: Option<&str>| match key {
         Some(key) => merged.key_spot(path, key),
-        None => merged.spot(path),
+        None => merged.latest_spot(path),
     };
-    let mut faults: Vec<Fault> = faults.into_iter().map(|f| f.placed(place)).collect();
+    let placed = |f: Fault| f.latest(|path| merged.set_by(path)).placed(place);
+    let mut faults: Vec<Fault> = faults.into_iter().map(placed).collect();
     faults.sort_by(|a, b| a.spot().cmp(&b.spot()));
     faults.dedup();
     faults

@@ -67,10 +67,70 @@ fn walk(value: &Value, at: &str, absolute: bool, found: &mut Vec<Fault>) {
     }
 }
 
+/// Ending of keys that state a density, and what solids and liquids have \[kg/m3\].
+const DENSITY: &str = "density_kg_m3";
+const CONDENSED: [f64; 2] = [30.0, 30_000.0];
+
+/// Values that their quantity can have and hardly has.
+pub(crate) fn doubts(scene: &Value) -> Vec<String> {
+    let mut found = Vec::new();
+    doubt(scene, "", false, &mut found);
+    found
+}
+
+/// Goes over a value; `dense` says whether its numbers are densities.
+fn doubt(value: &Value, at: &str, dense: bool, found: &mut Vec<String>) {
+    match value {
+        Value::Number(number) if dense => {
+            let density = number.as_f64().unwrap_or(f64::NAN);
+            let [low, high] = CONDENSED;
+            // 1 is the unit of who reckons without units.
+            if density > 0.0 && density < low && (density - 1.0).abs() > f64::EPSILON {
+                let meant = 1e3 * density;
+                found.push(format!(
+                    "{at}: {number} kg/m3 is the density of a gas; {number} g/cm3 are {meant} kg/m3"
+                ));
+            } else if density > high {
+                let meant = 1e-3 * density;
+                found.push(format!(
+                    "{at}: {number} kg/m3 is more than any matter has; a thousandth is {meant} kg/m3"
+                ));
+            }
+        }
+        Value::Array(list) => {
+            for (i, value) in list.iter().enumerate() {
+                doubt(value, &format!("{at}/{i}"), dense, found);
+            }
+        }
+        Value::Object(map) => {
+            for (key, value) in map {
+                let own = key.ends_with(DENSITY) || (dense && key == "value");
+                doubt(value, &format!("{at}/{}", escaped(key)), own, found);
+            }
+        }
+        _ => {}
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
+
+    #[test]
+    fn densities_off_by_a_thousand_are_doubted_wherever_they_stand() {
+        let scene = json!({
+            "density_kg_m3": 7.85,
+            "materials": [{"density_kg_m3": {"t_k": [300, 1800], "value": [7800, 7e6]}}, {"density_kg_m3": 1}],
+            "water": {"density_kg_m3": 1000}, "current_density_a_m2": 5
+        });
+        let found = doubts(&scene);
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(
+            found[0].starts_with("/density_kg_m3: 7.85 kg/m3") && found[0].contains("7850 kg/m3")
+        );
+        assert!(found[1].starts_with("/materials/0/density_kg_m3/value/1:"));
+    }
 
     #[test]
     fn temperatures_below_zero_are_found_wherever_they_stand() {

@@ -94,6 +94,8 @@ pub struct Conduction {
     exchanged: Vec<Exchanged>,
     saved: Option<Vec<f64>>,
     substeps: u64,
+    /// The same of what flows.
+    flowing: u64,
     out_open: Sum,
     out_held: Sum,
     out_walls: Sum,
@@ -135,6 +137,7 @@ impl Conduction {
             exchanged: Vec::new(),
             saved: None,
             substeps: 1,
+            flowing: 1,
             out_open: Sum::default(),
             out_held: Sum::default(),
             out_walls: Sum::default(),
@@ -290,10 +293,11 @@ impl Stage for Conduction {
     }
 
     fn dt_limit(&self, _state: &State) -> Option<Limit> {
-        Some(Limit {
-            seconds: self.limit,
-            name: "conduction",
-        })
+        Some(Limit::dividing("conduction", self.limit))
+    }
+
+    fn parts(&self) -> u64 {
+        self.substeps.max(self.flowing)
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
@@ -314,6 +318,7 @@ impl Stage for Conduction {
             }
         }
         let n = parts(dt);
+        self.flowing = if state.near.is_empty() { 1 } else { n as u64 };
         for _ in 0..n as u64 {
             if !state.near.is_empty() {
                 self.refresh(state);

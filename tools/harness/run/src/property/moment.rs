@@ -1,0 +1,158 @@
+//! The mean of a property over a stretch of time, however short its pulses are.
+//!
+//! Gauss' rule of three points, halved until bounds of the property over each part leave nothing hidden between its
+//! points and two halves agree with the whole.
+
+use super::{Arguments, Curve, OutOfRange};
+
+/// Error of the mean, over that of the magnitude.
+const TOLERANCE: f64 = 1e-4;
+/// Part of the greatest magnitude within the stretch that is nothing.
+const NOTHING: f64 = 1e-12;
+/// Bounds wider than this many times what the points span are not trusted.
+const TRUST: f64 = 3.0;
+/// Most parts of a stretch, and most rounds of halving.
+const MOST: usize = 4096;
+const ROUNDS: usize = 64;
+/// Nodes and weights of Gauss' rule on [0, 1], three points.
+const GAUSS: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_3, 5.0 / 18.0),
+    (0.5, 8.0 / 18.0),
+    (0.887_298_334_620_741_7, 5.0 / 18.0),
+];
+
+/// A part of the stretch: its begin and length as parts of it, its mean times its length, and the error of that.
+#[derive(Clone, Copy)]
+struct Part {
+    begin: f64,
+    length: f64,
+    sum: f64,
+    gross: f64,
+    error: f64,
+}
+
+impl Curve {
+    /// The mean over `length` \[s\] from the time of `at` on, and whether all of it was found.
+    ///
+    /// # Errors
+    /// As [`Curve::value`].
+    ///
+    /// ```
+    /// # use run::property::{Arguments, Property};
+    /// let pulse: Property = serde_json::from_str(r#"{"expr": "1e9*exp(-((t - 0.123)/1e-7)^2)"}"#).unwrap();
+    /// let curve = pulse.compile("/flux", &["t"]).unwrap();
+    /// let (mean, found) = curve.mean_in_time(&Arguments::default(), 1.0).unwrap();
+    /// assert!(found && (mean / (100.0 * std::f64::consts::PI.sqrt()) - 1.0).abs() < 1e-3);
+    /// ```
+    pub fn mean_in_time(&self, at: &Arguments, length: f64) -> Result<(f64, bool), OutOfRange> {
+        if !self.depends_on("t") {
+            return Ok((self.value(at)?, true));
+        }
+        let mut parts = vec![self.part((at, length), (0.0, 1.0))?];
+        let ends = [0.0, 1.0].map(|s| moved(at, s * length));
+        let most = self.bounds(&ends[0], &ends[1]).most();
+        let nothing = if most.is_finite() {
+            NOTHING * most
+        } else {
+            0.0
+        };
+        let mut found = false;
+        for _ in 0..ROUNDS {
+            let gross: f64 = parts.iter().map(|p| p.gross).sum();
+            let error: f64 = parts.iter().map(|p| p.error).sum();
+            let wanted = TOLERANCE * gross + nothing;
+            found = error <= wanted;
+            if found || parts.len() > MOST {
+                break;
+            }
+            let least = 0.5 * wanted / parts.len() as f64;
+            let mut next = Vec::with_capacity(2 * parts.len());
+            for part in parts {
+                if part.error <= least {
+                    next.push(part);
+                    continue;
+                }
+                let half = 0.5 * part.length;
+                next.push(self.part((at, length), (part.begin, half))?);
+                next.push(self.part((at, length), (part.begin + half, half))?);
+            }
+            parts = next;
+        }
+        Ok((parts.iter().map(|p| p.sum).sum(), found))
+    }
+
+    fn part(
+        &self,
+        (at, whole): (&Arguments, f64),
+        (begin, length): (f64, f64),
+    ) -> Result<Part, OutOfRange> {
+        let value = |s: f64| self.value(&moved(at, whole * (begin + s * length)));
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut gauss = |from: f64, to: f64| -> Result<(f64, f64), OutOfRange> {
+            let mut sum = (0.0, 0.0);
+            for (s, weight) in GAUSS {
+                let v = value(from + s * (to - from))?;
+                (low, high) = (low.min(v), high.max(v));
+                sum = (sum.0 + weight * v, sum.1 + weight * v.abs());
+            }
+            Ok((sum.0 * (to - from), sum.1 * (to - from)))
+        };
+        let once = gauss(0.0, 1.0)?;
+        let halves = [gauss(0.0, 0.5)?, gauss(0.5, 1.0)?];
+        let sum = halves[0].0 + halves[1].0;
+        let ends = [begin, begin + length].map(|s| moved(at, whole * s));
+        let bounds = self.bounds(&ends[0], &ends[1]);
+        let trusted = bounds.width() <= TRUST * (high - low) + 1e-12 * bounds.most();
+        let error = if trusted {
+            (sum - once.0).abs()
+        } else {
+            bounds.width().min(f64::MAX)
+        };
+        Ok(Part {
+            begin,
+            length,
+            sum: length * sum,
+            gross: length * (halves[0].1 + halves[1].1),
+            error: length * error,
+        })
+    }
+}
+
+/// The same place, some time later.
+fn moved(at: &Arguments, by: f64) -> Arguments {
+    Arguments {
+        time: at.time + by,
+        ..*at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Property;
+    use super::*;
+
+    #[test]
+    fn pulses_and_jumps_have_their_means() {
+        let from = Arguments {
+            time: 2.0,
+            ..Arguments::default()
+        };
+        for (text, exact) in [
+            ("3", 3.0),
+            ("t", 2.25),
+            ("if(t - 2.1, if(2.1001 - t, 1e6, 0), 0)", 200.0),
+            ("5 + sin(40*pi*t)", 5.0),
+            ("1e8*max(0, 1 - abs(t - 2.3)/1e-6)", 200.0),
+            ("if(t - 7, 1e6, 0)", 0.0),
+        ] {
+            let property: Property =
+                serde_json::from_str(&format!(r#"{{"expr": "{text}"}}"#)).unwrap();
+            let curve = property.compile("/q", &["t"]).unwrap();
+            let (mean, found) = curve.mean_in_time(&from, 0.5).unwrap();
+            assert!(
+                found && (mean - exact).abs() <= 1e-3 * exact,
+                "{text}: {mean}"
+            );
+        }
+    }
+}

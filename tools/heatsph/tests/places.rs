@@ -1,0 +1,47 @@
+//! Where a fault is told: in the patch that made it.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::process::Command;
+
+use serde_json::{Value, json};
+
+/// What `check` says of a good scene with a patch.
+fn said(patch: &Value) -> String {
+    let scene = json!({
+        "kind": "heatsph.scene", "version": 1, "dimensions": 2,
+        "body": {"box": {"min_m": [0, 0], "max_m": [1, 1]}}, "points": {"spacing_m": 0.1},
+        "materials": [{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": 1}],
+        "initial_temperature_k": 300, "steady": {}
+    });
+    let folder = tempfile::tempdir().unwrap();
+    let [path, over] = ["scene.json", "patch.json"].map(|name| folder.path().join(name));
+    std::fs::write(&path, scene.to_string()).unwrap();
+    std::fs::write(&over, patch.to_string()).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_heatsph"))
+        .arg("check")
+        .arg(&path)
+        .arg("--patch")
+        .arg(&over)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    said
+}
+
+#[test]
+fn a_fault_of_two_keys_is_told_at_the_one_that_the_patch_set() {
+    for (patch, key) in [
+        (json!({"body": {"box": {"max_m": [1e6, 1e6]}}}), "/body:"),
+        (json!({"points": {"spacing_m": 1e-7}}), "/points/spacing_m:"),
+        (json!({"time": {"end_s": 1}}), "/time:"),
+    ] {
+        let said = said(&patch);
+        assert!(
+            said.contains("patch.json:1:") && said.contains(key),
+            "{key} {said}"
+        );
+        assert!(!said.contains("scene.json:"), "{said}");
+    }
+}
