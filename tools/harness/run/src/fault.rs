@@ -19,7 +19,7 @@ pub struct Fault {
     others: Vec<String>,
     what: String,
     key: Option<String>,
-    spot: Option<Spot>,
+    spot: Option<Box<Spot>>,
 }
 
 impl Fault {
@@ -49,7 +49,7 @@ impl Fault {
     /// A fault at a place in a file that could not be parsed.
     pub(crate) fn in_text(spot: Spot, what: impl Into<String>) -> Self {
         Self {
-            spot: Some(spot),
+            spot: Some(Box::new(spot)),
             ..Self::at("", what)
         }
     }
@@ -90,14 +90,15 @@ impl Fault {
     /// The fault at the place that `place` finds for its path and key, unless it has one.
     pub(crate) fn placed(mut self, place: impl FnOnce(&str, Option<&str>) -> Spot) -> Self {
         if self.spot.is_none() {
-            self.spot = Some(place(&self.path, self.key.as_deref()));
+            let spot = place(&self.path, self.key.as_deref());
+            self.spot = Some(Box::new(spot));
         }
         self
     }
 
     /// Where it is, once it has been placed.
     pub(crate) fn spot(&self) -> Option<&Spot> {
-        self.spot.as_ref()
+        self.spot.as_deref()
     }
 }
 

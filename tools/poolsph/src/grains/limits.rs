@@ -32,6 +32,12 @@ impl Motion {
         Limit::dividing(name, seconds)
     }
 
+    /// The next step of `left` \[s\]: an equal part of it that the limit allows.
+    pub(super) fn part(&self, left: f64) -> f64 {
+        let parts = (left / self.limit().seconds - 1e-9).ceil().max(1.0);
+        left / parts
+    }
+
     /// The error of grains whose speed is no number.
     pub(super) fn diverged(&self, state: &State) -> Option<StageError> {
         self.doing.fastest.is_nan().then(|| {

@@ -253,12 +253,6 @@ impl Motion {
         Ok(next.map(|next| [next, far]))
     }
 
-    /// The next step of `left` \[s\]: an equal part of it that the limit allows.
-    fn part(&self, left: f64) -> f64 {
-        let parts = (left / self.limit().seconds - 1e-9).ceil().max(1.0);
-        left / parts
-    }
-
     /// Whether someone may touch who is not listed, where grains have gone as far as `far` \[m\].
     fn strayed(&self, far: f64) -> bool {
         let skin = Lists::skin(self.setting.radii[0]);
