@@ -9,6 +9,7 @@
 )]
 
 mod layout;
+mod package;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -47,6 +48,7 @@ fn ask(python: &Path, script: &str, arguments: &[&str]) -> Value {
     let output = Command::new(python)
         .arg(root().join("tests/interop").join(script))
         .args(arguments)
+        .env("PYTHONPATH", root().join("tools/python"))
         .output()
         .unwrap();
     assert!(
