@@ -32,6 +32,14 @@ $(PROGRAMS) &: $(SOURCES)
 # Studies: one folder each in pipelines/, one folder each in build/.
 include $(wildcard pipelines/*/rules.mk)
 
+# An own study begins as a copy of another. The words are handed over by the environment: no name is a command.
+FROM ?=
+.PHONY: new
+new: export NEW_STUDY := $(STUDY)
+new: export NEW_FROM := $(FROM)
+new: ## begin an own study as a copy that works (STUDY=my-weld FROM=gmaw-quick)
+	@pipelines/new "$$NEW_STUDY" "$$NEW_FROM"
+
 # Checks.
 .PHONY: test format lint docs unit schemas
 test: format unit ## everything that must hold on every change (minutes)

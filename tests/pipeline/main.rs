@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod beside;
+mod new;
 mod study;
 
 use std::path::{Path, PathBuf};

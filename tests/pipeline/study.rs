@@ -2,7 +2,7 @@
 
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 /// Writes what its files hold to its output, but for lines with comments, and notes its name.
 const COPIES: &str = r#"#!/bin/sh
@@ -20,13 +20,13 @@ rm "$name.gathered"
 "#;
 
 /// A copy of the repository's rules in a folder whose name has a space.
-struct Workshop {
+pub(crate) struct Workshop {
     _folder: tempfile::TempDir,
-    root: PathBuf,
+    pub(crate) root: PathBuf,
 }
 
 impl Workshop {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let root = folder.path().join("welds of mine");
         let project = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
@@ -73,15 +73,26 @@ impl Workshop {
 
     /// The programs that `make gmaw-quick` runs, in their order.
     fn make(&self) -> Vec<String> {
-        let log = self.root.join("log");
-        let _ = std::fs::remove_file(&log);
-        let output = Command::new("make")
+        self.programs_of("gmaw-quick")
+    }
+
+    /// Make with `words`.
+    pub(crate) fn ask(&self, words: &[&str]) -> Output {
+        Command::new("make")
             .current_dir(&self.root)
-            .args(["--no-print-directory", "gmaw-quick"])
+            .arg("--no-print-directory")
+            .args(words)
             .env_remove("MAKEFLAGS")
             .env_remove("MAKELEVEL")
             .output()
-            .unwrap();
+            .unwrap()
+    }
+
+    /// The programs that `make STUDY` runs, in their order.
+    pub(crate) fn programs_of(&self, study: &str) -> Vec<String> {
+        let log = self.root.join("log");
+        let _ = std::fs::remove_file(&log);
+        let output = self.ask(&[study]);
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{said}");
         let log = std::fs::read_to_string(log).unwrap_or_default();
@@ -89,7 +100,7 @@ impl Workshop {
     }
 
     /// Adds a line to a file of the pipelines.
-    fn add(&self, file: &str, line: &str) {
+    pub(crate) fn add(&self, file: &str, line: &str) {
         let path = self.root.join("pipelines").join(file);
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(path, format!("{text}{line}\n")).unwrap();
