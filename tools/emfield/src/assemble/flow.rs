@@ -5,7 +5,7 @@ use run::{Failure, Session};
 
 use super::liquid::{electric, fastest, filled, matter, start, steps, way};
 use super::steps::Steps;
-use crate::liquid::air::{Place, Skin};
+use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::electric::Electric;
 use crate::liquid::operators::{divergence, operators};
@@ -170,14 +170,7 @@ impl March {
             return Ok(());
         };
         let surface = liquid.surface();
-        let place = Place {
-            skin: Skin {
-                place: &liquid.position[..surface],
-                normal: &liquid.normal,
-                spacing: self.way.spacing,
-            },
-            inside: &liquid.position[surface..],
-        };
+        let place = Place::of(&liquid.position, &liquid.normal, self.way.spacing);
         let (rule, effort) = (self.way.rule(), &mut self.effort);
         let stood = session.timed("points of the field", || electric.stand(place))?;
         let sides = session.timed("weights of the field", || electric.fit(&stood))?;

@@ -5,6 +5,7 @@ use run::{Estimate, Failure, Fault, Plan};
 use shapes::Body;
 
 use super::steps::Steps;
+use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::electric::{Applied, Electric};
 use crate::liquid::fill::{Filled, fill};
@@ -169,8 +170,15 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
         .limit("step", steps.longest(), "s")
         .memory("equations", BYTES * points)
         .left_out("eddy currents", "no key 'eddy_currents'");
-    plan = match &part.electric {
-        Some(_) => plan.stage("electric field").column("traction", "Pa"),
+    plan = match electric(part) {
+        Some(field) => {
+            let place = Place::of(&liquid.position, &liquid.normal, scene.points.spacing_m);
+            let count = field.count(place);
+            plan.stage("electric field")
+                .count("points of the field", count)
+                .column("traction", "Pa")
+                .memory("equations of the field", BYTES * count)
+        }
         None => plan.left_out("electric field", "no key 'electric' of 'liquid'"),
     };
     for (absent, name, key) in [
@@ -199,13 +207,34 @@ pub fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure>
     };
     let mut liquid = start(part, filled(scene, part)?)?;
     let steps = steps(scene, (part, march), &liquid);
+    let (way, mut effort) = (way(scene, part), Effort::default());
+    let mut field = electric(part);
+    if let Some(field) = &mut field {
+        // What is kept from step to step is made once.
+        liquid.pull[0] = pull(field, &liquid, &way, &mut effort)?;
+        liquid.pull[1] = vec![0.0; liquid.surface()];
+    }
     let began = std::time::Instant::now();
-    let how = (&way(scene, part), steps.step(0).1);
-    liquid.advance(&matter(part), how, &mut Effort::default())?;
+    liquid.advance(&matter(part), (&way, steps.step(0).1), &mut effort)?;
+    if let Some(field) = &mut field {
+        pull(field, &liquid, &way, &mut effort)?;
+    }
     let each = began.elapsed().as_secs_f64();
     Ok(Some(Estimate {
         seconds: each * steps.count() as f64,
         basis: format!("{:.3} s a step, as at the start", each),
         memory: Vec::new(),
     }))
+}
+
+/// The traction of the field where the liquid is \[Pa\].
+fn pull(
+    field: &mut Electric,
+    liquid: &Liquid<3>,
+    way: &Way,
+    effort: &mut Effort,
+) -> Result<Vec<f64>, Failure> {
+    let stood = field.stand(Place::of(&liquid.position, &liquid.normal, way.spacing))?;
+    let fitted = field.fit(&stood)?;
+    field.traction((&stood, &fitted), way.rule(), effort)
 }

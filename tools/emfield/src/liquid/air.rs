@@ -63,6 +63,20 @@ pub struct Place<'a> {
     pub inside: &'a [[f64; 3]],
 }
 
+impl<'a> Place<'a> {
+    /// Where a liquid of such points is, those of the surface first, with their normals.
+    #[must_use]
+    pub fn of(position: &'a [[f64; 3]], normal: &'a [[f64; 3]], spacing: f64) -> Self {
+        let (place, inside) = position.split_at(normal.len());
+        let skin = Skin {
+            place,
+            normal,
+            spacing,
+        };
+        Self { skin, inside }
+    }
+}
+
 /// A surface that is ready to be asked what is near.
 pub(super) struct Near<'a> {
     skin: Skin<'a>,

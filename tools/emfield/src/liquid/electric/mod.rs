@@ -25,7 +25,7 @@ pub use kept::Fitted;
 use kept::{Kept, awake};
 pub use state::State;
 
-use super::air::Place;
+use super::air::{Air, Place};
 use super::effort::Effort;
 use super::vector::dot;
 use crate::solve::region::{Kind, Region};
@@ -113,6 +113,15 @@ impl Electric {
     pub fn fit(&self, stood: &Stood) -> Result<Fitted, Failure> {
         let air = &self.kept.as_ref().ok_or_else(unmade)?.air;
         Fitted::new(air, &stood.region, &self.form)
+    }
+
+    /// Points of the field of a liquid as it is, the liquid's own among them.
+    #[must_use]
+    pub fn count(&self, place: Place<'_>) -> u64 {
+        let air = Air::new(place.skin);
+        let standing = air.standing(place.skin);
+        let region = standing.region(place, &air, self.applied.conducts());
+        region.len() as u64
     }
 
     /// Traction on each surface point, outward along its normal \[Pa\].

@@ -4,7 +4,6 @@ use shapes::Body;
 use shapes::shape::{Shape, Sphere};
 
 use super::*;
-use crate::liquid::air::Skin;
 use crate::liquid::fill::{Filled, fill};
 
 const FIELD: f64 = 2e6;
@@ -19,15 +18,7 @@ fn filled(radius: f64, parts: f64) -> Filled<3> {
 }
 
 fn place(filled: &Filled<3>, spacing: f64) -> Place<'_> {
-    let surface = filled.normal.len();
-    Place {
-        skin: Skin {
-            place: &filled.position[..surface],
-            normal: &filled.normal,
-            spacing,
-        },
-        inside: &filled.position[surface..],
-    }
+    Place::of(&filled.position, &filled.normal, spacing)
 }
 
 fn pulled(electric: &mut Electric, place: Place<'_>) -> (Vec<f64>, Effort) {
