@@ -69,6 +69,7 @@ mod jet_plate;
 mod jet_press;
 mod jet_still;
 mod jet_threshold;
+mod liquid_charge;
 mod liquid_drop;
 mod liquid_field_drop;
 mod liquid_field_march;
@@ -223,5 +224,6 @@ fn liquids() -> Vec<Box<dyn Case>> {
         Box::new(liquid_rest::LiquidRest),
         Box::new(liquid_field_drop::LiquidFieldDrop),
         Box::new(liquid_field_march::LiquidFieldMarch),
+        Box::new(liquid_charge::LiquidCharge),
     ]
 }
