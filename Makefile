@@ -61,7 +61,7 @@ build/python/.installed: tests/interop/requirements.txt
 	@mkdir -p build
 	@if python3 -m venv build/python && build/python/bin/pip install --quiet --disable-pip-version-check -r $<; \
 	then touch $@; \
-	else echo "python3 with venv is not here: the tests that read our files with other programs are skipped"; fi
+	else rm -f $@; echo "python3 with venv, or what is in $<, is not here: the tests that read our files in Python are skipped"; fi
 
 schemas: programs ## write schemas/*.scene.v1.json from the programs
 	@for tool in gasprop arcfvm poolsph heatsph emfield jetsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done

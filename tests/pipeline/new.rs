@@ -63,6 +63,7 @@ fn what_is_there_is_kept_and_what_is_wrong_is_said() {
     for (words, said) in [
         (["STUDY=gmaw-300a", "FROM=gmaw-quick"], "is there already"),
         (["STUDY=my-weld", "FROM=gmaw-fast"], "gmaw-quick"),
+        (["STUDY=my-weld", "FROM=gmaw-quick/"], "no such study"),
         (["STUDY=My weld", "FROM=gmaw-quick"], "small letters"),
         (["STUDY=../weld", "FROM=gmaw-quick"], "small letters"),
         (["STUDY=verify", "FROM=gmaw-quick"], "already"),
