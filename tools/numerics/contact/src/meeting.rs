@@ -32,6 +32,8 @@ pub struct Meeting {
     pub slide: Vector,
     /// Difference of the angular velocities of a and b \[rad/s\].
     pub turn: Vector,
+    /// Angular velocity of the normal \[rad/s\]; that of a wall is taken to stay.
+    pub swing: Vector,
     /// Effective mass 1 / (1/m_a + 1/m_b) \[kg\].
     pub mass: f64,
     /// Effective radius 1 / (1/r_a + 1/r_b) \[m\].
@@ -83,6 +85,8 @@ impl Meeting {
         let past = difference(a.velocity, b.velocity);
         let opening = dot(past, normal);
         let rolled = along(scaled(arms[0], a.spin), arms[1], b.spin);
+        // dn/dt = (u - (u.n) n) / d = swing x n
+        let swing = scaled(inverse, cross(normal, past));
         Self {
             normal,
             overlap: reach - distance,
@@ -90,6 +94,7 @@ impl Meeting {
             approach: -opening,
             slide: difference(along(past, -opening, normal), cross(rolled, normal)),
             turn: difference(a.spin, b.spin),
+            swing,
             mass: a.mass * b.mass / (a.mass + b.mass),
             radius: a.radius * b.radius / reach,
         }
@@ -149,6 +154,7 @@ impl Meeting {
             approach: -opening,
             slide: difference(along(past, -opening, normal), cross(rolled, normal)),
             turn: a.spin,
+            swing: [0.0; 3],
             mass: a.mass,
             radius: a.radius,
         }

@@ -129,6 +129,7 @@ impl Setting {
             approach: 0.0,
             slide: [0.0; 3],
             turn: [0.0; 3],
+            swing: [0.0; 3],
             mass: 0.5 * self.lightest,
             radius: self.radii[1],
         };

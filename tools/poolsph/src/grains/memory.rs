@@ -12,7 +12,7 @@ pub struct Memory {
     pub other: u32,
     /// The spring across.
     pub history: History,
-    /// The spring of rolling \[m\].
+    /// Turning of one against the other, times the effective radius: springs of rolling and twisting \[m\].
     pub rolled: Vector,
 }
 
@@ -39,7 +39,7 @@ impl Memory {
         }
     }
 
-    /// The same contact seen from the other grain: the stretch of sliding is the opposite, that of rolling the same.
+    /// The same contact seen from the other grain: the stretch of sliding is the opposite, and so is the turning.
     fn turned(self) -> Self {
         Self {
             row: self.other,
@@ -48,7 +48,7 @@ impl Memory {
                 stretch: self.history.stretch.map(|s| -s),
                 ..self.history
             },
-            ..self
+            rolled: self.rolled.map(|t| -t),
         }
     }
 }
@@ -113,6 +113,7 @@ mod tests {
                 stretch: [-1.0, -2.0, -3.0],
                 ..turned.history
             },
+            rolled: turned.rolled.map(|t| -t),
             ..turned
         };
         assert_eq!(memories[0], [memory(0, 1), turned]);

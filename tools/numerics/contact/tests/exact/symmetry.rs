@@ -37,7 +37,7 @@ proptest! {
         let stretch = s.map(|x| 1e-5 * x);
         if let (Some(one), Some(other)) = (Meeting::of(&a, &b), Meeting::of(&b, &a)) {
             let mut seen = [History { stretch, stiffness: 60.0 }, History { stretch: stretch.map(|x| -x), stiffness: 60.0 }];
-            let mut rolled = [stretch; 2];
+            let mut rolled = [stretch, stretch.map(|x| -x)];
             let on_a = contact.act_rolling(&one, rolling, (&mut seen[0], &mut rolled[0]), 1e-5);
             let on_b = contact.act_rolling(&other, rolling, (&mut seen[1], &mut rolled[1]), 1e-5);
             // `+ 0.0` turns -0 into 0, which alone differs in its bits.
@@ -45,6 +45,7 @@ proptest! {
             prop_assert_eq!(bits(on_a.force), bits(on_b.force.map(|f| -f)));
             prop_assert_eq!(bits(on_a.moment_on_b), bits(on_b.moment));
             prop_assert_eq!(bits(seen[0].stretch), bits(seen[1].stretch.map(|x| -x)));
+            prop_assert_eq!(bits(rolled[0]), bits(rolled[1].map(|x| -x)));
             // x_a x F - x_b x F + M_a + M_b = 0
             let arm = [0, 1, 2].map(|i| a.position[i] - b.position[i]);
             let lever = cross(arm, on_a.force);
