@@ -18,6 +18,7 @@ mod dem_conductance;
 mod dem_contact;
 mod dem_incline;
 mod dem_pile;
+mod dem_rigid;
 mod dem_rolling;
 mod dem_shear_loop;
 mod dem_wire;
@@ -116,6 +117,7 @@ fn grains() -> Vec<Box<dyn Case>> {
         Box::new(dem_wire::DemWire),
         Box::new(dem_wire::DemCavity),
         Box::new(dem_pile::DemPile),
+        Box::new(dem_rigid::DemRigid),
         Box::new(saw_layer::SawLayer),
     ]
 }
