@@ -24,8 +24,24 @@ $(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap): build/saw-quick/%.mcap: pipeline
 	  --patch pipelines/saw-quick/weld.patch.json --patch pipelines/saw-quick/$*.patch.json \
 	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-quick/bed.mcap --out $@ $(MACHINE)
 
+# Half of it beside its mirror plane.
+.PHONY: saw-quick-half
+saw-quick-half: build/saw-quick/half.mcap ## half of saw-quick beside its mirror plane (minutes)
+
+build/saw-quick/half-bed.mcap: pipelines/saw-600a/bed.json pipelines/saw-quick/bed.patch.json \
+  pipelines/saw-quick/half-bed.patch.json $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/bed.json --patch pipelines/saw-quick/bed.patch.json \
+	  --patch pipelines/saw-quick/half-bed.patch.json --out $@ $(MACHINE)
+
+build/saw-quick/half.mcap: pipelines/saw-600a/weld.json pipelines/saw-quick/weld.patch.json \
+  pipelines/saw-quick/half.patch.json build/saw-quick/half-bed.mcap build/gmaw-600a/arc.mcap $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/weld.json \
+	  --patch pipelines/saw-quick/weld.patch.json --patch pipelines/saw-quick/half.patch.json \
+	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-quick/half-bed.mcap --out $@ $(MACHINE)
+
 build/saw-quick/report.html: build/gmaw-600a/arc.mcap build/saw-quick/weld.mcap $(BIN)/report always
 	$(RERUN) $(BIN)/report page --study saw-quick --out $@ \
 	  --arc build/gmaw-600a/arc.mcap --pool build/saw-quick/weld.mcap
 
-.PRECIOUS: $(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap) build/saw-quick/bed.mcap build/saw-quick/weld.mcap build/saw-quick/report.html
+.PRECIOUS: $(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap) build/saw-quick/bed.mcap build/saw-quick/weld.mcap build/saw-quick/report.html \
+  build/saw-quick/half-bed.mcap build/saw-quick/half.mcap

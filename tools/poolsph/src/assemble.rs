@@ -219,7 +219,8 @@ impl<'a> Source<'a> {
         let scene = self.scene;
         parts.ahead("source", scene.source, |source| Ok(Box::new(Path(source))))?;
         parts.ahead("droplets", scene.droplets, |droplets| {
-            let stage = Droplets::new(droplets, scene.metal(), self.caloric.as_ref())
+            let metal = (scene.metal(), scene.halving()?);
+            let stage = Droplets::new(droplets, metal, self.caloric.as_ref())
                 .map_err(|fault| fault.within("/droplets"))?;
             Ok(Box::new(stage))
         })?;

@@ -161,7 +161,7 @@ pub fn volume(
     let (end, d) = (scene.time.end_s, scene.spacing_m);
     // All droplets are born at the last frame.
     let born = scene.droplets.map_or(0.0, |droplets| {
-        let period = droplets.period(d).unwrap_or(end).max(scene.step());
+        let period = scene.droplet_period().unwrap_or(end).max(scene.step());
         let each = (2.0 * droplets.radius_m / d).powi(3) * std::f64::consts::FRAC_PI_6;
         each * (end / period)
     });

@@ -9,6 +9,9 @@
 //! Print gives a droplet every 0.1 s and means 10 ms; 19 particles of volume d^3 carry the volume of
 //! the wire feed with a longer period. Lattices of other spacings hold other volumes within the radius, so that a scene
 //! best says the feed, and droplets come as often as they carry it.
+//!
+//! Where the source goes along a mirror plane, half of each droplet is born. Its layers stand half a spacing and more from the plane, so
+//! that with their images they are a droplet whose lattice the plane halves. The feed of the scene is that of the whole wire.
 
 use std::sync::Arc;
 
@@ -51,13 +54,53 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Time between two droplets of particles of the spacing \[m\] \[s\]: T = N d^3 / V', N particles each, V' the feed.
+    /// Time between two droplets of particles of the spacing \[m\] \[s\]: T = N d^3 / V', N particles each, V' the feed; half of
+    /// each side of a mirror.
     #[must_use]
-    pub fn period(&self, spacing: f64) -> Option<f64> {
-        let volume = || shape(self.radius_m, spacing).len() as f64 * spacing.powi(3);
+    pub fn period(&self, spacing: f64, mirror: Option<Mirror>) -> Option<f64> {
+        let sides = if mirror.is_some() { 2.0 } else { 1.0 };
+        let volume =
+            || sides * shape(self.radius_m, spacing, mirror).len() as f64 * spacing.powi(3);
         self.period_s
             .or_else(|| self.feed_m3_s.map(|feed| volume() / feed))
     }
+
+    /// The mirror plane that halves droplets of a source that starts at a place \[m\], among mirrors by axis, whether the
+    /// metal is below the plane, and place \[m\].
+    ///
+    /// # Errors
+    /// A mirror that a droplet would reach through, and more than one that halves it.
+    pub fn mirror(
+        &self,
+        (start, velocity): ([f64; 3], [f64; 3]),
+        mirrors: &[(Mirror, f64)],
+    ) -> Result<Option<Mirror>, Fault> {
+        let mut halves = None;
+        for (mirror, plane) in mirrors.iter().filter(|(mirror, _)| mirror.axis < 2) {
+            let off = (start[mirror.axis] - plane).abs();
+            let along = velocity[mirror.axis].abs() <= f64::MIN_POSITIVE;
+            let on = off <= 1e-6 * self.radius_m && along;
+            if on && halves.is_none() {
+                halves = Some(*mirror);
+            } else if on || (off < self.radius_m && along) {
+                let what = format!(
+                    "{off} m from the axis of the droplets, of the radius {} m: a mirror halves them or is out of their reach",
+                    self.radius_m
+                );
+                return Err(Fault::at("/faces/mirror", what));
+            }
+        }
+        Ok(halves)
+    }
+}
+
+/// A mirror plane by its axis, and on which side of it the metal is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mirror {
+    /// Number of the axis across it.
+    pub axis: usize,
+    /// Whether the metal lies towards lesser values.
+    pub below: bool,
 }
 
 /// The stage that makes and moves droplets.
@@ -75,17 +118,25 @@ pub struct Droplets {
     flying: Vec<usize>,
 }
 
-/// Lattice points of spacing `d` within `radius` of the origin, layer by layer from below.
+/// Lattice points of spacing `d` within `radius` of the origin, layer by layer from below; of a droplet that a mirror halves, those on
+/// the side of the metal.
 #[must_use]
-pub fn shape(radius: f64, d: f64) -> Vec<[f64; 3]> {
-    let n = (radius / d + 1e-9).floor() as i64;
+pub fn shape(radius: f64, d: f64, mirror: Option<Mirror>) -> Vec<[f64; 3]> {
+    let n = (radius / d + 1e-9).floor() as i64 + 1;
     let mut points = Vec::new();
     for k in -n..=n {
         for j in -n..=n {
             for i in -n..=n {
-                let square = (i * i + j * j + k * k) as f64 * d * d;
+                let mut point = [i, j, k].map(|c| c as f64 * d);
+                if let Some(Mirror { axis, below }) = mirror {
+                    point[axis] += 0.5 * d;
+                    if (point[axis] > 0.0) == below {
+                        continue;
+                    }
+                }
+                let square: f64 = point.iter().map(|x| x * x).sum();
                 if square <= radius * radius * (1.0 + 1e-9) {
-                    points.push([i, j, k].map(|c| c as f64 * d));
+                    points.push(point);
                 }
             }
         }
@@ -100,14 +151,14 @@ impl Droplets {
     /// A fault at the key that is wrong.
     pub fn new(
         parameters: Parameters,
-        metal: Metal,
+        (metal, mirror): (Metal, Option<Mirror>),
         caloric: Option<&Arc<Caloric>>,
     ) -> Result<Self, Fault> {
-        let Some(period) = parameters.period(metal.spacing) else {
+        let Some(period) = parameters.period(metal.spacing, mirror) else {
             let what = "has neither 'period_s' in s nor 'feed_m3_s' in m3/s, which say how often droplets come";
             return Err(Fault::at("", what));
         };
-        let shape = shape(parameters.radius_m, metal.spacing);
+        let shape = shape(parameters.radius_m, metal.spacing, mirror);
         let (temperature, enthalpy) = match (parameters.temperature_k, caloric) {
             (_, None) => (0.0, 0.0),
             (None, Some(_)) => {
@@ -364,7 +415,7 @@ mod tests {
 
     #[test]
     fn a_droplet_has_layers_of_five_nine_and_five() {
-        let shape = shape(0.75e-3, 5e-4);
+        let shape = shape(0.75e-3, 5e-4, None);
         let layer = |z: f64| shape.iter().filter(|p| (p[2] - z).abs() < 1e-9).count();
         assert_eq!([layer(-5e-4), layer(0.0), layer(5e-4)], [5, 9, 5]);
         assert_eq!(shape.len(), 19);
@@ -373,7 +424,7 @@ mod tests {
     #[test]
     fn droplets_come_in_time_and_land_with_their_speed() {
         let mut state = start();
-        let mut stage = Droplets::new(parameters(), METAL, None).unwrap();
+        let mut stage = Droplets::new(parameters(), (METAL, None), None).unwrap();
         march(&mut stage, &mut state, 20);
         let first = 81;
         assert!(state.phase[first..].iter().all(|p| *p == Phase::Flying));
@@ -402,7 +453,7 @@ mod tests {
                 smoothing_length: spacing,
                 ..METAL
             };
-            let stage = Droplets::new(parameters, metal, None).unwrap();
+            let stage = Droplets::new(parameters, (metal, None), None).unwrap();
             let volume = stage.particles() as f64 * spacing.powi(3);
             let supplied = stage.due(10.0) as f64 * volume;
             assert!((supplied - 10.0 * feed).abs() < 1.001 * volume, "{spacing}");
@@ -413,21 +464,61 @@ mod tests {
                 period_s: Some(0.02),
                 ..parameters
             }
-            .period(5e-4),
+            .period(5e-4, None),
             Some(0.02)
         );
         let silent = Parameters {
             feed_m3_s: None,
             ..parameters
         };
-        let fault = Droplets::new(silent, METAL, None).err().unwrap();
+        let fault = Droplets::new(silent, (METAL, None), None).err().unwrap();
         assert!(fault.to_string().contains("feed_m3_s"), "{fault}");
+    }
+
+    #[test]
+    fn half_droplets_and_their_images_carry_the_feed() {
+        let feed = 1.05e-7;
+        let parameters = Parameters {
+            period_s: None,
+            feed_m3_s: Some(feed),
+            radius_m: 1.25e-3,
+            ..parameters()
+        };
+        for (axis, below) in [(0, false), (0, true), (1, false)] {
+            let mirror = Mirror { axis, below };
+            let half = shape(1.25e-3, 5e-4, Some(mirror));
+            // Two halves are nearly the droplet of a ball, and none is on the plane.
+            let ball = 4.0 / 3.0 * std::f64::consts::PI * 1.25e-3_f64.powi(3);
+            let both = 2.0 * half.len() as f64 * 5e-4_f64.powi(3);
+            assert!((both / ball - 1.0).abs() < 0.15, "{}", both / ball);
+            let side = if below { -1.0 } else { 1.0 };
+            assert!(half.iter().all(|x| side * x[axis] > 2.4e-4));
+            let stage = Droplets::new(parameters, (METAL, Some(mirror)), None).unwrap();
+            let supplied = stage.due(10.0) as f64 * both;
+            assert!((supplied - 10.0 * feed).abs() < 1.001 * both);
+        }
+    }
+
+    #[test]
+    fn a_mirror_halves_droplets_on_it_and_may_not_cut_others() {
+        let mirror = Mirror {
+            axis: 0,
+            below: false,
+        };
+        let of = |start: [f64; 3], velocity: [f64; 3]| {
+            parameters().mirror((start, velocity), &[(mirror, 0.0)])
+        };
+        let along = [0.0, 5e-3, 0.0];
+        assert_eq!(of([0.0; 3], along).unwrap(), Some(mirror));
+        assert_eq!(of([1e-3, 0.0, 0.0], along).unwrap(), None);
+        let cut = of([5e-4, 0.0, 0.0], along).err().unwrap();
+        assert!(cut.to_string().contains("mirror"), "{cut}");
     }
 
     #[test]
     fn phases_run_from_birth_to_birth() {
         let mut state = start();
-        let mut stage = Droplets::new(parameters(), METAL, None).unwrap();
+        let mut stage = Droplets::new(parameters(), (METAL, None), None).unwrap();
         for step in 1..=250_u64 {
             march(&mut stage, &mut state, 1);
             let place = state.source.unwrap();
@@ -444,7 +535,7 @@ mod tests {
     fn before_the_flow_a_droplet_comes_to_rest_where_it_touches() {
         let mut state = start();
         state.flowing = false;
-        let mut stage = Droplets::new(parameters(), METAL, None).unwrap();
+        let mut stage = Droplets::new(parameters(), (METAL, None), None).unwrap();
         march(&mut stage, &mut state, 60);
         let lowest = state.position[81..]
             .iter()
@@ -458,9 +549,12 @@ mod tests {
 
     #[test]
     fn a_restored_stage_goes_on_alike() {
-        let (mut state, mut stage) = (start(), Droplets::new(parameters(), METAL, None).unwrap());
+        let (mut state, mut stage) = (
+            start(),
+            Droplets::new(parameters(), (METAL, None), None).unwrap(),
+        );
         march(&mut stage, &mut state, 115);
-        let mut again = Droplets::new(parameters(), METAL, None).unwrap();
+        let mut again = Droplets::new(parameters(), (METAL, None), None).unwrap();
         again.restore(&stage.save());
         let mut copy = state.clone();
         march(&mut stage, &mut state, 200);

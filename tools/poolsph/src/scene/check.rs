@@ -102,7 +102,10 @@ fn without_metal(scene: &Scene) -> Vec<Fault> {
 /// Droplets that are born into each other.
 fn crowded(scene: &Scene) -> Option<Fault> {
     let droplets = scene.droplets?;
-    let period = droplets.period(scene.spacing_m)?;
+    if let Err(fault) = scene.halving() {
+        return Some(fault);
+    }
+    let period = scene.droplet_period()?;
     let (step, speed) = (scene.step(), droplets.speed_m_s);
     let fallen = speed * period.max(step);
     let high = 2.0 * droplets.radius_m;

@@ -167,6 +167,31 @@ impl Scene {
         compiled.map_err(|fault| fault.within("/faces"))
     }
 
+    /// The mirror plane that halves droplets; none where the scene has no droplets, or no mirror along the way of its source.
+    ///
+    /// # Errors
+    /// A mirror that would cut a droplet.
+    pub fn halving(&self) -> Result<Option<droplet::Mirror>, Fault> {
+        let parts = (self.droplets, self.source, &self.faces);
+        let (Some(droplets), Some(source), Some(faces)) = parts else {
+            return Ok(None);
+        };
+        let mirrors = faces.mirror.iter().map(|face| {
+            let (axis, below) = face.side();
+            let corner = if below { faces.max_m } else { faces.min_m };
+            (droplet::Mirror { axis, below }, corner[axis])
+        });
+        let mirrors: Vec<_> = mirrors.collect();
+        droplets.mirror((source.start_m, source.velocity_m_s), &mirrors)
+    }
+
+    /// Time between two droplets \[s\], if there are any.
+    #[must_use]
+    pub fn droplet_period(&self) -> Option<f64> {
+        let mirror = self.halving().ok()?;
+        self.droplets?.period(self.spacing_m, mirror)
+    }
+
     /// Number of steps.
     #[must_use]
     pub fn steps(&self) -> u64 {

@@ -84,7 +84,7 @@ fn droplets(scene: &Scene) -> Option<Fault> {
         let fault = crowd("/droplets/radius_m", [across.round(); 3], scene.spacing_m);
         return Some(fault);
     }
-    let period = droplets.period(scene.spacing_m)?;
+    let period = scene.droplet_period()?;
     let born = (scene.time.end_s / period).floor() + 1.0;
     let all = born * each;
     (all > PARTICLES_MOST).then(|| {
