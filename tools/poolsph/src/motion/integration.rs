@@ -108,7 +108,7 @@ impl Motion {
     pub fn new(parameters: Parameters, law: Law, metal: Metal) -> Self {
         let gravity = parameters.gravity_m_s2.unwrap_or_default();
         Self {
-            viscosity: Viscosity::new(law, metal, parameters.method == Method::DivergenceFree),
+            viscosity: Viscosity::new(law, metal),
             noise: Noise::new(squared(gravity).sqrt(), metal),
             parameters,
             around: Around::default(),
@@ -137,9 +137,10 @@ impl Motion {
             .collect_into_vec(&mut self.predicted);
         let (around, predicted) = (&mut self.around, &mut self.predicted);
         if self.parameters.method == Method::DivergenceFree {
-            around.sum(near, &near.velocity);
-            self.viscosity.apply(near, around, dt, predicted);
+            self.viscosity
+                .apply_between_faces(near, (metal, dt), predicted);
             let viscosity = &self.viscosity;
+            self.divergence_free.begin(near);
             (self.divergence_free).slacken(near, viscosity, dt, predicted);
         } else if self.viscosity.acts() || self.noise.acts() {
             around.sum(near, &near.velocity);
@@ -149,7 +150,7 @@ impl Motion {
         }
     }
 
-    fn substep(&mut self, near: &mut Near, step: Step) {
+    fn substep(&mut self, near: &mut Near, step: Step, borne: [f64; 3]) {
         let dt = step.dt;
         self.predict(near, step.metal, dt);
         let tolerance = Tolerance {
@@ -161,7 +162,10 @@ impl Motion {
         let solved = match self.parameters.method {
             Method::Projection => self.projection.solve(near, predicted, step, tolerance),
             Method::Homogenising => self.homogenising.solve(near, predicted, step, tolerance),
-            Method::DivergenceFree => self.divergence_free.solve(near, predicted, step, tolerance),
+            Method::DivergenceFree => {
+                self.divergence_free
+                    .solve(near, predicted, borne, (step, tolerance))
+            }
         };
         self.solved.sweeps += solved.sweeps;
         self.solved.density_error = self.solved.density_error.max(solved.density_error);
@@ -286,11 +290,19 @@ impl Stage for Motion {
             dt: dt / f64::from(self.substeps),
             share: 1.0 / f64::from(self.substeps),
         };
+        let gravity = self.parameters.gravity_m_s2.unwrap_or_default();
+        let borne = [0, 1, 2].map(|axis| {
+            if state.faces.is_periodic(axis) {
+                0.0
+            } else {
+                gravity[axis]
+            }
+        });
         for k in 0..self.substeps {
             if k > 0 {
                 state.near.refresh(&state.faces);
             }
-            self.substep(&mut state.near, step);
+            self.substep(&mut state.near, step, borne);
         }
         state.near.fold(&state.faces);
         self.speed = state.near.fastest_squared().sqrt();

@@ -127,7 +127,7 @@ mod tests {
         let mut change = vec![[0.0; 3]; state.near.len()];
         let mut around = Around::default();
         around.sum(&state.near, &state.near.velocity);
-        let none = Viscosity::new(Law::Uniform(0.0), METAL, false);
+        let none = Viscosity::new(Law::Uniform(0.0), METAL);
         noise.damp(&state.near, &mut around, (&none, 1.0), &mut change);
         for x in change.iter_mut().flatten() {
             *x *= 1e6;

@@ -196,7 +196,7 @@ fn a_parabola_feels_its_curvature() {
 fn viscous(near: &Near, change: &mut [[f64; 3]]) {
     let mut around = around::Around::default();
     around.sum(near, &near.velocity);
-    let mut viscosity = viscosity::Viscosity::new(Law::Uniform(0.004), METAL, false);
+    let mut viscosity = viscosity::Viscosity::new(Law::Uniform(0.004), METAL);
     viscosity.apply(near, &around, 1.0, change);
     noise::Noise::new(0.0, METAL).damp(near, &mut around, (&viscosity, 1.0), change);
 }
@@ -397,7 +397,7 @@ fn sheared(mu: impl Fn(i32) -> f64, exact: impl Fn(i32) -> f64) -> Vec<f64> {
         .collect();
     state.gather();
     let near = &mut state.near;
-    let mut viscosity = viscosity::Viscosity::new(layers(mu), METAL, false);
+    let mut viscosity = viscosity::Viscosity::new(layers(mu), METAL);
     viscosity.take(near, &state.temperature).unwrap();
     let around = around::Around::default();
     let layers: Vec<i32> = near.position.iter().map(|x| layer(*x)).collect();

@@ -3,8 +3,6 @@
 use super::Scene;
 use super::body::{BodyScene, StartState};
 use crate::domain::shape::Shape;
-use crate::faces::Face;
-use crate::motion::Method;
 
 /// Notes on what will not happen although the scene names it.
 #[must_use]
@@ -31,26 +29,7 @@ fn shortened(scene: &Scene) -> Option<String> {
 /// What a run ends with warnings for, and is known before.
 #[must_use]
 pub fn doubts(scene: &Scene) -> Vec<String> {
-    thin(scene).into_iter().chain(closed(scene)).collect()
-}
-
-/// A box without a free surface across gravity, which velocities without divergence do not hold in order.
-fn closed(scene: &Scene) -> Option<String> {
-    let flow = scene.flow.as_ref()?;
-    let faces = scene.faces.as_ref()?;
-    let gravity = flow.gravity_m_s2.unwrap_or_default();
-    let shut = faces.mirror.iter().copied();
-    let shut: Vec<_> = shut.chain(faces.wall.iter().map(|w| w.face)).collect();
-    let both = |axis: usize| {
-        let of = |face: &&Face| face.side().0 == axis;
-        shut.iter().filter(of).count() == 2
-    };
-    let pressed = (0..3).any(|axis| gravity[axis] != 0.0 && both(axis));
-    (flow.method == Method::DivergenceFree && pressed).then(|| {
-        "a closed box under gravity is not judged with the method divergence_free: its particles fall into disorder as \
-         gravity grows; compare with the run of half the gravity, or leave a free surface"
-            .to_owned()
-    })
+    thin(scene)
 }
 
 /// Fewest layers of particles that carry what lies on them: the kernel reaches over two spacings.
@@ -260,25 +239,6 @@ mod tests {
         let mut still = scene("wall", 1e-3);
         still.flow = None;
         assert!(thin(&still).is_empty());
-    }
-
-    #[test]
-    fn a_closed_box_under_gravity_is_told_with_velocities_without_divergence() {
-        let told = |method: &str, gravity: f64, walls: &[&str]| {
-            let mut scene: Scene = serde_json::from_value(plain()).unwrap();
-            let flow =
-                json!({"viscosity_pa_s": 0.01, "gravity_m_s2": [0, 0, gravity], "method": method});
-            scene.flow = Some(serde_json::from_value(flow).unwrap());
-            let walls: Vec<_> = walls.iter().map(|f| json!({"face": f})).collect();
-            let faces = json!({"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005], "wall": walls});
-            scene.faces = Some(serde_json::from_value(faces).unwrap());
-            !doubts(&scene).is_empty()
-        };
-        assert!(told("divergence_free", -98.1, &["z-", "z+"]));
-        assert!(!told("divergence_free", -98.1, &["z-"]));
-        assert!(!told("divergence_free", -98.1, &["y-", "y+"]));
-        assert!(!told("divergence_free", 0.0, &["z-", "z+"]));
-        assert!(!told("projection", -98.1, &["z-", "z+"]));
     }
 
     #[test]

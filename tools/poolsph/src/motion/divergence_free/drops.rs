@@ -4,7 +4,6 @@ use super::*;
 use crate::forces::capillary::Capillary;
 use crate::forces::tension;
 use crate::march::March;
-use crate::motion::around::Around;
 use crate::motion::tests::{METAL, block, steps};
 use crate::motion::viscosity::Viscosity;
 use crate::motion::{Law, Motion, Parameters};
@@ -48,12 +47,12 @@ fn sum(near: &Near, of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
 /// What viscosity makes of the velocities within a second, with what it does at the surface.
 fn viscous(near: &Near, surface: bool) -> Vec<[f64; 3]> {
     let mut change = vec![[0.0; 3]; near.len()];
-    let mut around = Around::default();
-    around.sum(near, &near.velocity);
-    let mut viscosity = Viscosity::new(Law::Uniform(MU), METAL, true);
-    viscosity.apply(near, &around, 1.0, &mut change);
+    let mut viscosity = Viscosity::new(Law::Uniform(MU), METAL);
+    viscosity.apply_between_faces(near, (METAL, 1.0), &mut change);
     if surface {
-        DivergenceFree::new(METAL).slacken(near, &viscosity, 1.0, &mut change);
+        let mut solver = DivergenceFree::new(METAL);
+        solver.begin(near);
+        solver.slacken(near, &viscosity, 1.0, &mut change);
     }
     change
 }

@@ -8,8 +8,9 @@
 //! ```
 //!
 //! where e is a small part of the excess of density (Pozorski and Wawrenczuk 2002), so that the volume does not drift.
-//! The pressure p_s upon the surface is that of `Near::outer`, with the tension's (`pull`), or zero; its mean is taken from all pressures until the
-//! end, so that one that is the same everywhere moves nothing, however it comes and goes. The sign of p is free: nothing
+//! The pressure p_s upon the surface is that of `Near::outer`, with the tension's (`pull`), or zero; its mean is taken
+//! from all pressures until the end, so that one that is the same everywhere moves nothing, however it comes and goes.
+//! What bears the weight of the liquid is known beforehand (`weight`) and added at the end. The sign of p is free: nothing
 //! locks. A condition on the density itself makes layers of particles that slide over one another lift the weight above
 //! them, and they bear a stress of 0.4 % of the pressure as a solid does; a velocity without divergence asks nothing of
 //! them.
@@ -26,13 +27,17 @@
 //! lattice has more, mirrored across the surface half a spacing away. Solid particles move as the mirror images of the
 //! liquid beside them: the wall stands half a spacing before their first layer.
 
+mod filled;
 mod islands;
+mod normals;
+mod openness;
 mod operators;
 mod poisson;
 mod pull;
 mod ripples;
 mod shift;
 mod traction;
+mod weight;
 
 use rayon::prelude::*;
 
@@ -44,13 +49,16 @@ use crate::state::Metal;
 use crate::sweep::GRAIN;
 use crate::vector::{dot, minus, plus, squared};
 
+use self::filled::Filled;
 use self::islands::Islands;
-use self::operators::{Filled, Sums, times};
+use self::normals::Normals;
+use self::operators::{Sums, times};
 use self::poisson::Poisson;
 use self::pull::Pull;
 use self::ripples::Ripples;
 use self::shift::Shift;
 use self::traction::Traction;
+use self::weight::Weight;
 
 /// Part of the excess of density that a step takes away.
 const RELAXED: f64 = 0.02;
@@ -59,6 +67,8 @@ const RELAXED: f64 = 0.02;
 const SLOW: f64 = 0.004;
 /// Most excess that counts.
 const MOST: f64 = 0.05;
+/// Least surface, in weights that the lattice has: that of three particles of a plane one. A single particle alone lacks as much.
+const FEWEST: f64 = 0.999;
 /// Way of the fastest particle in a step, in spacings, from which on the tolerance is that of the scene; slower flow
 /// is solved as much more closely.
 const BRISK: f64 = 0.1;
@@ -68,7 +78,7 @@ const CLOSEST: f64 = 1e-3;
 /// The solver with its scratch; all slices `[m]` in the order of [`Near`].
 #[derive(Debug, Clone)]
 pub struct DivergenceFree {
-    /// p \[Pa\].
+    /// p, counted from the mean upon the surface and without that of the weight \[Pa\].
     pub pressure: Vec<f32>,
     filled: Filled,
     rows: Vec<Sums>,
@@ -78,13 +88,11 @@ pub struct DivergenceFree {
     change: Vec<[f64; 3]>,
     /// p of the liquid, and at solid particles what their liquid neighbours make of it \[Pa\].
     total: Vec<f64>,
-    /// Mean of the pressure upon the surface, from which p counts \[Pa\].
-    level: f64,
-    /// The same of the gas alone \[Pa\].
-    gas: f64,
+    weight: Weight,
     /// grad p \[Pa/m\].
     slope: Vec<[f64; 3]>,
     islands: Islands,
+    normals: Normals,
     pull: Pull,
     ripples: Ripples,
     shift: Shift,
@@ -103,15 +111,21 @@ impl DivergenceFree {
             moved: Vec::new(),
             change: Vec::new(),
             total: Vec::new(),
-            level: 0.0,
-            gas: 0.0,
+            weight: Weight::default(),
             slope: Vec::new(),
             islands: Islands::default(),
+            normals: Normals::new(metal),
             pull: Pull::new(metal),
             ripples: Ripples::default(),
             shift: Shift::default(),
             traction: Traction::new(metal),
         }
+    }
+
+    /// Finds what hangs together and where the surface faces, at the beginning of a step.
+    pub fn begin(&mut self, near: &Near) {
+        self.islands.find(near);
+        self.normals.find(near);
     }
 
     /// Adds to `predicted` what viscosity does at the surface in `dt` \[s\].
@@ -122,31 +136,37 @@ impl DivergenceFree {
         dt: f64,
         predicted: &mut [[f64; 3]],
     ) {
-        let with = (viscosity, &mut self.islands);
-        self.traction.apply(near, with, dt, predicted);
+        if viscosity.acts() {
+            let with = (viscosity, &self.normals, &self.islands);
+            self.traction.apply(near, with, dt, predicted);
+        }
     }
 
-    /// Finds p for the predicted velocities and turns these into the final ones. `near.virial` gets the share of p in
-    /// the pressure which the metal carries.
+    /// Finds p for the predicted velocities and turns these into the final ones; `borne` is what they hold of an
+    /// acceleration that walls bear \[m/s2\]. `near.virial` gets the share of p in the pressure which the metal carries.
     pub fn solve(
         &mut self,
         near: &mut Near,
         predicted: &mut [[f64; 3]],
-        step: Step,
-        tolerance: Tolerance,
+        borne: [f64; 3],
+        (step, tolerance): (Step, Tolerance),
     ) -> Solved {
         if near.is_empty() {
             return Solved::default();
         }
+        self.weight
+            .lift(near, &self.islands, predicted, (borne, step));
         self.sum(near, predicted);
         if !near.tension.is_empty() {
             let part = step.dt / capillary::limit(near, step.metal);
             self.ripples.damp(near, &self.rows, part, predicted);
             self.sum(near, predicted);
         }
-        self.gas = self.settle(near);
-        self.pull.press(near, &self.rows);
-        self.level = self.settle(near);
+        let gas = self.weight.settle(near, &self.islands, &self.rows);
+        if !near.tension.is_empty() {
+            self.pull.press(near, &self.rows);
+            self.weight.settle(near, &self.islands, &self.rows);
+        }
         self.equations(near, step);
         let fastest = predicted
             .iter()
@@ -159,7 +179,7 @@ impl DivergenceFree {
         let solved = self.poisson.solve(near, &mut self.pressure, tolerance);
         self.reach_walls(near, step);
         self.differ(near);
-        self.balance(near);
+        self.balance(near, gas);
         self.push(near, predicted, step);
         self.pull.release(near);
         solved
@@ -167,7 +187,11 @@ impl DivergenceFree {
 
     /// Moves particles to where they lie evenly, after a step of `dt` \[s\].
     pub fn even(&mut self, near: &mut Near, dt: f64) {
-        self.shift.apply(near, dt, self.filled);
+        self.shift.apply(
+            near,
+            (dt, self.filled),
+            (&self.rows, &self.normals, &self.islands),
+        );
     }
 
     /// Particles of the surface whose curvature is bounded.
@@ -199,20 +223,22 @@ impl DivergenceFree {
                 };
             },
         );
+        self.close();
     }
 
-    /// Mean of the pressure upon the surface \[Pa\].
-    fn settle(&self, near: &Near) -> f64 {
-        let rows = self.rows.iter().zip(&near.outer);
-        let (sum, weight) = rows.fold((0.0, 0.0), |(sum, weight), (row, outer)| {
-            (sum + row.missing * outer, weight + row.missing)
-        });
-        if weight > 0.0 { sum / weight } else { 0.0 }
+    /// A surface of less than a few particles is none: it would bear all that the volume of a closed box is in error.
+    fn close(&mut self) {
+        let missing: f64 = self.rows.iter().map(|row| row.missing).sum();
+        if missing > 0.0 && missing < FEWEST * self.filled.weight {
+            for row in &mut self.rows {
+                (row.missing, row.open) = (0.0, [0.0; 3]);
+            }
+        }
     }
 
-    /// sum of w (p_a - p_b) + 2 w_missing (p_a - p_s) = rho m/2 (e/dt^2 - div u*/dt), with the moment m of the lattice.
+    /// sum of w (p_a - p_b) + 2 w_missing (p_a - p_s) = rho m/2 (e/dt^2 - div u*/dt).
     fn equations(&mut self, near: &Near, step: Step) {
-        let (rows, filled, level) = (&self.rows, self.filled, self.level);
+        let (rows, filled, upon) = (&self.rows, self.filled, self.weight.upon());
         let scale = 2.0 * step.dt * step.dt / (step.metal.density * filled.moment);
         let relaxed = relaxed(near, step);
         self.poisson.resize(near.len(), scale);
@@ -233,8 +259,8 @@ impl DivergenceFree {
                 }
                 let gone = relaxed * excess.clamp(-MOST, MOST) - step.dt * row.divergence;
                 let diagonal = (row.liquid + 2.0 * row.missing).max(1e-6 * filled.weight);
-                let upon = near.outer.get(a).map_or(0.0, |outer| outer - level);
-                let right = gone / scale + 2.0 * row.missing * upon;
+                let right =
+                    gone * row.moment / (filled.moment * scale) + 2.0 * row.missing * upon[a];
                 *equation = [diagonal as f32, right as f32];
             });
     }
@@ -265,7 +291,7 @@ impl DivergenceFree {
 
     /// grad p = B sum of s x_ab (p_b - p_a), mirrored neighbours beyond the surface included.
     fn differ(&mut self, near: &Near) {
-        let (total, rows, level) = (&self.total, &self.rows, self.level);
+        let (total, rows, upon) = (&self.total, &self.rows, self.weight.upon());
         self.slope.resize(near.len(), [0.0; 3]);
         near.each_row(
             &mut self.slope,
@@ -273,8 +299,7 @@ impl DivergenceFree {
             |a, row, out| {
                 *out = [0.0; 3];
                 if near.role[a] == Role::Liquid {
-                    let upon = near.outer.get(a).map_or(0.0, |outer| outer - level);
-                    let mut sum = rows[a].open.map(|x| 2.0 * (total[a] - upon) * x);
+                    let mut sum = rows[a].open.map(|x| 2.0 * (total[a] - upon[a]) * x);
                     for (b, slope) in row.slopes() {
                         let x = minus(near.position[a], near.position[b]);
                         sum = plus(sum, slope * (total[b] - total[a]), x);
@@ -285,30 +310,32 @@ impl DivergenceFree {
         );
     }
 
-    /// What touches no wall moves as a whole by the pressure of the gas upon its surface alone.
-    fn balance(&mut self, near: &Near) {
+    /// What touches no wall moves as a whole by the pressure of the gas upon its surface alone; `level` is the mean of that.
+    fn balance(&mut self, near: &Near, level: f64) {
         let (rows, pull, moment) = (&self.rows, &self.pull, self.filled.moment);
-        let gas = self.gas;
         let upon = |a: usize| {
-            let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a) - gas);
+            let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a) - level);
             rows[a].open.map(|x| -2.0 * pressure * x / moment)
         };
-        self.islands.balance(near, &mut self.slope, upon);
+        self.islands.balance(&mut self.slope, upon);
     }
 
     /// u = u* - dt/rho grad p.
     fn push(&self, near: &mut Near, predicted: &mut [[f64; 3]], step: Step) {
+        let (weight, islands, position) = (&self.weight, &self.islands, &near.position);
         let points = near.virial.par_iter_mut().zip(predicted).zip(&near.role);
         points
             .zip(&self.slope)
             .zip(&self.total)
+            .enumerate()
             .with_min_len(GRAIN)
-            .for_each(|((((virial, u), role), slope), p)| {
+            .for_each(|(a, ((((virial, u), role), slope), p))| {
+                let p = p + weight.known(islands, a, position[a]);
                 if *role == Role::Liquid {
-                    *virial += step.share * (p + self.level);
+                    *virial += step.share * p;
                     *u = plus(*u, -step.dt / step.metal.density, *slope);
                 } else {
-                    *virial = p + self.level;
+                    *virial = p;
                 }
             });
     }
@@ -319,8 +346,10 @@ impl DivergenceFree {
         (size_of::<Sums>() + 3 * 24 + 8 + 4) * self.rows.capacity()
             + self.poisson.bytes()
             + self.islands.bytes()
+            + self.normals.bytes()
             + self.pull.bytes()
             + self.ripples.bytes()
+            + self.weight.bytes()
             + self.shift.bytes()
             + self.traction.bytes()
     }

@@ -4,63 +4,35 @@
 //!
 //! ```text
 //! grad p = B sum_b s x_ab (p_b - p_a)        div u = B : sum_b s x_ab (u_b - u_a)        (Bonet and Lok 1999)
-//! lap p = 2/m sum_b w (p_b - p_a)            m = sum of w x^2 over the lattice            (Brookshaw 1985)
+//! lap p = 2/m sum_b w (p_b - p_a)            m = 1/3 sum_b w r^2                           (Brookshaw 1985)
 //! ```
 //!
 //! Solid neighbours have the velocity -u_a: the face between both rests.
 //!
-//! A particle lies at the surface where it lacks a part of the weights that the lattice has. What it lacks stands one
-//! spacing away across the surface, and adds to the moments: for a plane of the lattice these are then exact. Where
-//! particles lie scattered B means little, and the lattice's stands for it.
+//! What a particle of the surface (`openness`) lacks of the weights that the lattice has stands one layer away across the surface, mirrored there: its pressure is 2 p_s - p_a, and adds to the moments of grad p, which are
+//! then exact for a plane of the lattice; its velocity is what the present neighbours tell, so that the moments of div u
+//! are of these alone. A layer is as thick as the neighbours beneath lie deep: where the surface bends it stretches, and
+//! the surface with it. (With waves of 20 spacings both are needed: with velocities that end at the particle they grow by
+//! 2 % a period, with a surface that keeps its distance from the particle they are 4 % too slow.) Where tension acts its
+//! scatter from particle to particle drives such a surface on, and drops without viscosity broke up: there what lacks weight lies at the
+//! surface, a layer is one spacing thick, m that of the lattice and B of div u that of grad p. Where particles lie scattered B means little, and the lattice's stands for it.
 
-use kernels::CubicSpline;
-
+use super::filled::{Filled, within};
+use super::openness::open;
 use crate::near::{Near, Row};
-use crate::state::Metal;
-use crate::vector::{minus, plus, squared};
+use crate::vector::{dot, minus, plus, squared};
 
-/// Lack of weight, in parts of the lattice's, from which on a particle lies at the surface, and at which it does so
+/// Lack of weight, in parts of the lattice's, from which on a particle lies at a surface with tension, and at which it does so
 /// wholly. A particle of a plane surface lacks a third.
 const LACKS: [f64; 2] = [0.10, 0.20];
 /// Part of the lattice's weight up to which B is the lattice's, and from which on it is the row's own.
 const TRUST: [f64; 2] = [0.45, 0.60];
-
-/// Sums over the filled lattice.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Filled {
-    /// Of W, the own one included \[1/m3\].
-    pub(super) number: f64,
-    /// Of w \[1/m5\].
-    pub(super) weight: f64,
-    /// Of w x^2 along one axis \[1/m3\].
-    pub(super) moment: f64,
-    /// d \[m\].
-    pub(super) spacing: f64,
-}
-
-impl Filled {
-    /// The lattice of `metal`.
-    pub(super) fn of(metal: Metal) -> Self {
-        let kernel = CubicSpline::<3>::new(metal.smoothing_length);
-        let d = metal.spacing;
-        let reach = (kernel.support() / d).ceil() as i32;
-        let mut filled = Self {
-            number: kernel.value(0.0),
-            weight: 0.0,
-            moment: 0.0,
-            spacing: d,
-        };
-        let axis = || -reach..=reach;
-        let points = axis().flat_map(|i| axis().flat_map(move |j| axis().map(move |k| (i, j, k))));
-        for (i, j, k) in points.filter(|point| *point != (0, 0, 0)) {
-            let r = d * f64::from(i * i + j * j + k * k).sqrt();
-            filled.number += kernel.value(r);
-            filled.weight -= kernel.slope(r);
-            filled.moment -= kernel.slope(r) * (d * f64::from(i)).powi(2);
-        }
-        filled
-    }
-}
+/// The same for div u.
+const TRUST_PRESENT: [f64; 2] = [0.30, 0.45];
+/// Depth in spacings from which on a neighbour begins to be, and is wholly, one of the layer beneath.
+const BENEATH: [f64; 2] = [0.3, 0.7];
+/// Least and greatest thickness of a layer in spacings.
+const THICK: [f64; 2] = [0.6, 1.4];
 
 /// What the operators need of a row.
 #[derive(Debug, Clone, Copy, Default)]
@@ -71,10 +43,29 @@ pub(super) struct Sums {
     pub(super) missing: f64,
     /// Sum of s x at the surface, zero in the inside \[1/m4\].
     pub(super) open: [f64; 3],
+    /// How far away what is missing stands \[m\].
+    pub(super) layer: f64,
     /// B: xx, yy, zz, xy, xz, yz \[m3\].
     pub(super) inverse: [f64; 6],
+    /// Mean moment along an axis, what is missing included \[1/m3\].
+    pub(super) moment: f64,
     /// div u \[1/s\].
     pub(super) divergence: f64,
+    /// grad u: of each axis the change of u along it \[1/s\].
+    pub(super) slope: [[f64; 3]; 3],
+}
+
+impl Sums {
+    /// The way from a particle of the surface to the surface \[m\]; shorter where what it lacks lies around it.
+    pub(super) fn outwards(&self) -> [f64; 3] {
+        let size = squared(self.open).sqrt().max(self.missing * self.layer);
+        let half = if size > 0.0 {
+            -0.5 * self.layer / size
+        } else {
+            0.0
+        };
+        self.open.map(|x| half * x)
+    }
 }
 
 /// B x for a symmetric B.
@@ -87,23 +78,11 @@ pub(super) fn times([a, b, c, d, e, f]: [f64; 6], [x, y, z]: [f64; 3]) -> [f64; 
     ]
 }
 
-/// Inverse of a symmetric matrix.
-fn inverse([a, b, c, d, e, f]: [f64; 6]) -> [f64; 6] {
-    let minors = [
-        b * c - f * f,
-        a * c - e * e,
-        a * b - d * d,
-        e * f - d * c,
-        d * f - e * b,
-        d * e - a * f,
-    ];
-    let determinant = a * minors[0] + d * minors[3] + e * minors[4];
-    minors.map(|x| x / determinant)
-}
-
-/// How far `x` is on its way through a range, 0 to 1.
-fn within(x: f64, [from, to]: [f64; 2]) -> f64 {
-    ((x - from) / (to - from)).clamp(0.0, 1.0)
+/// B M for a symmetric B.
+#[inline(always)]
+fn multiplied([a, b, c, d, e, f]: [f64; 6], [x, y, z]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let row = |p: f64, q: f64, r: f64| std::array::from_fn(|i| p * x[i] + q * y[i] + r * z[i]);
+    [row(a, d, e), row(d, b, f), row(e, f, c)]
 }
 
 impl Sums {
@@ -133,35 +112,65 @@ impl Sums {
             let squares = [p * x[0], q * x[1], r * x[2], p * x[1], p * x[2], q * x[2]];
             moments = std::array::from_fn(|i| moments[i] - squares[i]);
         }
-        let fill = all / filled.weight;
-        let part = within(1.0 - fill, LACKS);
+        let (fill, tense) = (all / filled.weight, !near.tension.is_empty());
+        let part = if tense {
+            within(1.0 - fill, LACKS)
+        } else {
+            open(near, filled, (a, row))
+        };
         let missing = part * (filled.weight - all).max(0.0);
-        let mut open = [0.0; 3];
-        if missing > 0.0 {
-            open = near.gradient[a].map(|x| part * x);
-            beyond(&mut moments, open, missing, filled.spacing);
-        }
-        let own = within(fill, TRUST);
-        for (i, moment) in moments.iter_mut().enumerate() {
-            let lattice = if i < 3 { filled.moment } else { 0.0 };
-            *moment = own * *moment + (1.0 - own) * lattice;
-        }
-        let b = inverse(moments);
-        let [x, y, z] = change;
-        let divergence = times(b, [x[0], y[0], z[0]])[0]
-            + times(b, [x[1], y[1], z[1]])[1]
-            + times(b, [x[2], y[2], z[2]])[2];
-        Self {
+        let present = filled.inverse(moments, within(fill, TRUST_PRESENT));
+        let mut sums = Self {
             liquid,
             missing,
-            open,
-            inverse: b,
-            divergence,
+            divergence: 0.0,
+            slope: [[0.0; 3]; 3],
+            layer: filled.spacing,
+            inverse: present,
+            open: [0.0; 3],
+            moment: if tense {
+                filled.moment
+            } else {
+                (moments[0] + moments[1] + moments[2] + missing * filled.beside) / 3.0
+            },
+        };
+        if missing > 0.0 {
+            let inwards = near.gradient[a];
+            sums.open = inwards.map(|x| part * x);
+            if !tense {
+                sums.layer = beneath(near, (a, row), inwards, filled.spacing);
+            }
+            beyond(&mut moments, sums.open, missing, sums.layer);
         }
+        sums.inverse = filled.inverse(moments, within(fill, TRUST));
+        sums.slope = multiplied(if tense { sums.inverse } else { present }, change);
+        sums.divergence = (0..3).map(|i| sums.slope[i][i]).sum();
+        sums
     }
 }
 
-/// Adds the moments of what is missing: all of it one spacing `d` away, along `open` as far as that tells, evenly around
+/// Mean depth \[m\] of the neighbours beneath a particle of the surface.
+fn beneath(near: &Near, (a, row): (usize, Row<'_>), inwards: [f64; 3], d: f64) -> f64 {
+    let size = squared(inwards).sqrt();
+    if size <= 0.0 {
+        return d;
+    }
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for (b, slope) in row.slopes() {
+        let depth = dot(minus(near.position[b], near.position[a]), inwards) / (size * d);
+        let part = -slope * within(depth, BENEATH);
+        sum += part * depth;
+        weight += part;
+    }
+    let [least, most] = THICK;
+    if weight > 0.0 {
+        d * (sum / weight).clamp(least, most)
+    } else {
+        d
+    }
+}
+
+/// Adds the moments of what is missing: all of it `d` away, along `open` as far as that tells, evenly around
 /// for the rest.
 fn beyond(moments: &mut [f64; 6], open: [f64; 3], missing: f64, d: f64) {
     let size = squared(open).sqrt();

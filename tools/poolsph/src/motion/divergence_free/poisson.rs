@@ -37,7 +37,7 @@ impl Poisson {
     pub(super) fn solve(&mut self, near: &Near, p: &mut Vec<f32>, tolerance: Tolerance) -> Solved {
         let liquid = near.liquid_count().max(1) as f64;
         if self.closed {
-            self.level(liquid);
+            self.level(liquid, p);
         }
         near.complete(p, |p, _, _| p);
         multiply(near, &self.equations, p, &mut self.product);
@@ -82,14 +82,21 @@ impl Poisson {
     }
 
     /// Without a surface the pressure is known but for a constant, and what the right sides sum to cannot be met: their
-    /// mean is taken away.
-    fn level(&mut self, liquid: f64) {
+    /// mean is taken away, and that of the pressure.
+    fn level(&mut self, liquid: f64, p: &mut [f32]) {
         let mean = (self.sum(|[_, right], _, _, _| right) / liquid) as f32;
         for [diagonal, right] in &mut self.equations {
             if *diagonal > 0.0 {
                 *right -= mean;
             }
         }
+        let rows = self.equations.iter().zip(p);
+        let mut p: Vec<&mut f32> = rows
+            .filter(|([d, _], _)| *d > 0.0)
+            .map(|(_, p)| p)
+            .collect();
+        let sum: f64 = p.iter().map(|p| f64::from(**p)).sum();
+        p.iter_mut().for_each(|p| **p -= (sum / liquid) as f32);
     }
 
     /// direction = residual/diagonal + part direction.

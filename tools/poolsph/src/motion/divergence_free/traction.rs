@@ -11,31 +11,23 @@
 //! the metal. Inside the transposed part is the gradient of the divergence, which is zero, so that over a closed surface it adds up to nothing. Without it a drop that stretches pays half
 //! of what it should, and one that turns as a whole is slowed. A shear along a plane surface has none of it.
 
-use kernels::CubicSpline;
 use rayon::prelude::*;
 
 use super::islands::Islands;
-use crate::motion::lattice::Lattice;
+use super::normals::Normals;
 use crate::motion::viscosity::Viscosity;
-use crate::near::{Near, Role, Row};
+use crate::near::{Near, Row};
 use crate::state::Metal;
 use crate::sweep::GRAIN;
-use crate::vector::{dot, minus, plus};
+use crate::vector::{dot, minus, plus, squared};
 
-/// Lack of neighbours, in parts of the lattice's, from which on a particle lies at the surface, and at which it does so
-/// wholly. A particle of a plane surface lacks 0.22.
-const LACKS: [f64; 2] = [0.08, 0.16];
 /// Least determinant of the moments, over the cube of their mean, that tells a gradient.
 const FLAT: f64 = 1e-3;
 
 /// The force with its scratch.
 #[derive(Debug, Clone)]
 pub(super) struct Traction {
-    /// V \[m3\].
-    volume: f64,
     density: f64,
-    /// Sum of W over the neighbours in the lattice \[1/m3\].
-    full: f64,
     /// 2 mu grad(u).grad C, `[m]` \[N/m3\].
     pull: Vec<[f64; 3]>,
 }
@@ -44,10 +36,7 @@ impl Traction {
     /// That of `metal`.
     pub(super) fn new(metal: Metal) -> Self {
         Self {
-            volume: metal.volume(),
             density: metal.density,
-            full: Lattice::of(metal).number
-                - CubicSpline::<3>::new(metal.smoothing_length).value(0.0),
             pull: Vec::new(),
         }
     }
@@ -56,27 +45,20 @@ impl Traction {
     pub(super) fn apply(
         &mut self,
         near: &Near,
-        (viscosity, islands): (&Viscosity, &mut Islands),
+        (viscosity, normals, islands): (&Viscosity, &Normals, &Islands),
         dt: f64,
         predicted: &mut [[f64; 3]],
     ) {
-        if !viscosity.acts() {
-            return;
-        }
-        let (volume, full, own) = (self.volume, self.full, near.kernel.value(0.0));
-        let [from, to] = LACKS;
         self.pull.resize(near.len(), [0.0; 3]);
         near.each_row(&mut self.pull, |a, row, pull| {
-            let lack = 1.0 - (near.number[a] - own) / full;
-            let part = ((lack - from) / (to - from)).clamp(0.0, 1.0);
+            let steep = normals.steep(a);
             *pull = [0.0; 3];
-            if part > 0.0 && near.role[a] == Role::Liquid {
-                let along = near.gradient[a].map(|x| part * volume * x);
-                let strength = 2.0 * viscosity.at(a);
-                *pull = turned(near, a, row, along).map(|x| strength * x);
+            if squared(steep) > 0.0 {
+                let strength = -2.0 * viscosity.at(a);
+                *pull = turned(near, a, row, steep).map(|x| strength * x);
             }
         });
-        islands.balance(near, &mut self.pull, |_| [0.0; 3]);
+        islands.balance(&mut self.pull, |_| [0.0; 3]);
         let rows = predicted.par_iter_mut().zip(&self.pull);
         rows.with_min_len(GRAIN)
             .for_each(|(u, pull)| *u = plus(*u, dt / self.density, *pull));
