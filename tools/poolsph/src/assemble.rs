@@ -302,8 +302,9 @@ impl<'a> Source<'a> {
     fn forces(&self, parts: &mut Parts) -> Result<(), Failure> {
         let (scene, metal) = (self.scene, self.scene.metal());
         let flow = scene.flow.as_ref();
-        parts.when("marangoni", scene.marangoni, |marangoni| {
-            Ok(Box::new(Marangoni::new(marangoni)))
+        parts.when("marangoni", scene.marangoni.as_ref(), |marangoni| {
+            let stage = Marangoni::new(marangoni);
+            Ok(Box::new(stage.map_err(|fault| fault.within("/marangoni"))?))
         })?;
         parts.when("surface_stress", scene.surface_stress.as_ref(), |given| {
             let stage = SurfaceStress::new(given, metal);

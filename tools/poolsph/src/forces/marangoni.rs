@@ -5,9 +5,11 @@
 //! F = (d gamma/d T) (dA/dV) (grad T - n (n . grad T))
 //! ```
 //!
-//! The gradient of the temperature is that of the neighbours with the kernel gradient corrected to
+//! Its slope is a number, a table or a formula of the temperature: with sulphur in steel its sign turns. The gradient of the temperature is that of the neighbours with the kernel gradient corrected to
 //! be exact for a linear field, at the surface as well as inside.
 
+use run::Fault;
+use run::property::{Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,28 +19,75 @@ use crate::state::{Column, State};
 use crate::vector::{dot, minus, plus};
 
 /// Dependence of the surface tension on the temperature (key `marangoni`).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "Marangoni")]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// d gamma/d T \[N/(m K)\]; positive pulls towards the hot.
-    #[schemars(extend("x-unit" = "N/(m K)"), range(min = -0.1, max = 0.1))]
-    pub slope_n_m_k: f64,
+    /// d gamma/d T, a number or that of the temperature T; positive pulls towards the hot.
+    #[schemars(extend("x-unit" = "N/(m K)"))]
+    pub slope_n_m_k: Property,
 }
+
+/// Largest size of d gamma/d T \[N/(m K)\].
+const STEEPEST: f64 = 0.1;
 
 /// The stage that drags the surface along.
 pub struct Marangoni {
-    parameters: Parameters,
+    slope: Curve,
     temperature: Vec<f64>,
+    /// d gamma/d T of each particle \[N/(m K)\], `[m]`; zero off the surface.
+    each: Vec<f64>,
 }
 
 impl Marangoni {
     /// The effect with these parameters.
-    #[must_use]
-    pub fn new(parameters: Parameters) -> Self {
-        Self {
-            parameters,
-            temperature: Vec::new(),
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn new(parameters: &Parameters) -> Result<Self, Fault> {
+        let slope = parameters.slope_n_m_k.compile("/slope_n_m_k", &["T"])?;
+        if let Some(value) = slope.constant()
+            && (value.is_nan() || value.abs() > STEEPEST)
+        {
+            let what =
+                format!("{value} N/(m K) is out of range: -{STEEPEST} to {STEEPEST} N/(m K)");
+            return Err(Fault::at("/slope_n_m_k", what));
         }
+        Ok(Self {
+            slope,
+            temperature: Vec::new(),
+            each: Vec::new(),
+        })
+    }
+
+    /// d gamma/d T at the temperature `kelvin` \[N/(m K)\].
+    fn at(&self, kelvin: f64) -> Result<f64, StageError> {
+        let slope = self.slope.at_temperature(kelvin);
+        let slope = slope
+            .map_err(|fault| StageError::Data(format!("slope of the surface tension: {fault}")))?;
+        if slope.abs() <= STEEPEST {
+            return Ok(slope);
+        }
+        Err(StageError::Data(format!(
+            "slope of the surface tension: {slope} N/(m K) at {kelvin} K is out of range: -{STEEPEST} to {STEEPEST} N/(m K)"
+        )))
+    }
+
+    /// The slope at each particle of the surface.
+    fn read(&mut self, state: &State) -> Result<(), StageError> {
+        self.each.clear();
+        let near = &state.near;
+        for a in 0..near.len() {
+            let there =
+                near.role[a] == Role::Liquid && state.surface[near.id[a] as usize].area > 0.0;
+            let slope = if there {
+                self.at(self.temperature[a])?
+            } else {
+                0.0
+            };
+            self.each.push(slope);
+        }
+        Ok(())
     }
 }
 
@@ -83,7 +132,7 @@ impl Stage for Marangoni {
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let per_volume = self.parameters.slope_n_m_k / state.metal.volume();
+        let volume = state.metal.volume();
         state
             .near
             .temperatures(
@@ -92,7 +141,8 @@ impl Stage for Marangoni {
                 &mut self.temperature,
             )
             .map_err(|fault| StageError::Data(format!("temperature of a wall: {fault}")))?;
-        let (temperature, surface) = (&self.temperature, &state.surface);
+        self.read(state)?;
+        let (temperature, surface, each) = (&self.temperature, &state.surface, &self.each);
         let mut force = std::mem::take(&mut state.near.force);
         let near = &state.near;
         near.each_row(&mut force, |a, row, force| {
@@ -100,7 +150,7 @@ impl Stage for Marangoni {
             if near.role[a] == Role::Liquid && patch.area > 0.0 {
                 let gradient = gradient(near, temperature, a, row);
                 let along = plus(gradient, -dot(gradient, patch.normal), patch.normal);
-                *force = plus(*force, per_volume * patch.area, along);
+                *force = plus(*force, each[a] / volume * patch.area, along);
             }
         });
         state.near.force = force;
@@ -108,7 +158,7 @@ impl Stage for Marangoni {
     }
 
     fn bytes(&self) -> usize {
-        8 * self.temperature.capacity()
+        8 * (self.temperature.capacity() + self.each.capacity())
     }
 }
 
@@ -123,7 +173,7 @@ mod tests {
         let mut state = pool(|x| 1800.0 + 2e5 * x[0] + 3e5 * x[2]);
         let d = state.metal.spacing;
         on_top(&mut state, d * d);
-        let mut stage = Marangoni::new(Parameters { slope_n_m_k: 1e-4 });
+        let mut stage = made(r#"{"slope_n_m_k": 1e-4}"#).unwrap();
         stage.advance(&mut state, 1e-4).unwrap();
         let mut pulled = 0;
         for (k, force) in state.near.force.iter().enumerate() {
@@ -138,6 +188,37 @@ mod tests {
             }
         }
         assert!(pulled > 20);
+    }
+
+    fn made(text: &str) -> Result<Marangoni, Fault> {
+        Marangoni::new(&serde_json::from_str(text).unwrap())
+    }
+
+    #[test]
+    fn the_slope_may_turn_with_the_temperature() {
+        // 2e5 K/m along x about 2000 K, where the slope of the table turns.
+        let mut state = pool(|x| 2000.0 + 2e5 * x[0]);
+        let d = state.metal.spacing;
+        on_top(&mut state, d * d);
+        let table = r#"{"slope_n_m_k": {"t_k": [1000, 3000], "value": [1e-4, -1e-4]}}"#;
+        for text in [table, r#"{"slope_n_m_k": {"expr": "1e-7*(2000 - T)"}}"#] {
+            state.near.force.fill([0.0; 3]);
+            made(text).unwrap().advance(&mut state, 1e-4).unwrap();
+            for (k, force) in state.near.force.iter().enumerate() {
+                if state.surface[state.near.id[k] as usize].area > 0.0 {
+                    let stress = -1e-7 * 2e5 * state.near.position[k][0] * 2e5;
+                    assert!((force[0] * d - stress).abs() < 1e-9, "{force:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_out_of_range_are_refused() {
+        let fault = made(r#"{"slope_n_m_k": 0.2}"#).err().unwrap();
+        assert_eq!(fault.path(), "/slope_n_m_k", "{fault}");
+        let formula = made(r#"{"slope_n_m_k": {"expr": "T/1000"}}"#).unwrap();
+        assert!(formula.at(90.0).is_ok() && formula.at(2000.0).is_err());
     }
 
     #[test]

@@ -37,6 +37,8 @@ const MOMENT: f64 = 0.3;
 /// c of the sharpening: what the kernel's means and the fit take of a wave k, 0.83 (k h)^2, over what the mean takes,
 /// (k reach)^2/16.
 const SHARPENED: f64 = 1.5;
+/// Most that it gives back, in 1/d: at a tip the mean of steep sides is no measure.
+const GIVEN: f64 = 0.3;
 /// Colour below which a particle without a shape is one of a few: at the corner of a cube it is 0.61, in a film of one layer 0.70.
 const SINGLE: f64 = 0.6;
 /// Greatest curvature, in 1/d.
@@ -172,6 +174,7 @@ impl Curvature {
     /// Shapes at all places of liquid particles.
     fn fit(&mut self) {
         let reach = REACH * self.smoothing_length;
+        let most = SHARPEST / self.spacing;
         let (samples, lists) = (&self.samples, &self.lists);
         let places = 0..self.members.len();
         places
@@ -179,7 +182,9 @@ impl Curvature {
             .with_min_len(ROWS / 4)
             .map(|k| {
                 let around = lists.row(k).iter().map(|b| &samples[*b as usize]);
-                shape(&samples[k], around, reach)
+                let mut shape = shape(&samples[k], around, reach)?;
+                shape.curvature = shape.curvature.clamp(-most, most);
+                Some(shape)
             })
             .collect_into_vec(&mut self.found);
     }
@@ -187,6 +192,7 @@ impl Curvature {
     /// kappa + c (kappa - S kappa) with the mean S over the places around, weighted as in the fit.
     fn sharpen(&mut self) {
         let reach = REACH * self.smoothing_length;
+        let most = GIVEN / self.spacing;
         let (samples, lists, images) = (&self.samples, &self.lists, &self.images);
         let found = &self.found;
         (0..found.len())
@@ -204,7 +210,8 @@ impl Curvature {
                     }
                 }
                 if weight > 0.0 {
-                    shape.curvature += SHARPENED * (shape.curvature - sum / weight);
+                    let taken = SHARPENED * (shape.curvature - sum / weight);
+                    shape.curvature += taken.clamp(-most, most);
                 }
                 Some(shape)
             })
@@ -218,16 +225,17 @@ impl Curvature {
         self.mean.clear();
         self.mean.resize(near.len(), None);
         self.bounded = 0;
-        for (a, shape) in self.members.iter().zip(&self.sharpened) {
+        for (k, (a, shape)) in self.members.iter().zip(&self.sharpened).enumerate() {
             let a = *a as usize;
             if near.role[a] != Role::Liquid {
                 continue;
             }
             let curvature = match shape {
                 Some(shape) => shape.curvature * (1.0 - inward * shape.squares).max(0.5),
+                None if self.samples[k].trust > 0.5 => f64::INFINITY,
                 None => continue,
             };
-            self.bounded += usize::from(curvature.abs() > most);
+            self.bounded += usize::from(curvature.abs() >= most);
             self.mean[a] = Some(curvature.clamp(-most, most));
         }
         let own = near.kernel.value(0.0);

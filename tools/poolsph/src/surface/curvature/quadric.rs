@@ -49,7 +49,7 @@ pub struct Shape {
 }
 
 /// Cosine of the angle between two normals up to which they belong to different pieces of surface, and from which on to one.
-const SAME: [f64; 2] = [0.2, 0.5];
+const SAME: [f64; 2] = [-0.3, 0.1];
 /// Fewest places that tell a shape, the middle included.
 const FEWEST: u32 = 6;
 /// What is added to the diagonal of the equations, in places of full weight: of K, which few places leave open, and of
@@ -86,7 +86,11 @@ impl Equations {
             for j in 0..=i {
                 let dot: f64 = (0..j).map(|k| m[i][k] * m[j][k]).sum();
                 let rest = m[i][j] - dot;
-                m[i][j] = if i == j { rest.sqrt() } else { rest / m[j][j] };
+                m[i][j] = if i == j {
+                    rest.max(DAMPING[1]).sqrt()
+                } else {
+                    rest / m[j][j]
+                };
             }
             let dot: f64 = (0..i).map(|k| m[i][k] * x[k]).sum();
             x[i] = (x[i] - dot) / m[i][i];
