@@ -5,8 +5,9 @@
 //! F = (d gamma/d T) (dA/dV) (grad T - n (n . grad T))
 //! ```
 //!
-//! Its slope is a number, a table or a formula of the temperature: with sulphur in steel its sign turns. The gradient of the temperature is that of the neighbours with the kernel gradient corrected to
-//! be exact for a linear field, at the surface as well as inside.
+//! The slope is a number, a table or a formula of the temperature: with sulphur in steel its sign turns. The gradient of the
+//! temperature is that of the neighbours with the kernel gradient corrected to be exact for a linear field, at the surface
+//! as well as inside.
 
 use run::Fault;
 use run::property::{Curve, Property};

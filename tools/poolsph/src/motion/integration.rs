@@ -140,7 +140,7 @@ impl Motion {
             self.viscosity
                 .apply_between_faces(near, (metal, dt), predicted);
             let viscosity = &self.viscosity;
-            self.divergence_free.begin(near);
+            self.divergence_free.begin(near, viscosity);
             (self.divergence_free).slacken(near, viscosity, dt, predicted);
         } else if self.viscosity.acts() || self.noise.acts() {
             around.sum(near, &near.velocity);

@@ -42,7 +42,7 @@ use crate::near::{Near, Role};
 use crate::stage::StageError;
 use crate::state::Metal;
 use crate::sweep::GRAIN;
-use crate::vector::{minus, plus};
+use crate::vector::{minus, plus, squared};
 
 /// Newtonian viscosity of the liquid.
 #[derive(Debug, Clone)]
@@ -192,12 +192,17 @@ impl Viscosity {
         }
         let [number, moment] = self.filled;
         let own = near.kernel.value(0.0);
-        let points = near.number.par_iter().zip(&near.moment).with_min_len(GRAIN);
-        let inverse = |(n, w): (&f64, &f64)| {
-            let lack = 1.0 - (n - own) / number;
-            1.0 / (w / 3.0 + if lack > LACKS { lack * moment } else { 0.0 }).max(0.1 * moment)
-        };
-        points.map(inverse).collect_into_vec(&mut self.inverse);
+        self.inverse.clear();
+        self.inverse.resize(near.len(), 0.0);
+        near.each_row(&mut self.inverse, |a, row, inverse| {
+            let from = near.position[a];
+            let squares =
+                |(b, slope): (usize, f64)| -slope * squared(minus(near.position[b], from));
+            let present = row.slopes().map(squares).sum::<f64>() / 3.0;
+            let lack = 1.0 - (near.number[a] - own) / number;
+            let missing = if lack > LACKS { lack * moment } else { 0.0 };
+            *inverse = 1.0 / (present + missing).max(0.1 * moment);
+        });
         near.complete(&mut self.inverse, |m, _, _| m);
         let (law, each, inverse) = (&self.law, &self.each, &self.inverse);
         let largest = law.largest();

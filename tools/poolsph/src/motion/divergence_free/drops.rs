@@ -51,7 +51,7 @@ fn viscous(near: &Near, surface: bool) -> Vec<[f64; 3]> {
     viscosity.apply_between_faces(near, (METAL, 1.0), &mut change);
     if surface {
         let mut solver = DivergenceFree::new(METAL);
-        solver.begin(near);
+        solver.begin(near, &viscosity);
         solver.slacken(near, &viscosity, 1.0, &mut change);
     }
     change

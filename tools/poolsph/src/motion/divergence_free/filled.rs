@@ -13,7 +13,7 @@ pub(super) struct Filled {
     pub(super) weight: f64,
     /// Of w x^2 along one axis \[1/m3\].
     pub(super) moment: f64,
-    /// Of w over the neighbours in a layer [1/m5].
+    /// Of w over the neighbours in a layer \[1/m5\].
     pub(super) level: f64,
     /// Of w over the neighbours on one side of a layer \[1/m5\], and the mean of r^2 by it \[m2\].
     pub(super) side: f64,
@@ -45,7 +45,6 @@ impl Filled {
             beside: 0.0,
             spacing: d,
         };
-
         let axis = || -reach..=reach;
         let points = axis().flat_map(|i| axis().flat_map(move |j| axis().map(move |k| (i, j, k))));
         for (i, j, k) in points.filter(|point| *point != (0, 0, 0)) {

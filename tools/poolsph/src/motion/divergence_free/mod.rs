@@ -123,9 +123,12 @@ impl DivergenceFree {
     }
 
     /// Finds what hangs together and where the surface faces, at the beginning of a step.
-    pub fn begin(&mut self, near: &Near) {
+    pub fn begin(&mut self, near: &Near, viscosity: &Viscosity) {
         self.islands.find(near);
-        self.normals.find(near);
+        // Asked for by the traction, and by shifts where no tension acts.
+        if viscosity.acts() || near.tension.is_empty() {
+            self.normals.find(near);
+        }
     }
 
     /// Adds to `predicted` what viscosity does at the surface in `dt` \[s\].

@@ -9,13 +9,16 @@
 //!
 //! Solid neighbours have the velocity -u_a: the face between both rests.
 //!
-//! What a particle of the surface (`openness`) lacks of the weights that the lattice has stands one layer away across the surface, mirrored there: its pressure is 2 p_s - p_a, and adds to the moments of grad p, which are
-//! then exact for a plane of the lattice; its velocity is what the present neighbours tell, so that the moments of div u
-//! are of these alone. A layer is as thick as the neighbours beneath lie deep: where the surface bends it stretches, and
-//! the surface with it. (With waves of 20 spacings both are needed: with velocities that end at the particle they grow by
-//! 2 % a period, with a surface that keeps its distance from the particle they are 4 % too slow.) Where tension acts its
-//! scatter from particle to particle drives such a surface on, and drops without viscosity broke up: there what lacks weight lies at the
-//! surface, a layer is one spacing thick, m that of the lattice and B of div u that of grad p. Where particles lie scattered B means little, and the lattice's stands for it.
+//! What a particle of the surface (`openness`) lacks of the weights that the lattice has stands one layer away across the
+//! surface, mirrored there: its pressure is 2 p_s - p_a, and adds to the moments of grad p, which are then exact for a plane
+//! of the lattice; its velocity is what the present neighbours tell, so that the moments of div u are of these alone. A layer
+//! is as thick as the neighbours beneath lie deep: where the surface bends it stretches, and the surface with it. (With
+//! waves of 20 spacings both are needed: with velocities that end at the particle they grow by 2 % a period, with a surface
+//! that keeps its distance from the particle they are 4 % too slow.)
+//!
+//! Where tension acts its scatter from particle to particle drives such a surface on, and drops without viscosity broke up:
+//! there what lacks weight lies at the surface, a layer is one spacing thick, m that of the lattice and B of div u that of
+//! grad p. Where particles lie scattered B means little, and the lattice's stands for it.
 
 use super::filled::{Filled, within};
 use super::openness::open;

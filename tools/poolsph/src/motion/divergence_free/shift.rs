@@ -5,12 +5,14 @@
 //! ```
 //!
 //! with the fastest speed u and the lattice's density of particles n: a cloud is made even as fast as it can be made
-//! uneven, and one at rest stays. Particles of the surface are shifted along it alone (Lind et al., eq. 27), so that it goes with the flow; not at all where
-//! tension acts, which keeps it even. What is
-//! shifted gets the velocity of the place to which it comes, u + dx.grad u (Xu, Stansby and Laurence 2009, eq. 22): without
-//! that, shifts act as a viscosity, which let vortices of 20 spacings at Re 1000 decay a quarter too fast. The sum of these changes is
-//! taken from each body that touches no wall, so that its momentum is kept. Where tension acts it is left out: a drop without viscosity lives
-//! by what damps single particles. Heat goes along.
+//! uneven, and one at rest stays. Particles of the surface are shifted along it alone (Lind et al., eq. 27), so that it
+//! goes with the flow; not at all where tension acts, which keeps it even.
+//!
+//! Inside, what is shifted gets the velocity of the place to which it comes, u + dx.grad u (Xu, Stansby and Laurence 2009,
+//! eq. 22): without that, shifts act as a viscosity, which let vortices of 20 spacings at Re 1000 decay a quarter too fast.
+//! The sum of these changes is taken from each body that touches no wall, so that its momentum is kept. Particles of the
+//! surface keep their velocity: the few neighbours of a tip tell too steep a slope, and it would throw them off. So does
+//! all where tension acts: a drop without viscosity lives by what damps single particles. Heat goes along.
 
 use rayon::prelude::*;
 
@@ -78,10 +80,12 @@ impl Shift {
                 way.map(|x| part * x)
             })
             .collect_into_vec(&mut self.way);
-        let gained = if tense { 0.0 } else { 1.0 };
         let ways = self.way.par_iter().zip(rows).with_min_len(GRAIN);
         let along = |(way, row): (&[f64; 3], &Sums)| {
-            let [x, y, z] = way.map(|x| gained * x);
+            if tense || row.missing > 0.0 {
+                return [0.0; 3];
+            }
+            let [x, y, z] = *way;
             let [u, v, w] = row.slope;
             std::array::from_fn(|i| x * u[i] + y * v[i] + z * w[i])
         };

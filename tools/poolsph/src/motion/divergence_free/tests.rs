@@ -230,7 +230,10 @@ fn a_box_without_a_surface_has_none_however_its_particles_lie() {
     });
     let near = &state.near;
     let mut solver = DivergenceFree::new(METAL);
-    solver.begin(near);
+    solver.begin(
+        near,
+        &Viscosity::new(crate::motion::Law::Uniform(0.004), METAL),
+    );
     solver.sum(near, &near.velocity.clone());
     let (own, filled) = (near.kernel.value(0.0), solver.filled.number);
     let lack = |a: usize| 1.0 - (near.number[a] - own) / (filled - own);
@@ -264,11 +267,15 @@ fn a_plane_surface_is_one_and_its_particles_are_shifted_along_it() {
     let near = &mut state.near;
     assert_eq!(near.id[a] as usize, id);
     let mut solver = DivergenceFree::new(METAL);
-    solver.begin(near);
+    solver.begin(
+        near,
+        &Viscosity::new(crate::motion::Law::Uniform(0.004), METAL),
+    );
     solver.sum(near, &near.velocity.clone());
     assert!(solver.rows[a].missing > 0.2 * solver.filled.weight);
-    let before = near.position[a];
+    let (before, velocity) = (near.position[a], near.velocity[a]);
     solver.even(near, 1e-4);
+    assert!(squared(minus(near.velocity[a], velocity)) <= 0.0);
     let [x, y, z] = minus(near.position[a], before).map(|x| x / METAL.spacing);
     assert!(x < -1e-4, "{x}");
     assert!(y.abs() < 1e-9 && z.abs() < 1e-3 * x.abs(), "{y} {z}");

@@ -85,8 +85,6 @@ pub struct Near {
     pub gradient: Vec<[f64; 3]>,
     /// Sum of |grad W|^2 over liquid neighbours \[1/m8\], `[m]`.
     pub squares: Vec<f64>,
-    /// Sum of w r^2 with w = -(dW/dr)/r \[1/m3\], `[m]`.
-    pub moment: Vec<f64>,
     /// Neighbours within the support; the rows of [`Role::Backing`] are empty.
     pub lists: Lists,
     /// Kernel values in the order of `lists.chunks()`.
@@ -128,7 +126,6 @@ impl Near {
             number: Vec::new(),
             gradient: Vec::new(),
             squares: Vec::new(),
-            moment: Vec::new(),
             lists: Lists::new(),
             pairs: Vec::new(),
             member: Vec::new(),
@@ -172,7 +169,7 @@ impl Near {
             .pairs
             .iter()
             .map(|chunk| 8 * chunk.value.capacity() + 4 * chunk.slope.capacity());
-        (4 + 1 + 4 * 8 + 4 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
+        (4 + 1 + 3 * 8 + 4 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
     }
 
     /// Collects members, sorts them by cell and finds their neighbours.
@@ -309,12 +306,7 @@ impl Near {
         self.mark();
         let cloud = (&self.position[..self.len], self.kernel.support());
         let (kernel, role, marks) = (self.kernel, &self.role, &self.marks);
-        let sums = (
-            &mut self.number,
-            &mut self.gradient,
-            &mut self.squares,
-            &mut self.moment,
-        );
+        let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
         self.lists.build_with(
             &self.grid,
             cloud,
@@ -332,12 +324,7 @@ impl Near {
     pub(crate) fn weigh(&mut self) {
         self.mark();
         let (kernel, marks) = (self.kernel, &self.marks);
-        let sums = (
-            &mut self.number,
-            &mut self.gradient,
-            &mut self.squares,
-            &mut self.moment,
-        );
+        let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
         rows(&mut self.pairs, sums, self.len)
             .zip(self.lists.chunks())
             .for_each(|(mut row, chunk)| {

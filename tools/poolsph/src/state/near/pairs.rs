@@ -77,40 +77,28 @@ pub(super) struct Rows<'a> {
     number: &'a mut [f64],
     gradient: &'a mut [[f64; 3]],
     squares: &'a mut [f64],
-    moment: &'a mut [f64],
 }
-
-/// Sums over rows: of W, of grad W, of its squares, and of w r^2.
-pub(super) type Columns<'a> = (
-    &'a mut Vec<f64>,
-    &'a mut Vec<[f64; 3]>,
-    &'a mut Vec<f64>,
-    &'a mut Vec<f64>,
-);
 
 /// All rows by chunks.
 pub(super) fn rows<'a>(
     pairs: &'a mut Vec<PairChunk>,
-    (number, gradient, squares, moment): Columns<'a>,
+    (number, gradient, squares): (&'a mut Vec<f64>, &'a mut Vec<[f64; 3]>, &'a mut Vec<f64>),
     n: usize,
 ) -> impl IndexedParallelIterator<Item = Rows<'a>> {
     pairs.resize_with(n.div_ceil(ROWS), PairChunk::default);
     number.resize(n, 0.0);
     gradient.resize(n, [0.0; 3]);
     squares.resize(n, 0.0);
-    moment.resize(n, 0.0);
     pairs
         .par_iter_mut()
         .zip(number.par_chunks_mut(ROWS))
         .zip(gradient.par_chunks_mut(ROWS))
         .zip(squares.par_chunks_mut(ROWS))
-        .zip(moment.par_chunks_mut(ROWS))
-        .map(|((((pairs, number), gradient), squares), moment)| Rows {
+        .map(|(((pairs, number), gradient), squares)| Rows {
             pairs,
             number,
             gradient,
             squares,
-            moment,
         })
 }
 
@@ -175,12 +163,10 @@ impl Rows<'_> {
             let [x, y, z, _]: [f64; 4] =
                 std::array::from_fn(|i| even.gradient[i] + odd.gradient[i]);
             let [p, q, r, _]: [f64; 4] = std::array::from_fn(|i| even.squares[i] + odd.squares[i]);
-            let [t, u, v, _]: [f64; 4] = std::array::from_fn(|i| even.moments[i] + odd.moments[i]);
             let (number, squares) = (own + (even.number + odd.number), p + q + r);
             // A row that is not kept is empty, and so is its sum.
             self.number[k] = if row.is_empty() { 0.0 } else { number };
             (self.gradient[k], self.squares[k]) = ([x, y, z], squares);
-            self.moment[k] = -(t + u + v);
         }
     }
 }
@@ -193,8 +179,6 @@ struct Sums {
     gradient: [f64; 4],
     /// Of its squares over liquid neighbours, axis by axis; the fourth number means nothing.
     squares: [f64; 4],
-    /// Of (dW/dr)/r x^2, axis by axis; the fourth number means nothing.
-    moments: [f64; 4],
 }
 
 impl Sums {
@@ -203,10 +187,8 @@ impl Sums {
     fn add(&mut self, at: [f64; 4], to: [f64; 4], (value, slope): (f64, f32)) {
         let slope = f64::from(slope);
         for i in 0..4 {
-            let way = at[i] - to[i];
-            let pull = slope * way;
+            let pull = slope * (at[i] - to[i]);
             self.gradient[i] += pull;
-            self.moments[i] += pull * way;
             self.squares[i] += to[3] * (pull * pull);
         }
         self.number += value;
