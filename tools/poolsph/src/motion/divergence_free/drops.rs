@@ -137,9 +137,13 @@ fn ripples_fall_and_linear_flow_stays() {
 
 /// A march with a tension of `gamma` and steps of `dt`.
 fn march(gamma: f64, dt: f64) -> March {
-    let text = r#"{"viscosity_pa_s": 0.06, "method": "divergence_free"}"#;
-    let parameters: Parameters = serde_json::from_str(text).unwrap();
-    let motion = Motion::new(parameters, Law::Uniform(0.06), METAL);
+    march_of(gamma, 0.06, dt)
+}
+
+fn march_of(gamma: f64, mu: f64, dt: f64) -> March {
+    let text = format!(r#"{{"viscosity_pa_s": {mu}, "method": "divergence_free"}}"#);
+    let parameters: Parameters = serde_json::from_str(&text).unwrap();
+    let motion = Motion::new(parameters, Law::Uniform(mu), METAL);
     let tension = Capillary::new(tension::Parameters {
         surface_tension_n_m: gamma,
     });
@@ -202,4 +206,11 @@ fn waves_of_the_surface_divide_the_step() {
         "{}",
         substeps.1.value
     );
+}
+
+#[test]
+fn a_drop_without_viscosity_needs_no_normals() {
+    let mut state = ball(4, |_| [0.0; 3]);
+    steps(&mut march_of(1.0, 0.0, 1e-4), &mut state, 3).unwrap();
+    assert!(state.velocity.iter().any(|u| squared(*u) > 0.0));
 }

@@ -67,7 +67,7 @@ const RELAXED: f64 = 0.02;
 const SLOW: f64 = 0.004;
 /// Most excess that counts.
 const MOST: f64 = 0.05;
-/// Least surface, in weights that the lattice has: that of three particles of a plane one. A single particle alone lacks as much.
+/// Particles of the least surface; a single one is no less.
 const FEWEST: f64 = 0.999;
 /// Way of the fastest particle in a step, in spacings, from which on the tolerance is that of the scene; slower flow
 /// is solved as much more closely.
@@ -231,8 +231,8 @@ impl DivergenceFree {
 
     /// A surface of less than a few particles is none: it would bear all that the volume of a closed box is in error.
     fn close(&mut self) {
-        let missing: f64 = self.rows.iter().map(|row| row.missing).sum();
-        if missing > 0.0 && missing < FEWEST * self.filled.weight {
+        let sure: f64 = self.rows.iter().map(|row| row.sure).sum();
+        if sure < FEWEST {
             for row in &mut self.rows {
                 (row.missing, row.open) = (0.0, [0.0; 3]);
             }

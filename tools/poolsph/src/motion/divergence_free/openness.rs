@@ -1,4 +1,4 @@
-//! Which particles lie at the free surface.
+//! How sure it is that a particle lies at the free surface. A liquid in which none does has no surface.
 //!
 //! A particle of a plane surface lacks 0.22 of the neighbours that the lattice has, all on one side, and so do its neighbours in
 //! the surface, on the same side. In liquid in disorder a particle may lack as many, but not on one side, or it is alone

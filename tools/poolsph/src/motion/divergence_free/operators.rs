@@ -9,29 +9,25 @@
 //!
 //! Solid neighbours have the velocity -u_a: the face between both rests.
 //!
-//! What a particle of the surface (`openness`) lacks of the weights that the lattice has stands one layer away across the
-//! surface, mirrored there: its pressure is 2 p_s - p_a, and adds to the moments of grad p, which are then exact for a plane
-//! of the lattice; its velocity is what the present neighbours tell, so that the moments of div u are of these alone. A layer
-//! is as thick as the neighbours beneath lie deep: where the surface bends it stretches, and the surface with it. (With
-//! waves of 20 spacings both are needed: with velocities that end at the particle they grow by 2 % a period, with a surface
-//! that keeps its distance from the particle they are 4 % too slow.)
-//!
-//! Where tension acts its scatter from particle to particle drives such a surface on, and drops without viscosity broke up:
-//! there what lacks weight lies at the surface, a layer is one spacing thick, m that of the lattice and B of div u that of
-//! grad p. Where particles lie scattered B means little, and the lattice's stands for it.
+//! What a particle of the surface lacks of the weights that the lattice has stands one layer away across the surface,
+//! mirrored there: its pressure is 2 p_s - p_a, its velocity that of the particle, and it adds to the moments, so that
+//! grad p is exact for a plane of the lattice. A layer is as thick as the neighbours beneath lie deep: where the surface
+//! bends it stretches, and the surface with it. (With a surface that keeps its distance from the particle waves of 20
+//! spacings are 4 % too slow. With moments of the present neighbours alone in div u they would not grow, but films of a few
+//! particles, which then count whole, burst.) Where tension acts its scatter from particle to particle drives such a
+//! surface on, and drops without viscosity broke up: there a layer is one spacing thick, and m that of the lattice. Where
+//! particles lie scattered B means little, and the lattice's stands for it.
 
 use super::filled::{Filled, within};
 use super::openness::open;
 use crate::near::{Near, Row};
 use crate::vector::{dot, minus, plus, squared};
 
-/// Lack of weight, in parts of the lattice's, from which on a particle lies at a surface with tension, and at which it does so
-/// wholly. A particle of a plane surface lacks a third.
+/// Lack of weight, in parts of the lattice's, from which on a particle lies at the surface, and at which it does so wholly.
+/// A particle of a plane surface lacks a third.
 const LACKS: [f64; 2] = [0.10, 0.20];
 /// Part of the lattice's weight up to which B is the lattice's, and from which on it is the row's own.
 const TRUST: [f64; 2] = [0.45, 0.60];
-/// The same for div u.
-const TRUST_PRESENT: [f64; 2] = [0.30, 0.45];
 /// Depth in spacings from which on a neighbour begins to be, and is wholly, one of the layer beneath.
 const BENEATH: [f64; 2] = [0.3, 0.7];
 /// Least and greatest thickness of a layer in spacings.
@@ -46,6 +42,8 @@ pub(super) struct Sums {
     pub(super) missing: f64,
     /// Sum of s x at the surface, zero in the inside \[1/m4\].
     pub(super) open: [f64; 3],
+    /// How sure it is that there is a surface, 0 to 1.
+    pub(super) sure: f64,
     /// How far away what is missing stands \[m\].
     pub(super) layer: f64,
     /// B: xx, yy, zz, xy, xz, yz \[m3\].
@@ -116,21 +114,17 @@ impl Sums {
             moments = std::array::from_fn(|i| moments[i] - squares[i]);
         }
         let (fill, tense) = (all / filled.weight, !near.tension.is_empty());
-        let part = if tense {
-            within(1.0 - fill, LACKS)
-        } else {
-            open(near, filled, (a, row))
-        };
+        let part = within(1.0 - fill, LACKS);
         let missing = part * (filled.weight - all).max(0.0);
-        let present = filled.inverse(moments, within(fill, TRUST_PRESENT));
         let mut sums = Self {
             liquid,
             missing,
             divergence: 0.0,
             slope: [[0.0; 3]; 3],
             layer: filled.spacing,
-            inverse: present,
+            inverse: [0.0; 6],
             open: [0.0; 3],
+            sure: 0.0,
             moment: if tense {
                 filled.moment
             } else {
@@ -140,13 +134,14 @@ impl Sums {
         if missing > 0.0 {
             let inwards = near.gradient[a];
             sums.open = inwards.map(|x| part * x);
+            sums.sure = open(near, filled, (a, row));
             if !tense {
                 sums.layer = beneath(near, (a, row), inwards, filled.spacing);
             }
             beyond(&mut moments, sums.open, missing, sums.layer);
         }
         sums.inverse = filled.inverse(moments, within(fill, TRUST));
-        sums.slope = multiplied(if tense { sums.inverse } else { present }, change);
+        sums.slope = multiplied(sums.inverse, change);
         sums.divergence = (0..3).map(|i| sums.slope[i][i]).sum();
         sums
     }

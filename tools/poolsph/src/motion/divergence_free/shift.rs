@@ -57,18 +57,20 @@ impl Shift {
             .enumerate()
             .with_min_len(GRAIN)
             .map(|(a, ((gradient, row), role))| {
-                let normal = normals.at(a);
                 let open = if tense {
                     near.number[a] - own < (1.0 - SURFACE) * (filled.number - own)
                 } else {
                     row.missing > 0.0
                 };
-                let held = tense || squared(normal) <= 0.0;
-                if *role != Role::Liquid || (open && held) {
+                if *role != Role::Liquid || (open && tense) {
                     return [0.0; 3];
                 }
                 let mut way = gradient.map(|x| -reach * x / filled.number);
                 if open {
+                    let normal = normals.at(a);
+                    if squared(normal) <= 0.0 {
+                        return [0.0; 3];
+                    }
                     way = plus(way, -dot(way, normal), normal);
                 }
                 let size = squared(way).sqrt();

@@ -280,3 +280,31 @@ fn a_plane_surface_is_one_and_its_particles_are_shifted_along_it() {
     assert!(x < -1e-4, "{x}");
     assert!(y.abs() < 1e-9 && z.abs() < 1e-3 * x.abs(), "{y} {z}");
 }
+
+#[test]
+fn a_cube_that_collapses_is_nowhere_faster_than_its_fall() {
+    let (wide, high) = (8, 12);
+    let mut state = block(
+        [32, 32, 2 + high],
+        |[i, j, k]| {
+            let inside = [i, j].iter().all(|i| (12..12 + wide).contains(i));
+            match k {
+                0..2 => Phase::Solid,
+                _ if inside => Phase::Liquid,
+                _ => Phase::Flying,
+            }
+        },
+        |_| [0.0; 3],
+    );
+    let fall = (2.0 * 9.8 * f64::from(high) * METAL.spacing).sqrt();
+    let mut march = march(Method::DivergenceFree, true, false);
+    let mut fastest = 0.0_f64;
+    for _ in 0..400 {
+        steps(&mut march, &mut state, 1).unwrap();
+        fastest = fastest.max(state.near.fastest_squared().sqrt());
+    }
+    assert!(
+        fastest > 0.5 * fall && fastest < 1.3 * fall,
+        "{fastest} of {fall}"
+    );
+}
