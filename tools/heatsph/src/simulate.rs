@@ -3,6 +3,7 @@
 use run::{Failure, Session};
 
 use crate::course::Course;
+use crate::course::prescribed::Heat;
 use crate::march::choice::{Steps, method};
 use crate::march::control::{self, even, suited, toward};
 use crate::march::{Method, State, StepError};
@@ -325,8 +326,22 @@ impl March<'_> {
         }
     }
 
-    /// Tells heat prescribed beside heat delivered.
-    fn compare(&self, session: &mut Session) -> Result<(), Failure> {
+    /// Heat prescribed beside heat delivered. A run that is interrupted here keeps the end of its march, from which this
+    /// alone is left to do.
+    fn heats(&self, session: &mut Session) -> Result<Vec<Heat>, Failure> {
+        let halt = session.interrupt();
+        let heats = session.timed("prescribed heat", || {
+            self.course.heat(self.system, &self.state, &halt)
+        });
+        let heats = heats.map_err(|error| self.diverged("property", &error.to_string(), None))?;
+        if heats.is_none() {
+            session.keep(|checkpoint| self.pace.save(&self.state, checkpoint))?;
+        }
+        Ok(heats.unwrap_or_default())
+    }
+
+    /// Tells heat prescribed beside heat delivered, and what was not resolved.
+    fn compare(&self, heats: Vec<Heat>, session: &mut Session) {
         if self.rates.hidden {
             session.warn(crate::source::HIDDEN);
         }
@@ -341,10 +356,6 @@ impl March<'_> {
                 "what varies in time has more jumps and peaks than could be followed: heat may have been missed",
             );
         }
-        let heats = session.timed("prescribed heat", || {
-            self.course.heat(self.system, &self.state)
-        });
-        let heats = heats.map_err(|error| self.diverged("property", &error.to_string(), None))?;
         let unit = if self.system.cloud.dimensions == 2 {
             "J/m"
         } else {
@@ -360,10 +371,10 @@ impl March<'_> {
                 ));
             }
         }
-        Ok(())
     }
 
     fn close(&self, output: &Output, session: &mut Session) -> Result<(), Failure> {
+        let heats = self.heats(session)?;
         session.steps(self.pace.steps);
         session.limit("step_explicit_least", self.pace.limit, "s");
         session.closing("step_greatest", "s", self.pace.taken[0]);
@@ -375,6 +386,7 @@ impl March<'_> {
             session.closing(name, "1", value);
         }
         output.close(self.system, &self.state, session);
-        self.compare(session)
+        self.compare(heats, session);
+        Ok(())
     }
 }

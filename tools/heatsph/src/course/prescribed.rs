@@ -1,5 +1,7 @@
 //! Heat prescribed by fluxes and sources, integrated over time apart from the march, beside the heat delivered.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 use run::property::OutOfRange;
 
@@ -56,13 +58,19 @@ impl Heat {
 }
 
 impl Course {
-    /// Heat prescribed and delivered until the time of a state, of all that prescribes heat whatever the temperature.
+    /// Heat prescribed and delivered until the time of a state, of all that prescribes heat whatever the temperature;
+    /// nothing once `halt` is set.
     ///
     /// # Errors
     /// Where a property has no value.
-    pub fn heat(&self, system: &System, state: &State) -> Result<Vec<Heat>, OutOfRange> {
+    pub fn heat(
+        &self,
+        system: &System,
+        state: &State,
+        halt: &AtomicBool,
+    ) -> Result<Option<Vec<Heat>>, OutOfRange> {
         if self.is_empty() {
-            return Ok(Vec::new());
+            return Ok(Some(Vec::new()));
         }
         let conditions = system.surface.conditions.iter().enumerate();
         let fluxes = conditions.filter(|(_, c)| matches!(c, Condition::Flux(_)));
@@ -80,14 +88,19 @@ impl Course {
                 ),
                 Giver::Source => ("source".to_owned(), state.source),
             };
-            let power = |time: f64| power(system, giver, time);
+            let power = |time: f64| match halt.load(Ordering::Relaxed) {
+                true => Ok((0.0, 0.0)),
+                false => power(system, giver, time),
+            };
             let (prescribed, gross) = integral(&power, &stretches)?;
-            Ok(Heat {
+            let heat = Heat {
                 name,
                 prescribed,
                 delivered,
                 gross,
-            })
+            };
+            // What was cut off is no integral.
+            Ok((!halt.load(Ordering::Relaxed)).then_some(heat))
         });
         each.collect()
     }

@@ -251,3 +251,20 @@ fn corners_that_cool_on_both_sides_are_of_second_order() {
     let order = (coarse / fine).log2();
     assert!(order > 1.8, "order {order}: {coarse:.2e} {fine:.2e}");
 }
+
+#[test]
+fn heat_prescribed_is_not_integrated_on_for_who_wants_to_stop() {
+    let flux = r#""heat_flux_w_m2": {"expr": "1e3*exp(-(t - 0.5)^2/1e-4)"}"#;
+    let system = bar(0.1, "1", [flux, COLD], "0");
+    let (mut state, _) = start(&system, |_| 0.0);
+    state.time = 1.0;
+    let course = crate::course::Course::new(&system, &state.temperature, state.time);
+    let heat = |halt: bool| course.heat(&system, &state, &halt.into()).unwrap();
+    let exact = 1e3 * (std::f64::consts::PI * 1e-4).sqrt() * 0.4;
+    let prescribed = heat(false).unwrap()[0].prescribed;
+    assert!(
+        (prescribed / exact - 1.0).abs() < 1e-3,
+        "{prescribed} {exact}"
+    );
+    assert_eq!(heat(true), None);
+}

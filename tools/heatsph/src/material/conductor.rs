@@ -8,8 +8,8 @@ use run::property::{Arguments, Curve, OutOfRange};
 
 /// Intervals of the table over the range of temperature at the start.
 const INTERVALS: f64 = 2048.0;
-/// Most intervals after widening.
-const MOST: usize = 4_000_000;
+/// Most doublings of the interval on one side.
+const DOUBLINGS: f64 = 50.0;
 /// Part of an interval within which conductivity is that of the middle.
 const BLUR: f64 = 1e-6;
 /// Nodes and weights of Gauss' rule on [0, 1], three points.
@@ -19,8 +19,10 @@ const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// k(T) and its integral, tabulated with equal intervals. Nodes stand at whole multiples of the interval from
-/// the first temperature, so that a wider table holds the same numbers.
+/// k(T) and its integral, tabulated. Nodes stand at whole multiples of the interval from the first temperature, in the
+/// first range and as far again on both sides. Beyond that intervals double each time the way from the first range has
+/// doubled: a body that starts at one temperature may end anywhere. Places of nodes depend on the first range alone, so
+/// that a wider table holds the same numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conductor {
     curve: Curve,
@@ -79,19 +81,19 @@ impl Conductor {
         if self.constant().is_some() {
             return Ok(());
         }
-        let node = |t: f64| (t - self.origin) / self.interval;
-        let (from, to) = (node(low).floor(), node(high).ceil());
-        if !(from > -(MOST as f64) && to < MOST as f64) {
+        let (from, to) = (self.node(low).floor(), self.node(high).ceil());
+        let most = INTERVALS * DOUBLINGS;
+        if !(from > -most && to < most) {
             return Err(OutOfRange::Formula {
                 value: f64::NAN,
-                at: Arguments::at_temperature(if to < MOST as f64 { low } else { high }),
+                at: Arguments::at_temperature(if to < most { low } else { high }),
             });
         }
         // The ends lie within an interval of the wanted temperatures; the curve may end at these.
         let (from, to) = (from as i64, to as i64);
         while self.first + self.value.len() as i64 - 1 < to {
             let last = self.first + self.value.len() as i64 - 1;
-            let step = self.integrate(last, 1)?;
+            let step = self.integrate(last)?;
             self.value.push(self.at(last + 1)?);
             self.integral
                 .push(self.integral[self.integral.len() - 1] + step);
@@ -100,7 +102,7 @@ impl Conductor {
             let (mut value, mut integral) = (Vec::new(), Vec::new());
             let mut sum = self.integral[0];
             while self.first > from {
-                sum -= self.integrate(self.first - 1, 1)?;
+                sum -= self.integrate(self.first - 1)?;
                 self.first -= 1;
                 value.push(self.at(self.first)?);
                 integral.push(sum);
@@ -114,14 +116,56 @@ impl Conductor {
         Ok(())
     }
 
+    /// The node at a temperature: a whole number and a part of the interval that follows it.
+    #[inline]
+    fn node(&self, temperature: f64) -> f64 {
+        let even = (temperature - self.origin) / self.interval;
+        // Counted from the nearer end of the first range.
+        let beyond = if even > 0.0 { even - INTERVALS } else { -even };
+        if beyond <= INTERVALS || !beyond.is_finite() {
+            return even;
+        }
+        let (far, scale) = doubled(1.0 + beyond / INTERVALS);
+        let nodes = INTERVALS * (far + scale - 1.0);
+        if even > 0.0 {
+            INTERVALS + nodes
+        } else {
+            -nodes
+        }
+    }
+
+    /// The temperature at a node \[K\].
+    fn place(&self, node: f64) -> f64 {
+        let beyond = if node > 0.0 { node - INTERVALS } else { -node };
+        if beyond <= INTERVALS {
+            return self.origin + self.interval * node;
+        }
+        let far = (beyond / INTERVALS).floor();
+        let way = INTERVALS * (far.exp2() * (1.0 + beyond / INTERVALS - far) - 1.0);
+        let even = if node > 0.0 { INTERVALS + way } else { -way };
+        self.origin + self.interval * even
+    }
+
+    /// Length of the interval that follows a node \[K\].
+    #[inline]
+    fn length(&self, node: i64) -> f64 {
+        let own = INTERVALS as i64;
+        let beyond = if node >= 0 { node - own } else { -node - 1 };
+        let far = beyond.max(0) / own;
+        self.interval * (1_u64 << far.min(63)) as f64
+    }
+
     fn temperature(&self, node: f64) -> f64 {
-        let t = self.origin + self.interval * node;
+        let t = self.place(node);
         match self.curve.range_k() {
             // A node beyond the end of a table stands at its end: at most one interval away.
             Some((low, high)) => {
-                if t < low && t > low - self.interval {
+                let near = self
+                    .length(node.floor() as i64)
+                    .max(self.length(node.ceil() as i64 - 1));
+                if t < low && t > low - near {
                     low
-                } else if t > high && t < high + self.interval {
+                } else if t > high && t < high + near {
                     high
                 } else {
                     t
@@ -145,13 +189,14 @@ impl Conductor {
         }
     }
 
-    fn integrate(&self, node: i64, intervals: i64) -> Result<f64, OutOfRange> {
+    /// The integral over the interval that follows a node.
+    fn integrate(&self, node: i64) -> Result<f64, OutOfRange> {
         let mut sum = 0.0;
         for (at, weight) in GAUSS {
-            let t = self.temperature(node as f64 + at * intervals as f64);
+            let t = self.temperature(node as f64 + at);
             sum += weight * self.curve.at_temperature(t)?;
         }
-        Ok(sum * self.interval * intervals as f64)
+        Ok(sum * self.length(node))
     }
 
     /// k at `temperature` \[W/(m K)\]; beyond the table that of its end.
@@ -170,27 +215,26 @@ impl Conductor {
             return (self.value[0], self.value[0] * (temperature - self.origin));
         }
         // Counted from the origin, so that a wider table gives the same bits.
-        let node = (temperature - self.origin) / self.interval;
+        let node = self.node(temperature);
         let x = node - self.first as f64;
         if !(x > 0.0 && x < n as f64) {
             let end = if x > 0.0 { n } else { 0 };
-            let beyond = self.interval * (x - end as f64);
+            let beyond = temperature - self.place((self.first + end as i64) as f64);
             return (
                 self.value[end],
                 self.integral[end] + self.value[end] * beyond,
             );
         }
         let i = ((node.floor() as i64 - self.first) as usize).min(n - 1);
-        let s = node - (self.first + i as i64) as f64;
+        let number = self.first + i as i64;
+        let s = node - number as f64;
+        let length = self.length(number);
         // Hermite's cubic through the integral with the slopes k.
-        let (k0, k1) = (
-            self.interval * self.value[i],
-            self.interval * self.value[i + 1],
-        );
+        let (k0, k1) = (length * self.value[i], length * self.value[i + 1]);
         let rise = self.integral[i + 1] - self.integral[i];
         let (b, c) = (3.0 * rise - 2.0 * k0 - k1, k0 + k1 - 2.0 * rise);
         let integral = self.integral[i] + s * (k0 + s * (b + s * c));
-        let value = (k0 + s * (2.0 * b + s * 3.0 * c)) / self.interval;
+        let value = (k0 + s * (2.0 * b + s * 3.0 * c)) / length;
         (value, integral)
     }
 
@@ -200,9 +244,18 @@ impl Conductor {
         if self.constant().is_some() {
             return (f64::NEG_INFINITY, f64::INFINITY);
         }
-        let at = |node: i64| self.origin + self.interval * node as f64;
+        let at = |node: i64| self.place(node as f64);
         (at(self.first), at(self.first + self.value.len() as i64 - 1))
     }
+}
+
+/// The power of two below a number that is 1 or more, as exponent and as what is left, from 1 to 2.
+#[inline]
+fn doubled(value: f64) -> (f64, f64) {
+    let bits = value.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i64 - 1023;
+    let rest = f64::from_bits((bits & !(0x7ff << 52)) | (1023 << 52));
+    (exponent as f64, rest)
 }
 
 #[cfg(test)]
@@ -247,6 +300,37 @@ mod tests {
             .into();
         assert_eq!(before, after);
         assert!(k.span().0 <= 250.0 && k.span().1 >= 900.0);
+    }
+
+    #[test]
+    fn a_table_reaches_far_from_where_it_starts() {
+        for a in [0.0, 300.0] {
+            let mut k = Conductor::new(curve("1/(500 + T)"), a, a + 1e-3).unwrap();
+            k.widen(0.0, 5000.0).unwrap();
+            assert!(k.value.len() < 120_000, "{}", k.value.len());
+            assert!(k.span().0 <= 0.0 && k.span().1 >= 5000.0);
+            for i in 0..=500 {
+                let t = 10.0 * f64::from(i);
+                let (value, integral) = k.value_and_integral(t);
+                let whole = ((500.0 + t) / (500.0 + a)).ln();
+                assert!((value * (500.0 + t) - 1.0).abs() < 1e-9, "{a} {t}: {value}");
+                assert!(
+                    (integral - whole).abs() < 1e-9,
+                    "{a} {t}: {integral} {whole}"
+                );
+            }
+            for node in [
+                -9000, -4097, -4096, -2048, -1, 0, 2047, 2048, 4095, 4096, 8191, 8192, 20_000,
+            ] {
+                let at = k.place(f64::from(node));
+                assert!((k.node(at) - f64::from(node)).abs() < 1e-5, "{node}");
+                let next = k.place(f64::from(node + 1)) - at;
+                assert!(
+                    (next / k.length(i64::from(node)) - 1.0).abs() < 1e-5,
+                    "{node}: {next}"
+                );
+            }
+        }
     }
 
     #[test]
