@@ -27,16 +27,10 @@ pub struct Bed {
     pub by_heat: f64,
 }
 
-/// The bed of the arc, where there is one.
-#[must_use]
-pub fn granular(arc: &Arc) -> Option<&Granular> {
-    arc.heating.as_ref()?.setup.granular.as_ref()
-}
-
 /// Whether each cell of the bed is slag now: 1 where it is, 0 elsewhere.
 #[must_use]
 pub fn slag(arc: &Arc) -> Option<Vec<f64>> {
-    let granular = granular(arc)?;
+    let granular = arc.case.bed()?;
     let (t, material) = (arc.temperature(), &arc.case.material);
     let molten = |k: usize| material[k] == granular.material && t[k] > granular.melting;
     let cells = 0..arc.case.grid.len();
@@ -46,7 +40,7 @@ pub fn slag(arc: &Arc) -> Option<Vec<f64>> {
 /// Adds up the bed.
 #[must_use]
 pub fn measure(arc: &Arc) -> Option<Bed> {
-    let (granular, slag) = (granular(arc)?, slag(arc)?);
+    let (granular, slag) = (arc.case.bed()?, slag(arc)?);
     let (grid, material) = (&arc.case.grid, &arc.case.material);
     let mut bed = Bed::default();
     for k in &granular.cells {
@@ -74,7 +68,7 @@ pub fn measure(arc: &Arc) -> Option<Bed> {
 /// moves on by its distance from the axis, in which little of it melts.
 fn by_heat(arc: &Arc, granular: &Granular, bed: &Bed) -> Option<f64> {
     let heating = arc.heating.as_ref()?;
-    let mut plates = heating.setup.plates.iter();
+    let mut plates = arc.case.heat.as_ref()?.plates.iter();
     let plate = plates.find(|plate| plate.material == granular.material)?;
     let material = &arc.case.materials[granular.material];
     let (enthalpy, density) = material.enthalpy.as_ref().zip(material.density.as_ref())?;
@@ -166,14 +160,16 @@ fn side(arc: &Arc, granular: &Granular, bed: &mut Bed) {
 /// The lines of the balance.
 #[must_use]
 pub fn record(arc: &Arc, record: Record) -> Record {
-    let Some((granular, bed, heating)) = granular(arc)
+    let Some((granular, bed, heating, heat)) = arc
+        .case
+        .bed()
         .zip(measure(arc))
-        .and_then(|(g, b)| Some((g, b, arc.heating.as_ref()?)))
+        .and_then(|(g, b)| Some((g, b, arc.heating.as_ref()?, arc.case.heat.as_ref()?)))
     else {
         return record;
     };
     let name = &arc.case.materials[granular.material].name;
-    let plates = heating.setup.plates.iter().zip(&heating.sources.plates);
+    let plates = heat.plates.iter().zip(&heating.sources.plates);
     let own = plates.filter(|(p, _)| p.material == granular.material);
     let motion: f64 = own.map(|(_, heat)| heat).sum();
     let mean = if bed.wall > 0.0 {

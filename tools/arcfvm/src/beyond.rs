@@ -119,14 +119,7 @@ impl Arc {
 
     /// Gas cells beside electrodes: those hotter than `end` \[K\], and all.
     fn beside_electrodes(&self, end: f64) -> [usize; 2] {
-        let heat = self
-            .heating
-            .as_ref()
-            .and_then(|h| h.setup.surfaces.as_ref());
-        let mut cells: Vec<usize> = heat
-            .iter()
-            .flat_map(|s| s.contacts.iter().map(|c| c.gas))
-            .collect();
+        let mut cells: Vec<usize> = self.case.contacts().iter().map(|c| c.gas).collect();
         cells.sort_unstable();
         cells.dedup();
         let t = self.temperature();

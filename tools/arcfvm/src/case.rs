@@ -1,6 +1,10 @@
 //! The assembled problem: grid, materials, edges, and what is solved. Physics reads this, never
 //! the scene.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::curve::Surface;
 use crate::fields::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::evaporation::Evaporating;
@@ -8,7 +12,6 @@ use crate::heat::granular::Granular;
 use crate::heat::{Contact, Surfaces};
 use crate::material::{GAS, Material};
 use crate::mixture::Molar;
-use crate::scene::{Conduction, Electrons, Surface};
 
 /// One value per face of the four sides of the domain.
 #[derive(Debug, Clone, PartialEq)]
@@ -179,6 +182,26 @@ pub struct Wire {
     pub feed: Option<FeedRule>,
 }
 
+/// What electrons carry through the gas.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Electrons {
+    /// Their enthalpy, against the current: heat of 5/2 k/e j . grad T (Hsu, Etemadi and Pfender 1983).
+    Enthalpy,
+}
+
+/// Conductivity of the way from one cell to the next, and through a film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Conduction {
+    /// That of each half at the temperature of its cell, and of a film at the mean of its ends.
+    #[default]
+    Cells,
+    /// The mean over all temperatures between both ends, from the integral of the conductivity (Kirchhoff): where that
+    /// jumps within a few kelvin, heat between cells does not.
+    Integral,
+}
+
 /// Heat, where it is solved.
 #[derive(Debug, Clone)]
 pub struct HeatCase {
@@ -186,8 +209,6 @@ pub struct HeatCase {
     pub edges: Edges<HeatEdge>,
     /// Heat source of each cell \[W\], `[nr nz]`; manufactured solutions only.
     pub source: Option<Vec<f64>>,
-    /// Surfaces of wire and base metal with electrode heat.
-    pub surfaces: Option<Surfaces>,
     /// Plates and beds of flux that move past the arc.
     pub plates: Vec<MovingPlate>,
     /// Granular flux that boils into the cavity.
@@ -196,20 +217,6 @@ pub struct HeatCase {
     pub electrons: Option<Electrons>,
     /// Conductivity of the way from one cell to the next.
     pub conduction: Conduction,
-}
-
-impl HeatCase {
-    /// Leaves evaporation to the vapour, where that is solved: its surfaces do not evaporate into a
-    /// vacuum.
-    #[must_use]
-    pub fn giving_vapour_to(mut self, vapour: Option<&VapourCase>) -> Self {
-        if let (Some(_), Some(surfaces)) = (vapour, &mut self.surfaces) {
-            for electrode in &mut surfaces.electrodes {
-                electrode.evaporation = None;
-            }
-        }
-        self
-    }
 }
 
 /// What iron vapour meets at an edge face.
@@ -247,8 +254,6 @@ pub struct VapourCase {
     pub start: Vec<f64>,
     /// Source of each cell \[kg/s\], `[nr nz]`; manufactured solutions only.
     pub source: Option<Vec<f64>>,
-    /// Faces of electrodes to the gas, in the order of those of the heat.
-    pub contacts: Vec<Contact>,
     /// How the metal of each electrode evaporates, where it does.
     pub metals: Vec<Option<Evaporating>>,
     /// Whether vapour adds to the mass of the gas, or takes the place of as much gas.
@@ -323,6 +328,8 @@ pub struct Case {
     pub heat: Option<HeatCase>,
     /// Iron vapour.
     pub vapour: Option<VapourCase>,
+    /// Surfaces of electrodes, where heat or vapour meets them.
+    pub surfaces: Option<Surfaces>,
     /// The wire, where there is one.
     pub wire: Option<Wire>,
     /// The base metal, where there is one.
@@ -351,10 +358,22 @@ impl Case {
         conduction == Some(Conduction::Integral)
     }
 
+    /// Faces of electrodes to the gas.
+    #[must_use]
+    pub fn contacts(&self) -> &[Contact] {
+        self.surfaces.as_ref().map_or(&[], |s| &s.contacts)
+    }
+
+    /// The bed of granular flux.
+    #[must_use]
+    pub fn bed(&self) -> Option<&Granular> {
+        self.heat.as_ref()?.granular.as_ref()
+    }
+
     /// The bed of granular flux, where its slag is clear.
     #[must_use]
     pub fn clear_bed(&self) -> Option<&Granular> {
-        let granular = self.heat.as_ref()?.granular.as_ref()?;
+        let granular = self.bed()?;
         granular.melts_within.and(Some(granular))
     }
 

@@ -17,15 +17,15 @@ impl Arc {
     /// What boils does not come back beside hot gas, and any wider cavity is at rest too, its wall the colder: slag that boiled in a bed
     /// on its way to its temperatures would leave a cavity that tells of the way.
     pub(crate) fn boil(&mut self) -> Option<f64> {
-        let heating = self.heating.as_mut()?;
-        let granular = heating.setup.granular.as_mut()?;
+        let heating = self.heating.as_ref()?;
+        let case = &mut self.case;
+        let granular = case.heat.as_mut()?.granular.as_mut()?;
         if self.iteration < FIRST_LOOK {
             return Some(1.0);
         }
         if self.iteration.is_multiple_of(LOOK_EVERY) {
             self.boiled = None;
             if self.unsettled <= SETTLED {
-                let case = &mut self.case;
                 let temperature = &heating.energy.temperature;
                 let before = case.material.clone();
                 let changed = granular.boil(&case.grid, temperature, &mut case.material);
@@ -41,7 +41,7 @@ impl Arc {
 
     /// The bed as it is, for a checkpoint: what boiled, and how often each cell changed.
     pub(crate) fn bed(&self) -> Option<[Vec<u8>; 2]> {
-        let granular = self.heating.as_ref()?.setup.granular.as_ref()?;
+        let granular = self.case.bed()?;
         let gas = |k: &usize| u8::from(self.case.material[*k] == GAS);
         let boiled = granular.cells.iter().map(gas).collect();
         Some([boiled, granular.changes.clone()])
@@ -49,11 +49,8 @@ impl Arc {
 
     /// Takes the bed from a checkpoint.
     pub(crate) fn restore_bed(&mut self, boiled: &[u8], changes: Vec<u8>) {
-        let Some(granular) = self
-            .heating
-            .as_mut()
-            .and_then(|h| h.setup.granular.as_mut())
-        else {
+        let heat = self.case.heat.as_mut();
+        let Some(granular) = heat.and_then(|h| h.granular.as_mut()) else {
             return;
         };
         for (k, gas) in granular.cells.iter().zip(boiled) {
@@ -70,25 +67,20 @@ impl Arc {
     /// what they are.
     fn reshape(&mut self, before: &[usize]) {
         let case = &mut self.case;
+        if let Some(surfaces) = &mut case.surfaces {
+            surfaces.renew(&case.grid, &case.material);
+        }
+        let sheath = case.potential.as_mut().and_then(|p| p.sheath.as_mut());
+        if let Some(sheath) = sheath {
+            sheath.renew(&case.grid, &case.material);
+        }
         if let Some(heating) = &mut self.heating {
-            if let Some(surfaces) = &mut heating.setup.surfaces {
-                surfaces.renew(&case.grid, &case.material);
-            }
-            if let Some(heat) = &mut case.heat {
-                heat.surfaces.clone_from(&heating.setup.surfaces);
-            }
             heating.energy.touch(case);
             heating.sources.look_again();
         }
-        if let Some(sheath) = self.electric.as_mut().and_then(|e| e.setup.sheath.as_mut()) {
-            sheath.renew(&case.grid, &case.material);
-            if let Some(potential) = &mut case.potential {
-                potential.sheath = Some(sheath.clone());
-            }
-        }
-        if let Some(flowing) = &mut self.flowing {
+        if let Some((setup, flowing)) = case.flow.as_ref().zip(self.flowing.as_mut()) {
             let was_gas = |k: usize| before[k] == GAS;
-            flowing.flow.reshape(case, &flowing.setup, was_gas);
+            flowing.flow.reshape(case, setup, was_gas);
         }
     }
 }

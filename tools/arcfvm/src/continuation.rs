@@ -79,11 +79,7 @@ impl Steps {
 impl Arc {
     /// Sends another current through the driven faces \[A\].
     pub fn drive(&mut self, current: f64) {
-        let setups = [
-            self.case.potential.as_mut(),
-            self.electric.as_mut().map(|e| &mut e.setup),
-        ];
-        for setup in setups.into_iter().flatten() {
+        if let Some(setup) = &mut self.case.potential {
             setup.driven = setup.driven.map(|_| current);
         }
     }

@@ -14,8 +14,8 @@ impl Arc {
         let rule = wire.feed?;
         let enthalpy = self.case.materials[wire.material].enthalpy.as_ref()?;
         let heating = self.heating.as_ref()?;
-        let all = electrodes(&heating.setup, &heating.energy, &heating.sources);
-        let surfaces = heating.setup.surfaces.as_ref();
+        let all = electrodes(&self.case, &heating.energy, &heating.sources);
+        let surfaces = self.case.surfaces.as_ref();
         let name = &self.case.materials[wire.material].name;
         let own = surfaces.and_then(|s| s.electrodes.iter().position(|e| *e.name == **name));
         let boiled = own.map_or(0.0, |n| -all[n].vapour);

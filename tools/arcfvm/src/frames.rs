@@ -3,14 +3,14 @@
 use artefact::{Record, Table};
 use run::{Failure, Session};
 
-use crate::case::{HeatCase, PotentialCase};
+use crate::case::PotentialCase;
 use crate::fields::magnetic::AtCentre;
 use crate::grid::Grid;
 use crate::heat::balance::Balance;
 use crate::heat::supply::Supply;
 use crate::material::GAS;
-use crate::scene::Sample;
 use crate::solver::{Arc, Electric};
+use crate::surface::Sample;
 use crate::{bed, iron, surface};
 
 /// Writes every channel that the solved fields fill.
@@ -169,8 +169,8 @@ fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
     if let Some(balance) = balance {
         record = bed::record(arc, heat(arc, balance, record));
     }
-    if let (Some(balance), Some(heating)) = (balance, &arc.heating) {
-        record = input(arc, balance, &heating.setup, record);
+    if let Some(balance) = balance {
+        record = input(arc, balance, record);
     }
     if let Some(wire) = arc.case.wire {
         record = record.with("wire_feed_m_s", "m/s", arc.feed).with(
@@ -207,9 +207,9 @@ fn extremes(arc: &Arc, mut record: Record) -> Record {
 
 /// What the base metal takes up in all, drops included, and the part of the power that it is (Komen
 /// 2019, tables 5.6 and 5.7).
-fn input(arc: &Arc, balance: &Balance, heat: &HeatCase, record: Record) -> Record {
+fn input(arc: &Arc, balance: &Balance, record: Record) -> Record {
     let own = arc.case.wire.zip(surface::base(arc)).and_then(|(_, base)| {
-        let electrode = heat.surfaces.as_ref()?.electrode_of[base]?;
+        let electrode = arc.case.surfaces.as_ref()?.electrode_of[base]?;
         Some(balance.electrodes[electrode].sum())
     });
     let Some(own) = own else {
@@ -274,7 +274,7 @@ fn heat(arc: &Arc, balance: &Balance, record: Record) -> Record {
     if let Some(electrons) = balance.electrons {
         record = record.with("heat_electrons_w", "W", electrons);
     }
-    let names = arc.case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
+    let names = arc.case.surfaces.as_ref();
     let names = names.iter().flat_map(|s| &s.electrodes).map(|e| &e.name);
     for (name, one) in names.zip(&balance.electrodes) {
         let parts = [

@@ -3,13 +3,13 @@
 use crate::case::{Case, HeatCase};
 use crate::error::Error;
 use crate::fields::energy::Step;
-use crate::heat::reads::Reads;
+use crate::fields::vapour::Vapour;
+use crate::heat::reads::{Reads, Vapours};
 use crate::heat::{Contact, Skin};
 use crate::limits::check;
 use crate::properties::Properties;
 use crate::residual::{Unbalanced, part};
 use crate::solver::{Arc, Electric, Heating};
-use crate::vaporising::Vaporising;
 
 /// Rounds of conduction and surfaces after which neither changes.
 const ROUNDS: usize = 8;
@@ -23,7 +23,7 @@ struct Around<'a> {
     case: &'a Case,
     properties: &'a Properties,
     electric: Option<&'a Electric>,
-    vaporising: Option<&'a Vaporising>,
+    vapour: Option<&'a Vapour>,
     feed: f64,
 }
 
@@ -37,7 +37,12 @@ impl<'a> Around<'a> {
             potential: self.electric.map(|e| &e.potential),
             temperature,
             skins,
-            vapour: self.vaporising.map(Vaporising::read),
+            vapour: self
+                .case
+                .vapour
+                .as_ref()
+                .zip(self.vapour)
+                .map(Vapours::from),
         }
     }
 }
@@ -73,11 +78,11 @@ impl Arc {
             electric,
             flowing,
             heating,
-            vaporising,
+            vapour,
             feed,
             ..
         } = self;
-        let Some(Heating { setup, energy, .. }) = heating else {
+        let Some((heat, Heating { energy, .. })) = case.heat.as_ref().zip(heating.as_mut()) else {
             return;
         };
         if let Some(flowing) = flowing {
@@ -89,33 +94,25 @@ impl Arc {
         if let Some(wire) = case.wire {
             wire.carry(case, *feed, &mut energy.mass_axial);
         }
-        energy.conduct(case, setup.surfaces.as_ref(), properties);
+        energy.conduct(case, properties);
         if let Some(electric) = electric {
             energy.drift(case, &electric.potential);
         }
-        if let Some(v) = vaporising {
-            energy.mix(case, setup, &v.setup, &v.vapour);
+        if let Some((setup, vapour)) = case.vapour.as_ref().zip(vapour.as_ref()) {
+            energy.mix(case, heat, setup, vapour);
         }
     }
 
     /// What surfaces absorb and, where they have temperatures of their own, those, with what evaporates at them.
     fn settle_surfaces(&mut self) {
         let anew = self.iteration % VIEW_EVERY == 1 || self.settings.view_always;
-        let (
-            Some(Heating {
-                setup,
-                energy,
-                sources,
-            }),
-            around,
-        ) = self.heating_within()
-        else {
+        let Some((heat, Heating { energy, sources }, around)) = self.heating_within() else {
             return;
         };
         let mut skins = std::mem::take(&mut energy.skins);
-        let reads = around.reads(setup, &energy.temperature, &[]);
+        let reads = around.reads(heat, &energy.temperature, &[]);
         sources.look(reads, anew);
-        if let Some(surfaces) = &setup.surfaces {
+        if let Some(surfaces) = &around.case.surfaces {
             let through = |contact: &Contact| energy.conductance(contact) / contact.area;
             reads.settle(surfaces, sources.absorbed(), through, &mut skins);
         }
@@ -127,36 +124,28 @@ impl Arc {
 
     /// What warms each cell.
     fn warm(&mut self) {
-        let (
-            Some(Heating {
-                setup,
-                energy,
-                sources,
-            }),
-            around,
-        ) = self.heating_within()
-        else {
+        let Some((heat, Heating { energy, sources }, around)) = self.heating_within() else {
             return;
         };
-        let reads = around.reads(setup, &energy.temperature, &energy.skins);
+        let reads = around.reads(heat, &energy.temperature, &energy.skins);
         sources.update(reads, &mut energy.source);
         if let Some(wire) = around.case.wire {
             let enthalpy = &around.properties.enthalpy;
             wire.keep(around.case, around.feed, enthalpy, &mut energy.source);
         }
-        energy.pass_surfaces(setup);
+        energy.pass_surfaces(around.case);
     }
 
     /// The heat, to be changed, and what it reads beside itself.
-    fn heating_within(&mut self) -> (Option<&mut Heating>, Around<'_>) {
+    fn heating_within(&mut self) -> Option<(&HeatCase, &mut Heating, Around<'_>)> {
         let around = Around {
             case: &self.case,
             properties: &self.properties,
             electric: self.electric.as_ref(),
-            vaporising: self.vaporising.as_ref(),
+            vapour: self.vapour.as_ref(),
             feed: self.feed,
         };
-        (self.heating.as_mut(), around)
+        Some((self.case.heat.as_ref()?, self.heating.as_mut()?, around))
     }
 
     /// One solve of the energy; returns its residual, the worst cell and how many cells were limited.
@@ -172,21 +161,17 @@ impl Arc {
             settings,
             ..
         } = self;
-        let Some(Heating {
-            setup,
-            energy,
-            sources,
-        }) = heating
-        else {
+        let Some((heat, heating)) = case.heat.as_ref().zip(heating.as_mut()) else {
             return Ok((0.0, Unbalanced::default(), 0));
         };
-        let scale = sources.size() + energy.edges(case, setup, properties).size;
+        let Heating { energy, sources } = heating;
+        let scale = sources.size() + energy.edges(case, heat, properties).size;
         let step = Step {
             relaxation: settings.heat_relaxation,
             limit: settings.heat_step,
         };
         let found = energy
-            .solve(case, setup, properties, step)
+            .solve(case, heat, properties, step)
             .map_err(|e| Error::solver("energy", *iteration, case, &e))?;
         check(
             case,

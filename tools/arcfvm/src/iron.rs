@@ -10,8 +10,8 @@ use crate::solver::Arc;
 /// Adds the mass fraction of iron, where there is vapour, and the electrons, where the gas tells them.
 pub(crate) fn plasma(arc: &Arc, mut table: Table) -> Table {
     let grid = &arc.case.grid;
-    if let Some(vaporising) = &arc.vaporising {
-        let iron = &vaporising.vapour.iron;
+    if let Some(vapour) = &arc.vapour {
+        let iron = &vapour.iron;
         let values = grid.by_height(|i, j| iron[grid.cell(i, j)]);
         table = table.column("iron_mass_fraction", "1", values);
     }
@@ -35,10 +35,10 @@ type Gather<'a> = &'a dyn Fn(&dyn Fn(usize) -> f64) -> Vec<f64>;
 /// Adds what evaporates off the base metal, summed as `over` does, and the mass fraction of iron there, as
 /// `mean` does, where there is vapour.
 pub(crate) fn surface(arc: &Arc, table: Table, over: Gather<'_>, mean: Gather<'_>) -> Table {
-    let Some(vaporising) = &arc.vaporising else {
+    let Some(vapour) = &arc.vapour else {
         return table;
     };
-    let passed = &vaporising.vapour.passed;
+    let passed = &vapour.passed;
     table
         .column(
             "evaporation_kg_m2_s",
@@ -56,11 +56,11 @@ pub(crate) fn record(arc: &Arc, balance: Option<&Balance>, mut record: Record) -
     if let Some(balance) = balance {
         record = record.with("heat_vapour_w", "W", balance.vapour);
     }
-    let wall = arc.vaporising.as_ref().and_then(|v| v.setup.wall);
+    let wall = arc.case.vapour.as_ref().and_then(|v| v.wall);
     if wall.is_some() {
         record = record.with("iron_wall_kg_s", "kg/s", iron.wall);
     }
-    if arc.vaporising.as_ref().is_some_and(|v| v.setup.vents) {
+    if arc.case.vapour.as_ref().is_some_and(|v| v.vents) {
         record = record.with("iron_vented_kg_s", "kg/s", iron.vented);
     }
     record

@@ -7,6 +7,7 @@ pub mod beyond;
 pub mod case;
 mod cavity;
 pub mod continuation;
+pub mod curve;
 pub mod diffusion;
 pub mod error;
 mod feed;
@@ -35,7 +36,6 @@ pub mod start;
 pub mod supply;
 pub mod surface;
 pub mod transport;
-pub mod vaporising;
 mod vapour_step;
 
 use std::borrow::Cow;

@@ -12,7 +12,8 @@ use run::{Failure, Fault};
 use serde::Deserialize;
 
 use crate::case::Case;
-use crate::scene::{Profile, Scene, Shape, Surface};
+use crate::curve::Surface;
+use crate::scene::{Profile, Scene, Shape};
 
 /// Least part of the places and frames of a ring that have metal.
 const COVERED: f64 = 0.95;

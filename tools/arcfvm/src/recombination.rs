@@ -43,15 +43,15 @@ fn fields(arc: &mut Arc, visit: Visit<'_>) {
         electric,
         flowing,
         heating,
-        vaporising,
+        vapour,
         feed,
         ..
     } = arc;
     if let Some(heating) = heating {
         visit(true, &mut heating.energy.temperature);
     }
-    if let Some(vaporising) = vaporising {
-        visit(true, &mut vaporising.vapour.iron);
+    if let Some(vapour) = vapour {
+        visit(true, &mut vapour.iron);
     }
     if let Some(flowing) = flowing {
         let flow = &mut flowing.flow;
@@ -146,8 +146,8 @@ impl Recombination {
             }
             at += field.len();
         });
-        if let Some(vaporising) = &mut arc.vaporising {
-            let iron = vaporising.vapour.iron.iter_mut();
+        if let Some(vapour) = &mut arc.vapour {
+            let iron = vapour.iron.iter_mut();
             iron.for_each(|y| *y = y.clamp(0.0, 1.0));
         }
         gather(arc, &mut self.start);

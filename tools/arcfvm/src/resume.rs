@@ -2,8 +2,9 @@
 
 use artefact::Checkpoint;
 
+use crate::case::Case;
 use crate::fields::Solver;
-use crate::solver::{Arc, Heating};
+use crate::solver::Arc;
 
 /// Puts the state into a checkpoint.
 ///
@@ -35,8 +36,8 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         }
         groups(c, "pressure", &flowing.solver.pressure_solver)?;
     }
-    if let Some(vaporising) = &arc.vaporising {
-        c.put_f64("iron", &vaporising.vapour.iron);
+    if let Some(vapour) = &arc.vapour {
+        c.put_f64("iron", &vapour.iron);
     }
     if let Some(heating) = &arc.heating {
         c.put_f64("temperature", &heating.energy.temperature);
@@ -44,7 +45,7 @@ pub fn keep(arc: &Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         c.put_f64("last_change", &heating.energy.last);
         c.put_u8("alternations", &heating.energy.alternations);
         c.put_f64("absorbed", heating.sources.absorbed());
-        if length(heating).is_some() {
+        if length(&arc.case).is_some() {
             c.put_f64("lit", heating.sources.lit());
         }
         let surfaces = heating.energy.surface_temperatures();
@@ -87,15 +88,15 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
         }
         regroup(c, "pressure", nr, &mut flowing.solver.pressure_solver)?;
     }
-    if let Some(vaporising) = &mut arc.vaporising {
-        vaporising.vapour.iron = c.f64("iron")?;
+    if let Some(vapour) = &mut arc.vapour {
+        vapour.iron = c.f64("iron")?;
     }
     if let Some(heating) = &mut arc.heating {
         heating.energy.temperature = c.f64("temperature")?;
         heating.energy.calm = c.f64("calm")?;
         heating.energy.last = c.f64("last_change")?;
         heating.energy.alternations = c.u8("alternations")?;
-        let lit = length(heating).map_or_else(|| Ok(Vec::new()), |_| c.f64("lit"))?;
+        let lit = length(&arc.case).map_or_else(|| Ok(Vec::new()), |_| c.f64("lit"))?;
         heating.sources.restore(c.f64("absorbed")?, lit);
         if !heating.energy.skins.is_empty() {
             heating.energy.restore_surfaces(&c.f64("surfaces")?);
@@ -106,8 +107,8 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
 }
 
 /// Length within which the wall of a cavity takes up light, where it has one.
-fn length(heating: &Heating) -> Option<f64> {
-    heating.setup.granular.as_ref()?.length
+fn length(case: &Case) -> Option<f64> {
+    case.bed()?.length
 }
 
 /// Puts what a solver remembers.

@@ -1,6 +1,6 @@
 //! The algorithm (Komen 2019, figs 3.10 and 5.2).
 
-use crate::case::{Case, FlowCase, HeatCase, PotentialCase};
+use crate::case::Case;
 use crate::error::Error;
 use crate::fields::energy::Energy;
 use crate::fields::flow::Flow;
@@ -14,7 +14,6 @@ use crate::limits::check;
 use crate::properties::Properties;
 use crate::residual::{Residuals, Unbalanced, part};
 use crate::settings::Settings;
-use crate::vaporising::Vaporising;
 
 /// Relaxation of the speed of the wire.
 const FEED_RELAXATION: f64 = 0.1;
@@ -42,7 +41,6 @@ impl Stopwatch for () {
 /// Currents and their field.
 #[derive(Debug, Clone)]
 pub struct Electric {
-    pub(crate) setup: PotentialCase,
     /// Potential and currents.
     pub potential: Potential,
     /// Magnetic field and Lorentz force.
@@ -52,7 +50,6 @@ pub struct Electric {
 /// The flow and its solver.
 #[derive(Debug, Clone)]
 pub struct Flowing {
-    pub(crate) setup: FlowCase,
     /// Velocities and pressure.
     pub flow: Flow,
     pub(crate) solver: FlowSolver,
@@ -61,7 +58,6 @@ pub struct Flowing {
 /// Temperatures and heat sources.
 #[derive(Debug, Clone)]
 pub struct Heating {
-    pub(crate) setup: HeatCase,
     /// Temperatures.
     pub energy: Energy,
     /// Sources of the last iteration.
@@ -85,7 +81,7 @@ pub struct Arc {
     /// Heat, where solved.
     pub heating: Option<Heating>,
     /// Iron vapour, where solved.
-    pub vaporising: Option<Vaporising>,
+    pub vapour: Option<Vapour>,
     /// Speed of the wire \[m/s\].
     pub feed: f64,
     /// Part of the bed of flux that changed when it was last looked at; none while its heat is too far from balance to look.
@@ -99,29 +95,24 @@ impl Arc {
     #[must_use]
     pub fn new(case: Case, settings: Settings) -> Self {
         let grid = &case.grid;
-        let electric = case.potential.clone().map(|setup| Electric {
-            setup,
+        let electric = case.potential.as_ref().map(|_| Electric {
             potential: Potential::new(grid, settings.potential.clone()),
             magnetic: Magnetic::new(grid),
         });
-        let flowing = case.flow.clone().map(|setup| {
+        let flowing = case.flow.as_ref().map(|setup| {
             let [momentum, pressure] = [settings.momentum.clone(), settings.pressure.clone()];
             let solver = FlowSolver::new(grid, settings.flow, momentum, pressure);
             Flowing {
-                flow: Flow::new(&case, &setup),
-                setup,
+                flow: Flow::new(&case, setup),
                 solver,
             }
         });
-        let heating = case.heat.clone().map(|setup| Heating {
-            setup,
+        let heating = case.heat.as_ref().map(|_| Heating {
             energy: Energy::new(&case, settings.energy.clone()),
             sources: Sources::default(),
         });
-        let vaporising = case.vapour.clone().map(|setup| Vaporising {
-            vapour: Vapour::new(&case, &setup, settings.energy.clone()),
-            setup,
-        });
+        let vapour = case.vapour.as_ref();
+        let vapour = vapour.map(|setup| Vapour::new(&case, setup, settings.energy.clone()));
         let properties = Properties::new(&case);
         let mut arc = Self {
             case,
@@ -131,7 +122,7 @@ impl Arc {
             electric,
             flowing,
             heating,
-            vaporising,
+            vapour,
             feed: 0.0,
             boiled: None,
             unsettled: 1.0,
@@ -179,7 +170,7 @@ impl Arc {
             (residuals.force, residuals.unbalanced[1]) = (Some(force.0), Some(force.1));
             (residuals.mass, residuals.unbalanced[2]) = (Some(mass.0), Some(mass.1));
         }
-        if self.vaporising.is_some() {
+        if self.vapour.is_some() {
             residuals.iron = Some(clock.timed("vapour", || self.solve_vapour())?);
         }
         if self.heating.is_some() {
@@ -202,24 +193,20 @@ impl Arc {
         self.take_properties();
         self.settle_vapour();
         self.take_sources();
-        let heating = self.heating.as_ref()?;
-        let Heating {
-            setup,
-            energy,
-            sources,
-        } = heating;
+        let (heat, heating) = self.case.heat.as_ref().zip(self.heating.as_ref())?;
+        let Heating { energy, sources } = heating;
         let mut balance = Balance::new(
             &self.case,
-            setup,
+            heat,
             energy,
             &self.properties,
             sources,
             self.feed,
         );
-        if let (Some(electric), Some(surfaces)) = (&self.electric, &setup.surfaces) {
+        if let Some(electric) = &self.electric {
             let joule = &electric.potential.joule;
             for (n, one) in balance.electrodes.iter_mut().enumerate() {
-                let contact = surfaces.contacts.iter().find(|c| c.electrode == n);
+                let contact = self.case.contacts().iter().find(|c| c.electrode == n);
                 let material = contact.map(|c| self.case.material[c.metal]);
                 let own = joule.iter().zip(&self.case.material);
                 one.joule = own
@@ -236,10 +223,10 @@ impl Arc {
             case,
             properties,
             heating,
-            vaporising,
+            vapour,
             ..
         } = self;
-        let iron = vaporising.as_ref().map(|v| v.vapour.iron.as_slice());
+        let iron = vapour.as_ref().map(|v| v.iron.as_slice());
         let temperature = heating
             .as_ref()
             .map_or(&case.start, |h| &h.energy.temperature);
@@ -254,14 +241,13 @@ impl Arc {
             iteration,
             ..
         } = self;
-        let Some(Electric {
-            setup,
-            potential,
-            magnetic,
-        }) = electric
-        else {
+        let Some((setup, electric)) = case.potential.as_ref().zip(electric.as_mut()) else {
             return Ok((0.0, Unbalanced::default()));
         };
+        let Electric {
+            potential,
+            magnetic,
+        } = electric;
         potential
             .solve(case, setup, &properties.electric)
             .map_err(|e| Error::solver("potential", *iteration, case, &e))?;
@@ -279,14 +265,10 @@ impl Arc {
             iteration,
             ..
         } = self;
-        let Some(Flowing {
-            setup,
-            flow,
-            solver,
-        }) = flowing
-        else {
+        let Some((setup, flowing)) = case.flow.as_ref().zip(flowing.as_mut()) else {
             return Ok([(0.0, Unbalanced::default()); 2]);
         };
+        let Flowing { flow, solver } = flowing;
         let magnetic = electric.as_ref().map(|e| &e.magnetic);
         let lorentz = magnetic.map(|m| [m.force_radial.as_slice(), m.force_axial.as_slice()]);
         let reads = FlowProperties {

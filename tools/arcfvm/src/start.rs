@@ -11,7 +11,6 @@
 use artefact::{Reader, Table};
 use run::Failure;
 
-use crate::bed;
 use crate::fields::flow::{Face, Flow};
 use crate::frames::role;
 use crate::grid::Grid;
@@ -126,10 +125,8 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Fai
             heating.energy.temperature.clone_from(start);
         }
     }
-    if let (Some(vaporising), Some(column)) =
-        (&mut arc.vaporising, other.column("iron_mass_fraction"))
-    {
-        for (k, y) in vaporising.vapour.iron.iter_mut().enumerate() {
+    if let (Some(vapour), Some(column)) = (&mut arc.vapour, other.column("iron_mass_fraction")) {
+        for (k, y) in vapour.iron.iter_mut().enumerate() {
             *y = other.value_within(column, centre(k), kinds[k]);
         }
     }
@@ -137,8 +134,8 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Fai
         for (k, v) in electric.potential.value.iter_mut().enumerate() {
             *v = other.value_within(column, centre(k), kinds[k]);
         }
-        if let (Ok(drive), Some(current)) = (record.get("voltage_column_v"), electric.setup.driven)
-        {
+        let driven = arc.case.potential.as_ref().and_then(|p| p.driven);
+        if let (Ok(drive), Some(current)) = (record.get("voltage_column_v"), driven) {
             electric.potential.drive = drive.copysign(current);
         }
     }
@@ -162,7 +159,7 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Fai
 
 /// Lets the bed of flux be gas where it is in the other solution, if that has one.
 fn take_bed(arc: &mut Arc, other: &Other) {
-    let (Some(granular), Some(kinds)) = (bed::granular(arc), other.column("material")) else {
+    let (Some(granular), Some(kinds)) = (arc.case.bed(), other.column("material")) else {
         return;
     };
     let own = role(arc, granular.material as f64);

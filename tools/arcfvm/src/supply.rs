@@ -35,10 +35,11 @@ impl Arc {
     /// What the supply gives and all that leaves.
     #[must_use]
     pub fn supply(&self, balance: &Balance) -> Supply {
-        let column = self.electric.as_ref().map_or(0.0, |electric| {
-            electric.potential.power(&self.case.grid, &electric.setup)
+        let current = self.case.potential.as_ref().zip(self.electric.as_ref());
+        let column = current.map_or(0.0, |(setup, electric)| {
+            electric.potential.power(&self.case.grid, setup)
         });
-        let surfaces = self.case.heat.as_ref().and_then(|h| h.surfaces.as_ref());
+        let surfaces = self.case.surfaces.as_ref();
         let names = surfaces.iter().flat_map(|s| &s.electrodes);
         Supply::new(column, balance, names.map(|e| e.name.as_ref()))
     }

@@ -41,7 +41,7 @@ fn solve(body: &str, gas: Option<&GasFile>) -> Arc {
 /// Mass fractions along the axis, from `row` up.
 fn axis(arc: &Arc, row: usize) -> Vec<f64> {
     let grid = &arc.case.grid;
-    let iron = &arc.vaporising.as_ref().unwrap().vapour.iron;
+    let iron = &arc.vapour.as_ref().unwrap().iron;
     (row..grid.nz).map(|j| iron[grid.cell(0, j)]).collect()
 }
 
@@ -114,7 +114,7 @@ fn a_tube_that_evaporates_follows_stefan() {
         let arc = solve(&tube("added", spacing, ""), None);
         let grid = &arc.case.grid;
         let row = grid.row_of(1e-6);
-        let vapour = &arc.vaporising.as_ref().unwrap().vapour;
+        let vapour = &arc.vapour.as_ref().unwrap();
         for (j, y) in axis(&arc, row).iter().enumerate() {
             let part = 1.0 - grid.zc[row + j] / 0.008;
             let want = 1.0 - (1.0 - surface).powf(part);
@@ -146,7 +146,7 @@ fn a_tube_whose_vapour_takes_the_place_of_gas_is_linear() {
         let want = surface * (1.0 - grid.zc[row + j] / 0.008);
         assert!((y - want).abs() < 1e-8, "{y} {want}");
     }
-    let passed = arc.vaporising.as_ref().unwrap().vapour.passed[0];
+    let passed = arc.vapour.as_ref().unwrap().passed[0];
     assert!((passed.flux / flux - 1.0).abs() < 1e-8);
     assert!((passed.surface / surface - 1.0).abs() < 1e-8);
     assert!(
@@ -174,7 +174,7 @@ fn boiling_metal_fills_the_tube_and_vents_the_rest() {
         let want = 1.0 - grid.zc[row + j] / 0.008;
         assert!((y - want).abs() < 1e-8, "{y} {want}");
     }
-    let passed = arc.vaporising.as_ref().unwrap().vapour.passed[0];
+    let passed = arc.vapour.as_ref().unwrap().passed[0];
     let diffused = 0.2 * 0.01 / 0.008;
     assert!((passed.flux / diffused - 1.0).abs() < 1e-8);
     let excess = 101_325.0 * (10_f64.powf(6.347 - 19_574.0 / 3300.0) - 1.0);
@@ -199,7 +199,7 @@ fn metal_that_does_not_evaporate_lies_under_the_gas_as_it_is() {
     let body = format!("{start}{rest}")
         .replace(r#""edges": {"top": [{"iron"#, &format!("{edges}[{{\"iron"));
     let arc = solve(&body, None);
-    let (grid, vapour) = (&arc.case.grid, &arc.vaporising.as_ref().unwrap().vapour);
+    let (grid, vapour) = (&arc.case.grid, &arc.vapour.as_ref().unwrap());
     let row = grid.row_of(1e-6);
     for (i, passed) in vapour.passed.iter().enumerate() {
         let beside = vapour.iron[grid.cell(i, row)];
@@ -353,7 +353,7 @@ fn a_scene_without_vapour_holds_nothing_of_it() {
     let case = assemble(&scene, None).unwrap();
     let mut arc = Arc::new(case, Settings::from(&scene.iterate));
     let residuals = arc.iterate(&mut ()).unwrap();
-    assert!(arc.vaporising.is_none() && arc.iron_balance().is_none());
+    assert!(arc.vapour.is_none() && arc.iron_balance().is_none());
     assert!(residuals.named().all(|(name, _)| name != "residual_iron"));
     let properties = &arc.properties;
     assert!(properties.iron.is_empty() && properties.iron_diffusion.is_empty());

@@ -98,13 +98,16 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         edges: heat_edges,
         granular: granular::granular(scene, &layout, &bodies, &mut faults),
         source: cell_source(grid, heat.source_w_m3.as_ref(), given, &mut faults),
-        surfaces: surfaces(&layout, &electrodes, Some(heat)),
         electrons: carriers(scene, heat, &mut faults),
         conduction: heat.conduction,
     });
     let parts = (&layout, &electrodes, flow.as_ref());
     let vapour = vapour::vapour(scene, gas, parts, &mut faults);
     faults.none()?;
+    let meets = heat.is_some() || vapour.is_some();
+    let surfaces = meets
+        .then(|| surfaces(scene, &layout, &electrodes))
+        .flatten();
     let base = electrodes.base.and_then(|m| layout.base(m, &bodies));
     Ok(Case {
         material: layout.material,
@@ -112,8 +115,9 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         start,
         potential,
         flow,
-        heat: heat.map(|heat| heat.giving_vapour_to(vapour.as_ref())),
+        heat,
         vapour,
+        surfaces,
         wire,
         base,
         grid: layout.grid,
@@ -290,13 +294,17 @@ fn carriers(scene: &Scene, heat: &Heat, faults: &mut Faults) -> Option<scene::El
     heat.electrons
 }
 
-fn surfaces(layout: &Layout, all: &Electrodes, heat: Option<&Heat>) -> Option<Surfaces> {
+fn surfaces(scene: &Scene, layout: &Layout, all: &Electrodes) -> Option<Surfaces> {
+    let heat = scene.heat.as_ref();
     let mut electrodes = Vec::new();
     let mut index = vec![None; all.of.len()];
     for (material, electrode) in all.of.iter().enumerate() {
         if let Some(electrode) = electrode {
             index[material] = Some(electrodes.len());
-            electrodes.push(electrode.clone());
+            let mut electrode = electrode.clone();
+            // Where vapour is solved, surfaces do not evaporate into a vacuum.
+            electrode.evaporation = electrode.evaporation.filter(|_| scene.vapour.is_none());
+            electrodes.push(electrode);
         }
     }
     if electrodes.is_empty() {

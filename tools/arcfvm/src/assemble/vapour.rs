@@ -3,7 +3,7 @@
 use crate::assemble::electrodes::Electrodes;
 use crate::assemble::gas::GasFile;
 use crate::assemble::layout::Layout;
-use crate::assemble::{Faults, PLACE, cell_source, edges, surfaces, value};
+use crate::assemble::{Faults, PLACE, cell_source, edges, value};
 use crate::case::{FlowCase, Ionisation, VapourCase};
 use crate::heat::evaporation::Evaporating;
 use crate::material::REFERENCE_K;
@@ -58,7 +58,6 @@ pub(crate) fn vapour(
         edges: edges::vapour(scene, &layout.grid, faults),
         start: start(given, layout, faults),
         source,
-        contacts: surfaces(layout, electrodes, None).map_or(Vec::new(), |s| s.contacts),
         metals: metals(&bodies, electrodes),
         adds,
         vents: given.mass == VapourMass::Vented,

@@ -15,7 +15,7 @@ use crate::fields::faces::{Beyond, Carriers, FaceOf, Side, edge_of};
 use crate::fields::mixing::{Mixed, Mixing};
 use crate::fields::vapour::Vapour;
 use crate::fields::{Solver, Unsolved};
-use crate::heat::{Contact, FaceIndex, Skin, Surfaces};
+use crate::heat::{Contact, FaceIndex, Skin};
 use crate::material::GAS;
 use crate::properties::Properties;
 use crate::residual::Unbalanced;
@@ -97,14 +97,10 @@ fn capacity(here: (f64, f64), there: (f64, f64), slope: impl Fn() -> f64) -> f64
     if dt.abs() > 1e-3 { dh / dt } else { slope() }
 }
 
-fn surfaces_of(case: &Case) -> Option<&Surfaces> {
-    case.heat.as_ref().and_then(|h| h.surfaces.as_ref())
-}
-
 /// Gas cells that touch an electrode.
 fn on_electrode(case: &Case) -> Vec<bool> {
     let mut on_electrode = vec![false; case.grid.len()];
-    for contact in surfaces_of(case).iter().flat_map(|s| &s.contacts) {
+    for contact in case.contacts() {
         on_electrode[contact.gas] = true;
     }
     on_electrode
@@ -123,7 +119,7 @@ impl Energy {
                 .as_ref()
                 .and_then(|h| h.electrons)
                 .map(|_| Drift::new(case)),
-            skins: Skin::all(surfaces_of(case), &[], &case.start),
+            skins: Skin::all(case.surfaces.as_ref(), &[], &case.start),
             on_electrode: on_electrode(case),
             calm: vec![1.0; grid.len()],
             last: vec![0.0; grid.len()],
@@ -142,7 +138,7 @@ impl Energy {
 
     /// Takes the surfaces of `case` anew.
     pub(crate) fn touch(&mut self, case: &Case) {
-        self.skins = Skin::all(surfaces_of(case), &self.skins, &self.temperature);
+        self.skins = Skin::all(case.surfaces.as_ref(), &self.skins, &self.temperature);
         self.on_electrode = on_electrode(case);
     }
 

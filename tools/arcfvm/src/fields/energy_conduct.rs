@@ -5,12 +5,11 @@
 
 use crate::case::Case;
 use crate::fields::energy::Energy;
-use crate::heat::Surfaces;
 use crate::properties::Properties;
 
 impl Energy {
     /// Conductances at the present temperatures.
-    pub fn conduct(&mut self, case: &Case, surfaces: Option<&Surfaces>, properties: &Properties) {
+    pub fn conduct(&mut self, case: &Case, properties: &Properties) {
         let (grid, kappa) = (&case.grid, &properties.thermal);
         let series = |a: f64, b: f64, area: f64| if a + b > 0.0 { area / (a + b) } else { 0.0 };
         for j in 0..grid.nz {
@@ -32,7 +31,7 @@ impl Energy {
         if case.integrates_conduction() || case.clear_bed().is_some() {
             self.integrate(case, properties);
         }
-        if let Some(surfaces) = surfaces {
+        if let Some(surfaces) = &case.surfaces {
             self.resist(case, surfaces, properties);
             self.conduct_surfaces(case, surfaces, properties);
         }

@@ -48,7 +48,7 @@ impl Energy {
                 all -= drift.out(&face) * passing;
             }
         }
-        let beyond: f64 = self.electrons_beyond(heat).map(|(_, w)| w).sum();
+        let beyond: f64 = self.electrons_beyond(case).map(|(_, w)| w).sum();
         Some(all - beyond)
     }
 }

@@ -2,10 +2,9 @@
 
 use crate::case::Case;
 use crate::fields::energy::Energy;
-use crate::heat::{Contact, FaceIndex, Layer, Surfaces};
+use crate::heat::{Contact, FaceIndex, Film, Layer, Surfaces};
 use crate::material::Law;
 use crate::properties::Properties;
-use crate::scene::Film;
 
 /// Part of its thickness by which a film may miss the middle of a cell.
 const ROUNDING: f64 = 1e-9;

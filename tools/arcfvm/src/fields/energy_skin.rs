@@ -1,6 +1,6 @@
 //! Surfaces of electrodes that have a temperature of their own.
 
-use crate::case::{Case, HeatCase};
+use crate::case::Case;
 use crate::fields::energy::Energy;
 use crate::heat::{Contact, FaceIndex, Skin, Surfaces};
 use crate::properties::Properties;
@@ -36,9 +36,9 @@ impl Energy {
 
     /// Takes out of the gas at surfaces what electrons that carry heat pass those with beyond what they have at the
     /// temperatures of the middles of the metal.
-    pub(crate) fn pass_surfaces(&mut self, heat: &HeatCase) {
+    pub(crate) fn pass_surfaces(&mut self, case: &Case) {
         let mut source = std::mem::take(&mut self.source);
-        for (k, electrons) in self.electrons_beyond(heat) {
+        for (k, electrons) in self.electrons_beyond(case) {
             source[k][0] -= electrons;
         }
         self.source = source;
@@ -48,11 +48,11 @@ impl Energy {
     /// metal \[W\].
     pub(crate) fn electrons_beyond<'a>(
         &'a self,
-        heat: &'a HeatCase,
+        case: &'a Case,
     ) -> impl Iterator<Item = (usize, f64)> + 'a {
         let with = self.electrons.iter();
         with.flat_map(|drift| {
-            self.warmer(heat).map(|(contact, [surface, middle])| {
+            self.warmer(case).map(|(contact, [surface, middle])| {
                 let [r, z] = contact.normal;
                 let out = -(r + z) * drift.through(contact.face);
                 (contact.gas, out * (surface - middle))
@@ -61,9 +61,8 @@ impl Energy {
     }
 
     /// Contacts whose surface has a temperature of its own, with that and the one of the middle of the metal.
-    fn warmer<'a>(&'a self, heat: &'a HeatCase) -> impl Iterator<Item = (&'a Contact, [f64; 2])> {
-        let contacts = heat.surfaces.iter().flat_map(|s| &s.contacts);
-        let both = self.skins.iter().zip(contacts);
+    fn warmer<'a>(&'a self, case: &'a Case) -> impl Iterator<Item = (&'a Contact, [f64; 2])> {
+        let both = self.skins.iter().zip(case.contacts());
         both.map(|(skin, contact)| {
             let middle = self.temperature[contact.metal];
             (contact, [skin.temperature, middle])

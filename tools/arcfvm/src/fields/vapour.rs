@@ -79,7 +79,7 @@ impl Vapour {
             iron: setup.start.clone(),
             radial: vec![0.0; grid.radial_faces()],
             axial: vec![0.0; grid.axial_faces()],
-            passed: vec![Evaporated::default(); setup.contacts.len()],
+            passed: vec![Evaporated::default(); case.contacts().len()],
             mass_radial: vec![0.0; grid.radial_faces()],
             mass_axial: vec![0.0; grid.axial_faces()],
             gathers: vec![[0.0; 2]; grid.len()],
@@ -126,17 +126,16 @@ impl Vapour {
         }
     }
 
-    /// What evaporates at each of `contacts`, whose surfaces are `skins`, at `temperature` \[K\].
+    /// What evaporates at each contact, the surfaces being `skins`, at `temperature` \[K\].
     pub fn evaporate(
         &mut self,
         case: &Case,
         setup: &VapourCase,
-        contacts: &[Contact],
         (skins, temperature): (&[Skin], &[f64]),
     ) {
         self.passed.clear();
         self.gathers.fill([0.0; 2]);
-        for (n, contact) in contacts.iter().enumerate() {
+        for (n, contact) in case.contacts().iter().enumerate() {
             let surface = Skin::of(skins, n, contact, temperature).temperature;
             let passed = self.pass(case, setup, contact, (surface, temperature));
             self.passed.push(passed);
@@ -272,9 +271,9 @@ impl Vapour {
 
     /// Iron that enters and leaves the gas.
     #[must_use]
-    pub fn balance(&self, case: &Case, setup: &VapourCase, contacts: &[Contact]) -> IronBalance {
+    pub fn balance(&self, case: &Case, setup: &VapourCase) -> IronBalance {
         let mut all = IronBalance::default();
-        for (contact, passed) in contacts.iter().zip(&self.passed) {
+        for (contact, passed) in case.contacts().iter().zip(&self.passed) {
             let rate = contact.area * passed.flux;
             all.surfaces += rate;
             all.vented += contact.area * passed.vented;

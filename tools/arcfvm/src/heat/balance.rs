@@ -94,7 +94,7 @@ impl Balance {
             joule: sources.joule,
             given: sources.given,
             radiation: -sources.emission.iter().sum::<f64>(),
-            electrodes: electrodes(heat, energy, sources),
+            electrodes: electrodes(case, energy, sources),
             plate: -sources.plates.iter().sum::<f64>(),
             granular: sources.granular,
             vapour: sources.vapour,
@@ -120,8 +120,8 @@ impl Balance {
 
 /// Heat of every electrode without its Joule heat.
 #[must_use]
-pub fn electrodes(heat: &HeatCase, energy: &Energy, sources: &Sources) -> Vec<ElectrodeHeat> {
-    let Some(surfaces) = &heat.surfaces else {
+pub fn electrodes(case: &Case, energy: &Energy, sources: &Sources) -> Vec<ElectrodeHeat> {
+    let Some(surfaces) = &case.surfaces else {
         return Vec::new();
     };
     let mut all = vec![ElectrodeHeat::default(); surfaces.electrodes.len()];

@@ -8,12 +8,27 @@
 //! between centres conducts at film temperature as far as it lies within d. Half a cell thick, it is the
 //! film of the source.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::grid::Grid;
 use crate::heat::{Contact, FaceIndex};
 use crate::material::GAS;
 
 /// Part of its thickness by which a film may miss the middle of a cell.
 const ROUNDING: f64 = 1e-9;
+
+/// Way of the heat from gas into an electrode, at film temperature (Komen 2019, eq. 5.17).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Film {
+    /// Half a cell of gas, then half a cell of metal.
+    #[default]
+    HalfCells,
+    /// The distance between both centres through gas: half of the difference over half of the way (Komen
+    /// 2019, eq. 5.18).
+    Centres,
+}
 
 /// A way between two centres, or from the surface to the first, that lies within the film at least in part.
 #[derive(Debug, Clone, Copy, PartialEq)]

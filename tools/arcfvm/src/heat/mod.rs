@@ -16,12 +16,11 @@ pub mod supply;
 pub mod vapour;
 
 pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
-pub use film::Layer;
-pub use skin::Skin;
+pub use film::{Film, Layer};
+pub use skin::{ElectrodeAt, Skin};
 
 use crate::grid::Grid;
 use crate::material::GAS;
-use crate::scene::{ElectrodeAt, Film};
 
 /// A face between the gas and a metal with electrode heat.
 #[derive(Debug, Clone, Copy, PartialEq)]

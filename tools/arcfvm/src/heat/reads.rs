@@ -41,3 +41,9 @@ pub struct Vapours<'a> {
     /// Its state.
     pub vapour: &'a Vapour,
 }
+
+impl<'a> From<(&'a VapourCase, &'a Vapour)> for Vapours<'a> {
+    fn from((setup, vapour): (&'a VapourCase, &'a Vapour)) -> Self {
+        Self { setup, vapour }
+    }
+}

@@ -22,8 +22,10 @@
 //! A wire that is fed to its tip and melts off there leaves with the enthalpy of the cell at the tip, `rho v (h - h_0) = q`
 //! on any cells: that cell is as warm as the surface, and there too `R = 0`.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::heat::{Contact, FaceIndex, Surfaces};
-use crate::scene::ElectrodeAt;
 
 /// Newton steps that are enough, halvings among them.
 const STEPS: usize = 100;
@@ -31,6 +33,18 @@ const STEPS: usize = 100;
 const LEAST_K: f64 = 1.0;
 /// Part of its temperature to which a surface is found.
 const ROUNDING: f64 = 1e-13;
+
+/// Temperature of the metal at which electrodes emit, shine and evaporate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ElectrodeAt {
+    /// That of the surface, found from its balance with half a cell of metal; the edge of a film within the first cell
+    /// of gas is as warm as what reaches it.
+    #[default]
+    Surface,
+    /// That of the middle of the cell at the surface, as in Komen (2019): what comes out follows the cells.
+    Centre,
+}
 
 /// The surface of one contact.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -82,7 +82,7 @@ impl Sources {
         }
         self.shine(reads, out);
         self.warm_bed(reads, out);
-        if let Some(surfaces) = &reads.heat.surfaces {
+        if let Some(surfaces) = &reads.case.surfaces {
             self.surfaces(reads, surfaces, out);
             if let Some(vapours) = reads.vapour {
                 self.vapour = self.take_vapour(reads, surfaces, vapours, out);
@@ -192,7 +192,7 @@ impl Sources {
 
     /// Works out what each contact absorbs, where `anew` or what surfaces there are has changed.
     pub(crate) fn look(&mut self, reads: Reads<'_>, anew: bool) {
-        let surfaces = reads.heat.surfaces.as_ref();
+        let surfaces = reads.case.surfaces.as_ref();
         let contacts = surfaces.map_or(0, |s| s.contacts.len());
         self.absorbed.resize(contacts, 0.0);
         let length = reads.heat.granular.as_ref().and_then(|bed| bed.length);

@@ -15,8 +15,12 @@ pub use iterate::{Continuation, Coupling, Iterate, LinearSolver};
 pub use matter::{
     BeyondTable, Body, Feed, Gas, GasTable, GivenGas, Melting, Metal, Moving, SpecificHeat, Swept,
 };
-pub use shape::{Profile, Ring, Shape, Surface};
+pub use shape::{Profile, Ring, Shape};
 
+pub use crate::case::{Conduction, Electrons};
+pub use crate::curve::Surface;
+pub use crate::heat::{ElectrodeAt, Film};
+pub use crate::surface::Sample;
 pub use vapour::{Amount, Diffusion, Returns, Vapour, VapourEdge, VapourMass};
 
 use std::collections::BTreeMap;
@@ -193,50 +197,6 @@ pub struct Heat {
     pub electrons: Option<Electrons>,
 }
 
-/// What electrons carry through the gas.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Electrons {
-    /// Their enthalpy, against the current: heat of 5/2 k/e j . grad T (Hsu, Etemadi and Pfender 1983).
-    Enthalpy,
-}
-
-/// Conductivity of the way from one cell to the next, and through a film.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Conduction {
-    /// That of each half at the temperature of its cell, and of a film at the mean of its ends.
-    #[default]
-    Cells,
-    /// The mean over all temperatures between both ends, from the integral of the conductivity (Kirchhoff): where that
-    /// jumps within a few kelvin, heat between cells does not.
-    Integral,
-}
-
-/// Temperature of the metal at which electrodes emit, shine and evaporate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ElectrodeAt {
-    /// That of the surface, found from its balance with half a cell of metal; the edge of a film within the first cell
-    /// of gas is as warm as what reaches it.
-    #[default]
-    Surface,
-    /// That of the middle of the cell at the surface, as in Komen (2019): what comes out follows the cells.
-    Centre,
-}
-
-/// Way of the heat from gas into an electrode, at film temperature (Komen 2019, eq. 5.17).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Film {
-    /// Half a cell of gas, then half a cell of metal.
-    #[default]
-    HalfCells,
-    /// The distance between both centres through gas: half of the difference over half of the way (Komen
-    /// 2019, eq. 5.18).
-    Centres,
-}
-
 /// Temperatures at the start, and throughout where heat is not solved.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -270,27 +230,6 @@ impl Default for Start {
         Self {
             temperature_k: room(),
             channel: None,
-        }
-    }
-}
-
-/// Heights above the base metal at which the gas is sampled (Komen 2019, figs 4.1, 4.5).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Sample {
-    /// Height of the velocity.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub velocity_height_m: f64,
-    /// Height of the temperature.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub temperature_height_m: f64,
-}
-
-impl Default for Sample {
-    fn default() -> Self {
-        Self {
-            velocity_height_m: 3e-5,
-            temperature_height_m: 9e-5,
         }
     }
 }
