@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::drop::{Series, points};
-use crate::em::frames::planned;
+use crate::drop::{Series, Sphere, drift, points};
 use crate::lab::{Lab, LabError};
 
 /// The case.
@@ -53,15 +52,11 @@ impl Case for LiquidCharge {
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let parts = PARTS[level.clamp(1, 3) as usize - 1];
-        let scene = planned(lab, self.name(), &json!({}))?;
-        let liquid = &scene["liquid"];
-        let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
-        let radius = number(&liquid["shape"]["sphere"]["radius_m"]);
-        let tension = number(&liquid["surface_tension_n_m"]);
-        let time = (number(&liquid["density_kg_m3"]) * radius.powi(3) / tension).sqrt();
+        let sphere = Sphere::planned(lab, self.name())?;
+        let (radius, time) = (sphere.radius, sphere.time());
         let found = METHODS.iter().find(|m| m.0 == method);
         let (_, share) = found.copied().unwrap_or(METHODS[0]);
-        let limit = 8.0 * PI * (EPS0 * tension * radius.powi(3)).sqrt();
+        let limit = 8.0 * PI * (EPS0 * sphere.tension * radius.powi(3)).sqrt();
         let frequency = BARE.sqrt() / time;
         // u = A grad (r^2 P_2), so that u_n = 2 A R P_2 is the speed of the amplitude.
         let a = 0.5 * AMPLITUDE * frequency;
@@ -89,11 +84,9 @@ impl Case for LiquidCharge {
         };
         // The charge that omega^2 would let be the greatest, over Rayleigh's.
         let greatest = share / (1.0 - square / (HALF * HALF)).sqrt();
-        let volume = Series::read(&run, "volume")?.value;
-        let drift = volume.iter().map(|v| (v / volume[0] - 1.0).abs());
         let errors = Errors::from([
             ("limit".to_owned(), (greatest - 1.0).abs()),
-            ("volume".to_owned(), drift.fold(0.0, f64::max)),
+            ("volume".to_owned(), drift(&run)?),
         ]);
         let count = points(&run)?;
         Ok(Measurement::of(run, count, radius / parts, errors))

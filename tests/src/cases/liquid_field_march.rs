@@ -1,12 +1,11 @@
 //! `liquid-field-march`: a drop that settles in a uniform electric field, at every step pulled by the field about its shape.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use artefact::Reader;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::drop::{Series, points};
-use crate::em::frames::planned;
+use crate::drop::{Series, Sphere, drift, points};
 use crate::lab::{Lab, LabError};
 
 /// The case.
@@ -60,13 +59,8 @@ impl Case for LiquidFieldMarch {
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let parts = PARTS[level.clamp(1, 3) as usize - 1];
-        let scene = planned(lab, self.name(), &json!({}))?;
-        let liquid = &scene["liquid"];
-        let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
-        let radius = number(&liquid["shape"]["sphere"]["radius_m"]);
-        let tension = number(&liquid["surface_tension_n_m"]);
-        let density = number(&liquid["density_kg_m3"]);
-        let time = (density * radius.powi(3) / tension).sqrt();
+        let sphere = Sphere::planned(lab, self.name())?;
+        let (radius, tension, time) = (sphere.radius, sphere.tension, sphere.time());
         let found = METHODS.iter().find(|m| m.0 == method);
         let (_, permittivity, capillary) = found.copied().unwrap_or(METHODS[0]);
         let field = (capillary * tension / (EPS0 * radius)).sqrt();
@@ -74,7 +68,7 @@ impl Case for LiquidFieldMarch {
             Some(s) if method == TAYLOR => 9.0 / 16.0 * capillary * ((s - 1.0) / (s + 2.0)).powi(2),
             _ => self.rest(lab, method, (radius, field, permittivity))?,
         };
-        let viscosity = OHNESORGE * (density * tension * radius).sqrt();
+        let viscosity = OHNESORGE * (sphere.density * tension * radius).sqrt();
         let patch = json!({
             "points": {"spacing_m": radius / parts},
             "liquid": {
@@ -88,14 +82,12 @@ impl Case for LiquidFieldMarch {
         let [x, z] = ["radius_x", "radius_z"].map(|name| Series::read(&run, name));
         let last = |series: &Series| series.value.last().copied().unwrap_or(f64::NAN);
         let (x, z) = (last(&x?), last(&z?));
-        let volume = Series::read(&run, "volume")?.value;
-        let drift = volume.iter().map(|v| (v / volume[0] - 1.0).abs());
         let errors = Errors::from([
             (
                 "deformation".to_owned(),
                 ((z - x) / (z + x) / wanted - 1.0).abs(),
             ),
-            ("volume".to_owned(), drift.fold(0.0, f64::max)),
+            ("volume".to_owned(), drift(&run)?),
         ]);
         let count = points(&run)?;
         Ok(Measurement::of(run, count, radius / parts, errors))

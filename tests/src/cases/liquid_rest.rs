@@ -1,12 +1,11 @@
 //! `liquid-rest`: a drop at rest stays at rest, at the pressure of its tension.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use artefact::Reader;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::drop::points;
-use crate::em::frames::planned;
+use crate::drop::{Sphere, points};
 use crate::lab::{Lab, LabError};
 
 /// The case.
@@ -42,14 +41,9 @@ impl Case for LiquidRest {
 
     fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
         let parts = PARTS[level.clamp(1, 3) as usize - 1];
-        let scene = planned(lab, self.name(), &json!({}))?;
-        let liquid = &scene["liquid"];
-        let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
-        let radius = number(&liquid["shape"]["sphere"]["radius_m"]);
-        let tension = number(&liquid["surface_tension_n_m"]);
-        let viscosity = number(&liquid["viscosity_pa_s"]);
-        let time = (number(&liquid["density_kg_m3"]) * radius.powi(3) / tension).sqrt();
-        let end = STEPS * STEP / parts * time;
+        let sphere = Sphere::planned(lab, self.name())?;
+        let (radius, tension) = (sphere.radius, sphere.tension);
+        let end = STEPS * STEP / parts * sphere.time();
         let patch = json!({
             "points": {"spacing_m": radius / parts},
             "liquid": {"march": {"end_s": end}}
@@ -75,7 +69,7 @@ impl Case for LiquidRest {
         let errors = Errors::from([
             ("pressure_mean".to_owned(), (mean / wanted - 1.0).abs()),
             ("pressure_spread".to_owned(), spread / wanted),
-            ("capillary_number".to_owned(), viscosity * fastest / tension),
+            ("capillary_number".to_owned(), sphere.viscosity * fastest / tension),
         ]);
         let count = points(&run)?;
         Ok(Measurement::of(run, count, radius / parts, errors))

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::case::Case;
-use crate::fields::Unsolved;
+use crate::equation::Unsolved;
 
 /// Everything that stops `arcfvm`, with the values and units on both sides.
 #[derive(Debug, Error)]

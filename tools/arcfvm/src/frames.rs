@@ -3,15 +3,17 @@
 use artefact::{Record, Table};
 use run::{Failure, Session};
 
+use crate::bed::figures as bed;
 use crate::case::PotentialCase;
-use crate::fields::magnetic::AtCentre;
+use crate::current::magnetic::AtCentre;
 use crate::grid::Grid;
 use crate::heat::balance::Balance;
 use crate::heat::supply::Supply;
 use crate::material::GAS;
+use crate::sample::Sample;
 use crate::solver::{Arc, Electric};
-use crate::surface::Sample;
-use crate::{bed, iron, surface};
+use crate::surface;
+use crate::vapour::figures as iron;
 
 /// Writes every channel that the solved fields fill.
 ///

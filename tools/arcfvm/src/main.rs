@@ -1,5 +1,5 @@
 //! The program `arcfvm`.
 
 fn main() -> std::process::ExitCode {
-    run::main::<arcfvm::ArcFvm>()
+    run::main::<arcfvm::program::ArcFvm>()
 }

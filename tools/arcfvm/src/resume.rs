@@ -3,7 +3,7 @@
 use artefact::Checkpoint;
 
 use crate::case::Case;
-use crate::fields::Solver;
+use crate::equation::Solver;
 use crate::solver::Arc;
 
 /// Puts the state into a checkpoint.

@@ -2,8 +2,8 @@
 
 use relax::{Krylov, Sor};
 
-use crate::fields::pressure::{self, Relaxation};
-use crate::fields::{Method, Solver};
+use crate::equation::{Method, Solver};
+use crate::flow::pressure::{self, Relaxation};
 use crate::scene::{Coupling, Iterate, LinearSolver};
 
 /// Solvers and relaxation of every field.

@@ -1,30 +1,21 @@
 //! The algorithm (Komen 2019, figs 3.10 and 5.2).
 
 use crate::case::Case;
+use crate::current::magnetic::Magnetic;
+use crate::current::potential::Potential;
 use crate::error::Error;
-use crate::fields::energy::Energy;
-use crate::fields::flow::Flow;
-use crate::fields::magnetic::Magnetic;
-use crate::fields::potential::Potential;
-use crate::fields::pressure::{FlowProperties, FlowResidual, FlowSolver};
-use crate::fields::vapour::Vapour;
+use crate::flow::field::Flow;
+use crate::flow::pressure::FlowSolver;
 use crate::heat::balance::Balance;
+use crate::heat::energy::Energy;
 use crate::heat::sources::Sources;
-use crate::limits::check;
 use crate::properties::Properties;
-use crate::residual::{Residuals, Unbalanced, part};
+use crate::residual::Residuals;
 use crate::settings::Settings;
+use crate::vapour::field::Vapour;
 
 /// Relaxation of the speed of the wire.
 const FEED_RELAXATION: f64 = 0.1;
-/// Speed that no gas here reaches \[m/s\].
-const ABSURD_M_S: f64 = 1e5;
-/// Iterations in which absurd speeds are slowed as a whole: from rest the flow creeps at first, and viscosity alone
-/// bounds its speeds.
-const FIRST: usize = 100;
-/// To so much \[m/s\].
-const FIRST_M_S: f64 = 1e4;
-
 /// Tells how long the parts of an iteration take.
 pub trait Stopwatch {
     /// Does `work` and books its time under `name`.
@@ -231,69 +222,5 @@ impl Arc {
             .as_ref()
             .map_or(&case.start, |h| &h.energy.temperature);
         properties.update(case, temperature, iron);
-    }
-
-    fn solve_current(&mut self) -> Result<(f64, Unbalanced), Error> {
-        let Self {
-            case,
-            properties,
-            electric,
-            iteration,
-            ..
-        } = self;
-        let Some((setup, electric)) = case.potential.as_ref().zip(electric.as_mut()) else {
-            return Ok((0.0, Unbalanced::default()));
-        };
-        let Electric {
-            potential,
-            magnetic,
-        } = electric;
-        potential
-            .solve(case, setup, &properties.electric)
-            .map_err(|e| Error::solver("potential", *iteration, case, &e))?;
-        magnetic.update(&case.grid, potential);
-        let found = potential.unbalanced;
-        Ok((part(found.amount, potential.throughput(&case.grid)), found))
-    }
-
-    fn solve_flow(&mut self) -> Result<[(f64, Unbalanced); 2], Error> {
-        let Self {
-            case,
-            properties,
-            electric,
-            flowing,
-            iteration,
-            ..
-        } = self;
-        let Some((setup, flowing)) = case.flow.as_ref().zip(flowing.as_mut()) else {
-            return Ok([(0.0, Unbalanced::default()); 2]);
-        };
-        let Flowing { flow, solver } = flowing;
-        let magnetic = electric.as_ref().map(|e| &e.magnetic);
-        let lorentz = magnetic.map(|m| [m.force_radial.as_slice(), m.force_axial.as_slice()]);
-        let reads = FlowProperties {
-            density: &properties.density,
-            viscosity: &properties.viscosity,
-            lorentz,
-        };
-        let found = solver
-            .pass(case, setup, flow, reads)
-            .map_err(|(name, e)| Error::solver(name, *iteration, case, &e))?;
-        if *iteration <= FIRST && !flow.within(ABSURD_M_S) {
-            flow.slow(FIRST_M_S);
-        }
-        check(case, "velocity", "m/s", *iteration, &flow.axial, ABSURD_M_S)?;
-        let FlowResidual {
-            force,
-            inertia,
-            mass,
-            ..
-        } = found;
-        let forces = inertia + flow.forces(case, setup, lorentz, &properties.density);
-        let throughput = flow.throughput(case, &properties.density);
-        Ok([
-            (part(force.amount, forces), force),
-            (part(mass.amount, throughput), mass),
-        ])
     }
 }

@@ -11,7 +11,7 @@
 use artefact::{Reader, Table};
 use run::Failure;
 
-use crate::fields::flow::{Face, Flow};
+use crate::flow::field::{Face, Flow};
 use crate::frames::role;
 use crate::grid::Grid;
 use crate::solver::Arc;

@@ -1,36 +1,14 @@
 //! The source that the pool reads: heat, current, gas and pressure against radius on the base metal.
 
 use artefact::Table;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use crate::case::Base;
 use crate::heat::Surfaces;
 use crate::heat::sources::ContactHeat;
-use crate::iron;
 use crate::material::GAS;
+use crate::sample::Sample;
 use crate::solver::Arc;
-
-/// Heights above the base metal at which the gas is sampled (Komen 2019, figs 4.1, 4.5).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Sample {
-    /// Height of the velocity.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub velocity_height_m: f64,
-    /// Height of the temperature.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub temperature_height_m: f64,
-}
-
-impl Default for Sample {
-    fn default() -> Self {
-        Self {
-            velocity_height_m: 3e-5,
-            temperature_height_m: 9e-5,
-        }
-    }
-}
+use crate::vapour::figures as iron;
 
 /// Material of the base metal: the lowest electrode, where there is one.
 #[must_use]

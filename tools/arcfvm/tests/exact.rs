@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use arcfvm::assemble::assemble;
-use arcfvm::fields::magnetic::MU0;
+use arcfvm::current::magnetic::MU0;
 use arcfvm::scene::Scene;
 use arcfvm::settings::Settings;
 use arcfvm::solver::Arc;
@@ -251,7 +251,7 @@ fn electrons_carry_heat_from_a_hot_cathode_to_a_cold_anode() {
     let beside = |arc: &Arc, z: f64| arc.temperature()[grid.cell(0, grid.row_of(z))];
     let brought = with.electrons.unwrap();
     let [cathode, anode] = [0.0125, 0.0035].map(|z| beside(&moving, z));
-    let scale = 80.0 * arcfvm::fields::electrons::ENTHALPY;
+    let scale = 80.0 * arcfvm::heat::electrons::ENTHALPY;
     assert!(
         (brought - scale * (cathode - anode)).abs() < 0.1 * brought.abs(),
         "{brought} {cathode} {anode}"

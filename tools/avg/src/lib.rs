@@ -22,7 +22,7 @@ pub mod mean;
 pub mod parts;
 pub mod phase;
 pub mod profile;
+pub mod program;
 pub mod resume;
 pub mod scene;
-pub mod stage;
 pub mod surface;

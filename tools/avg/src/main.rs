@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    run::main::<avg::stage::Avg>()
+    run::main::<avg::program::Avg>()
 }

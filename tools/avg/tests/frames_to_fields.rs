@@ -323,7 +323,7 @@ fn the_means_are_as_wide_as_the_frames() {
 
 #[test]
 fn the_schema_in_the_repository_is_what_the_program_prints() {
-    use avg::stage::Avg;
+    use avg::program::Avg;
     use run::Tool;
     let expected = run::scene::Expected {
         kind: Avg::SCENE_KIND,
@@ -337,7 +337,7 @@ fn the_schema_in_the_repository_is_what_the_program_prints() {
 
 #[test]
 fn the_scenes_of_the_studies_are_valid_as_they_are_and_patched() {
-    use avg::stage::Avg;
+    use avg::program::Avg;
     use run::Tool;
     let expected = run::scene::Expected {
         kind: Avg::SCENE_KIND,
@@ -365,7 +365,7 @@ fn the_scenes_of_the_studies_are_valid_as_they_are_and_patched() {
 
 #[test]
 fn what_the_schema_cannot_say_is_refused_before_any_file_is_opened() {
-    use avg::stage::Avg;
+    use avg::program::Avg;
     use run::{Inputs, Tool};
     let mut scene = scene();
     scene.follow = None;

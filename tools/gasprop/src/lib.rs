@@ -10,15 +10,15 @@
 //! - [`radiation`] sums lines and continuum to what the gas loses by light;
 //! - [`properties`] is all of it for one gas, with the [`columns`] of a table;
 //! - [`grid`] places the temperatures and measures what interpolation costs, [`table`] is what is written,
-//!   [`stage`] the program that reads a [`scene`].
+//!   [`program`] the program that reads a [`scene`].
 
 pub mod columns;
 pub mod constants;
 pub mod grid;
 pub mod mixture;
+pub mod program;
 pub mod properties;
 pub mod radiation;
 pub mod scene;
-pub mod stage;
 pub mod table;
 pub mod transport;

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    run::main::<gasprop::stage::GasProp>()
+    run::main::<gasprop::program::GasProp>()
 }

@@ -4,8 +4,8 @@ use props::Table;
 
 use crate::assemble::Faults;
 use crate::assemble::layout::Layout;
+use crate::bed::granular::Granular;
 use crate::heat::electrode::STEFAN_BOLTZMANN;
-use crate::heat::granular::Granular;
 use crate::material::{GAS, Law, Melting};
 use crate::scene::{self, Body, Scene};
 

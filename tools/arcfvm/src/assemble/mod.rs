@@ -6,6 +6,7 @@ mod gas;
 mod granular;
 mod layout;
 mod matter;
+pub(crate) mod pool;
 mod vapour;
 mod wire;
 
@@ -15,7 +16,7 @@ use run::{Failure, Fault};
 use crate::case::{
     Case, Edges, FlowCase, Gravity, HeatCase, HeatEdge, MovingPlate, PotentialCase, Wire,
 };
-use crate::fields::sheath::Sheath;
+use crate::current::sheath::Sheath;
 use crate::grid::Grid;
 use crate::heat::Surfaces;
 use crate::material::{GAS, Material, REFERENCE_K};

@@ -5,10 +5,10 @@ use crate::assemble::gas::GasFile;
 use crate::assemble::layout::Layout;
 use crate::assemble::{Faults, PLACE, cell_source, edges, value};
 use crate::case::{FlowCase, Ionisation, VapourCase};
-use crate::heat::evaporation::Evaporating;
 use crate::material::REFERENCE_K;
 use crate::mixture::Molar;
 use crate::scene::{Amount, Body, Evaporation, Gas, Returns, Scene, Vapour, VapourMass};
+use crate::vapour::evaporation::Evaporating;
 
 /// Molar mass of iron \[kg/mol\], where neither table nor metal tell that of the vapour.
 const IRON: f64 = 0.055_845;

@@ -1,7 +1,7 @@
 //! The heat balance: what enters, what leaves, part by part.
 
 use crate::case::{Case, HeatCase};
-use crate::fields::energy::Energy;
+use crate::heat::energy::Energy;
 use crate::heat::sources::Sources;
 use crate::properties::Properties;
 

@@ -3,15 +3,23 @@
 mod answer;
 pub mod balance;
 pub mod electrode;
-pub mod evaporation;
+pub mod electrons;
+pub mod energy;
+mod energy_conduct;
+pub mod energy_edges;
+mod energy_electrons;
+mod energy_film;
+mod energy_integral;
+mod energy_skin;
+mod feed;
 pub mod film;
-pub mod granular;
-pub mod lit_wall;
 pub mod motion;
 pub mod radiation;
 pub mod reads;
+pub mod setup;
 pub mod skin;
 pub mod sources;
+mod step;
 pub mod supply;
 pub mod vapour;
 

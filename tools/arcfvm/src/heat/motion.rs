@@ -1,7 +1,7 @@
 //! Heat that moves with metal: the fed wire and the moving plate.
 
 use crate::case::{Case, Drops, FeedRule, MovingPlate, Wire};
-use crate::fields::energy::Energy;
+use crate::heat::energy::Energy;
 use crate::material::{Enthalpy, GAS};
 
 impl Wire {

@@ -1,10 +1,10 @@
 //! What the heat sources read.
 
 use crate::case::{Case, HeatCase, VapourCase};
-use crate::fields::potential::Potential;
-use crate::fields::vapour::Vapour;
+use crate::current::potential::Potential;
 use crate::heat::{Contact, Skin};
 use crate::properties::Properties;
+use crate::vapour::field::Vapour;
 
 /// What the sources read.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,9 @@
 //! Heat into every cell, and the parts that it is made of (Komen 2019, eq. 5.8).
 
-use crate::fields::potential::Potential;
+use crate::bed::lit_wall;
+use crate::current::potential::Potential;
 use crate::heat::reads::Reads;
-use crate::heat::{Contact, FaceIndex, Skin, SurfaceHeat, Surfaces, lit_wall, radiation};
+use crate::heat::{Contact, FaceIndex, Skin, SurfaceHeat, Surfaces, radiation};
 
 /// Heat of one contact \[W/m2\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

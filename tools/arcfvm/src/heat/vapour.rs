@@ -8,10 +8,10 @@
 
 use std::borrow::Cow;
 
-use crate::heat::evaporation::Evaporated;
 use crate::heat::reads::{Reads, Vapours};
 use crate::heat::sources::Sources;
 use crate::heat::{Contact, Electrode, Surfaces};
+use crate::vapour::evaporation::Evaporated;
 
 /// Heat with the vapour of one contact.
 pub(crate) struct Carried {

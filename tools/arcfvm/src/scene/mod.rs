@@ -20,7 +20,7 @@ pub use shape::{Profile, Ring, Shape};
 pub use crate::case::{Conduction, Electrons};
 pub use crate::curve::Surface;
 pub use crate::heat::{ElectrodeAt, Film};
-pub use crate::surface::Sample;
+pub use crate::sample::Sample;
 pub use vapour::{Amount, Diffusion, Returns, Vapour, VapourEdge, VapourMass};
 
 use std::collections::BTreeMap;

@@ -175,7 +175,7 @@ fn slag_is_as_thick_as_it_conducts_from_boiling_to_melting() {
     let t = arc.temperature();
     let molten = (0..grid.nz).find(|j| t[grid.cell(0, *j)] > 2500.0).unwrap();
     assert!((grid.zf[molten] - flux).abs() < 1.5 * 5e-5);
-    let bed = arcfvm::bed::measure(&arc).unwrap();
+    let bed = arcfvm::bed::figures::measure(&arc).unwrap();
     let area = std::f64::consts::PI * 4e-6;
     assert!((bed.slag_volume - slag * area).abs() < 3.0 * 5e-5 * area);
     assert!((bed.wall - area).abs() < 1e-12 && (bed.convection - 5e5 * area).abs() < 1e-6);

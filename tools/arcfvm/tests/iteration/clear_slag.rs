@@ -145,7 +145,7 @@ fn clear_slag_is_thicker_and_wherever_the_arc_begins_the_same() {
         let mut arc = in_a_bed(clear, start);
         let residual = iterate(&mut arc, 1000);
         assert!(residual < 1e-4, "{clear} {start}: {residual:e}");
-        bed::measure(&arc).unwrap()
+        bed::figures::measure(&arc).unwrap()
     };
     let both = |clear| [9e3, 14e3].map(|start| found(clear, start));
     for [cool, hot] in [both(false), both(true)] {

@@ -44,7 +44,7 @@ fn what_is_taken_up_at_the_wall_melts_more() {
             "{}",
             balance.closure()
         );
-        bed::measure(&arc).unwrap()
+        bed::figures::measure(&arc).unwrap()
     };
     let [even, wall] = [None, Some(5e-4)].map(found);
     assert!(wall.slag_volume > even.slag_volume, "{even:?} {wall:?}");
@@ -55,7 +55,7 @@ fn slag_by_heat_holds_the_heat_of_the_bed() {
     let mut arc = an_arc(Some(5e-4));
     iterate(&mut arc, 100);
     arc.settle();
-    let bed = bed::measure(&arc).unwrap();
+    let bed = bed::figures::measure(&arc).unwrap();
     // From 600 K to the end of melting at 2870 K: 1200 J/(kg K), and 5e5 J/kg of fusion; 3230 kg/m3 at 5 mm/s.
     let rise = 1200.0 * 2270.0 + 5e5;
     let radiation = arc.heating.as_ref().unwrap().sources.granular;

@@ -69,22 +69,34 @@ impl Rolling {
 mod tests {
     use super::*;
 
-    #[test]
-    fn twisting_stops_as_its_dashpot_and_slider_say() {
-        let rolling = Rolling {
-            coefficient: 0.1,
+    fn of(coefficient: f64) -> Rolling {
+        Rolling {
+            coefficient,
             stiffness_ratio: 1.0,
-        };
-        let mut meeting = Meeting {
+        }
+    }
+
+    /// A grain of a millimetre that rests on a floor.
+    fn touching() -> Meeting {
+        Meeting {
             normal: [0.0, 0.0, 1.0],
             overlap: 1e-6,
             arms: [1e-3, 0.0],
             approach: 0.0,
             slide: [0.0; 3],
-            turn: [0.0, 0.0, 20.0],
+            turn: [0.0; 3],
             swing: [0.0; 3],
             mass: 1e-6,
             radius: 1e-3,
+        }
+    }
+
+    #[test]
+    fn twisting_stops_as_its_dashpot_and_slider_say() {
+        let rolling = of(0.1);
+        let mut meeting = Meeting {
+            turn: [0.0, 0.0, 20.0],
+            ..touching()
         };
         let moment = |meeting: &Meeting| {
             let mut rolled = [0.0; 3];
@@ -105,20 +117,10 @@ mod tests {
 
     #[test]
     fn a_twist_that_has_stopped_is_held_by_its_spring() {
-        let rolling = Rolling {
-            coefficient: 0.1,
-            stiffness_ratio: 1.0,
-        };
+        let rolling = of(0.1);
         let mut meeting = Meeting {
-            normal: [0.0, 0.0, 1.0],
-            overlap: 1e-6,
-            arms: [1e-3, 0.0],
-            approach: 0.0,
-            slide: [0.0; 3],
             turn: [0.0, 0.0, 0.5],
-            swing: [0.0; 3],
-            mass: 1e-6,
-            radius: 1e-3,
+            ..touching()
         };
         let mut rolled = [0.0; 3];
         let mut moment = |meeting: &Meeting, push: f64| {
@@ -135,10 +137,7 @@ mod tests {
 
     #[test]
     fn turning_goes_along_with_a_pair_that_turns_as_a_whole() {
-        let rolling = Rolling {
-            coefficient: 10.0,
-            stiffness_ratio: 1.0,
-        };
+        let rolling = of(10.0);
         let steps = 20_000;
         let step = 0.5 * std::f64::consts::PI / f64::from(steps);
         let mut rolled = [1e-6, 2e-6, 3e-6];
@@ -147,14 +146,10 @@ mod tests {
             let angle = step * f64::from(k);
             let meeting = Meeting {
                 normal: [angle.cos(), angle.sin(), 0.0],
-                overlap: 1e-6,
-                arms: [1e-3; 2],
-                approach: 0.0,
-                slide: [0.0; 3],
-                turn: [0.0; 3],
                 swing: [0.0, 0.0, 1.0],
-                mass: 1e-6,
                 radius: 0.5e-3,
+                arms: [1e-3; 2],
+                ..touching()
             };
             moment = rolling.moment(&meeting, 1.0, [100.0, 1e-2], &mut rolled, step);
         }

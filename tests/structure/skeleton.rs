@@ -1,0 +1,137 @@
+//! One skeleton: names that every stage keeps, and physics that does not read the scene.
+//!
+//! What does not keep to it yet is listed by name. A list may only get shorter: an exception that no longer exists fails.
+
+use std::collections::BTreeSet;
+
+use super::{modules, needs, root};
+
+const STAGES: [&str; 7] = [
+    "gasprop", "arcfvm", "poolsph", "avg", "emfield", "heatsph", "jetsph",
+];
+
+/// Rooms of a stage: what each holds, and the names that it may have.
+const ROOMS: [(&str, &[&str]); 5] = [
+    ("the `impl Tool`", &["program"]),
+    ("what was typed", &["scene"]),
+    (
+        "what the scene contains, made into a problem",
+        &["assemble"],
+    ),
+    ("the loop over steps or iterations", &["march", "iterate"]),
+    ("what is written", &["frames"]),
+];
+
+/// Rooms that a stage lacks, or has under another name.
+const LACKING: [(&str, &str); 12] = [
+    ("avg", "assemble"),
+    ("avg", "march or iterate"),
+    ("emfield", "frames"),
+    ("emfield", "march or iterate"),
+    ("emfield", "program"),
+    ("gasprop", "assemble"),
+    ("gasprop", "frames"),
+    ("gasprop", "march or iterate"),
+    ("heatsph", "frames"),
+    ("heatsph", "program"),
+    ("jetsph", "program"),
+    ("poolsph", "program"),
+];
+
+/// Modules that may read the scene: the program around the physics.
+const PROGRAM: [&str; 10] = [
+    "program", "scene", "assemble", "march", "iterate", "frames", "plan", "settings", "simulate",
+    "trial",
+];
+
+/// Modules of physics that read the scene all the same.
+const READING: [(&str, &str); 27] = [
+    ("arcfvm", "continuation"),
+    ("avg", "average"),
+    ("emfield", "cloud"),
+    ("emfield", "cloud/build"),
+    ("emfield", "cloud/cells"),
+    ("emfield", "cloud/count"),
+    ("emfield", "cloud/inner"),
+    ("emfield", "cloud/layers"),
+    ("emfield", "cloud/region"),
+    ("emfield", "output"),
+    ("emfield", "output/sample"),
+    ("emfield", "solution"),
+    ("emfield", "solution/far"),
+    ("gasprop", "properties"),
+    ("heatsph", "boundary/compile"),
+    ("heatsph", "cloud"),
+    ("heatsph", "cloud/cut"),
+    ("heatsph", "cloud/lattice"),
+    ("heatsph", "cloud/rings"),
+    ("heatsph", "cloud/shells"),
+    ("heatsph", "cloud/shift"),
+    ("heatsph", "material"),
+    ("heatsph", "material/stored"),
+    ("heatsph", "operator"),
+    ("heatsph", "output"),
+    ("heatsph", "steady"),
+    ("poolsph", "columns"),
+];
+
+fn source(stage: &str) -> std::path::PathBuf {
+    root().join("tools").join(stage).join("src")
+}
+
+/// Fails where `found` and the list of `known` exceptions differ.
+fn only(known: &[(&str, &str)], found: &[(&str, String)], what: &str) {
+    let known: BTreeSet<(&str, &str)> = known.iter().copied().collect();
+    let found: BTreeSet<(&str, &str)> = found.iter().map(|(s, n)| (*s, n.as_str())).collect();
+    let new: Vec<_> = found.difference(&known).collect();
+    assert!(new.is_empty(), "{what}: {new:?}");
+    let gone: Vec<_> = known.difference(&found).collect();
+    assert!(
+        gone.is_empty(),
+        "no exceptions any more, strike them off: {gone:?}"
+    );
+}
+
+#[test]
+fn every_stage_has_the_same_rooms() {
+    let mut found = Vec::new();
+    for stage in STAGES {
+        let source = source(stage);
+        let has = |name: &str| {
+            source.join(name).is_dir() || source.join(name).with_extension("rs").is_file()
+        };
+        for (_, names) in ROOMS {
+            if !names.iter().any(|name| has(name)) {
+                found.push((stage, names.join(" or ")));
+            }
+        }
+    }
+    only(&LACKING, &found, "rooms that stages lack");
+}
+
+#[test]
+fn the_program_is_where_its_name_says() {
+    for stage in STAGES {
+        let program = source(stage).join("program.rs");
+        if let Ok(text) = std::fs::read_to_string(&program) {
+            assert!(text.contains("impl Tool for"), "{}", program.display());
+        }
+    }
+}
+
+#[test]
+fn physics_does_not_read_the_scene() {
+    let mut found = Vec::new();
+    for stage in STAGES {
+        let files = modules(&source(stage));
+        for (module, others) in needs(&source(stage)) {
+            let reads = others.iter().any(|other| other[0] == "scene");
+            let text = std::fs::read_to_string(&files[&module]).unwrap();
+            let program = PROGRAM.contains(&module[0].as_str()) || text.contains("impl Tool for");
+            if reads && !program {
+                found.push((stage, module.join("/")));
+            }
+        }
+    }
+    only(&READING, &found, "physics that reads the scene");
+}

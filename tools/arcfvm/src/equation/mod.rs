@@ -1,0 +1,8 @@
+//! The one equation that all transported values obey: its faces, its coefficients, and how it is solved.
+
+pub(crate) mod faces;
+pub mod linear;
+pub mod multigrid;
+pub mod transport;
+
+pub use linear::{Method, Solver, Unsolved};

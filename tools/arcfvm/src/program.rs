@@ -1,0 +1,132 @@
+//! The program: what it is called, what it reads, and one run from scene to artefact.
+
+use std::borrow::Cow;
+use std::time::{Duration, Instant};
+
+use run::{Estimate, Failure, Fault, Input, Inputs, Plan, Session, Tool};
+
+use crate::assemble::{GasFile, assemble, pool};
+use crate::case::Case;
+use crate::scene::{Gas, Scene};
+use crate::settings::Settings;
+use crate::solver::{Arc, Stopwatch};
+use crate::{frames, march, plan, start};
+
+/// Iterations that tell how long one lasts, and the longest time for them.
+const TRIAL: u32 = 20;
+const LONGEST_TRIAL: Duration = Duration::from_millis(500);
+
+/// The stage `arcfvm`.
+#[derive(Debug, Clone, Copy)]
+pub struct ArcFvm;
+
+impl Stopwatch for Session {
+    fn timed<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R {
+        Session::timed(self, name, work)
+    }
+}
+
+impl Tool for ArcFvm {
+    const NAME: &'static str = "arcfvm";
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+    const ABOUT: &'static str =
+        "A steady axisymmetric arc plasma between a wire and a base metal, by finite volumes.";
+    const EXAMPLE: &'static str = "cargo run --release -p arcfvm -- run pipelines/gmaw-300a/arc.json \
+         --input gas=pipelines/gases/argon-1atm.json --out build/arc.mcap";
+    const SCENE_KIND: &'static str = "arcfvm.scene";
+    const ARTEFACT_KIND: &'static str = "arc-source";
+    const INPUTS: &'static [Input] = &[
+        Input {
+            name: "gas",
+            what: "gas table (gas-table 1.x)",
+            required: false,
+        },
+        Input {
+            name: "surface",
+            what: "surface of a body with a profile (mean-fields 1.2 of avg, or surface-profile 1.x)",
+            required: false,
+        },
+        Input {
+            name: "start",
+            what: "a solution to start from (arc-source 1.x), on any grid",
+            required: false,
+        },
+    ];
+    type Scene = Scene;
+
+    fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
+        let (scene, case) = problem(scene, inputs)?;
+        let plan = plan::plan(&scene, &case);
+        Ok(match pool::told(&scene, &case) {
+            Some(told) => plan.note(told),
+            None => plan,
+        })
+    }
+
+    fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
+        let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
+        arc.iterate(&mut ())?;
+        let began = Instant::now();
+        let mut done = 0_u32;
+        while done == 0 || (done < TRIAL && began.elapsed() < LONGEST_TRIAL) {
+            arc.iterate(&mut ())?;
+            done += 1;
+        }
+        let each = began.elapsed().as_secs_f64() / f64::from(done);
+        let most = scene.iterate.most;
+        Ok(Some(Estimate {
+            seconds: each * most as f64,
+            basis: format!(
+                "{:.2} ms an iteration, if all {most} are needed",
+                1e3 * each
+            ),
+            memory: Vec::new(),
+        }))
+    }
+
+    fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
+        let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
+        if let Some(path) = inputs.get("start")
+            && let Some(told) = start::take(&mut arc, path)?
+        {
+            session.note(told);
+        }
+        march::march(&mut arc, &scene.iterate, session)?;
+        let balance = arc.settle();
+        for told in arc.beyond()? {
+            match told.matters {
+                true => session.warn(told.text),
+                false => session.note(told.text),
+            }
+        }
+        march::close(&arc, balance.as_ref(), session);
+        frames::write(&arc, balance.as_ref(), &scene.sample, session)
+    }
+}
+
+/// The problem of a scene and its inputs.
+fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
+    Ok(problem(scene, inputs)?.1)
+}
+
+/// Reads the inputs that the scene asks for and assembles the problem; with the surface of the inputs in the scene.
+fn problem<'a>(scene: &'a Scene, inputs: &Inputs) -> Result<(Cow<'a, Scene>, Case), Failure> {
+    let gas = match (&scene.gas, inputs.get("gas")) {
+        (Gas::Table(_), Some(path)) => Some(GasFile::read(path)?),
+        _ => None,
+    };
+    let scene = match inputs.get("surface") {
+        Some(path) => Cow::Owned(pool::deform(scene, path)?),
+        None => Cow::Borrowed(scene),
+    };
+    let case = assemble(&scene, gas.as_ref())?;
+    let driven = case.potential.as_ref().and_then(|p| p.driven);
+    if scene.iterate.continuation.is_some() && driven.is_none() {
+        let what = "wants a total_current_a at one of the edges: there is no current to follow";
+        return Err(Failure::Scene(vec![Fault::at(
+            "/iterate/continuation",
+            what,
+        )]));
+    }
+    Ok((scene, case))
+}
