@@ -23,8 +23,7 @@ const ROOMS: [(&str, &[&str]); 5] = [
 ];
 
 /// Rooms that a stage lacks, or has under another name.
-const LACKING: [(&str, &str); 12] = [
-    ("avg", "assemble"),
+const LACKING: [(&str, &str); 11] = [
     ("avg", "march or iterate"),
     ("emfield", "frames"),
     ("emfield", "march or iterate"),
@@ -45,9 +44,8 @@ const PROGRAM: [&str; 10] = [
 ];
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 27] = [
+const READING: [(&str, &str); 26] = [
     ("arcfvm", "continuation"),
-    ("avg", "average"),
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/cells"),

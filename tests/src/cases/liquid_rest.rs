@@ -69,7 +69,10 @@ impl Case for LiquidRest {
         let errors = Errors::from([
             ("pressure_mean".to_owned(), (mean / wanted - 1.0).abs()),
             ("pressure_spread".to_owned(), spread / wanted),
-            ("capillary_number".to_owned(), sphere.viscosity * fastest / tension),
+            (
+                "capillary_number".to_owned(),
+                sphere.viscosity * fastest / tension,
+            ),
         ]);
         let count = points(&run)?;
         Ok(Measurement::of(run, count, radius / parts, errors))

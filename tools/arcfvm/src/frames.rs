@@ -162,7 +162,7 @@ fn record(arc: &Arc, balance: Option<&Balance>) -> Record {
     let mut record = Record::new();
     if let (Some(electric), Some(setup)) = (&arc.electric, &arc.case.potential) {
         let supply = balance.map(|balance| arc.supply(balance));
-        record = electrical(arc, electric, (setup, supply.as_ref()), record);
+        record = electrical(arc, electric, setup, supply.as_ref(), record);
         record = match &supply {
             Some(supply) => paid(supply, record),
             None => record,
@@ -228,7 +228,8 @@ fn input(arc: &Arc, balance: &Balance, record: Record) -> Record {
 fn electrical(
     arc: &Arc,
     electric: &Electric,
-    (setup, supply): (&PotentialCase, Option<&Supply>),
+    setup: &PotentialCase,
+    supply: Option<&Supply>,
     record: Record,
 ) -> Record {
     let grid = &arc.case.grid;

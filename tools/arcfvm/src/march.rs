@@ -130,7 +130,7 @@ pub fn march(arc: &mut Arc, rule: &Iterate, session: &mut Session) -> Result<(),
     session.warn(format!(
         "not converged after {} iterations{early}: {}",
         arc.iteration,
-        stagnation::told(arc, &last, (rule.tolerance, &rule.stop), &course.trail)
+        stagnation::told(arc, &last, rule.tolerance, &rule.stop, &course.trail)
     ));
     Ok(())
 }

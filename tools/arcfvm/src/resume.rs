@@ -126,7 +126,7 @@ fn regroup(
     solver: &mut Solver,
 ) -> artefact::Result<()> {
     let fresh = c.json(&format!("{name}_fresh"))?;
-    solver.restore(columns, (&c.f64(&format!("{name}_groups"))?, fresh));
+    solver.restore(columns, &c.f64(&format!("{name}_groups"))?, fresh);
     Ok(())
 }
 

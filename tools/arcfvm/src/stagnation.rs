@@ -91,7 +91,8 @@ impl Trail {
 pub fn told(
     arc: &Arc,
     residuals: &Residuals,
-    (tolerance, stop): (f64, &Stop),
+    tolerance: f64,
+    stop: &Stop,
     trail: &Trail,
 ) -> String {
     let Some((n, part)) = residuals.farthest(tolerance, stop) else {

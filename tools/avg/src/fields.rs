@@ -11,7 +11,8 @@
 
 use artefact::Table;
 
-use crate::average::{Averages, Plan};
+use crate::assemble::Plan;
+use crate::average::Averages;
 use crate::ensemble::{Ensemble, Point};
 use crate::grid::{Cut, Section};
 use crate::parts::student;

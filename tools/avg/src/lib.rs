@@ -12,6 +12,7 @@
 //! which the standard errors in the output tell ([`parts`]). Near a surface the kernel is cut off, and the mean
 //! is that of the metal inside: half a spacing below the surface, about.
 
+pub mod assemble;
 pub mod average;
 pub mod cloud;
 pub mod ensemble;

@@ -5,7 +5,8 @@ use std::time::Instant;
 use artefact::{Reader, Version};
 use run::{Estimate, Failure, Fault, Input, Inputs, Plan as Shown, Session, Tool};
 
-use crate::average::{AverageError, Averages, Averaging, Plan};
+use crate::assemble::{AverageError, Plan};
+use crate::average::{Averages, Averaging};
 use crate::fields;
 use crate::resume;
 use crate::scene::Scene;
@@ -49,7 +50,7 @@ impl Tool for Avg {
 
     fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
         let (reader, plan) = open(scene, inputs)?;
-        let mut averaging = Averaging::new(scene, &plan);
+        let mut averaging = Averaging::new(&plan);
         if plan.frames.is_empty() {
             return Ok(None);
         }
@@ -66,7 +67,7 @@ impl Tool for Avg {
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
         let (reader, plan) = open(scene, inputs)?;
-        let mut averaging = Averaging::new(scene, &plan);
+        let mut averaging = Averaging::new(&plan);
         let total = plan.frames.len() as u64;
         let taken = match session.restored() {
             Some(mut checkpoint) => resume::restore(&mut checkpoint, &mut averaging)?,

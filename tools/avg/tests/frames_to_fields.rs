@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use artefact::{Frame, GRID, Header, Precision, RECORD, Reader, Table, Version, Writer};
-use avg::average::{AverageError, Averaging, Plan};
+use avg::assemble::{AverageError, Plan};
+use avg::average::Averaging;
 use avg::fields;
 use avg::scene::Scene;
 use serde_json::json;
@@ -93,7 +94,7 @@ fn cut() -> serde_json::Value {
 fn average(from: &Path, to: &Path, scene: &Scene) -> Result<Reader, AverageError> {
     let reader = Reader::open(from)?;
     let plan = Plan::new(scene, &reader)?;
-    let mut averaging = Averaging::new(scene, &plan);
+    let mut averaging = Averaging::new(&plan);
     for place in 0..plan.frames.len() {
         let seen = averaging.read(&reader, place)?;
         averaging.take(&seen);
@@ -205,7 +206,7 @@ fn sections_without_metal_are_named() {
         let scene: Scene = serde_json::from_value(scene).unwrap();
         let reader = Reader::open(&from).unwrap();
         let plan = Plan::new(&scene, &reader).unwrap();
-        let mut averaging = Averaging::new(&scene, &plan);
+        let mut averaging = Averaging::new(&plan);
         for place in 0..plan.frames.len() {
             let seen = averaging.read(&reader, place).unwrap();
             averaging.take(&seen);

@@ -70,7 +70,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     };
     let materials = matter::materials(scene, gas, &mut faults);
     let (grid, bodies) = (&layout.grid, Layout::bodies(scene));
-    let wire = wire::wire(&layout, (&bodies, &materials), &mut faults);
+    let wire = wire::wire(&layout, &bodies, &materials, &mut faults);
     let start = start(scene, &layout, wire.as_ref(), &mut faults);
     let mut potential = scene.current.as_ref().map(|current| PotentialCase {
         edges: edges::current(scene, grid, &mut faults),
@@ -102,13 +102,10 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         electrons: carriers(scene, heat, &mut faults),
         conduction: heat.conduction,
     });
-    let parts = (&layout, &electrodes, flow.as_ref());
-    let vapour = vapour::vapour(scene, gas, parts, &mut faults);
+    let flows = flow.as_ref();
+    let vapour = vapour::vapour(scene, gas, &layout, &electrodes, flows, &mut faults);
     faults.none()?;
-    let meets = heat.is_some() || vapour.is_some();
-    let surfaces = meets
-        .then(|| surfaces(scene, &layout, &electrodes))
-        .flatten();
+    let surfaces = surfaces(scene, &layout, &electrodes);
     let base = electrodes.base.and_then(|m| layout.base(m, &bodies));
     Ok(Case {
         material: layout.material,
@@ -297,6 +294,9 @@ fn carriers(scene: &Scene, heat: &Heat, faults: &mut Faults) -> Option<scene::El
 
 fn surfaces(scene: &Scene, layout: &Layout, all: &Electrodes) -> Option<Surfaces> {
     let heat = scene.heat.as_ref();
+    if heat.is_none() && scene.vapour.is_none() {
+        return None;
+    }
     let mut electrodes = Vec::new();
     let mut index = vec![None; all.of.len()];
     for (material, electrode) in all.of.iter().enumerate() {

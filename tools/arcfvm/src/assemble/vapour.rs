@@ -21,7 +21,9 @@ const ATMOSPHERE: f64 = 101_325.0;
 pub(crate) fn vapour(
     scene: &Scene,
     gas: Option<&GasFile>,
-    (layout, electrodes, flow): (&Layout, &Electrodes, Option<&FlowCase>),
+    layout: &Layout,
+    electrodes: &Electrodes,
+    flow: Option<&FlowCase>,
     faults: &mut Faults,
 ) -> Option<VapourCase> {
     let bodies = Layout::bodies(scene);

@@ -10,7 +10,8 @@ use crate::scene::{Body, Feed};
 /// The one body that is fed, if any is.
 pub(super) fn wire(
     layout: &Layout,
-    (bodies, materials): (&[(&String, &Body)], &[Material]),
+    bodies: &[(&String, &Body)],
+    materials: &[Material],
     faults: &mut Faults,
 ) -> Option<Wire> {
     let mut found = None;

@@ -90,7 +90,8 @@ impl Granular {
         &self,
         grid: &Grid,
         material: &[usize],
-        (shine, shares): (f64, &[f64]),
+        shine: f64,
+        shares: &[f64],
         mut give: impl FnMut(usize, f64),
     ) -> f64 {
         let Some(part) = self.absorbed else {
@@ -180,7 +181,7 @@ mod tests {
     fn radiation_is_shared_out_by_volume() {
         let (grid, material, bed) = row();
         let mut given = [0.0; 10];
-        let all = bed.take_up(&grid, &material, (100.0, &[]), |k, q| given[k] = q);
+        let all = bed.take_up(&grid, &material, 100.0, &[], |k, q| given[k] = q);
         assert!((all - 80.0).abs() < 1e-12);
         assert!((given.iter().sum::<f64>() - 80.0).abs() < 1e-12);
         assert!(given[1].abs() < 1e-15);

@@ -18,7 +18,8 @@ use crate::heat::{Contact, FaceIndex, contacts, radiation};
 pub fn shares(
     grid: &Grid,
     material: &[usize],
-    (own, length): (usize, f64),
+    own: usize,
+    length: f64,
     emission: &[f64],
 ) -> Vec<f64> {
     let walls = contacts(grid, material, |m| (m == own).then_some(0));
@@ -92,7 +93,7 @@ mod tests {
     fn all_of_it_is_taken_up_by_the_bed_and_nothing_beside_it() {
         let (grid, material, emission) = cavity();
         for length in [1e-3, 0.3, 50.0] {
-            let shares = shares(&grid, &material, (1, length), &emission);
+            let shares = shares(&grid, &material, 1, length, &emission);
             assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
             let own = shares.iter().zip(&material).filter(|(s, _)| **s > 0.0);
             assert!(own.into_iter().all(|(_, m)| *m == 1));
@@ -102,7 +103,7 @@ mod tests {
     #[test]
     fn it_falls_by_e_in_a_length() {
         let (grid, material, emission) = cavity();
-        let shares = shares(&grid, &material, (1, 0.5), &emission);
+        let shares = shares(&grid, &material, 1, 0.5, &emission);
         // Beside the wall, in a row that no light of the roof comes to.
         let at = |i: usize| shares[grid.cell(i, 4)];
         for i in 11..30 {
@@ -116,7 +117,7 @@ mod tests {
     #[test]
     fn opaque_flux_takes_it_up_at_its_wall() {
         let (grid, material, emission) = cavity();
-        let shares = shares(&grid, &material, (1, 1e-6), &emission);
+        let shares = shares(&grid, &material, 1, 1e-6, &emission);
         for (k, share) in shares.iter().enumerate() {
             let (i, j) = (k % grid.nr, k / grid.nr);
             let wall = (i == 10 && (2..12).contains(&j)) || (j == 12 && i < 10);
@@ -127,8 +128,8 @@ mod tests {
     #[test]
     fn without_light_there_is_nothing_to_share() {
         let (grid, material, emission) = cavity();
-        assert!(shares(&grid, &material, (1, 0.5), &vec![0.0; emission.len()]).is_empty());
+        assert!(shares(&grid, &material, 1, 0.5, &vec![0.0; emission.len()]).is_empty());
         let filled = vec![1; grid.len()];
-        assert!(shares(&grid, &filled, (1, 0.5), &emission).is_empty());
+        assert!(shares(&grid, &filled, 1, 0.5, &emission).is_empty());
     }
 }

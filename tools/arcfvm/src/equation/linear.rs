@@ -4,10 +4,7 @@
 //! with incomplete factors; Krylov methods with algebraic multigrid. They differ in time, not in the
 //! solution: the outer iteration ends only where the residuals before any solve are small.
 
-use relax::{
-    FivePoint, Incomplete, Krylov, Outcome, Precondition, Sor, Workspace, bicgstab,
-    conjugate_gradient,
-};
+use relax::{FivePoint, Incomplete, Krylov, Outcome, Sor, Workspace, bicgstab, conjugate_gradient};
 
 use crate::equation::multigrid::Multigrid;
 
@@ -83,8 +80,8 @@ impl Solver {
     }
 
     /// Takes what [`Self::memory`] gave, for an equation of `columns` in a row.
-    pub(crate) fn restore(&mut self, columns: usize, memory: (&[f64], Option<usize>)) {
-        self.multigrid.restore(columns, memory);
+    pub(crate) fn restore(&mut self, columns: usize, values: &[f64], fresh: Option<usize>) {
+        self.multigrid.restore(columns, values, fresh);
     }
 
     /// Improves `x`.
@@ -96,16 +93,7 @@ impl Solver {
             Method::Sor(sor) => Ok(sor.solve_within(equation, x, &mut self.kept)?),
             Method::Incomplete(rule) => {
                 self.factors.rebuild(equation)?;
-                let memory = (&mut self.work, &mut self.kept);
-                let symmetric = self.symmetric;
-                Ok(factorised(
-                    symmetric,
-                    equation,
-                    x,
-                    &mut self.factors,
-                    rule,
-                    memory,
-                )?)
+                Ok(self.factorised(equation, x, rule)?)
             }
             Method::Multigrid(rule) => {
                 equation.check()?;
@@ -119,28 +107,27 @@ impl Solver {
             }
         }
     }
-}
 
-fn factorised(
-    symmetric: bool,
-    equation: &FivePoint,
-    x: &mut [f64],
-    inverse: &mut impl Precondition,
-    rule: Krylov,
-    (work, before): (&mut Workspace, &mut Vec<f64>),
-) -> Result<Outcome, relax::Error> {
-    if symmetric {
-        return conjugate_gradient(equation, x, inverse, rule, work);
-    }
-    before.clear();
-    before.extend_from_slice(x);
-    let outcome = bicgstab(equation, x, inverse, rule, work);
-    match outcome {
-        Ok(found) if found.last <= found.first => Ok(found),
-        // BiCGSTAB can break down; sweeps over a dominant diagonal cannot.
-        _ => {
-            x.copy_from_slice(before);
-            FALLBACK.solve_within(equation, x, before)
+    /// Solves with the incomplete factors that there are.
+    fn factorised(
+        &mut self,
+        equation: &FivePoint,
+        x: &mut [f64],
+        rule: Krylov,
+    ) -> Result<Outcome, relax::Error> {
+        let (factors, work) = (&mut self.factors, &mut self.work);
+        if self.symmetric {
+            return conjugate_gradient(equation, x, factors, rule, work);
+        }
+        self.kept.clear();
+        self.kept.extend_from_slice(x);
+        match bicgstab(equation, x, factors, rule, work) {
+            Ok(found) if found.last <= found.first => Ok(found),
+            // BiCGSTAB can break down; sweeps over a dominant diagonal cannot.
+            _ => {
+                x.copy_from_slice(&self.kept);
+                FALLBACK.solve_within(equation, x, &mut self.kept)
+            }
         }
     }
 }

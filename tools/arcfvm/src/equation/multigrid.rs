@@ -143,7 +143,7 @@ impl Multigrid {
     }
 
     /// Forms the groups of [`Self::memory`] again, for an equation of `columns` in a row.
-    pub fn restore(&mut self, columns: usize, (values, fresh): (&[f64], Option<usize>)) {
+    pub fn restore(&mut self, columns: usize, values: &[f64], fresh: Option<usize>) {
         if values.is_empty() || columns == 0 {
             return;
         }
@@ -331,7 +331,7 @@ mod tests {
             .unwrap();
         let (values, fresh) = straight.memory();
         let mut resumed = Multigrid::new(true);
-        resumed.restore(n, (&values, fresh));
+        resumed.restore(n, &values, fresh);
         let next = square(n, 40.0, true);
         let mut y = x.clone();
         straight.solve(&next, &mut x, loose).unwrap();

@@ -18,7 +18,7 @@ impl Reads<'_> {
             let contact = &surfaces.contacts[n];
             let middles = [contact.metal, contact.gas].map(|k| self.temperature[k]);
             let absorbed = absorbed.get(n).copied().unwrap_or_default();
-            let heat = self.taken_up(surfaces, (n, skin.edge), absorbed);
+            let heat = self.taken_up(surfaces, n, skin.edge, absorbed);
             skin.settle(middles, through(contact), heat);
         }
     }
@@ -28,7 +28,8 @@ impl Reads<'_> {
     fn taken_up<'s>(
         &'s self,
         surfaces: &'s Surfaces,
-        (n, edge): (usize, Option<f64>),
+        n: usize,
+        edge: Option<f64>,
         absorbed: f64,
     ) -> impl Fn(f64) -> [f64; 2] + 's {
         let contact = &surfaces.contacts[n];
@@ -59,11 +60,11 @@ impl Reads<'_> {
         };
         let passed = of
             .vapour
-            .pass(self.case, of.setup, contact, (t, self.temperature));
+            .pass(self.case, of.setup, contact, t, self.temperature);
         let carried = self.carried(of, contact, &passed, t);
         let slope = of
             .vapour
-            .slope(self.case, of.setup, contact, (t, self.temperature));
+            .slope(self.case, of.setup, contact, t, self.temperature);
         [carried.map_or(0.0, |c| c.metal), slope]
     }
 }

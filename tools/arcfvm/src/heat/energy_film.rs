@@ -21,12 +21,10 @@ impl Energy {
     ) {
         for (n, contact) in surfaces.contacts.iter().enumerate() {
             if let Some(layer) = surfaces.layers.get(n) {
-                self.lay(case, (n, contact), (surfaces.film, layer), properties);
+                self.lay(case, surfaces, n, layer, properties);
                 continue;
             }
-            let iron = properties.iron_at(contact.gas);
-            let metal = self.before(n, contact, properties);
-            let conductance = self.film(case, contact, (surfaces.film, metal), (n, iron));
+            let conductance = self.film(case, surfaces.film, n, contact, properties);
             self.set(contact.face, conductance);
         }
     }
@@ -43,10 +41,12 @@ impl Energy {
     fn lay(
         &mut self,
         case: &Case,
-        (n, contact): (usize, &Contact),
-        (way, layer): (Film, &Layer),
+        surfaces: &Surfaces,
+        n: usize,
+        layer: &Layer,
         properties: &Properties,
     ) {
+        let (contact, way) = (&surfaces.contacts[n], surfaces.film);
         let kappa = &properties.thermal;
         let metal = self.skin(n, contact).temperature;
         let iron = if properties.iron.is_empty() {
@@ -54,11 +54,10 @@ impl Energy {
         } else {
             layer.at(properties.iron[contact.gas], &properties.iron)
         };
-        let [r, z] = contact.place;
         let law = case.of(contact.gas).thermal_conductivity.as_ref();
         let integral = case.integrates_conduction();
         let conducts =
-            |a: f64, b: f64| law.map_or(0.0, |l| between(l, integral, ([r, z], iron), [a, b]));
+            |a: f64, b: f64| law.map_or(0.0, |l| between(l, integral, contact.place, iron, [a, b]));
         let film = Crossed {
             ways: match way {
                 Film::HalfCells => layer.depth,
@@ -102,17 +101,20 @@ impl Energy {
     fn film(
         &self,
         case: &Case,
+        way: Film,
+        n: usize,
         contact: &Contact,
-        (way, metal): (Film, f64),
-        (n, iron): (usize, f64),
+        properties: &Properties,
     ) -> f64 {
+        let iron = properties.iron_at(contact.gas);
+        let metal = self.before(n, contact, properties);
         let ends = [
             self.skin(n, contact).temperature,
             self.temperature[contact.gas],
         ];
         let integral = case.integrates_conduction();
         let law = case.of(contact.gas).thermal_conductivity.as_ref();
-        let gas = law.map_or(0.0, |l| between(l, integral, (contact.place, iron), ends));
+        let gas = law.map_or(0.0, |l| between(l, integral, contact.place, iron, ends));
         match way {
             Film::HalfCells => contact.area / (contact.gas_half / gas + metal),
             Film::Centres if !self.skins.is_empty() => {
@@ -125,7 +127,7 @@ impl Energy {
 
 /// Conductivity of a film by the `law` of its gas between the temperatures of its ends: their mean, or that over all between
 /// them.
-fn between(law: &Law, integral: bool, (place, iron): ([f64; 2], f64), ends: [f64; 2]) -> f64 {
+fn between(law: &Law, integral: bool, place: [f64; 2], iron: f64, ends: [f64; 2]) -> f64 {
     if integral {
         law.mean(place, ends, iron)
     } else {

@@ -29,7 +29,7 @@ impl Arc {
         });
         let beside = wire.from_beside(&self.case, &heating.energy);
         let tip = wire.tip_enthalpy(&self.case, &self.properties.enthalpy);
-        Some(wire.speed(rule, [surface + joule + beside, boiled], (enthalpy, tip)))
+        Some(wire.speed(rule, [surface + joule + beside, boiled], enthalpy, tip))
     }
 
     /// The speed before anything is known.
@@ -54,6 +54,6 @@ impl Arc {
             FeedRule::Speed(_) | FeedRule::Melting(_) => 0.0,
         };
         let heat = FEED_START_V * current.abs();
-        wire.speed(rule, [heat, 0.0], (enthalpy, tip))
+        wire.speed(rule, [heat, 0.0], enthalpy, tip)
     }
 }

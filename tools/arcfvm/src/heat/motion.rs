@@ -19,7 +19,8 @@ impl Wire {
         &self,
         rule: FeedRule,
         [taken, boiled]: [f64; 2],
-        (enthalpy, tip): (&Enthalpy, f64),
+        enthalpy: &Enthalpy,
+        tip: f64,
     ) -> f64 {
         let (heat, wanted) = match rule {
             FeedRule::Speed(speed) => return speed,

@@ -170,7 +170,7 @@ impl Sources {
             out[contact.gas][0] += contact.area * into_gas;
             let heat = parts.sum() + self.absorbed[n];
             let slope = electrode.slope(current, t, gas);
-            self.take_up(out, contact, (n, skin), [heat, slope]);
+            self.take_up(out, contact, n, skin, [heat, slope]);
         }
     }
 
@@ -179,7 +179,8 @@ impl Sources {
         &mut self,
         out: &mut [[f64; 2]],
         contact: &Contact,
-        (n, skin): (usize, Skin),
+        n: usize,
+        skin: Skin,
         [heat, slope]: [f64; 2],
     ) {
         let held = (1.0 - skin.share) * heat;
@@ -204,8 +205,8 @@ impl Sources {
             }
             if let Some((bed, length)) = reads.heat.granular.as_ref().zip(length) {
                 let case = reads.case;
-                let own = (bed.material, length);
-                self.lit = lit_wall::shares(&case.grid, &case.material, own, &self.emission);
+                let (grid, material) = (&case.grid, &case.material);
+                self.lit = lit_wall::shares(grid, material, bed.material, length, &self.emission);
             }
             self.stale = false;
         }
@@ -236,7 +237,7 @@ impl Sources {
         if let Some(bed) = &reads.heat.granular {
             let (case, shine) = (reads.case, self.emission.iter().sum());
             let give = |k: usize, heat: f64| out[k][0] += heat;
-            self.granular = bed.take_up(&case.grid, &case.material, (shine, &self.lit), give);
+            self.granular = bed.take_up(&case.grid, &case.material, shine, &self.lit, give);
         }
     }
 

@@ -92,10 +92,10 @@ impl Sources {
             let Some(carried) = reads.carried(of, contact, passed, skin.temperature) else {
                 continue;
             };
-            let at = (skin.temperature, reads.temperature);
-            let slope = of.vapour.slope(reads.case, of.setup, contact, at);
+            let (surface, gas) = (skin.temperature, reads.temperature);
+            let slope = of.vapour.slope(reads.case, of.setup, contact, surface, gas);
             self.contacts[n].parts.vapour += carried.metal;
-            self.take_up(out, contact, (n, skin), [carried.metal, -slope]);
+            self.take_up(out, contact, n, skin, [carried.metal, -slope]);
             out[contact.gas][0] += contact.area * carried.gas;
             out[contact.gas][1] += contact.area * carried.slope;
             enters += contact.area * carried.enters;

@@ -131,13 +131,14 @@ impl Vapour {
         &mut self,
         case: &Case,
         setup: &VapourCase,
-        (skins, temperature): (&[Skin], &[f64]),
+        skins: &[Skin],
+        temperature: &[f64],
     ) {
         self.passed.clear();
         self.gathers.fill([0.0; 2]);
         for (n, contact) in case.contacts().iter().enumerate() {
             let surface = Skin::of(skins, n, contact, temperature).temperature;
-            let passed = self.pass(case, setup, contact, (surface, temperature));
+            let passed = self.pass(case, setup, contact, surface, temperature);
             self.passed.push(passed);
             let gathers = &mut self.gathers[contact.gas];
             gathers[0] += contact.area * passed.coefficient;
@@ -152,7 +153,8 @@ impl Vapour {
         case: &Case,
         setup: &VapourCase,
         contact: &Contact,
-        (surface, temperature): (f64, &[f64]),
+        surface: f64,
+        temperature: &[f64],
     ) -> Evaporated {
         let iron = self.iron[contact.gas];
         let Some(metal) = &setup.metals[contact.electrode] else {
@@ -173,7 +175,8 @@ impl Vapour {
         case: &Case,
         setup: &VapourCase,
         contact: &Contact,
-        (surface, temperature): (f64, &[f64]),
+        surface: f64,
+        temperature: &[f64],
     ) -> f64 {
         let Some(metal) = &setup.metals[contact.electrode] else {
             return 0.0;

@@ -20,14 +20,14 @@ impl Arc {
         let Some((setup, vapour)) = self.case.vapour.as_ref().zip(self.vapour.as_mut()) else {
             return;
         };
-        let at = match &self.heating {
+        let (skins, temperature) = match &self.heating {
             Some(heating) => (
                 heating.energy.skins.as_slice(),
                 heating.energy.temperature.as_slice(),
             ),
             None => (&[][..], self.case.start.as_slice()),
         };
-        vapour.evaporate(&self.case, setup, at);
+        vapour.evaporate(&self.case, setup, skins, temperature);
     }
 
     /// Solves for the iron; returns its residual.
