@@ -74,6 +74,7 @@ mod liquid_charge;
 mod liquid_drop;
 mod liquid_field_drop;
 mod liquid_field_march;
+mod liquid_levitation;
 mod liquid_rest;
 mod pool_dimple;
 mod pool_drop_oscillation;
@@ -227,5 +228,6 @@ fn liquids() -> Vec<Box<dyn Case>> {
         Box::new(liquid_field_drop::LiquidFieldDrop),
         Box::new(liquid_field_march::LiquidFieldMarch),
         Box::new(liquid_charge::LiquidCharge),
+        Box::new(liquid_levitation::LiquidLevitation),
     ]
 }

@@ -3,11 +3,10 @@
 use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
 
-use super::liquid::{electric, fastest, filled, matter, start, steps, way};
+use super::acting::Acting;
+use super::liquid::{fastest, filled, matter, start, steps, way};
 use super::steps::Steps;
-use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
-use crate::liquid::electric::Electric;
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
 use crate::liquid::step::{Liquid, Matter, Way};
@@ -29,13 +28,13 @@ struct March {
     precision: Precision,
     /// Volume at the start \[m3\], where the outline tells it.
     volume: Option<f64>,
-    /// Velocity of the centre, as gravity says \[m/s\].
+    /// Velocity of the centre, as gravity and fields say \[m/s\].
     drift: [f64; 3],
     /// Centre that was told last \[m\].
     centre: [f64; 3],
     effort: Effort,
-    /// The field that acts on the surface.
-    electric: Option<Electric>,
+    /// Fields that act on it.
+    acting: Acting,
     /// Steps that were divided.
     divided: u64,
     taken: u64,
@@ -64,14 +63,14 @@ pub fn flow(
         drift: [0.0; 3],
         centre: [0.0; 3],
         effort: Effort::default(),
-        electric: electric(part),
+        acting: Acting::new((scene, part), &liquid, session)?,
         divided: 0,
         taken: 0,
     };
     if let Some(mut checkpoint) = session.restored() {
         march.restore(&mut liquid, &mut checkpoint)?;
     } else {
-        march.begin(&mut liquid, session)?;
+        march.begin((&mut liquid, part), session)?;
     }
     while march.taken < steps.count() {
         let (_, length) = steps.step(march.taken);
@@ -100,13 +99,16 @@ pub fn flow(
 
 impl March {
     /// The liquid at its start: what it is, and its pressure.
-    fn begin(&mut self, liquid: &mut Liquid<3>, session: &mut Session) -> Result<(), Failure> {
-        self.pull(liquid, 0.0, session)?;
+    fn begin(
+        &mut self,
+        (liquid, part): (&mut Liquid<3>, &Part),
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        self.centre = liquid.middle();
+        let at = (&mut *liquid, &self.way, self.centre);
+        let weighed = (part, &self.matter);
+        self.acting.begin(weighed, at, &mut self.effort, session)?;
         let made = liquid.balance(&self.matter, &self.way, &mut self.effort)?;
-        let surface = &liquid.position[..liquid.surface()];
-        for x in surface {
-            self.centre = along(&self.centre, 1.0 / surface.len() as f64, x);
-        }
         let rows = operators(&liquid.position, (self.way.spacing, self.way.order));
         let rows = rows.map_err(|e| Failure::Other(format!("liquid: {e}")))?;
         let (mut sources, mut slopes) = (0.0_f64, 0.0_f64);
@@ -152,37 +154,22 @@ impl March {
             self.pull(liquid, length / parts, session)?;
         }
         self.drift = along(&self.drift, length, &self.matter.gravity);
-        if let (Some(electric), Some(volume)) = (&self.electric, self.volume) {
-            let mass = self.matter.density * volume;
-            self.drift = along(&self.drift, length / mass, &electric.force());
-        }
         Ok(made)
     }
 
-    /// The traction of the field where the liquid is, `passed` after the last one \[s\].
+    /// What fields do where the liquid is, `passed` after the last time \[s\].
     fn pull(
         &mut self,
         liquid: &mut Liquid<3>,
         passed: f64,
         session: &mut Session,
     ) -> Result<(), Failure> {
-        let Some(electric) = &mut self.electric else {
-            return Ok(());
-        };
-        let surface = liquid.surface();
-        let place = Place::of(&liquid.position, &liquid.normal, self.way.spacing);
-        let (rule, effort) = (self.way.rule(), &mut self.effort);
-        let stood = session.timed("points of the field", || electric.stand(place))?;
-        let sides = session.timed("weights of the field", || electric.fit(&stood))?;
-        let made = (&stood, &sides);
-        let now = session.timed("electric field", || electric.traction(made, rule, effort))?;
-        let before = std::mem::replace(&mut liquid.pull[0], now);
-        liquid.pull[1] = if passed > 0.0 {
-            let both = liquid.pull[0].iter().zip(&before);
-            both.map(|(now, before)| (now - before) / passed).collect()
-        } else {
-            vec![0.0; surface]
-        };
+        let at = (liquid, &self.way, self.centre);
+        let impulse = self.acting.pull(at, passed, &mut self.effort, session)?;
+        if let Some(volume) = self.volume {
+            let mass = self.matter.density * volume;
+            self.drift = along(&self.drift, mass.recip(), &impulse);
+        }
         Ok(())
     }
 
@@ -212,7 +199,8 @@ impl March {
         }
         if let Some((outline, totals)) = self.outline(liquid) {
             self.centre = totals.centre;
-            session.record("/liquid", time, &totals.row(&self.matter, &outline))?;
+            let row = self.acting.row(totals.row(&self.matter, &outline));
+            session.record("/liquid", time, &row)?;
         }
         Ok(())
     }
@@ -231,7 +219,8 @@ impl March {
         (time, patches): (f64, &[Patch<3>]),
         session: &mut Session,
     ) -> Result<(), Failure> {
-        session.frame("/points", time, &told::points(liquid, self.precision))?;
+        let points = told::points(liquid, &self.acting.pressure, self.precision);
+        session.frame("/points", time, &points)?;
         session.frame(
             "/surface",
             time,
@@ -246,14 +235,7 @@ impl March {
         checkpoint.put_vectors("normal", &liquid.normal);
         checkpoint.put_f64("pressure", &liquid.pressure);
         checkpoint.put_f64("stress", &liquid.stress);
-        if let Some(electric) = &self.electric {
-            electric.save(checkpoint);
-            checkpoint.put_f64("pull", &liquid.pull[0]);
-            checkpoint.put_f64("pull_rate", &liquid.pull[1]);
-            let e = &self.effort;
-            checkpoint.put_u64("field_counts", &[e.field_products, e.field_unsolved]);
-            checkpoint.put_f64("field_residual", &[e.field_residual]);
-        }
+        self.acting.save((liquid, &self.effort), checkpoint);
         let volume: Vec<f64> = self.volume.into_iter().collect();
         checkpoint.put_f64("volume", &volume);
         checkpoint.put_vectors("centre", &[self.drift, self.centre]);
@@ -281,7 +263,8 @@ impl March {
         liquid.normal = checkpoint.vectors("normal")?;
         liquid.pressure = checkpoint.f64("pressure")?;
         liquid.stress = checkpoint.f64("stress")?;
-        self.restore_field(liquid, checkpoint)?;
+        let kept = (&mut *liquid, &mut self.effort);
+        self.acting.restore(kept, self.way.spacing, checkpoint)?;
         self.volume = checkpoint.f64("volume")?.first().copied();
         if let [drift, centre] = checkpoint.vectors("centre")?[..] {
             (self.drift, self.centre) = (drift, centre);
@@ -296,24 +279,6 @@ impl March {
         Ok(())
     }
 
-    fn restore_field(
-        &mut self,
-        liquid: &mut Liquid<3>,
-        checkpoint: &mut Checkpoint,
-    ) -> Result<(), Failure> {
-        let Some(electric) = &mut self.electric else {
-            return Ok(());
-        };
-        electric.restore(checkpoint, self.way.spacing)?;
-        if let [products, unsolved] = checkpoint.u64("field_counts")?[..] {
-            (self.effort.field_products, self.effort.field_unsolved) = (products, unsolved);
-        }
-        let residual = checkpoint.f64("field_residual")?;
-        self.effort.field_residual = residual.first().copied().unwrap_or(0.0);
-        liquid.pull = [checkpoint.f64("pull")?, checkpoint.f64("pull_rate")?];
-        Ok(())
-    }
-
     fn close(&self, steps: &Steps, session: &mut Session) {
         session.steps(steps.count());
         session.closing("step", "s", steps.longest());
@@ -322,18 +287,7 @@ impl March {
         if let Some(volume) = self.volume {
             session.closing("volume", "m3", volume);
         }
-        if let Some(electric) = &self.electric {
-            session.closing("points_field", "1", electric.awake as f64);
-            session.closing("air_renewed", "1", electric.renewed() as f64);
-            session.closing("products_field", "1", self.effort.field_products as f64);
-            session.closing("residual_field", "1", self.effort.field_residual);
-        }
-        if self.effort.field_unsolved > 0 {
-            session.warn(format!(
-                "not converged: {} solves of the electric field",
-                self.effort.field_unsolved
-            ));
-        }
+        self.acting.close(&self.effort, session);
         if self.divided > 0 {
             session.note(format!(
                 "{} steps were divided: points would have moved farther than {FARTHEST} spacings",

@@ -4,11 +4,14 @@ use run::property::Arguments;
 use run::{Estimate, Failure, Fault, Plan};
 use shapes::Body;
 
+use super::acting::electric;
+use super::alternating::alternating;
 use super::steps::Steps;
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
-use crate::liquid::electric::{Applied, Electric};
+use crate::liquid::electric::Electric;
 use crate::liquid::fill::{Filled, fill};
+use crate::liquid::magnetic::{Magnetic, outline};
 use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
@@ -72,17 +75,6 @@ pub(super) fn way(scene: &Scene, liquid: &Part) -> Way {
     }
 }
 
-/// The electric field of a scene.
-pub(super) fn electric(part: &Part) -> Option<Electric> {
-    let given = part.electric.as_ref()?;
-    let applied = Applied {
-        field: std::array::from_fn(|k| given.field_v_m.get(k).copied().unwrap_or(0.0)),
-        permittivity: given.relative_permittivity,
-        charge: given.charge_c.unwrap_or(0.0),
-    };
-    Some(Electric::new(applied, given.order))
-}
-
 /// The liquid at its start.
 pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure> {
     let n = filled.position.len();
@@ -97,6 +89,7 @@ pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure
     Ok(Liquid {
         stress: vec![0.0; filled.normal.len()],
         pull: [Vec::new(), Vec::new()],
+        force: [Vec::new(), Vec::new()],
         position: filled.position,
         velocity,
         pressure: vec![part.gas_pressure_pa; n],
@@ -181,6 +174,16 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
         }
         None => plan.left_out("electric field", "no key 'electric' of 'liquid'"),
     };
+    plan = match &part.magnetic {
+        Some(given) => {
+            let count = alternating((scene, given), &liquid)?.count();
+            plan.stage("magnetic field")
+                .count("points of the field", count)
+                .column("traction", "Pa")
+                .memory("equations of the field", BYTES * count)
+        }
+        None => plan.left_out("magnetic field", "no key 'magnetic' of 'liquid'"),
+    };
     for (absent, name, key) in [
         (part.viscosity_pa_s.is_none(), "viscosity", "viscosity_pa_s"),
         (
@@ -214,10 +217,20 @@ pub fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure>
         liquid.pull[0] = pull(field, &liquid, &way, &mut effort)?;
         liquid.pull[1] = vec![0.0; liquid.surface()];
     }
+    let mut magnetic = match &part.magnetic {
+        Some(given) => Some(alternating((scene, given), &liquid)?),
+        None => None,
+    };
+    if let Some(field) = &mut magnetic {
+        lift(field, &mut liquid, &way, &mut effort)?;
+    }
     let began = std::time::Instant::now();
     liquid.advance(&matter(part), (&way, steps.step(0).1), &mut effort)?;
     if let Some(field) = &mut field {
         pull(field, &liquid, &way, &mut effort)?;
+    }
+    if let Some(field) = &mut magnetic {
+        lift(field, &mut liquid, &way, &mut effort)?;
     }
     let each = began.elapsed().as_secs_f64();
     Ok(Some(Estimate {
@@ -225,6 +238,28 @@ pub fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure>
         basis: format!("{:.3} s a step, as at the start", each),
         memory: Vec::new(),
     }))
+}
+
+/// What an alternating field does where the liquid is.
+fn lift(
+    field: &mut Magnetic,
+    liquid: &mut Liquid<3>,
+    way: &Way,
+    effort: &mut Effort,
+) -> Result<(), Failure> {
+    let place = Place::of(&liquid.position, &liquid.normal, way.spacing);
+    let centre = liquid.middle();
+    let about = outline(place.skin, centre)?;
+    let stood = field.stand(&about);
+    let sides = field.fit(&stood)?;
+    let act = field.act((&stood, &sides), (place, centre), (way.rule(), effort))?;
+    let mut force = act.pull;
+    let phi = liquid.stirred(&mut force, &act.phi, way, effort)?;
+    let traction = phi.iter().zip(&act.pressure).take(liquid.surface());
+    let traction = traction.map(|(phi, p)| -phi - p).collect();
+    liquid.pull = [traction, vec![0.0; liquid.surface()]];
+    liquid.force = [force.clone(), vec![[0.0; 3]; force.len()]];
+    Ok(())
 }
 
 /// The traction of the field where the liquid is \[Pa\].

@@ -1,7 +1,9 @@
 //! From a scene and its points to equations, and from their solution to columns.
 
 mod about;
+mod acting;
 mod agree;
+mod alternating;
 mod bars;
 mod broken;
 mod charge;
@@ -13,6 +15,7 @@ mod flow;
 mod forces;
 mod given;
 mod growth;
+mod levitated;
 mod liquid;
 mod magnetic;
 mod magnets;

@@ -5,6 +5,7 @@ use run::{Failure, Session};
 use shapes::Shape;
 use shapes::shape::Sphere;
 
+use super::levitated::levitated;
 use crate::liquid::equilibrium::{self, FEWEST, Found, Kind, MOST, Place, Sought};
 use crate::scene::output::Precision as Wanted;
 use crate::scene::{Equilibrium, Liquid as Part, Scene};
@@ -22,11 +23,14 @@ pub fn rest(
     let Shape::Sphere(sphere) = &part.shape else {
         return Ok(());
     };
+    let Some(applied) = rest.field_v_m else {
+        return levitated(scene, part, session);
+    };
     let radius = sphere.radius_m;
     let stress = part.surface_tension_n_m.unwrap_or(0.0) / radius;
     // Ca = eps0 E^2 R/gamma.
     let field = |capillary: f64| (capillary * stress / EPS0).sqrt();
-    let capillary = EPS0 * rest.field_v_m * rest.field_v_m / stress;
+    let capillary = EPS0 * applied * applied / stress;
     let kind = rest
         .relative_permittivity
         .map_or(Kind::Conductor, Kind::Dielectric);
@@ -34,7 +38,7 @@ pub fn rest(
     let harmonics = harmonics.clamp(FEWEST as f64, MOST as f64) as usize;
     let sought = Sought { kind, harmonics };
     let found = session.timed("equilibrium", || equilibrium::rest(sought, capillary));
-    let at = format!("{} V/m (Ca = {capillary:.4})", rest.field_v_m);
+    let at = format!("{applied} V/m (Ca = {capillary:.4})");
     let absent = |why: String| Failure::Other(format!("no drop is at rest at {at}: {why}"));
     let shape = match found {
         Found::Rest(shape) => Ok(shape),

@@ -19,11 +19,16 @@ const GRAZING: f64 = 0.15;
 const MORE: usize = 10;
 /// Step of difference quotients of the radius over a direction.
 const STEP: f64 = 1e-4;
+/// Rounds that find a radius for a volume.
+const ROUNDS: usize = 6;
 
 /// A direction and its share of the sphere.
-struct Node {
-    direction: [f64; 3],
-    weight: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// The direction.
+    pub direction: [f64; 3],
+    /// Its share.
+    pub weight: f64,
 }
 
 /// The outline of a drop in space.
@@ -72,6 +77,39 @@ impl Outline {
         })
     }
 
+    /// Coefficients of the harmonics that are nearest to values at points, by their directions.
+    #[must_use]
+    pub fn fitted(&self, points: &[[f64; 3]], values: &[f64]) -> Option<Vec<f64>> {
+        let many = self.coefficients.len();
+        let mut basis = DMatrix::zeros(many, points.len());
+        for (k, x) in points.iter().enumerate() {
+            let ray = direction(&difference(x, &self.origin));
+            let harmonics = harmonics(self.degree, &ray);
+            basis.column_mut(k).copy_from_slice(&harmonics);
+        }
+        let gram = &basis * basis.transpose();
+        let found = gram
+            .cholesky()?
+            .solve(&(&basis * DVector::from_column_slice(values)));
+        Some(found.as_slice().to_vec())
+    }
+
+    /// The outline whose coefficients of degree l are larger by `by` times `factor(l)`, with the volume of this one.
+    #[must_use]
+    pub fn moved(&self, by: &[f64], factor: impl Fn(usize) -> f64) -> Self {
+        let mut next = self.clone();
+        let degree = |k: usize| k.isqrt();
+        for (k, (c, by)) in next.coefficients.iter_mut().zip(by).enumerate() {
+            *c += factor(degree(k)) * by;
+        }
+        let wanted = self.volume().0;
+        for _ in 0..ROUNDS {
+            let larger = (wanted / next.volume().0).cbrt() - 1.0;
+            next.coefficients[0] *= 1.0 + larger;
+        }
+        next
+    }
+
     /// Radius in a direction \[m\].
     #[must_use]
     pub fn radius(&self, n: &[f64; 3]) -> f64 {
@@ -81,6 +119,37 @@ impl Outline {
             .zip(&self.coefficients)
             .map(|(y, c)| y * c)
             .sum()
+    }
+
+    /// What harmonics of each degree give of the radius in a direction \[m\].
+    #[must_use]
+    pub fn shares(&self, n: &[f64; 3]) -> Vec<f64> {
+        let values = harmonics(self.degree, n);
+        let share = |l: usize| {
+            let own = l * l..(l + 1) * (l + 1);
+            let terms = values[own.clone()].iter().zip(&self.coefficients[own]);
+            terms.map(|(y, c)| y * c).sum()
+        };
+        (0..=self.degree).map(share).collect()
+    }
+
+    /// Unit normal where a ray in a direction meets the surface: along n - grad r / r.
+    #[must_use]
+    pub fn normal(&self, n: &[f64; 3]) -> [f64; 3] {
+        let r = self.radius(n);
+        let ways = super::surface::tangents(n).into_iter();
+        let tilted = ways
+            .zip(self.rise(n))
+            .fold(*n, |sum, (way, rise)| along(&sum, -rise / r, &way));
+        direction(&tilted)
+    }
+
+    /// How the radius grows over the tangents of a direction \[m\].
+    fn rise(&self, n: &[f64; 3]) -> [f64; 2] {
+        super::surface::tangents(n).map(|t| {
+            let [ahead, behind] = [STEP, -STEP].map(|s| self.radius(&direction(&along(n, s, &t))));
+            (ahead - behind) / (2.0 * STEP)
+        })
     }
 
     /// Amplitude of the mode of degree `l` about the z axis: r = ... + a P_l(cos theta) \[m\].
@@ -99,7 +168,9 @@ impl Outline {
         (square * (2 * l + 1) as f64 / (4.0 * PI)).sqrt()
     }
 
-    fn nodes(&self) -> Vec<Node> {
+    /// Directions with their shares of the sphere, by Gauss's rule.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<Node> {
         let count = self.degree + MORE;
         let round = 2 * count;
         let mut nodes = Vec::with_capacity(count * round);
@@ -135,11 +206,7 @@ impl Outline {
         for node in self.nodes() {
             let n = &node.direction;
             let r = self.radius(n);
-            let rise = super::surface::tangents(n).map(|t| {
-                let [ahead, behind] =
-                    [STEP, -STEP].map(|s| self.radius(&direction(&along(n, s, &t))));
-                (ahead - behind) / (2.0 * STEP)
-            });
+            let rise = self.rise(n);
             area += node.weight * r * (r * r + rise[0] * rise[0] + rise[1] * rise[1]).sqrt();
         }
         area
@@ -205,7 +272,7 @@ fn monomials(x: &[f64; 3]) -> [(f64, i32); 10] {
 
 /// Real spherical harmonics of length 1 over the sphere up to a degree, at a unit vector: in each degree from -l (sines) to
 /// l (cosines).
-fn harmonics(degree: usize, n: &[f64; 3]) -> Vec<f64> {
+pub(super) fn harmonics(degree: usize, n: &[f64; 3]) -> Vec<f64> {
     let z = n[2];
     let ring = n[0].hypot(n[1]);
     let (cosine, sine) = if ring > 0.0 {

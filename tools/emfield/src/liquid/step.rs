@@ -64,6 +64,9 @@ pub struct Liquid<const D: usize> {
     pub stress: Vec<f64>,
     /// Traction of fields on the surface, outward, and how fast it changes \[Pa, Pa/s\]; none where there is no field.
     pub pull: [Vec<f64>; 2],
+    /// Force density of fields beside that traction, which stirs alone (see [`super::stirred`]), by point, and how fast it
+    /// changes \[N/m3, N/(m3 s)\]; none where there is none.
+    pub force: [Vec<[f64; D]>; 2],
 }
 
 /// How steps are taken.
@@ -98,6 +101,21 @@ struct Base<const D: usize> {
     tau: f64,
     /// Traction of fields at the end of the stage \[Pa\].
     pull: Vec<f64>,
+    /// Acceleration by their force then \[m/s2\]; nothing where there is none.
+    pushed: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Base<D> {
+    /// Velocities at the end of the stage without pressure and friction.
+    fn freed(&self, matter: &Matter<D>, drift: &[[f64; D]]) -> Vec<[f64; D]> {
+        let mut free: Vec<[f64; D]> = (self.velocity.iter().zip(drift))
+            .map(|(u, drift)| along(u, self.tau, &along(&matter.gravity, 1.0, drift)))
+            .collect();
+        for (free, own) in free.iter_mut().zip(&self.pushed) {
+            *free = along(free, self.tau, own);
+        }
+        free
+    }
 }
 
 /// What a stage leaves for what follows it.
@@ -126,6 +144,14 @@ impl<const D: usize> Liquid<D> {
         self.normal.len()
     }
 
+    /// The middle of the points of the surface \[m\].
+    #[must_use]
+    pub fn middle(&self) -> [f64; D] {
+        let share = (self.surface() as f64).recip();
+        let surface = self.position[..self.surface()].iter();
+        surface.fold([0.0; D], |sum, x| along(&sum, share, x))
+    }
+
     /// Takes a step of `dt` \[s\].
     ///
     /// # Errors
@@ -142,6 +168,7 @@ impl<const D: usize> Liquid<D> {
             velocity: self.velocity.clone(),
             tau,
             pull: self.pulled(tau),
+            pushed: self.pushed(matter, tau),
         };
         let first = self.stage(matter, way, &base, effort)?;
         // The rates of the first stage act for what is left of the step.
@@ -151,6 +178,7 @@ impl<const D: usize> Liquid<D> {
             velocity: stepped(&base.velocity, rest, &self.rate),
             tau,
             pull: self.pulled(dt),
+            pushed: self.pushed(matter, dt),
         };
         drop(first);
         self.stage(matter, way, &base, effort)
@@ -173,6 +201,7 @@ impl<const D: usize> Liquid<D> {
         let patches = made.map_err(|e| failed(&e))?;
         self.normal = patches.iter().map(|p| p.normal).collect();
         let drawn = 2.0 * matter.viscosity.unwrap_or(0.0);
+        let pushed = self.pushed(matter, 0.0);
         let right: Vec<f64> = (0..n)
             .map(|i| match patches.get(i) {
                 Some(patch) => {
@@ -195,6 +224,9 @@ impl<const D: usize> Liquid<D> {
         self.rate = (0..n)
             .map(|i| along(&matter.gravity, push, &rows.gradient_of(&self.pressure, i)))
             .collect();
+        for (rate, own) in self.rate.iter_mut().zip(&pushed) {
+            *rate = along(rate, 1.0, own);
+        }
         Ok(patches)
     }
 
@@ -212,15 +244,7 @@ impl<const D: usize> Liquid<D> {
         let patches =
             patches(&place[..surface], &self.normal, way.spacing).map_err(|e| failed(&e))?;
         let drift = drift(&patches, &guess);
-        let free: Vec<[f64; D]> = (0..n)
-            .map(|i| {
-                along(
-                    &base.velocity[i],
-                    tau,
-                    &along(&matter.gravity, 1.0, &drift[i]),
-                )
-            })
-            .collect();
+        let free = base.freed(matter, &drift);
         let right = right(matter, base, [&place, &free, &guess], (&rows, &patches));
         let conditions = Conditions {
             rows: &rows,
@@ -308,12 +332,6 @@ impl<const D: usize> Liquid<D> {
         }
         effort.unsettled += 1;
         Ok(())
-    }
-
-    /// The traction of fields after some time, as it changes now \[Pa\].
-    fn pulled(&self, time: f64) -> Vec<f64> {
-        let [now, rate] = &self.pull;
-        now.iter().zip(rate).map(|(p, r)| p + time * r).collect()
     }
 
     /// Velocities of the points of a liquid that moves at `velocity`.

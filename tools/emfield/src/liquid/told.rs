@@ -87,16 +87,19 @@ impl Totals {
     }
 }
 
-/// Places, kinds (1 on the surface), velocity and pressure of all points.
+/// Places, kinds (1 on the surface), velocity and pressure of all points, without the magnetic pressure that it carries.
 #[must_use]
-pub fn points(liquid: &Liquid<3>, precision: Precision) -> Frame {
+pub fn points(liquid: &Liquid<3>, magnetic: &[f64], precision: Precision) -> Frame {
+    let carried = |i: usize| magnetic.get(i).copied().unwrap_or(0.0);
+    let pressure = liquid.pressure.iter().enumerate();
+    let pressure = pressure.map(|(i, p)| p - carried(i));
     let surface = liquid.surface();
     let kinds = (0..liquid.position.len()).map(|i| u8::from(i < surface));
     Frame::new(precision)
         .positions(liquid.position.iter().copied())
         .flag("kind", kinds)
         .vector("velocity", "m/s", liquid.velocity.iter().copied())
-        .scalar("pressure", "Pa", liquid.pressure.iter().copied())
+        .scalar("pressure", "Pa", pressure)
 }
 
 /// Places, normals, areas and curvatures of the surface.

@@ -293,7 +293,7 @@ impl EddyCurrents {
 }
 
 impl Coil {
-    fn check(&self, at: &str, scene: &Scene, misfits: &mut Vec<Misfit>) {
+    pub(super) fn check(&self, at: &str, scene: &Scene, misfits: &mut Vec<Misfit>) {
         let geometry = scene.geometry;
         match (self, geometry) {
             (Self::Region(region), _) => region.check(&format!("{at}/region"), scene, misfits),

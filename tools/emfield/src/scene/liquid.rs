@@ -8,7 +8,7 @@ use shapes::Shape;
 use shapes::check::{self, Misfit};
 
 use super::faults::PLACE;
-use super::{Domain, Geometry, Scene};
+use super::{Domain, Geometry, MagneticField, Scene};
 
 /// How the liquid moves in time.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
@@ -23,13 +23,14 @@ pub struct LiquidMarch {
     pub step_s: Option<f64>,
 }
 
-/// The shape of a drop at rest in a uniform field along z, found without a march. It begins as the sphere that `shape` is.
+/// The shape of a drop at rest, found without a march: in a uniform electric field along z, or in the alternating field that
+/// `magnetic` is. It begins as the sphere that `shape` is.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Equilibrium {
-    /// Field far away.
+    /// Electric field far away; absent in a magnetic field.
     #[schemars(extend("x-unit" = "V/m", "exclusiveMinimum" = 0.0))]
-    pub field_v_m: f64,
+    pub field_v_m: Option<f64>,
     /// Permittivity of the liquid over that of the gas; a conductor when it is absent.
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_permittivity: Option<f64>,
@@ -89,6 +90,8 @@ pub struct Liquid {
     pub order: u8,
     /// Electric field in which it moves; none when it is absent.
     pub electric: Option<ElectricField>,
+    /// Alternating magnetic field in which it moves or rests; none when it is absent.
+    pub magnetic: Option<MagneticField>,
     /// Motion in time; this or `equilibrium`.
     pub march: Option<LiquidMarch>,
     /// Rest in a field; this or `march`.
@@ -125,7 +128,7 @@ impl Liquid {
                     misfits.push(Misfit::at("/liquid/march/step_s", what));
                 }
             }
-            (None, Some(_)) => self.check_rest(misfits),
+            (None, Some(rest)) => self.check_rest(rest, misfits),
             (None, None) => {
                 let what = "one of \"march\" and \"equilibrium\" is wanted";
                 misfits.push(Misfit::at("/liquid", what));
@@ -138,9 +141,12 @@ impl Liquid {
         if let Some(electric) = &self.electric {
             self.check_electric(electric, misfits);
         }
+        if let Some(magnetic) = &self.magnetic {
+            magnetic.check(scene, misfits);
+        }
         let fields = scene.electrostatics.is_some() || scene.eddy_currents.is_some();
         if fields {
-            let what = "a liquid moves in the field of its key \"electric\" alone: leave \"electrostatics\" and \"eddy_currents\" away";
+            let what = "a liquid moves in the field of its key \"electric\" or \"magnetic\" alone: leave \"electrostatics\" and \"eddy_currents\" away";
             misfits.push(Misfit::at("/liquid", what));
         } else if !scene.bodies.is_empty() {
             let what = "bodies act by their fields, and the scene has none: leave them away";
@@ -159,6 +165,10 @@ impl Liquid {
             let what = "acts on a march: take \"march\"";
             misfits.push(Misfit::at("/liquid/electric", what));
         }
+        if self.magnetic.is_some() {
+            let what = "\"electric\" and \"magnetic\" exclude each other";
+            misfits.push(Misfit::at("/liquid/electric", what));
+        }
         if electric.charge_c.is_some() && electric.relative_permittivity.is_some() {
             let what = "a dielectric has no free charge: leave \"relative_permittivity\" away";
             misfits.push(Misfit::at("/liquid/electric/charge_c", what));
@@ -166,7 +176,17 @@ impl Liquid {
     }
 
     /// What a drop at rest in a field is and is not.
-    fn check_rest(&self, misfits: &mut Vec<Misfit>) {
+    fn check_rest(&self, rest: &Equilibrium, misfits: &mut Vec<Misfit>) {
+        let electric = rest.field_v_m.is_some();
+        if electric == self.magnetic.is_some() {
+            let what = "one of \"field_v_m\" and the key \"magnetic\" of the liquid is wanted";
+            misfits.push(Misfit::at("/liquid/equilibrium", what));
+        }
+        if !electric && (rest.limit || rest.relative_permittivity.is_some()) {
+            let what =
+                "\"limit\" and \"relative_permittivity\" belong to \"field_v_m\": leave them away";
+            misfits.push(Misfit::at("/liquid/equilibrium", what));
+        }
         if !matches!(self.shape, Shape::Sphere(_)) {
             let what = "a drop at rest in a field has the volume of a sphere: take \"sphere\"";
             misfits.push(Misfit::at("/liquid/shape", what));
@@ -176,7 +196,7 @@ impl Liquid {
             misfits.push(Misfit::at("/liquid", what));
         }
         for (given, key) in [
-            (self.gravity_m_s2.is_some(), "gravity_m_s2"),
+            (electric && self.gravity_m_s2.is_some(), "gravity_m_s2"),
             (self.velocity_m_s.is_some(), "velocity_m_s"),
         ] {
             if given {

@@ -2,6 +2,7 @@
 
 pub(crate) mod faults;
 
+pub mod alternating;
 pub mod currents;
 pub mod domain;
 pub mod liquid;
@@ -14,6 +15,7 @@ pub mod potential;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use alternating::MagneticField;
 pub use currents::{Amplitude, Coil, EddyCurrents, ElectricPotential, Magnet};
 pub use domain::{BodyScene, Domain, Geometry, Medium};
 pub use liquid::{ElectricField, Equilibrium, Liquid, LiquidMarch};

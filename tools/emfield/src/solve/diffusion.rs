@@ -144,7 +144,19 @@ impl Conductors {
         sides: &Sides<D>,
         unknown: Unknown,
     ) -> Rows<f64> {
+        self.rows_of(region, |_| sides, unknown)
+    }
+
+    /// The same of stencils that are asked for by point.
+    #[must_use]
+    pub fn rows_of<'a, const D: usize>(
+        &self,
+        region: &Region<D>,
+        of: impl Fn(usize) -> &'a Sides<D> + Sync,
+        unknown: Unknown,
+    ) -> Rows<f64> {
         Rows::gathered(region.len(), 0.0, |i, row| {
+            let sides = of(i);
             let mut push = |j: usize, w: f64| row.push((j as u32, w));
             if self.held(region, unknown, i) {
                 push(i, 1.0);

@@ -61,6 +61,20 @@ impl Totals {
         }
     }
 
+    /// The same where all fields are stronger, so many times in their squares.
+    #[must_use]
+    pub fn times(self, square: f64) -> Self {
+        let times = |force: [f64; 3]| force.map(|f| square * f);
+        Self {
+            force_volume: times(self.force_volume),
+            force_stress: times(self.force_stress),
+            force_coil: times(self.force_coil),
+            heat_volume: square * self.heat_volume,
+            heat_surface: square * self.heat_surface,
+            heat_gross: square * self.heat_gross,
+        }
+    }
+
     /// The same of those bodies whose points are `kept`, but for the force on coils.
     #[must_use]
     pub fn bodies<const D: usize>(

@@ -232,17 +232,27 @@ where
     /// # Errors
     /// As for [`Self::new`].
     pub fn renew(&mut self, rows: Rows<T>) -> Result<(), Error> {
-        if rows.len() != self.rows.len() {
-            return Err(Error::Size {
-                expected: self.rows.len(),
-                found: rows.len(),
-            });
+        let plain = self.shift.iter().zip(&self.scale);
+        let plain: Vec<S> = plain
+            .map(|(s, scale)| s.times_real(scale.recip()))
+            .collect();
+        let mut shift = vec![S::ZERO; plain.len()];
+        self.order.back(&plain, &mut shift);
+        self.renew_shifted(rows, &shift)
+    }
+
+    /// The same with another shift, where what it stands for moves with the rows.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn renew_shifted(&mut self, rows: Rows<T>, shift: &[S]) -> Result<(), Error> {
+        let expected = self.rows.len();
+        let lengths = [rows.len(), shift.len()];
+        if let Some(&found) = lengths.iter().find(|n| **n != expected) {
+            return Err(Error::Size { expected, found });
         }
-        let mut rows = rows.into_order(&self.order);
-        let mut mixed = self.shift.clone();
-        for (shift, scale) in mixed.iter_mut().zip(&self.scale) {
-            *shift = shift.times_real(scale.recip());
-        }
+        let (mut rows, mut mixed) = (rows.into_order(&self.order), vec![S::ZERO; expected]);
+        self.order.forth(shift, &mut mixed);
         let scale = equilibrate(&mut rows, &mut mixed).map_err(|e| located(e, &self.order))?;
         (self.rows, self.shift, self.scale) = (rows, mixed, scale);
         Ok(())

@@ -150,6 +150,21 @@ impl<const D: usize> Metric<D> {
         bend.map_or(0.0, |b| b.curvature[0].abs().max(b.curvature[1].abs()))
     }
 
+    /// The same beside a surface that has turned, so that its unit normal is `normal`.
+    #[must_use]
+    pub fn beside(mut self, normal: [f64; D]) -> Self {
+        if let Some(layer) = &mut self.layer {
+            layer.normal = normal;
+            if let Some(bend) = &mut layer.bend {
+                let up = dot(&bend.along, &normal);
+                let flat: [f64; D] = std::array::from_fn(|a| bend.along[a] - up * normal[a]);
+                let length = dot(&flat, &flat).sqrt();
+                bend.along = flat.map(|a| a / length);
+            }
+        }
+        self
+    }
+
     /// The same beyond a plane across `axis`.
     #[must_use]
     pub fn mirrored(mut self, axis: usize) -> Self {

@@ -91,6 +91,12 @@ fn curves(runs: &[Run]) -> String {
         ("modes", &["mode_2", "mode_3", "mode_4"][..], "m"),
         ("energies", &["kinetic_energy", "surface_energy"][..], "J"),
         ("height of the centre", &["centre_z"][..], "m"),
+        (
+            "force of the field",
+            &["force_x", "force_y", "force_z"][..],
+            "N",
+        ),
+        ("heat of the currents", &["power"][..], "W"),
     ] {
         for run in runs {
             let last = run.rows.last().map_or(0.0, |r| r.0);

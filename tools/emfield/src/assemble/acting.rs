@@ -1,0 +1,266 @@
+//! Fields that act on a liquid as it moves: what they do at every step, and what is told and kept of it.
+
+use artefact::{Checkpoint, Record};
+use run::{Failure, Session};
+
+use super::alternating::{alternating, hold};
+use crate::liquid::air::Place;
+use crate::liquid::effort::Effort;
+use crate::liquid::electric::{Applied, Electric};
+use crate::liquid::magnetic::{Magnetic, outline};
+use crate::liquid::step::{Liquid, Matter, Way};
+use crate::liquid::vector::along;
+use crate::scene::{Liquid as Part, Scene};
+
+/// Current through the surface over that along it from which charges, which are left out, matter.
+const THROUGH: f64 = 0.02;
+
+/// The fields of a scene that act on its liquid, and what they took.
+pub(super) struct Acting {
+    electric: Option<Electric>,
+    magnetic: Option<Magnetic>,
+    /// By what the currents of coils were multiplied.
+    factor: f64,
+    /// What the field adds to the pressure that the liquid carries, by point \[Pa\].
+    pub(super) pressure: Vec<f64>,
+    /// Greatest current through the surface so far, over that along it.
+    through: f64,
+}
+
+impl Acting {
+    /// Those of a scene about a liquid at its start.
+    ///
+    /// # Errors
+    /// Where the points of a field cannot be made.
+    pub(super) fn new(
+        (scene, part): (&Scene, &Part),
+        liquid: &Liquid<3>,
+        session: &mut Session,
+    ) -> Result<Self, Failure> {
+        let magnetic = match &part.magnetic {
+            Some(given) => {
+                let made = || alternating((scene, given), liquid);
+                Some(session.timed("points about a ball", made)?)
+            }
+            None => None,
+        };
+        Ok(Self {
+            electric: electric(part),
+            magnetic,
+            factor: 1.0,
+            pressure: Vec::new(),
+            through: 0.0,
+        })
+    }
+
+    /// What fields do at the start, with currents as strong as the scene asks for.
+    ///
+    /// # Errors
+    /// Where the field is to hold the liquid and does not lift it, and those of the field.
+    pub(super) fn begin(
+        &mut self,
+        (part, matter): (&Part, &Matter<3>),
+        (liquid, way, centre): (&mut Liquid<3>, &Way, [f64; 3]),
+        effort: &mut Effort,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        self.pull((liquid, way, centre), 0.0, effort, session)?;
+        let balanced = part.magnetic.as_ref().is_some_and(|m| m.balanced);
+        if let Some(magnetic) = self.magnetic.as_mut().filter(|_| balanced) {
+            let skin = Place::of(&liquid.position, &liquid.normal, way.spacing).skin;
+            let volume = outline(skin, centre)?.volume().0;
+            let factor = hold(magnetic, matter, volume)?;
+            magnetic.strengthen(factor);
+            self.factor *= factor;
+            let force = liquid.force[0].as_flattened_mut().iter_mut();
+            let all = force.chain(&mut liquid.pull[0]).chain(&mut self.pressure);
+            all.for_each(|p| *p *= factor * factor);
+        }
+        Ok(())
+    }
+
+    /// What fields do where the liquid is, `passed` after the last time \[s\]; the impulse of it \[N s\].
+    ///
+    /// # Errors
+    /// Where the fields cannot be found.
+    pub(super) fn pull(
+        &mut self,
+        (liquid, way, centre): (&mut Liquid<3>, &Way, [f64; 3]),
+        passed: f64,
+        effort: &mut Effort,
+        session: &mut Session,
+    ) -> Result<[f64; 3], Failure> {
+        let place = Place::of(&liquid.position, &liquid.normal, way.spacing);
+        let rule = way.rule();
+        let (traction, force, impulse) = if let Some(electric) = &mut self.electric {
+            let stood = session.timed("points of the field", || electric.stand(place))?;
+            let sides = session.timed("weights of the field", || electric.fit(&stood))?;
+            let made = (&stood, &sides);
+            let now = session.timed("electric field", || electric.traction(made, rule, effort))?;
+            (now, Vec::new(), electric.force().map(|f| passed * f))
+        } else if let Some(magnetic) = &mut self.magnetic {
+            let about = outline(place.skin, centre)?;
+            let stood = session.timed("points of the field", || magnetic.stand(&about));
+            let sides = session.timed("weights of the field", || magnetic.fit(&stood))?;
+            let before = magnetic.force();
+            let at = (place, centre);
+            let act = session.timed("magnetic field", || {
+                magnetic.act((&stood, &sides), at, (rule, effort))
+            })?;
+            self.through = self.through.max(magnetic.out);
+            let both = along(&before, 1.0, &magnetic.force());
+            let mut force = act.pull;
+            let stirred = || liquid.stirred(&mut force, &act.phi, way, effort);
+            let phi = session.timed("stirring", stirred)?;
+            let added = act.pressure.iter().zip(&phi);
+            self.pressure = added.map(|(p, phi)| p + phi).collect();
+            let skin = &self.pressure[..act.phi.len()];
+            let traction = skin.iter().map(|p| -p).collect();
+            (traction, force, both.map(|f| 0.5 * passed * f))
+        } else {
+            return Ok([0.0; 3]);
+        };
+        let pull = std::mem::replace(&mut liquid.pull[0], traction);
+        let held = std::mem::replace(&mut liquid.force[0], force);
+        let rate = |now: f64, before: f64| {
+            if passed > 0.0 {
+                (now - before) / passed
+            } else {
+                0.0
+            }
+        };
+        let both = liquid.pull[0].iter().enumerate();
+        liquid.pull[1] = both
+            .map(|(i, now)| rate(*now, pull.get(i).copied().unwrap_or(0.0)))
+            .collect();
+        let both = liquid.force[0].iter().enumerate();
+        liquid.force[1] = both
+            .map(|(i, now)| {
+                let before = held.get(i).copied().unwrap_or([0.0; 3]);
+                std::array::from_fn(|k| rate(now[k], before[k]))
+            })
+            .collect();
+        Ok(impulse)
+    }
+
+    /// Force of an alternating field on the liquid \[N\].
+    pub(super) fn force(&self) -> [f64; 3] {
+        let magnetic = self.magnetic.as_ref();
+        magnetic.map_or([0.0; 3], Magnetic::force)
+    }
+
+    /// Adds what fields do to a row.
+    pub(super) fn row(&self, record: Record) -> Record {
+        let Some(magnetic) = &self.magnetic else {
+            return record;
+        };
+        let totals = &magnetic.totals;
+        let mut record = record;
+        for (k, axis) in ["x", "y", "z"].iter().enumerate() {
+            record = record.with(&format!("force_{axis}"), "N", totals.force_coil[k]);
+        }
+        record
+            .with("lift_volume", "N", totals.force_volume[2])
+            .with("lift_maxwell", "N", totals.force_stress[2])
+            .with("power", "W", totals.heat_volume)
+            .with("power_poynting", "W", totals.heat_surface)
+            .with("current_out", "1", magnetic.out)
+    }
+
+    pub(super) fn save(
+        &self,
+        (liquid, effort): (&Liquid<3>, &Effort),
+        checkpoint: &mut Checkpoint,
+    ) {
+        if let Some(electric) = &self.electric {
+            electric.save(checkpoint);
+        } else if let Some(magnetic) = &self.magnetic {
+            magnetic.save(checkpoint);
+            checkpoint.put_vectors("force", &liquid.force[0]);
+            checkpoint.put_vectors("force_rate", &liquid.force[1]);
+            checkpoint.put_f64("magnetic_pressure", &self.pressure);
+            checkpoint.put_f64("currents", &[self.factor, self.through]);
+        } else {
+            return;
+        }
+        checkpoint.put_f64("pull", &liquid.pull[0]);
+        checkpoint.put_f64("pull_rate", &liquid.pull[1]);
+        checkpoint.put_u64(
+            "field_counts",
+            &[effort.field_products, effort.field_unsolved],
+        );
+        checkpoint.put_f64("field_residual", &[effort.field_residual]);
+    }
+
+    pub(super) fn restore(
+        &mut self,
+        (liquid, effort): (&mut Liquid<3>, &mut Effort),
+        spacing: f64,
+        checkpoint: &mut Checkpoint,
+    ) -> Result<(), Failure> {
+        if let Some(electric) = &mut self.electric {
+            electric.restore(checkpoint, spacing)?;
+        } else if let Some(magnetic) = &mut self.magnetic {
+            if let [factor, through] = checkpoint.f64("currents")?[..] {
+                (self.factor, self.through) = (factor, through);
+                magnetic.strengthen(factor);
+            }
+            magnetic.restore(checkpoint, spacing)?;
+            self.pressure = checkpoint.f64("magnetic_pressure")?;
+            liquid.force = [
+                checkpoint.vectors("force")?,
+                checkpoint.vectors("force_rate")?,
+            ];
+        } else {
+            return Ok(());
+        }
+        if let [products, unsolved] = checkpoint.u64("field_counts")?[..] {
+            (effort.field_products, effort.field_unsolved) = (products, unsolved);
+        }
+        let residual = checkpoint.f64("field_residual")?;
+        effort.field_residual = residual.first().copied().unwrap_or(0.0);
+        liquid.pull = [checkpoint.f64("pull")?, checkpoint.f64("pull_rate")?];
+        Ok(())
+    }
+
+    pub(super) fn close(&self, effort: &Effort, session: &mut Session) {
+        let name = if let Some(electric) = &self.electric {
+            session.closing("points_field", "1", electric.awake as f64);
+            session.closing("air_renewed", "1", electric.renewed() as f64);
+            "electric"
+        } else if let Some(magnetic) = &self.magnetic {
+            session.closing("points_field", "1", magnetic.count() as f64);
+            session.closing("factors_renewed", "1", magnetic.renewed() as f64);
+            session.closing("current_factor", "1", self.factor);
+            session.closing("current_out", "1", self.through);
+            if self.through > THROUGH {
+                session.warn(format!(
+                    "currents meet the surface: {:.3} of the greatest along it; the charges that they bring are left out, so that force and heat err by about as much",
+                    self.through
+                ));
+            }
+            "magnetic"
+        } else {
+            return;
+        };
+        session.closing("products_field", "1", effort.field_products as f64);
+        session.closing("residual_field", "1", effort.field_residual);
+        if effort.field_unsolved > 0 {
+            session.warn(format!(
+                "not converged: {} solves of the {name} field",
+                effort.field_unsolved
+            ));
+        }
+    }
+}
+
+/// The electric field of a scene.
+pub(super) fn electric(part: &Part) -> Option<Electric> {
+    let given = part.electric.as_ref()?;
+    let applied = Applied {
+        field: std::array::from_fn(|k| given.field_v_m.get(k).copied().unwrap_or(0.0)),
+        permittivity: given.relative_permittivity,
+        charge: given.charge_c.unwrap_or(0.0),
+    };
+    Some(Electric::new(applied, given.order))
+}
