@@ -188,24 +188,10 @@ fn scalar(name: String, unit: String, value: f64) -> Column {
     }
 }
 
-/// Unit that the last part of a key states: `x_m` is in metres; `1` where it states none.
+/// Unit that the last part of a path states that is no number; `1` where it states none.
 fn unit_of(path: &str) -> &'static str {
     let key = path.rsplit('.').find(|k| k.parse::<usize>().is_err());
-    let last = key.and_then(|k| k.rsplit_once('_')).map(|(_, unit)| unit);
-    match last {
-        Some("m") => "m",
-        Some("s") => "s",
-        Some("k") => "K",
-        Some("kg") => "kg",
-        Some("j") => "J",
-        Some("w") => "W",
-        Some("a") => "A",
-        Some("v") => "V",
-        Some("pa") => "Pa",
-        Some("m2") => "m2",
-        Some("m3") => "m3",
-        _ => "1",
-    }
+    key.and_then(artefact::unit_of_key).unwrap_or("1")
 }
 
 /// A number for people: six digits, a power of ten where it is very small or large.
@@ -249,7 +235,8 @@ mod tests {
     #[test]
     fn json_becomes_columns_named_by_path() {
         let value = serde_json::json!({
-            "time_s": 0.5, "min_m": [1.0, 2.0], "name": "plate", "wet": true
+            "time_s": 0.5, "min_m": [1.0, 2.0], "name": "plate", "wet": true,
+            "metal": {"density_kg_m3": 7000.0, "slope_n_m_k": [[1.0]], "count": 3}
         });
         let sheet = Sheet::json(&value);
         let names: Vec<_> = sheet
@@ -257,7 +244,17 @@ mod tests {
             .iter()
             .map(|c| (c.name.as_str(), c.unit.as_str()))
             .collect();
-        assert_eq!(names, [("time_s", "s"), ("min_m.0", "m"), ("min_m.1", "m")]);
+        assert_eq!(
+            names,
+            [
+                ("time_s", "s"),
+                ("min_m.0", "m"),
+                ("min_m.1", "m"),
+                ("metal.density_kg_m3", "kg/m3"),
+                ("metal.slope_n_m_k.0.0", "N/(m K)"),
+                ("metal.count", "1"),
+            ]
+        );
         assert_eq!(sheet.columns[2].values, Values::F64(vec![2.0]));
         let texts: Vec<_> = sheet.texts.iter().map(|(_, t)| t.as_str()).collect();
         assert_eq!(texts, ["plate", "true"]);

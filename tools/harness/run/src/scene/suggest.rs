@@ -1,48 +1,7 @@
 //! What a person probably meant: the nearest known key, the same key in SI.
 
+use artefact::unit_of_key;
 use serde_json::Value;
-
-/// Endings of keys with their unit, longest first among those that overlap.
-const UNITS: [(&str, &str); 38] = [
-    ("_w_m2_k", "W/(m2 K)"),
-    ("_w_m_k", "W/(m K)"),
-    ("_j_kg_k", "J/(kg K)"),
-    ("_n_m_k", "N/(m K)"),
-    ("_w_m3", "W/m3"),
-    ("_w_m2", "W/m2"),
-    ("_j_kg", "J/kg"),
-    ("_kg_m3", "kg/m3"),
-    ("_kg_s", "kg/s"),
-    ("_m3_s", "m3/s"),
-    ("_m2_s", "m2/s"),
-    ("_m_s2", "m/s2"),
-    ("_m_s", "m/s"),
-    ("_a_m2", "A/m2"),
-    ("_n_m3", "N/m3"),
-    ("_n_m", "N/m"),
-    ("_v_m", "V/m"),
-    ("_pa_s", "Pa s"),
-    ("_s_m", "S/m"),
-    ("_1_k", "1/K"),
-    ("_k_s", "K/s"),
-    ("_k_m", "K/m"),
-    ("_j_m3", "J/m3"),
-    ("_1_s", "1/s"),
-    ("_1_m", "1/m"),
-    ("_m3", "m3"),
-    ("_m2", "m2"),
-    ("_rad", "rad"),
-    ("_pa", "Pa"),
-    ("_hz", "Hz"),
-    ("_kg", "kg"),
-    ("_m", "m"),
-    ("_s", "s"),
-    ("_k", "K"),
-    ("_a", "A"),
-    ("_v", "V"),
-    ("_w", "W"),
-    ("_j", "J"),
-];
 
 /// Endings that are not SI: the SI ending, factor and offset that lead to it.
 const FOREIGN: [(&str, &str, f64, f64); 27] = [
@@ -75,14 +34,6 @@ const FOREIGN: [(&str, &str, f64, f64); 27] = [
     ("_khz", "_hz", 1e3, 0.0),
 ];
 
-/// The unit that the ending of a key states.
-pub(crate) fn unit_of(key: &str) -> Option<&'static str> {
-    UNITS
-        .iter()
-        .find(|(ending, _)| key.ends_with(ending))
-        .map(|&(_, unit)| unit)
-}
-
 /// What to say of an unknown key, with the value converted where only the unit is another.
 pub(crate) fn instead_of(key: &str, value: Option<&Value>, known: &[&str]) -> Option<String> {
     for (ending, si, factor, offset) in FOREIGN {
@@ -91,7 +42,7 @@ pub(crate) fn instead_of(key: &str, value: Option<&Value>, known: &[&str]) -> Op
         };
         let meant = format!("{stem}{si}");
         if known.contains(&meant.as_str()) {
-            let unit = unit_of(&meant).unwrap_or("SI");
+            let unit = unit_of_key(&meant).unwrap_or("SI");
             let converted = value
                 .and_then(Value::as_f64)
                 .map(|x| format!(": {}", shortest(x * factor + offset)));
@@ -107,7 +58,7 @@ pub(crate) fn instead_of(key: &str, value: Option<&Value>, known: &[&str]) -> Op
 /// The known word nearest to a word, if one is near.
 #[must_use]
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
-    let stem = |key: &str| unit_of(key).map_or(0, |_| 1);
+    let stem = |key: &str| unit_of_key(key).map_or(0, |_| 1);
     known
         .iter()
         .map(|&candidate| {

@@ -1,11 +1,12 @@
 //! Every fault of a scene against its schema, in words a person can act on.
 
+use artefact::unit_of_key;
 use jsonschema::error::{TypeKind, ValidationErrorKind as Kind};
 use jsonschema::{JsonType, ValidationError};
 use serde_json::{Map, Value};
 
 use super::choice::{best_branch, no_form};
-use super::suggest::{instead_of, unit_of};
+use super::suggest::instead_of;
 use super::words::{none_of, show, type_of};
 use crate::fault::Fault;
 
@@ -33,7 +34,7 @@ fn explain(schema: &Value, scene: &Value, error: &ValidationError<'_>, found: &m
     let unit = node
         .and_then(|n| n.get("x-unit"))
         .and_then(Value::as_str)
-        .or_else(|| unit_of(last_key(path)));
+        .or_else(|| unit_of_key(last_key(path)));
     let at = |what: String| Fault::at(path, what);
     match error.kind() {
         Kind::AdditionalProperties { unexpected } | Kind::UnevaluatedProperties { unexpected } => {
@@ -103,7 +104,9 @@ fn missing(key: &str, node: Option<&Value>) -> String {
         .and_then(Value::as_str)
         .map(|text| format!(" ({})", plain(text.lines().next().unwrap_or_default())))
         .unwrap_or_default();
-    let unit = unit_of(key).map(|u| format!(" in {u}")).unwrap_or_default();
+    let unit = unit_of_key(key)
+        .map(|u| format!(" in {u}"))
+        .unwrap_or_default();
     format!("has no key '{key}'{unit}{described}")
 }
 
