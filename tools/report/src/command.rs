@@ -7,8 +7,8 @@ use clap::{Parser, Subcommand};
 use run::{Failure, Form, Owned};
 
 use crate::files::{
-    DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PassesFiles,
-    perhaps_named,
+    DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PairFiles,
+    PassesFiles, SweepFiles, perhaps_named,
 };
 use crate::{figures, index, page, validate};
 
@@ -48,6 +48,11 @@ enum Action {
     /// One page about tables of gases: curves, composition, published values, uncertain inputs.
     #[command(after_help = GAS)]
     Gas(GasFiles),
+    /// One page about the points of a sweep; `sweep` calls it.
+    Sweep(SweepFiles),
+    /// One page that compares two runs: what was changed, numbers, pictures, curves.
+    #[command(after_help = COMPARE)]
+    Compare(PairFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
     Index(Folders),
     /// Prints the measures of a weld's bead as JSON, with their units and ranges along the weld.
@@ -89,6 +94,9 @@ const FIELD: &str = "Example, from the repository root:\n  \
 const DROP: &str = "Example, from the repository root:\n  \
     target/release/report drop --study drop-oscillation --out build/drop-oscillation/report.html \\\n    \
     --drop water=build/drop-oscillation/drop.mcap";
+
+const COMPARE: &str = "Example, from the repository root:\n  \
+    target/release/report compare --a build/gmaw-quick --b build/my-weld --out build/compare/my-weld.html";
 
 const GAS: &str = "Example, from the repository root:\n  \
     target/release/report gas --study gases --out build/gases/report.html \\\n    \
@@ -134,6 +142,8 @@ impl Action {
             Self::Field(f) => Some(&mut f.out),
             Self::Drop(f) => Some(&mut f.out),
             Self::Gas(f) => Some(&mut f.out),
+            Self::Sweep(f) => Some(&mut f.out),
+            Self::Compare(f) => Some(&mut f.out),
             Self::Index(f) => Some(&mut f.out),
             Self::Validate { .. } | Self::Figures { .. } => None,
         }
@@ -166,8 +176,9 @@ impl Action {
             Self::Field(f) => named(&[&f.fields, &f.exact]),
             Self::Drop(f) => named(&[&f.drops]),
             Self::Gas(f) => named(&[&f.table, &f.reference, &f.variant]),
+            Self::Sweep(f) => vec![("the points".to_owned(), f.points.clone())],
             Self::Index(f) => f.read(),
-            Self::Validate { .. } | Self::Figures { .. } => Vec::new(),
+            Self::Compare(_) | Self::Validate { .. } | Self::Figures { .. } => Vec::new(),
         }
     }
 }
@@ -214,6 +225,8 @@ fn complete(action: &Action) -> Result<(), Failure> {
         Action::Field(_) => ("--fields", true),
         Action::Drop(_) => ("--drop", true),
         Action::Gas(_) => ("--table", true),
+        Action::Sweep(_) => ("--points", true),
+        Action::Compare(_) => ("--a and --b", true),
     };
     if !given {
         let what = format!("there is nothing to report on: name at least one of {wanted}");
@@ -231,6 +244,8 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Field(files) => page::field::write(files).map(|()| ExitCode::SUCCESS),
         Action::Drop(files) => page::drop::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Sweep(files) => page::sweep::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Compare(files) => page::pair::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Figures { pool } => figures::run(pool),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),

@@ -127,6 +127,31 @@ pub(crate) struct GasFiles {
     pub(crate) variant: Vec<(String, PathBuf)>,
 }
 
+/// Files of the page of a sweep.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SweepFiles {
+    /// What `sweep` tells of its points.
+    #[arg(long)]
+    pub(crate) points: PathBuf,
+    /// The page to write; its table stands beside it, with the ending csv.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+}
+
+/// Folders of two runs.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PairFiles {
+    /// Folder of the one run.
+    #[arg(long)]
+    pub(crate) a: PathBuf,
+    /// Folder of the other.
+    #[arg(long)]
+    pub(crate) b: PathBuf,
+    /// The page to write; its table stands beside it, with the ending csv.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+}
+
 /// Folders of the index.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Folders {

@@ -4,8 +4,17 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::draw::canvas::Canvas;
+use crate::draw::palette::MOST;
 
 const STYLE: &str = include_str!("style.css");
+/// The only script: a time slider under frames that stand beside each other without it.
+const SLIDER: &str = include_str!("slider.js");
+/// Frames are small: their width \[px\] and their colours. Twenty-five take about as much as two large pictures.
+pub(crate) const FRAME_WIDTH: usize = 440;
+const FRAME_COLOURS: usize = 32;
+/// Of what the slider is for.
+const FRAMES: &str = "class=\"frames\"";
+const MOVING: &str = "class=\"plot moving\"";
 
 /// Text with the characters that HTML reserves replaced.
 pub(crate) fn escape(text: &str) -> String {
@@ -62,11 +71,16 @@ impl Page {
         } else {
             String::new()
         };
+        let slides = [FRAMES, MOVING].iter().any(|what| bodies.contains(what));
+        let script = match slides {
+            true => format!("<script>\n{SLIDER}</script>\n"),
+            false => String::new(),
+        };
         format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
-             <header>\n<h1>{title}</h1>\n{}</header>\n{nav}{bodies}</main>\n</body>\n</html>\n",
+             <header>\n<h1>{title}</h1>\n{}</header>\n{nav}{bodies}</main>\n{script}</body>\n</html>\n",
             self.lead
         )
     }
@@ -109,18 +123,62 @@ pub(crate) fn beside(tables: &[String]) -> String {
     format!("<div class=\"tables\">\n{all}</div>\n")
 }
 
-/// A picture inside the page; `describes` is read where it cannot be seen.
+/// A picture inside the page, which fills the window when it is clicked; `describes` is read where it cannot be seen.
 ///
 /// # Errors
 /// When the picture cannot be encoded.
 pub(crate) fn picture(canvas: &Canvas, describes: &str) -> Result<String, png::EncodingError> {
-    let data = STANDARD.encode(canvas.png()?);
-    Ok(format!(
+    coloured(canvas, describes, MOST)
+}
+
+fn coloured(
+    canvas: &Canvas,
+    describes: &str,
+    colours: usize,
+) -> Result<String, png::EncodingError> {
+    let data = STANDARD.encode(canvas.png(colours)?);
+    Ok(enlarging(&format!(
         "<img class=\"picture\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{data}\">",
         canvas.width,
         canvas.height,
         escape(describes)
-    ))
+    )))
+}
+
+/// Frames one after another, each with its moment: one at a time under a slider, or beside each other where no script runs.
+///
+/// # Errors
+/// When a picture cannot be encoded.
+pub(crate) fn frames(
+    moments: &[(String, Canvas)],
+    describes: &str,
+) -> Result<String, png::EncodingError> {
+    let mut out = format!("<div {FRAMES}>\n");
+    for (moment, canvas) in moments {
+        let words = format!("{describes} {moment}");
+        let small = canvas.smaller(FRAME_WIDTH);
+        out += &figure(&coloured(&small, &words, FRAME_COLOURS)?, moment);
+    }
+    Ok(match moments.is_empty() {
+        true => String::new(),
+        false => out + "</div>\n",
+    })
+}
+
+/// So many frames of `count` are shown, evenly, the first and the last among them.
+pub(crate) fn chosen(count: usize) -> Vec<usize> {
+    const FEW: usize = 25;
+    if count <= FEW {
+        return (0..count).collect();
+    }
+    let last = (count - 1) as f64;
+    let place = |i: usize| (last * i as f64 / (FEW - 1) as f64).round() as usize;
+    (0..FEW).map(place).collect()
+}
+
+/// A picture that fills the window when it is clicked, and goes back when it is clicked again: a hidden box that is ticked.
+pub(crate) fn enlarging(image: &str) -> String {
+    format!("<label class=\"zoom\"><input type=\"checkbox\">{image}</label>")
 }
 
 /// A table. Columns whose head begins with `#` hold numbers and stand right.
@@ -204,6 +262,29 @@ mod tests {
         let html = page.render();
         assert!(!html.contains("Absent") && html.contains("Present") && !html.contains("<nav>"));
         assert_eq!(Rows::new(&["a"]).render(), "");
+    }
+
+    #[test]
+    fn a_slider_is_there_for_frames_alone() {
+        let canvas = Canvas::new(4, 4);
+        let moments = [
+            ("0 s".to_owned(), canvas.clone()),
+            ("1 s".to_owned(), canvas),
+        ];
+        let mut page = Page::new("T", "");
+        page.section("A", frames(&moments, "x").unwrap());
+        page.section("B", frames(&moments, "x").unwrap());
+        let html = page.render();
+        assert_eq!(html.matches("<script").count(), 1);
+        assert_eq!(
+            html.matches("<img").count(),
+            4,
+            "without a script all stand there"
+        );
+        assert_eq!(frames(&[], "x").unwrap(), "");
+        assert_eq!(chosen(3), [0, 1, 2]);
+        let many = chosen(201);
+        assert_eq!((many.len(), many[0], many[24]), (25, 0, 200));
     }
 
     #[test]

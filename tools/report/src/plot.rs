@@ -4,6 +4,7 @@
 //! dark page. Series differ in colour (Okabe and Ito's, which the colour-blind tell apart), and in
 //! the shape of their marks or, without marks, in their dashes.
 
+mod data;
 mod frame;
 mod line;
 
@@ -101,11 +102,15 @@ impl Plot {
         self.lines.is_empty()
     }
 
-    /// The plot as SVG; nothing if it is empty.
-    pub(crate) fn svg(&self) -> String {
+    /// The plot as SVG, and below it its numbers as a file to be saved; nothing if it is empty.
+    pub(crate) fn html(&self) -> String {
         if self.lines.is_empty() {
             return String::new();
         }
+        self.svg() + &data::link(&self.x_title, &self.y_title, &self.lines)
+    }
+
+    fn svg(&self) -> String {
         let rows = self.legend_rows();
         let top = MARGIN[2] + rows.len() as f64 * ROW;
         let frame = Frame {
@@ -289,6 +294,6 @@ mod tests {
             "a",
             vec![[0.0, 1.0], [1.0, f64::NAN], [-1.0, 2.0]],
         ));
-        assert!(plot.is_empty() && plot.svg().is_empty());
+        assert!(plot.is_empty() && plot.html().is_empty());
     }
 }

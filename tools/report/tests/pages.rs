@@ -1,6 +1,10 @@
 //! Pages and verdicts from artefacts with known content.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+#[path = "pages/beside.rs"]
+mod beside;
+#[path = "pages/browser.rs"]
+mod browser;
 mod sample;
 
 use std::path::{Path, PathBuf};
@@ -70,7 +74,13 @@ fn a_whole_study_has_every_section_and_its_measures_are_those_of_the_sample() {
     assert!(html.matches("data:image/png;base64,").count() >= 8);
     assert!(html.contains("no key &apos;gas_shear&apos;") || html.contains("no key 'gas_shear'"));
     // Nothing is fetched: every source is embedded, every link is inside the page.
-    assert!(!html.contains("http:") && !html.contains("https:") && !html.contains("<script"));
+    assert!(!html.contains("http:") && !html.contains("https:") && !html.contains("<script "));
+    assert_eq!(
+        html.matches("<script>").count(),
+        1,
+        "the slider of the weld's frames"
+    );
+    assert_eq!(html.matches("<figcaption>2.000 s</figcaption>").count(), 1);
     assert_eq!(
         html.matches("src=\"").count(),
         html.matches("src=\"data:").count()

@@ -173,17 +173,37 @@ impl Canvas {
         self.triangle([to, left, right], colour);
     }
 
+    /// The picture at about the width wanted or below: blocks of whole pixels become their mean. As it is where it is no wider.
+    pub(crate) fn smaller(&self, wanted: usize) -> Self {
+        let block = self.width.div_ceil(wanted.max(1)).max(1);
+        let mut small = Self::new(self.width / block, self.height / block);
+        let share = 1.0 / (block * block) as f32;
+        for y in 0..small.height {
+            for x in 0..small.width {
+                let mut mean = [0.0_f32; 3];
+                for row in y * block..(y + 1) * block {
+                    let from = row * self.width + x * block;
+                    for pixel in &self.pixels[from..from + block] {
+                        (0..3).for_each(|k| mean[k] += share * pixel[k]);
+                    }
+                }
+                small.pixels[y * small.width + x] = mean;
+            }
+        }
+        small
+    }
+
     /// The pixels by rows, three bytes each.
     pub(crate) fn rgb(&self) -> Vec<u8> {
         let byte = |part: &f32| (255.0 * part.clamp(0.0, 1.0)).round() as u8;
         self.pixels.iter().flatten().map(byte).collect()
     }
 
-    /// The picture as a PNG file.
-    pub(crate) fn png(&self) -> Result<Vec<u8>, png::EncodingError> {
+    /// The picture as a PNG file of at most so many colours, and of 256.
+    pub(crate) fn png(&self, colours: usize) -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
-        let indexed = palette::index(&self.pixels);
+        let indexed = palette::index(&self.pixels, colours);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_palette(indexed.colours.concat());
@@ -244,6 +264,17 @@ mod tests {
     }
 
     #[test]
+    fn a_smaller_picture_is_the_mean_of_its_blocks() {
+        let mut canvas = Canvas::new(5, 4);
+        canvas.blend(0, 0, [0.0; 3], 1.0);
+        let small = canvas.smaller(3);
+        assert_eq!((small.width, small.height), (2, 2));
+        assert_eq!(small.get(0, 0), Some([0.75; 3]));
+        assert_eq!(small.get(1, 1), Some(WHITE));
+        assert_eq!(canvas.smaller(5).width, 5);
+    }
+
+    #[test]
     fn a_triangle_is_filled_whichever_way_it_turns() {
         for corners in [
             [[1.0, 1.0], [19.0, 1.0], [10.0, 19.0]],
@@ -260,7 +291,7 @@ mod tests {
     fn a_png_comes_back_as_it_was() {
         let mut canvas = Canvas::new(3, 2);
         canvas.blend(1, 0, [1.0, 0.0, 0.0], 1.0);
-        let bytes = canvas.png().unwrap();
+        let bytes = canvas.png(palette::MOST).unwrap();
         let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         decoder.set_transformations(png::Transformations::EXPAND);
         let mut reader = decoder.read_info().unwrap();

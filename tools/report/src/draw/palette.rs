@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::colour::Rgb;
 
 /// Most colours of a palette.
-const MOST: usize = 256;
+pub(crate) const MOST: usize = 256;
 /// Bits per channel of a bin.
 const BITS: u32 = 6;
 
@@ -30,8 +30,8 @@ struct Bin {
     sum: [u64; 3],
 }
 
-/// Gives every pixel the mean colour of its box.
-pub(crate) fn index(pixels: &[Rgb]) -> Indexed {
+/// Gives every pixel the mean colour of its box, of so many boxes.
+pub(crate) fn index(pixels: &[Rgb], most: usize) -> Indexed {
     let bytes: Vec<[u8; 3]> = pixels
         .iter()
         .map(|p| p.map(|part| (part * 255.0).round().clamp(0.0, 255.0) as u8))
@@ -50,7 +50,7 @@ pub(crate) fn index(pixels: &[Rgb]) -> Indexed {
             *sum += u64::from(*part);
         }
     }
-    let boxes = cut(bins.into_values().collect());
+    let boxes = cut(bins.into_values().collect(), most.min(MOST));
     let mut which = BTreeMap::new();
     for (n, bins) in boxes.iter().enumerate() {
         for bin in bins {
@@ -70,9 +70,9 @@ fn place(colour: [u8; 3]) -> [u8; 3] {
     colour.map(|part| part >> (8 - BITS))
 }
 
-fn cut(bins: Vec<Bin>) -> Vec<Vec<Bin>> {
+fn cut(bins: Vec<Bin>, most: usize) -> Vec<Vec<Bin>> {
     let mut boxes = vec![bins];
-    while boxes.len() < MOST {
+    while boxes.len() < most {
         // The box whose pixels suffer most: far apart above all, then many. Were it many above all,
         // small things such as colour bars would lose their colours to large plain faces.
         let worst = boxes
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn few_colours_come_back_as_they_were() {
         let pixels = [[1.0, 1.0, 1.0], [0.0, 0.0, 1.0], [0.2, 0.4, 0.6]].repeat(7);
-        let found = index(&pixels);
+        let found = index(&pixels, MOST);
         assert_eq!(found.colours.len(), 3);
         for (pixel, n) in pixels.iter().zip(&found.pixels) {
             let bytes = pixel.map(|p: f32| (p * 255.0).round() as u8);
@@ -150,7 +150,7 @@ mod tests {
                 [a, b, 0.5 * (a + b)]
             })
             .collect();
-        let found = index(&pixels);
+        let found = index(&pixels, MOST);
         assert_eq!(found.colours.len(), MOST);
         let worst = pixels.iter().zip(&found.pixels).map(|(pixel, n)| {
             let colour = found.colours[usize::from(*n)];

@@ -145,7 +145,7 @@ fn plot(name: &str, told: &Certified, points: &[Point]) -> Option<String> {
     }
     (!plot.is_empty()).then(|| {
         let caption = "Distance from what each knob tends to, over the run time of the study.";
-        figure(&plot.svg(), caption)
+        figure(&plot.html(), caption)
     })
 }
 

@@ -197,28 +197,30 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Links to the pages of studies, and what their runs spent and left out.
 fn studies(folder: &Path, out: &Path, prices: &Prices) -> Result<String, Failure> {
-    let mut found: Vec<PathBuf> = entries(folder)?
-        .into_iter()
-        .map(|p| p.join("report.html"))
-        .filter(|p| p.is_file())
-        .collect();
-    found.sort();
+    let mut folders = entries(folder)?;
+    folders.sort();
     let from = out.parent().unwrap_or(Path::new("."));
     let mut links = String::new();
     let mut records = Vec::new();
-    for path in &found {
-        records.extend(runs(path.parent().unwrap_or(Path::new(".")))?);
-        let name = path
-            .parent()
-            .and_then(Path::file_name)
-            .unwrap_or_default()
-            .to_string_lossy();
-        let target = relative(from, path);
-        links += &format!(
-            "<li><a href=\"{}\">{}</a></li>\n",
-            escape(&target),
-            escape(&name)
-        );
+    for study in &folders {
+        let name = study.file_name().unwrap_or_default().to_string_lossy();
+        let mut link = |page: &Path, words: &str| {
+            let target = relative(from, page);
+            links += &format!(
+                "<li><a href=\"{}\">{}</a></li>\n",
+                escape(&target),
+                escape(words)
+            );
+        };
+        let page = study.join("report.html");
+        if page.is_file() {
+            records.extend(runs(study)?);
+            link(&page, &name);
+        }
+        for page in sweeps(study)? {
+            let sweep = page.file_stem().unwrap_or_default().to_string_lossy();
+            link(&page, &format!("{name}: {sweep}"));
+        }
     }
     if links.is_empty() {
         return Ok(paragraph("Nothing here yet."));
@@ -232,6 +234,15 @@ fn studies(folder: &Path, out: &Path, prices: &Prices) -> Result<String, Failure
         .collect();
     let table = cost::table("Run", &costs, prices);
     Ok(format!("<ul>\n{links}</ul>\n{table}"))
+}
+
+/// The pages of sweeps of a study: those with a folder of points beside them.
+fn sweeps(study: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let mut found = entries(study)?;
+    let swept = |page: &Path| page.with_extension("").join("points.json").is_file();
+    found.retain(|page| page.extension().is_some_and(|e| e == "html") && swept(page));
+    found.sort();
+    Ok(found)
 }
 
 /// The run records of a study by the names of their artefacts.

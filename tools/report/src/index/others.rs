@@ -109,13 +109,13 @@ fn plots(problem: &Problem) -> String {
     }
     side_by_side(&[
         figure(
-            &time.svg(),
+            &time.html(),
             &format!(
                 "Error ({}) over run time: lower and further left is better.",
                 problem.measure()
             ),
         ),
-        figure(&size.svg(), "Run time over the size of the problem."),
+        figure(&size.html(), "Run time over the size of the problem."),
     ])
 }
 

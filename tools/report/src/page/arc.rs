@@ -137,7 +137,7 @@ fn surface(table: &Table) -> String {
         .into_iter()
         .map(|(curves, title, caption)| (plot(table, (radius, end), curves, title), caption))
         .filter(|(plot, _)| !plot.is_empty())
-        .map(|(plot, caption)| figure(&plot.svg(), &caption))
+        .map(|(plot, caption)| figure(&plot.html(), &caption))
         .collect();
     side_by_side(&figures)
 }

@@ -68,7 +68,7 @@ pub(super) fn section(arcs: &[(String, Record)]) -> String {
         .iter()
         .map(|(name, axis, factor, caption)| (curve(arcs, name, axis, *factor), caption))
         .filter(|(plot, _)| !plot.is_empty())
-        .map(|(plot, caption)| figure(&plot.svg(), caption))
+        .map(|(plot, caption)| figure(&plot.html(), caption))
         .collect();
     side_by_side(&figures) + &table.render()
 }

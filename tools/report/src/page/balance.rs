@@ -85,7 +85,7 @@ fn series(records: &[(f64, Record)]) -> String {
 
 fn push(figures: &mut Vec<String>, plot: &Plot, caption: &str) {
     if !plot.is_empty() {
-        figures.push(figure(&plot.svg(), caption));
+        figures.push(figure(&plot.html(), caption));
     }
 }
 

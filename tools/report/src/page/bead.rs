@@ -4,14 +4,14 @@ use artefact::Reader;
 use run::Failure;
 
 use super::{encoding, grouped, tiles};
-use crate::html::{figure, note, picture, side_by_side};
+use crate::html::{FRAME_WIDTH, chosen, figure, frames, note, picture, side_by_side};
 use crate::picture::bead::{self, Paint, View};
 use crate::picture::cross;
 use crate::plot::{Line, Plot};
 use crate::weld::{PARTICLES, Stretch, Weld};
 
-/// Moments of the series of pictures, as shares of the time computed.
-const MOMENTS: [f64; 3] = [0.25, 0.5, 0.75];
+/// A weld of fewer frames has no course to show.
+const LEAST: usize = 5;
 
 /// The section; nothing without particles.
 pub(super) fn section(
@@ -36,8 +36,8 @@ pub(super) fn section(
             grouped(weld.lost)
         ));
     }
-    let earlier = earlier(reader)?;
-    let mut all: Vec<&Weld> = earlier.iter().collect();
+    let course = course(reader)?;
+    let mut all: Vec<&Weld> = course.iter().collect();
     all.push(weld);
     let paint = Paint::of(&all);
     body += &views(weld, &paint)?;
@@ -45,19 +45,19 @@ pub(super) fn section(
         body += &sections(weld, &paint, stretch)?;
         body += &along(stretch);
     }
-    body += &growth(&earlier, &paint)?;
+    body += &growth(&course, weld, &paint)?;
     Ok(body)
 }
 
-fn earlier(reader: &Reader) -> Result<Vec<Weld>, Failure> {
+/// The weld at moments from its first frame to its last.
+fn course(reader: &Reader) -> Result<Vec<Weld>, Failure> {
     let count = reader.count(PARTICLES);
-    if count < 5 {
+    if count < LEAST {
         return Ok(Vec::new());
     }
-    let index = |part: f64| (part * (count - 1) as f64).round() as usize;
-    Ok(MOMENTS
-        .iter()
-        .map(|m| Weld::read(reader, index(*m)))
+    let moments = chosen(count).into_iter();
+    Ok(moments
+        .map(|m| Weld::read(reader, m))
         .collect::<Result<_, _>>()?)
 }
 
@@ -175,26 +175,26 @@ fn along(stretch: &Stretch) -> String {
     };
     side_by_side(&[
         figure(
-            &depth.svg(),
+            &depth.html(),
             &format!("Penetration and height {what}. Level lines mean a steady weld."),
         ),
-        figure(&width.svg(), &format!("Widths {what}.")),
+        figure(&width.html(), &format!("Widths {what}.")),
     ])
 }
 
-/// How the bead came to be.
-fn growth(earlier: &[Weld], paint: &Paint) -> Result<String, Failure> {
-    let mut out = String::new();
-    for weld in earlier {
-        if let Some(canvas) = bead::picture(weld, paint, View::Above) {
-            let words = format!("The weld from above at {:.2} s.", weld.time);
-            let image = picture(&canvas, &words).map_err(|e| encoding(&e))?;
-            out += &figure(&image, &words);
-        }
+/// How the bead came to be: from above, with what the last frame shows.
+fn growth(course: &[Weld], last: &Weld, paint: &Paint) -> Result<String, Failure> {
+    let Some(seen) = bead::seen(last, paint, View::Above) else {
+        return Ok(String::new());
+    };
+    let moment = |weld: &Weld| {
+        let canvas = bead::within(weld, paint, View::Above, seen)?;
+        Some((format!("{:.3} s", weld.time), canvas.smaller(FRAME_WIDTH)))
+    };
+    let moments: Vec<_> = course.iter().filter_map(moment).collect();
+    if moments.is_empty() {
+        return Ok(String::new());
     }
-    Ok(if out.is_empty() {
-        out
-    } else {
-        format!("<details>\n<summary>Earlier moments</summary>\n{out}</details>\n")
-    })
+    let all = frames(&moments, "The weld from above at").map_err(|e| encoding(&e))?;
+    Ok(format!("<h3>How the bead came to be</h3>\n{all}"))
 }

@@ -113,7 +113,7 @@ fn curves(runs: &[Run]) -> String {
             }
             if !plot.is_empty() {
                 figures.push(figure(
-                    &plot.svg(),
+                    &plot.html(),
                     &format!("{}: {title} over time.", run.name),
                 ));
             }
@@ -139,7 +139,7 @@ fn outlines(runs: &[Run]) -> Result<String, Failure> {
         return Ok(String::new());
     }
     Ok(figure(
-        &plot.svg(),
+        &plot.html(),
         "Outlines of drops at rest, from the axis.",
     ))
 }
@@ -227,7 +227,7 @@ fn moving(frames: &[Vec<f64>], mean: f64, enlarged: f64) -> String {
     };
     let all: Vec<String> = frames.iter().map(polygon).collect();
     format!(
-        "<svg class=\"plot\" viewBox=\"0 0 {EDGE} {EDGE}\" role=\"img\" aria-label=\"a drop in motion\">\n\
+        "<svg class=\"plot moving\" data-seconds=\"{RUNS}\" viewBox=\"0 0 {EDGE} {EDGE}\" role=\"img\" aria-label=\"a drop in motion\">\n\
          <circle cx=\"{0}\" cy=\"{0}\" r=\"{1}\" fill=\"none\" stroke=\"currentColor\" stroke-dasharray=\"4 4\"/>\n\
          <polygon points=\"{2}\" fill=\"#56b4e9\" fill-opacity=\"0.6\" stroke=\"#0072b2\" stroke-width=\"2\">\
          <animate attributeName=\"points\" dur=\"{RUNS}s\" repeatCount=\"indefinite\" values=\"{3}\"/></polygon>\n</svg>\n",

@@ -72,7 +72,7 @@ fn melted(reader: &Reader, scene: &Value, count: usize) -> Result<String, Failur
         return Ok(String::new());
     }
     Ok(figure(
-        &plot.svg(),
+        &plot.html(),
         "How much is slag, has set again, and is liquid metal. Slag comes first: light strikes the wall of the cavity.",
     ))
 }

@@ -38,7 +38,7 @@ pub(super) fn section(reader: &Reader, melting: Option<f64>) -> Result<String, F
     }
     if !speeds.is_empty() {
         out += &figure(
-            &speeds.svg(),
+            &speeds.html(),
             "Mean speed in each section over the droplet period. A drop that strikes the pool lifts the curve; \
              how fast it falls again tells how fast the pool calms down.",
         );

@@ -6,6 +6,7 @@ mod arc;
 mod arcs;
 mod balance;
 mod bead;
+mod beside;
 mod compare;
 pub(crate) mod drop;
 mod exchange;
@@ -15,8 +16,10 @@ pub(crate) mod gas;
 pub(crate) mod heat;
 pub(crate) mod jet;
 mod mean;
+pub(crate) mod pair;
 pub(crate) mod passes;
 mod runs;
+pub(crate) mod sweep;
 
 use artefact::Reader;
 use run::Failure;

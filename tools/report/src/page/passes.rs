@@ -129,13 +129,13 @@ fn shape(profiles: &Tables, surfaces: &Tables) -> Result<String, Failure> {
     }
     let figures = [
         figure(
-            &plot.svg(),
+            &plot.html(),
             "Height of the surface over the distance from the source, averaged over angle and time, as each pool left \
              it. Dots are the tops of the cells of the arc that was computed over it; where there are none the arc stood \
              over a flat plate.",
         ),
         figure(
-            &spread.svg(),
+            &spread.html(),
             "What the average hides: how far the surface differs around the source (the bead is behind it), and \
              over time (each droplet presses it down).",
         ),
@@ -185,7 +185,7 @@ fn over_radius(surfaces: &Tables) -> String {
             }
         }
         if !plot.is_empty() {
-            figures.push(figure(&plot.svg(), caption));
+            figures.push(figure(&plot.html(), caption));
         }
     }
     side_by_side(&figures)
@@ -283,7 +283,7 @@ fn liquid(series: &[(String, Vec<(f64, Record)>)]) -> String {
     if plot.is_empty() {
         return String::new();
     }
-    figure(&plot.svg(), "How large each pool is, in particles.")
+    figure(&plot.html(), "How large each pool is, in particles.")
 }
 
 #[cfg(test)]

@@ -133,7 +133,7 @@ fn history(record: &RunRecord) -> String {
         return String::new();
     }
     figure(
-        &residuals.svg(),
+        &residuals.html(),
         "How the residuals of the equations fell: lower is closer to a solution.",
     )
 }

@@ -96,20 +96,43 @@ impl View {
 
 /// Draws the weld as seen from `view`; nothing without particles.
 pub(crate) fn picture(weld: &Weld, paint: &Paint, view: View) -> Option<Canvas> {
-    let radius = 0.56e3 * weld.plate.spacing_m;
-    let [from, to] = weld.window()?;
+    within(weld, paint, view, seen(weld, paint, view)?)
+}
+
+/// What a picture of the weld shows: along its width and its height \[mm\].
+pub(crate) fn seen(weld: &Weld, paint: &Paint, view: View) -> Option<[[f64; 2]; 2]> {
+    let discs = discs(weld, paint, view, weld.window()?);
+    let radius = radius(weld);
+    Some([range(&discs, 0, radius)?, range(&discs, 1, radius)?])
+}
+
+fn radius(weld: &Weld) -> f64 {
+    0.56e3 * weld.plate.spacing_m
+}
+
+fn discs(weld: &Weld, paint: &Paint, view: View, [from, to]: [f64; 2]) -> Vec<Disc> {
     let shown = |i: &usize| {
         let p = weld.position[*i];
         (from..=to).contains(&p[1]) && p[2] < CEILING
     };
-    let discs: Vec<Disc> = (0..weld.position.len())
+    (0..weld.position.len())
         .filter(shown)
         .map(|i| Disc {
             at: view.turn(weld.position[i]),
             colour: paint.colour(weld, i),
         })
-        .collect();
-    let (x, y) = (range(&discs, 0, radius)?, range(&discs, 1, radius)?);
+        .collect()
+}
+
+/// Draws what of the weld lies in a range of width and height \[mm\].
+pub(crate) fn within(
+    weld: &Weld,
+    paint: &Paint,
+    view: View,
+    [x, y]: [[f64; 2]; 2],
+) -> Option<Canvas> {
+    let radius = radius(weld);
+    let discs = discs(weld, paint, view, x.map(|end| 1e-3 * end));
     let scale = (WIDTH as f64 - SIDES[0] - SIDES[1]) / (x[1] - x[0]);
     let axes = Axes::equal([SIDES[0], 56.0], scale, x, y);
     let height = (axes.area.h + 56.0 + 140.0).max(330.0);

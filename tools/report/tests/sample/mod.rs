@@ -224,16 +224,21 @@ fn inflow(across: &[f64], along: &[f64], strength: f64) -> Table {
     )
 }
 
-/// An arc whose fields are Gaussians.
+/// An arc of 300 A whose fields are Gaussians.
 pub(crate) fn arc(path: &Path) {
+    arc_of(path, 300.0);
+}
+
+/// An arc of some current \[A\], with 30 V and 5 mV more for each ampere.
+pub(crate) fn arc_of(path: &Path, current: f64) {
     let mut writer = Writer::create(path, &header("arc-source", "arcfvm")).unwrap();
     let radius: Vec<f64> = (0..60).map(|i| 1e-4 + 2e-4 * f64::from(i)).collect();
     writer.table("/plasma", 0.0, &plasma(&radius)).unwrap();
     writer.table("/surface", 0.0, &surface(&radius)).unwrap();
     writer.table("/lorentz", 0.0, &lorentz(&radius)).unwrap();
     let balance = Record::new()
-        .with("current_a", "A", 300.0)
-        .with("voltage_v", "V", 31.5)
+        .with("current_a", "A", current)
+        .with("voltage_v", "V", 30.0 + 5e-3 * current)
         .with("power_w", "W", 9450.0)
         .with("heat_base_metal_w", "W", 4100.0)
         .with("closure", "1", 3e-8);

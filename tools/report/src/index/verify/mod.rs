@@ -130,11 +130,11 @@ fn plots(study: &Study, quantities: &[&str], title: &str) -> String {
     bounds(&mut points, study, quantities);
     side_by_side(&[
         figure(
-            &time.svg(),
+            &time.html(),
             "Error over run time: lower and further left is better. Thin bars: least to greatest time of the repeats.",
         ),
         figure(
-            &points.svg(),
+            &points.html(),
             "Error over the number of points. Dashed: slopes of first and second order; dotted: targets at their points.",
         ),
     ])

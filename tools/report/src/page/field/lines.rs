@@ -119,14 +119,14 @@ fn plots(run: &Run, all: &[Along<'_>], quantity: &Quantity, errors: &mut Rows) -
     };
     let title = capital(quantity.title);
     let plot = values(all, quantity, &scales);
-    let mut figures = vec![figure(&plot.svg(), &format!("{title} along the lines."))];
+    let mut figures = vec![figure(&plot.html(), &format!("{title} along the lines."))];
     let (off, worst) = differences(all, quantity, &scales);
     if !off.is_empty() {
         errors.row(std::iter::once(escape(quantity.title)).chain(worst));
         let words = format!(
             "{title}: what it differs by from the exact one, over the greatest along all lines."
         );
-        figures.push(figure(&off.svg(), &words));
+        figures.push(figure(&off.html(), &words));
     }
     side_by_side(&figures)
 }

@@ -47,7 +47,7 @@ pub(super) fn section(run: &Run) -> Result<String, Failure> {
         }
         if !plot.is_empty() {
             let words = format!("At the probes over time: {}.", quantity.title);
-            figures.push(figure(&plot.svg(), &words));
+            figures.push(figure(&plot.html(), &words));
         }
     }
     Ok(side_by_side(&figures))

@@ -44,5 +44,5 @@ pub(super) fn section(run: &Run) -> Result<String, Failure> {
     let words = format!(
         "Pull along the outward normal at every point of the surface, over its {axis}: all around at once."
     );
-    Ok(side_by_side(&[figure(&plot.svg(), &words)]))
+    Ok(side_by_side(&[figure(&plot.html(), &words)]))
 }

@@ -64,7 +64,7 @@ fn one(gas: &Gas, name: &str, published: &Published) -> String {
         ours.retain(|point| point[0] <= last);
         plot.add(Line::new(name, ours));
         plot.add(Line::new("published", rows).dotted());
-        figures.push(figure(&plot.svg(), &caption(&column.name)));
+        figures.push(figure(&plot.html(), &caption(&column.name)));
     }
     out += &side_by_side(&figures);
     out + &bounds(gas, published) + &whole(gas, published)

@@ -38,7 +38,7 @@ pub(super) fn section(gas: &Gas) -> String {
                 gas.line(&gas.table, &column.name, x, least),
             ));
         }
-        figure(&plot.svg(), &caption(&column.name))
+        figure(&plot.html(), &caption(&column.name))
     });
     out += &side_by_side(&plots.collect::<Vec<_>>());
     out += &composition(gas);
@@ -104,7 +104,7 @@ fn composition(gas: &Gas) -> String {
             "Composition{}: species that reach a mole fraction of 0.001.",
             with_iron(gas, x)
         );
-        figures.push(figure(&plot.svg(), &caption));
+        figures.push(figure(&plot.html(), &caption));
     }
     side_by_side(&figures)
 }
@@ -139,7 +139,7 @@ fn parts(gas: &Gas) -> String {
         }
         plot.add(Line::new("all", all).guide());
         let caption = format!("What carries heat{}.", with_iron(gas, x));
-        figures.push(figure(&plot.svg(), &caption));
+        figures.push(figure(&plot.html(), &caption));
     }
     side_by_side(&figures)
 }

@@ -68,5 +68,5 @@ fn plot(base: &Table, variant: &Table) -> Option<String> {
         base.name,
         variant.name
     );
-    Some(figure(&plot.svg(), &caption))
+    Some(figure(&plot.html(), &caption))
 }

@@ -41,15 +41,15 @@ pub(super) fn section(runs: &[Run]) -> Result<String, Failure> {
             own.add(Line::new(&entry.name, points));
         }
         let caption = format!("{}: the temperature of its monitors.", run.name);
-        figures.push(figure(&own.svg(), &caption));
+        figures.push(figure(&own.html(), &caption));
     }
     if all.is_empty() {
         return Ok(String::new());
     }
     if figures.len() < 2 {
         let caption = "The temperature of the monitors.";
-        return Ok(figure(&all.svg(), caption));
+        return Ok(figure(&all.html(), caption));
     }
-    let whole = figure(&all.svg(), "The monitors of all runs.");
+    let whole = figure(&all.html(), "The monitors of all runs.");
     Ok(whole + &side_by_side(&figures))
 }

@@ -143,7 +143,7 @@ fn plot(curves: &Curves<'_>, what: &str, (title, words): (&str, &str)) -> String
     for (name, points) in &all {
         plot.add(Line::new(name, scaled(points, factor)));
     }
-    figure(&plot.svg(), &format!("{words}, by part of the surface."))
+    figure(&plot.html(), &format!("{words}, by part of the surface."))
 }
 
 /// The unit with a prefix that keeps numbers short, and the factor to it.
@@ -183,7 +183,7 @@ pub(super) fn balance(runs: &[Run]) -> Result<String, Failure> {
             "heat stored since the start, and what came in; stored must be the sum of the others."
         };
         let caption = run.own(runs, words);
-        figures.push(figure(&plot.svg(), &sentence(&caption)));
+        figures.push(figure(&plot.html(), &sentence(&caption)));
         let parts = curve(&series, "imbalance");
         errors.push((run.own(runs, ""), scaled(&parts, 1.0 / moved)));
     }
@@ -231,7 +231,7 @@ fn imbalance(errors: &[(String, Vec<[f64; 2]>)]) -> Option<String> {
         plot.add(Line::new(name, scaled(points, factor)));
     }
     Some(figure(
-        &plot.svg(),
+        &plot.html(),
         "What is stored less what came in, as part of the most heat that the run has moved. Zero is perfect.",
     ))
 }

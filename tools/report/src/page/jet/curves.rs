@@ -113,7 +113,7 @@ fn named(run: &Run, wanted: impl Fn(&str) -> bool) -> Result<Courses, Failure> {
 fn shown<const N: usize>(plots: [(Plot, &str); N]) -> String {
     let filled = plots.iter().filter(|(plot, _)| !plot.is_empty());
     let figures: Vec<String> = filled
-        .map(|(plot, caption)| figure(&plot.svg(), caption))
+        .map(|(plot, caption)| figure(&plot.html(), caption))
         .collect();
     side_by_side(&figures)
 }

@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use super::run::Run;
 use crate::draw::canvas::Canvas;
 use crate::draw::film::film;
-use crate::html::{escape, figure, picture, side_by_side};
+use crate::html::{FRAME_WIDTH, chosen, enlarging, escape, figure, frames};
 use crate::page::encoding;
 use crate::picture::jet;
 
@@ -15,8 +15,6 @@ use crate::picture::jet;
 const MOST: usize = 60;
 /// Each is shown so long \[ms\].
 const SHOWN: u16 = 100;
-/// Pictures that stand still.
-const STILLS: usize = 4;
 
 /// The section.
 pub(super) fn section(runs: &[Run]) -> Result<String, Failure> {
@@ -45,19 +43,22 @@ pub(super) fn section(runs: &[Run]) -> Result<String, Failure> {
             STANDARD.encode(data)
         );
         body += &format!("<h3>{}</h3>\n", escape(&run.name));
-        body += &figure(&moving, &format!("{words}; {} pictures.", pictures.len()));
-        let mut stills = Vec::new();
-        for still in 1..=STILLS.min(pictures.len()) {
-            let place = (pictures.len() - 1) * still / STILLS.min(pictures.len());
-            let image = picture(&pictures[place], &words).map_err(|e| encoding(&e))?;
-            stills.push(figure(&image, ""));
-        }
-        body += &stills.chunks(2).map(side_by_side).collect::<String>();
+        body += &figure(
+            &enlarging(&moving),
+            &format!("{words}; {} pictures.", pictures.len()),
+        );
+        let still = chosen(pictures.len()).into_iter().map(|i| {
+            let time = format!("{:.3} ms", 1e3 * run.time(shown[i])?);
+            Ok((time, pictures[i].smaller(FRAME_WIDTH)))
+        });
+        let stills = still.collect::<Result<Vec<_>, Failure>>()?;
+        body += &frames(&stills, &words).map_err(|e| encoding(&e))?;
     }
     Ok(body)
 }
 
-fn one(run: &Run, index: usize) -> Result<Canvas, Failure> {
+/// The picture of a frame.
+pub(super) fn one(run: &Run, index: usize) -> Result<Canvas, Failure> {
     let (time, dots) = run.dots(index)?;
     let title = format!("{}: {:.3} ms", run.name, 1e3 * time);
     let window = run.window()?;

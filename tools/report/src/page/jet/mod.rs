@@ -4,15 +4,27 @@ mod curves;
 mod film;
 mod run;
 
+use std::path::Path;
+
 use ::run::Failure;
 
 use super::{Named, lead, runs};
+use crate::draw::canvas::Canvas;
 use crate::files::{JetFiles, save};
 use crate::html::Page;
 use crate::page::heat::totals;
 use crate::records::RunRecord;
 
 use self::run::Run;
+
+/// The last picture of a run; nothing without frames.
+pub(super) fn last(name: &str, path: &Path) -> Result<Option<Canvas>, Failure> {
+    let run = Run::open(name, path)?;
+    match run.frames() {
+        0 => Ok(None),
+        n => film::one(&run, n - 1).map(Some),
+    }
+}
 
 /// Writes the page.
 pub(crate) fn write(files: &JetFiles) -> Result<(), Failure> {

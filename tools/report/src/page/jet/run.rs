@@ -61,6 +61,16 @@ impl Run {
         counts.max().unwrap_or(0)
     }
 
+    /// Time of a frame \[s\].
+    pub(super) fn time(&self, index: usize) -> Result<f64, Failure> {
+        let mut own = self.bodies.iter().map(|(channel, _)| channel);
+        let channel = own.find(|channel| index < self.reader.count(channel));
+        match channel {
+            Some(channel) => Ok(self.reader.time(channel, index)?),
+            None => Ok(0.0),
+        }
+    }
+
     /// The axis that points up.
     fn up(&self) -> usize {
         if self.plane { 1 } else { 2 }
