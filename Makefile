@@ -9,7 +9,7 @@ SHELL := /bin/sh
 THREADS ?= $(shell nproc 2>/dev/null || echo 2)
 PROGRESS ?= auto
 BIN := target/release
-PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield jetsph avg report artefact verify stability bench certify exact fuzz faults)
+PROGRAMS := $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield jetsph avg report sweep artefact verify stability bench certify exact fuzz faults)
 SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 # Runs a stage only if the bytes of what it depends on, or of what it made, have changed. Times tell nothing of that, so
 # it is asked for every stage each time (`always`). What it makes is written whole or not at all, maybe by another make
@@ -40,6 +40,24 @@ new: export NEW_FROM := $(FROM)
 new: ## begin an own study as a copy that works (STUDY=my-weld FROM=gmaw-quick)
 	@pipelines/new "$$NEW_STUDY" "$$NEW_FROM"
 
+# A study over swept values: the points of a sweep are rules of make, which `sweep` writes and calls make with (`+`: with the
+# words of this one, such as -j and -n). ENGINE=slurm submits them by sbatch, ENGINE=hq by HyperQueue.
+SWEEP ?= pipelines/$(STUDY)/sweep.json
+ENGINE ?= here
+SWEEP_RUN = +@$(BIN)/sweep run --engine $(ENGINE) --threads $(THREADS)
+.PHONY: sweep compare
+sweep: programs ## all points of a sweep and the page that compares them (STUDY=name SWEEP=file ENGINE=slurm, -j4 THREADS=1)
+	@[ "$(SWEEP)" != pipelines//sweep.json ] || { echo "say which: make sweep STUDY=arc-currents" >&2; exit 2; }
+	$(SWEEP_RUN) $(SWEEP)
+
+A ?=
+B ?=
+COMPARED = build/compare/$(notdir $(A:/=))-$(notdir $(B:/=)).html
+compare: programs ## one page that compares two runs (A=folder B=folder)
+	@[ -n "$(A)" ] && [ -n "$(B)" ] || { echo "say both: make compare A=build/gmaw-quick B=build/my-weld" >&2; exit 2; }
+	@$(BIN)/report compare --a "$(A)" --b "$(B)" --out $(COMPARED)
+	@echo "to look at: $(COMPARED)"
+
 # Checks.
 .PHONY: test format lint docs unit schemas
 test: format unit ## everything that must hold on every change (minutes)
@@ -53,7 +71,7 @@ lint: ## no warning of the linter
 docs: ## no warning in the documentation
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet
 
-unit: programs build/python/.installed
+unit: programs build/python/.installed build/browser/.installed
 	cargo test --release --quiet
 
 # Readers of other people's making, to prove that our files open elsewhere.
@@ -63,8 +81,17 @@ build/python/.installed: tests/interop/requirements.txt
 	then touch $@; \
 	else rm -f $@; echo "python3 with venv, or what is in $<, is not here: the tests that read our files in Python are skipped"; fi
 
+# A browser's driver, to look at pages with; the browser is Debian's chromium.
+build/browser/.installed: tools/report/tests/pages/package.json
+	@mkdir -p $(@D)
+	@cp $< $(@D)/package.json
+	@if command -v chromium >/dev/null && npm install --prefix $(@D) --no-audit --no-fund --silent; \
+	then touch $@; \
+	else rm -f $@; echo "chromium or npm is not here, or npm cannot install: no page is looked at in a browser"; fi
+
 schemas: programs ## write schemas/*.scene.v1.json from the programs
 	@for tool in gasprop arcfvm poolsph heatsph emfield jetsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
+	@$(BIN)/sweep schema > schemas/sweep.v1.json
 
 # Evidence.
 CASE ?=

@@ -4,7 +4,10 @@
 
 mod beside;
 mod new;
+mod queue;
+mod slurm;
 mod study;
+mod sweep;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -4,19 +4,25 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// Writes what its files hold to its output, but for lines with comments, and notes its name.
+/// Writes what its files hold to its output, but for lines with comments, and notes its name; fails where they hold the word
+/// "impossible", unless it makes pages.
 const COPIES: &str = r#"#!/bin/sh
 name=$(basename "$0")
 echo "$name" >> log
 while [ $# -gt 0 ]; do
     case $1 in
     --out) out=$2; shift 2 ;;
-    *) [ ! -f "${1#*=}" ] || cat "${1#*=}" >> "$name.gathered"; shift ;;
+    *) [ ! -f "${1#*=}" ] || cat "${1#*=}" >> "$name.gathered.$$"; shift ;;
     esac
 done
+if [ "$name" != report ] && grep -q impossible "$name.gathered.$$"; then
+    echo "$name: that is impossible" >&2
+    rm "$name.gathered.$$"
+    exit 1
+fi
 mkdir -p "$(dirname "$out")"
-grep -v comment "$name.gathered" > "$out"
-rm "$name.gathered"
+grep -v comment "$name.gathered.$$" > "$out"
+rm "$name.gathered.$$"
 "#;
 
 /// A copy of the repository's rules in a folder whose name has a space.
@@ -54,6 +60,9 @@ impl Workshop {
             "jetsph",
             "avg",
             "report",
+            "certify",
+            "fuzz",
+            "faults",
             "artefact",
             "verify",
             "stability",
@@ -65,6 +74,9 @@ impl Workshop {
             let mode = std::fs::Permissions::from_mode(0o755);
             std::fs::set_permissions(&program, mode).unwrap();
         }
+        // Sweeps are written out by the program itself.
+        let sweep = Path::new(env!("CARGO_BIN_EXE_verify")).with_file_name("sweep");
+        std::fs::copy(sweep, programs.join("sweep")).unwrap();
         Self {
             _folder: folder,
             root,

@@ -37,7 +37,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "kernels" | "particles" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],
         "run" | "fuzz" => &["artefact"],
-        "report" => &["artefact", "run"],
+        "report" | "sweep" => &["artefact", "run"],
         "verification" => &["artefact", "kernels", "neighbours", "relax", "run", "wls"],
         _ => return NUMERICS.iter().chain(&HARNESS).copied().collect(),
     };

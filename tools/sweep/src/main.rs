@@ -1,0 +1,5 @@
+//! `sweep`: a study over swept values.
+
+fn main() -> std::process::ExitCode {
+    sweep::command::main()
+}
