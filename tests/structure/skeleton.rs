@@ -23,12 +23,11 @@ const ROOMS: [(&str, &[&str]); 5] = [
 ];
 
 /// Rooms that a stage lacks, or has under another name.
-const LACKING: [(&str, &str); 11] = [
+const LACKING: [(&str, &str); 10] = [
     ("avg", "march or iterate"),
     ("emfield", "frames"),
     ("emfield", "march or iterate"),
     ("emfield", "program"),
-    ("gasprop", "assemble"),
     ("gasprop", "frames"),
     ("gasprop", "march or iterate"),
     ("heatsph", "frames"),
@@ -44,8 +43,7 @@ const PROGRAM: [&str; 10] = [
 ];
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 26] = [
-    ("arcfvm", "continuation"),
+const READING: [(&str, &str); 24] = [
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/cells"),
@@ -57,7 +55,6 @@ const READING: [(&str, &str); 26] = [
     ("emfield", "output/sample"),
     ("emfield", "solution"),
     ("emfield", "solution/far"),
-    ("gasprop", "properties"),
     ("heatsph", "boundary/compile"),
     ("heatsph", "cloud"),
     ("heatsph", "cloud/cut"),

@@ -12,6 +12,7 @@
 //! - [`grid`] places the temperatures and measures what interpolation costs, [`table`] is what is written,
 //!   [`program`] the program that reads a [`scene`].
 
+mod assemble;
 pub mod columns;
 pub mod constants;
 pub mod grid;

@@ -1,16 +1,13 @@
-//! A gas as a scene asks for it, and what it is at a temperature and iron fraction.
+//! A gas, and what it is at a temperature and iron fraction.
 
 use thiserror::Error;
 
 use crate::columns::{Column, Part};
-use crate::constants::{AVOGADRO, BOLTZMANN};
 use crate::mixture::{
-    DataError, Element, EquilibriumError, Library, Mixture, MixtureError, Species, State,
-    Thermodynamics,
+    DataError, Element, EquilibriumError, Library, Mixture, MixtureError, State, Thermodynamics,
 };
 use crate::radiation::{Radiation, RadiationError};
-use crate::scene::{Levels, Scene};
-use crate::transport::{Coefficients, Transport, TransportError, Uncertain};
+use crate::transport::{Coefficients, Transport, TransportError};
 
 /// Temperature at which the enthalpy of the cold gas, and that of iron atoms, counts as zero, K.
 pub const ZERO: f64 = 300.0;
@@ -51,25 +48,25 @@ pub enum GasError {
 
 /// Zero of enthalpy of each group of elements that the gas keeps, J/kg above separate neutral atoms.
 #[derive(Debug, Clone, Copy)]
-struct Zero {
+pub(crate) struct Zero {
     /// The cold gas as its components are named, at [`ZERO`].
-    base: f64,
+    pub(crate) base: f64,
     /// Iron as a gas of atoms, at [`ZERO`].
-    iron: f64,
+    pub(crate) iron: f64,
 }
 
 /// A gas as a scene asks for it.
 #[derive(Debug, Clone)]
 pub struct Gas {
-    library: Library,
-    mixture: Mixture,
-    transport: Transport,
-    radiation: Option<Radiation>,
-    absorption_length: Option<f64>,
-    pressure: f64,
-    molar_mass: f64,
-    iron: Option<f64>,
-    zero: Zero,
+    pub(crate) library: Library,
+    pub(crate) mixture: Mixture,
+    pub(crate) transport: Transport,
+    pub(crate) radiation: Option<Radiation>,
+    pub(crate) absorption_length: Option<f64>,
+    pub(crate) pressure: f64,
+    pub(crate) molar_mass: f64,
+    pub(crate) iron: Option<f64>,
+    pub(crate) zero: Zero,
 }
 
 /// What the gas is at a temperature and iron fraction.
@@ -106,50 +103,6 @@ impl Kept {
 }
 
 impl Gas {
-    /// The gas of a scene.
-    ///
-    /// # Errors
-    /// A cold gas that cannot be, or data that cannot be read.
-    pub fn new(scene: &Scene) -> Result<Self, GasError> {
-        let library = Library::embedded()?;
-        let base: Vec<(String, f64)> = scene
-            .gas
-            .iter()
-            .map(|(name, x)| (name.clone(), *x))
-            .collect();
-        let with_iron = scene.iron_mole_fraction.is_some();
-        let mixture = with_levels(Mixture::new(&library, &base, with_iron)?, scene)?;
-        let radiation = match scene.radiation {
-            Some(_) => Some(Radiation::new(library.data(), &mixture.species)?),
-            None => None,
-        };
-        let mut mass = 0.0;
-        let mut energy = 0.0;
-        for (name, fraction) in &base {
-            if let Some(species) = library.get(name) {
-                mass += fraction * species.mass;
-                energy += fraction * enthalpy(species);
-            }
-        }
-        let iron = library.get("Fe").filter(|_| with_iron);
-        Ok(Self {
-            transport: Transport::new(&mixture, &library, uncertain(scene))?,
-            radiation,
-            absorption_length: scene
-                .radiation
-                .and_then(|radiation| radiation.absorption_length_m),
-            pressure: scene.pressure_pa,
-            molar_mass: mass * AVOGADRO,
-            iron: iron.map(|species| species.mass * AVOGADRO),
-            zero: Zero {
-                base: energy / mass,
-                iron: iron.map_or(0.0, |species| enthalpy(species) / species.mass),
-            },
-            mixture,
-            library,
-        })
-    }
-
     /// The species and elements.
     #[must_use]
     pub fn mixture(&self) -> &Mixture {
@@ -295,48 +248,10 @@ impl Gas {
     }
 }
 
-/// The mixture with the excited levels that the scene asks for.
-fn with_levels(mixture: Mixture, scene: &Scene) -> Result<Mixture, GasError> {
-    let given = scene.uncertain;
-    if given.is_some_and(|given| given.levels == Some(Levels::Listed)) {
-        return Ok(mixture);
-    }
-    Ok(match given.and_then(|given| given.filled_to_shell) {
-        Some(last) => mixture.with_shells(last),
-        None => mixture.with_shells_among_charges(scene.pressure_pa)?,
-    })
-}
-
-/// Enthalpy of one particle of the cold gas at [`ZERO`], J above separate neutral atoms.
-fn enthalpy(species: &Species) -> f64 {
-    2.5 * BOLTZMANN * ZERO + species.internal(ZERO).energy + species.formation
-}
-
 /// Names of the parts of thermal conductivity, as [`Point::parts`].
 pub const PARTS: [&str; 4] = ["heavy", "electron", "internal", "reactive"];
 
 fn parts(transport: &Coefficients) -> Vec<f64> {
     let parts = &transport.thermal;
     vec![parts.heavy, parts.electron, parts.internal, parts.reactive]
-}
-
-fn uncertain(scene: &Scene) -> Uncertain {
-    let usual = Uncertain::default();
-    let Some(given) = scene.uncertain else {
-        return usual;
-    };
-    Uncertain {
-        electron_iron_m2: given
-            .electron_iron_cross_section_m2
-            .unwrap_or(usual.electron_iron_m2),
-        electron_other_m2: given
-            .electron_other_cross_section_m2
-            .unwrap_or(usual.electron_other_m2),
-        iron_exchange_factor: given
-            .iron_charge_exchange_factor
-            .unwrap_or(usual.iron_exchange_factor),
-        iron_effective_electrons: given
-            .iron_effective_electrons
-            .unwrap_or(usual.iron_effective_electrons),
-    }
 }

@@ -1,17 +1,8 @@
 //! The four faces of a cell as a transported quantity sees them.
 
-use crate::case::{HeatCase, HeatEdge};
+use crate::edges::Side;
 use crate::grid::Grid;
 use crate::heat::FaceIndex;
-
-/// A side of the domain with the index along it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Side {
-    Inner(usize),
-    Outer(usize),
-    Bottom(usize),
-    Top(usize),
-}
 
 /// What lies beyond a face.
 #[derive(Debug, Clone, Copy)]
@@ -31,16 +22,6 @@ pub(crate) struct FaceOf {
     pub(crate) mass_out: f64,
     pub(crate) conductance: f64,
     pub(crate) area: f64,
-}
-
-/// What the heat meets at an edge.
-pub(crate) fn edge_of(heat: &HeatCase, side: Side) -> &HeatEdge {
-    match side {
-        Side::Inner(j) => &heat.edges.inner[j],
-        Side::Outer(j) => &heat.edges.outer[j],
-        Side::Bottom(i) => &heat.edges.bottom[i],
-        Side::Top(i) => &heat.edges.top[i],
-    }
 }
 
 /// Mass fluxes and conductances at the faces of the grid.

@@ -10,7 +10,8 @@ use relax::{Coefficients, FivePoint, Outcome};
 
 use crate::bed::clear::{Slopes, to_the_bend};
 use crate::case::{Case, HeatCase, HeatEdge, VapourCase};
-use crate::equation::faces::{Beyond, Carriers, FaceOf, Side, edge_of};
+use crate::edges::Side;
+use crate::equation::faces::{Beyond, Carriers, FaceOf};
 use crate::equation::transport::{dirichlet, hybrid, kept};
 use crate::equation::{Solver, Unsolved};
 use crate::heat::electrons::{Carried, Drift, Nothing};
@@ -196,7 +197,7 @@ impl Energy {
                     let (a, t) = self.edge(case, heat, carried, (edge, face), here);
                     c.centre += a;
                     c.source += a * t - self.mixed(&face, dirichlet);
-                    if let HeatEdge::Flux(flux) = *edge_of(heat, edge) {
+                    if let HeatEdge::Flux(flux) = *heat.edges.at(edge) {
                         c.source += flux * face.area;
                     }
                 }
@@ -222,7 +223,7 @@ impl Energy {
         (edge, face): (Side, FaceOf),
         here: (f64, f64),
     ) -> (f64, f64) {
-        let HeatEdge::Temperature(t) = *edge_of(heat, edge) else {
+        let HeatEdge::Temperature(t) = *heat.edges.at(edge) else {
             return (0.0, 0.0);
         };
         let Some(enthalpy) = &case.of(face.own).enthalpy else {

@@ -1,7 +1,8 @@
 //! Heat through the edges of the domain.
 
 use crate::case::{Case, HeatCase, HeatEdge};
-use crate::equation::faces::{Beyond, FaceOf, Side, edge_of};
+use crate::edges::Side;
+use crate::equation::faces::{Beyond, FaceOf};
 use crate::equation::transport::dirichlet;
 use crate::heat::electrons::{Carried, Nothing};
 use crate::heat::energy::Energy;
@@ -30,12 +31,12 @@ impl Energy {
         let here = (self.temperature[face.own], properties.enthalpy[face.own]);
         let (a, t) = self.edge(case, heat, carried, (edge, face), here);
         // Electrons pass a given temperature with that, else with the cell's own.
-        let electrons = match *edge_of(heat, edge) {
+        let electrons = match *heat.edges.at(edge) {
             HeatEdge::Temperature(_) => carried.out(&face),
             HeatEdge::Insulated | HeatEdge::Flux(_) => 0.0,
         };
         let exchange = (a + electrons) * (t - here.0) - self.mixed(&face, dirichlet);
-        let flux = match *edge_of(heat, edge) {
+        let flux = match *heat.edges.at(edge) {
             HeatEdge::Flux(flux) => flux * face.area,
             _ => 0.0,
         };

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, HeatCase, HeatEdge};
 use crate::current::potential::Potential;
-use crate::equation::faces::{Beyond, edge_of};
+use crate::equation::faces::Beyond;
 use crate::heat::FaceIndex;
 use crate::heat::electrons::Carried;
 use crate::heat::energy::Energy;
@@ -40,7 +40,7 @@ impl Energy {
                 let passing = match face.beyond {
                     Beyond::Cell(n) if drift.in_gas(n) => continue,
                     Beyond::Cell(n) => self.temperature[n],
-                    Beyond::Edge(edge) => match *edge_of(heat, edge) {
+                    Beyond::Edge(edge) => match *heat.edges.at(edge) {
                         HeatEdge::Temperature(t) => t,
                         HeatEdge::Insulated | HeatEdge::Flux(_) => self.temperature[k],
                     },

@@ -15,7 +15,8 @@
 use relax::{Coefficients, FivePoint};
 
 use crate::case::{Case, VapourCase, VapourEdge};
-use crate::equation::faces::{Beyond, Carriers, FaceOf, Side};
+use crate::edges::Side;
+use crate::equation::faces::{Beyond, Carriers, FaceOf};
 use crate::equation::transport::{dirichlet, hybrid};
 use crate::equation::{Solver, Unsolved};
 use crate::flow::field::Flow;
@@ -226,7 +227,7 @@ impl Vapour {
                     }
                 }
                 Beyond::Edge(edge) => {
-                    if let VapourEdge::Fraction(y) = *edge_of(setup, edge) {
+                    if let VapourEdge::Fraction(y) = *setup.edges.at(edge) {
                         let a = dirichlet(face.mass_out, face.conductance);
                         c.centre += a;
                         c.source += a * y;
@@ -326,7 +327,7 @@ impl Vapour {
     /// Iron that enters through an edge face \[kg/s\].
     fn through(&self, setup: &VapourCase, edge: Side, face: &FaceOf) -> f64 {
         let own = self.iron[face.own];
-        let exchanged = match *edge_of(setup, edge) {
+        let exchanged = match *setup.edges.at(edge) {
             VapourEdge::Fraction(y) => dirichlet(face.mass_out, face.conductance) * (y - own),
             VapourEdge::Sealed => 0.0,
         };
@@ -355,15 +356,6 @@ fn film(
         adds: setup.adds,
         vents: setup.vents,
         returning: setup.returns_hot.then_some(beside),
-    }
-}
-
-pub(crate) fn edge_of(setup: &VapourCase, side: Side) -> &VapourEdge {
-    match side {
-        Side::Inner(j) => &setup.edges.inner[j],
-        Side::Outer(j) => &setup.edges.outer[j],
-        Side::Bottom(i) => &setup.edges.bottom[i],
-        Side::Top(i) => &setup.edges.top[i],
     }
 }
 

@@ -14,10 +14,10 @@
 //! diffuses against the flow.
 
 use crate::case::{Case, HeatCase, HeatEdge, VapourCase, VapourEdge};
-use crate::equation::faces::{Beyond, FaceOf, edge_of};
+use crate::equation::faces::{Beyond, FaceOf};
 use crate::heat::FaceIndex;
 use crate::material::{Enthalpy, GAS};
-use crate::vapour::field::{Vapour, edge_of as vapour_edge};
+use crate::vapour::field::Vapour;
 
 /// Difference of temperature below which the slope tells the specific heat \[K\].
 const NEAR_K: f64 = 1e-3;
@@ -126,11 +126,11 @@ impl Mixed<'_> {
             }
             Beyond::Cell(_) => Mix::default(),
             Beyond::Edge(edge) => {
-                let there = match *edge_of(self.heat, edge) {
+                let there = match *self.heat.edges.at(edge) {
                     HeatEdge::Temperature(t) => t,
                     _ => here.0,
                 };
-                match *vapour_edge(self.setup, edge) {
+                match *self.setup.edges.at(edge) {
                     VapourEdge::Fraction(y) if case.material[face.own] == GAS => {
                         split(law, here, (there, y), face.conductance)
                     }

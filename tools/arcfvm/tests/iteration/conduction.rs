@@ -1,7 +1,7 @@
 //! Heat between cells by the integral of the conductivity over temperature.
 
 use arcfvm::assemble::assemble;
-use arcfvm::recombination::Recombination;
+use arcfvm::march::recombination::Recombination;
 use arcfvm::scene::Scene;
 use arcfvm::settings::Settings;
 use arcfvm::solver::Arc;

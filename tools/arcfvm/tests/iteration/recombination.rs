@@ -1,7 +1,7 @@
 //! Recombined iterations lead where plain ones do, and go on from a checkpoint to the same bits.
 
 use arcfvm::assemble::assemble;
-use arcfvm::recombination::Recombination;
+use arcfvm::march::recombination::Recombination;
 use arcfvm::resume;
 use arcfvm::scene::Scene;
 use arcfvm::settings::Settings;

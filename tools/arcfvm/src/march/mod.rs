@@ -1,17 +1,22 @@
 //! From the first iteration to the steady state, with everything that the record keeps.
 
+pub mod continuation;
+pub mod pace;
+pub mod recombination;
+pub mod stagnation;
+
 use artefact::Checkpoint;
 use run::{Failure, Session};
 
-use crate::continuation::Steps;
 use crate::heat::balance::Balance;
-use crate::pace::Pace;
-use crate::recombination::Recombination;
+use crate::march::continuation::Steps;
+use crate::march::pace::Pace;
+use crate::march::recombination::Recombination;
+use crate::march::stagnation::Trail;
 use crate::residual::{EQUATIONS, Residuals};
 use crate::resume;
 use crate::scene::Iterate;
 use crate::solver::Arc;
-use crate::stagnation::{self, Trail};
 
 /// Iterations between two points of the recorded history.
 const HISTORY_EVERY: usize = 10;
