@@ -307,3 +307,61 @@ fn sleep_hangs_on_no_thread_and_is_kept_where_a_run_is_interrupted() {
     let resumed = finished(&scene, "broken.mcap", folder.path(), &["--resume"]);
     assert!(whole == resumed, "the resumed run differs");
 }
+
+/// Layers that conduct, hot at one end; heat of what sleeps goes once in `interval` steps.
+fn conducting_layers(interval: u32) -> Value {
+    let mut scene = asleep(layers_and_stone());
+    scene["grains"]["bodies"][0]["temperature_k"] = json!("600 + 1e4*x");
+    scene["grains"]["bodies"][1]["temperature_k"] = json!(600);
+    scene["grains"]["heat"] = json!({"thermal_conductivity_w_m_k": 20.2, "specific_heat_j_kg_k": 1000,
+        "gas_conductivity_w_m_k": 1.0});
+    scene["grains"]["sleep"]["heat_interval_steps"] = json!(interval);
+    scene
+}
+
+#[test]
+fn heat_of_what_sleeps_goes_in_longer_steps_and_none_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut found = Vec::new();
+    for interval in [1, 20] {
+        let name = format!("{interval}.mcap");
+        finished(&conducting_layers(interval), &name, folder.path(), &[]);
+        let reader = artefact::Reader::open(folder.path().join(&name)).unwrap();
+        let asleep = closing(folder.path(), &name, "grain_asleep");
+        assert!(asleep > 300.0, "{asleep} grains sleep at the end");
+        let temperature = |frame: usize| -> Vec<f64> {
+            let frame = reader.frame("/grains", frame).unwrap();
+            frame.f64("temperature").unwrap()
+        };
+        let (first, last) = (temperature(0), temperature(reader.count("/grains") - 1));
+        // The stone has the other mass, and the temperature that most of its heat is counted from.
+        let heat = |t: &[f64]| {
+            let stone = 2.744 * (t[1600] - 600.0);
+            t[..1600].iter().map(|t| t - 600.0).sum::<f64>() + stone
+        };
+        let lost = heat(&last) / heat(&first) - 1.0;
+        assert!(lost.abs() < 1e-12, "{lost:e} of the heat is lost");
+        found.push(last);
+    }
+    let apart = found[0].iter().zip(&found[1]).map(|(t, u)| (t - u).abs());
+    let apart = apart.fold(0.0, f64::max);
+    assert!((1e-9..2.0).contains(&apart), "{apart} K of 400");
+}
+
+#[test]
+fn a_rest_so_short_that_falling_passes_for_it_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = layers_and_stone();
+    scene["grains"]["until"] = json!({"speed_m_s": 0.06, "held_s": 2e-3});
+    let path = folder.path().join("scene.json");
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let run = command(&path, &folder.path().join("out.mcap"), &[])
+        .output()
+        .unwrap();
+    let said = said(&run);
+    assert_eq!(run.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("/grains/until/held_s") && said.contains("0.012"),
+        "{said}"
+    );
+}

@@ -26,7 +26,10 @@ impl Source<'_> {
         let heat = scene.heat.as_ref();
         let mut warmed = None;
         if let Some(heat) = heat {
-            let heat = grains::Heat::new(scene, heat).map_err(within)?;
+            let interval = scene.sleep.map_or(1, |sleep| sleep.heat_interval_steps);
+            let heat = grains::Heat::new(scene, heat)
+                .map_err(within)?
+                .slowly(interval);
             grains::warm(scene, &heat, &mut set, &counts).map_err(within)?;
             warmed = Some(heat);
         }

@@ -63,6 +63,8 @@ impl Slack {
 pub struct Setting {
     /// Mass of the lightest grain \[kg\].
     pub lightest: f64,
+    /// That of every grain, if it is the same \[kg\].
+    pub alike: Option<f64>,
     /// Radii of the smallest and the largest grain \[m\].
     pub radii: [f64; 2],
     /// I / (m r^2).
@@ -91,6 +93,10 @@ impl Setting {
         let least = |column: &[f64]| column.iter().copied().fold(f64::INFINITY, f64::min);
         Self {
             lightest: least(masses),
+            alike: masses
+                .first()
+                .copied()
+                .filter(|first| masses.iter().all(|mass| mass.to_bits() == first.to_bits())),
             radii: [least(radii), radii.iter().copied().fold(0.0, f64::max)],
             inertia_factor: scene.inertia_factor,
             rubs: scene.contact.friction.is_some(),

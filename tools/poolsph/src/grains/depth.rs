@@ -1,8 +1,5 @@
 //! How deeply cells of grains sleep, and what that spares.
 
-use contact::Grain;
-use shapes::frame::{Vector, along, dot, scaled};
-
 /// Rows of a cell.
 pub const CELL: usize = 64;
 
@@ -34,17 +31,4 @@ pub fn kept(depth: &[u8], row: usize) -> bool {
 #[must_use]
 pub fn asleep(depth: &[u8], row: usize) -> bool {
     !depth.is_empty() && depth[row / CELL] > AWAKE
-}
-
-/// Acceleration of a grain, and of its surface by its spin, under force and moment \[m/s2\]: the greater of both.
-#[must_use]
-pub fn unbalanced(
-    grain: &Grain,
-    [force, moment]: [Vector; 2],
-    gravity: Vector,
-    inertia_factor: f64,
-) -> f64 {
-    let pull = along(gravity, 1.0 / grain.mass, force);
-    let turn = scaled(1.0 / (inertia_factor * grain.mass * grain.radius), moment);
-    dot(pull, pull).max(dot(turn, turn)).sqrt()
 }

@@ -6,7 +6,8 @@ use shapes::check;
 use shapes::{Body, Shape};
 
 use super::parameters::{GrainBody, Parameters};
-use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, VELOCITY};
+use super::slow::SLOW;
+use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, PULL, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
 
 /// Place \[m\] and radius \[m\] of a grain.
 pub type Lying = ([f64; 3], f64);
@@ -44,11 +45,32 @@ pub fn faults(scene: &Parameters) -> Vec<Fault> {
             Fault::at("/bounds", what)
         }));
     }
+    faults.extend(never_rests(scene));
     if faults.is_empty() && total > MOST {
         let what = format!("hold {total:.1e} grains in all, at most {MOST:.0e}");
         faults.push(Fault::at("/bodies", what));
     }
     faults
+}
+
+/// A time of rest so short that a grain that is thrown up would pass for one at rest: it is slower than v for 2 v/g.
+fn never_rests(scene: &Parameters) -> Option<Fault> {
+    let rest = scene.until?;
+    let g = scene
+        .gravity_m_s2?
+        .map(|g| g * g)
+        .iter()
+        .sum::<f64>()
+        .sqrt();
+    let least = 2.0 * rest.speed_m_s / g;
+    (rest.held_s <= least).then(|| {
+        let (v, held) = (rest.speed_m_s, rest.held_s);
+        let what = format!(
+            "{held} s: a grain that falls freely is slower than {v} m/s for as long as {least:.3} s and would pass for one \
+             at rest; hold for longer, or ask for a lower speed"
+        );
+        Fault::at("/until/held_s", what)
+    })
 }
 
 /// Places on the lattice of a body, or what is wrong with it.
@@ -155,6 +177,17 @@ pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
     }
     if scene.bodies.iter().any(|body| body.driven_m_s.is_some()) {
         set.declare(&DRIVEN);
+    }
+    if scene.sleep.is_some() {
+        for column in [&WATCHED, &TURNED, &PULL] {
+            set.declare(column);
+        }
+    }
+    if scene
+        .sleep
+        .is_some_and(|sleep| sleep.heat_interval_steps > 1)
+    {
+        set.declare(&SLOW);
     }
     let mut counts = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {

@@ -15,7 +15,6 @@
 
 use std::sync::Arc;
 
-use contact::Meeting;
 use particles::{POSITION, Set, sweep};
 use rayon::prelude::*;
 use run::Fault;
@@ -24,27 +23,26 @@ use run::property::{Arguments, Curve, OutOfRange};
 use super::MASS;
 use super::columns::{ENTHALPY, FROZEN, HELD, SLAG, STATE, TEMPERATURE};
 use super::conducting::{Conductor, Radius};
+use super::depth::kept;
 use super::light::Lighting;
-use super::lists::{Lists, ROWS, Touch};
+use super::lists::{Lists, ROWS};
 use super::metal::Metal;
 use super::parameters::{ConductanceScene, GrainHeat, Parameters};
+use super::slow::{Busy, Long, Pass, SLOW};
 use super::walls::Walls;
 use crate::heat::Caloric;
 use crate::stage::{Figure, StageError};
 use crate::state::{LIQUID, State};
 
-/// Part of the longest stable step that is taken.
-const PART: f64 = 0.5;
-
 /// Heat of grains as a stage.
 pub struct Heat {
     pub(super) caloric: Arc<Caloric>,
-    conductor: Conductor,
+    pub(super) conductor: Conductor,
     pub(super) held: Vec<Option<Curve>>,
     /// H of each pair of each chunk \[W/K\].
-    conductance: Vec<Vec<f64>>,
+    pub(super) conductance: Vec<Vec<f64>>,
     /// Sum of H of each grain \[W/K\], and the heat that it gets \[W\].
-    sum: Vec<f64>,
+    pub(super) sum: Vec<f64>,
     rate: Vec<f64>,
     /// Heat that kept temperatures have brought \[J\].
     pub(super) brought: f64,
@@ -55,6 +53,20 @@ pub struct Heat {
     pub(super) lighting: Lighting,
     /// The longest step \[s\].
     pub(super) limit: f64,
+    pub(super) busy: Busy,
+    /// Long steps of what sleeps deep, if it has any.
+    slow: Option<Long>,
+}
+
+/// Values of chunks that get heat, changed.
+fn change<T: Send>(get: &[bool], values: &mut [T], change: impl Fn(usize, &mut T) + Sync) {
+    let chunks = values.par_chunks_mut(ROWS).zip(get).enumerate();
+    let chunks = chunks.filter(|(_, (_, gets))| **gets);
+    chunks.for_each(|(c, (values, _))| {
+        for (own, value) in values.iter_mut().enumerate() {
+            change(c * ROWS + own, value);
+        }
+    });
 }
 
 impl Heat {
@@ -111,78 +123,31 @@ impl Heat {
             rate: Vec::new(),
             brought: 0.0,
             limit: f64::INFINITY,
+            busy: Busy::default(),
+            slow: None,
         })
     }
 
-    /// Conductances of all contacts \[W/K\] and the longest step \[s\].
-    fn conduct(
-        &mut self,
-        (set, state): (&Set, &State),
-        lists: &Lists,
-        metal: Option<&mut Metal>,
-    ) -> Result<(), OutOfRange> {
-        let mut all = std::mem::take(&mut self.conductance);
-        let grains = self
-            .conductor
-            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
-        let pair = |a: usize, b: usize| -> Result<f64, OutOfRange> {
-            let Some(meeting) = Meeting::of(&grains.grain(a), &grains.grain(b)) else {
-                return Ok(0.0);
-            };
-            let gas = grains.gas(0.5 * (grains.temperature[a] + grains.temperature[b]))?;
-            let k = [grains.conductivity(a), grains.conductivity(b)];
-            Ok(grains.of_contact(&meeting, grains.radii[a], k, gas))
-        };
-        all.resize_with(lists.chunks.len(), Vec::new);
-        let chunks = all.par_iter_mut().zip(&lists.chunks).enumerate();
-        let done: Result<(), OutOfRange> = chunks
-            .map(|(c, (conductance, chunk))| {
-                conductance.clear();
-                for other in &chunk.pairs {
-                    let touching = other.state == Touch::Touching;
-                    let h = if touching {
-                        pair(c * ROWS + other.own as usize, other.other as usize)?
-                    } else {
-                        0.0
-                    };
-                    conductance.push(h);
-                }
-                Ok(())
-            })
-            .collect();
-        self.conductance = all;
-        done?;
-        let mut sum = std::mem::take(&mut self.sum);
-        sum.resize(set.len(), 0.0);
-        self.gather(lists, &mut sum, |_, _| 1.0);
-        let grains = self
-            .conductor
-            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
-        let of_metal = match metal.and_then(Metal::exchange) {
-            Some((exchange, pairs)) => exchange.conduct(pairs, &grains, state, &mut sum)?,
-            None => 0.0,
-        };
-        let least = self.caloric.least_heat();
-        let masses = set.column(&MASS);
-        let fastest = sweep::greatest(set.len(), |a| sum[a] / (masses[a] * least));
-        self.sum = sum;
-        let shine = self
-            .lighting
-            .fastest(set.column(&TEMPERATURE), |a| masses[a] * least);
-        let rate = fastest.map_or(of_metal, |(_, rate)| rate.max(of_metal)) + shine;
-        self.limit = PART / rate;
-        Ok(())
-    }
-
     /// Sums H times `weight(a, b)` over the contacts of each grain a, in the order of the list.
-    fn gather(&self, lists: &Lists, sums: &mut [f64], weight: impl Fn(usize, usize) -> f64 + Sync) {
+    pub(super) fn gather(
+        &self,
+        lists: &Lists,
+        sums: &mut [f64],
+        weight: impl Fn(usize, usize) -> f64 + Sync,
+    ) {
         let chunks = sums.par_chunks_mut(ROWS).zip(&lists.chunks).enumerate();
         chunks.for_each(|(c, (sums, chunk))| {
             let first = c * ROWS;
             sums.fill(0.0);
-            for (place, pair) in chunk.pairs.iter().enumerate() {
-                let (own, b) = (pair.own as usize, pair.other as usize);
-                let h = self.conductance[c][place];
+            if !self.busy.get[c] {
+                return;
+            }
+            for (pair, (place, h)) in chunk
+                .pairs
+                .iter()
+                .zip(self.conductance[c].iter().enumerate())
+            {
+                let (own, b, h) = (pair.own as usize, pair.other as usize, *h);
                 if h > 0.0 {
                     sums[own] += h * weight(first + own, b);
                     if place < chunk.inner {
@@ -193,7 +158,8 @@ impl Heat {
             for incoming in &chunk.incoming {
                 let from = &lists.chunks[incoming.chunk as usize];
                 let place = from.place(*incoming);
-                let h = self.conductance[incoming.chunk as usize][place];
+                let all = &self.conductance[incoming.chunk as usize];
+                let h = all.get(place).copied().unwrap_or(0.0);
                 if h > 0.0 {
                     let row = incoming.row as usize;
                     let b = incoming.chunk as usize * ROWS + from.pairs[place].own as usize;
@@ -209,7 +175,7 @@ impl Heat {
         (set, state): (&mut Set, &mut State),
         lists: &Lists,
         metal: Option<&mut Metal>,
-        (time, step): (f64, f64),
+        (pass, time, step): (Pass<'_>, f64, f64),
     ) -> Result<(), OutOfRange> {
         let mut rate = std::mem::take(&mut self.rate);
         rate.resize(set.len(), 0.0);
@@ -219,12 +185,16 @@ impl Heat {
             exchange.flow(bodies, (temperature, &state.temperature), &mut rate);
             exchange.take(bodies, state, step);
         }
-        self.lighting.heat(temperature, &mut rate, step);
+        if pass.shines() {
+            self.lighting.heat(temperature, &mut rate, step);
+        }
         let mut enthalpy = set.take(&ENTHALPY);
         let mass = set.column(&MASS);
-        sweep::change(&mut enthalpy, |a, h| *h += step * rate[a] / mass[a]);
+        let get = &self.busy.get;
+        change(get, &mut enthalpy, |a, h| *h += step * rate[a] / mass[a]);
         if let Some(boiling) = self.boiling {
-            for (h, mass) in enthalpy.iter_mut().zip(mass).filter(|(h, _)| **h > boiling) {
+            let hot = enthalpy.iter_mut().zip(mass);
+            for (h, mass) in hot.filter(|(h, _)| **h > boiling) {
                 self.boiled += mass * (*h - boiling);
                 *h = boiling;
             }
@@ -239,8 +209,8 @@ impl Heat {
             }
         }
         let caloric = &self.caloric;
-        sweep::fill(set.column_mut(&TEMPERATURE), |a| {
-            caloric.temperature(enthalpy[a])
+        change(get, set.column_mut(&TEMPERATURE), |a, t| {
+            *t = caloric.temperature(enthalpy[a]);
         });
         set.put(&ENTHALPY, enthalpy);
         self.rate = rate;
@@ -287,22 +257,35 @@ impl Heat {
     pub fn advance(
         &mut self,
         set: &mut Set,
-        (lists, walls, mut metal): (&Lists, &Walls, Option<&mut Metal>),
+        (lists, walls, mut metal, depth): (&Lists, &Walls, Option<&mut Metal>, &[u8]),
         state: &mut State,
         dt: f64,
     ) -> Result<(), StageError> {
         let mut march = || -> Result<(), OutOfRange> {
             self.lighting.fall(walls.lit(), state.time)?;
-            self.conduct((set, state), lists, metal.as_deref_mut())?;
-            let parts = (dt / self.limit - 1e-9).ceil().max(1.0);
-            let step = dt / parts;
-            for part in 1..=parts as u64 {
-                let time = (state.time + part as f64 * step, step);
-                self.step((set, state), lists, metal.as_deref_mut(), time)?;
+            let Some(slow) = self.slow.as_mut() else {
+                let beside = (lists, metal.as_deref_mut());
+                return self.pass((set, state), beside, (Pass::Every, dt));
+            };
+            slow.waited += dt;
+            let waited = slow.waited;
+            let flags = set.take(&SLOW);
+            if slow.due(state.step) {
+                let beside = (lists, metal.as_deref_mut());
+                self.pass((set, state), beside, (Pass::Slow(&flags), waited))?;
             }
-            Ok(())
+            let beside = (lists, metal.as_deref_mut());
+            let done = self.pass((set, state), beside, (Pass::Quick(&flags), dt));
+            set.put(&SLOW, flags);
+            done
         };
         march().map_err(|what| StageError::Data(what.to_string()))?;
+        if let Some(slow) = &mut self.slow
+            && slow.due(state.step)
+        {
+            slow.waited = 0.0;
+            sweep::fill(set.column_mut(&SLOW), |row| u8::from(kept(depth, row)));
+        }
         self.change(set);
         if let Some((exchange, (_, bodies))) = metal.and_then(Metal::exchange) {
             exchange.beyond(bodies, state)?;
@@ -310,17 +293,53 @@ impl Heat {
         self.beyond(set, state.step).map_or(Ok(()), Err)
     }
 
-    /// Sums and the longest step, for a checkpoint.
-    pub(super) fn saved(&self) -> [f64; 7] {
+    /// Heat of one pass over `dt` \[s\].
+    fn pass(
+        &mut self,
+        (set, state): (&mut Set, &mut State),
+        (lists, mut metal): (&Lists, Option<&mut Metal>),
+        (pass, dt): (Pass<'_>, f64),
+    ) -> Result<(), OutOfRange> {
+        self.conduct((set, state), lists, metal.as_deref_mut(), pass)?;
+        let parts = (dt / self.limit - 1e-9).ceil().max(1.0);
+        let step = dt / parts;
+        for part in 1..=parts as u64 {
+            let time = (pass, state.time + part as f64 * step, step);
+            self.step((set, state), lists, metal.as_deref_mut(), time)?;
+        }
+        Ok(())
+    }
+
+    /// Lets the heat of what sleeps deep go once in `interval` steps.
+    #[must_use]
+    pub fn slowly(self, interval: u64) -> Self {
+        let slow = (interval > 1).then_some(Long {
+            interval,
+            waited: 0.0,
+        });
+        Self { slow, ..self }
+    }
+
+    /// Whether heat of what sleeps goes in the step after `step` others, so that all contacts are wanted.
+    pub(super) fn wants_all(&self, step: u64) -> bool {
+        self.slow.as_ref().is_none_or(|slow| slow.due(step))
+    }
+
+    /// Sums, the longest step and the time of a long one, for a checkpoint.
+    pub(super) fn saved(&self) -> [f64; 8] {
         let [taken, given, through, left] = self.lighting.sums;
         let own = [self.brought, self.limit, self.boiled];
-        [own[0], own[1], own[2], taken, given, through, left]
+        let waited = self.slow.as_ref().map_or(0.0, |slow| slow.waited);
+        [own[0], own[1], own[2], waited, taken, given, through, left]
     }
 
     /// Takes back what [`Heat::saved`] gave.
-    pub(super) fn take_back(&mut self, [brought, limit, boiled, sums @ ..]: [f64; 7]) {
+    pub(super) fn take_back(&mut self, [brought, limit, boiled, waited, sums @ ..]: [f64; 8]) {
         (self.brought, self.limit, self.boiled) = (brought, limit, boiled);
         self.lighting.sums = sums;
+        if let Some(slow) = &mut self.slow {
+            slow.waited = waited;
+        }
     }
 
     /// Sums over the run.

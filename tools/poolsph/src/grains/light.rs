@@ -152,6 +152,11 @@ impl Lighting {
         Ok(())
     }
 
+    /// Rows of the grains in the light.
+    pub(super) fn rows(&self) -> impl Iterator<Item = u32> {
+        self.lit.iter().map(|lit| lit.row)
+    }
+
     /// Greatest rate \[1/s\] at which the shine cools a grain of the heat capacity `capacity` \[J/K\].
     pub(super) fn fastest(&self, temperature: &[f64], capacity: impl Fn(usize) -> f64) -> f64 {
         let rate = |lit: &Lit| {

@@ -12,7 +12,9 @@ use neighbours::Grid;
 use rayon::prelude::*;
 use shapes::frame::Vector;
 
+use super::again::Again;
 use super::bounds::Slack;
+use super::depth::{CELL, kept};
 use super::memory::Memory;
 
 /// Rows of a chunk, the unit of parallel work.
@@ -79,6 +81,12 @@ pub struct Chunk {
     pub incoming: Vec<Incoming>,
     /// Greatest overlap \[m\].
     pub deepest: f64,
+    /// Cells of its rows that share a pair with others, by cells.
+    pub cells: Vec<[u32; 2]>,
+    /// Whether the forces of all its rows stay as they are.
+    pub kept: bool,
+    /// Whether those of all rows in its pairs do.
+    pub rests: bool,
 }
 
 impl Chunk {
@@ -122,6 +130,14 @@ impl Chunk {
         }
         self.inner = self.pairs.len();
         self.pairs.append(&mut outgoing);
+        self.cells.clear();
+        let cells = self.pairs.iter().map(|pair| {
+            let (a, b) = (first + pair.own as usize, pair.other as usize);
+            [(a / CELL) as u32, (b / CELL) as u32]
+        });
+        self.cells.extend(cells.filter(|[a, b]| a != b));
+        self.cells.sort_unstable();
+        self.cells.dedup();
         let number = self.pairs.len();
         self.histories.clear();
         self.histories.resize(number, History::default());
@@ -167,6 +183,8 @@ pub struct Lists {
     pub chunks: Vec<Chunk>,
     /// Contacts of each row, those that are still apart among them.
     pub contacts: Vec<u32>,
+    /// Chunks that need not be listed again.
+    pub again: Again,
     rolls: bool,
 }
 
@@ -179,6 +197,7 @@ impl Lists {
             places: Vec::new(),
             chunks: Vec::new(),
             contacts: Vec::new(),
+            again: Again::default(),
             rolls,
         }
     }
@@ -189,7 +208,8 @@ impl Lists {
         SKIN * least_radius
     }
 
-    /// Lists the pairs of `grains` whose radii go from `least` to `widest` \[m\]; `memories`, by rows, go along.
+    /// Lists the pairs of `grains` whose radii go from `least` to `widest` \[m\], but in chunks whose pairs stay; `memories` of
+    /// the others, by rows, go along.
     pub fn list(&mut self, grains: &[Grain], [least, widest]: [f64; 2], memories: &[Memory]) {
         let skin = Self::skin(least);
         let edge = 2.0 * widest + skin;
@@ -201,7 +221,8 @@ impl Lists {
         self.chunks.resize_with(count, Chunk::default);
         let (grid, rolls) = (&*grid, self.rolls);
         let chunks = self.chunks.par_iter_mut().enumerate();
-        chunks.for_each(|(c, chunk)| {
+        let listed = chunks.filter(|(c, _)| !self.again.stays(*c));
+        listed.for_each(|(c, chunk)| {
             let first = c * ROWS;
             chunk.list(first, (grains, grid), (skin, widest));
             chunk.rolled.clear();
@@ -238,10 +259,30 @@ impl Lists {
         }
     }
 
-    /// Contacts that touch, by the chunks of their lower rows.
-    pub fn memories(&self, memories: &mut Vec<Memory>) {
+    /// Marks the chunks whose pairs stay, of `grains` that were `listed` \[m\] and whose radii go from `least` to `widest` \[m\].
+    pub fn mark_again(&mut self, places: (&[Grain], &[Vector]), [least, widest]: [f64; 2]) {
+        let reach = 2.0 * widest + Self::skin(least);
+        self.again.find(places, ROWS, reach);
+    }
+
+    /// Finds which chunks need not be reckoned where cells sleep by `depth`.
+    pub fn rest(&mut self, depth: &[u8]) {
+        let rows = self.contacts.len();
+        let chunks = self.chunks.par_iter_mut().enumerate();
+        chunks.for_each(|(c, chunk)| {
+            let mut own = (c * ROWS..rows.min((c + 1) * ROWS)).step_by(CELL);
+            chunk.kept = own.all(|row| kept(depth, row));
+            let outgoing = &chunk.pairs[chunk.inner..];
+            chunk.rests =
+                chunk.kept && outgoing.iter().all(|pair| kept(depth, pair.other as usize));
+        });
+    }
+
+    /// Contacts that touch, by the chunks of their lower rows; those of chunks whose pairs stay if `all` are wanted.
+    pub fn memories(&self, memories: &mut Vec<Memory>, all: bool) {
         memories.clear();
-        for (c, chunk) in self.chunks.iter().enumerate() {
+        let chunks = self.chunks.iter().enumerate();
+        for (c, chunk) in chunks.filter(|(c, _)| all || !self.again.stays(*c)) {
             let touching = chunk.pairs.iter().enumerate();
             let touching = touching.filter(|(_, pair)| pair.state == Touch::Touching);
             memories.extend(touching.map(|(place, pair)| Memory {
@@ -260,11 +301,25 @@ impl Lists {
         pairs.filter(|pair| pair.state == Touch::Touching).count()
     }
 
-    /// Least slack of all pairs; `walls` tells how many walls a row may touch.
+    /// Least slack of all pairs; `walls` tells how many walls a row may touch, `alike` the mass \[kg\] that all grains have if it is one.
     #[must_use]
-    pub fn slack(&self, grains: &[Grain], walls: &[u32], (zeta, c): (f64, f64)) -> Option<Slack> {
-        let number = |a: usize| f64::from(self.contacts[a] + walls.get(a).copied().unwrap_or(0));
+    pub fn slack(
+        &self,
+        (grains, alike): (&[Grain], Option<f64>),
+        walls: &[u32],
+        (zeta, c): (f64, f64),
+    ) -> Option<Slack> {
+        let number = |a: usize| f64::from(self.contacts[a] + walls[a]);
         let of = |(place, chunk): (usize, &Chunk)| {
+            if let Some(mass) = alike {
+                // Of equal masses the most crowded pair has the least slack.
+                let crowd = chunk.pairs.iter().map(|pair| {
+                    let (a, b) = (place * ROWS + pair.own as usize, pair.other as usize);
+                    self.contacts[a] + self.contacts[b] + walls[a] + walls[b]
+                });
+                let most = f64::from(crowd.max()?);
+                return Some(Slack::of(0.5 * mass, most / mass, zeta, c));
+            }
             let pairs = chunk.pairs.iter().map(|pair| {
                 let (a, b) = (place * ROWS + pair.own as usize, pair.other as usize);
                 let (m, n) = (grains[a].mass, grains[b].mass);

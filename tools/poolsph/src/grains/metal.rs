@@ -13,7 +13,7 @@
 //! spin: the moment of a rub goes to the grain alone.
 
 use contact::{Contact, Grain, Normal, Rolling};
-use neighbours::Grid;
+use neighbours::{Grid, Halo};
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference};
 
@@ -46,6 +46,12 @@ pub struct Metal {
     /// Contacts and forces that outlive a list: those of a checkpoint.
     pub(super) memories: Vec<Memory>,
     pub(super) forces: Vec<(u32, Vector)>,
+    /// Contacts that stay as they are, with the force on the metal \[N\].
+    pub(super) aside: Vec<(Memory, Vector)>,
+    /// Rows of the grains that are looked at, by rows whether they are, and what flows near them.
+    pub(super) rows: Vec<u32>,
+    pub(super) seen: Vec<bool>,
+    pub(super) flowing: Option<Halo>,
     /// Where bodies and grains were when they were listed \[m\].
     pub(super) listed: [Vec<Vector>; 2],
     pub(super) grid: Option<Grid>,
@@ -72,6 +78,10 @@ impl Metal {
             pairs: Vec::new(),
             memories: Vec::new(),
             forces: Vec::new(),
+            aside: Vec::new(),
+            rows: Vec::new(),
+            seen: Vec::new(),
+            flowing: None,
             listed: [Vec::new(), Vec::new()],
             grid: None,
             places: Vec::new(),
@@ -100,9 +110,10 @@ impl Metal {
         self.slack.map_or(slack, |own| own.least(slack))
     }
 
-    /// Adds the rows of the grains beside metal, which may not sleep.
+    /// Adds the rows of the grains beside metal that flows, which may not sleep.
     pub fn stirred(&self, rows: &mut Vec<u32>) {
-        rows.extend(self.pairs.iter().map(|pair| pair.near.row));
+        let flows = |pair: &&Pair| self.bodies[pair.body as usize].member.is_some();
+        rows.extend(self.pairs.iter().filter(flows).map(|pair| pair.near.row));
     }
 
     /// x += dt u + dt^2/2 a, u += dt a of what moves.
@@ -134,6 +145,9 @@ impl Metal {
         let bodies = &self.bodies;
         let pairs = self.pairs.par_iter_mut().with_min_len(256);
         pairs.for_each(|pair| {
+            if kept(depth, pair.near.row as usize) {
+                return;
+            }
             let (grain, body) = (&grains[pair.near.row as usize], &bodies[pair.body as usize]);
             if let Some(meeting) = body.meeting(grain) {
                 pair.near.meet(meeting, (&own, rolling), step);
@@ -173,7 +187,8 @@ impl Metal {
     /// Gives the flow the impulses of a step of `dt` \[s\].
     pub fn give(&mut self, state: &mut State, dt: f64) {
         let scale = 1.0 / (dt * state.metal.volume());
-        self.borne = [0.0; 2];
+        let still = self.aside.iter().map(|(_, force)| force[2]);
+        self.borne = [still.sum(), 0.0];
         for body in &self.bodies {
             let moves = usize::from(body.member.is_some());
             self.borne[moves] += body.impulse[2] / dt;
@@ -192,10 +207,10 @@ impl Metal {
 
     /// Gives contacts the new rows of their grains: `rows` has that of each old row, none where a grain leaves.
     pub fn renumber(&mut self, rows: &[Option<u32>]) {
-        self.pairs.retain_mut(|pair| {
-            let row = rows[pair.near.row as usize];
-            row.map(|row| pair.near.row = row).is_some()
-        });
+        let follow = |row: &mut u32| rows[*row as usize].map(|new| *row = new).is_some();
+        self.pairs.retain_mut(|pair| follow(&mut pair.near.row));
+        self.aside.retain_mut(|(memory, _)| follow(&mut memory.row));
+        self.rows.retain_mut(follow);
     }
 
     /// Numbers of the last step.
@@ -233,8 +248,16 @@ impl Metal {
     fn save(&self) -> Vec<f64> {
         let mut kept = self.clone();
         kept.remember();
-        let mut saved = vec![kept.memories.len() as f64, kept.forces.len() as f64];
+        let mut saved = vec![
+            kept.memories.len() as f64,
+            kept.forces.len() as f64,
+            kept.aside.len() as f64,
+        ];
         saved.extend(kept.memories.iter().flat_map(Memory::save));
+        for (memory, force) in &kept.aside {
+            saved.extend(memory.save());
+            saved.extend(force);
+        }
         let forces = kept.forces.iter();
         saved.extend(forces.flat_map(|(id, [x, y, z])| [f64::from(*id), *x, *y, *z]));
         saved.extend(self.heat.iter().flat_map(Exchange::save));
@@ -243,23 +266,36 @@ impl Metal {
 
     /// Takes back what [`Metal::save`] gave.
     fn restore(&mut self, saved: &[f64]) {
-        let Some(([memories, forces], rest)) = saved.split_first_chunk() else {
+        let Some(([memories, forces, aside], rest)) = saved.split_first_chunk() else {
             return;
         };
-        let (memories, forces) = (9 * *memories as usize, 4 * *forces as usize);
-        let (Some(all), Some(acting)) =
-            (rest.get(..memories), rest.get(memories..memories + forces))
-        else {
+        let numbers = [
+            9 * *memories as usize,
+            12 * *aside as usize,
+            4 * *forces as usize,
+        ];
+        if rest.len() < numbers.iter().sum() {
             return;
-        };
+        }
+        let (all, rest) = rest.split_at(numbers[0]);
+        let (aside, rest) = rest.split_at(numbers[1]);
+        let (acting, rest) = rest.split_at(numbers[2]);
         let all = all.as_chunks::<9>().0.iter();
         self.memories = all.map(|saved| Memory::restored(*saved)).collect();
+        let aside = aside.as_chunks::<12>().0.iter();
+        self.aside = aside
+            .filter_map(|saved| {
+                let (memory, force) = saved.split_first_chunk::<9>()?;
+                let [x, y, z] = *force else { return None };
+                Some((Memory::restored(*memory), [x, y, z]))
+            })
+            .collect();
         let acting = acting.as_chunks::<4>().0.iter();
         self.forces = acting
             .map(|[id, x, y, z]| (*id as u32, [*x, *y, *z]))
             .collect();
         if let Some(heat) = &mut self.heat {
-            heat.restore(&rest[memories + forces..]);
+            heat.restore(rest);
         }
     }
 
@@ -270,6 +306,7 @@ impl Metal {
         size_of::<Body>() * self.bodies.capacity()
             + size_of::<Pair>() * self.pairs.capacity()
             + 24 * (listed + self.places.capacity())
+            + size_of::<(Memory, Vector)>() * self.aside.capacity()
             + self.near.capacity()
     }
 }

@@ -21,6 +21,7 @@ use shapes::frame::{along, length};
 
 use super::conducting::{Conducting, Radius};
 use super::metal_pair::{Body, Pair};
+use super::slow::Pass;
 use crate::heat::Caloric;
 use crate::heat::ledger::Sum;
 use crate::stage::StageError;
@@ -74,12 +75,13 @@ impl Exchange {
     pub(super) fn conduct(
         &mut self,
         (pairs, bodies): (&[Pair], &[Body]),
-        grains: &Conducting<'_>,
+        (grains, pass): (&Conducting<'_>, Pass<'_>),
         state: &State,
         sums: &mut [f64],
     ) -> Result<f64, OutOfRange> {
         self.links.clear();
-        for row in pairs.chunk_by(|a, b| a.near.row == b.near.row) {
+        let rows = pairs.chunk_by(|a, b| a.near.row == b.near.row);
+        for row in rows.filter(|row| pass.takes_alone(row[0].near.row as usize)) {
             self.of_grain((row, bodies), grains, state)?;
         }
         self.sums.clear();

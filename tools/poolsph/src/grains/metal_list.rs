@@ -4,14 +4,15 @@
 //! on places alone; contacts that touch and forces that act go along by the numbers of both.
 
 use contact::Grain;
-use neighbours::Grid;
+use neighbours::{Grid, Halo};
 use rayon::prelude::*;
-use shapes::frame::{Vector, difference, dot};
+use shapes::frame::{Vector, along, difference, dot};
 
 use super::bounds::Slack;
+use super::depth::kept;
 use super::metal::Metal;
 use super::metal_pair::{Body, Pair};
-use super::walls::Near;
+use super::near::Near;
 use crate::near::Role;
 use crate::state::{Phase, State};
 
@@ -19,15 +20,64 @@ use crate::state::{Phase, State};
 const AHEAD: f64 = 2.0;
 
 impl Metal {
-    /// Takes the metal near `grains`, which are no faster than `fastest` \[m/s\], for a step of `dt` \[s\].
+    /// Chooses the grains that are looked at: all, or those whose forces do not stay as they are by `depth` and those
+    /// that metal may flow against.
+    pub fn see(&mut self, state: &State, (grains, depth): (&[Grain], &[u8]), all: bool) {
+        self.seen.clear();
+        self.seen.resize(grains.len(), true);
+        if !(all || depth.is_empty()) {
+            let near = &state.near;
+            self.places.clear();
+            let flows = near.role.iter().zip(&near.position);
+            let flows = flows.filter(|(role, _)| **role == Role::Liquid);
+            self.places.extend(flows.map(|(_, x)| *x));
+            let reach = 2.0 * (self.widest + self.radius);
+            let halo = self.flowing.get_or_insert_with(|| Halo::new(reach));
+            halo.mark(&self.places);
+            let halo = &*halo;
+            let seen = self.seen.par_iter_mut().with_min_len(4096).enumerate();
+            seen.for_each(|(row, seen)| {
+                *seen = !kept(depth, row) || halo.may_touch(grains[row].position);
+            });
+        }
+        let rows = (0..).zip(&self.seen).filter(|(_, seen)| **seen);
+        self.rows.clear();
+        self.rows.extend(rows.map(|(row, _)| row));
+    }
+
+    /// Puts the contacts of grains aside that stay as they are by `depth`, and what they do to metal at rest.
+    pub fn put_aside(&mut self, depth: &[u8]) {
+        if depth.is_empty() {
+            return;
+        }
+        for body in &mut self.bodies {
+            body.force = [0.0; 3];
+        }
+        let (bodies, aside) = (&mut self.bodies, &mut self.aside);
+        self.pairs.retain(|pair| {
+            let body = &mut bodies[pair.body as usize];
+            let force = pair.near.reply.map_or([0.0; 3], |reply| reply.force);
+            if kept(depth, pair.near.row as usize) {
+                let memory = pair.near.memory(body.id);
+                aside.extend(memory.map(|memory| (memory, force.map(|f| -f))));
+                return false;
+            }
+            body.force = difference(body.force, force);
+            true
+        });
+    }
+
+    /// Takes the metal near the grains that are looked at, which are no faster than `fastest` \[m/s\], for a step of `dt` \[s\].
     pub fn take(&mut self, state: &State, grains: &[Grain], fastest: f64, dt: f64) {
         self.remember();
+        self.bring_back();
         let speed = fastest + state.near.fastest_squared().sqrt();
         let ahead = AHEAD * (self.skin + dt * speed);
         // Metal no number away is near: the flow tells of it.
         let reach = self.widest + self.radius + ahead.min(self.widest + self.radius);
         self.places.clear();
-        self.places.extend(grains.iter().map(|g| g.position));
+        let places = self.rows.iter().map(|row| grains[*row as usize].position);
+        self.places.extend(places);
         let grid = self
             .grid
             .get_or_insert_with(|| Grid::new(2.0 * (self.widest + self.radius)));
@@ -71,6 +121,30 @@ impl Metal {
         }
     }
 
+    /// Takes back what is aside of grains that are looked at again.
+    fn bring_back(&mut self) {
+        let (seen, memories, forces) = (&self.seen, &mut self.memories, &mut self.forces);
+        let number = forces.len();
+        self.aside.retain(|(memory, force)| {
+            let back = seen[memory.row as usize];
+            if back {
+                memories.push(*memory);
+                forces.push((memory.other, *force));
+            }
+            !back
+        });
+        if forces.len() > number {
+            forces.sort_by_key(|(id, _)| *id);
+            forces.dedup_by(|next, first| {
+                let same = next.0 == first.0;
+                if same {
+                    first.1 = along(first.1, 1.0, next.1);
+                }
+                same
+            });
+        }
+    }
+
     /// Keeps contacts that touch and forces that act.
     pub(super) fn remember(&mut self) {
         let (pairs, bodies) = (&self.pairs, &self.bodies);
@@ -93,14 +167,17 @@ impl Metal {
         self.memories.extend(touching);
         self.pairs.clear();
         self.places.clear();
-        self.places.extend(grains.iter().map(|g| g.position));
+        let places = self.rows.iter().map(|row| grains[*row as usize].position);
+        self.places.extend(places);
         let Some(grid) = &mut self.grid else { return };
         grid.bin(&self.places);
+        let rows = &self.rows;
         for (place, body) in self.bodies.iter_mut().enumerate() {
             let (at, own) = (body.grain.position, self.radius + self.skin);
             body.contacts = 0;
             grid.runs(at, own + self.widest, |run| {
-                for (x, row) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
+                for (x, k) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
+                    let row = &rows[*k as usize];
                     let (way, within) = (difference(*x, at), own + grains[*row as usize].radius);
                     if dot(way, way) < within * within {
                         body.contacts += 1;
@@ -129,7 +206,7 @@ impl Metal {
         of_bodies.clear();
         of_bodies.extend(self.bodies.iter().map(|body| body.grain.position));
         of_grains.clear();
-        of_grains.extend(grains.iter().map(|grain| grain.position));
+        of_grains.extend_from_slice(&self.places);
         self.bound(grains, contacts, (zeta, c));
     }
 
@@ -169,8 +246,9 @@ impl Metal {
         };
         let bodies = self.bodies.iter().map(|body| body.grain.position);
         let far = bodies.zip(of_bodies).map(squared).fold(0.0, f64::max);
-        let grains = grains.par_iter().with_min_len(4096).map(|g| g.position);
-        let farther = grains.zip(of_grains).map(squared);
+        let rows = self.rows.par_iter().with_min_len(4096);
+        let farther = rows.map(|row| grains[*row as usize].position);
+        let farther = farther.zip(of_grains).map(squared);
         let farther = farther.reduce(|| 0.0, f64::max);
         far.sqrt() + farther.sqrt() > self.skin
     }

@@ -3,7 +3,7 @@
 use contact::{Grain, Meeting};
 use shapes::frame::Vector;
 
-use super::walls::Near;
+use super::near::Near;
 #[cfg(doc)]
 use crate::state::State;
 

@@ -18,9 +18,11 @@
 //! So the bits do not depend on threads, momentum and angular momentum are kept to round-off, and what is far away
 //! adds nothing.
 
+pub mod again;
 pub mod block;
 pub mod bounds;
 pub mod columns;
+mod conductances;
 mod conducting;
 pub mod cover;
 pub mod depth;
@@ -30,6 +32,7 @@ pub mod heat;
 pub mod law;
 pub mod light;
 mod limits;
+mod listing;
 pub mod lists;
 pub mod memory;
 pub mod metal;
@@ -39,6 +42,7 @@ mod metal_pair;
 pub mod metal_parameters;
 pub mod motion;
 pub mod moving;
+mod near;
 pub mod order;
 pub mod pairs;
 pub mod parameters;
@@ -46,9 +50,11 @@ pub mod pressure;
 mod resistance;
 mod saved;
 pub mod sleep;
+pub mod slow;
 pub mod totals;
 pub mod walls;
 mod warm;
+mod watched;
 
 use particles::Column;
 
@@ -73,5 +79,11 @@ pub const FORCE: Column<[f64; 3]> = Column::new("force", "N", [0.0; 3]).saved().
 pub const MOMENT: Column<[f64; 3]> = Column::new("moment", "N m", [0.0; 3]).saved();
 /// Where the grain was when neighbours were last listed \[m\].
 pub const LISTED: Column<[f64; 3]> = Column::new("listed", "m", [0.0; 3]).saved();
+/// Where the grain was when it was last asked whether it rests \[m\].
+pub const WATCHED: Column<[f64; 3]> = Column::new("watched", "m", [0.0; 3]).saved();
+/// How far it has turned since \[rad\].
+pub const TURNED: Column<[f64; 3]> = Column::new("turned", "rad", [0.0; 3]).saved();
+/// Integral of F/m + g since, of one that sleeps beside others that are awake \[m/s\].
+pub const PULL: Column<[f64; 3]> = Column::new("pull", "m/s", [0.0; 3]).saved();
 /// Number of the body that drives it, plus one; 0 for a free grain.
 pub const DRIVEN: Column<u8> = Column::new("driven", "1", 0).saved();

@@ -6,7 +6,7 @@ use run::Fault;
 use run::property::OutOfRange;
 use shapes::frame::dot;
 
-use super::bounds::{Doing, Setting, Slack};
+use super::bounds::{Doing, Setting};
 use super::columns::STATE;
 use super::heat::Heat;
 use super::law::Law;
@@ -27,7 +27,7 @@ pub struct Motion {
     pub(super) friction: Option<Friction>,
     rolling: Option<Rolling>,
     pub(super) setting: Setting,
-    zeta: f64,
+    pub(super) zeta: f64,
     pub(super) walls: Walls,
     pub(super) bounds: Option<BoundsScene>,
     until: Option<RestScene>,
@@ -41,7 +41,7 @@ pub struct Motion {
     pub(super) states: Vec<u8>,
     /// Lists made since rows were last put in order.
     pub(super) listings: f64,
-    wall_contacts: Vec<u32>,
+    pub(super) wall_contacts: Vec<u32>,
     pub(super) moving: Moving,
     pub(super) memories: [Vec<Memory>; 2],
     pub(super) doing: Doing,
@@ -130,52 +130,6 @@ impl Motion {
         Ok(())
     }
 
-    /// Lists afresh who may touch metal.
-    fn list_metal(&mut self) {
-        let contacts = [&*self.lists.contacts, &*self.wall_contacts];
-        if let Some(metal) = &mut self.metal {
-            let damping = (self.zeta, self.setting.inertia_factor);
-            metal.list(&self.moving.grains, contacts, damping);
-        }
-    }
-
-    /// Lists neighbours afresh; contacts that touch go along.
-    fn list(&mut self) {
-        self.remember();
-        self.list_with_memories();
-    }
-
-    /// Takes down what the contacts that touch remember.
-    pub(super) fn remember(&mut self) {
-        self.lists.memories(&mut self.memories[0]);
-        self.walls.memories(&mut self.memories[1]);
-    }
-
-    pub(super) fn list_with_memories(&mut self) {
-        self.listings += 1.0;
-        let (grains, radii) = (&self.moving.grains, self.setting.radii);
-        let [between, at_walls] = &self.memories;
-        self.moving.listed.clear();
-        self.moving.listed.extend(grains.iter().map(|g| g.position));
-        self.lists.list(grains, radii, between);
-        let skin = Lists::skin(radii[0]);
-        self.walls
-            .list(grains, skin, at_walls, &mut self.wall_contacts);
-        let (zeta, c) = (self.zeta, self.setting.inertia_factor);
-        let alone = self.setting.pair(zeta);
-        let pairs = self.lists.slack(grains, &self.wall_contacts, (zeta, c));
-        let contacts = self.lists.contacts.iter().zip(&self.wall_contacts);
-        let walls = contacts.zip(grains).filter(|((_, walls), _)| **walls > 0);
-        let walls = walls.map(|((pairs, walls), grain)| {
-            Slack::of(grain.mass, f64::from(pairs + walls) / grain.mass, zeta, c)
-        });
-        let least = walls.fold(pairs.unwrap_or(alone), Slack::least);
-        if let Some(sleep) = &mut self.sleep {
-            sleep.list(&self.lists, grains.len());
-        }
-        self.doing.slack = least.least(alone);
-    }
-
     /// Forces and moments of all contacts.
     fn act(&mut self, step: f64) {
         match self.law {
@@ -206,7 +160,6 @@ impl Motion {
         self.walls.add([force, moment], depth);
         let in_metal =
             (self.metal.as_mut()).map_or(0.0, |metal| metal.act(seen, laws, step, (force, moment)));
-        self.moving.keep(depth);
         let overlaps = self.lists.chunks.iter().map(|chunk| chunk.deepest);
         self.doing.deepest = overlaps.fold(at_walls.max(in_metal), f64::max);
     }
@@ -235,6 +188,7 @@ impl Motion {
         }
         self.moving.turn();
         self.act(step);
+        self.moving.feel(step, depth(&self.sleep));
         // By the speeds of the step before, which one step hardly changes.
         let next = (left > 0.0 && !self.moving.drives()).then(|| self.part(left));
         let [fastest, far] = self.moving.correct(step, next, depth(&self.sleep));
@@ -251,14 +205,6 @@ impl Motion {
             sleep.count(self.moving.grains.len());
         }
         Ok(next.map(|next| [next, far]))
-    }
-
-    /// Whether someone may touch who is not listed, where grains have gone as far as `far` \[m\].
-    fn strayed(&self, far: f64) -> bool {
-        let skin = Lists::skin(self.setting.radii[0]);
-        // What is no number has strayed.
-        let near = far + far.max(self.walls.strayed()) <= skin;
-        !near
     }
 
     /// Contacts of a grain with others that touch, in the mean.
@@ -293,7 +239,10 @@ impl Stage for Motion {
         };
         self.moving.take(&mut set);
         if let Some(metal) = &mut self.metal {
-            metal.take(state, &self.moving.grains, self.doing.fastest, dt);
+            let grains = &self.moving.grains;
+            let all = (self.heat.as_ref()).is_some_and(|heat| heat.wants_all(state.step));
+            metal.see(state, (grains, depth(&self.sleep)), all);
+            metal.take(state, grains, self.doing.fastest, dt);
         }
         let mut march = || -> Result<(), OutOfRange> {
             if !self.begun {
@@ -328,8 +277,9 @@ impl Stage for Motion {
         }
         self.leave(&mut set);
         let diverged = self.diverged(state);
-        self.moving.put(&mut set);
-        let touching = (&self.lists, &self.walls, self.metal.as_mut());
+        self.moving.put(&mut set, depth(&self.sleep));
+        let asleep = depth(&self.sleep);
+        let touching = (&self.lists, &self.walls, self.metal.as_mut(), asleep);
         let warmed = match &mut self.heat {
             Some(heat) if marched.is_ok() => {
                 if self.sleep.is_some() {
@@ -342,6 +292,9 @@ impl Stage for Motion {
         };
         if self.heat.is_some() {
             self.stir_changed(&set);
+        }
+        if let Some(metal) = &mut self.metal {
+            metal.put_aside(depth(&self.sleep));
         }
         state.grains = Some(set);
         marched.map_err(|what| StageError::Data(what.to_string()))?;

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use run::property::{Curve, OutOfRange};
 use shapes::frame::{Vector, difference, dot};
 
-use super::depth::{CELL, EDGE, asleep, unbalanced};
+use super::depth::{CELL, asleep};
 use super::lists::ROWS;
 use super::walls::velocity;
-use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, VELOCITY};
+use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, PULL, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
 
 /// Cells of a unit of parallel work.
 const CELLS: usize = ROWS / CELL;
@@ -36,15 +36,17 @@ pub struct Moving {
     pub moment: Vec<Vector>,
     /// Where they were when neighbours were listed \[m\].
     pub listed: Vec<Vector>,
-    /// Greatest speed of each cell since it was last asked for \[m/s\], that of surfaces by spin among it.
-    pub paces: Vec<f64>,
+    /// Where they were when sleep was last asked for \[m\], their turning \[rad\] and the pull \[m/s\] since; empty where none sleeps.
+    pub(super) watched: [Vec<Vector>; 3],
     /// Forces and moments of the step before.
     before: [Vec<Vector>; 2],
     driven: Vec<Driven>,
     drives: Vec<Option<[Curve; 3]>>,
-    gravity: Vector,
+    pub(super) gravity: Vector,
     /// I / (m r^2).
     inertia_factor: f64,
+    /// Depth of sleep by cells when the columns were last put back; none where they are to be taken anew.
+    slept: Option<Vec<u8>>,
 }
 
 /// Turns force and moment of a step into the motion of a grain.
@@ -93,24 +95,14 @@ impl Moving {
         }
     }
 
-    /// Takes the columns that move.
+    /// Takes the columns that move; those that have been put back only have not changed since.
     pub fn take(&mut self, set: &mut Set) {
-        let columns = (
-            set.column(&POSITION),
-            set.column(&VELOCITY),
-            set.column(&SPIN),
-        );
-        let (radius, mass) = (set.column(&RADIUS), set.column(&MASS));
-        self.grains.clear();
-        self.grains.extend((0..set.len()).map(|a| Grain {
-            position: columns.0[a],
-            velocity: columns.1[a],
-            spin: columns.2[a],
-            radius: radius[a],
-            mass: mass[a],
-        }));
-        self.paces.clear();
-        self.paces.resize(set.len().div_ceil(CELL), 0.0);
+        if self.slept.is_none() {
+            self.copy(set);
+        }
+        if set.has(&WATCHED) {
+            self.watched = [set.take(&WATCHED), set.take(&TURNED), set.take(&PULL)];
+        }
         self.driven.clear();
         let driven = set.column(&DRIVEN).iter().enumerate();
         self.driven.extend(
@@ -128,21 +120,76 @@ impl Moving {
         self.listed = set.take(&LISTED);
     }
 
+    /// Grains as the columns have them.
+    fn copy(&mut self, set: &Set) {
+        let columns = (
+            set.column(&POSITION),
+            set.column(&VELOCITY),
+            set.column(&SPIN),
+        );
+        let (radius, mass) = (set.column(&RADIUS), set.column(&MASS));
+        self.grains.clear();
+        self.grains.extend((0..set.len()).map(|a| Grain {
+            position: columns.0[a],
+            velocity: columns.1[a],
+            spin: columns.2[a],
+            radius: radius[a],
+            mass: mass[a],
+        }));
+    }
+
     /// Whether no grain is free.
     #[must_use]
     pub fn all_driven(&self) -> bool {
         !self.grains.is_empty() && self.driven.len() == self.grains.len()
     }
 
-    /// Puts the columns back.
-    pub fn put(&mut self, set: &mut Set) {
-        let grains = &self.grains;
-        sweep::fill(set.column_mut(&POSITION), |a| grains[a].position);
-        sweep::fill(set.column_mut(&VELOCITY), |a| grains[a].velocity);
-        sweep::fill(set.column_mut(&SPIN), |a| grains[a].spin);
+    /// Puts the columns back, where cells sleep by `depth`: what has slept since they were last put back stays.
+    pub fn put(&mut self, set: &mut Set, depth: &[u8]) {
+        let mut slept = self.slept.take().unwrap_or_default();
+        for cell in 0..self.grains.len().div_ceil(CELL) {
+            let row = cell * CELL;
+            if !(asleep(&slept, row) && asleep(depth, row)) {
+                self.write(set, self.cell(cell));
+            }
+        }
+        self.put_forces(set);
+        slept.clear();
+        slept.extend_from_slice(depth);
+        self.slept = Some(slept);
+    }
+
+    /// Puts all columns back, for rows that are to be put in order or to leave.
+    pub fn put_all(&mut self, set: &mut Set) {
+        self.write(set, 0..self.grains.len());
+        self.put_forces(set);
+        self.slept = None;
+    }
+
+    fn write(&self, set: &mut Set, rows: std::ops::Range<usize>) {
+        let (grains, from) = (&self.grains[rows.clone()], rows);
+        let value = |of: fn(&Grain) -> Vector| move |a: usize| of(&grains[a]);
+        sweep::fill(
+            &mut set.column_mut(&POSITION)[from.clone()],
+            value(|g| g.position),
+        );
+        sweep::fill(
+            &mut set.column_mut(&VELOCITY)[from.clone()],
+            value(|g| g.velocity),
+        );
+        sweep::fill(&mut set.column_mut(&SPIN)[from], value(|g| g.spin));
+    }
+
+    fn put_forces(&mut self, set: &mut Set) {
         set.put(&FORCE, std::mem::take(&mut self.force));
         set.put(&MOMENT, std::mem::take(&mut self.moment));
         set.put(&LISTED, std::mem::take(&mut self.listed));
+        if set.has(&WATCHED) {
+            let [watched, turned, pull] = std::mem::take(&mut self.watched);
+            set.put(&WATCHED, watched);
+            set.put(&TURNED, turned);
+            set.put(&PULL, pull);
+        }
     }
 
     /// Gives driven grains their velocity at the start.
@@ -212,9 +259,9 @@ impl Moving {
         let old = before.par_chunks(CELL).zip(turned.par_chunks(CELL));
         let rest = forces.zip(old).zip(self.listed.par_chunks(CELL));
         let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
-        let most = grains.zip(&mut self.paces).zip(rest).enumerate();
-        let most = most.map(|(cell, ((grains, pace), ((forces, old), listed)))| {
-            let (mut fastest, mut rolling, mut far) = (0.0, 0.0, 0.0);
+        let most = grains.zip(rest).enumerate();
+        let most = most.map(|(cell, (grains, ((forces, old), listed)))| {
+            let (mut fastest, mut far) = (0.0, 0.0);
             if asleep(depth, cell * CELL) {
                 return [fastest, far];
             }
@@ -222,15 +269,12 @@ impl Moving {
             for ((grain, (now, before)), listed) in grains.iter_mut().zip(forces).zip(listed) {
                 verlet.correct(grain, [now.0, now.1], [before.0, before.1]);
                 fastest = greater(fastest, dot(grain.velocity, grain.velocity));
-                let surface = grain.radius * grain.radius * dot(grain.spin, grain.spin);
-                rolling = greater(rolling, surface);
                 if let Some(following) = &following {
                     following.predict(grain, [now.0, now.1]);
                     let way = difference(grain.position, *listed);
                     far = greater(far, dot(way, way));
                 }
             }
-            *pace = greater(*pace, greater(fastest, rolling).sqrt());
             [fastest, far]
         });
         let greatest = |a: [f64; 2], b: [f64; 2]| [greater(a[0], b[0]), greater(a[1], b[1])];
@@ -293,13 +337,6 @@ impl Moving {
         cell * CELL..(cell * CELL + CELL).min(self.grains.len())
     }
 
-    /// Acceleration of a row by what is not balanced \[m/s2\].
-    #[must_use]
-    pub fn unbalanced(&self, row: usize) -> f64 {
-        let forces = [self.force[row], self.moment[row]];
-        unbalanced(&self.grains[row], forces, self.gravity, self.inertia_factor)
-    }
-
     /// Stops the grains of a cell; gives the kinetic energy that they had \[J\].
     pub fn stop(&mut self, cell: usize) -> f64 {
         let rows = self.cell(cell);
@@ -333,16 +370,6 @@ impl Moving {
         );
     }
 
-    /// Gives back the forces that are kept to the cells at the edge of what is reckoned, which others have pushed.
-    pub fn keep(&mut self, depth: &[u8]) {
-        for cell in (0..depth.len()).filter(|cell| depth[*cell] == EDGE) {
-            let rows = self.cell(cell);
-            for (old, now) in self.before.iter().zip([&mut self.force, &mut self.moment]) {
-                now[rows.clone()].copy_from_slice(&old[rows.clone()]);
-            }
-        }
-    }
-
     /// The greatest speed \[m/s\]; no number where one is none.
     fn fastest(&self) -> f64 {
         let squares = self.grains.iter().map(|g| dot(g.velocity, g.velocity));
@@ -352,6 +379,6 @@ impl Moving {
 
 /// The greater of two; what is no number is greater.
 #[inline]
-fn greater(a: f64, b: f64) -> f64 {
+pub(super) fn greater(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }

@@ -56,7 +56,7 @@ impl Motion {
         self.remember();
         let rows = inverse(&order);
         self.renumber(&rows);
-        self.moving.put(set);
+        self.moving.put_all(set);
         set.arrange(&order);
         self.moving.take(set);
         self.list_with_memories();
@@ -79,7 +79,7 @@ impl Motion {
         self.remember();
         let rows = closed_up(&leaves);
         self.renumber(&rows);
-        self.moving.put(set);
+        self.moving.put_all(set);
         set.remove(|row| leaves[row]);
         self.moving.take(set);
         self.list_with_memories();

@@ -26,7 +26,7 @@ pub fn act<N: Normal + Copy + Sync>(
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
     let chunks = lists.chunks.par_iter_mut().zip(sums).enumerate();
     chunks.for_each(|(c, (chunk, (force, moment)))| {
-        if sleeps(chunk, c * ROWS, depth) {
+        if chunk.rests {
             return;
         }
         let work = Work {
@@ -45,26 +45,22 @@ pub fn act<N: Normal + Copy + Sync>(
             }
         }
     });
-    fetch(lists, [force, moment]);
-}
-
-/// Whether nothing is reckoned between any grains of a chunk, and between these and those of later chunks.
-fn sleeps(chunk: &Chunk, first: usize, depth: &[u8]) -> bool {
-    let cells = first / CELL..depth.len().min((first + ROWS) / CELL);
-    let deep = !depth.is_empty() && cells.into_iter().all(|cell| kept(depth, cell * CELL));
-    let outgoing = || chunk.pairs[chunk.inner..].iter();
-    deep && outgoing().all(|pair| kept(depth, pair.other as usize))
+    fetch(lists, depth, [force, moment]);
 }
 
 /// Adds what pairs of other chunks do to the grains of each.
-fn fetch(lists: &Lists, [force, moment]: [&mut [Vector]; 2]) {
+fn fetch(lists: &Lists, depth: &[u8], [force, moment]: [&mut [Vector]; 2]) {
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
-    let chunks = lists.chunks.par_iter().zip(sums);
-    chunks.for_each(|(chunk, (force, moment))| {
+    let chunks = lists.chunks.par_iter().zip(sums).enumerate();
+    let awake = chunks.filter(|(_, (chunk, _))| !chunk.kept);
+    awake.for_each(|(c, (chunk, (force, moment)))| {
         for incoming in &chunk.incoming {
+            let row = incoming.row as usize;
+            if kept(depth, c * ROWS + row) {
+                continue;
+            }
             let from = &lists.chunks[incoming.chunk as usize];
             let push = from.outgoing[incoming.number as usize];
-            let row = incoming.row as usize;
             for k in 0..3 {
                 force[row][k] -= push.force[k];
                 moment[row][k] += push.moment[k];
@@ -193,12 +189,17 @@ impl<N: Normal> Work<'_, N> {
     ) {
         let pair = chunk.pairs[place];
         let a = pair.own as usize;
-        for k in 0..3 {
-            force[a][k] += done.force[k];
-            moment[a][k] += done.moment[k];
+        if !kept(self.depth, self.first + a) {
+            for k in 0..3 {
+                force[a][k] += done.force[k];
+                moment[a][k] += done.moment[k];
+            }
         }
         if place < chunk.inner {
             let b = pair.other as usize - self.first;
+            if kept(self.depth, self.first + b) {
+                return;
+            }
             for k in 0..3 {
                 force[b][k] -= done.force[k];
                 moment[b][k] += done.moment_on_b[k];

@@ -83,12 +83,20 @@ pub struct ContactScene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SleepScene {
-    /// No grain of the cell and of those beside it is faster, nor its surface by its spin.
+    /// No grain of the cell and of those beside it has gone farther than at this speed, nor its surface by its turning.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub speed_m_s: f64,
-    /// For so long; and forces that are out of balance would not make it as fast within this time.
+    /// Within so long.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub held_s: f64,
+    /// Heat between grains that sleep deep, and from metal into these, goes once in so many steps of the run.
+    #[serde(default = "each")]
+    #[schemars(range(min = 1, max = 10000), extend("x-unit" = "1"))]
+    pub heat_interval_steps: u64,
+}
+
+fn each() -> u64 {
+    1
 }
 
 /// Law of the push.

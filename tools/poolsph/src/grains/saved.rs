@@ -9,19 +9,19 @@ use super::motion::Motion;
 use super::sleep::Sleep;
 
 /// Numbers of a checkpoint ahead of the walls.
-const HEAD: usize = 15;
+const HEAD: usize = 16;
 
 impl Motion {
     /// All of it as numbers.
     pub(super) fn saved(&self) -> Vec<f64> {
         let (mut between, mut at_walls) = (Vec::new(), Vec::new());
-        self.lists.memories(&mut between);
+        self.lists.memories(&mut between, true);
         self.walls.memories(&mut at_walls);
         let Doing {
             deepest, fastest, ..
         } = self.doing;
         let [left, mass] = self.lost;
-        let heat = self.heat.as_ref().map_or([0.0; 7], Heat::saved);
+        let heat = self.heat.as_ref().map_or([0.0; 8], Heat::saved);
         let steps = self.steps;
         let mut saved = vec![
             between.len() as f64,
@@ -92,6 +92,7 @@ impl Motion {
         for (grain, listed) in self.moving.grains.iter_mut().zip(&self.moving.listed) {
             grain.position = *listed;
         }
+        self.lists.again.all();
         self.list_with_memories();
         for (grain, now) in self.moving.grains.iter_mut().zip(now) {
             grain.position = now;

@@ -1,34 +1,43 @@
 //! Sleep: what rests is not moved, and deep within it nothing is reckoned.
 //!
 //! [`CELL`] rows make a cell, some four grains along each side; cells are neighbours where they share a pair. A cell is quiet
-//! where its grains, and their surfaces by their spin, have been slower than v for the time T, and unbalanced forces would
-//! not make them as fast within T:
+//! where no grain, nor its surface by its turning, has gone farther within the time T than at the speed v:
 //!
 //! ```text
-//! |u|, r |w| < v for T,      |F/m + g|, |M| / (c m r) < v / T
+//! |x(t) - x(t - T)|, r |integral of w dt| < v T
 //! ```
 //!
-//! A quiet cell whose neighbours are quiet falls asleep: so a ring of quiet cells stays awake around what moves. Its grains stand
-//! still, and the energy that they had is told. Cells that sleep beside others that are awake still feel them: forces on
-//! their grains are reckoned, and where one is out of balance by more than twice the above the cell wakes. It also wakes beside what moves, where a
-//! grain melts or sets, and beside a wall that moves, is fed or presses.
+//! So grains that tremble where they lie are quiet: sound of what moves goes through all of a bed, and shakes grains by less than a
+//! thousandth of their diameter. A quiet cell whose neighbours are quiet falls asleep: a ring of quiet cells stays awake around what moves.
+//! Its grains stand still, and the energy that they had is told. Cells that sleep beside others that are awake still
+//! feel them: where a grain would be carried that far by the mean of its forces over [`LONG`] T, the cell wakes,
+//!
+//! ```text
+//! |mean of F/m + g| > 2 v / T
+//! ```
+//!
+//! and also beside what moves, where a grain melts or sets, and beside a wall that moves, is fed or presses.
 
 use particles::Set;
 
 use super::Motion;
 use super::columns::STATE;
 use super::depth::{AWAKE, BORDER, CELL, DEEP, EDGE};
-use super::lists::{Lists, ROWS};
+use super::lists::Lists;
 use super::moving::Moving;
 use super::parameters::SleepScene;
+
+/// Forces on what sleeps are averaged over so many times T.
+const LONG: f64 = 10.0;
 
 /// Which cells sleep, and how deeply.
 #[derive(Debug, Clone)]
 pub struct Sleep {
     scene: SleepScene,
     depth: Vec<u8>,
-    /// How long each cell has been quiet \[s\].
+    /// How long each cell has been quiet, and been looked at \[s\].
     quiet: Vec<f64>,
+    age: Vec<f64>,
     /// Cells that share a pair.
     neighbours: Vec<[u32; 2]>,
     /// Kinetic energy that was taken from grains that fell asleep \[J\].
@@ -45,6 +54,7 @@ impl Sleep {
             scene,
             depth: Vec::new(),
             quiet: Vec::new(),
+            age: Vec::new(),
             neighbours: Vec::new(),
             taken: 0.0,
             shares: [0.0; 2],
@@ -60,17 +70,12 @@ impl Sleep {
     /// Finds which cells share a pair.
     pub fn list(&mut self, lists: &Lists, rows: usize) {
         self.neighbours.clear();
-        for (c, chunk) in lists.chunks.iter().enumerate() {
-            let each = chunk.pairs.iter().map(|pair| {
-                let (a, b) = (c * ROWS + pair.own as usize, pair.other as usize);
-                [(a / CELL) as u32, (b / CELL) as u32]
-            });
-            let start = self.neighbours.len();
-            self.neighbours.extend(each.filter(|[a, b]| a != b));
-            self.neighbours[start..].sort_unstable();
+        for chunk in &lists.chunks {
+            self.neighbours.extend_from_slice(&chunk.cells);
         }
         self.neighbours.dedup();
         self.quiet.resize(rows.div_ceil(CELL), 0.0);
+        self.age.resize(rows.div_ceil(CELL), 0.0);
     }
 
     /// Follows rows to their new places: `rows` has that of each old row, none where a grain leaves.
@@ -78,14 +83,16 @@ impl Sleep {
         let left = rows.iter().flatten().count();
         let mut quiet = vec![f64::INFINITY; left.div_ceil(CELL)];
         let mut depth = vec![BORDER; quiet.len()];
+        let mut age = vec![0.0_f64; quiet.len()];
         for (old, new) in rows.iter().enumerate() {
             let Some(new) = new else { continue };
             let cell = *new as usize / CELL;
+            age[cell] = age[cell].max(self.age.get(old / CELL).copied().unwrap_or(0.0));
             quiet[cell] = quiet[cell].min(self.quiet.get(old / CELL).copied().unwrap_or(0.0));
             depth[cell] = depth[cell].min(self.depth.get(old / CELL).copied().unwrap_or(AWAKE));
         }
         // How deeply they sleep is found anew; until then all that sleep feel the others.
-        (self.quiet, self.depth) = (quiet, depth);
+        (self.quiet, self.depth, self.age) = (quiet, depth, age);
         self.simplify();
     }
 
@@ -101,18 +108,28 @@ impl Sleep {
         let cells = moving.grains.len().div_ceil(CELL);
         self.depth.resize(cells, AWAKE);
         self.quiet.resize(cells, 0.0);
+        self.age.resize(cells, 0.0);
+        let SleepScene {
+            speed_m_s: v,
+            held_s: held,
+            ..
+        } = self.scene;
         for cell in 0..cells {
-            let asleep = self.depth[cell] > AWAKE;
-            let rows = moving.cell(cell);
-            let fast = moving.paces[cell] >= self.scene.speed_m_s;
-            let most = self.scene.speed_m_s / self.scene.held_s * if asleep { 2.0 } else { 1.0 };
-            let loaded =
-                self.depth[cell] < EDGE && rows.clone().any(|a| moving.unbalanced(a) > most);
-            self.quiet[cell] = if fast || loaded {
-                0.0
-            } else {
-                self.quiet[cell] + dt
+            let age = self.age[cell] + dt;
+            let (still, done) = match self.depth[cell] {
+                AWAKE => (!moving.gone(cell, dt, v * held), age >= held),
+                BORDER => {
+                    let done = age >= LONG * held;
+                    (!done || moving.pulled(cell) < 2.0 * v * age / held, done)
+                }
+                _ => (true, true),
             };
+            self.quiet[cell] = if still { self.quiet[cell] + dt } else { 0.0 };
+            self.age[cell] = age;
+            if done || !still {
+                self.age[cell] = 0.0;
+                moving.look_again(cell);
+            }
         }
         stirred.iter().for_each(|row| self.stir(*row as usize));
         // One pass each, so that nothing hangs on the order of cells.
@@ -138,6 +155,10 @@ impl Sleep {
         for (cell, (new, old)) in depth.iter().zip(&self.depth).enumerate() {
             if *new > AWAKE && *old == AWAKE {
                 self.taken += moving.stop(cell);
+            }
+            if (*new == BORDER) != (*old == BORDER) || (*new == AWAKE) != (*old == AWAKE) {
+                self.age[cell] = 0.0;
+                moving.look_again(cell);
             }
             if *new >= EDGE && *old < EDGE {
                 moving.hold(cell);
@@ -180,7 +201,7 @@ impl Sleep {
     /// Numbers of a checkpoint with so many rows.
     #[must_use]
     pub fn numbers(rows: usize) -> usize {
-        3 + 2 * rows.div_ceil(CELL)
+        3 + 3 * rows.div_ceil(CELL)
     }
 
     /// As numbers for a checkpoint.
@@ -188,7 +209,9 @@ impl Sleep {
     pub fn save(&self, rows: usize) -> Vec<f64> {
         let mut saved = vec![self.taken, self.shares[0], self.shares[1]];
         let cells = rows.div_ceil(CELL);
-        saved.extend((0..cells).map(|cell| self.quiet.get(cell).copied().unwrap_or(0.0)));
+        for times in [&self.quiet, &self.age] {
+            saved.extend((0..cells).map(|cell| times.get(cell).copied().unwrap_or(0.0)));
+        }
         saved.extend((0..cells).map(|cell| self.depth.get(cell).copied().map_or(0.0, f64::from)));
         saved
     }
@@ -199,8 +222,9 @@ impl Sleep {
             return;
         };
         (self.taken, self.shares) = (*taken, [*all, *moved]);
-        let (quiet, depth) = rest.split_at(rest.len() / 2);
-        self.quiet = quiet.to_vec();
+        let (quiet, rest) = rest.split_at(rest.len() / 3);
+        let (age, depth) = rest.split_at(rest.len() / 2);
+        (self.quiet, self.age) = (quiet.to_vec(), age.to_vec());
         self.depth = depth.iter().map(|depth| *depth as u8).collect();
         let kept = (0..self.depth.len()).filter(|cell| self.depth[*cell] >= EDGE);
         kept.for_each(|cell| moving.hold(cell));
@@ -218,6 +242,7 @@ impl Motion {
                 metal.stirred(&mut self.stirred);
             }
             sleep.turn(&mut self.moving, &self.stirred, dt);
+            self.lists.rest(sleep.depth());
             self.stirred.clear();
         }
     }

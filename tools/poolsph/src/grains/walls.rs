@@ -1,6 +1,6 @@
 //! Walls: faces that grains touch, at rest or moving.
 
-use contact::{Contact, Grain, History, Meeting, Normal, Reply, Rolling};
+use contact::{Contact, Grain, Meeting, Normal, Rolling};
 use rayon::prelude::*;
 use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange, Property};
@@ -9,20 +9,11 @@ use shapes::frame::{Vector, along, difference, length};
 use super::depth::kept;
 use super::faces::Face;
 use super::light::Light;
+use super::lists::ROWS;
 use super::memory::Memory;
+use super::near::Near;
 use super::parameters::WallScene;
 use super::pressure::Pressed;
-
-/// A grain near a face, or near a particle of metal.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Near {
-    pub(super) row: u32,
-    pub(super) touching: bool,
-    pub(super) history: History,
-    pub(super) rolled: Vector,
-    pub(super) reply: Option<Reply>,
-    pub(super) overlap: f64,
-}
 
 /// A face that may move.
 #[derive(Debug, Clone)]
@@ -41,6 +32,8 @@ struct Wall {
     moved: Vector,
     listed: Vector,
     near: Vec<Near>,
+    /// How far each chunk of rows was from being listed \[m\], and where the wall was then.
+    far: Vec<Option<(f64, Vector)>>,
 }
 
 /// All walls.
@@ -91,6 +84,7 @@ impl Walls {
                 moved: [0.0; 3],
                 listed: [0.0; 3],
                 near: Vec::new(),
+                far: Vec::new(),
             }));
             // All faces of a wall are one surface.
             let light = wall.light.as_ref();
@@ -150,10 +144,10 @@ impl Walls {
     }
 
     /// Lists the grains within `skin` \[m\] of each wall; `memories`, by walls and rows, go along. Counts the walls of each
-    /// row in `contacts`.
+    /// row in `contacts`. Chunks of grains that are `still` are not looked at where the wall is far from them.
     pub fn list(
         &mut self,
-        grains: &[Grain],
+        (grains, still): (&[Grain], &[bool]),
         skin: f64,
         memories: &[Memory],
         contacts: &mut Vec<u32>,
@@ -166,16 +160,30 @@ impl Walls {
             if let Some(pressed) = &mut wall.pressed {
                 pressed.rows.clear();
             }
-            for (row, grain) in grains.iter().enumerate() {
-                let own = difference(grain.position, wall.moved);
-                let distance = wall.face.distance(own);
-                if let Some(pressed) = wall.pressed.as_mut().filter(|p| distance < p.near) {
-                    pressed.rows.push(row as u32);
+            wall.far.resize(grains.len().div_ceil(ROWS), None);
+            for (c, chunk) in grains.chunks(ROWS).enumerate() {
+                let still = still.get(c).copied().unwrap_or(false);
+                if still && wall.is_far(c) {
+                    continue;
                 }
-                if distance < grain.radius + skin {
-                    wall.near.push(Near::new(row as u32));
-                    contacts[row] += 1;
+                let (mut nearest, mut odd) = (f64::INFINITY, false);
+                for (own, grain) in chunk.iter().enumerate() {
+                    let row = (c * ROWS + own) as u32;
+                    let distance = wall.face.distance(difference(grain.position, wall.moved));
+                    nearest = nearest.min(distance - grain.radius - skin);
+                    if let Some(pressed) = &mut wall.pressed {
+                        nearest = nearest.min(distance - pressed.near);
+                        if distance < pressed.near {
+                            pressed.rows.push(row);
+                        }
+                    }
+                    if distance < grain.radius + skin {
+                        wall.near.push(Near::new(row));
+                        contacts[row as usize] += 1;
+                    }
+                    odd |= distance.is_nan();
                 }
+                wall.far[c] = (!odd).then_some((nearest, wall.moved));
             }
             for memory in memories.iter().filter(|m| m.other as usize == w) {
                 if let Ok(at) = wall.near.binary_search_by_key(&memory.row, |n| n.row) {
@@ -308,79 +316,11 @@ impl Walls {
     }
 }
 
-impl Near {
-    /// A grain that touches nothing yet.
-    pub(super) fn new(row: u32) -> Self {
-        Self {
-            row,
-            touching: false,
-            history: History::default(),
-            rolled: [0.0; 3],
-            reply: None,
-            overlap: 0.0,
-        }
-    }
-
-    /// Goes on with a contact of an earlier list.
-    pub(super) fn remember(&mut self, memory: &Memory) {
-        (self.touching, self.history) = (true, memory.history);
-        self.rolled = memory.rolled;
-    }
-
-    /// The contact as a memory, if it touches; `other` is who it touches.
-    pub(super) fn memory(&self, other: u32) -> Option<Memory> {
-        self.touching.then_some(Memory {
-            row: self.row,
-            other,
-            history: self.history,
-            rolled: self.rolled,
-        })
-    }
-
-    pub(super) fn meet<N: Normal>(
-        &mut self,
-        meeting: Meeting,
-        (contact, rolling): (&Contact<N>, Option<Rolling>),
-        step: f64,
-    ) {
-        self.overlap = meeting.overlap;
-        if meeting.overlap <= 0.0 {
-            self.part(meeting, contact, step);
-            return;
-        }
-        let (meeting, step) = if self.touching {
-            (meeting, step)
-        } else {
-            meeting.begun(step)
-        };
-        self.touching = true;
-        let history = &mut self.history;
-        self.reply = Some(match rolling {
-            None => contact.act(&meeting, history, step),
-            Some(rolling) => {
-                contact.act_rolling(&meeting, rolling, (history, &mut self.rolled), step)
-            }
-        });
-    }
-
-    fn part<N: Normal>(&mut self, meeting: Meeting, contact: &Contact<N>, step: f64) {
-        if !self.touching && self.reply.is_none() {
-            return;
-        }
-        let pulls = self.touching && contact.normal.pulls_at_the_end();
-        self.reply = pulls.then(|| {
-            let push = contact.normal.push(&meeting.ended(step));
-            Reply {
-                force: meeting.normal.map(|n| push * n),
-                friction: [0.0; 3],
-                moment: [0.0; 3],
-                moment_on_b: [0.0; 3],
-                push,
-            }
-        });
-        self.touching = false;
-        self.history = History::default();
-        self.rolled = [0.0; 3];
+impl Wall {
+    /// Whether the grains of a chunk that have not moved since it was looked at are too far to be listed.
+    fn is_far(&self, chunk: usize) -> bool {
+        let from = |(left, moved): (f64, Vector)| left > length(difference(self.moved, moved));
+        self.far[chunk].is_some_and(from)
     }
 }
 

@@ -1,0 +1,94 @@
+//! Conductances of the contacts of grains, among each other and with metal.
+
+use contact::Meeting;
+use particles::{Set, sweep};
+use rayon::prelude::*;
+use run::property::OutOfRange;
+
+use super::MASS;
+use super::columns::{ENTHALPY, HELD, TEMPERATURE};
+use super::heat::Heat;
+use super::lists::{Lists, ROWS, Touch};
+use super::metal::Metal;
+use super::slow::Pass;
+use crate::state::State;
+
+/// Part of the longest stable step that is taken.
+const PART: f64 = 0.5;
+
+impl Heat {
+    /// Conductances of all contacts \[W/K\] and the longest step \[s\].
+    pub(super) fn conduct(
+        &mut self,
+        (set, state): (&Set, &State),
+        lists: &Lists,
+        metal: Option<&mut Metal>,
+        pass: Pass<'_>,
+    ) -> Result<(), OutOfRange> {
+        let lit = self.lighting.rows().filter(|_| pass.shines());
+        let held = set.column(&HELD).iter().enumerate();
+        let held = held
+            .filter(|(_, body)| **body > 0)
+            .map(|(row, _)| row as u32);
+        let beside = metal.as_ref().map_or(&[][..], |metal| &metal.pairs);
+        let beside = beside.iter().map(|pair| pair.near.row);
+        let beside = beside.filter(|row| pass.takes_alone(*row as usize));
+        self.busy.find(lists, pass, lit.chain(held).chain(beside));
+        let busy = &self.busy;
+        let mut all = std::mem::take(&mut self.conductance);
+        let grains = self
+            .conductor
+            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
+        let pair = |a: usize, b: usize| -> Result<f64, OutOfRange> {
+            let Some(meeting) = Meeting::of(&grains.grain(a), &grains.grain(b)) else {
+                return Ok(0.0);
+            };
+            let gas = grains.gas(0.5 * (grains.temperature[a] + grains.temperature[b]))?;
+            let k = [grains.conductivity(a), grains.conductivity(b)];
+            Ok(grains.of_contact(&meeting, grains.radii[a], k, gas))
+        };
+        all.resize_with(lists.chunks.len(), Vec::new);
+        let chunks = all.par_iter_mut().zip(&lists.chunks).enumerate();
+        let done: Result<(), OutOfRange> = chunks
+            .map(|(c, (conductance, chunk))| {
+                conductance.clear();
+                if !busy.conduct[c] {
+                    return Ok(());
+                }
+                for other in &chunk.pairs {
+                    let (a, b) = (c * ROWS + other.own as usize, other.other as usize);
+                    let touching = other.state == Touch::Touching;
+                    let h = if touching && pass.takes(a, b) {
+                        pair(a, b)?
+                    } else {
+                        0.0
+                    };
+                    conductance.push(h);
+                }
+                Ok(())
+            })
+            .collect();
+        self.conductance = all;
+        done?;
+        let mut sum = std::mem::take(&mut self.sum);
+        sum.resize(set.len(), 0.0);
+        self.gather(lists, &mut sum, |_, _| 1.0);
+        let grains = self
+            .conductor
+            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
+        let of_metal = match metal.and_then(Metal::exchange) {
+            Some((exchange, pairs)) => exchange.conduct(pairs, (&grains, pass), state, &mut sum)?,
+            None => 0.0,
+        };
+        let least = self.caloric.least_heat();
+        let masses = set.column(&MASS);
+        let fastest = sweep::greatest(set.len(), |a| sum[a] / (masses[a] * least));
+        self.sum = sum;
+        let shine = self
+            .lighting
+            .fastest(set.column(&TEMPERATURE), |a| masses[a] * least);
+        let rate = fastest.map_or(of_metal, |(_, rate)| rate.max(of_metal)) + shine;
+        self.limit = PART / rate;
+        Ok(())
+    }
+}

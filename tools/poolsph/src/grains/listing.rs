@@ -1,0 +1,71 @@
+//! Lists of who may touch whom, made anew as grains stray.
+
+use super::Motion;
+use super::bounds::Slack;
+use super::lists::Lists;
+use super::sleep::Sleep;
+
+impl Motion {
+    /// Lists afresh who may touch metal.
+    pub(super) fn list_metal(&mut self) {
+        let contacts = [&*self.lists.contacts, &*self.wall_contacts];
+        if let Some(metal) = &mut self.metal {
+            let damping = (self.zeta, self.setting.inertia_factor);
+            metal.list(&self.moving.grains, contacts, damping);
+        }
+    }
+
+    /// Lists neighbours afresh; contacts that touch go along.
+    pub(super) fn list(&mut self) {
+        let places = (&self.moving.grains[..], &self.moving.listed[..]);
+        self.lists.mark_again(places, self.setting.radii);
+        self.lists.memories(&mut self.memories[0], false);
+        self.walls.memories(&mut self.memories[1]);
+        self.list_with_memories();
+    }
+
+    /// Takes down what the contacts that touch remember, to list all of them again.
+    pub(super) fn remember(&mut self) {
+        self.lists.again.all();
+        self.lists.memories(&mut self.memories[0], true);
+        self.walls.memories(&mut self.memories[1]);
+    }
+
+    pub(super) fn list_with_memories(&mut self) {
+        self.listings += 1.0;
+        let (grains, radii) = (&self.moving.grains, self.setting.radii);
+        let [between, at_walls] = &self.memories;
+        self.moving.listed.clear();
+        self.moving.listed.extend(grains.iter().map(|g| g.position));
+        self.lists.list(grains, radii, between);
+        let skin = Lists::skin(radii[0]);
+        let still = &self.lists.again.still;
+        self.walls
+            .list((grains, still), skin, at_walls, &mut self.wall_contacts);
+        let (zeta, c) = (self.zeta, self.setting.inertia_factor);
+        let alone = self.setting.pair(zeta);
+        let pairs = self
+            .lists
+            .slack((grains, self.setting.alike), &self.wall_contacts, (zeta, c));
+        let contacts = self.lists.contacts.iter().zip(&self.wall_contacts);
+        let walls = contacts.zip(grains).filter(|((_, walls), _)| **walls > 0);
+        let walls = walls.map(|((pairs, walls), grain)| {
+            Slack::of(grain.mass, f64::from(pairs + walls) / grain.mass, zeta, c)
+        });
+        let least = walls.fold(pairs.unwrap_or(alone), Slack::least);
+        if let Some(sleep) = &mut self.sleep {
+            sleep.list(&self.lists, grains.len());
+        }
+        self.doing.slack = least.least(alone);
+        let depth = self.sleep.as_ref().map_or(&[][..], Sleep::depth);
+        self.lists.rest(depth);
+    }
+
+    /// Whether someone may touch who is not listed, where grains have gone as far as `far` \[m\].
+    pub(super) fn strayed(&self, far: f64) -> bool {
+        let skin = Lists::skin(self.setting.radii[0]);
+        // What is no number has strayed.
+        let near = far + far.max(self.walls.strayed()) <= skin;
+        !near
+    }
+}
