@@ -14,4 +14,16 @@ build/saw-600a/report.html: build/gmaw-600a/arc.mcap build/saw-600a/weld.mcap $(
 	$(RERUN) $(BIN)/report page --study saw-600a --out $@ \
 	  --arc build/gmaw-600a/arc.mcap --pool build/saw-600a/weld.mcap
 
-.PRECIOUS: build/saw-600a/bed.mcap build/saw-600a/weld.mcap build/saw-600a/report.html
+# Half of it beside its mirror plane.
+.PHONY: saw-600a-half
+saw-600a-half: build/saw-600a/half.mcap ## half of saw-600a beside its mirror plane (long)
+
+build/saw-600a/half-bed.mcap: pipelines/saw-600a/bed.json pipelines/saw-600a/half-bed.patch.json $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/bed.json --patch pipelines/saw-600a/half-bed.patch.json --out $@ $(MACHINE)
+
+build/saw-600a/half.mcap: pipelines/saw-600a/weld.json pipelines/saw-600a/half.patch.json \
+  build/saw-600a/half-bed.mcap build/gmaw-600a/arc.mcap $(BIN)/poolsph always
+	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/weld.json --patch pipelines/saw-600a/half.patch.json \
+	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-600a/half-bed.mcap --out $@ $(MACHINE)
+
+.PRECIOUS: build/saw-600a/half-bed.mcap build/saw-600a/half.mcap build/saw-600a/bed.mcap build/saw-600a/weld.mcap build/saw-600a/report.html

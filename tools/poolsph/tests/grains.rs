@@ -222,7 +222,7 @@ fn layers_and_stone() -> Value {
 }
 
 fn asleep(mut scene: Value) -> Value {
-    scene["grains"]["sleep"] = json!({"speed_m_s": 3e-3, "held_s": 2e-3});
+    scene["grains"]["sleep"] = json!({"speed_m_s": 1e-3, "held_s": 2e-3});
     scene
 }
 
@@ -255,7 +255,7 @@ fn what_rests_sleeps_until_it_is_hit_and_lies_where_it_would_have_lain() {
     );
     let share = closing(folder.path(), "asleep.mcap", "grain_moved_share");
     assert!(
-        share < 0.75,
+        share < 0.55,
         "only {share} of the grains were moved, in the mean"
     );
     // Before the stone comes, and when it has come.
@@ -311,7 +311,7 @@ fn sleep_hangs_on_no_thread_and_is_kept_where_a_run_is_interrupted() {
 /// Layers that conduct, hot at one end; heat of what sleeps goes once in `interval` steps.
 fn conducting_layers(interval: u32) -> Value {
     let mut scene = asleep(layers_and_stone());
-    scene["grains"]["bodies"][0]["temperature_k"] = json!("600 + 1e4*x");
+    scene["grains"]["bodies"][0]["temperature_k"] = json!({"expr": "600 + 1e4*x"});
     scene["grains"]["bodies"][1]["temperature_k"] = json!(600);
     scene["grains"]["heat"] = json!({"thermal_conductivity_w_m_k": 20.2, "specific_heat_j_kg_k": 1000,
         "gas_conductivity_w_m_k": 1.0});
@@ -328,7 +328,7 @@ fn heat_of_what_sleeps_goes_in_longer_steps_and_none_is_lost() {
         finished(&conducting_layers(interval), &name, folder.path(), &[]);
         let reader = artefact::Reader::open(folder.path().join(&name)).unwrap();
         let asleep = closing(folder.path(), &name, "grain_asleep");
-        assert!(asleep > 300.0, "{asleep} grains sleep at the end");
+        assert!(asleep > 100.0, "{asleep} grains sleep at the end");
         let temperature = |frame: usize| -> Vec<f64> {
             let frame = reader.frame("/grains", frame).unwrap();
             frame.f64("temperature").unwrap()

@@ -122,7 +122,7 @@ impl Sleep {
                     let done = age >= LONG * held;
                     (!done || moving.pulled(cell) < 2.0 * v * age / held, done)
                 }
-                _ => (true, true),
+                _ => (true, false),
             };
             self.quiet[cell] = if still { self.quiet[cell] + dt } else { 0.0 };
             self.age[cell] = age;
