@@ -34,7 +34,9 @@ impl Again {
         for (grains, listed) in grains.chunks(rows).zip(listed.chunks(rows)) {
             let before = self.places.len();
             let both = grains.iter().map(|g| g.position).zip(listed);
-            for (now, then) in both.filter(|(now, then)| now != *then) {
+            let moved =
+                |now: &Vector, then: &Vector| now.map(f64::to_bits) != then.map(f64::to_bits);
+            for (now, then) in both.filter(|(now, then)| moved(now, then)) {
                 self.places.extend([now, *then]);
             }
             self.still.push(self.places.len() == before);

@@ -17,6 +17,19 @@ use crate::state::State;
 const PART: f64 = 0.5;
 
 impl Heat {
+    /// Finds the chunks that take part in a pass.
+    fn find_busy(&mut self, set: &Set, lists: &Lists, metal: Option<&Metal>, pass: Pass<'_>) {
+        let lit = self.lighting.rows().filter(|_| pass.shines());
+        let held = set.column(&HELD).iter().enumerate();
+        let held = held
+            .filter(|(_, body)| **body > 0)
+            .map(|(row, _)| row as u32);
+        let beside = metal.map_or(&[][..], |metal| &metal.pairs);
+        let beside = beside.iter().map(|pair| pair.near.row);
+        let beside = beside.filter(|row| pass.takes_alone(*row as usize));
+        self.busy.find(lists, pass, lit.chain(held).chain(beside));
+    }
+
     /// Conductances of all contacts \[W/K\] and the longest step \[s\].
     pub(super) fn conduct(
         &mut self,
@@ -25,15 +38,7 @@ impl Heat {
         metal: Option<&mut Metal>,
         pass: Pass<'_>,
     ) -> Result<(), OutOfRange> {
-        let lit = self.lighting.rows().filter(|_| pass.shines());
-        let held = set.column(&HELD).iter().enumerate();
-        let held = held
-            .filter(|(_, body)| **body > 0)
-            .map(|(row, _)| row as u32);
-        let beside = metal.as_ref().map_or(&[][..], |metal| &metal.pairs);
-        let beside = beside.iter().map(|pair| pair.near.row);
-        let beside = beside.filter(|row| pass.takes_alone(*row as usize));
-        self.busy.find(lists, pass, lit.chain(held).chain(beside));
+        self.find_busy(set, lists, metal.as_deref(), pass);
         let busy = &self.busy;
         let mut all = std::mem::take(&mut self.conductance);
         let grains = self

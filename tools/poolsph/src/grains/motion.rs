@@ -207,6 +207,22 @@ impl Motion {
         Ok(next.map(|next| [next, far]))
     }
 
+    /// Heat of a step of `dt` \[s\] between grains and with metal; who has melted or set wakes.
+    fn conduct(&mut self, set: &mut Set, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let Some(heat) = &mut self.heat else {
+            return Ok(());
+        };
+        if self.sleep.is_some() {
+            self.states.clear();
+            self.states.extend(set.column(&STATE));
+        }
+        let asleep = depth(&self.sleep);
+        let touching = (&self.lists, &self.walls, self.metal.as_mut(), asleep);
+        let warmed = heat.advance(set, touching, state, dt);
+        self.stir_changed(set);
+        warmed
+    }
+
     /// Contacts of a grain with others that touch, in the mean.
     fn contacts(&self) -> f64 {
         let grains = self.moving.grains.len().max(1);
@@ -278,21 +294,10 @@ impl Stage for Motion {
         self.leave(&mut set);
         let diverged = self.diverged(state);
         self.moving.put(&mut set, depth(&self.sleep));
-        let asleep = depth(&self.sleep);
-        let touching = (&self.lists, &self.walls, self.metal.as_mut(), asleep);
-        let warmed = match &mut self.heat {
-            Some(heat) if marched.is_ok() => {
-                if self.sleep.is_some() {
-                    self.states.clear();
-                    self.states.extend(set.column(&STATE));
-                }
-                heat.advance(&mut set, touching, state, dt)
-            }
-            _ => Ok(()),
+        let warmed = match &marched {
+            Ok(()) => self.conduct(&mut set, state, dt),
+            Err(_) => Ok(()),
         };
-        if self.heat.is_some() {
-            self.stir_changed(&set);
-        }
         if let Some(metal) = &mut self.metal {
             metal.put_aside(depth(&self.sleep));
         }
