@@ -10,7 +10,7 @@
 //! So grains that tremble where they lie are quiet: sound of what moves goes through all of a bed, and shakes grains by less than a
 //! thousandth of their diameter. A quiet cell whose neighbours are quiet falls asleep: a ring of quiet cells stays awake around what moves.
 //! Its grains stand still, and the energy that they had is told. Cells that sleep beside others that are awake still
-//! feel them: where a grain would be carried that far by the mean of its forces over [`LONG`] T, the cell wakes,
+//! feel them: where a grain would be carried that far by the mean of its forces over ten T, the cell wakes,
 //!
 //! ```text
 //! |mean of F/m + g| > 2 v / T
