@@ -58,6 +58,12 @@ compare: programs ## one page that compares two runs (A=folder B=folder)
 	@$(BIN)/report compare --a "$(A)" --b "$(B)" --out $(COMPARED)
 	@echo "to look at: $(COMPARED)"
 
+# A look before running: what every stage of a study would begin with.
+.PHONY: preview
+preview: export PREVIEW_STUDY = $(STUDY)
+preview: programs ## what would be there before a study runs: bodies, points, paths, walls (STUDY=name)
+	+@BIN=$(BIN) pipelines/preview "$$PREVIEW_STUDY" "$(MAKE)"
+
 # Checks.
 .PHONY: test format lint docs unit schemas
 test: format unit ## everything that must hold on every change (minutes)

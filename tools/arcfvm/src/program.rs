@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
-use run::{Estimate, Failure, Fault, Input, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Fault, Input, Inputs, Plan, Preview, Session, Tool};
 
-use crate::assemble::{GasFile, assemble, pool};
+use crate::assemble::{GasFile, assemble, pool, preview};
 use crate::case::Case;
 use crate::scene::{Gas, Scene};
 use crate::settings::Settings;
@@ -82,6 +82,13 @@ impl Tool for ArcFvm {
             ),
             memory: Vec::new(),
         }))
+    }
+
+    fn preview(scene: &Scene, inputs: &Inputs) -> Result<Preview, Failure> {
+        match inputs.get("surface") {
+            Some(path) => preview(&pool::deform(scene, path)?),
+            None => preview(scene),
+        }
     }
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {

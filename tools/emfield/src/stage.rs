@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use artefact::Version;
-use run::{Estimate, Failure, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Inputs, Plan, Preview, Session, Tool};
 
 use crate::assemble;
 use crate::cloud::Cloud;
@@ -97,6 +97,10 @@ impl Tool for EmField {
             return assemble::estimate_flow(scene, liquid);
         }
         trial::estimate(scene, &ready(scene)?).map(Some)
+    }
+
+    fn preview(scene: &Scene, _: &Inputs) -> Result<Preview, Failure> {
+        assemble::preview(scene)
     }
 
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {

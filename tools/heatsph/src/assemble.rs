@@ -21,22 +21,7 @@ const SOURCE: [&str; 6] = ["x", "y", "z", "r", "T", "t"];
 /// # Errors
 /// Faults of the scene, all that can be found at once.
 pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
-    let faults = scene.faults();
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    let body = Body::new(&scene.body, scene.dimensions);
-    let spacing = scene.points.spacing_m;
-    let points = room::least_points(&body, spacing, scene.dimensions);
-    let wanted = room::bytes(points, scene.dimensions);
-    let what = format!("at a spacing of {spacing} m there are {points:.1e} points and more");
-    let change = "take a larger spacing or a smaller body";
-    let crowded = run::crowded("/points/spacing_m", &what, wanted, change);
-    if let Some(fault) = crowded.filter(|_| points.is_finite()) {
-        return Err(vec![fault.or_at("/body")]);
-    }
-    let cloud = Cloud::fill(&body, &scene.points, scene.dimensions)
-        .map_err(|error| vec![Fault::at("/points", error.to_string())])?;
+    let (body, cloud) = filled(scene)?;
     let surface = boundary::compile(scene, &cloud)?;
     let at = "/initial_temperature_k";
     let fault = |at: &str, error: OutOfRange| vec![Fault::at(at, error.to_string())];
@@ -80,6 +65,30 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     let system = System::new((cloud, links), (materials, surface), (storage, source))
         .map_err(|error| fault("/materials", error))?;
     Ok((system, cells.temperature))
+}
+
+/// The body of a scene and the points that fill it.
+///
+/// # Errors
+/// Faults of the scene; more points than there is memory for.
+pub fn filled(scene: &Scene) -> Result<(Body, Cloud), Vec<Fault>> {
+    let faults = scene.faults();
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let body = Body::new(&scene.body, scene.dimensions);
+    let spacing = scene.points.spacing_m;
+    let points = room::least_points(&body, spacing, scene.dimensions);
+    let wanted = room::bytes(points, scene.dimensions);
+    let what = format!("at a spacing of {spacing} m there are {points:.1e} points and more");
+    let change = "take a larger spacing or a smaller body";
+    let crowded = run::crowded("/points/spacing_m", &what, wanted, change);
+    if let Some(fault) = crowded.filter(|_| points.is_finite()) {
+        return Err(vec![fault.or_at("/body")]);
+    }
+    let cloud = Cloud::fill(&body, &scene.points, scene.dimensions)
+        .map_err(|error| vec![Fault::at("/points", error.to_string())])?;
+    Ok((body, cloud))
 }
 
 /// Gives held points their temperatures at the start.

@@ -24,6 +24,7 @@ pub mod monitor;
 pub mod operator;
 pub mod output;
 pub mod pace;
+pub mod preview;
 pub mod scene;
 pub mod simulate;
 pub mod solve;

@@ -4,14 +4,14 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use artefact::Version;
-use run::{Estimate, Failure, Fault, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Fault, Inputs, Plan, Preview, Session, Tool};
 
 use crate::assemble;
 use crate::march::{State, choice};
 use crate::scene::method::Beyond;
 use crate::scene::{Operator, Scene};
 use crate::system::{Rates, System};
-use crate::{simulate, steady};
+use crate::{preview, simulate, steady};
 
 /// Heat conduction by smoothed particles.
 #[derive(Debug)]
@@ -80,6 +80,10 @@ impl Tool for HeatSph {
             basis: format!("{:.2} ms a step, as the first", 1e3 * each),
             memory: Vec::new(),
         }))
+    }
+
+    fn preview(scene: &Scene, _: &Inputs) -> Result<Preview, Failure> {
+        Ok(preview::preview(scene)?)
     }
 
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {

@@ -1,9 +1,9 @@
 //! What the command line needs to know of this tool.
 
-use run::{Estimate, Failure, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Inputs, Plan, Preview, Session, Tool};
 
 use crate::scene::{KIND, Scene};
-use crate::{simulate, trial};
+use crate::{assemble, simulate, trial};
 
 /// The program `jetsph`.
 #[derive(Debug)]
@@ -26,6 +26,10 @@ impl Tool for JetSph {
 
     fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
         trial::estimate(scene).map(Some)
+    }
+
+    fn preview(scene: &Scene, _: &Inputs) -> Result<Preview, Failure> {
+        Ok(assemble::preview(scene)?)
     }
 
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {

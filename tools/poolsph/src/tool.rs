@@ -1,9 +1,9 @@
 //! What the command line needs to know of this tool.
 
-use run::{Estimate, Failure, Input, Inputs, Plan, Session, Tool};
+use run::{Estimate, Failure, Input, Inputs, Plan, Preview, Session, Tool};
 
 use crate::scene::{KIND, Scene};
-use crate::{simulate, trial};
+use crate::{preview, simulate, trial};
 
 /// The program `poolsph`.
 #[derive(Debug)]
@@ -42,6 +42,10 @@ impl Tool for PoolSph {
 
     fn grows(scene: &Scene) -> Option<&'static str> {
         trial::grows(scene)
+    }
+
+    fn preview(scene: &Scene, inputs: &Inputs) -> Result<Preview, Failure> {
+        preview::preview(scene, inputs)
     }
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {

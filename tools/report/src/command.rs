@@ -8,7 +8,7 @@ use run::{Failure, Form, Owned};
 
 use crate::files::{
     DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PairFiles,
-    PassesFiles, SweepFiles, perhaps_named,
+    PassesFiles, PreviewFiles, SweepFiles, perhaps_named,
 };
 use crate::{figures, index, page, validate};
 
@@ -53,6 +53,9 @@ enum Action {
     /// One page that compares two runs: what was changed, numbers, pictures, curves.
     #[command(after_help = COMPARE)]
     Compare(PairFiles),
+    /// One page about what would be there before a run, of the points that `TOOL check --points` writes.
+    #[command(after_help = PREVIEW)]
+    Preview(PreviewFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
     Index(Folders),
     /// Prints the measures of a weld's bead as JSON, with their units and ranges along the weld.
@@ -102,6 +105,10 @@ const GAS: &str = "Example, from the repository root:\n  \
     target/release/report gas --study gases --out build/gases/report.html \\\n    \
     --table argon=build/gases/argon.mcap --reference argon=pipelines/gases/reference-argon.json";
 
+const PREVIEW: &str = "Example, from the repository root:\n  \
+    target/release/poolsph check pipelines/gmaw-300a/pool.json --points build/look.mcap\n  \
+    target/release/report preview pool=build/look.mcap --out build/look.html";
+
 /// The whole program.
 #[must_use]
 pub fn main() -> ExitCode {
@@ -144,6 +151,7 @@ impl Action {
             Self::Gas(f) => Some(&mut f.out),
             Self::Sweep(f) => Some(&mut f.out),
             Self::Compare(f) => Some(&mut f.out),
+            Self::Preview(f) => Some(&mut f.out),
             Self::Index(f) => Some(&mut f.out),
             Self::Validate { .. } | Self::Figures { .. } => None,
         }
@@ -177,6 +185,7 @@ impl Action {
             Self::Drop(f) => named(&[&f.drops]),
             Self::Gas(f) => named(&[&f.table, &f.reference, &f.variant]),
             Self::Sweep(f) => vec![("the points".to_owned(), f.points.clone())],
+            Self::Preview(f) => named(&[&f.looks]),
             Self::Index(f) => f.read(),
             Self::Compare(_) | Self::Validate { .. } | Self::Figures { .. } => Vec::new(),
         }
@@ -227,6 +236,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
         Action::Gas(_) => ("--table", true),
         Action::Sweep(_) => ("--points", true),
         Action::Compare(_) => ("--a and --b", true),
+        Action::Preview(_) => ("FILE.mcap", true),
     };
     if !given {
         let what = format!("there is nothing to report on: name at least one of {wanted}");
@@ -246,6 +256,7 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Sweep(files) => page::sweep::write(files).map(|()| ExitCode::SUCCESS),
         Action::Compare(files) => page::pair::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Preview(files) => page::preview::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Figures { pool } => figures::run(pool),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),

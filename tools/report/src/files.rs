@@ -152,6 +152,29 @@ pub(crate) struct PairFiles {
     pub(crate) out: PathBuf,
 }
 
+/// Files of a page about what would be there before a run.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PreviewFiles {
+    /// Name of the study, for the title.
+    #[arg(long)]
+    pub(crate) study: Option<String>,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Points of a scene, and what the page calls them.
+    #[arg(required = true, value_name = "[NAME=]FILE.mcap", value_parser = look)]
+    pub(crate) looks: Vec<(String, PathBuf)>,
+}
+
+/// A file that may have a name; without one it is called as it is.
+fn look(word: &str) -> Result<(String, PathBuf), String> {
+    named(word).or_else(|wrong| {
+        let path = PathBuf::from(word);
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        stem.map(|stem| (stem, path)).ok_or(wrong)
+    })
+}
+
 /// Folders of the index.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Folders {

@@ -21,6 +21,7 @@ mod measure;
 mod page;
 mod picture;
 mod plot;
+mod preview;
 mod records;
 mod targets;
 mod validate;

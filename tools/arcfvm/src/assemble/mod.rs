@@ -7,6 +7,7 @@ mod granular;
 mod layout;
 mod matter;
 pub(crate) mod pool;
+mod preview;
 mod vapour;
 mod wire;
 
@@ -26,6 +27,7 @@ use crate::scene::{
 use electrodes::Electrodes;
 pub use gas::GasFile;
 use layout::Layout;
+pub use preview::preview;
 
 /// How far a hot channel reaches up the wire, in its radius: an arc spreads over the wire's side.
 const CLIMB: f64 = 0.5;

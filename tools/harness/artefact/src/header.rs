@@ -16,13 +16,18 @@ use crate::version::Version;
 pub const METADATA: &str = "fusionline";
 
 /// Kinds of artefacts, each with its major version and the stages that write it.
-pub const KINDS: [(&str, u32, &[&str]); 6] = [
+pub const KINDS: [(&str, u32, &[&str]); 7] = [
     ("arc-source", 1, &["arcfvm"]),
     ("gas-table", 1, &["gasprop"]),
     ("mean-fields", 1, &["avg"]),
     ("particle-frames", 1, &["poolsph"]),
     ("jet-frames", 1, &["jetsph"]),
     ("point-fields", 1, &["heatsph", "emfield"]),
+    (
+        "preview",
+        1,
+        &["arcfvm", "poolsph", "heatsph", "emfield", "jetsph"],
+    ),
 ];
 
 /// Who wrote a file, from what. Two runs with equal headers write equal bytes.

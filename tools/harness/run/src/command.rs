@@ -21,7 +21,7 @@ pub(crate) enum Action {
     /// Runs a scene and writes an artefact and its run record.
     Run(Run),
     /// Validates a scene and its inputs, prints the plan, runs nothing.
-    Check(Study),
+    Check(Check),
     /// Prints the JSON Schema of the scene.
     Schema,
 }
@@ -50,6 +50,16 @@ impl Study {
         let inputs = inputs.map(|(name, path)| (format!("the input '{name}'"), Path::new(path)));
         scene.into_iter().chain(patches).chain(inputs)
     }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) study: Study,
+    /// Writes what would be there before anything runs: points by material and condition, axis, path and walls, for
+    /// `report preview`.
+    #[arg(long, value_name = "FILE.mcap")]
+    pub(crate) points: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

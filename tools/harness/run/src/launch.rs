@@ -8,7 +8,7 @@ use artefact::{Header, beside};
 
 use crate::awake::Awake;
 use crate::checked::check;
-use crate::command::{Action, Run, Study, parse};
+use crate::command::{Action, Check, Run, parse};
 use crate::console::{Level, data, line};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -16,6 +16,7 @@ use crate::leftover::{advised, make_way};
 use crate::machine;
 use crate::owned::{Form, Owned};
 use crate::plan::{Plan, bytes, duration};
+use crate::preview;
 use crate::progress::Style;
 use crate::ready::{Ready, guarded, placed, prepare, read};
 use crate::record::RunRecord;
@@ -39,7 +40,7 @@ pub fn main<T: Tool>() -> ExitCode {
     };
     let done = match line.action {
         Action::Schema => print(&schema_text(&schema_of::<T::Scene>(expected::<T>()))),
-        Action::Check(study) => check_scene::<T>(&study),
+        Action::Check(check) => check_scene::<T>(&check),
         Action::Run(run) => run_scene::<T>(run),
     };
     done.unwrap_or_else(|failure| report_failure(T::NAME, &failure))
@@ -72,7 +73,13 @@ fn print(text: &str) -> Result<ExitCode, Failure> {
         })
 }
 
-fn check_scene<T: Tool>(study: &Study) -> Result<ExitCode, Failure> {
+fn check_scene<T: Tool>(wanted: &Check) -> Result<ExitCode, Failure> {
+    let study = &wanted.study;
+    if let Some(out) = &wanted.points {
+        // Ahead of the plan, which may want inputs that are not made yet.
+        let points = preview::write::<T>(study, out)?;
+        line(&format!("{points} points as a run would begin: {}", out.display()));
+    }
     let (plan, judged) = check::<T>(study)?;
     print(&format!("{}\n{plan}", title::<T>(&study.scene)))?;
     Ok(ExitCode::from(if judged { 0 } else { WARNED }))

@@ -28,7 +28,7 @@ pub(crate) struct Ready<S> {
 /// A scene that was read, before its plan.
 pub(crate) struct Read<S> {
     pub(crate) scene: S,
-    merged: Merged,
+    pub(crate) merged: Merged,
     migrated: Option<u32>,
     /// What reading and checking the scene against its schema took.
     read: Duration,

@@ -7,6 +7,7 @@ use serde::de::DeserializeOwned;
 use crate::failure::Failure;
 use crate::inputs::{Input, Inputs};
 use crate::plan::{Estimate, Plan};
+use crate::preview::Preview;
 use crate::scene::{Expected, Migration};
 use crate::session::Session;
 
@@ -68,6 +69,16 @@ pub trait Tool: 'static {
     #[must_use]
     fn grows(_scene: &Self::Scene) -> Option<&'static str> {
         None
+    }
+
+    /// What would be there when a run begins, for `check --points`: points by material and condition, and the ways of what
+    /// moves. Inputs that only the run wants may be absent.
+    ///
+    /// # Errors
+    /// Faults of the scene; a program without points.
+    fn preview(_scene: &Self::Scene, _inputs: &Inputs) -> Result<Preview, Failure> {
+        let what = format!("--points: {} has no points to show", Self::NAME);
+        Err(Failure::Usage(what))
     }
 
     /// Runs. The plan has been made and found good before.

@@ -1,10 +1,13 @@
 //! From a scene to sets of particles and the list of stages: the only place that asks what a scene contains.
 
+mod preview;
 mod solid;
 mod water;
 
 use particles::Set;
 use run::Fault;
+
+pub use preview::preview;
 
 use crate::march::March;
 use crate::motion::gravity::Gravity;

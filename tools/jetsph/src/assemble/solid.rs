@@ -105,7 +105,7 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
 }
 
 /// The shape of a solid and its lattice.
-fn filled(solid: &Solid, dimensions: usize) -> Result<(shapes::Body, Lattice), Fault> {
+pub(super) fn filled(solid: &Solid, dimensions: usize) -> Result<(shapes::Body, Lattice), Fault> {
     let shape = shapes::Body::new(&solid.body, dimensions);
     let filling = Filling {
         spacing: solid.spacing_m,

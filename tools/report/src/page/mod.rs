@@ -18,6 +18,7 @@ pub(crate) mod jet;
 mod mean;
 pub(crate) mod pair;
 pub(crate) mod passes;
+pub(crate) mod preview;
 mod runs;
 pub(crate) mod sweep;
 

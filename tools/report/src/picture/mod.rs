@@ -8,6 +8,7 @@ pub(crate) mod flux;
 pub(crate) mod heat;
 pub(crate) mod jet;
 pub(crate) mod mean;
+pub(crate) mod preview;
 
 use crate::draw::axes::{Scale, number};
 use crate::draw::canvas::{Canvas, Rect};
