@@ -61,7 +61,7 @@ compare: programs ## one page that compares two runs (A=folder B=folder)
 # A look before running: what every stage of a study would begin with.
 .PHONY: preview
 preview: export PREVIEW_STUDY = $(STUDY)
-preview: programs ## what would be there before a study runs: bodies, points, paths, walls (STUDY=name)
+preview: $(addprefix $(BIN)/,arcfvm poolsph heatsph emfield jetsph report) ## what would be there before a study runs: bodies, points, paths, walls (STUDY=name)
 	+@BIN=$(BIN) pipelines/preview "$$PREVIEW_STUDY" "$(MAKE)"
 
 # Checks.

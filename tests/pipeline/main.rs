@@ -4,6 +4,7 @@
 
 mod beside;
 mod new;
+mod preview;
 mod queue;
 mod slurm;
 mod study;

@@ -11,7 +11,7 @@ name=$(basename "$0")
 echo "$name" >> log
 while [ $# -gt 0 ]; do
     case $1 in
-    --out) out=$2; shift 2 ;;
+    --out | --points) out=$2; shift 2 ;;
     *) [ ! -f "${1#*=}" ] || cat "${1#*=}" >> "$name.gathered.$$"; shift ;;
     esac
 done

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 9] = [
+const NUMERICS: [&str; 10] = [
     "neighbours",
     "kernels",
     "props",
@@ -19,6 +19,7 @@ const NUMERICS: [&str; 9] = [
     "shapes",
     "contact",
     "particles",
+    "torch",
 ];
 const HARNESS: [&str; 2] = ["artefact", "run"];
 
@@ -32,7 +33,7 @@ fn root() -> PathBuf {
 /// Arrows that a crate of ours may point along.
 fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
-        "neighbours" | "props" | "krylov" | "relax" | "shapes" | "artefact" => &[],
+        "neighbours" | "props" | "krylov" | "relax" | "shapes" | "torch" | "artefact" => &[],
         "contact" => &["shapes"],
         "kernels" | "particles" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],

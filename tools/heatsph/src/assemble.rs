@@ -1,5 +1,7 @@
 //! From a scene to a system of equations and its first temperatures.
 
+pub mod preview;
+
 use run::Fault;
 use run::property::{Arguments, OutOfRange};
 
@@ -11,6 +13,7 @@ use crate::operator::Links;
 use crate::scene::Scene;
 use crate::source::Source;
 use crate::system::{System, extent};
+use crate::torches::Torches;
 use shapes::Body;
 
 /// What a source may depend on.
@@ -62,8 +65,11 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         Some(_) => cells.storage.still(&cells.temperature),
         None => cells.storage,
     };
+    let torches =
+        (!scene.torches.is_empty()).then(|| Torches::new(scene.torches.clone(), &links.volume));
     let system = System::new((cloud, links), (materials, surface), (storage, source))
-        .map_err(|error| fault("/materials", error))?;
+        .map_err(|error| fault("/materials", error))?
+        .under(torches);
     Ok((system, cells.temperature))
 }
 

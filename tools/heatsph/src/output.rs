@@ -145,7 +145,7 @@ impl Output {
             Record::new()
                 .with("stored", joule, stored)
                 .with("boundaries", joule, through);
-        if system.source.is_some() {
+        if system.has_source() {
             record = record.with("source", joule, state.source);
         }
         record.with("imbalance", joule, stored - through - state.source)
@@ -163,8 +163,11 @@ impl Output {
         let (joule, _) = units(system);
         session.closing("heat_stored", joule, stored);
         session.closing("heat_boundaries", joule, through);
-        if system.source.is_some() {
+        if system.has_source() {
             session.closing("heat_source", joule, state.source);
+        }
+        if let Some(torches) = &system.torches {
+            torches.close(state.time, &system.cloud, session);
         }
         let relative = if whole > 0.0 { imbalance / whole } else { 0.0 };
         session.closing("energy_balance", "1", relative);
@@ -183,7 +186,7 @@ impl Output {
         for (name, heat) in system.surface.names.iter().zip(&rates.entries) {
             session.closing(&format!("heat_rate {name}"), watt, *heat);
         }
-        if system.source.is_some() {
+        if system.has_source() {
             session.closing("heat_rate source", watt, rates.source);
         }
         let relative = if gross > 0.0 {

@@ -11,7 +11,7 @@ use crate::march::{State, choice};
 use crate::scene::method::Beyond;
 use crate::scene::{Operator, Scene};
 use crate::system::{Rates, System};
-use crate::{preview, simulate, steady};
+use crate::{simulate, steady};
 
 /// Heat conduction by smoothed particles.
 #[derive(Debug)]
@@ -83,7 +83,7 @@ impl Tool for HeatSph {
     }
 
     fn preview(scene: &Scene, _: &Inputs) -> Result<Preview, Failure> {
-        Ok(preview::preview(scene)?)
+        Ok(assemble::preview::preview(scene)?)
     }
 
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
@@ -132,6 +132,9 @@ fn shown(scene: &Scene, system: &System, rates: &Rates) -> Plan {
     }
     if let Some(source) = &system.source {
         plan = plan.memory("cells of the source", source.bytes());
+    }
+    if let Some(torches) = &system.torches {
+        plan = plan.stage("torches").memory("torches", torches.bytes());
     }
     plan = match scene.steady {
         Some(_) => plan

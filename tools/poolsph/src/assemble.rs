@@ -1,6 +1,7 @@
 //! From the scene to stages and particles: the only place that asks what the scene contains.
 
 mod grains;
+pub mod preview;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -274,6 +275,11 @@ impl<'a> Source<'a> {
             let stage = heat::Arc::new(arc, caloric.clone(), self.scene.metal(), surface)
                 .map_err(|fault| fault.within("/arc"))?;
             Ok(Box::new(stage))
+        })?;
+        let torches = Some(&self.scene.torches).filter(|torches| !torches.is_empty());
+        parts.when("torches", torches, |torches| {
+            let stage = heat::Torches::new(torches, caloric.clone(), self.scene.metal());
+            Ok(Box::new(stage?))
         })?;
         parts.when("losses", self.scene.losses, |losses| {
             Ok(Box::new(heat::Losses::new(losses, caloric.clone())))

@@ -12,7 +12,7 @@ pub mod heat;
 pub mod march;
 pub mod motion;
 pub mod patch;
-pub mod preview;
+pub mod probes;
 pub mod rest;
 pub mod resume;
 pub mod scene;

@@ -7,6 +7,7 @@ use crate::balance::{Balance, Start, thrown, unclosed};
 use crate::columns;
 use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
+use crate::probes;
 use crate::resume;
 use crate::scene::{Scene, due};
 use crate::stage::{Figure, StageError};
@@ -58,6 +59,7 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
             plan = plan.column(&column.name, &column.unit);
         }
     }
+    plan = with_probes(plan, scene, state);
     for (name, bytes) in state.memory() {
         plan = plan.memory(name, bytes as u64);
     }
@@ -75,6 +77,19 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
         plan = plan.note(note);
     }
     Ok(plan)
+}
+
+/// What is told of probes that stand off the metal.
+fn with_probes(plan: Plan, scene: &Scene, state: &State) -> Plan {
+    let probes = scene.output.probes.iter().enumerate();
+    let off = probes.filter_map(|(i, probe)| {
+        let away = probes::read(state, probe.place_m).away;
+        (away > scene.spacing_m).then(|| {
+            let name = &probe.name;
+            format!("output/probes/{i}: '{name}' stands {away:.3e} m from the nearest particle at the start")
+        })
+    });
+    off.fold(plan, Plan::note)
 }
 
 /// What is told of grains, if there are any.
@@ -192,8 +207,11 @@ impl<'a> Simulation<'a> {
         let pool = output.pool.as_ref().filter(|pool| {
             centre.is_some() && state.time >= pool.from_s - 1e-9 && is_due(pool.interval_s)
         });
-        let interval = output.balance_interval_s;
-        let balance = last || is_due(interval.unwrap_or(output.particles_interval_s));
+        let balance = last || is_due(output.balance_interval());
+        if !output.probes.is_empty() && (last || is_due(output.probes_interval())) {
+            let readings = probes::record(&output.probes, state);
+            session.record(probes::CHANNEL, state.time, &readings)?;
+        }
         self.write_grains((last || is_due(output.grains_interval()), balance), session)?;
         if !self.scene.has_metal() || !(particles || pool.is_some() || balance) {
             return Ok(());

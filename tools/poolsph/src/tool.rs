@@ -2,8 +2,9 @@
 
 use run::{Estimate, Failure, Input, Inputs, Plan, Preview, Session, Tool};
 
+use crate::assemble::preview::preview;
 use crate::scene::{KIND, Scene};
-use crate::{preview, simulate, trial};
+use crate::{simulate, trial};
 
 /// The program `poolsph`.
 #[derive(Debug)]
@@ -45,7 +46,7 @@ impl Tool for PoolSph {
     }
 
     fn preview(scene: &Scene, inputs: &Inputs) -> Result<Preview, Failure> {
-        preview::preview(scene, inputs)
+        preview(scene, inputs)
     }
 
     fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {

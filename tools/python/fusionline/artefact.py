@@ -29,6 +29,7 @@ KINDS = {
     "mean-fields": 1,
     "particle-frames": 1,
     "jet-frames": 1,
+    "preview": 1,
     "point-fields": 1,
 }
 

@@ -10,7 +10,8 @@ use crate::files::{
     DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PairFiles,
     PassesFiles, PreviewFiles, SweepFiles, perhaps_named,
 };
-use crate::{figures, index, page, validate};
+use crate::measure::heat_affected::AC1;
+use crate::{figures, index, page, probes, validate};
 
 /// Pictures, plots and tables from artefacts and records, as self-contained HTML pages.
 #[derive(Debug, Parser)]
@@ -63,6 +64,17 @@ enum Action {
         /// Particle frames of the weld.
         #[arg(long)]
         pool: PathBuf,
+    },
+    /// Prints what thermocouples tell as CSV: peaks, cooling times, the heat-affected zone; or their curves.
+    Probes {
+        /// Particle frames with probes, or points with monitors.
+        file: PathBuf,
+        /// The curves in place of what they tell.
+        #[arg(long)]
+        curves: bool,
+        /// Isotherm of the heat-affected zone, in K.
+        #[arg(long, default_value_t = AC1)]
+        isotherm_k: f64,
     },
     /// Compares a weld or arcs with published values; exit code 1 where a tolerance is missed.
     Validate {
@@ -153,7 +165,7 @@ impl Action {
             Self::Compare(f) => Some(&mut f.out),
             Self::Preview(f) => Some(&mut f.out),
             Self::Index(f) => Some(&mut f.out),
-            Self::Validate { .. } | Self::Figures { .. } => None,
+            Self::Validate { .. } | Self::Figures { .. } | Self::Probes { .. } => None,
         }
     }
 
@@ -187,7 +199,10 @@ impl Action {
             Self::Sweep(f) => vec![("the points".to_owned(), f.points.clone())],
             Self::Preview(f) => named(&[&f.looks]),
             Self::Index(f) => f.read(),
-            Self::Compare(_) | Self::Validate { .. } | Self::Figures { .. } => Vec::new(),
+            Self::Compare(_)
+            | Self::Validate { .. }
+            | Self::Figures { .. }
+            | Self::Probes { .. } => Vec::new(),
         }
     }
 }
@@ -230,6 +245,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
             ("--pool or --arc", given)
         }
         Action::Figures { .. } => ("--pool", true),
+        Action::Probes { .. } => ("FILE", true),
         Action::Heat(_) | Action::Jet(_) => ("--frames", true),
         Action::Field(_) => ("--fields", true),
         Action::Drop(_) => ("--drop", true),
@@ -259,6 +275,11 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Preview(files) => page::preview::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Figures { pool } => figures::run(pool),
+        Action::Probes {
+            file,
+            curves,
+            isotherm_k,
+        } => probes::run(file, *curves, *isotherm_k),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),
     }
 }

@@ -170,7 +170,9 @@ pub(crate) struct PreviewFiles {
 fn look(word: &str) -> Result<(String, PathBuf), String> {
     named(word).or_else(|wrong| {
         let path = PathBuf::from(word);
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let stem = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
         stem.map(|stem| (stem, path)).ok_or(wrong)
     })
 }

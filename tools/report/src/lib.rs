@@ -22,6 +22,7 @@ mod page;
 mod picture;
 mod plot;
 mod preview;
+mod probes;
 mod records;
 mod targets;
 mod validate;

@@ -13,10 +13,10 @@ use crate::console::{Level, data, line};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::leftover::{advised, make_way};
+use crate::look;
 use crate::machine;
 use crate::owned::{Form, Owned};
 use crate::plan::{Plan, bytes, duration};
-use crate::preview;
 use crate::progress::Style;
 use crate::ready::{Ready, guarded, placed, prepare, read};
 use crate::record::RunRecord;
@@ -77,8 +77,11 @@ fn check_scene<T: Tool>(wanted: &Check) -> Result<ExitCode, Failure> {
     let study = &wanted.study;
     if let Some(out) = &wanted.points {
         // Ahead of the plan, which may want inputs that are not made yet.
-        let points = preview::write::<T>(study, out)?;
-        line(&format!("{points} points as a run would begin: {}", out.display()));
+        let points = look::write::<T>(study, out)?;
+        line(&format!(
+            "{points} points as a run would begin: {}",
+            out.display()
+        ));
     }
     let (plan, judged) = check::<T>(study)?;
     print(&format!("{}\n{plan}", title::<T>(&study.scene)))?;

@@ -66,6 +66,7 @@ mod interrupt;
 mod launch;
 mod ledger;
 mod leftover;
+mod look;
 mod machine;
 mod owned;
 mod plan;

@@ -4,15 +4,8 @@
 //! size, material and condition of each point, and `/look` with the names of materials and conditions and the marks (axis of
 //! the arc, path of the weld, way of the droplets, faces, coils, walls). `report preview` draws them.
 
-use artefact::{Frame, Header, Precision, Version, Writer};
+use artefact::{Frame, Precision, Version};
 use serde::{Deserialize, Serialize};
-
-use crate::command::Study;
-use crate::failure::Failure;
-use crate::inputs::Inputs;
-use crate::owned::{Form, Owned};
-use crate::ready::{Read, guarded, placed, read};
-use crate::tool::Tool;
 
 /// Kind of the artefact.
 pub const KIND: &str = "preview";
@@ -23,7 +16,7 @@ pub const POINTS: &str = "/points";
 /// Channel of names and marks.
 pub const LOOK: &str = "/look";
 /// JSON Schema of `/look`.
-const SCHEMA: (&str, &str) = (
+pub(crate) const SCHEMA: (&str, &str) = (
     "fusionline.look.v1",
     include_str!("../../../../schemas/look.v1.json"),
 );
@@ -211,7 +204,7 @@ impl Preview {
         self.spots.iter().map(around).reduce(wider)
     }
 
-    fn frame(&self) -> Frame {
+    pub(crate) fn frame(&self) -> Frame {
         let spots = || self.spots.iter();
         Frame::new(Precision::F32)
             .positions(spots().map(|spot| spot.place))
@@ -274,35 +267,6 @@ fn numbered(names: &mut Vec<String>, name: &str) -> u32 {
         names.len() - 1
     });
     u32::try_from(number).unwrap_or(u32::MAX)
-}
-
-/// Writes what a study would begin with; gives the number of points.
-///
-/// # Errors
-/// Faults of the scene; a tool that has no points to show; the disk.
-pub(crate) fn write<T: Tool>(study: &Study, out: &std::path::Path) -> Result<usize, Failure> {
-    let named = |failure| match failure {
-        Failure::Usage(what) => Failure::Usage(what.replacen("--out", "--points", 1)),
-        other => other,
-    };
-    let owned = Owned::of(out, Form::Artefact, study.reads()).map_err(named)?;
-    let Read { scene, merged, .. } = read::<T>(study)?;
-    let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
-    let shown = guarded(|| T::preview(&scene, &inputs));
-    let shown = shown.map_err(|failure| placed(failure, &merged))?;
-    let header = Header {
-        kind: KIND.to_owned(),
-        version: VERSION,
-        tool: T::NAME.to_owned(),
-        tool_version: T::VERSION.to_owned(),
-        scene: merged.value().clone(),
-        inputs: inputs.hashes().clone(),
-    };
-    let mut writer = Writer::create(owned.out(), &header)?;
-    writer.json(LOOK, 0.0, SCHEMA, &shown.look)?;
-    writer.frame(POINTS, 0.0, &shown.frame())?;
-    writer.finish()?;
-    Ok(shown.spots.len())
 }
 
 #[cfg(test)]

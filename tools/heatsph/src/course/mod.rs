@@ -43,6 +43,13 @@ impl Course {
             course.range = course.range.max(signal.range(&pieces));
             course.add(pieces);
         }
+        if let Some(torches) = &system.torches {
+            let conductivity = temperature.first().map(|t| system.conductivity(0, *t));
+            let range = conductivity.map_or(0.0, |k| torches.range(&system.cloud, k));
+            course.range = course.range.max(range);
+            course.jumps.extend(torches.jumps(end));
+            course.pieces.extend(torches.pieces(end));
+        }
         course.jumps.sort_by(|a, b| a[0].total_cmp(&b[0]));
         course.jumps.dedup_by(|next, kept| {
             let near = next[0] <= kept[1] + ONE * end;

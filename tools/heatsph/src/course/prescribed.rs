@@ -32,7 +32,7 @@ const GAUSS: [(f64, f64); 3] = [
 enum Giver {
     /// An entry of the surface.
     Entry(u32),
-    /// The source.
+    /// The source with torches.
     Source,
 }
 
@@ -76,7 +76,8 @@ impl Course {
         let fluxes = conditions.filter(|(_, c)| matches!(c, Condition::Flux(_)));
         let mut givers: Vec<_> = fluxes.map(|(e, _)| Giver::Entry(e as u32)).collect();
         let blind = |source: &crate::source::Source| !source.depends_on("T");
-        if system.source.as_ref().is_some_and(blind) {
+        let given = system.source.is_some() || system.torches.is_some();
+        if given && system.source.as_ref().is_none_or(blind) {
             givers.push(Giver::Source);
         }
         let stretches = self.stretches(state.time);
@@ -173,17 +174,19 @@ fn power(system: &System, giver: Giver, time: f64) -> Result<(f64, f64), OutOfRa
             films.map(of).collect()
         }
         Giver::Source => {
-            let Some(source) = &system.source else {
-                return Ok((0.0, 0.0));
-            };
-            let (cold, mut heat) = (vec![0.0; system.len()], Vec::new());
+            let (cold, mut heat) = (vec![0.0; system.len()], vec![0.0; system.len()]);
             let points = (&system.cloud, system.links.volume.as_slice());
             let cold = Warmth {
                 temperature: &cold,
                 cells: &[],
                 time,
             };
-            source.heat(points, cold, &mut heat)?;
+            if let Some(source) = &system.source {
+                source.heat(points, cold, &mut heat)?;
+            }
+            if let Some(torches) = &system.torches {
+                torches.add(time, &system.cloud, &mut heat);
+            }
             vec![sum(heat.into_iter().map(Ok))]
         }
     };

@@ -237,7 +237,7 @@ fn rough(system: &System, (before, after): (&State, &State), error: f64) -> bool
     let (least, greatest) = extent(&after.temperature);
     let floor = floor((least, greatest));
     let range = high - low;
-    let sources = system.source.is_some() || !system.surface.films.is_empty();
+    let sources = system.has_source() || !system.surface.films.is_empty();
     let beyond = (low - least).max(greatest - high) > OVER * range + floor;
     error > SMOOTH * range.max(greatest - least) + floor || (beyond && !sources)
 }

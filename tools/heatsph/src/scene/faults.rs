@@ -13,6 +13,7 @@ impl Scene {
         let mut faults = Vec::new();
         self.solution(&mut faults);
         faults.extend(self.misfits());
+        self.torches(&mut faults);
         faults
     }
 
@@ -60,6 +61,19 @@ impl Scene {
                 self.times(time, faults);
             }
             (None, Some(_)) => {}
+        }
+    }
+
+    fn torches(&self, faults: &mut Vec<Fault>) {
+        if !self.torches.is_empty() && (self.dimensions != 3 || self.time.is_none()) {
+            let what = "torches move in space and time: \"dimensions\" is 3 and \"time\" is there";
+            faults.push(Fault::at("/torches", what));
+        }
+        for (number, torch) in self.torches.iter().enumerate() {
+            let misfits = torch.misfits().into_iter();
+            faults.extend(
+                misfits.map(|m| Fault::at(&format!("/torches/{number}{}", m.path), m.what)),
+            );
         }
     }
 

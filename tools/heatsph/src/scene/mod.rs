@@ -10,6 +10,7 @@ pub mod points;
 use run::property::Property;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use torch::Torch;
 
 pub use boundary::Boundary;
 pub use material::{Constituent, Contact, Material};
@@ -42,6 +43,9 @@ pub struct Scene {
     /// Heat source, a function of x, y, z, r, T, t.
     #[schemars(extend("x-unit" = "W/m3"))]
     pub source_w_m3: Option<Property>,
+    /// Torches of welding that move along paths; in space, with a march in time.
+    #[serde(default)]
+    pub torches: Vec<Torch>,
     /// What happens at the surface; insulated where nothing is said.
     #[serde(default)]
     pub boundaries: Vec<Boundary>,

@@ -20,6 +20,7 @@ use crate::cloud::Cloud;
 use crate::material::{Law, Materials, arguments};
 use crate::operator::Links;
 use crate::source::Source;
+use crate::torches::Torches;
 use conduction::Conduction;
 use shapes::frame::Vector;
 use storage::Storage;
@@ -41,6 +42,8 @@ pub struct System {
     pub material: Vec<u32>,
     /// Heat source.
     pub source: Option<Source>,
+    /// Torches, where there are any.
+    pub torches: Option<Torches>,
     conduction: Conduction,
     /// First film of each point.
     films: Vec<u32>,
@@ -93,10 +96,25 @@ impl System {
             storage,
             material,
             source,
+            torches: None,
             conduction,
             films,
             held,
         })
+    }
+
+    /// Whether a source or a torch brings heat.
+    #[must_use]
+    pub fn has_source(&self) -> bool {
+        self.source.is_some() || self.torches.is_some()
+    }
+
+    /// The system with torches.
+    #[must_use]
+    pub fn under(mut self, torches: Option<Torches>) -> Self {
+        self.varies |= torches.is_some();
+        self.torches = torches;
+        self
     }
 
     /// Number of points.
@@ -125,6 +143,7 @@ impl System {
         self.conduction.is_fixed()
             && self.storage.varies().is_none()
             && self.source.is_none()
+            && self.torches.is_none()
             && !self.surface.conditions.iter().any(radiates)
     }
 

@@ -28,7 +28,7 @@ pub struct Rates {
     pub capacity: Vec<f64>,
     /// Heat through each entry of the surface \[W\]; of prescribed temperatures what their points pass on.
     pub entries: Vec<f64>,
-    /// Heat of the source \[W\].
+    /// Heat of the source and of torches \[W\].
     pub source: f64,
     /// Whether peaks of a source or flux were too narrow to be found in their cells and patches.
     pub hidden: bool,
@@ -180,7 +180,15 @@ impl System {
                 rates.source += own;
             }
         }
+        self.torches(time, rates);
         self.entries(time, rates)
+    }
+
+    /// Heat of torches.
+    fn torches(&self, time: f64, rates: &mut Rates) {
+        if let Some(torches) = &self.torches {
+            rates.source += torches.add(time, &self.cloud, &mut rates.heat);
+        }
     }
 
     /// The slope of temperature in every cell \[K/m\], by least squares over its links, and the temperatures of the

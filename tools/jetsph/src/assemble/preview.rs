@@ -61,7 +61,10 @@ fn held(
         let how = if moved { "moved" } else { "held" };
         (how, &clamp.on, &clamp.within)
     });
-    let loads = of.loads.iter().map(|load| ("loaded", &load.on, &load.within));
+    let loads = of
+        .loads
+        .iter()
+        .map(|load| ("loaded", &load.on, &load.within));
     for (how, on, within) in clamps.chain(loads) {
         let within = within.as_ref().map(|shape| Body::new(shape, dimensions));
         let next = next_to(&shape, &lattice, on, (within.as_ref(), dimensions));
@@ -123,10 +126,11 @@ fn wide(preview: &Preview) -> Option<[[f64; 3]; 2]> {
     let marks = preview.look.marks.iter();
     let places = marks.flat_map(|mark| mark.lines_m.iter().flatten());
     let each = places.map(|place| [*place, *place]);
-    each.chain(preview.bounds()).reduce(|[low, high], [from, to]| {
-        [
-            std::array::from_fn(|k| low[k].min(from[k])),
-            std::array::from_fn(|k| high[k].max(to[k])),
-        ]
-    })
+    each.chain(preview.bounds())
+        .reduce(|[low, high], [from, to]| {
+            [
+                std::array::from_fn(|k| low[k].min(from[k])),
+                std::array::from_fn(|k| high[k].max(to[k])),
+            ]
+        })
 }

@@ -15,6 +15,7 @@ mod open;
 mod parameters;
 mod phase;
 mod radial;
+mod torches;
 mod vapour;
 
 pub use arc::{Arc, ArcParameters, Onto, Part};
@@ -27,6 +28,7 @@ pub use losses::{LossParameters, Losses, Where};
 pub(crate) use parameters::table;
 pub use parameters::{Faces, MeltingParameters, Parameters};
 pub use phase::{FlowStart, Phase};
+pub use torches::Torches;
 pub use vapour::{Evaporation, GasLayer};
 
 #[cfg(test)]

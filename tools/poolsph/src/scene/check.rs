@@ -55,6 +55,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     }
     faults.extend(dependences(scene));
     faults.extend(hollows(scene));
+    faults.extend(twice(scene));
     faults.extend(beside(scene));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
@@ -126,6 +127,19 @@ fn crowded(scene: &Scene) -> Option<Fault> {
     Some(Fault::at(&format!("/droplets/{key}"), what))
 }
 
+/// Probes of one name.
+fn twice(scene: &Scene) -> Option<Fault> {
+    let probes = &scene.output.probes;
+    let same = |i: &usize| {
+        probes[..*i]
+            .iter()
+            .any(|other| other.name == probes[*i].name)
+    };
+    let number = (0..probes.len()).find(same)?;
+    let what = format!("'{}' is the name of an earlier probe", probes[number].name);
+    Some(Fault::at(&format!("/output/probes/{number}/name"), what))
+}
+
 /// What the faces of the flow cannot do yet.
 fn beside(scene: &Scene) -> Vec<Fault> {
     let Some(faces) = &scene.faces else {
@@ -185,6 +199,8 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
     let needs = [
         ("flow_start", scene.flow_start.is_some(), vec![flow, heat]),
         ("arc", scene.arc.is_some(), vec![heat]),
+        ("torches", !scene.torches.is_empty(), vec![heat]),
+        ("output/probes", !scene.output.probes.is_empty(), vec![heat]),
         ("losses", scene.losses.is_some(), vec![heat]),
         ("tension", scene.tension.is_some(), vec![flow]),
         ("marangoni", scene.marangoni.is_some(), vec![flow, heat]),

@@ -9,6 +9,7 @@ mod size;
 use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use torch::Torch;
 
 pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
@@ -94,6 +95,9 @@ pub struct Scene {
     /// Heat of the arc on the surface; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc: Option<heat::ArcParameters>,
+    /// Torches of welding that move along paths; absent: none. They need heat.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub torches: Vec<Torch>,
     /// Heat that the surface gives off; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub losses: Option<heat::LossParameters>,

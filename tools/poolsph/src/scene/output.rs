@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::probes::Probe;
+
 /// Width of the floats of frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -32,12 +34,31 @@ pub struct Output {
     /// Width of the floats.
     #[serde(default)]
     pub precision: FloatWidth,
+    /// Thermocouples: places in the metal whose temperature is written; absent: none. They need heat.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probes: Vec<Probe>,
+    /// Readings of the probes this often \[s\], and at the start and the end; as often as the balance if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub probes_interval_s: Option<f64>,
     /// Frequent frames around the moving source, for averages; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pool: Option<PoolOutput>,
 }
 
 impl Output {
+    /// Interval of the balance \[s\].
+    #[must_use]
+    pub fn balance_interval(&self) -> f64 {
+        self.balance_interval_s.unwrap_or(self.particles_interval_s)
+    }
+
+    /// Interval of the readings of probes \[s\].
+    #[must_use]
+    pub fn probes_interval(&self) -> f64 {
+        self.probes_interval_s.unwrap_or(self.balance_interval())
+    }
+
     /// Interval of the frames of grains \[s\].
     #[must_use]
     pub fn grains_interval(&self) -> f64 {

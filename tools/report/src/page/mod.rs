@@ -19,6 +19,7 @@ mod mean;
 pub(crate) mod pair;
 pub(crate) mod passes;
 pub(crate) mod preview;
+mod probes;
 mod runs;
 pub(crate) mod sweep;
 
@@ -60,6 +61,7 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     let mut page = Page::new(&files.study, &lead(&records));
     if let (Some(reader), Some(weld)) = (&pool, &weld) {
         page.section("The bead", bead::section(reader, weld, stretch.as_ref())?);
+        page.section("Thermocouples", probes::section(reader)?);
     }
     if let Some(body) = under_flux(pool.as_ref(), &records)? {
         page.section("Powder, slag and metal", body);

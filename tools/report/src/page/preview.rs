@@ -39,7 +39,14 @@ fn section(preview: &Preview) -> Result<String, Failure> {
     out += &marks(preview);
     let conditions = preview.condition.iter().any(|c| *c > 0);
     for view in View::of(preview) {
-        let ways = [(By::Material, true, ""), (By::Condition, conditions, " Colours of the points by what holds there.")];
+        let ways = [
+            (By::Material, true, ""),
+            (
+                By::Condition,
+                conditions,
+                " Colours of the points by what holds there.",
+            ),
+        ];
         for (by, _, words) in ways.into_iter().filter(|way| way.1) {
             if let Some(canvas) = draw(preview, view, by) {
                 let caption = view.words(preview.look.coordinates) + words;
@@ -73,12 +80,20 @@ fn reach(places: impl Iterator<Item = [f64; 3]>) -> String {
 
 /// Points of each material and condition.
 fn materials(preview: &Preview) -> String {
-    let mut table = Rows::new(&["Points", "#Number", "Middles from and to [mm]", "#Least size [mm]"]);
+    let mut table = Rows::new(&[
+        "Points",
+        "#Number",
+        "Middles from and to [mm]",
+        "#Least size [mm]",
+    ]);
     let mut add = |name: &str, own: &[usize]| {
         if own.is_empty() {
             return;
         }
-        let sizes = own.iter().flat_map(|i| preview.size[*i]).filter(|s| *s > 0.0);
+        let sizes = own
+            .iter()
+            .flat_map(|i| preview.size[*i])
+            .filter(|s| *s > 0.0);
         let least = sizes.fold(f64::INFINITY, f64::min);
         table.row([
             escape(name),
@@ -91,10 +106,16 @@ fn materials(preview: &Preview) -> String {
         (0..column.len()).filter(|i| column[*i] == number).collect()
     };
     for number in 0..preview.look.materials.len() as u32 {
-        add(preview.material_name(number), &of(&preview.material, number));
+        add(
+            preview.material_name(number),
+            &of(&preview.material, number),
+        );
     }
     for number in 1..=preview.look.conditions.len() as u32 {
-        add(preview.condition_name(number), &of(&preview.condition, number));
+        add(
+            preview.condition_name(number),
+            &of(&preview.condition, number),
+        );
     }
     table.render()
 }

@@ -5,7 +5,7 @@ use run::preview::{Coordinates, Mark, Marked};
 use super::WIDTH;
 use crate::draw::axes::{Axes, legend};
 use crate::draw::canvas::{Canvas, Rect};
-use crate::draw::colour::{FAINT, INK, Rgb, WHITE, hex, mix};
+use crate::draw::colour::{INK, Rgb, WHITE, hex, mix};
 use crate::draw::letters::Hand;
 use crate::preview::Preview;
 
@@ -200,11 +200,11 @@ fn condition(number: usize) -> Rgb {
 fn pen(kind: Marked, number: usize) -> (Rgb, f64) {
     match kind {
         Marked::Axis => (INK, 3.0),
-        Marked::Path => (hex(0xb0_0020), 5.0),
+        Marked::Path => (hex(0x7b_1fa2), 5.0),
         Marked::Droplets => (hex(0x00_6d8f), 7.0),
         // Faces that lie on each other are seen beside each other.
         Marked::Condition => (condition(number), (13.0 - 4.0 * number as f64).max(4.0)),
-        Marked::Wall => (FAINT, 3.0),
+        Marked::Wall => (hex(0x6d_4c41), 3.0),
         Marked::Coil => (hex(0xb3_5900), 5.0),
         Marked::Probe => (hex(0x00_0000), 11.0),
     }
@@ -243,7 +243,12 @@ fn marks(canvas: &mut Canvas, axes: &Axes, (preview, view): (&Preview, View)) {
                             }
                             Marked::Axis if far > 12.0 => canvas.dashes(from, to, colour, width),
                             // Along the view: a place.
-                            _ => canvas.line(from, to, colour, width.max(if far < 1.0 { 11.0 } else { 0.0 })),
+                            _ => canvas.line(
+                                from,
+                                to,
+                                colour,
+                                width.max(if far < 1.0 { 11.0 } else { 0.0 }),
+                            ),
                         }
                     }
                 }

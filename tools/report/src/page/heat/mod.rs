@@ -8,10 +8,11 @@ pub(super) mod totals;
 use artefact::Reader;
 use run::Failure;
 
-use super::{Named, lead, runs};
+use super::{Named, lead, probes, runs};
 use crate::files::{HeatFiles, save};
 use crate::heat::Points;
 use crate::html::Page;
+use crate::probes::cycles;
 use crate::records::RunRecord;
 
 /// A run of the study.
@@ -42,7 +43,16 @@ pub(crate) fn write(files: &HeatFiles) -> Result<(), Failure> {
         "The temperature at the end",
         field::section(&all, &records)?,
     );
-    page.section("Temperatures over time", curves::section(&all)?);
+    let mut body = curves::section(&all)?;
+    for run in &all {
+        let cycles = cycles(&run.reader)?;
+        // Peaks and cooling times are those of a weld.
+        if run.reader.header().scene.get("torches").is_some() && !cycles.is_empty() {
+            body += &run.heading(&all);
+            body += &probes::table(&cycles);
+        }
+    }
+    page.section("Temperatures over time", body);
     page.section("Heat through the surface", surface::section(&all)?);
     let body = surface::balance(&all)? + &totals::table(&records);
     page.section("The balance of heat", body);

@@ -31,6 +31,10 @@ pub fn preview(scene: &Scene, inputs: &Inputs) -> Result<Preview, Failure> {
     metal(scene, &all, &mut preview)?;
     beside(scene, inputs, &mut preview)?;
     source(scene, &mut preview);
+    torches(scene, &mut preview);
+    for probe in &scene.output.probes {
+        preview.mark(Marked::Probe, &probe.name, vec![vec![probe.place_m]]);
+    }
     conditions(scene, &mut preview);
     Ok(preview)
 }
@@ -101,6 +105,19 @@ fn beside(scene: &Scene, inputs: &Inputs, preview: &mut Preview) -> Result<(), F
         preview.wall(&name, (within, 2.0 * least), |x| side * body.distance(x));
     }
     Ok(())
+}
+
+/// Where each torch starts, and its path.
+fn torches(scene: &Scene, preview: &mut Preview) {
+    for (number, torch) in scene.torches.iter().enumerate() {
+        let stand = torch.stand(torch.path.burns()[0]);
+        let away = 4.0 * torch.shape.least();
+        let above = std::array::from_fn(|k| stand.place[k] - away * stand.axes[2][k]);
+        let name = format!("torch {number}");
+        preview.mark(Marked::Axis, &name, vec![vec![stand.place, above]]);
+        let way = torch.way(scene.time.end_s);
+        preview.mark(Marked::Path, &format!("path of {name}"), vec![way]);
+    }
 }
 
 /// The axis of the arc at the start, its path, and the way of the droplets.
@@ -191,7 +208,7 @@ mod tests {
             ]
         );
         let path = &preview.look.marks[1].lines_m[0];
-        assert_eq!(path[0], [0.0; 3]);
+        assert!(path[0].iter().all(|x| x.abs() < 1e-15));
         assert!((path[1][1] - 0.05).abs() < 1e-12);
     }
 }

@@ -5,7 +5,7 @@ use run::preview::{Coordinates, Marked, Preview, Spot};
 use shapes::Body;
 use shapes::frame::Vector;
 
-use crate::assemble::filled;
+use super::filled;
 use crate::boundary::{self, Condition, Surface};
 use crate::scene::Scene;
 
@@ -54,6 +54,19 @@ pub fn preview(scene: &Scene) -> Result<Preview, Vec<Fault>> {
     for monitor in &scene.output.monitors {
         let place = std::array::from_fn(|k| monitor.place_m.get(k).copied().unwrap_or(0.0));
         preview.mark(Marked::Probe, &monitor.name, vec![vec![place]]);
+    }
+    let end = scene.time.as_ref().map_or(0.0, |time| time.end_s);
+    for (number, torch) in scene.torches.iter().enumerate() {
+        let stand = torch.stand(torch.path.burns()[0]);
+        let away = 4.0 * torch.shape.least();
+        let above = std::array::from_fn(|k| stand.place[k] - away * stand.axes[2][k]);
+        let name = format!("torch {number}");
+        preview.mark(Marked::Axis, &name, vec![vec![stand.place, above]]);
+        preview.mark(
+            Marked::Path,
+            &format!("path of {name}"),
+            vec![torch.way(end)],
+        );
     }
     Ok(preview)
 }

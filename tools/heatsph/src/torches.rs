@@ -1,0 +1,284 @@
+//! Torches: heat sources that move along paths, in the volume or on the surface (crate `torch`).
+//!
+//! Each gives its points `W_i = eta P q_i V_i / sum q_j V_j`, or its patches of surface the same with their areas: its power is exact
+//! at every instant, whatever the cloud. Steps follow it: none is longer than a torch takes for a part of its least half axis.
+
+use rayon::prelude::*;
+use run::Session;
+use torch::{Beyond, Stand, Torch};
+
+use crate::cloud::{Cloud, Patch};
+
+/// Points that one task weighs.
+const ROWS: usize = 512;
+/// Part of the least half axis by which a torch moves in a step at most.
+const PART: f64 = 0.25;
+/// Times at which what lies inside is looked at for the record.
+const LOOKS: usize = 100;
+/// Share of a distribution below which it is told how little lies inside.
+const LITTLE: f64 = 0.95;
+/// Shares below this are none.
+const NONE: f64 = 1e-12;
+
+/// The torches of a scene over a cloud.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Torches {
+    torches: Vec<Torch>,
+    /// Volume of each point \[m3\].
+    volume: Vec<f64>,
+}
+
+/// What lay inside of a torch's distribution while it burned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inside {
+    /// Least share.
+    pub least: f64,
+    /// Energy that was not given to the body, about \[J\].
+    pub lost: f64,
+}
+
+impl Torches {
+    /// Torches over points of the given volumes \[m3\].
+    #[must_use]
+    pub fn new(torches: Vec<Torch>, volume: &[f64]) -> Self {
+        Self {
+            torches,
+            volume: volume.to_vec(),
+        }
+    }
+
+    /// All torches.
+    #[must_use]
+    pub fn all(&self) -> &[Torch] {
+        &self.torches
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        (8 * self.volume.len()) as u64
+    }
+
+    /// Adds the heat of every point at a time \[W\]; gives its sum.
+    pub fn add(&self, time: f64, cloud: &Cloud, heat: &mut [f64]) -> f64 {
+        let mut sum = 0.0;
+        for torch in &self.torches {
+            let power = torch.power(time);
+            if power > 0.0 {
+                let (own, share) = self.weights(torch, &torch.stand(time), cloud);
+                let part = part(torch, share);
+                for (i, weight) in own {
+                    let given = power * part * weight;
+                    heat[i as usize] += given;
+                    sum += given;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Parts of the distribution at points, and their sum.
+    fn weights(&self, torch: &Torch, stand: &Stand, cloud: &Cloud) -> (Vec<(u32, f64)>, f64) {
+        let own: Vec<(u32, f64)> = if torch.is_deep() {
+            let of = |i: usize| {
+                let (x, d) = (cloud.position[i], self.volume[i].cbrt());
+                let near = torch.reaches(stand, x, d);
+                near.then(|| (i as u32, torch.density(stand, x, d) * self.volume[i]))
+            };
+            let points = (0..self.volume.len()).into_par_iter().with_min_len(ROWS);
+            points.filter_map(of).collect()
+        } else {
+            let of = |patch: &Patch| {
+                let d = patch.area.sqrt();
+                let area = torch.faced(stand, patch.normal, patch.area);
+                let near = area > 0.0 && torch.reaches(stand, patch.place, d);
+                near.then(|| (patch.point, torch.density(stand, patch.place, d) * area))
+            };
+            let patches = cloud.patches.par_iter().with_min_len(ROWS);
+            patches.filter_map(of).collect()
+        };
+        let sum = own.iter().map(|(_, weight)| weight).sum();
+        (own, sum)
+    }
+
+    /// Instants around each start and end of an arc until `end` \[s\]: the last before, and the first after.
+    pub(crate) fn jumps(&self, end: f64) -> impl Iterator<Item = [f64; 2]> {
+        let burns = self.torches.iter().flat_map(|torch| torch.path.burns());
+        let within = burns.filter(move |t| *t > 0.0 && *t < end);
+        within.map(|t| [t.next_down(), t])
+    }
+
+    /// Begins of the time in which each torch burns and of that in which it does not, with the longest steps there \[s\].
+    pub(crate) fn pieces(&self, end: f64) -> impl Iterator<Item = Vec<[f64; 2]>> {
+        let of = move |torch: &Torch| {
+            let [from, to] = torch.path.burns();
+            let longest = PART * torch.shape.least() / torch.path.fastest();
+            let all = [[0.0, f64::INFINITY], [from, longest], [to, f64::INFINITY]];
+            let first = usize::from(from <= 0.0);
+            let within = all.into_iter().skip(first).filter(|piece| piece[0] < end);
+            within.collect::<Vec<_>>()
+        };
+        self.torches.iter().map(of)
+    }
+
+    /// The greatest difference of temperature that torches make between neighbouring points of a conductivity, about \[K\].
+    pub(crate) fn range(&self, cloud: &Cloud, conductivity: f64) -> f64 {
+        let d = cloud.spacing.iter().fold(f64::INFINITY, |m, s| m.min(*s));
+        let of = |torch: &Torch| {
+            let time = torch.path.burns()[0];
+            let stand = torch.stand(time);
+            let density = torch.power(time) * torch.density(&stand, stand.place, d);
+            density * if torch.is_deep() { d * d } else { d } / conductivity
+        };
+        self.torches.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// What of each torch lay inside until `end` \[s\]; none of one that never burned.
+    #[must_use]
+    pub fn inside(&self, end: f64, cloud: &Cloud) -> Vec<Option<Inside>> {
+        let of = |torch: &Torch| {
+            let [from, to] = torch.path.burns();
+            let span = to.min(end) - from;
+            let mut inside = Inside {
+                least: 1.0,
+                lost: 0.0,
+            };
+            for look in 0..LOOKS {
+                let time = from + span * (look as f64 + 0.5) / LOOKS as f64;
+                let (_, share) = self.weights(torch, &torch.stand(time), cloud);
+                inside.least = inside.least.min(share);
+                let given = part(torch, share) * share;
+                inside.lost += torch.power(time) * (1.0 - given) * span / LOOKS as f64;
+            }
+            (span > 0.0).then_some(inside)
+        };
+        self.torches.iter().map(of).collect()
+    }
+
+    /// Keeps what of each torch lay inside until `end` \[s\], and tells where it was little.
+    pub fn close(&self, end: f64, cloud: &Cloud, session: &mut Session) {
+        for (number, inside) in self.inside(end, cloud).into_iter().enumerate() {
+            let Some(inside) = inside else { continue };
+            session.closing(&format!("torch_{number}_inside_least"), "1", inside.least);
+            session.closing(&format!("torch_{number}_lost"), "J", inside.lost);
+            if let Some(told) = self.told(number, inside) {
+                session.warn(told);
+            }
+        }
+    }
+
+    /// What is to be told where less than all of a distribution lay inside.
+    #[must_use]
+    pub fn told(&self, number: usize, inside: Inside) -> Option<String> {
+        let percent = 100.0 * inside.least;
+        let at =
+            format!("torches/{number}: as little as {percent:.1} % of its heat lies in the body");
+        match self.torches[number].beyond {
+            _ if inside.least >= LITTLE => None,
+            Beyond::Lost => Some(format!("{at}; about {:.4e} J are lost", inside.lost)),
+            Beyond::Inside if inside.least <= NONE => Some(format!(
+                "{at}: it has nothing to heat there, and about {:.4e} J are lost",
+                inside.lost
+            )),
+            Beyond::Inside => Some(format!("{at}, which takes the whole power all the same")),
+        }
+    }
+}
+
+/// What a part of the distribution is multiplied with.
+fn part(torch: &Torch, share: f64) -> f64 {
+    match torch.beyond {
+        Beyond::Lost => 1.0,
+        Beyond::Inside if share > NONE => 1.0 / share,
+        Beyond::Inside => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shapes::Body;
+
+    fn cloud(spacing: f64, more: &str) -> Cloud {
+        let body = r#"{"box": {"min_m": [-0.02, -0.02, -0.01], "max_m": [0.02, 0.02, 0]}}"#;
+        let body = Body::new(&serde_json::from_str(body).unwrap(), 3);
+        let points = format!(r#"{{"spacing_m": {spacing}{more}}}"#);
+        Cloud::fill(&body, &serde_json::from_str(&points).unwrap(), 3).unwrap()
+    }
+
+    const DEEP: &str = r#"{"double_ellipsoid": {"half_width_m": 0.003, "depth_m": 0.002, "front_m": 0.002, "rear_m": 0.005}}"#;
+    const DISC: &str = r#"{"gaussian": {"radius_m": 0.004}}"#;
+
+    fn torch(shape: &str, start: [f64; 3], more: &str) -> Torch {
+        let text = format!(
+            r#"{{"power_w": 2000, "efficiency": 0.75, "shape": {shape},
+            "path": {{"points_m": [{start:?}, [0.0, 0.02, 0.0]], "speed_m_s": 0.01}}{more}}}"#
+        );
+        serde_json::from_str(&text).unwrap()
+    }
+
+    #[test]
+    fn power_is_exact_on_irregular_points_at_every_spacing() {
+        for (spacing, more) in [
+            (0.004, ""),
+            (0.002, ""),
+            (0.002, r#", "jitter": 0.4, "seed": 3"#),
+            (0.001, r#", "jitter": 0.3"#),
+        ] {
+            let cloud = cloud(spacing, more);
+            for shape in [DEEP, DISC] {
+                let torches = Torches::new(vec![torch(shape, [0.0; 3], "")], &cloud.share);
+                for time in [0.0, 0.13, 1.0, 1.99] {
+                    let mut heat = vec![0.0; cloud.position.len()];
+                    let given = torches.add(time, &cloud, &mut heat);
+                    let sum: f64 = heat.iter().sum();
+                    assert!(
+                        (sum / 1500.0 - 1.0).abs() < 1e-12,
+                        "{spacing} {shape} {sum}"
+                    );
+                    assert!((given / sum - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_normalising_the_whole_lies_inside_and_half_beside_an_edge() {
+        let lost = r#", "beyond": "lost""#;
+        for shape in [DEEP, DISC] {
+            // Points on the faces have half a cell, whose middle is not where the point is: a lattice inside them.
+            let cloud = cloud(0.001, r#", "arrangement": "cut""#);
+            let given = |start| {
+                let torches = Torches::new(vec![torch(shape, start, lost)], &cloud.share);
+                torches.add(0.0, &cloud, &mut vec![0.0; cloud.position.len()])
+            };
+            let whole = given([0.0; 3]);
+            assert!((whole / 1500.0 - 1.0).abs() < 1e-3, "{shape}: {whole}");
+            let mut aside = torch(shape, [0.02, 0.0, 0.0], lost);
+            aside.path.points_m[1][0] = 0.02;
+            let torches = Torches::new(vec![aside], &cloud.share);
+            let inside = torches.inside(1e-3, &cloud)[0].unwrap();
+            assert!((inside.least - 0.5).abs() < 2e-3, "{shape} {inside:?}");
+            assert!(
+                (inside.lost / (0.5 * 1500.0 * 1e-3) - 1.0).abs() < 5e-3,
+                "{inside:?}"
+            );
+            assert!(torches.told(0, inside).unwrap().contains("lost"));
+        }
+    }
+
+    #[test]
+    fn steps_end_at_start_and_end_of_the_arc_and_follow_the_torch() {
+        let mut torch = torch(DEEP, [0.0; 3], "");
+        torch.path.start_s = 0.5;
+        let torches = Torches::new(vec![torch], &[1.0]);
+        let jumps: Vec<_> = torches.jumps(10.0).collect();
+        assert_eq!(
+            jumps,
+            [[0.5_f64.next_down(), 0.5], [2.5_f64.next_down(), 2.5]]
+        );
+        let pieces = torches.pieces(10.0).next().unwrap();
+        assert_eq!(pieces.len(), 3);
+        assert!((pieces[1][1] - 0.25 * 0.002 / 0.01).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,239 @@
+//! Torches: heat sources that move along paths, in the volume or on the surface (crate `torch`).
+//!
+//! ```text
+//! m dh_a/dt = eta P w_a / sum_b w_b,     w_a = q_a V_a in the volume, q_a dA_a on the surface
+//! ```
+//!
+//! The power is exact at every instant, whatever the particles. The sum is the share of the distribution that lies in the metal.
+//! A surface takes heat by its area across the torch; from above that is what is seen of it. A step in which a torch would move by
+//! more than a part of its least half axis is divided.
+
+use std::sync::Arc as Shared;
+
+use run::Fault;
+use torch::{Beyond, Stand, Torch};
+
+use super::bounds::outside;
+use super::caloric::Caloric;
+use super::chunks::Chunks;
+use super::ledger::Sum;
+use crate::stage::{Figure, Stage, StageError};
+use crate::state::{Column, Metal, Phase, State};
+
+/// Part of the least half axis by which a torch moves between two looks.
+const PART: f64 = 0.25;
+/// Shares below this are none.
+const NONE: f64 = 1e-12;
+/// Share of a distribution below which it is told how little lies in the metal.
+const LITTLE: f64 = 0.95;
+/// Down, within rounding.
+const DOWN: f64 = -1.0 + 1e-12;
+
+/// A torch and what became of its heat.
+#[derive(Debug, Clone)]
+struct Lit {
+    torch: Torch,
+    put: Sum,
+    lost: Sum,
+    /// Least share of its distribution that lay in the metal.
+    least: f64,
+}
+
+/// Torches as a stage.
+pub struct Torches {
+    caloric: Shared<Caloric>,
+    metal: Metal,
+    torches: Vec<Lit>,
+    /// All particles, of which a torch in the volume may heat any.
+    all: Vec<u32>,
+    weighed: Chunks<(u32, f64)>,
+    own: Vec<(u32, f64)>,
+    power: f64,
+    parts: u64,
+}
+
+impl Torches {
+    /// The torches of a scene.
+    ///
+    /// # Errors
+    /// A fault at the key of a torch that is wrong.
+    pub fn new(
+        torches: &[Torch],
+        caloric: Shared<Caloric>,
+        metal: Metal,
+    ) -> Result<Self, Vec<Fault>> {
+        let misfits = torches.iter().enumerate().flat_map(|(number, torch)| {
+            let at =
+                move |m: torch::Misfit| Fault::at(&format!("/torches/{number}{}", m.path), m.what);
+            torch.misfits().into_iter().map(at)
+        });
+        let faults: Vec<Fault> = misfits.collect();
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let lit = |torch: &Torch| Lit {
+            torch: torch.clone(),
+            put: Sum::default(),
+            lost: Sum::default(),
+            least: 1.0,
+        };
+        Ok(Self {
+            caloric,
+            metal,
+            torches: torches.iter().map(lit).collect(),
+            all: Vec::new(),
+            weighed: Chunks::default(),
+            own: Vec::new(),
+            power: 0.0,
+            parts: 1,
+        })
+    }
+
+    /// Weights of all particles under a torch, and their sum.
+    fn weigh(&mut self, state: &State, torch: &Torch, stand: &Stand) -> f64 {
+        let (d, volume) = (self.metal.spacing, self.metal.volume());
+        self.own.clear();
+        if torch.is_deep() {
+            self.weighed.fill(&self.all, |a| {
+                let x = state.position[a];
+                let takes = takes(state, a) && torch.reaches(stand, x, d);
+                takes.then(|| (a as u32, torch.density(stand, x, d) * volume))
+            });
+        } else {
+            let above = stand.axes[2][2] < DOWN;
+            self.weighed.fill(&state.exposed, |a| {
+                let patch = &state.surface[a];
+                let x = state.position[a];
+                let area = match above {
+                    true => patch.seen,
+                    false => torch.faced(stand, patch.normal, patch.area),
+                };
+                let takes = area > 0.0 && takes(state, a) && torch.reaches(stand, x, d);
+                takes.then(|| (a as u32, torch.density(stand, x, d) * area))
+            });
+        }
+        self.own.extend(self.weighed.drain());
+        self.own.iter().map(|(_, weight)| weight).sum()
+    }
+
+    /// Gives an energy \[J\] to the particles that were weighed, a part of it for each unit of weight.
+    fn give(&self, state: &mut State, energy: f64) -> Result<(), StageError> {
+        for (a, weight) in &self.own {
+            let a = *a as usize;
+            state.enthalpy[a] += energy * weight / self.metal.mass();
+            state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
+            if !self.caloric.covers(state.temperature[a]) {
+                return Err(outside(state, a, state.temperature[a], &self.caloric));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a particle is metal that can be heated.
+fn takes(state: &State, a: usize) -> bool {
+    !state.wall[a] && state.phase[a] != Phase::Flying
+}
+
+impl Stage for Torches {
+    fn name(&self) -> &'static str {
+        "torches"
+    }
+
+    fn needs(&self) -> &'static [Column] {
+        if self.torches.iter().all(|lit| lit.torch.is_deep()) {
+            &[Column::Temperature, Column::Enthalpy]
+        } else {
+            &[Column::Temperature, Column::Enthalpy, Column::Surface]
+        }
+    }
+
+    fn parts(&self) -> u64 {
+        self.parts
+    }
+
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let known = self.all.len();
+        self.all.extend((known..state.len()).map(|a| a as u32));
+        let mut gain = 0.0;
+        self.parts = 1;
+        for number in 0..self.torches.len() {
+            let torch = self.torches[number].torch.clone();
+            let moves = torch.path.fastest() * dt / (PART * torch.shape.least());
+            let parts = moves.ceil().max(1.0) as u64;
+            self.parts = self.parts.max(parts);
+            let step = dt / parts as f64;
+            for part in 0..parts {
+                let from = state.time + part as f64 * step;
+                let Some((energy, middle)) = torch.energy(from, from + step) else {
+                    continue;
+                };
+                let share = self.weigh(state, &torch, &torch.stand(middle));
+                let each = match torch.beyond {
+                    Beyond::Lost => energy,
+                    Beyond::Inside if share > NONE => energy / share,
+                    Beyond::Inside => 0.0,
+                };
+                self.give(state, each)?;
+                let lit = &mut self.torches[number];
+                lit.least = lit.least.min(share);
+                lit.put.add(each * share);
+                lit.lost.add(energy - each * share);
+                gain += each * share;
+            }
+        }
+        self.power = gain / dt;
+        Ok(())
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let sum = |of: fn(&Lit) -> f64| self.torches.iter().map(of).sum();
+        let least = self.torches.iter().map(|lit| lit.least);
+        let figure = |name, unit, value| Figure { name, unit, value };
+        vec![
+            figure("torch_power_w", "W", self.power),
+            figure("torch_inside_least", "1", least.fold(1.0, f64::min)),
+            figure("energy_in_torches_j", "J", sum(|lit| lit.put.value())),
+            figure("energy_lost_of_torches_j", "J", sum(|lit| lit.lost.value())),
+        ]
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let little = self.torches.iter().enumerate();
+        let little = little.filter(|(_, lit)| lit.least < LITTLE);
+        let told = little.map(|(number, lit)| {
+            let percent = 100.0 * lit.least;
+            let at = format!(
+                "torches/{number}: as little as {percent:.1} % of its heat lies in the metal"
+            );
+            match lit.lost.value() {
+                lost if lost > 0.0 => format!("{at}; {lost:.4e} J are lost"),
+                _ => format!("{at}, which takes the whole power all the same"),
+            }
+        });
+        told.collect()
+    }
+
+    fn bytes(&self) -> usize {
+        4 * self.all.capacity() + size_of::<(u32, f64)>() * self.own.capacity()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        let of = |lit: &Lit| {
+            let ([a, b], [c, d]) = (lit.put.save(), lit.lost.save());
+            [a, b, c, d, lit.least]
+        };
+        self.torches.iter().flat_map(of).collect()
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        for (lit, own) in self.torches.iter_mut().zip(saved.chunks_exact(5)) {
+            lit.put = Sum::restored(&own[..2]);
+            lit.lost = Sum::restored(&own[2..4]);
+            lit.least = own[4];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+//! Power of torches, and a point source against its exact solution.
+
+use super::*;
+use crate::heat::caloric::tests::plain;
+use crate::state::Particle;
+use crate::surface::Surface;
+
+const DEEP: &str = r#"{"double_ellipsoid": {"half_width_m": 0.003, "depth_m": 0.002, "front_m": 0.002, "rear_m": 0.004}}"#;
+const DISC: &str = r#"{"gaussian": {"radius_m": 0.003}}"#;
+
+fn torch(shape: &str, more: &str) -> Torch {
+    let text = format!(
+        r#"{{"power_w": 1000, "efficiency": 0.6, "shape": {shape},
+        "path": {{"points_m": [[0.01, 0.008, 0.01], [0.01, 0.012, 0.01]], "speed_m_s": 0.02}}{more}}}"#
+    );
+    serde_json::from_str(&text).unwrap()
+}
+
+/// A block of 20 x 20 x 10 mm with its top at z = 10 mm, at rest.
+fn block(spacing: f64, caloric: &Caloric) -> State {
+    let metal = Metal {
+        density: 1000.0,
+        spacing,
+        smoothing_length: spacing,
+    };
+    let columns = vec![Column::Temperature, Column::Enthalpy, Column::Surface];
+    let mut state = State::new(metal, columns);
+    let n = [0.02, 0.02, 0.01].map(|edge: f64| (edge / spacing).round() as usize);
+    for i in 0..n[0] * n[1] * n[2] {
+        let index = [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])];
+        state.push(Particle {
+            position: index.map(|k| (k as f64 + 0.5) * spacing),
+            velocity: [0.0; 3],
+            phase: Phase::Solid,
+            droplet: false,
+            wall: false,
+            temperature: 300.0,
+            enthalpy: caloric.enthalpy(300.0),
+        });
+    }
+    state.gather();
+    Surface::new(metal).advance(&mut state, 1e-3).unwrap();
+    state
+}
+
+fn heated(torch: Torch, spacing: f64, times: &[f64]) -> (f64, Torches) {
+    let caloric = Shared::new(plain(30.0, 500.0, None));
+    let mut state = block(spacing, &caloric);
+    let before: f64 = state.enthalpy.iter().sum();
+    let mut stage = Torches::new(&[torch], caloric, state.metal).unwrap();
+    for time in times {
+        state.time = *time;
+        stage.advance(&mut state, 0.01).unwrap();
+    }
+    let gained = state.enthalpy.iter().sum::<f64>() - before;
+    (gained * state.metal.mass(), stage)
+}
+
+#[test]
+fn power_is_exact_at_every_spacing() {
+    for shape in [DEEP, DISC] {
+        for spacing in [0.002, 0.001] {
+            let (gained, stage) = heated(torch(shape, ""), spacing, &[0.0, 0.01]);
+            // 600 W for two steps of 10 ms.
+            assert!(
+                (gained / 12.0 - 1.0).abs() < 1e-9,
+                "{shape} {spacing} {gained}"
+            );
+            let put = stage.figures()[2].value;
+            assert!((put / gained - 1.0).abs() < 1e-9);
+            assert!(stage.warnings().is_empty(), "{:?}", stage.warnings());
+        }
+    }
+}
+
+#[test]
+fn the_arc_burns_from_its_start_to_its_end_within_steps() {
+    let mut short = torch(DEEP, "");
+    short.path.start_s = 0.004;
+    short.path.end_s = Some(0.013);
+    let (gained, _) = heated(short, 0.002, &[0.0, 0.01, 0.02]);
+    assert!((gained / (600.0 * 0.009) - 1.0).abs() < 1e-9, "{gained}");
+}
+
+#[test]
+fn what_lies_outside_is_lost_where_it_is_asked_for_and_told() {
+    let mut aside = torch(DEEP, r#", "beyond": "lost""#);
+    for corner in &mut aside.path.points_m {
+        corner[0] = 0.0;
+    }
+    let (gained, stage) = heated(aside.clone(), 0.001, &[0.0]);
+    assert!((gained / 3.0 - 1.0).abs() < 2e-3, "{gained}");
+    let lost = stage.figures()[3].value;
+    assert!((gained + lost - 6.0).abs() < 1e-9 && stage.warnings()[0].contains("lost"));
+    aside.beyond = Beyond::Inside;
+    let (gained, stage) = heated(aside, 0.001, &[0.0]);
+    assert!((gained / 6.0 - 1.0).abs() < 1e-9, "{gained}");
+    assert!(stage.warnings()[0].contains("whole power"));
+}
+
+#[test]
+fn a_resumed_stage_has_its_sums() {
+    let (_, stage) = heated(torch(DISC, ""), 0.002, &[0.0]);
+    let caloric = Shared::new(plain(30.0, 500.0, None));
+    let mut other = Torches::new(&[torch(DISC, "")], caloric, stage.metal).unwrap();
+    other.restore(&stage.save());
+    assert_eq!(other.save(), stage.save());
+}
+
+#[test]
+fn a_fast_torch_is_followed_within_a_step() {
+    let mut fast = torch(DEEP, "");
+    fast.path.speed_m_s = Some(0.4);
+    let (gained, stage) = heated(fast, 0.001, &[0.0]);
+    assert_eq!(stage.parts(), 8);
+    assert!((gained / 6.0 - 1.0).abs() < 1e-9);
+}
