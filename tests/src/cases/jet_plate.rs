@@ -16,6 +16,8 @@ const METHODS: [(&str, bool, f64); 5] = [
 ];
 /// Widths of the jet that the water goes in a run.
 const WIDTHS: f64 = 20.0;
+/// Frames of a run. The pressure under a jet swings with the sound that it holds, over a twentieth of a run: each swing is met often.
+const FRAMES: f64 = 400.0;
 /// Bands of the profile, each a fifth of the width, from the axis out.
 const BANDS: usize = 8;
 
@@ -69,7 +71,7 @@ impl Case for JetPlate {
         let mut patch = json!({
             "time": {"end_s": end},
             "water": {"spacing_m": spacing},
-            "output": {"frames_interval_s": end / 60.0, "balance_interval_s": end / 600.0}
+            "output": {"frames_interval_s": end / FRAMES, "balance_interval_s": end / 600.0}
         });
         let (exit, down) = if space {
             patch["dimensions"] = json!(3);

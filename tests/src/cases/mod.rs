@@ -88,6 +88,7 @@ mod saw_layer;
 mod solid_cook;
 mod solid_patch;
 mod solid_plastic;
+mod solid_rings;
 mod solid_swing;
 mod solid_turn;
 mod solid_wave;
@@ -139,6 +140,7 @@ fn jets() -> Vec<Box<dyn Case>> {
         Box::new(solid_wave::SolidWave),
         Box::new(solid_cook::SolidCook),
         Box::new(solid_plastic::SolidPlastic),
+        Box::new(solid_rings::SolidRings),
     ]
 }
 

@@ -1,4 +1,4 @@
-//! `solid-plastic`: a thick cylinder of metal under inner pressure.
+//! `solid-plastic`: a thick cylinder of metal under inner pressure, and a bar that is pulled.
 
 use serde_json::json;
 
@@ -8,6 +8,9 @@ use crate::solid::{changed, fault, frames};
 
 /// Displacements are compared beyond this part of the outer radius, where the metal is elastic.
 const OUTSIDE: f64 = 0.9;
+/// Nominal stress at the ends of the bar and its hardening \[Pa\].
+const PULL: f64 = 1e9;
+const HARDENING: f64 = 2.1e10;
 
 /// The case.
 pub(super) struct SolidPlastic;
@@ -26,17 +29,35 @@ impl Case for SolidPlastic {
     }
 
     fn targets(&self) -> Vec<Target> {
-        vec![Target::error("displacement", 0.03).at_level(3)]
+        let cylinder = |level| {
+            let target = Target::error("displacement", 0.03).at_level(level);
+            target.of("cylinder")
+        };
+        let pulled = |quantity| Target::error(quantity, 0.01).at_level(1).of("uniaxial");
+        vec![
+            cylinder(1),
+            cylinder(2),
+            cylinder(3),
+            pulled("plastic_strain"),
+            pulled("stretch"),
+        ]
     }
 
-    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+    fn methods(&self) -> &'static [&'static str] {
+        &["cylinder", "uniaxial"]
+    }
+
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
+        if method == "uniaxial" {
+            return pulled(lab, level);
+        }
         // 8, 16 and 32 rows through the wall.
         let by = f64::from(1 << (level.clamp(1, 4) - 1));
         let patch = changed(lab, self.name(), |solid| {
             let spacing = solid["spacing_m"].as_f64().unwrap_or(f64::NAN);
             solid["spacing_m"] = json!(spacing / by);
         })?;
-        let run = lab.run("jetsph", self.name(), &format!("level{level}"), &patch)?;
+        let run = lab.run("jetsph", self.name(), &format!("cylinder-{level}"), &patch)?;
         let solid = &run.scene["solids"][0];
         let number = |value: &serde_json::Value| value.as_f64().unwrap_or(f64::NAN);
         let radius = |k: usize| number(&solid["body"]["difference"][k]["disc"]["radius_m"]);
@@ -71,6 +92,73 @@ impl Case for SolidPlastic {
         let spacing = number(&solid["spacing_m"]);
         Ok(Measurement::of(run, start.len() as u64, spacing, errors))
     }
+}
+
+/// A bar in space, pulled at both ends by a nominal stress P that rises slowly. With logarithmic strains
+///
+/// ```text
+/// tau = P l,   ln l = tau/E + a,   tau = Y + H a
+/// ```
+fn pulled(lab: &Lab, level: u32) -> Result<Measurement, LabError> {
+    // 2, 4 and 8 rows.
+    let spacing = 0.02 / f64::from(1 << (level.clamp(1, 4) - 1));
+    let mut patch = changed(lab, "solid-plastic", |solid| {
+        solid["body"] = json!({"box": {"min_m": [0, 0, 0], "max_m": [0.1, 0.04, 0.04]}});
+        solid["spacing_m"] = json!(spacing);
+        solid["plasticity"]["hardening_pa"] = json!(HARDENING);
+        solid["damping_1_s"] = json!(4e4);
+        solid["loads"] = json!([
+            {"on": ["x+"], "traction_pa": [PULL, 0, 0], "rise_s": 1e-3},
+            {"on": ["x-"], "traction_pa": [-PULL, 0, 0], "rise_s": 1e-3}
+        ]);
+    })?;
+    patch["dimensions"] = json!(3);
+    patch["time"] = json!({"end_s": 1.5e-3});
+    patch["output"] = json!({"frames_interval_s": 5e-4});
+    let run = lab.run(
+        "jetsph",
+        "solid-plastic",
+        &format!("uniaxial-{level}"),
+        &patch,
+    )?;
+    let solid = &run.scene["solids"][0];
+    let number = |value: &serde_json::Value| value.as_f64().unwrap_or(f64::NAN);
+    let modulus = number(&solid["elastic"]["youngs_modulus_pa"]);
+    let (yielding, hardening) = (
+        number(&solid["plasticity"]["yield_stress_pa"]),
+        number(&solid["plasticity"]["hardening_pa"]),
+    );
+    let pull = number(&solid["loads"][0]["traction_pa"][0]);
+    let mut stress = pull;
+    for _ in 0..200 {
+        stress = pull * (stress / modulus + (stress - yielding) / hardening).exp();
+    }
+    let all = frames(&run.artefact, "cylinder")?;
+    let (Some(start), Some(last)) = (all.first(), all.last()) else {
+        return Err(fault(&run, "has no frame"));
+    };
+    let strains = last.f64("plastic_strain")?;
+    let strain = strains.iter().sum::<f64>() / strains.len() as f64;
+    let length = |frame: &artefact::Frame| -> Result<f64, LabError> {
+        let along = frame.position_vectors()?;
+        let ends = along
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+                [a.min(x[0]), b.max(x[0])]
+            });
+        Ok(ends[1] - ends[0])
+    };
+    let errors = Errors::from([
+        (
+            "plastic_strain".to_owned(),
+            (strain * hardening / (stress - yielding) - 1.0).abs(),
+        ),
+        (
+            "stretch".to_owned(),
+            ((length(last)? / length(start)?).ln() / (stress / pull).ln() - 1.0).abs(),
+        ),
+    ]);
+    Ok(Measurement::of(run, start.len() as u64, spacing, errors))
 }
 
 /// Radius c to which the metal flows at a pressure over the yield stress in shear.

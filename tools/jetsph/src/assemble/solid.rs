@@ -7,15 +7,17 @@ use run::property::{Arguments, Property};
 
 use crate::matter::lattice::{Filling, Lattice};
 use crate::matter::meeting::contact::{Contact, Party};
+use crate::matter::shares::shares;
 use crate::matter::solid::bound::{self, Anchor, Load};
 use crate::matter::solid::cell::Cell;
 use crate::matter::solid::elastic::REST;
 use crate::matter::solid::law::Law;
 use crate::matter::solid::shocks::Shocks;
 use crate::matter::solid::tensor::Matrix;
+use crate::matter::solid::updated::{Hooke, Updated};
 use crate::matter::solid::{Body, Elastic};
 use crate::matter::water::friction::{Artificial, ArtificialViscosity};
-use crate::scene::{Scene, Solid};
+use crate::scene::{Scene, Solid, UpdatedForm};
 use crate::stage::Stage;
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
@@ -32,6 +34,8 @@ pub(super) struct Made {
     stiffness: f64,
     /// Speed of its compression waves \[m/s\].
     sound: f64,
+    /// Whether it has the updated form: water sees its particles as they stand.
+    pub(super) is_updated: bool,
 }
 
 /// All solids with their stages; what cannot be made is told.
@@ -67,6 +71,7 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
         set: state.sets.len(),
         cell,
         size: lattice.cell,
+        shares: shares(&shape, &lattice, dimensions),
         anchor_rest: anchors
             .iter()
             .map(|anchor| lattice.own(anchor.place))
@@ -76,9 +81,15 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
         damping: solid.damping_1_s.unwrap_or(0.0),
     };
     let mut set = particles(solid, &lattice, state)?;
-    set.column_mut(&MASS)
-        .fill(solid.density_kg_m3 * cell.volume);
-    let (stage, loose) = if dimensions == 2 {
+    for (a, mass) in set.column_mut(&MASS).iter_mut().enumerate() {
+        *mass = solid.density_kg_m3 * cell.volume * body.share(a);
+    }
+    let (stage, loose) = if let Some(form) = solid.updated_form {
+        (
+            updated((solid, form), &lattice, (state.sets.len(), dimensions)),
+            Vec::new(),
+        )
+    } else if dimensions == 2 {
         staged::<2, 5>(body, &set, (solid, axes(&lattice)))
     } else {
         staged::<4, 9>(body, &set, (solid, axes(&lattice)))
@@ -99,6 +110,7 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
         size: lattice.cell,
         stiffness: modulus * cell.volume / (spacing * spacing),
         sound: cell.law.wave_speed(solid.density_kg_m3),
+        is_updated: solid.updated_form.is_some(),
     };
     state.sets.push(set);
     Ok((stage, made))
@@ -144,6 +156,29 @@ fn staged<const L: usize, const T: usize>(
         None => stage,
     };
     (Box::new(stage), loose)
+}
+
+/// The stage of an elastic solid in the updated form.
+fn updated(
+    (solid, form): (&Solid, UpdatedForm),
+    lattice: &Lattice,
+    (set, dimensions): (usize, usize),
+) -> Box<dyn Stage> {
+    let (bulk, shear) = solid.elastic.moduli();
+    let spacing = spacing(lattice.cell, dimensions);
+    let law = Hooke {
+        density: solid.density_kg_m3,
+        bulk,
+        shear,
+        artificial: form.artificial_stress,
+        spacing,
+    };
+    let h = SMOOTHING * spacing;
+    if dimensions == 2 {
+        Box::new(Updated::<2, _>::new(set, law, CubicSpline::<2>::new(h)))
+    } else {
+        Box::new(Updated::<3, _>::new(set, law, CubicSpline::<3>::new(h)))
+    }
 }
 
 /// Axes of the lattice, as columns: the deformation of a body at rest.

@@ -89,7 +89,13 @@ pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) 
     let (water, dimensions) = (state.sets.len() - 1, state.dimensions);
     state.sets[solid.set].declare(&DEFORMATION);
     state.sets[solid.set].declare(&DEFORMATION_RATE);
-    let skin = Skin::new(solid.set, solid.size, of.spacing_m, dimensions);
+    // A cell that is no smaller than what it is divided to is one point: the arrangement of the source (figs 4 and 5).
+    let part = if solid.is_updated {
+        f64::INFINITY
+    } else {
+        of.spacing_m
+    };
+    let skin = Skin::new(solid.set, solid.size, part, dimensions);
     let h = 0.5 * of.smoothing * (of.spacing_m + skin.spacing);
     let none = ArtificialViscosity {
         linear: 0.0,

@@ -28,6 +28,8 @@ pub struct Lattice {
     pub frame: Frame,
     /// Size of a cell along them \[m\]; 1 across the plane.
     pub cell: [f64; 3],
+    /// Whether the cells end where the body does.
+    pub fits: bool,
     /// Places of the particles, the middles of cells \[m\].
     pub places: Vec<[f64; 3]>,
 }
@@ -69,6 +71,7 @@ impl Lattice {
         let mut lattice = Self {
             frame,
             cell,
+            fits: boxed.is_some(),
             places: Vec::new(),
         };
         lattice.place(body, filling, (counts, half, boxed.is_some()));

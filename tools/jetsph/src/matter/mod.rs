@@ -2,5 +2,6 @@
 
 pub mod lattice;
 pub mod meeting;
+pub mod shares;
 pub mod solid;
 pub mod water;

@@ -170,6 +170,29 @@ impl Solid {
         }
     }
 
+    /// Faults of what only the form by the deformation since rest can.
+    fn form_faults(&self, at: &str, plane: Option<Plane>, faults: &mut Vec<Fault>) {
+        if self.updated_form.is_none() {
+            return;
+        }
+        let told = [
+            ("clamps", !self.clamps.is_empty()),
+            ("loads", !self.loads.is_empty()),
+            ("plasticity", self.plasticity.is_some()),
+            ("fracture", self.fracture.is_some()),
+            ("damping_1_s", self.damping_1_s.is_some()),
+        ];
+        for (key, _) in told.iter().filter(|(_, is_there)| *is_there) {
+            let what =
+                "the updated form is one of free, elastic bodies: leave this or 'updated_form' out";
+            faults.push(Fault::at(&format!("{at}/{key}"), what));
+        }
+        if plane == Some(Plane::Stress) {
+            let what = "the updated form has no thin sheets: take \"plane\": \"strain\" or three dimensions";
+            faults.push(Fault::at(&format!("{at}/updated_form"), what));
+        }
+    }
+
     fn faults(
         &self,
         at: &str,
@@ -185,6 +208,7 @@ impl Solid {
             }
         }
         self.flow_faults(at, plane, faults);
+        self.form_faults(at, plane, faults);
         let mut within = |shape: Option<&Shape>, at: &str| {
             if let Some(shape) = shape {
                 check(shape, &format!("{at}/within"), dimensions, &mut misfits);

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use output::{FloatWidth, Output};
-pub use solid::{Clamp, ContactScene, LatticeScene, LoadScene, Solid};
+pub use solid::{Clamp, ContactScene, LatticeScene, LoadScene, Solid, UpdatedForm};
 
 pub use water::{
     KernelScene, NozzleScene, OutletScene, RepulsionScene, WallScene, WaterBody, WaterScene,

@@ -35,6 +35,9 @@ pub struct Solid {
     pub fracture: Option<Criterion>,
     /// Artificial viscosity of what approaches in it (38); none if absent.
     pub artificial_viscosity: Option<ArtificialViscosity>,
+    /// By the rates of its present state (32)-(37), as in the source, for comparison: a free, elastic body, whose particles water sees
+    /// as they stand. By its deformation since rest (total Lagrangian) if absent.
+    pub updated_form: Option<UpdatedForm>,
     /// Velocity at the start: a number or a formula in x, y, z for each axis; rest if absent.
     #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
     pub velocity_m_s: Option<Vec<Property>>,
@@ -47,6 +50,20 @@ pub struct Solid {
     /// Rate at which velocities die away, to find states of rest; nothing damps them if absent.
     #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0))]
     pub damping_1_s: Option<f64>,
+}
+
+/// The updated form of an elastic solid.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UpdatedForm {
+    /// s: the artificial stress over that which pulls (Gray, Monaghan and Swift 2001); with 0 it breaks where nothing should.
+    #[serde(default = "usual_artificial_stress")]
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
+    pub artificial_stress: f64,
+}
+
+fn usual_artificial_stress() -> f64 {
+    0.3
 }
 
 /// How the particles of a body stand.

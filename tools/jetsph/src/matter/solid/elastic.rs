@@ -163,6 +163,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         } else {
             self.answer_whole(&mut answers, &mut stiffer);
         }
+        self.body.part(&mut answers);
         for load in &self.body.loads {
             let parts: [f64; T] = terms(load.offset);
             let (force, columns) = (load.at(time), answers[load.particle].iter_mut().zip(parts));

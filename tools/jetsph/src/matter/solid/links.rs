@@ -19,8 +19,11 @@ use rayon::prelude::*;
 
 /// Support of a link in cells of the lattice.
 pub const SUPPORT: f64 = 2.3;
-/// A term of which this part or less is left beside the terms before it is not spanned by the neighbours.
+/// A slope of which this part or less is left beside the terms before it is not spanned by the neighbours.
 const FLAT: f64 = 1e-6;
+/// The same of a curvature. Two rows of a straight lattice span none across them, and shaking them by a twentieth of a
+/// cell must not: it would be a hundred times too stiff. What a straight lattice spans beside cracks of any kind leaves more.
+const BARELY: f64 = 0.08;
 
 /// Number of an axis pair among the terms of a quadratic.
 #[must_use]
@@ -230,10 +233,18 @@ pub(super) fn fit<const T: usize>(
         let p: [f64; T] = terms(offset(&row[k]));
         roots[k] * p[m]
     });
-    let inverse = inverse(&design);
+    let whole = |b: &u32| -> f64 {
+        let square: f64 = offset(b).iter().map(|x| x * x).sum();
+        1.0 - square / (SUPPORT * SUPPORT)
+    };
+    let even = DMatrix::from_fn(row.len(), T, |k, m| {
+        let p: [f64; T] = terms(offset(&row[k]));
+        whole(&row[k]) * p[m]
+    });
+    let dimensions = if T == 5 { 2 } else { 3 };
+    let inverse = inverse(&design, &spanned(&even, dimensions));
     let weight = |(k, root): (usize, &f64)| std::array::from_fn(|m| root * inverse[(m, k)]);
     let weights: Vec<[f64; T]> = roots.iter().enumerate().map(weight).collect();
-    let dimensions = if T == 5 { 2 } else { 3 };
     let error = |k: usize, l: usize| {
         let moment: f64 = row
             .iter()
@@ -247,9 +258,10 @@ pub(super) fn fit<const T: usize>(
     (weights, held)
 }
 
-/// The matrix that solves a fit in the sense of least squares. Terms that the neighbours do not span beside those before
-/// them are left out, the highest ones first, so that linear fields stay exact wherever they can be.
-fn inverse(design: &DMatrix<f64>) -> DMatrix<f64> {
+/// The terms that the neighbours span: one that they do not beside those before it is left out, the highest ones first, so that
+/// linear fields stay exact wherever they can be. Judged with weights that fall slowly: those of the fit, which leave the
+/// nearest ones to lead, make what three rows span as small as what shaking does.
+fn spanned(design: &DMatrix<f64>, dimensions: usize) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     let mut basis: Vec<DVector<f64>> = Vec::new();
     for m in 0..design.ncols() {
@@ -260,16 +272,22 @@ fn inverse(design: &DMatrix<f64>) -> DMatrix<f64> {
             let along = axis.dot(&rest);
             rest.axpy(-along, axis, 1.0);
         }
-        if rest.norm() > FLAT * length {
+        let least = if m < dimensions { FLAT } else { BARELY };
+        if rest.norm() > least * length {
             kept.push(m);
             basis.push(rest.normalize());
         }
     }
+    kept
+}
+
+/// The matrix that solves a fit of some terms in the sense of least squares; no others are in it.
+fn inverse(design: &DMatrix<f64>, kept: &[usize]) -> DMatrix<f64> {
     let mut inverse = DMatrix::zeros(design.ncols(), design.nrows());
-    let (q, r) = design.select_columns(&kept).qr().unpack();
+    let (q, r) = design.select_columns(kept).qr().unpack();
     if let Some(solved) = r.solve_upper_triangular(&q.transpose()) {
         for (row, m) in solved.row_iter().zip(kept) {
-            inverse.set_row(m, &row);
+            inverse.set_row(*m, &row);
         }
     }
     inverse
@@ -354,6 +372,29 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn two_shaken_rows_span_no_curvature_across_and_three_do() {
+        let most = |rows: usize| {
+            let shaken = |i: usize| 0.1 * ((i as f64 * 12.9898).sin() * 43758.5453).fract() - 0.05;
+            let at = |i: usize| [i % 6, i / 6];
+            let places: Vec<[f64; 3]> = (0..6 * rows)
+                .map(|i| {
+                    [
+                        at(i)[0] as f64 + shaken(i),
+                        at(i)[1] as f64 + shaken(i + 100),
+                        0.0,
+                    ]
+                })
+                .collect();
+            let (links, loose) = Links::<5>::new(&places, places.len(), [1.0; 3]);
+            assert!(loose.is_empty());
+            let weights = (0..places.len()).flat_map(|a| links.row(a).weight.to_vec());
+            weights.fold(0.0_f64, |most, w| most.max(w[4].abs()))
+        };
+        assert!(most(2) <= 0.0, "{}", most(2));
+        assert!(most(3) > 0.5 && most(3) < 4.0, "{}", most(3));
     }
 
     #[test]

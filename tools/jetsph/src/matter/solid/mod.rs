@@ -5,6 +5,7 @@
 //! of that energy, so that they keep momentum, angular momentum and energy, and a solid at rest stays so. Faces are the
 //! true ones: rows of particles stand half a cell inside them, free faces need nothing, held and loaded ones are
 //! [`bound`] where they are. Where a scene has it break, [`fracture`] says when, [`cracks`] what is left, [`breaking`] does it.
+//! [`updated`] is the form of Shinohara et al. (2004), for comparison.
 
 pub mod body;
 pub mod bound;
@@ -26,6 +27,7 @@ mod sound;
 mod stiffness;
 pub mod tensor;
 pub mod trial;
+pub mod updated;
 mod yielding;
 
 pub use body::Body;

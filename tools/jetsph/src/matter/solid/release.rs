@@ -48,7 +48,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let deformation = cell.law.completed(gradient(&self.derivatives(a)));
         let pulled = stretched(&cell.law, &deformation);
         let whole = cell.law.energy(&deformation).max(f64::MIN_POSITIVE);
-        (cell.volume * pulled, (pulled / whole).min(1.0))
+        (
+            self.body.share(a) * cell.volume * pulled,
+            (pulled / whole).min(1.0),
+        )
     }
 
     /// Energy that would go with the links \[J\].
@@ -61,7 +64,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             } else {
                 cell.energy(&self.derivatives_by(left))
             };
-            before - after
+            self.body.share(left.particle) * (before - after)
         };
         trial.left.iter().map(part).sum()
     }
@@ -151,6 +154,7 @@ mod tests {
             set: 0,
             cell: Cell::new(Law::new(&Constants::Young(young), None), size, 2),
             size,
+            shares: Vec::new(),
             anchor_rest: Vec::new(),
             anchors: Vec::new(),
             loads: Vec::new(),

@@ -138,10 +138,11 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
                 }
             }
             let (answer, _) = self.body.cell.answer(&derivatives);
+            let share = self.body.share(*cell);
             let mut all = [0.0; L];
             for (b, weight) in other.iter().zip(weight) {
                 let mut part = [0.0; L];
-                add(&mut part, &answer, weight);
+                add(&mut part, &answer, &weight.map(|w| share * w));
                 if let Some(k) = region.moving.get(b) {
                     (0..L).for_each(|i| slopes[*k][i] += part[i]);
                 }

@@ -51,10 +51,11 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     /// Energy of a cell \[J\].
     pub(super) fn cell_energy(&self, a: usize) -> f64 {
         let (cell, derivatives) = (&self.body.cell, self.derivatives(a));
-        match &self.plastic {
+        let whole = match &self.plastic {
             None => cell.energy(&derivatives),
             Some(plastic) => energy(cell, &plastic.law, &derivatives, &plastic.histories[a]),
-        }
+        };
+        self.body.share(a) * whole
     }
 
     /// Cauchy stress of a cell that flows \[Pa\].
@@ -72,7 +73,9 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let Some(Plastic { law, histories }) = &self.plastic else {
             return 0.0;
         };
-        let [sum] = sweep::sum(histories.len(), |a| [law.taken(&histories[a])]);
+        let [sum] = sweep::sum(histories.len(), |a| {
+            [self.body.share(a) * law.taken(&histories[a])]
+        });
         self.body.cell.volume * sum
     }
 }
