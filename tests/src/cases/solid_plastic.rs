@@ -108,13 +108,13 @@ fn pulled(lab: &Lab, level: u32) -> Result<Measurement, LabError> {
         solid["plasticity"]["hardening_pa"] = json!(HARDENING);
         solid["damping_1_s"] = json!(4e4);
         solid["loads"] = json!([
-            {"on": ["x+"], "traction_pa": [PULL, 0, 0], "rise_s": 1e-3},
-            {"on": ["x-"], "traction_pa": [-PULL, 0, 0], "rise_s": 1e-3}
+            {"on": ["x+"], "traction_pa": [PULL, 0, 0], "rise_s": 4e-3},
+            {"on": ["x-"], "traction_pa": [-PULL, 0, 0], "rise_s": 4e-3}
         ]);
     })?;
     patch["dimensions"] = json!(3);
-    patch["time"] = json!({"end_s": 1.5e-3});
-    patch["output"] = json!({"frames_interval_s": 5e-4});
+    patch["time"] = json!({"end_s": 4.5e-3});
+    patch["output"] = json!({"frames_interval_s": 1.5e-3});
     let run = lab.run(
         "jetsph",
         "solid-plastic",

@@ -3,6 +3,7 @@
 use neighbours::Grid;
 use shapes::surface::{Piece, names, pieces};
 
+use super::links::terms;
 use crate::matter::lattice::Lattice;
 
 /// A piece of surface has its particle within so many cells.
@@ -24,6 +25,8 @@ pub struct Load {
     pub particle: usize,
     /// The middle of the piece, seen from the particle along the axes of the lattice \[m\].
     pub offset: [f64; 3],
+    /// The part of it along the normal of a face that stands along the lattice; nothing of any other.
+    pub depth: [f64; 3],
     /// Where the middle of the piece is at rest \[m\].
     pub place: [f64; 3],
     /// Force at full load \[N\], in the plane \[N/m\].
@@ -32,7 +35,25 @@ pub struct Load {
     pub rise: f64,
 }
 
+/// A face stands along the lattice whose normal has this part along an axis.
+const ALONG: f64 = 1.0 - 1e-9;
+
 impl Load {
+    /// Parts of the derivatives of the particle's deformation that its place has. Those of second order count twice along the normal:
+    ///
+    /// ```text
+    /// x_face = x_n + d/2 dx/dX + d^2/8 d2x/dX2 + d^2/8 d2x/dX2
+    /// ```
+    ///
+    /// The first three are the quadratic; the last is what the slopes of all cells add up to (the integration constraint, Chen et
+    /// al. 2001). Without it an even traction bends the first rows.
+    #[must_use]
+    pub fn parts<const T: usize>(&self) -> [f64; T] {
+        let dimensions = if T == 5 { 2 } else { 3 };
+        let (place, deep): ([f64; T], [f64; T]) = (terms(self.offset), terms(self.depth));
+        std::array::from_fn(|m| place[m] + if m < dimensions { 0.0 } else { deep[m] })
+    }
+
     /// Force at a time \[N\].
     #[must_use]
     pub fn at(&self, time: f64) -> [f64; 3] {
@@ -132,13 +153,69 @@ pub fn loads(
             lattice.own(piece.place),
             lattice.own(lattice.places[*particle]),
         );
+        let offset: [f64; 3] = std::array::from_fn(|k| own[k] - rest[k]);
+        let ahead = lattice.own([0, 1, 2].map(|k| piece.place[k] + piece.normal[k]));
+        let normal: [f64; 3] = std::array::from_fn(|k| ahead[k] - own[k]);
         Load {
             particle: *particle,
-            offset: std::array::from_fn(|k| own[k] - rest[k]),
+            offset,
+            depth: [0, 1, 2].map(|k| if normal[k].abs() > ALONG { offset[k] } else { 0.0 }),
             place: piece.place,
             force: traction(piece.normal).map(|t| t * piece.area),
             rise,
         }
     };
     pieces.iter().map(load).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::links::Links;
+    use super::*;
+
+    #[test]
+    fn an_even_stress_is_in_balance_with_a_held_and_a_loaded_face() {
+        // 7 by 5 cells of unit size, anchors on the left, loads on the right.
+        let (columns, rows) = (7, 5);
+        let particles = columns * rows;
+        let mut places: Vec<[f64; 3]> = (0..particles)
+            .map(|i| [(i % columns) as f64, (i / columns) as f64, 0.0])
+            .collect();
+        places.extend((0..rows).map(|j| [-0.5, j as f64, 0.0]));
+        let (links, loose) = Links::<5>::new(&places, particles, [1.0; 3]);
+        assert!(loose.is_empty());
+        let mut force = vec![0.0; places.len()];
+        let mut add = |a: usize, parts: [f64; 5], scale: f64| {
+            let row = links.row(a);
+            for (b, weight) in row.other.iter().zip(row.weight) {
+                let along: f64 = parts.iter().zip(weight).map(|(p, w)| p * w).sum();
+                force[*b as usize] += scale * along;
+                force[a] -= scale * along;
+            }
+        };
+        for a in 0..particles {
+            add(a, [1.0, 0.0, 0.0, 0.0, 0.0], 1.0);
+        }
+        for j in 0..rows {
+            let load = Load {
+                particle: j * columns + columns - 1,
+                offset: [0.5, 0.0, 0.0],
+                depth: [0.5, 0.0, 0.0],
+                place: [0.0; 3],
+                force: [1.0, 0.0, 0.0],
+                rise: 0.0,
+            };
+            add(load.particle, load.parts(), -1.0);
+        }
+        for (i, force) in force.iter().enumerate() {
+            let expected = if i >= particles {
+                -1.0
+            } else if i % columns == columns - 1 {
+                1.0
+            } else {
+                0.0
+            };
+            assert!((force - expected).abs() < 0.03, "{i}: {force} {expected}");
+        }
+    }
 }

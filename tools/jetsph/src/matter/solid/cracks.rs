@@ -101,7 +101,7 @@ impl Cracks {
     /// Weights in cells of the neighbours `row` that are left to particle `a`, and whether they hold it.
     pub(super) fn refit<const T: usize>(&self, a: usize, row: &[u32]) -> (Vec<[f64; T]>, bool) {
         let fewest = if T == 5 { 4 } else { 7 };
-        let (weights, held) = fit::<T>(&self.places, a, row);
+        let (weights, held) = fit::<T>(&self.places, self.rows.len(), (a, row));
         (weights, held && row.len() >= fewest)
     }
 

@@ -10,7 +10,7 @@ use super::cracks::Cracks;
 use super::flowing::{PLASTIC_STRAIN, Plastic};
 use super::fracture::{BROKEN, Criterion};
 use super::law::equivalent_strain;
-use super::links::{Links, terms};
+use super::links::Links;
 use super::plastic::History;
 use super::stiffness::stiffness;
 use super::tensor::{Matrix, UNIT};
@@ -165,7 +165,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         }
         self.body.part(&mut answers);
         for load in &self.body.loads {
-            let parts: [f64; T] = terms(load.offset);
+            let parts: [f64; T] = load.parts();
             let (force, columns) = (load.at(time), answers[load.particle].iter_mut().zip(parts));
             columns.for_each(|(column, part)| {
                 (0..L.min(3)).for_each(|k| column[k] -= force[k] * part);

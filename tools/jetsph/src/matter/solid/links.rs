@@ -25,6 +25,9 @@ const FLAT: f64 = 1e-6;
 /// cell must not: it would be a hundred times too stiff. What a straight lattice spans beside cracks of any kind leaves more.
 const BARELY: f64 = 0.08;
 
+/// An anchor that is nearer stands on a face of the particle's own cell \[cells\].
+const OWN: f64 = 0.75;
+
 /// Number of an axis pair among the terms of a quadratic.
 #[must_use]
 pub const fn second(dimensions: usize, k: usize, l: usize) -> usize {
@@ -86,7 +89,7 @@ impl<const T: usize> Links<T> {
         rows.within(&scaled[..particles], &grid, SUPPORT);
         let fitted: Vec<(Vec<[f64; T]>, bool)> = (0..particles)
             .into_par_iter()
-            .map(|a| fit(&scaled, a, rows.row(a)))
+            .map(|a| fit(&scaled, particles, (a, rows.row(a))))
             .collect();
         let mut links = Self {
             start: vec![0],
@@ -213,11 +216,11 @@ fn share(distance: f64) -> f64 {
     rest * rest / (distance * distance).powi(4)
 }
 
-/// Weights of the neighbours `row` of place `a`, and whether they give its gradient.
+/// Weights of the neighbours `row` of place `a`, and whether they give its gradient; places behind the `particles` are anchors.
 pub(super) fn fit<const T: usize>(
     places: &[[f64; 3]],
-    a: usize,
-    row: &[u32],
+    particles: usize,
+    (a, row): (usize, &[u32]),
 ) -> (Vec<[f64; T]>, bool) {
     let x = places[a];
     let root = |r: [f64; 3]| {
@@ -244,7 +247,10 @@ pub(super) fn fit<const T: usize>(
     let dimensions = if T == 5 { 2 } else { 3 };
     let inverse = inverse(&design, &spanned(&even, dimensions));
     let weight = |(k, root): (usize, &f64)| std::array::from_fn(|m| root * inverse[(m, k)]);
-    let weights: Vec<[f64; T]> = roots.iter().enumerate().map(weight).collect();
+    let mut weights: Vec<[f64; T]> = roots.iter().enumerate().map(weight).collect();
+    for b in row.iter().filter(|b| **b as usize >= particles) {
+        balance(&mut weights, offset(b), dimensions);
+    }
     let error = |k: usize, l: usize| {
         let moment: f64 = row
             .iter()
@@ -256,6 +262,30 @@ pub(super) fn fit<const T: usize>(
     let axes = || (0..dimensions).flat_map(|k| (0..dimensions).map(move |l| (k, l)));
     let held = row.len() >= dimensions && axes().all(|(k, l)| error(k, l) < 1e-6);
     (weights, held)
+}
+
+/// Takes the slopes of the cell at a held face where they are in balance with those of the others. Summed over the cells, slopes must be
+/// the difference between the faces (the integration constraint, Chen et al. 2001), or an even stress bends the first rows:
+///
+/// ```text
+/// F_1 + F_2 + ... = sum (x_b - x_a)/d    needs   F_1 = ((x_1 + x_2)/2 - x_face)/d = F(quadratic) + d/8 dF/dX
+/// ```
+///
+/// which is an eighth of a cell inwards of its middle.
+fn balance<const T: usize>(weights: &mut [[f64; T]], anchor: [f64; 3], dimensions: usize) {
+    let square: f64 = anchor.iter().map(|x| x * x).sum();
+    // Those of the cell's own face are half a cell away.
+    if square > OWN * OWN {
+        return;
+    }
+    for weight in weights {
+        for k in 0..dimensions {
+            let inwards: f64 = (0..dimensions)
+                .map(|l| -0.25 * anchor[l] * weight[second(dimensions, k, l)])
+                .sum();
+            weight[k] += inwards;
+        }
+    }
 }
 
 /// The terms that the neighbours span: one that they do not beside those before it is left out, the highest ones first, so that

@@ -4,7 +4,6 @@ use particles::{POSITION, sweep};
 
 use super::bound::Load;
 use super::elastic::{Elastic, add};
-use super::links::terms;
 use super::tensor::Matrix;
 use crate::matter::meeting::skin::PULL;
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
@@ -117,7 +116,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     fn load_work(&self, position: &[[f64; 3]], force: impl Fn(&Load) -> [f64; 3]) -> f64 {
         let each = self.body.loads.iter().map(|load| {
             let derivatives = self.derivatives(load.particle);
-            let parts: [f64; T] = terms(load.offset);
+            let parts: [f64; T] = load.parts();
             let moved = |k: usize| -> f64 {
                 let there = derivatives
                     .iter()
