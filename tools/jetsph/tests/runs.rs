@@ -292,35 +292,6 @@ fn water_and_solid_push_each_other_alike_and_part() {
     }
 }
 
-/// How deep water of 5 m/s has come into the block of `MEETING` after 1.5 ms \[m\].
-fn depth(scene: &str) -> f64 {
-    let mut run = begun(scene);
-    let middle = |run: &Assembled| {
-        let block = run.state.sets[0].column(&POSITION);
-        block.iter().map(|x| x[2]).sum::<f64>() / block.len() as f64
-    };
-    let start = middle(&run);
-    while run.state.time < 1.5e-3 {
-        steps(&mut run, 1);
-    }
-    let face = middle(&run) - start;
-    let water = run.state.sets[1].column(&POSITION);
-    let inside = water.iter().filter(|x| x[0].hypot(x[1]) < 0.007);
-    inside.fold(0.0, |deepest, x| f64::max(deepest, face - x[2]))
-}
-
-#[test]
-fn water_slips_between_particles_as_they_stand_and_not_between_cells() {
-    let cells = depth(MEETING);
-    let control = MEETING.replace(
-        r#""spacing_m": 0.004,"#,
-        r#""spacing_m": 0.004, "updated_form": {},"#,
-    );
-    let particles = depth(&control);
-    assert!(cells < 0.004, "{cells} m deep between cells");
-    assert!(particles > 0.004, "{particles} m deep between particles");
-}
-
 #[test]
 fn bits_do_not_depend_on_threads() {
     for scene in [BAR, JET, CUT, TEAR, METAL, UPDATED] {

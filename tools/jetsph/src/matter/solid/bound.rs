@@ -159,7 +159,13 @@ pub fn loads(
         Load {
             particle: *particle,
             offset,
-            depth: [0, 1, 2].map(|k| if normal[k].abs() > ALONG { offset[k] } else { 0.0 }),
+            depth: [0, 1, 2].map(|k| {
+                if normal[k].abs() > ALONG {
+                    offset[k]
+                } else {
+                    0.0
+                }
+            }),
             place: piece.place,
             force: traction(piece.normal).map(|t| t * piece.area),
             rise,
