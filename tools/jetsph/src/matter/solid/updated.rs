@@ -5,10 +5,10 @@
 //! dS/dt     = 2 G (D - tr D/3) + w S - S w,   D = sym L,   w = skew L                                             (34)
 //! du/dt     = sum m_j (T_i + T_j + f^4 (R_i + R_j)) . grad W_ij,   T = (S - p)/rho^2                               (26)
 //! p         = K (rho/rho0 - 1)                                                                                    (32)
-//! R         = -s <T>,   f = W(r)/W(d)                        Gray, Monaghan and Swift (2001), artificial stress
+//! R         = -s T+,    f = W(r)/W(d)                        Gray, Monaghan and Swift (2001), artificial stress
 //! ```
 //!
-//! <T> is the part of T that pulls along its principal axes. Without R particles clump where the solid is pulled, and it breaks where
+//! T+ is the part of T that pulls along its principal axes. Without R particles clump where the solid is pulled, and it breaks where
 //! nothing should: the source does not mention R. The form knows no fit and no faces; it is the control of the other one.
 
 use kernels::Kernel;
