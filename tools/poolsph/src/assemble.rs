@@ -147,7 +147,8 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     state.flowing = scene.flow.is_some() && scene.flow_start.is_none();
     state.source = scene.source.map(|source| source.place(0.0));
     Ok(Assembled {
-        march: March::new(parts.before, parts.after, scene.step()),
+        march: March::new(parts.before, parts.after, scene.step())
+            .adaptive(scene.time.greatest_stride()),
         layout: Layout {
             width: scene.output.precision,
             walls: state.wall.contains(&true),

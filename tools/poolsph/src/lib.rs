@@ -11,6 +11,7 @@ pub mod grains;
 pub mod heat;
 pub mod march;
 pub mod motion;
+pub mod pace;
 pub mod patch;
 pub mod probes;
 pub mod rest;

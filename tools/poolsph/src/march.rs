@@ -1,5 +1,6 @@
 //! The march in time: knows stages, not physics.
 
+use crate::pace::Pace;
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::State;
 
@@ -7,7 +8,7 @@ use crate::state::State;
 pub struct March {
     before: Vec<Box<dyn Stage>>,
     after: Vec<Box<dyn Stage>>,
-    dt: f64,
+    pace: Pace,
 }
 
 /// How a step went.
@@ -15,6 +16,8 @@ pub struct March {
 pub struct Stepped {
     /// Step taken \[s\].
     pub dt: f64,
+    /// Steps of the scene's length that it holds.
+    pub stride: u64,
     /// The smallest limit and who set it, if any stage has one.
     pub limit: Option<Limit>,
     /// Whether a stage has divided the step.
@@ -26,7 +29,29 @@ impl March {
     /// particles (the domain), those of `after` follow it (surface, heat, forces, motion).
     #[must_use]
     pub fn new(before: Vec<Box<dyn Stage>>, after: Vec<Box<dyn Stage>>, dt: f64) -> Self {
-        Self { before, after, dt }
+        Self {
+            before,
+            after,
+            pace: Pace::even(dt),
+        }
+    }
+
+    /// The same with steps that hold up to `greatest` of the given length.
+    #[must_use]
+    pub fn adaptive(mut self, greatest: u64) -> Self {
+        self.pace.greatest = greatest;
+        self
+    }
+
+    /// How long its steps are.
+    #[must_use]
+    pub fn pace(&self) -> &Pace {
+        &self.pace
+    }
+
+    /// The same, to restore it.
+    pub fn pace_mut(&mut self) -> &mut Pace {
+        &mut self.pace
     }
 
     /// All stages in order.
@@ -47,23 +72,33 @@ impl March {
             .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 
-    /// Takes one step. `timed` wraps each stage so that a clock can stand outside: it is given the
-    /// stage's name and must call the work exactly once.
+    /// Takes one step, which does not go beyond `until` steps of the scene's length. `timed` wraps each stage so that a
+    /// clock can stand outside: it is given the stage's name and must call the work exactly once.
     ///
-    /// The step is the scene's; a stage that cannot take it whole divides it within itself, so
-    /// that frames and droplets keep their times.
+    /// The step is the scene's, or a whole number of these where steps are adaptive; a stage that cannot take it whole
+    /// divides it within itself, so that frames and droplets keep their times.
     ///
     /// # Errors
     /// What a stage reports.
     pub fn step(
         &mut self,
         state: &mut State,
+        until: u64,
         mut timed: impl FnMut(
             &'static str,
             &mut dyn FnMut() -> Result<(), StageError>,
         ) -> Result<(), StageError>,
     ) -> Result<Stepped, StageError> {
-        let dt = self.dt;
+        if self.pace.grows() {
+            let (state, stages) = (&*state, self.before.iter().chain(&self.after));
+            let longest = stages.clone().map(|stage| stage.follows(state));
+            let marks = stages.filter_map(|stage| stage.next(state.time));
+            let longest = longest.fold(f64::INFINITY, f64::min);
+            let mark = marks.fold(f64::INFINITY, f64::min);
+            self.pace.choose(state.step, (until, mark), longest);
+        }
+        state.stride = self.pace.stride;
+        let dt = self.pace.step();
         for stage in &mut self.before {
             timed(stage.name(), &mut || stage.advance(state, dt))?;
         }
@@ -74,11 +109,12 @@ impl March {
         for stage in &mut self.after {
             timed(stage.name(), &mut || stage.advance(state, dt))?;
         }
-        state.step += 1;
-        // Times are multiples of the step, not sums, so that no error grows with their number.
-        state.time = state.step as f64 * dt;
+        state.time = state.end(dt);
+        state.step += state.stride;
+        self.pace.taken += 1;
         Ok(Stepped {
             dt,
+            stride: state.stride,
             limit: self.limit(state),
             divided: self.stages().any(|stage| stage.parts() > 1),
         })

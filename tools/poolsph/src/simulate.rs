@@ -9,7 +9,7 @@ use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
 use crate::probes;
 use crate::resume;
-use crate::scene::{Scene, due};
+use crate::scene::{Scene, due, next_due};
 use crate::stage::{Figure, StageError};
 use crate::state::State;
 use crate::watch::{bounded, endless, place, undivided, watch};
@@ -30,7 +30,12 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
             .count("particles", state.len() as u64)
             .count("liquid at the start", state.liquid() as u64);
     }
-    plan = plan.count("steps", scene.steps());
+    let steps = if assembled.march.pace().grows() {
+        "steps at most"
+    } else {
+        "steps"
+    };
+    plan = plan.count(steps, scene.steps());
     plan = with_grains(plan, scene, &assembled)?;
     for (i, filled) in assembled.filled.iter().enumerate() {
         plan = plan.count(&format!("particles of body {i}"), filled.placed as u64);
@@ -158,9 +163,10 @@ impl<'a> Simulation<'a> {
     }
 
     fn step(&mut self, session: &mut Session) -> Result<(), Failure> {
+        let until = self.mark();
         let Assembled { march, state, .. } = &mut self.run;
         let stepped = march
-            .step(state, |name, work| session.timed(name, work))
+            .step(state, until, |name, work| session.timed(name, work))
             .map_err(|e| failure(e, state.time))?;
         if stepped.divided {
             session.substepped();
@@ -179,7 +185,7 @@ impl<'a> Simulation<'a> {
             }
         }
         bounded(state, stepped.dt)?;
-        if state.step.is_multiple_of(WATCH_STEPS) {
+        if state.step / WATCH_STEPS != (state.step - stepped.stride) / WATCH_STEPS {
             watch(state)?;
         }
         self.write(session)?;
@@ -188,6 +194,28 @@ impl<'a> Simulation<'a> {
             status(state, &march.figures())
         });
         session.keep(|checkpoint| resume::save(checkpoint, state, march, start))
+    }
+
+    /// The next step at which something is due.
+    fn mark(&self) -> u64 {
+        let (step, dt) = (self.run.state.step, self.scene.step());
+        if !self.run.march.pace().grows() {
+            return step + 1;
+        }
+        let output = &self.scene.output;
+        let often = [Some(output.particles_interval_s), output.balance_interval_s];
+        let mut marks: Vec<f64> = often.into_iter().flatten().collect();
+        // Frames of the pool begin late.
+        let begin = output.pool.map(|pool| (pool.from_s / dt).floor() as u64);
+        marks.extend(
+            output
+                .pool
+                .filter(|_| Some(step) >= begin)
+                .map(|pool| pool.interval_s),
+        );
+        let next = marks.iter().map(|interval| next_due(step, dt, *interval));
+        let begins = begin.filter(|begin| *begin > step);
+        next.chain(begins).fold(self.scene.steps(), u64::min)
     }
 
     /// Writes all that is due at the present step.
@@ -279,6 +307,11 @@ impl<'a> Simulation<'a> {
             for (_, figure) in figures.filter(|(stage, _)| *stage == "grains") {
                 session.closing(figure.name, figure.unit, figure.value);
             }
+        }
+        if march.pace().grows() {
+            let taken = march.pace().taken as f64;
+            session.closing("steps_taken", "1", taken);
+            session.closing("step_mean", "s", state.time / taken);
         }
         let totals = Balance::of(state, &march.figures());
         if self.scene.has_metal() {

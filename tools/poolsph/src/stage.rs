@@ -109,6 +109,18 @@ pub trait Stage: Send {
         None
     }
 
+    /// The longest step that follows what it does \[s\], where the scene lets steps grow: its limit, unless it divides
+    /// steps at little cost.
+    fn follows(&self, state: &State) -> f64 {
+        let limit = self.dt_limit(state);
+        limit.map_or(f64::INFINITY, |limit| limit.seconds)
+    }
+
+    /// The next instant \[s\] after `time` at which a step has to end.
+    fn next(&self, _time: f64) -> Option<f64> {
+        None
+    }
+
     /// In how many parts it has taken the last step.
     fn parts(&self) -> u64 {
         1

@@ -23,23 +23,24 @@ pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failu
         mut state,
         ..
     } = assemble(scene, inputs)?;
+    let total = scene.steps();
     let mut step = || {
-        let done = march.step(&mut state, |_, work| work());
+        let done = march.step(&mut state, u64::MAX, |_, work| work());
         done.map_err(|e| Failure::Other(e.to_string()))
     };
-    let total = scene.steps();
     for _ in 0..WARM.min(total) {
         step()?;
     }
     let began = Instant::now();
-    let mut taken = 0;
+    let (mut taken, mut passed) = (0, 0);
     while taken < MOST && (taken == 0 || began.elapsed() < LONGEST) {
-        step()?;
+        passed += step()?.stride;
         taken += 1;
     }
-    let each = began.elapsed().as_secs_f64() / taken as f64;
+    let spent = began.elapsed().as_secs_f64();
+    let each = spent / taken as f64;
     Ok(Estimate {
-        seconds: each * total as f64,
+        seconds: spent / passed as f64 * total as f64,
         basis: if scene.has_metal() {
             format!(
                 "{} a step, with the {} liquid particles of the start",

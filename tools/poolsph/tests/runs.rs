@@ -96,9 +96,8 @@ fn threads_do_not_show_and_totals_close() {
     assert!(closing(&record, "energy_stored_j").abs() > 1.0);
 }
 
-#[test]
-fn a_weld_closes_its_energy_while_it_melts_and_flows() {
-    let folder = folder();
+/// A short weld with droplets on a small plate.
+fn weld() -> Value {
     let mut weld = scene();
     let metal = json!({"min_m": [-4e-3, -4e-3, -2e-3], "max_m": [4e-3, 4e-3, 0]});
     weld["bodies"] = json!([{"shape": {"box": metal}, "state": "solid", "temperature_k": 1500}]);
@@ -109,8 +108,14 @@ fn a_weld_closes_its_energy_while_it_melts_and_flows() {
         "temperature_k": 2100});
     weld["time"] = json!({"step_s": 1e-4, "end_s": 0.08});
     weld["output"] = json!({"particles_interval_s": 0.02});
+    weld
+}
+
+#[test]
+fn a_weld_closes_its_energy_while_it_melts_and_flows() {
+    let folder = folder();
     let out = folder.path().join("weld.mcap");
-    finished(&write(folder.path(), "weld.json", &weld), &out, &[]);
+    finished(&write(folder.path(), "weld.json", &weld()), &out, &[]);
     let record = record(&out);
     assert_eq!(record["warnings"], json!([]));
     assert!(closing(&record, "energy_balance").abs() < 5e-3);
@@ -124,12 +129,57 @@ fn a_weld_closes_its_energy_while_it_melts_and_flows() {
     assert!(liquid >= 120.0, "{liquid}");
 }
 
-/// Starts a run, lets it take some steps, interrupts it and takes it up.
+#[test]
+fn steps_that_grow_keep_all_times_and_close_the_totals() {
+    let folder = folder();
+    let mut weld = weld();
+    weld["output"] = json!({"particles_interval_s": 3.3e-3, "balance_interval_s": 1e-3,
+        "pool": {"from_s": 0.0503, "interval_s": 1.7e-3, "beside_m": 0.01, "behind_m": 0.01, "ahead_m": 0.01}});
+    let run = |name: &str, scene: &Value| {
+        let out = folder.path().join(format!("{name}.mcap"));
+        let scene = write(folder.path(), &format!("{name}.json"), scene);
+        let bytes = finished(&scene, &out, &["--threads", "1"]);
+        let again = finished(
+            &scene,
+            &folder.path().join("again.mcap"),
+            &["--threads", "2"],
+        );
+        assert!(
+            bytes == again,
+            "{name}: the bytes depend on the number of threads"
+        );
+        let reader = artefact::Reader::open_kind(&out, "particle-frames", 1).unwrap();
+        let times = ["/particles", "/pool", "/balance"].map(|name| reader.times(name).unwrap());
+        (times, record(&out))
+    };
+    let (even, plain) = run("even", &weld);
+    weld["time"]["adaptive"] = json!({"greatest_s": 8e-4});
+    let (times, adaptive) = run("adaptive", &weld);
+    assert_eq!(even, times);
+    let taken = closing(&adaptive, "steps_taken");
+    assert!(taken < 0.6 * 800.0 && taken > 100.0, "{taken}");
+    assert!(closing(&adaptive, "energy_balance").abs() < 5e-3);
+    let [mass, wanted] = [&adaptive, &plain].map(|r| closing(r, "mass_droplets_kg"));
+    assert!((mass - wanted).abs() < 1e-12 * wanted, "{mass} {wanted}");
+    let [heat, wanted] = [&adaptive, &plain].map(|r| closing(r, "energy_in_j"));
+    assert!((heat / wanted - 1.0).abs() < 0.02, "{heat} {wanted}");
+}
+
 #[test]
 fn an_interrupted_run_ends_in_the_same_bytes() {
+    interrupted(&json!({"step_s": 1e-4, "end_s": 0.1}));
+}
+
+#[test]
+fn an_interrupted_run_whose_steps_grow_ends_in_the_same_bytes() {
+    interrupted(&json!({"step_s": 2.5e-5, "end_s": 0.1, "adaptive": {"greatest_s": 1e-4}}));
+}
+
+/// Starts a run, lets it take some steps, interrupts it and takes it up.
+fn interrupted(time: &Value) {
     let folder = folder();
     let mut long = scene();
-    long["time"]["end_s"] = json!(0.1);
+    long["time"] = time.clone();
     let scene = write(folder.path(), "scene.json", &long);
     let whole = finished(&scene, &folder.path().join("whole.mcap"), &[]);
     let out = folder.path().join("broken.mcap");

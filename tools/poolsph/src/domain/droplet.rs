@@ -25,6 +25,11 @@ use crate::heat::ledger::Sum;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Metal, Particle, Phase, State};
 
+/// Part of a spacing that a droplet falls in a step when it lands, where steps are adaptive.
+const FALL: f64 = 0.4;
+/// Part of a period by which a droplet may be early, for the rounding of times.
+const EARLY: f64 = 1e-6;
+
 /// Droplets from the wire (key `droplets`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -200,7 +205,7 @@ impl Droplets {
     /// Number of droplets born until the time \[s\], its own moment included.
     fn due(&self, time: f64) -> u64 {
         // A millionth of a period decides, not the rounding of the time.
-        (time / self.period + 1e-6).floor() as u64 + 1
+        (time / self.period + EARLY).floor() as u64 + 1
     }
 
     fn bear(&mut self, state: &mut State, axis: [f64; 3]) {
@@ -318,7 +323,7 @@ impl Stage for Droplets {
         }
         self.land(state, fall);
         // The end of the step is what frames show.
-        let end = (state.step + 1) as f64 * dt;
+        let end = state.end(dt);
         let due = self.due(end);
         while self.born < due {
             self.bear(state, place.position);
@@ -328,6 +333,22 @@ impl Stage for Droplets {
         place.droplets = self.born;
         state.source = Some(place);
         Ok(())
+    }
+
+    fn follows(&self, state: &State) -> f64 {
+        let height = |a: usize| state.position[a][2];
+        let Some(lowest) = self.flying.iter().map(|a| height(*a)).reduce(f64::min) else {
+            return f64::INFINITY;
+        };
+        // Down to where it may meet something it falls freely.
+        let rests = (0..state.len()).filter(|a| state.phase[*a] != Phase::Flying);
+        let top = rests.map(height).fold(f64::NEG_INFINITY, f64::max);
+        let free = lowest - top - state.metal.support();
+        free.max(FALL * state.metal.spacing) / self.parameters.speed_m_s
+    }
+
+    fn next(&self, _: f64) -> Option<f64> {
+        Some((self.born as f64 - EARLY) * self.period)
     }
 
     fn figures(&self) -> Vec<Figure> {

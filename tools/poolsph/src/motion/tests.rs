@@ -93,7 +93,7 @@ pub(super) fn march(method: Method, gravity: bool, tension: bool) -> March {
 
 pub(super) fn steps(march: &mut March, state: &mut State, steps: u32) -> Result<(), StageError> {
     for _ in 0..steps {
-        march.step(state, |_, work| work())?;
+        march.step(state, u64::MAX, |_, work| work())?;
     }
     Ok(())
 }

@@ -29,6 +29,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         );
         faults.push(Fault::at("/time/step_s", what));
     }
+    faults.extend(adaptive(scene));
     if let Some(grains) = &scene.grains {
         let found = grains::fill::faults(grains);
         faults.extend(found.into_iter().map(|fault| fault.within("/grains")));
@@ -62,6 +63,24 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         faults.extend(crowded(scene));
     }
     faults.extend(sizes);
+    faults
+}
+
+/// What adaptive steps ask for.
+fn adaptive(scene: &Scene) -> Vec<Fault> {
+    let Some(adaptive) = scene.time.adaptive else {
+        return Vec::new();
+    };
+    let mut faults = Vec::new();
+    let (least, most) = (scene.time.step_s, adaptive.greatest_s);
+    if most < least {
+        let what = format!("{most} s is shorter than the shortest step, {least} s");
+        faults.push(Fault::at("/time/adaptive/greatest_s", what).or_at("/time/step_s"));
+    }
+    if scene.grains.is_some() {
+        let what = "grains divide steps that are all alike: leave \"adaptive\" out";
+        faults.push(Fault::at("/time/adaptive", what).or_at("/grains"));
+    }
     faults
 }
 

@@ -5,6 +5,7 @@ mod check;
 mod odd;
 mod output;
 mod size;
+mod time;
 
 use run::Fault;
 use schemars::JsonSchema;
@@ -14,7 +15,8 @@ use torch::Torch;
 pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
 pub use odd::{doubts, notes};
-pub use output::{FloatWidth, Output, PoolOutput, due};
+pub use output::{FloatWidth, Output, PoolOutput, due, next_due};
+pub use time::{Adaptive, Time};
 
 use crate::domain::{bounds, droplet};
 use crate::forces::{
@@ -108,19 +110,6 @@ pub struct Scene {
     pub output: Output,
 }
 
-/// Step and end of the run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Time {
-    /// Longest step dt \[s\]; where whole ones do not end at `end_s`, all are as much shorter as it takes. A stage that
-    /// cannot take it whole divides it within itself.
-    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
-    pub step_s: f64,
-    /// End of the run \[s\].
-    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
-    pub end_s: f64,
-}
-
 impl Scene {
     /// True if the flow is without divergence: single particles then have pressures that mean something.
     #[must_use]
@@ -206,28 +195,5 @@ impl Scene {
     #[must_use]
     pub fn step(&self) -> f64 {
         self.time.step()
-    }
-}
-
-impl Time {
-    /// Number of steps: as few as reach the end.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
-        let steps = self.end_s / self.step_s;
-        // A billionth of all steps decides, not the rounding of the quotient.
-        let whole = (steps - steps.round()).abs() <= 1e-9 * steps;
-        (if whole { steps.round() } else { steps.ceil() }) as u64
-    }
-
-    /// Step dt \[s\] that is taken: `step_s` where whole ones end at the end, else the next shorter one that does.
-    #[must_use]
-    pub fn step(&self) -> f64 {
-        let steps = self.steps() as f64;
-        let whole = (self.end_s / self.step_s - steps).abs() <= 1e-9 * steps;
-        if whole {
-            self.step_s
-        } else {
-            self.end_s / steps
-        }
     }
 }

@@ -217,7 +217,11 @@ mod tests {
         let told = told(&time(3e-4, 1e-3));
         assert!(told[0].contains("4 steps of 2.5e-4 s"), "{told:?}");
         for (step_s, end_s) in [(3e-4, 1e-3), (7e-5, 0.01), (1.1e-3, 2e-3), (1e-4, 10.0)] {
-            let time = Time { step_s, end_s };
+            let time = Time {
+                step_s,
+                end_s,
+                adaptive: None,
+            };
             let end = time.steps() as f64 * time.step();
             assert!((end / end_s - 1.0).abs() < 1e-9 && time.step() <= step_s);
         }

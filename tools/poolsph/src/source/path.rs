@@ -47,7 +47,7 @@ impl Stage for Path {
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        let end = (state.step + 1) as f64 * dt;
+        let end = state.end(dt);
         let place = state.source.unwrap_or(self.0.place(end));
         state.source = Some(Place {
             position: self.0.position(end),

@@ -76,8 +76,10 @@ pub const LIQUID: f64 = 0.5;
 pub struct State {
     /// Simulated time \[s\].
     pub time: f64,
-    /// Steps taken.
+    /// Steps of the scene's length that have passed.
     pub step: u64,
+    /// Steps of the scene's length that the present one holds.
+    pub stride: u64,
     /// The metal.
     pub metal: Metal,
     /// x \[m\], `[n][3]`; z upwards, z = 0 on the plate, y along the weld.
@@ -138,6 +140,13 @@ pub struct Particle {
 }
 
 impl State {
+    /// The time at the end of the present step, of `dt` \[s\].
+    #[must_use]
+    pub fn end(&self, dt: f64) -> f64 {
+        // Times are multiples of the scene's step, not sums, so that no error grows with their number.
+        (self.step + self.stride) as f64 * (dt / self.stride as f64)
+    }
+
     /// No particles, and of the optional columns those that `columns` names.
     #[must_use]
     pub fn new(metal: Metal, mut columns: Vec<Column>) -> Self {
@@ -146,6 +155,7 @@ impl State {
         Self {
             time: 0.0,
             step: 0,
+            stride: 1,
             metal,
             position: Vec::new(),
             velocity: Vec::new(),

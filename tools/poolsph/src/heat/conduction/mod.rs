@@ -296,6 +296,11 @@ impl Stage for Conduction {
         Some(Limit::dividing("conduction", self.limit))
     }
 
+    fn follows(&self, _: &State) -> f64 {
+        // Heat is divided by itself.
+        f64::INFINITY
+    }
+
     fn parts(&self) -> u64 {
         self.substeps.max(self.flowing)
     }
@@ -304,12 +309,14 @@ impl Stage for Conduction {
         for held in &self.held {
             held.prescribe(state, &self.caloric, &mut self.out_held)?;
         }
-        let due = state.step.is_multiple_of(self.interval);
-        let whole = self.interval as f64 * dt;
+        // Those at rest wait for a multiple of their interval; a long step may hold several.
+        let turns = |step: u64| step.div_ceil(self.interval);
+        let due = turns(state.step + state.stride) - turns(state.step);
+        let whole = (due * self.interval) as f64 * (dt / state.stride as f64);
         let limit = self.limit;
         // A step at the very limit is whole, whatever its last bit.
         let parts = |dt: f64| (dt / limit - 1e-9).ceil().max(1.0);
-        if due {
+        if due > 0 {
             let n = parts(whole);
             self.substeps = n as u64;
             for _ in 0..self.substeps {
