@@ -25,7 +25,7 @@ use crate::forces::surface_stress::SurfaceStress;
 use crate::forces::tension::Tension;
 use crate::frames::{Layout, PlateNote};
 use crate::heat::{self, Caloric, Conduction};
-use crate::march::March;
+use crate::march::{Group, March};
 use crate::motion::{self, Law, Motion};
 use crate::scene::{Scene, StartState};
 use crate::source::Path;
@@ -55,42 +55,61 @@ pub struct Assembled {
     pub left_out: LeftOut,
 }
 
-/// Stages ahead of the gathering of the moving particles, and after it.
-#[derive(Default)]
+/// Groups of stages in the order of a step (Komen 2019, fig. 3.16).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Room {
+    /// What comes into the domain and leaves it.
+    Domain,
+    Surface,
+    Heat,
+    /// They heat metal before it changes its phase, and push it before it flows.
+    Grains,
+    Melting,
+    Forces,
+    Flow,
+}
+
+/// Stages, group by group.
 struct Parts {
-    before: Vec<Box<dyn Stage>>,
-    after: Vec<Box<dyn Stage>>,
+    groups: [Group; 7],
     left_out: LeftOut,
 }
 
 impl Parts {
+    fn new() -> Self {
+        let names = [
+            "domain", "surface", "heat", "grains", "melting", "forces", "flow",
+        ];
+        let mut groups = names.map(Group::new);
+        groups[Room::Surface as usize].gathers = true;
+        Self {
+            groups,
+            left_out: LeftOut::new(),
+        }
+    }
+
+    fn stages(&self) -> impl Iterator<Item = &dyn Stage> {
+        let groups = self.groups.iter();
+        groups.flat_map(|group| group.stages.iter().map(AsRef::as_ref))
+    }
+
     fn leave_out(&mut self, key: &'static str) {
         self.left_out.push((key, format!("no key '{key}'")));
     }
 
-    /// Takes a stage of the domain if its key is there, and notes it as left out if not.
-    fn ahead<P>(
-        &mut self,
-        key: &'static str,
-        part: Option<P>,
-        make: impl FnOnce(P) -> Result<Box<dyn Stage>, Failure>,
-    ) -> Result<(), Failure> {
-        match part {
-            Some(part) => self.before.push(make(part)?),
-            None => self.leave_out(key),
-        }
-        Ok(())
+    fn take(&mut self, room: Room, stage: Box<dyn Stage>) {
+        self.groups[room as usize].stages.push(stage);
     }
 
-    /// As [`Parts::ahead`], for a stage that works on what has been gathered.
+    /// Takes a stage if its key is there, and notes it as left out if not.
     fn when<P>(
         &mut self,
-        key: &'static str,
-        part: Option<P>,
+        room: Room,
+        (key, part): (&'static str, Option<P>),
         make: impl FnOnce(P) -> Result<Box<dyn Stage>, Failure>,
     ) -> Result<(), Failure> {
         match part {
-            Some(part) => self.after.push(make(part)?),
+            Some(part) => self.take(room, make(part)?),
             None => self.leave_out(key),
         }
         Ok(())
@@ -147,8 +166,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     state.flowing = scene.flow.is_some() && scene.flow_start.is_none();
     state.source = scene.source.map(|source| source.place(0.0));
     Ok(Assembled {
-        march: March::new(parts.before, parts.after, scene.step())
-            .adaptive(scene.time.greatest_stride()),
+        march: March::new(parts.groups.into(), scene.step()).adaptive(scene.time.greatest_stride()),
         layout: Layout {
             width: scene.output.precision,
             walls: state.wall.contains(&true),
@@ -176,7 +194,7 @@ fn held(bodies: &[Body], filled: &[Filled]) -> Held {
 
 /// Optional columns of all stages.
 fn columns(parts: &Parts) -> Vec<Column> {
-    let stages = parts.before.iter().chain(&parts.after);
+    let stages = parts.stages();
     stages
         .flat_map(|stage| stage.needs().iter().copied())
         .collect()
@@ -217,38 +235,39 @@ impl<'a> Source<'a> {
 
     /// The stages in the order of a step (Komen 2019, fig. 3.16).
     fn stages(&self, held: Held, beside: Option<Beside>) -> Result<Parts, Failure> {
-        let mut parts = Parts::default();
+        let mut parts = Parts::new();
         let scene = self.scene;
-        parts.ahead("source", scene.source, |source| Ok(Box::new(Path(source))))?;
-        parts.ahead("droplets", scene.droplets, |droplets| {
+        parts.when(Room::Domain, ("source", scene.source), |source| {
+            Ok(Box::new(Path(source)))
+        })?;
+        parts.when(Room::Domain, ("droplets", scene.droplets), |droplets| {
             let metal = (scene.metal(), scene.halving()?);
             let stage = Droplets::new(droplets, metal, self.caloric.as_ref())
                 .map_err(|fault| fault.within("/droplets"))?;
             Ok(Box::new(stage))
         })?;
-        parts.ahead("bounds", scene.bounds, |bounds| {
+        parts.when(Room::Domain, ("bounds", scene.bounds), |bounds| {
             let stage = Bounds::new(bounds, scene.metal());
             Ok(Box::new(stage.map_err(|fault| fault.within("/bounds"))?))
         })?;
         self.heat(&mut parts, held)?;
-        // Grains heat metal before it changes its phase, and push it before it flows.
         let mut cover = None;
         if let Some(beside) = beside {
-            parts.after.push(Box::new(beside.motion));
+            parts.take(Room::Grains, Box::new(beside.motion));
             cover = beside.cover;
         }
         self.melting(&mut parts)?;
         self.forces(&mut parts)?;
-        parts.when("flow", scene.flow.as_ref(), |flow| {
+        parts.when(Room::Flow, ("flow", scene.flow.as_ref()), |flow| {
             let law = self.viscosity(flow)?;
             Ok(Box::new(Motion::new(flow.clone(), law, scene.metal())))
         })?;
         let surface = columns(&parts).contains(&Column::Surface);
         if surface {
             let surface = Surface::new(scene.metal());
-            parts.after.insert(0, Box::new(surface));
+            parts.take(Room::Surface, Box::new(surface));
             if let Some(cover) = cover {
-                parts.after.insert(1, Box::new(cover));
+                parts.take(Room::Surface, Box::new(cover));
             }
         }
         Ok(parts)
@@ -270,19 +289,19 @@ impl<'a> Source<'a> {
         for (particles, curve) in held {
             conduction.hold(particles, curve);
         }
-        parts.after.push(Box::new(conduction));
-        parts.when("arc", self.scene.arc.as_ref(), |arc| {
+        parts.take(Room::Heat, Box::new(conduction));
+        parts.when(Room::Heat, ("arc", self.scene.arc.as_ref()), |arc| {
             let surface = self.arc.as_ref().map(ArcSource::surface);
             let stage = heat::Arc::new(arc, caloric.clone(), self.scene.metal(), surface)
                 .map_err(|fault| fault.within("/arc"))?;
             Ok(Box::new(stage))
         })?;
         let torches = Some(&self.scene.torches).filter(|torches| !torches.is_empty());
-        parts.when("torches", torches, |torches| {
+        parts.when(Room::Heat, ("torches", torches), |torches| {
             let stage = heat::Torches::new(torches, caloric.clone(), self.scene.metal());
             Ok(Box::new(stage?))
         })?;
-        parts.when("losses", self.scene.losses, |losses| {
+        parts.when(Room::Heat, ("losses", self.scene.losses), |losses| {
             Ok(Box::new(heat::Losses::new(losses, caloric.clone())))
         })
     }
@@ -292,7 +311,7 @@ impl<'a> Source<'a> {
         let (Some(heat), Some(caloric)) = (&self.scene.heat, &self.caloric) else {
             return Ok(());
         };
-        parts.when("melting", heat.melting, |_| {
+        parts.when(Room::Melting, ("melting", heat.melting), |_| {
             let start = self.scene.flow_start;
             let bodies = &self.scene.bodies;
             // Metal on a wall is backed by it.
@@ -309,42 +328,58 @@ impl<'a> Source<'a> {
     fn forces(&self, parts: &mut Parts) -> Result<(), Failure> {
         let (scene, metal) = (self.scene, self.scene.metal());
         let flow = scene.flow.as_ref();
-        parts.when("marangoni", scene.marangoni.as_ref(), |marangoni| {
-            let stage = Marangoni::new(marangoni);
-            Ok(Box::new(stage.map_err(|fault| fault.within("/marangoni"))?))
-        })?;
-        parts.when("surface_stress", scene.surface_stress.as_ref(), |given| {
-            let stage = SurfaceStress::new(given, metal);
-            Ok(Box::new(
-                stage.map_err(|fault| fault.within("/surface_stress"))?,
-            ))
-        })?;
-        parts.when("gas_shear", scene.gas_shear.as_ref(), |shear| {
-            let viscosity = flow.map_or(Ok(Law::Uniform(0.0)), |flow| self.viscosity(flow))?;
-            let stage = GasShear::new(shear, self.gas()?, viscosity, metal)
-                .map_err(|fault| fault.within("/gas_shear"))?;
-            Ok(Box::new(stage))
-        })?;
-        parts.when("lorentz", scene.lorentz, |_| {
+        parts.when(
+            Room::Forces,
+            ("marangoni", scene.marangoni.as_ref()),
+            |marangoni| {
+                let stage = Marangoni::new(marangoni);
+                Ok(Box::new(stage.map_err(|fault| fault.within("/marangoni"))?))
+            },
+        )?;
+        parts.when(
+            Room::Forces,
+            ("surface_stress", scene.surface_stress.as_ref()),
+            |given| {
+                let stage = SurfaceStress::new(given, metal);
+                Ok(Box::new(
+                    stage.map_err(|fault| fault.within("/surface_stress"))?,
+                ))
+            },
+        )?;
+        parts.when(
+            Room::Forces,
+            ("gas_shear", scene.gas_shear.as_ref()),
+            |shear| {
+                let viscosity = flow.map_or(Ok(Law::Uniform(0.0)), |flow| self.viscosity(flow))?;
+                let stage = GasShear::new(shear, self.gas()?, viscosity, metal)
+                    .map_err(|fault| fault.within("/gas_shear"))?;
+                Ok(Box::new(stage))
+            },
+        )?;
+        parts.when(Room::Forces, ("lorentz", scene.lorentz), |_| {
             let table = self
                 .arc()?
                 .lorentz()?
                 .ok_or_else(|| Fault::at("/lorentz", "the input 'arc' holds no Lorentz force"))?;
             Ok(Box::new(Lorentz::new(table, metal)))
         })?;
-        parts.when("arc_pressure", scene.arc_pressure.as_ref(), |pressed| {
-            let formula = pressed.formula();
-            let pressure = match formula.map_err(|fault| fault.within("/arc_pressure"))? {
-                Some(formula) => formula,
-                None => Pressure::Table(self.arc()?.radial("arc_pressure_pa")?),
-            };
-            Ok(Box::new(ArcPressure::new(pressure, metal, scene.even())))
-        })?;
-        parts.when("buoyancy", scene.buoyancy, |buoyancy| {
+        parts.when(
+            Room::Forces,
+            ("arc_pressure", scene.arc_pressure.as_ref()),
+            |pressed| {
+                let formula = pressed.formula();
+                let pressure = match formula.map_err(|fault| fault.within("/arc_pressure"))? {
+                    Some(formula) => formula,
+                    None => Pressure::Table(self.arc()?.radial("arc_pressure_pa")?),
+                };
+                Ok(Box::new(ArcPressure::new(pressure, metal, scene.even())))
+            },
+        )?;
+        parts.when(Room::Forces, ("buoyancy", scene.buoyancy), |buoyancy| {
             let gravity = flow.and_then(|flow| flow.gravity_m_s2).unwrap_or_default();
             Ok(Box::new(Buoyancy::new(buoyancy, gravity, metal)))
         })?;
-        parts.when("tension", scene.tension, |tension| {
+        parts.when(Room::Forces, ("tension", scene.tension), |tension| {
             if scene.even() {
                 return Ok(Box::new(Capillary::new(tension)));
             }

@@ -4,10 +4,45 @@ use crate::pace::Pace;
 use crate::stage::{Figure, Limit, Stage, StageError};
 use crate::state::State;
 
-/// Stages in the order of a step; see [`crate::stage`].
+/// Stages that belong together, in order.
+pub struct Group {
+    /// For example `heat`.
+    pub name: &'static str,
+    /// Whether the moving particles are gathered ahead of it: it begins to work on [`State::near`].
+    pub gathers: bool,
+    /// May be none.
+    pub stages: Vec<Box<dyn Stage>>,
+}
+
+impl Group {
+    /// No stages yet.
+    #[must_use]
+    pub fn new(name: &'static str) -> Self {
+        Self {
+            name,
+            gathers: false,
+            stages: Vec::new(),
+        }
+    }
+
+    /// The same, with the moving particles gathered ahead.
+    #[must_use]
+    pub fn gathering(mut self) -> Self {
+        self.gathers = true;
+        self
+    }
+
+    /// The same, with the given stages.
+    #[must_use]
+    pub fn of(mut self, stages: Vec<Box<dyn Stage>>) -> Self {
+        self.stages = stages;
+        self
+    }
+}
+
+/// Groups of stages in the order of a step; see [`crate::stage`].
 pub struct March {
-    before: Vec<Box<dyn Stage>>,
-    after: Vec<Box<dyn Stage>>,
+    groups: Vec<Group>,
     pace: Pace,
 }
 
@@ -25,13 +60,11 @@ pub struct Stepped {
 }
 
 impl March {
-    /// A march of step `dt` \[s\]: stages of `before` come ahead of the gathering of the moving
-    /// particles (the domain), those of `after` follow it (surface, heat, forces, motion).
+    /// A march of step `dt` \[s\].
     #[must_use]
-    pub fn new(before: Vec<Box<dyn Stage>>, after: Vec<Box<dyn Stage>>, dt: f64) -> Self {
+    pub fn new(groups: Vec<Group>, dt: f64) -> Self {
         Self {
-            before,
-            after,
+            groups,
             pace: Pace::even(dt),
         }
     }
@@ -56,12 +89,13 @@ impl March {
 
     /// All stages in order.
     pub fn stages(&self) -> impl Iterator<Item = &dyn Stage> {
-        self.before.iter().chain(&self.after).map(AsRef::as_ref)
+        let groups = self.groups.iter();
+        groups.flat_map(|group| group.stages.iter().map(AsRef::as_ref))
     }
 
     /// All stages in order, to restore them.
     pub fn stages_mut(&mut self) -> impl Iterator<Item = &mut Box<dyn Stage>> {
-        self.before.iter_mut().chain(&mut self.after)
+        self.groups.iter_mut().flat_map(|group| &mut group.stages)
     }
 
     /// The smallest limit of all stages.
@@ -90,24 +124,24 @@ impl March {
         ) -> Result<(), StageError>,
     ) -> Result<Stepped, StageError> {
         if self.pace.grows() {
-            let (state, stages) = (&*state, self.before.iter().chain(&self.after));
-            let longest = stages.clone().map(|stage| stage.follows(state));
-            let marks = stages.filter_map(|stage| stage.next(state.time));
+            let longest = self.stages().map(|stage| stage.follows(state));
             let longest = longest.fold(f64::INFINITY, f64::min);
+            let marks = self.stages().filter_map(|stage| stage.next(state.time));
             let mark = marks.fold(f64::INFINITY, f64::min);
             self.pace.choose(state.step, (until, mark), longest);
         }
         state.stride = self.pace.stride;
         let dt = self.pace.step();
-        for stage in &mut self.before {
-            timed(stage.name(), &mut || stage.advance(state, dt))?;
-        }
-        timed("gather", &mut || {
-            state.gather();
-            Ok(())
-        })?;
-        for stage in &mut self.after {
-            timed(stage.name(), &mut || stage.advance(state, dt))?;
+        for group in &mut self.groups {
+            if group.gathers {
+                timed("gather", &mut || {
+                    state.gather();
+                    Ok(())
+                })?;
+            }
+            for stage in &mut group.stages {
+                timed(stage.name(), &mut || stage.advance(state, dt))?;
+            }
         }
         state.time = state.end(dt);
         state.step += state.stride;

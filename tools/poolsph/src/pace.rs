@@ -75,7 +75,10 @@ mod tests {
             step += pace.stride;
             taken.push(pace.stride);
         }
-        assert_eq!(taken, [2, 4, 8, 4, 2, 1, 2, 4, 8, 8, 2, 2, 4, 2, 2, 4, 2]);
+        assert_eq!(
+            taken,
+            [2, 4, 8, 4, 2, 1, 2, 4, 8, 8, 2, 2, 2, 2, 2, 2, 2, 2, 1]
+        );
         assert_eq!(step, 60);
     }
 

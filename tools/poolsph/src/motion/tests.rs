@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::forces::tension::{self, Tension};
-use crate::march::March;
+use crate::march::{Group, March};
 use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
 use crate::state::{Column, Metal, Particle, Phase, State};
@@ -88,7 +88,7 @@ pub(super) fn march(method: Method, gravity: bool, tension: bool) -> March {
         Law::Uniform(0.004),
         METAL,
     )));
-    March::new(Vec::new(), after, 1e-4)
+    March::new(vec![Group::new("metal").gathering().of(after)], 1e-4)
 }
 
 pub(super) fn steps(march: &mut March, state: &mut State, steps: u32) -> Result<(), StageError> {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::forces::capillary::Capillary;
 use crate::forces::tension;
-use crate::march::March;
+use crate::march::{Group, March};
 use crate::motion::tests::{METAL, block, steps};
 use crate::motion::viscosity::Viscosity;
 use crate::motion::{Law, Motion, Parameters};
@@ -148,7 +148,7 @@ fn march_of(gamma: f64, mu: f64, dt: f64) -> March {
         surface_tension_n_m: gamma,
     });
     let after: Vec<Box<dyn Stage>> = vec![Box::new(tension), Box::new(motion)];
-    March::new(Vec::new(), after, dt)
+    March::new(vec![Group::new("metal").gathering().of(after)], dt)
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Exact cases of the operators and of a step.
 
 use super::*;
+use crate::march::{Group, March};
 use crate::motion::tests::{METAL, block, march, steps, tank};
 use crate::motion::{Method, Motion, Parameters};
 use crate::stage::Stage;
@@ -164,7 +165,8 @@ fn a_pressure_upon_the_whole_surface_moves_nothing() {
         let law = crate::motion::Law::Uniform(0.004);
         let motion = Motion::new(parameters, law, METAL);
         let after: Vec<Box<dyn Stage>> = vec![Box::new(Gas(pressure)), Box::new(motion)];
-        let mut march = crate::march::March::new(Vec::new(), after, 1e-4);
+        let metal = Group::new("metal").gathering().of(after);
+        let mut march = March::new(vec![metal], 1e-4);
         steps(&mut march, &mut state, 20).unwrap();
         state
     };
@@ -203,7 +205,8 @@ fn a_weight_that_walls_bear_moves_nothing_in_a_closed_box() {
         let parameters: Parameters = serde_json::from_str(&text).unwrap();
         let law = crate::motion::Law::Uniform(0.004);
         let motion = Motion::new(parameters, law, METAL);
-        let mut march = crate::march::March::new(Vec::new(), vec![Box::new(motion)], 1e-4);
+        let metal = Group::new("metal").gathering().of(vec![Box::new(motion)]);
+        let mut march = March::new(vec![metal], 1e-4);
         steps(&mut march, &mut state, 20).unwrap();
         state
     };
