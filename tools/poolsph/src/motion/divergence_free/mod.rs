@@ -67,6 +67,8 @@ const RELAXED: f64 = 0.02;
 const SLOW: f64 = 0.004;
 /// Most excess that counts.
 const MOST: f64 = 0.05;
+/// Least weight of what tells the pressure of a particle, in parts of the lattice's. One in the corner of three walls has 0.4 of liquid.
+const LEAST: f64 = 0.25;
 /// Particles of the least surface; a single one is no less.
 const FEWEST: f64 = 0.999;
 /// Way of the fastest particle in a step, in spacings, from which on the tolerance is that of the scene; slower flow
@@ -261,9 +263,11 @@ impl DivergenceFree {
                     excess = excess.max(0.0);
                 }
                 let gone = relaxed * excess.clamp(-MOST, MOST) - step.dt * row.divergence;
-                let diagonal = (row.liquid + 2.0 * row.missing).max(1e-6 * filled.weight);
-                let right =
-                    gone * row.moment / (filled.moment * scale) + 2.0 * row.missing * upon[a];
+                // What walls enclose so that no liquid tells its pressure is as far from the surface as from the liquid.
+                let enclosed = (LEAST * filled.weight - row.liquid - 2.0 * row.missing).max(0.0);
+                let beyond = 2.0 * row.missing + enclosed;
+                let diagonal = row.liquid + beyond;
+                let right = gone * row.moment / (filled.moment * scale) + beyond * upon[a];
                 *equation = [diagonal as f32, right as f32];
             });
     }

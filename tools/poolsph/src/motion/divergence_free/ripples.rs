@@ -24,6 +24,9 @@ const STRENGTH: f64 = 0.5;
 const PART: f64 = 0.15;
 /// Least determinant of the moments, over the cube of their mean, that tells a slope.
 const FLAT: f64 = 1e-3;
+/// Most that the magnitudes of c add up to. At a plane surface they add up to little more than one; fits that reach far beyond
+/// their neighbours have more, and what they damp they would drive on.
+const FAR: f64 = 2.5;
 
 /// Scratch, `[m]` in the order of [`Near`].
 #[derive(Debug, Clone, Default)]
@@ -63,6 +66,12 @@ impl Ripples {
             *fit = [0.0; 4];
             if near.role[a] == Role::Liquid && rows[a].missing > 0.0 {
                 *fit = weights(liquid(near, a, row));
+                let far = liquid(near, a, row).map(|(_, w, x)| w * share(*fit, x).abs());
+                if far.sum::<f64>() > FAR {
+                    // The mean reaches nowhere.
+                    let all: f64 = liquid(near, a, row).map(|(_, w, _)| w).sum();
+                    *fit = [1.0 / all, 0.0, 0.0, 0.0];
+                }
             }
         });
         let fit = &self.fit;
