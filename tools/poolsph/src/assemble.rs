@@ -1,6 +1,7 @@
 //! From the scene to stages and particles: the only place that asks what the scene contains.
 
 mod grains;
+mod parts;
 pub mod preview;
 
 use std::ops::Range;
@@ -10,6 +11,8 @@ use run::property::Curve;
 use run::{Failure, Fault, Inputs};
 
 use self::grains::Beside;
+pub use self::parts::LeftOut;
+use self::parts::{Parts, Room};
 use crate::domain::bodies::{self, Body, Filled};
 use crate::domain::bounds::Bounds;
 use crate::domain::droplet::Droplets;
@@ -25,17 +28,13 @@ use crate::forces::surface_stress::SurfaceStress;
 use crate::forces::tension::Tension;
 use crate::frames::{Layout, PlateNote};
 use crate::heat::{self, Caloric, Conduction};
-use crate::march::{Group, March};
+use crate::march::March;
 use crate::motion::{self, Law, Motion};
 use crate::scene::{Scene, StartState};
 use crate::source::Path;
 use crate::source::arc::ArcSource;
-use crate::stage::Stage;
 use crate::state::{Column, State};
 use crate::surface::Surface;
-
-/// Physics that a scene does not have, and what says so.
-pub type LeftOut = Vec<(&'static str, String)>;
 
 /// A run ready to start.
 pub struct Assembled {
@@ -53,67 +52,6 @@ pub struct Assembled {
     pub grain_counts: Vec<usize>,
     /// Physics that is absent.
     pub left_out: LeftOut,
-}
-
-/// Groups of stages in the order of a step (Komen 2019, fig. 3.16).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Room {
-    /// What comes into the domain and leaves it.
-    Domain,
-    Surface,
-    Heat,
-    /// They heat metal before it changes its phase, and push it before it flows.
-    Grains,
-    Melting,
-    Forces,
-    Flow,
-}
-
-/// Stages, group by group.
-struct Parts {
-    groups: [Group; 7],
-    left_out: LeftOut,
-}
-
-impl Parts {
-    fn new() -> Self {
-        let names = [
-            "domain", "surface", "heat", "grains", "melting", "forces", "flow",
-        ];
-        let mut groups = names.map(Group::new);
-        groups[Room::Surface as usize].gathers = true;
-        Self {
-            groups,
-            left_out: LeftOut::new(),
-        }
-    }
-
-    fn stages(&self) -> impl Iterator<Item = &dyn Stage> {
-        let groups = self.groups.iter();
-        groups.flat_map(|group| group.stages.iter().map(AsRef::as_ref))
-    }
-
-    fn leave_out(&mut self, key: &'static str) {
-        self.left_out.push((key, format!("no key '{key}'")));
-    }
-
-    fn take(&mut self, room: Room, stage: Box<dyn Stage>) {
-        self.groups[room as usize].stages.push(stage);
-    }
-
-    /// Takes a stage if its key is there, and notes it as left out if not.
-    fn when<P>(
-        &mut self,
-        room: Room,
-        (key, part): (&'static str, Option<P>),
-        make: impl FnOnce(P) -> Result<Box<dyn Stage>, Failure>,
-    ) -> Result<(), Failure> {
-        match part {
-            Some(part) => self.take(room, make(part)?),
-            None => self.leave_out(key),
-        }
-        Ok(())
-    }
 }
 
 /// What the stages are made from.
