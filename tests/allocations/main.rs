@@ -86,7 +86,7 @@ fn pool_step(name: &str, scene: &Value, inputs: &Inputs) {
             }
             Ok(())
         };
-        march.step(&mut state, timed).unwrap();
+        march.step(&mut state, u64::MAX, timed).unwrap();
         taken += 1;
     });
     let (calls, bytes) = spent;
