@@ -174,7 +174,8 @@ fn every_stage_is_tried() {
         .map(|entry| entry.unwrap().path())
         .filter(|folder| folder.join("src/main.rs").is_file())
         .map(|folder| folder.file_name().unwrap().to_str().unwrap().to_owned())
-        .filter(|name| name != "report")
+        // They read no scene.
+        .filter(|name| !["report", "sweep"].contains(&name.as_str()))
         .collect();
     stages.sort();
     let mut tried = STAGES.map(|(tool, ..)| tool);

@@ -11,7 +11,8 @@ name=$(basename "$0")
 echo "$name" >> log
 while [ $# -gt 0 ]; do
     case $1 in
-    --out | --points) out=$2; shift 2 ;;
+    --out) out=$2; shift 2 ;;
+    --points) if [ "$name" = report ]; then cat "$2" >> "$name.gathered.$$"; else out=$2; fi; shift 2 ;;
     *) [ ! -f "${1#*=}" ] || cat "${1#*=}" >> "$name.gathered.$$"; shift ;;
     esac
 done
