@@ -204,9 +204,10 @@ fn nothing_of_a_scene_or_a_name_acts_on_the_terminal() {
     }
 }
 
-/// A run that lasts long enough to be told to end, and writes a checkpoint only then.
+/// A run that lasts long enough to be told to end, and writes a checkpoint only then; it ends by itself where the caller has turned
+/// signals off.
 fn long_run(folder: &TempDir, before: &str) -> Child {
-    let patch = written(folder, "long.json", json!({"time": {"end_s": 3}}));
+    let patch = written(folder, "long.json", json!({"time": {"end_s": 0.5}}));
     let out = folder.path().join("long.mcap");
     let program = tool("poolsph");
     let mut command = Command::new("sh");
