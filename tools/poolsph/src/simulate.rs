@@ -9,7 +9,7 @@ use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
 use crate::probes;
 use crate::resume;
-use crate::scene::{Scene, due, next_due};
+use crate::scene::{Scene, due};
 use crate::stage::{Figure, StageError};
 use crate::state::State;
 use crate::watch::{bounded, endless, place, undivided, watch};
@@ -202,20 +202,7 @@ impl<'a> Simulation<'a> {
         if !self.run.march.pace().grows() {
             return step + 1;
         }
-        let output = &self.scene.output;
-        let often = [Some(output.particles_interval_s), output.balance_interval_s];
-        let mut marks: Vec<f64> = often.into_iter().flatten().collect();
-        // Frames of the pool begin late.
-        let begin = output.pool.map(|pool| (pool.from_s / dt).floor() as u64);
-        marks.extend(
-            output
-                .pool
-                .filter(|_| Some(step) >= begin)
-                .map(|pool| pool.interval_s),
-        );
-        let next = marks.iter().map(|interval| next_due(step, dt, *interval));
-        let begins = begin.filter(|begin| *begin > step);
-        next.chain(begins).fold(self.scene.steps(), u64::min)
+        self.scene.output.next(step, dt).min(self.scene.steps())
     }
 
     /// Writes all that is due at the present step.

@@ -134,6 +134,7 @@ fn steps_that_grow_keep_all_times_and_close_the_totals() {
     let folder = folder();
     let mut weld = weld();
     weld["output"] = json!({"particles_interval_s": 3.3e-3, "balance_interval_s": 1e-3,
+        "probes": [{"name": "beside", "place_m": [3e-3, 0, -1e-3]}], "probes_interval_s": 7e-4,
         "pool": {"from_s": 0.0503, "interval_s": 1.7e-3, "beside_m": 0.01, "behind_m": 0.01, "ahead_m": 0.01}});
     let run = |name: &str, scene: &Value| {
         let out = folder.path().join(format!("{name}.mcap"));
@@ -149,7 +150,8 @@ fn steps_that_grow_keep_all_times_and_close_the_totals() {
             "{name}: the bytes depend on the number of threads"
         );
         let reader = artefact::Reader::open_kind(&out, "particle-frames", 1).unwrap();
-        let times = ["/particles", "/pool", "/balance"].map(|name| reader.times(name).unwrap());
+        let times =
+            ["/particles", "/pool", "/balance", "/probes"].map(|name| reader.times(name).unwrap());
         (times, record(&out))
     };
     let (even, plain) = run("even", &weld);

@@ -68,14 +68,14 @@ mod tests {
 
     #[test]
     fn tasks_await_the_tasks_that_make_their_inputs() {
-        let text = job(&crate::points::tests::welds(), 4, "/home/of mine");
+        let text = job(&crate::points::tests::welds(), 4, "/welds of mine");
         let task = "\
 [[task]]
 id = 5
 command = [\"make\", \"--no-print-directory\", \"-f\", \"build/welds/sweep/rules.mk\", \"THREADS=4\", \
 \"build/welds/sweep/current-200-speed-0.01/pool.mcap\"]
 deps = [1, 2]
-cwd = \"/home/of mine\"
+cwd = \"/welds of mine\"
 ";
         assert!(text.contains(task), "{text}");
         assert_eq!(text.matches("[[task]]").count(), 7);

@@ -15,7 +15,7 @@ use torch::Torch;
 pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
 pub use odd::{doubts, notes};
-pub use output::{FloatWidth, Output, PoolOutput, due, next_due};
+pub use output::{FloatWidth, Output, PoolOutput, due};
 pub use time::{Adaptive, Time};
 
 use crate::domain::{bounds, droplet};

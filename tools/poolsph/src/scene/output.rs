@@ -64,6 +64,29 @@ impl Output {
     pub fn grains_interval(&self) -> f64 {
         self.grains_interval_s.unwrap_or(self.particles_interval_s)
     }
+
+    /// The first step of length `dt` \[s\] after `step` at which anything is due.
+    #[must_use]
+    pub fn next(&self, step: u64, dt: f64) -> u64 {
+        let often = [
+            self.particles_interval_s,
+            self.balance_interval(),
+            self.grains_interval(),
+        ];
+        let probes = (!self.probes.is_empty()).then(|| self.probes_interval());
+        let often = often.into_iter().chain(probes);
+        let next = often.map(|interval| next_due(step, dt, interval));
+        // Frames of the pool begin late.
+        let pool = self.pool.map(|pool| {
+            let begin = (pool.from_s / dt).floor() as u64;
+            if step < begin {
+                begin
+            } else {
+                next_due(step, dt, pool.interval_s)
+            }
+        });
+        next.chain(pool).fold(u64::MAX, u64::min)
+    }
 }
 
 /// Frequent frames of the particles in a box that moves with the source; all heights.
@@ -96,8 +119,7 @@ pub fn due(step: u64, dt: f64, interval: f64) -> bool {
 }
 
 /// The first step after `step` at which it is due.
-#[must_use]
-pub fn next_due(step: u64, dt: f64, interval: f64) -> u64 {
+fn next_due(step: u64, dt: f64, interval: f64) -> u64 {
     let mut turn = (step as f64 * dt / interval).floor();
     loop {
         let next = nearest(turn, dt, interval);
