@@ -70,6 +70,24 @@ fn a_drop_that_falls_into_a_shallow_pool_does_not_burst() {
 }
 
 #[test]
+fn what_a_drop_strikes_gets_no_faster_than_the_drop() {
+    // Three particles across on solid metal, and on a film of one layer.
+    let film = block("liquid", [-2e-3, -2e-3, -5e-4], [2e-3, 2e-3, 0.0]);
+    let bare = [plate(-5e-4), drop(1.5e-3, SPEED)];
+    let wet = [film, plate(-5e-4), drop(1.5e-3, SPEED)];
+    for bodies in [&bare[..], &wet[..]] {
+        for viscosity in [0.0, 0.004] {
+            let fastest = fastest(&scene(bodies, 9.8, viscosity));
+            assert!(
+                fastest < 1.5 * SPEED,
+                "{} bodies, {viscosity}: {fastest}",
+                bodies.len()
+            );
+        }
+    }
+}
+
+#[test]
 fn drops_that_meet_do_not_burst() {
     for viscosity in [0.004, 0.04] {
         let fastest = fastest(&scene(

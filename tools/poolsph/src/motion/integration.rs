@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::around::Around;
-use super::divergence_free::DivergenceFree;
+use super::divergence_free::{DivergenceFree, Meeting};
 use super::homogenising::Homogenising;
 use super::law::Law;
 use super::noise::Noise;
@@ -92,6 +92,7 @@ pub struct Motion {
     projection: Projection,
     homogenising: Homogenising,
     divergence_free: DivergenceFree,
+    meeting: Meeting,
     predicted: Vec<[f64; 3]>,
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
@@ -115,6 +116,7 @@ impl Motion {
             projection: Projection::new(metal),
             homogenising: Homogenising::new(metal),
             divergence_free: DivergenceFree::new(metal),
+            meeting: Meeting::default(),
             predicted: Vec::new(),
             multiplier: Vec::new(),
             solved: Solved::default(),
@@ -180,7 +182,7 @@ impl Motion {
     }
 
     /// Number of substeps for the fastest particle; an error if it is no longer a flow.
-    fn divide(&self, state: &State, dt: f64) -> Result<u32, StageError> {
+    fn divide(&mut self, state: &State, dt: f64) -> Result<u32, StageError> {
         let near = &state.near;
         let fastest = near.fastest_squared();
         let speed = fastest.sqrt();
@@ -206,7 +208,11 @@ impl Motion {
         let viscous = (dt / self.viscosity.limit()).ceil().max(1.0);
         let falling = (dt / self.fall).ceil();
         let capillary = (dt / capillary::limit(near, state.metal)).ceil();
-        let substeps = courant.max(viscous).max(falling).max(capillary);
+        let mut substeps = courant.max(viscous).max(falling).max(capillary);
+        if self.parameters.method == Method::DivergenceFree {
+            let meeting = dt / self.meeting.limit(near, state.metal.spacing);
+            substeps = substeps.max(meeting.ceil());
+        }
         Ok(substeps as u32)
     }
 
@@ -338,6 +344,7 @@ impl Stage for Motion {
     fn bytes(&self) -> usize {
         self.projection.bytes()
             + self.homogenising.bytes()
+            + self.meeting.bytes()
             + self.divergence_free.bytes()
             + self.noise.bytes()
             + self.viscosity.bytes()

@@ -27,8 +27,10 @@
 //! lattice has more, mirrored across the surface half a spacing away. Solid particles move as the mirror images of the
 //! liquid beside them: the wall stands half a spacing before their first layer.
 
+mod cohesion;
 mod filled;
 mod islands;
+mod meeting;
 mod normals;
 mod openness;
 mod operators;
@@ -49,8 +51,10 @@ use crate::state::Metal;
 use crate::sweep::GRAIN;
 use crate::vector::{dot, minus, plus, squared};
 
+use self::cohesion::Cohesion;
 use self::filled::Filled;
 use self::islands::Islands;
+pub use self::meeting::Meeting;
 use self::normals::Normals;
 use self::operators::{Sums, times};
 use self::poisson::Poisson;
@@ -82,6 +86,7 @@ const CLOSEST: f64 = 1e-3;
 pub struct DivergenceFree {
     /// p, counted from the mean upon the surface and without that of the weight \[Pa\].
     pub pressure: Vec<f32>,
+    cohesion: Cohesion,
     filled: Filled,
     rows: Vec<Sums>,
     poisson: Poisson,
@@ -107,6 +112,7 @@ impl DivergenceFree {
     pub fn new(metal: Metal) -> Self {
         Self {
             pressure: Vec::new(),
+            cohesion: Cohesion::new(metal),
             filled: Filled::of(metal),
             rows: Vec::new(),
             poisson: Poisson::default(),
@@ -165,6 +171,7 @@ impl DivergenceFree {
         if !near.tension.is_empty() {
             let part = step.dt / capillary::limit(near, step.metal);
             self.ripples.damp(near, &self.rows, part, predicted);
+            self.cohesion.pull(near, (self.filled, step.dt), predicted);
             self.sum(near, predicted);
         }
         let gas = self.weight.settle(near, &self.islands, &self.rows);
@@ -197,6 +204,7 @@ impl DivergenceFree {
             (dt, self.filled),
             (&self.rows, &self.normals, &self.islands),
         );
+        self.cohesion.part(near);
     }
 
     /// Particles of the surface whose curvature is bounded.
@@ -354,6 +362,7 @@ impl DivergenceFree {
             + self.poisson.bytes()
             + self.islands.bytes()
             + self.normals.bytes()
+            + self.cohesion.bytes()
             + self.pull.bytes()
             + self.ripples.bytes()
             + self.weight.bytes()

@@ -1,0 +1,274 @@
+//! Tension of what is too small to show a surface.
+//!
+//! A curvature needs some particles along the surface. A particle that leaves a pool, a drop of a few and the neck between
+//! two have none to tell, and a pressure upon them holds nothing together: what a splash throws up would never come
+//! back. There the pull of pairs stands for the tension (Komen 2019, eq. 4.1, with a distance at rest):
+//!
+//! ```text
+//! F_ab = s_ab (c gamma d f(r/d) + D(r/d) sqrt(gamma m) (u_b - u_a).e) e
+//! f(q) = (q - q_0)/(1 - q_0)  (q < 1),   2 - q  (q < 2)                   D(q) = D_0 min(1, 2 - q)
+//! ```
+//!
+//! with the c of a continuum, so that to take a particle from a plane surface costs 4.9 gamma d^2, the energy of the
+//! surface of a ball of its volume (4.8 gamma d^2); it needs 3.1 sqrt(gamma/(rho d)) to get away. The second part takes what
+//! pairs swing against one another, below what particles resolve. s goes from nothing to one as
+//! neighbours become few ([`FEW`]): a plane surface and a film of one layer have more. Solid metal pulls as well.
+//! Where a pair is too close, in a crowd as well, what it still approaches is damped alike, and its particles are moved
+//! apart. Forces act along the line of a pair: momentum and angular momentum are kept.
+
+use super::filled::{Filled, within};
+use crate::forces::tension::mean_field;
+use crate::near::{Near, Role};
+use crate::state::Metal;
+use crate::vector::{dot, minus, plus, squared};
+
+/// Parts of the lattice's neighbours at which pairs pull wholly, and from which on they do not. A particle on top of a plane surface
+/// has 0.22, a row 0.23, the corner of a cube 0.42, a film of one layer 0.56, a plane surface 0.78.
+const FEW: [f64; 2] = [0.25, 0.40];
+/// q_0: distance at which a pair rests, in spacings.
+const REST: f64 = 0.75;
+/// D_0.
+const DAMPED: f64 = 0.5;
+/// Distances of a pair in spacings at which it is too close, and from which on it is not.
+const CLOSE: [f64; 2] = [0.70, 0.80];
+/// Part of what a pair is too close that a step takes.
+const PARTED: f64 = 0.2;
+
+/// What pairs change.
+#[derive(Debug, Clone, Copy, Default)]
+struct Change {
+    /// Of the velocity \[m/s\].
+    velocity: [f64; 3],
+    /// Of the place \[m\].
+    place: [f64; 3],
+}
+
+/// The pull of pairs with its scratch, `[m]` in the order of [`Near`].
+#[derive(Debug, Clone)]
+pub(super) struct Cohesion {
+    /// c.
+    strength: f64,
+    /// Mass of a particle \[kg\].
+    mass: f64,
+    /// s of each particle.
+    few: Vec<f64>,
+    changes: Vec<Change>,
+}
+
+impl Cohesion {
+    /// That of particles of `metal`.
+    pub(super) fn new(metal: Metal) -> Self {
+        Self {
+            strength: mean_field(metal),
+            mass: metal.mass(),
+            few: Vec::new(),
+            changes: Vec::new(),
+        }
+    }
+
+    /// Adds what pairs change within `dt` \[s\] to `predicted`.
+    pub(super) fn pull(
+        &mut self,
+        near: &Near,
+        (filled, dt): (Filled, f64),
+        predicted: &mut [[f64; 3]],
+    ) {
+        self.count(near, filled);
+        let few = &self.few;
+        let (d, share) = (filled.spacing, dt / self.mass);
+        let closest = (CLOSE[1] * d).powi(2);
+        let (strength, mass) = (self.strength, self.mass);
+        self.changes.resize(near.len(), Change::default());
+        near.each_row(&mut self.changes, |a, row, change| {
+            *change = Change::default();
+            if near.role[a] != Role::Liquid {
+                return;
+            }
+            for b in row.index.iter().map(|b| *b as usize) {
+                let of = near.images().original(b);
+                let way = minus(near.position[b], near.position[a]);
+                let (square, pulled) = (squared(way), few[a].max(few[of]));
+                if (pulled <= 0.0 && square >= closest) || square <= 0.0 {
+                    continue;
+                }
+                let flows = near.role[b].flows();
+                let gamma = if flows {
+                    0.5 * (near.tension[a] + near.tension[of])
+                } else {
+                    near.tension[a]
+                };
+                let far = square.sqrt();
+                let apart = dot(minus(near.velocity[b], near.velocity[a]), way) / far;
+                let q = far / d;
+                let held = if apart < 0.0 {
+                    pulled.max(1.0 - within(q, CLOSE))
+                } else {
+                    pulled
+                };
+                let damping = DAMPED * (2.0 - q).clamp(0.0, 1.0) * (gamma * mass).sqrt();
+                let force = pulled * strength * gamma * d * pull(q) + held * damping * apart;
+                change.velocity = plus(change.velocity, share * force / far, way);
+                let overlap = PARTED * (CLOSE[0] * d - far).max(0.0);
+                let theirs = if flows { 0.5 } else { 1.0 };
+                change.place = plus(change.place, -theirs * overlap / far, way);
+            }
+        });
+        for (u, change) in predicted.iter_mut().zip(&self.changes) {
+            *u = plus(*u, 1.0, change.velocity);
+        }
+    }
+
+    /// Moves particles apart that were too close when they were pulled.
+    pub(super) fn part(&self, near: &mut Near) {
+        for (x, change) in near.position.iter_mut().zip(&self.changes) {
+            *x = plus(*x, 1.0, change.place);
+        }
+    }
+
+    /// Finds s.
+    fn count(&mut self, near: &Near, filled: Filled) {
+        let own = near.kernel.value(0.0);
+        let few = |a: usize| {
+            if near.role[a] != Role::Liquid {
+                return 0.0;
+            }
+            let part = (near.number[a].max(own) - own) / (filled.number - own);
+            1.0 - within(part, FEW)
+        };
+        self.few.clear();
+        self.few.extend((0..near.len()).map(few));
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        (8 + size_of::<Change>()) * self.few.capacity()
+    }
+}
+
+/// f at the distance `q` in spacings.
+fn pull(q: f64) -> f64 {
+    if q < 1.0 {
+        (q - REST) / (1.0 - REST)
+    } else {
+        (2.0 - q).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::tests::{METAL, block};
+    use crate::state::{Phase, State};
+    use crate::surface::cross;
+
+    /// gamma [N/m] of a pool, and the step [s].
+    const GAMMA: f64 = 1.3;
+    const DT: f64 = 1e-5;
+
+    /// What pairs change in the liquid cells of a box, each shifted and driven by random parts of d and of 1 m/s.
+    fn changed(
+        cells: [i32; 3],
+        liquid: impl Fn([i32; 3]) -> bool,
+        (shaken, driven): (f64, f64),
+    ) -> (State, Vec<[f64; 3]>, Cohesion) {
+        let mut seed = 3_u64;
+        let mut random = |size: f64| {
+            [0; 3].map(|_| {
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                size * ((seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
+            })
+        };
+        let phase = |cell| {
+            if liquid(cell) {
+                Phase::Liquid
+            } else {
+                Phase::Flying
+            }
+        };
+        let mut state = block(cells, phase, |_| [0.0; 3]);
+        for (x, u) in state.position.iter_mut().zip(&mut state.velocity) {
+            *x = plus(*x, METAL.spacing, random(shaken));
+            *u = random(driven);
+        }
+        state.gather();
+        state.near.tension = vec![GAMMA; state.near.len()];
+        let mut cohesion = Cohesion::new(METAL);
+        let mut change = vec![[0.0; 3]; state.near.len()];
+        cohesion.pull(&state.near, (Filled::of(METAL), DT), &mut change);
+        (state, change, cohesion)
+    }
+
+    #[test]
+    fn what_shows_a_surface_is_left_as_it_is() {
+        for cells in [[6, 6, 6], [8, 8, 2], [12, 12, 1]] {
+            // But for the edges of films.
+            let (state, change, _) = changed(cells, |_| true, (0.0, 0.0));
+            let inner = |a: &usize| {
+                let x = state.near.position[*a].map(|x| x / METAL.spacing);
+                (0..2).all(|i| x[i] > 2.6 && x[i] < f64::from(cells[i]) - 2.6)
+            };
+            let all = cells[2] == 6;
+            let mut moved = (0..change.len()).filter(|a| all || inner(a));
+            assert!(moved.all(|a| squared(change[a]) <= 0.0), "{cells:?}");
+        }
+    }
+
+    #[test]
+    fn a_splash_keeps_momentum_and_loses_energy() {
+        let (state, change, mut cohesion) = changed(
+            [5, 5, 5],
+            |[i, j, k]| (i + 2 * j + 3 * k) % 5 == 0,
+            (0.9, 1.0),
+        );
+        let near = &state.near;
+        let size: f64 = change.iter().map(|u| squared(*u).sqrt()).sum();
+        assert!(size > 0.0);
+        let (mut sum, mut turned, mut parted) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        for (a, change) in change.iter().enumerate() {
+            sum = plus(sum, 1.0, *change);
+            turned = plus(
+                turned,
+                1.0 / METAL.spacing,
+                cross(near.position[a], *change),
+            );
+            parted = plus(parted, 1.0 / METAL.spacing, cohesion.changes[a].place);
+        }
+        for x in sum.into_iter().chain(turned).chain(parted) {
+            assert!(
+                x.abs() < 1e-13 * size.max(1.0),
+                "{sum:?} {turned:?} {parted:?}"
+            );
+        }
+        // Pairs that rest against one another lose nothing; all others do.
+        let work = |change: &[[f64; 3]]| {
+            let work = change.iter().zip(&near.velocity);
+            work.map(|(change, u)| dot(*change, *u)).sum::<f64>()
+        };
+        cohesion.strength = 0.0;
+        let mut damped = vec![[0.0; 3]; near.len()];
+        cohesion.pull(near, (Filled::of(METAL), DT), &mut damped);
+        assert!(work(&damped) < 0.0);
+    }
+
+    #[test]
+    fn leaving_a_plane_costs_the_surface_of_a_ball() {
+        // int F dr over the pairs of a particle of the outermost layer, which the particles of a plane lattice pull wholly.
+        let d = METAL.spacing;
+        let reach = || -2..=2;
+        let mut cost = 0.0;
+        for (i, j, k) in
+            reach().flat_map(|i| reach().flat_map(move |j| (-2..=0).map(move |k| (i, j, k))))
+        {
+            let q = f64::from(i * i + j * j + k * k).sqrt();
+            let parts = 1000;
+            let width = (2.0 - q).max(0.0) / f64::from(parts);
+            if q > 0.0 {
+                let pulls = (0..parts).map(|p| pull(q + (f64::from(p) + 0.5) * width));
+                cost += mean_field(METAL) * width * pulls.sum::<f64>();
+            }
+        }
+        let volume = d.powi(3);
+        let ball = (36.0 * std::f64::consts::PI).cbrt() * volume.powf(2.0 / 3.0) / (d * d);
+        assert!((cost / ball - 1.0).abs() < 0.03, "{cost} {ball}");
+    }
+}
