@@ -7,6 +7,7 @@ use run::property::{Arguments, Property};
 
 use crate::matter::lattice::{Filling, Lattice};
 use crate::matter::meeting::contact::{Contact, Party};
+use crate::matter::meeting::faces::Cells;
 use crate::matter::shares::shares;
 use crate::matter::solid::bound::{self, Anchor, Load};
 use crate::matter::solid::cell::Cell;
@@ -36,6 +37,8 @@ pub(super) struct Made {
     sound: f64,
     /// Whether it has the updated form: water sees its particles as they stand.
     pub(super) is_updated: bool,
+    /// Its cells where there is water that presses on their faces.
+    pub(super) cells: Option<Cells>,
 }
 
 /// All solids with their stages; what cannot be made is told.
@@ -111,6 +114,8 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
         stiffness: modulus * cell.volume / (spacing * spacing),
         sound: cell.law.wave_speed(solid.density_kg_m3),
         is_updated: solid.updated_form.is_some(),
+        cells: (scene.water.is_some() && solid.updated_form.is_none())
+            .then(|| Cells::new(lattice.cell, lattice.cells, dimensions)),
     };
     state.sets.push(set);
     Ok((stage, made))

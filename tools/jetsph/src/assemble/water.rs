@@ -2,7 +2,7 @@
 
 use std::f64::consts::SQRT_2;
 
-use kernels::{CubicSpline, Wendland};
+use kernels::{CubicSpline, Kernel, Wendland};
 use particles::{Matter, POSITION, Set};
 use run::Fault;
 use run::property::{Arguments, Curve, Property};
@@ -11,7 +11,9 @@ use shapes::Body;
 use super::solid::Made;
 use super::{plain_walls, vector};
 use crate::matter::lattice::{Filling, Lattice};
-use crate::matter::meeting::skin::{DEFORMATION, DEFORMATION_RATE, Skin};
+use crate::matter::meeting::faces::{BEND_RATE, DEFORMATION_RATE, WARP_RATE};
+use crate::matter::meeting::sight::Sight;
+use crate::matter::meeting::skin::{DEFORMATION, Skin};
 use crate::matter::meeting::wet::Wet;
 use crate::matter::water::friction::{Artificial, ArtificialViscosity};
 use crate::matter::water::near::LISTED;
@@ -87,15 +89,22 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
 /// The stage of a solid and the water, which was put into the state last.
 pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) -> Box<dyn Stage> {
     let (water, dimensions) = (state.sets.len() - 1, state.dimensions);
-    state.sets[solid.set].declare(&DEFORMATION);
-    state.sets[solid.set].declare(&DEFORMATION_RATE);
+    let set = &mut state.sets[solid.set];
+    [DEFORMATION, DEFORMATION_RATE, BEND_RATE, WARP_RATE]
+        .iter()
+        .for_each(|column| set.declare(column));
     // A cell that is no smaller than what it is divided to is one point: the arrangement of the source (figs 4 and 5).
     let part = if solid.is_updated {
         f64::INFINITY
     } else {
         of.spacing_m
     };
-    let skin = Skin::new(solid.set, solid.size, part, dimensions);
+    let skin = Skin::new(
+        solid.set,
+        (solid.size, solid.cells.clone()),
+        part,
+        dimensions,
+    );
     let h = 0.5 * of.smoothing * (of.spacing_m + skin.spacing);
     let none = ArtificialViscosity {
         linear: 0.0,
@@ -104,21 +113,21 @@ pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) 
     };
     let artificial = of.artificial_viscosity.unwrap_or(none);
     let friction = Artificial::new(&artificial, law.density, law.sound_speed, h);
-    let liquid = (water, law);
+    let between = (law, friction, (water, skin), h);
     match (dimensions, of.kernel) {
-        (2, KernelScene::Spline) => {
-            Box::new(Wet::new(liquid, friction, skin, CubicSpline::<2>::new(h)))
-        }
-        (2, KernelScene::Wendland) => {
-            Box::new(Wet::new(liquid, friction, skin, Wendland::<2>::new(h)))
-        }
-        (_, KernelScene::Spline) => {
-            Box::new(Wet::new(liquid, friction, skin, CubicSpline::<3>::new(h)))
-        }
-        (_, KernelScene::Wendland) => {
-            Box::new(Wet::new(liquid, friction, skin, Wendland::<3>::new(h)))
-        }
+        (2, KernelScene::Spline) => wet(between, CubicSpline::<2>::new),
+        (2, KernelScene::Wendland) => wet(between, Wendland::<2>::new),
+        (_, KernelScene::Spline) => wet(between, CubicSpline::<3>::new),
+        (_, KernelScene::Wendland) => wet(between, Wendland::<3>::new),
     }
+}
+
+/// The stage of a solid and the water with a kernel.
+fn wet<K: Kernel + 'static>(
+    (law, friction, (water, skin), h): (Tait, Artificial, (usize, Skin), f64),
+    kernel: impl Fn(f64) -> K,
+) -> Box<dyn Stage> {
+    Box::new(Wet::new(law, friction, Sight::new(water, skin, kernel(h))))
 }
 
 /// The set without particles.

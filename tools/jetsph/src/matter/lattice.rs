@@ -32,6 +32,8 @@ pub struct Lattice {
     pub fits: bool,
     /// Places of the particles, the middles of cells \[m\].
     pub places: Vec<[f64; 3]>,
+    /// Number of the cell of each along the axes.
+    pub cells: Vec<[u32; 3]>,
 }
 
 impl Lattice {
@@ -73,6 +75,7 @@ impl Lattice {
             cell,
             fits: boxed.is_some(),
             places: Vec::new(),
+            cells: Vec::new(),
         };
         lattice.place(body, filling, (counts, half, boxed.is_some()));
         Ok(lattice)
@@ -104,6 +107,7 @@ impl Lattice {
                             own[axis] + filling.jitter * self.cell[axis] * part
                         };
                         self.places.push(self.frame.place([0, 1, 2].map(shaken)));
+                        self.cells.push(at.map(|i| i as u32));
                     }
                 }
             }

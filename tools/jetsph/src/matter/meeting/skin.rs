@@ -5,16 +5,16 @@
 //! where the deformation of their cell puts them,
 //!
 //! ```text
-//! x_p = x_a + F_a o_p,   V_p = J_a V_a/n,   u_p = u_a + dF_a/dt o_p
+//! x_p = x_a + F_a o_p,   V_p = J_a V_a/n
 //! ```
 //!
-//! so that an unbroken solid has no gaps at any ratio of spacings. A force on x_p is one on the cell and a moment of it,
-//! as of a load that stands there.
+//! so that an unbroken solid has no gaps at any ratio of spacings. A force on x_p acts on the face between it and the water
+//! (see [`super::faces`]).
 
 use particles::{Column, POSITION, Set, sweep};
 
-use crate::matter::solid::tensor::{Matrix, determinant};
-use crate::state::VELOCITY;
+use super::faces::{Cells, Moving, Place};
+use crate::matter::solid::tensor::{Matrix, cofactor, determinant};
 
 /// F along the axes of the lattice.
 pub const DEFORMATION: Column<Matrix> = Column::new(
@@ -23,12 +23,6 @@ pub const DEFORMATION: Column<Matrix> = Column::new(
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 )
 .saved();
-/// dF/dt \[1/s\] since F was last looked at.
-pub const DEFORMATION_RATE: Column<Matrix> = Column::new("deformation_rate", "1/s", [[0.0; 3]; 3]);
-/// Force of the water on a cell \[N\].
-pub const PULL: Column<[f64; 3]> = Column::new("water_force", "N", [0.0; 3]).shown();
-/// Moment of it: force by offset at rest \[N m\].
-pub const TWIST: Column<Matrix> = Column::new("water_moment", "N m", [[0.0; 3]; 3]);
 
 /// Most parts of a cell along an axis.
 const PARTS_MOST: f64 = 8.0;
@@ -38,10 +32,10 @@ const PARTS_MOST: f64 = 8.0;
 pub struct Point {
     /// x \[m\].
     pub x: [f64; 3],
-    /// u \[m/s\].
-    pub u: [f64; 3],
     /// V \[m3\].
     pub volume: f64,
+    /// F^-T of its cell times abs(det F): turns ways back to those at rest.
+    pub back: Matrix,
     /// Its cell.
     pub cell: u32,
     /// Its offset from the middle of the cell at rest, along the axes of the lattice \[m\].
@@ -61,14 +55,21 @@ pub struct Skin {
     pub spacing: f64,
     /// From the middle of a cell to its corner at rest \[m\].
     radius: f64,
+    /// The cells of its lattice; none where water sees particles as they stand.
+    cells: Option<Cells>,
     /// The points near water, by cell.
     pub points: Vec<Point>,
 }
 
 impl Skin {
-    /// The skin of a solid with cells of `size` \[m\] for water of a spacing \[m\].
+    /// The skin of a solid with cells of `size` \[m\] for water of a spacing \[m\]. Without `cells` forces act on particles.
     #[must_use]
-    pub fn new(set: usize, size: [f64; 3], water: f64, dimensions: usize) -> Self {
+    pub fn new(
+        set: usize,
+        (size, cells): ([f64; 3], Option<Cells>),
+        water: f64,
+        dimensions: usize,
+    ) -> Self {
         let parts = |k: usize| {
             if k < dimensions {
                 (size[k] / water).round().clamp(1.0, PARTS_MOST)
@@ -103,15 +104,31 @@ impl Skin {
             volume,
             spacing: volume.powf(1.0 / dimensions as f64),
             radius: 0.5 * size[..dimensions].iter().map(|x| x * x).sum::<f64>().sqrt(),
+            cells,
             points: Vec::new(),
         }
     }
 
+    /// Where the water at an offset `dx` \[m\] from point `p` acts on the solid.
+    #[must_use]
+    pub fn pressed(&self, moving: &Moving<'_>, p: u32, dx: [f64; 3]) -> Place {
+        let point = &self.points[p as usize];
+        let cell = point.cell as usize;
+        let left = self.cells.as_ref().and_then(|cells| {
+            let way = [0, 1, 2].map(|k| (0..3).map(|i| point.back[i][k] * dx[i]).sum());
+            cells.leave(moving.broken, (cell, point.offset), way)
+        });
+        left.unwrap_or(Place {
+            cell,
+            offset: [0.0; 3],
+            depth: [0.0; 3],
+        })
+    }
+
     /// Finds the points of cells within `reach` \[m\] of something, as `near` tells of a place and a distance.
     pub fn look(&mut self, set: &Set, reach: f64, near: impl Fn([f64; 3], f64) -> bool + Sync) {
-        let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
+        let position = set.column(&POSITION);
         let deformation = set.column(&DEFORMATION);
-        let rate = set.column(&DEFORMATION_RATE);
         let moved = |m: &Matrix, offset: &[f64; 3], i: usize| -> f64 {
             (0..3).map(|j| m[i][j] * offset[j]).sum()
         };
@@ -119,11 +136,13 @@ impl Skin {
         sweep::fill(&mut seen, |a| near(position[a], reach + 2.0 * self.radius));
         self.points.clear();
         for a in (0..set.len()).filter(|a| seen[*a]) {
-            let (f, g) = (&deformation[a], &rate[a]);
-            let volume = self.volume * determinant(f).abs();
+            let f = &deformation[a];
+            let volume = determinant(f);
+            let back = cofactor(f).map(|row| row.map(|x| x * volume.signum()));
+            let volume = self.volume * volume.abs();
             self.points.extend(self.offsets.iter().map(|offset| Point {
                 x: [0, 1, 2].map(|i| position[a][i] + moved(f, offset, i)),
-                u: [0, 1, 2].map(|i| velocity[a][i] + moved(g, offset, i)),
+                back,
                 volume,
                 cell: a as u32,
                 offset: *offset,
@@ -138,7 +157,7 @@ mod tests {
 
     #[test]
     fn parts_fill_the_cell() {
-        let skin = Skin::new(0, [2e-3, 3e-3, 1.0], 1e-3, 2);
+        let skin = Skin::new(0, ([2e-3, 3e-3, 1.0], None), 1e-3, 2);
         assert_eq!(skin.offsets.len(), 6);
         assert!((skin.volume * 6.0 - 6e-6).abs() < 1e-18);
         let middle: f64 = skin.offsets.iter().map(|o| o[0] + o[1]).sum();

@@ -2,19 +2,20 @@
 //!
 //! ```text
 //! f_ip         = -V_i V_p (2 p_i + q_ip) grad W_ip            on water i, and as much the other way on point p
-//! d(rho_i)/dt += 2 rho_i sum_p V_p (u_i - u_p) . grad W_ip
+//! d(rho_i)/dt += 2 rho_i sum_p V_p (u_i - u_f) . grad W_ip
 //! ```
 //!
 //! by volumes and with the mean of both smoothing lengths (errata to section 3, step 1). Each point of the solid stands
-//! for the water's mirror image there: it has the water's pressure, and closes twice as fast as itself. So the pair is a
-//! force and its reaction, it only pushes, and its work is what the water stores.
+//! for the water's mirror image there: it has the water's pressure, and closes twice as fast as itself. The force acts on the
+//! face f between the two ([`super::faces`]), whose velocity counts. So the pair is a force and its reaction, it only
+//! pushes, and its work is what the water stores.
 
 use kernels::Kernel;
-use neighbours::Grid;
-use particles::{POSITION, Rows, sweep};
+use particles::{POSITION, sweep};
 use rayon::prelude::*;
 
-use super::skin::{PULL, Skin, TWIST};
+use super::faces::{BEND, Moving, PULL, Place, TWIST, Taken, WARP};
+use super::sight::Sight;
 use crate::matter::water::friction::{Artificial, Friction};
 use crate::matter::water::tait::Tait;
 use crate::stage::{Course, Entry, Figure, Stage, StageError};
@@ -25,19 +26,12 @@ const GRAIN: usize = 64;
 
 /// A solid that meets water.
 pub struct Wet<K> {
-    /// Number of the set of water.
-    pub water: usize,
-    /// Its equation of state.
-    pub law: Tait,
+    /// Equation of state of the water.
+    law: Tait,
     /// Friction between the two.
-    pub friction: Artificial,
-    /// The solid.
-    pub skin: Skin,
-    /// Kernel of the mean smoothing length.
-    pub kernel: K,
-    grid: Grid,
-    points: Grid,
-    rows: Rows,
+    friction: Artificial,
+    /// Who meets whom.
+    sight: Sight<K>,
     force: [f64; 3],
     course: Course<1>,
     entry: Entry,
@@ -45,7 +39,7 @@ pub struct Wet<K> {
 
 /// A pair at work.
 struct Pair {
-    point: u32,
+    place: Place,
     /// On the water \[N\].
     force: [f64; 3],
     /// What friction takes \[W\].
@@ -55,70 +49,49 @@ struct Pair {
 impl<K: Kernel> Wet<K> {
     /// The stage of a solid and the water.
     #[must_use]
-    pub fn new((water, law): (usize, Tait), friction: Artificial, skin: Skin, kernel: K) -> Self {
-        let reach = kernel.support();
+    pub fn new(law: Tait, friction: Artificial, sight: Sight<K>) -> Self {
         Self {
-            water,
             law,
             friction,
-            skin,
-            kernel,
-            grid: Grid::new(reach),
-            points: Grid::new(reach),
-            rows: Rows::new(),
+            sight,
             force: [0.0; 3],
             course: Course::default(),
             entry: Entry::default(),
         }
     }
 
-    /// Finds who meets whom.
-    fn look(&mut self, state: &State) {
-        let water = state.sets[self.water].column(&POSITION);
-        let reach = self.kernel.support();
-        self.grid.bin(water);
-        let grid = &self.grid;
-        self.skin.look(&state.sets[self.skin.set], reach, |x, r| {
-            grid.any_within(x, r)
-        });
-        let places: Vec<[f64; 3]> = self.skin.points.iter().map(|p| p.x).collect();
-        self.points.bin(&places);
-        if places.is_empty() {
-            self.rows.between(&[], &self.points, reach);
-        } else {
-            self.rows.between(water, &self.points, reach);
-        }
-    }
-
     /// Forces of the pairs of each particle of water, by its number.
     fn pairs(&self, state: &State) -> Vec<Vec<Pair>> {
-        let set = &state.sets[self.water];
+        let set = &state.sets[self.sight.water];
         let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
         let (mass, density) = (set.column(&MASS), set.column(&DENSITY));
+        let moving = Moving::of(&state.sets[self.sight.skin.set]);
         let of = |a: usize| -> Vec<Pair> {
-            let row = self.rows.row(a);
+            let row = self.sight.row(a);
             if row.is_empty() {
                 return Vec::new();
             }
             let volume = mass[a] / self.law.filling(density[a]);
             let pressure = 2.0 * self.law.pressure(density[a]);
             let pair = |p: &u32| {
-                let point = &self.skin.points[*p as usize];
+                let point = &self.sight.skin.points[*p as usize];
                 let dx = [0, 1, 2].map(|k| position[a][k] - point.x[k]);
-                let du = [0, 1, 2].map(|k| velocity[a][k] - point.u[k]);
+                let place = self.sight.skin.pressed(&moving, *p, dx);
+                let u = moving.velocity(&place);
+                let du = [0, 1, 2].map(|k| velocity[a][k] - u[k]);
                 let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
                 let approach = du[0] * dx[0] + du[1] * dx[1] + du[2] * dx[2];
                 let q = self.friction.pressure(approach, square);
-                let slope = volume * point.volume * self.kernel.slope(square.sqrt());
+                let slope = volume * point.volume * self.sight.kernel.slope(square.sqrt());
                 Pair {
-                    point: *p,
+                    place,
                     force: dx.map(|x| -slope * (pressure + q) * x),
                     lost: slope * q * approach,
                 }
             };
             row.iter().map(pair).collect()
         };
-        let all = (0..self.rows.len()).into_par_iter().with_min_len(GRAIN);
+        let all = (0..self.sight.len()).into_par_iter().with_min_len(GRAIN);
         all.map(of).collect()
     }
 }
@@ -129,9 +102,9 @@ impl<K: Kernel> Stage for Wet<K> {
     }
 
     fn declare(&self, state: &mut State) {
-        let set = &mut state.sets[self.skin.set];
+        let set = &mut state.sets[self.sight.skin.set];
         set.declare(&PULL);
-        set.declare(&TWIST);
+        [TWIST, BEND, WARP].iter().for_each(|c| set.declare(c));
     }
 
     fn flows(&self) -> bool {
@@ -139,62 +112,59 @@ impl<K: Kernel> Stage for Wet<K> {
     }
 
     fn flow(&mut self, state: &mut State, _: f64) -> Result<(), StageError> {
-        self.look(state);
-        let set = &mut state.sets[self.water];
-        let mut rate = set.take(&DENSITY_RATE);
+        self.sight.look(state);
+        let mut rate = state.sets[self.sight.water].take(&DENSITY_RATE);
+        let (set, moving) = (
+            &state.sets[self.sight.water],
+            Moving::of(&state.sets[self.sight.skin.set]),
+        );
         let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
         let density = set.column(&DENSITY);
-        if !self.rows.is_empty() {
+        if !self.sight.is_empty() {
             sweep::change(&mut rate, |a, rate| {
                 let mut sum = 0.0;
-                for p in self.rows.row(a) {
-                    let point = &self.skin.points[*p as usize];
+                for p in self.sight.row(a) {
+                    let point = &self.sight.skin.points[*p as usize];
                     let dx = [0, 1, 2].map(|k| position[a][k] - point.x[k]);
-                    let du = [0, 1, 2].map(|k| velocity[a][k] - point.u[k]);
+                    let u = moving.velocity(&self.sight.skin.pressed(&moving, *p, dx));
+                    let du = [0, 1, 2].map(|k| velocity[a][k] - u[k]);
                     let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
                     let approach = du[0] * dx[0] + du[1] * dx[1] + du[2] * dx[2];
-                    sum += point.volume * self.kernel.slope(square.sqrt()) * approach;
+                    sum += point.volume * self.sight.kernel.slope(square.sqrt()) * approach;
                 }
                 *rate += 2.0 * density[a] * sum;
             });
         }
-        set.put(&DENSITY_RATE, rate);
+        state.sets[self.sight.water].put(&DENSITY_RATE, rate);
         Ok(())
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        self.look(state);
+        self.sight.look(state);
         let pairs = self.pairs(state);
-        let set = &mut state.sets[self.water];
+        let set = &mut state.sets[self.sight.water];
         let mut acceleration = set.take(&ACCELERATION);
         let mass = set.column(&MASS);
-        let mut on_points = vec![[0.0; 3]; self.skin.points.len()];
+        let mut pushed = Vec::new();
         let mut lost = 0.0;
         self.force = [0.0; 3];
         for (a, pairs) in pairs.iter().enumerate() {
             for pair in pairs {
                 lost += pair.lost;
-                for k in 0..3 {
+                (0..3).for_each(|k| {
                     acceleration[a][k] += pair.force[k] / mass[a];
-                    on_points[pair.point as usize][k] -= pair.force[k];
                     self.force[k] -= pair.force[k];
-                }
+                });
+                pushed.push((pair.place, pair.force.map(|f| -f)));
             }
         }
         set.put(&ACCELERATION, acceleration);
-        let solid = &mut state.sets[self.skin.set];
-        solid.column_mut(&PULL).fill([0.0; 3]);
-        solid.column_mut(&TWIST).fill([[0.0; 3]; 3]);
-        let (mut pull, mut twist) = (solid.take(&PULL), solid.take(&TWIST));
-        for (point, force) in self.skin.points.iter().zip(on_points) {
-            let cell = point.cell as usize;
-            for k in 0..3 {
-                pull[cell][k] += force[k];
-                (0..3).for_each(|l| twist[cell][k][l] += force[k] * point.offset[l]);
-            }
-        }
-        solid.put(&PULL, pull);
-        solid.put(&TWIST, twist);
+        let solid = &mut state.sets[self.sight.skin.set];
+        let mut taken = Taken::begin(solid);
+        pushed
+            .iter()
+            .for_each(|(place, force)| taken.add(place, *force));
+        taken.end(solid);
         self.entry.spent += self.course.over(dt, [lost])[0];
         Ok(())
     }
@@ -204,7 +174,7 @@ impl<K: Kernel> Stage for Wet<K> {
     }
 
     fn figures(&self, state: &State) -> Vec<Figure> {
-        let name = state.sets[self.skin.set].name();
+        let name = state.sets[self.sight.skin.set].name();
         let axes = ["x", "y", "z"]
             .iter()
             .zip(self.force)

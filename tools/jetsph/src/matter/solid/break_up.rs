@@ -4,15 +4,17 @@ use particles::{POSITION, Set, sweep};
 use rayon::prelude::*;
 
 use super::breaking::Breaking;
-use super::cell::gradient;
+use super::cell::{Derivatives, gradient};
 use super::elastic::Elastic;
 use super::fracture::{BROKEN, Criterion};
+use super::links::second;
 use super::stiffness::stiffness;
 use super::tensor::determinant;
 use super::trial::Trial;
-use crate::matter::meeting::skin::{DEFORMATION, DEFORMATION_RATE, TWIST};
+use crate::matter::meeting::faces::{BEND_RATE, DEFORMATION_RATE, MIXED, WARP_RATE};
+use crate::matter::meeting::skin::DEFORMATION;
 use crate::stage::Figure;
-use crate::state::{ACCELERATION, MASS, State};
+use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
 /// A broken cell keeps its shape for the water, if it has at least this part of its volume and at most its inverse.
 const SHAPE: f64 = 0.5;
@@ -119,7 +121,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let before = self.own_accelerations(set, time);
         self.break_all(fresh, set, time);
         self.answer(time);
-        self.twisted(set.column(&TWIST));
+        self.twisted(set);
         let after = self.own_accelerations(set, time);
         sweep::change(&mut acceleration, |a, own| {
             (0..3).for_each(|k| own[k] += after[a][k] - before[a][k]);
@@ -217,25 +219,55 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         self.breaking = Some(breaking);
     }
 
-    /// Shows the water how the cells are deformed; broken ones keep their shape.
-    pub(super) fn show_shape(&mut self, set: &mut Set, time: f64) {
-        let since = time - std::mem::replace(&mut self.looked, time);
-        let whole = |a: usize| self.is_whole(a);
-        let mut rate = set.take(&DEFORMATION_RATE);
-        let before = set.column(&DEFORMATION);
-        sweep::fill(&mut rate, |a| {
-            if !whole(a) || since <= 0.0 {
-                return [[0.0; 3]; 3];
+    /// Shows the water how the cells are deformed and move; broken ones keep their shape.
+    pub(super) fn show_shape(&mut self, set: &mut Set) {
+        let d = L.min(3);
+        let mut rates = [&DEFORMATION_RATE, &BEND_RATE, &WARP_RATE].map(|c| set.take(c));
+        let velocity = set.column(&VELOCITY);
+        let [first, bend, warp] = &mut rates;
+        let all = first.par_iter_mut().zip(bend).zip(warp).enumerate();
+        all.with_min_len(32).for_each(|(a, ((first, bend), warp))| {
+            let rate = if self.is_whole(a) {
+                self.rates(a, velocity)
+            } else {
+                [[0.0; L]; T]
+            };
+            for i in 0..d {
+                for k in 0..d {
+                    first[i][k] = rate[k][i];
+                    bend[i][k] = rate[second(d, k, k)][i];
+                }
+                for (column, (k, l)) in MIXED.into_iter().enumerate().filter(|(_, p)| p.1 < d) {
+                    warp[i][column] = rate[second(d, k, l)][i];
+                }
             }
-            let now = gradient(&self.derivatives(a));
-            [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| (now[i][j] - before[a][i][j]) / since))
         });
-        set.put(&DEFORMATION_RATE, rate);
+        for (column, rates) in [&DEFORMATION_RATE, &BEND_RATE, &WARP_RATE]
+            .into_iter()
+            .zip(rates)
+        {
+            set.put(column, rates);
+        }
         sweep::change(set.column_mut(&DEFORMATION), |a, shape| {
-            if whole(a) {
+            if self.is_whole(a) {
                 *shape = gradient(&self.derivatives(a));
             }
         });
+    }
+
+    /// Rates of the derivatives of cell `a`.
+    fn rates(&self, a: usize, velocity: &[[f64; 3]]) -> Derivatives<L, T> {
+        let (row, own) = (self.links.row(a), velocity[a]);
+        let mut sum = [[0.0; L]; T];
+        for (b, weight) in row.other.iter().zip(row.weight) {
+            let b = *b as usize;
+            let other = velocity.get(b).copied();
+            let other = other.unwrap_or_else(|| self.body.anchors[b - velocity.len()].velocity);
+            for (column, w) in sum.iter_mut().zip(weight) {
+                (0..L.min(3)).for_each(|k| column[k] += w * (other[k] - own[k]));
+            }
+        }
+        sum
     }
 
     /// Numbers of the cracks.

@@ -14,7 +14,7 @@ use super::links::Links;
 use super::plastic::History;
 use super::stiffness::stiffness;
 use super::tensor::{Matrix, UNIT};
-use crate::matter::meeting::skin::{DEFORMATION, TWIST};
+use crate::matter::meeting::skin::DEFORMATION;
 use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State};
 
@@ -53,8 +53,6 @@ pub struct Elastic<const L: usize, const T: usize> {
     pub(super) rising: Course<1>,
     pub(super) breaking: Option<Breaking<T>>,
     pub(super) plastic: Option<Plastic>,
-    /// When water last looked at its shape \[s\].
-    pub(super) looked: f64,
 }
 
 impl<const L: usize, const T: usize> Elastic<L, T> {
@@ -76,7 +74,6 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             rising: Course::default(),
             breaking: None,
             plastic: None,
-            looked: 0.0,
             links,
             body,
         };
@@ -264,7 +261,7 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
                 ),
             });
         }
-        self.twisted(set.column(&TWIST));
+        self.twisted(set);
         let mut acceleration = set.take(&ACCELERATION);
         self.accelerate(&mut acceleration, set.column(&MASS));
         set.put(&ACCELERATION, acceleration);
@@ -278,7 +275,7 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
             let position = set.take(&POSITION);
             self.locate(&position, time);
             set.put(&POSITION, position);
-            self.show_shape(set, time);
+            self.show_shape(set);
         }
     }
 
@@ -360,7 +357,7 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         let mut saved = [
             &self.entry.save()[..],
             &force,
-            &[power, energy, released, self.looked],
+            &[power, energy, released],
             &self.rising.last(),
         ]
         .concat();
@@ -371,10 +368,8 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
     }
 
     fn restore(&mut self, state: &State, saved: &[f64]) {
-        if let [fx, fy, fz, power, energy, released, looked, rest @ ..] = self.entry.restore(saved)
-        {
+        if let [fx, fy, fz, power, energy, released, rest @ ..] = self.entry.restore(saved) {
             self.held = ([*fx, *fy, *fz], *power);
-            self.looked = *looked;
             let flags = state.sets[self.body.set].column(&BROKEN);
             self.take_up(flags, [*energy, *released]);
             let rest = self.rising.restore(rest);

@@ -1,11 +1,11 @@
 //! What acts on an elastic solid from outside: held faces, loads, damping, water.
 
-use particles::{POSITION, sweep};
+use particles::{POSITION, Set, sweep};
 
 use super::bound::Load;
 use super::elastic::{Elastic, add};
-use super::tensor::Matrix;
-use crate::matter::meeting::skin::PULL;
+use super::links::second;
+use crate::matter::meeting::faces::{BEND, MIXED, PULL, TWIST, WARP};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
 impl<const L: usize, const T: usize> Elastic<L, T> {
@@ -98,11 +98,19 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     }
 
     /// Takes the moments of the water's forces off the slopes of the energy.
-    pub(super) fn twisted(&mut self, twist: &[Matrix]) {
-        let dimensions = L.min(3);
-        for (answer, twist) in self.answers.iter_mut().zip(twist) {
-            for (j, column) in answer.iter_mut().enumerate().take(dimensions) {
-                (0..dimensions).for_each(|i| column[i] -= twist[i][j]);
+    pub(super) fn twisted(&mut self, set: &Set) {
+        let d = L.min(3);
+        let moments = set.column(&TWIST).iter().zip(set.column(&BEND));
+        let moments = moments.zip(set.column(&WARP));
+        for (answer, ((twist, bend), warp)) in self.answers.iter_mut().zip(moments) {
+            for i in 0..d {
+                for k in 0..d {
+                    answer[k][i] -= twist[i][k];
+                    answer[second(d, k, k)][i] -= bend[i][k];
+                }
+                for (column, (k, l)) in MIXED.into_iter().enumerate().filter(|(_, p)| p.1 < d) {
+                    answer[second(d, k, l)][i] -= warp[i][column];
+                }
             }
         }
     }

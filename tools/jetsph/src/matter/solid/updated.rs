@@ -16,7 +16,7 @@ use particles::{Column, POSITION, Set, sweep};
 
 use super::elastic::{EQUIVALENT_STRAIN, STRESS};
 use super::tensor::{Matrix, eigenvectors, inner, trace};
-use crate::matter::meeting::skin::PULL;
+use crate::matter::meeting::faces::PULL;
 use crate::matter::water::near::{LISTED, Near};
 use crate::stage::{Entry, Limit, Stage, StageError};
 use crate::state::{ACCELERATION, DENSITY, DENSITY_RATE, MASS, State, VELOCITY};
