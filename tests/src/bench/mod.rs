@@ -9,6 +9,7 @@ pub mod fields;
 pub mod grains;
 pub mod others;
 mod record;
+pub mod solids;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

