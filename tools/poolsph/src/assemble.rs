@@ -87,7 +87,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
     let grains = match &scene.grains {
-        Some(grains) => Some(source.grains(grains, inputs)?),
+        Some(grains) => Some(source.grains(grains, (inputs, &state))?),
         None => None,
     };
     let (stages, grain_counts) = match grains {

@@ -228,6 +228,11 @@ impl<'a> Simulation<'a> {
             session.record(probes::CHANNEL, state.time, &readings)?;
         }
         self.write_grains((last || is_due(output.grains_interval()), balance), session)?;
+        if last {
+            for (channel, frame) in march.stages().filter_map(|stage| stage.leaves(state)) {
+                session.frame(channel, state.time, &frame)?;
+            }
+        }
         if !self.scene.has_metal() || !(particles || pool.is_some() || balance) {
             return Ok(());
         }

@@ -18,6 +18,7 @@
 //! motion   viscosity, prediction, density homogenising              writes position, velocity, pressure
 //! ```
 
+use artefact::Frame;
 use thiserror::Error;
 
 use crate::state::{Column, State};
@@ -135,6 +136,11 @@ pub trait Stage: Send {
     /// Whether what the run is for has come about, ahead of its time.
     fn ends(&self) -> bool {
         false
+    }
+
+    /// What it leaves at the end of a run for another to go on from: a channel and its frame.
+    fn leaves(&self, _state: &State) -> Option<(&'static str, Frame)> {
+        None
     }
 
     /// Numbers of the last step.

@@ -5,7 +5,10 @@ use run::{Failure, Fault, Inputs};
 
 use super::Source;
 use crate::grains::cover::Cover;
+use crate::grains::laid::Laid;
 use crate::grains::{self, fill::fill};
+use crate::source::{self, bed::Bed};
+use crate::state::State;
 
 /// Stages of grains: their motion and heat, and what they cover of the metal.
 pub(super) struct Beside {
@@ -18,11 +21,11 @@ impl Source<'_> {
     pub(super) fn grains(
         &self,
         scene: &grains::Parameters,
-        inputs: &Inputs,
+        (inputs, state): (&Inputs, &State),
     ) -> Result<(Beside, Set, Vec<usize>), Failure> {
         let within = |fault: Fault| fault.within("/grains");
         let bed = bed(scene, inputs)?;
-        let (mut set, counts) = fill(scene, &bed);
+        let (mut set, counts) = fill(scene, &bed.grains);
         let heat = scene.heat.as_ref();
         let mut warmed = None;
         if let Some(heat) = heat {
@@ -46,16 +49,29 @@ impl Source<'_> {
             .is_some()
             .then(|| Cover::new(self.scene.spacing_m, radii[1]));
         let motion = grains::Motion::new(scene, &set, warmed).map_err(within)?;
-        let motion = motion.beside(metal);
+        let motion = motion
+            .beside(metal)
+            .lying(laid(scene, (&bed, &counts), state));
         Ok((Beside { motion, cover }, set, counts))
     }
 }
 
-/// Grains of the input `bed`, if the scene wants them.
-fn bed(scene: &grains::Parameters, inputs: &Inputs) -> Result<Vec<grains::fill::Lying>, Failure> {
+/// What the contacts of the bed remember, if the scene begins with one.
+fn laid(
+    scene: &grains::Parameters,
+    (bed, counts): (&Bed, &[usize]),
+    state: &State,
+) -> Option<Laid> {
+    let body = scene.bodies.iter().position(|body| body.bed)?;
+    let first: usize = counts[..body].iter().sum();
+    Some(Laid::of(&bed.contacts, first as u32, state))
+}
+
+/// The input `bed`, if the scene wants it.
+fn bed(scene: &grains::Parameters, inputs: &Inputs) -> Result<Bed, Failure> {
     match (scene.bodies.iter().any(|body| body.bed), inputs.get("bed")) {
-        (false, _) => Ok(Vec::new()),
-        (true, Some(path)) => crate::source::bed::read(path),
+        (false, _) => Ok(Bed::default()),
+        (true, Some(path)) => source::bed::read(path),
         (true, None) => Err(Failure::Usage(
             "this scene needs --input bed=FILE".to_owned(),
         )),

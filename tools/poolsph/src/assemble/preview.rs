@@ -78,7 +78,7 @@ fn beside(scene: &Scene, inputs: &Inputs, preview: &mut Preview) -> Result<(), F
         return Ok(());
     };
     let bed = match inputs.get("bed") {
-        Some(path) => bed::read(path)?,
+        Some(path) => bed::read(path)?.grains,
         None => Vec::new(),
     };
     let (set, _) = grains::fill::fill(grains, &bed);

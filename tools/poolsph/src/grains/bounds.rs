@@ -9,7 +9,17 @@
 //! h^2 k_t + 4 h eta_t <= 4 / (q (1 + 1/c))                     across it, where the springs also turn the grains
 //! ```
 //!
-//! c is the inertia factor I / (m r^2). With eta = 2 zeta sqrt(m k) both are `h = 2 g / sqrt(k)`, where the [`Slack`] g is known from
+//! c is the inertia factor I / (m r^2). Where the springs lie all around, both are far too careful: a turn stretches no spring at its poles. A
+//! grain among neighbours that stand still feels `k s/m`, where s is the greatest eigenvalue of
+//!
+//! ```text
+//! | n I                     sum [n]x / sqrt(c)      |      sums over its contacts, of unit normals n
+//! | sum [n]x^T / sqrt(c)    (n I - sum n n^T) / c   |      s <= (n + r)/2 + sqrt(((n - r)/2)^2 + |sum n|^2 / c)
+//! ```
+//!
+//! and r is the greatest eigenvalue of the last block. Give a contact the share `b^T b / s` of the matrix of masses, b being what its springs
+//! feel of the grain: then the shares of a grain add up to less than the whole, and no mode is faster than `q = s_a/m_a + s_b/m_b` of the
+//! worst contact says, with the greater of k and k_t. The longer of both bounds holds. With eta = 2 zeta sqrt(m k) both are `h = 2 g / sqrt(k)`, where the [`Slack`] g is known from
 //! the masses and the numbers of contacts alone.
 
 use contact::{Meeting, Normal};
@@ -28,13 +38,35 @@ pub struct Slack {
     pub normal: f64,
     /// Across it.
     pub tangential: f64,
+    /// Of both together, by how the contacts lie; zero where that is not known.
+    pub joint: f64,
+}
+
+/// What a grain bears: numbers over its mass \[1/kg\].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// n / m.
+    pub number: f64,
+    /// s / m.
+    pub joint: f64,
+}
+
+impl std::ops::Add for Load {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            number: self.number + other.number,
+            joint: self.joint + other.joint,
+        }
+    }
 }
 
 impl Slack {
-    /// Of a contact of effective `mass` \[kg\] whose load q is `load` \[1/kg\].
+    /// Of a contact of effective `mass` \[kg\] whose grains bear `load` together.
     #[inline]
     #[must_use]
-    pub fn of(mass: f64, load: f64, zeta: f64, inertia_factor: f64) -> Self {
+    pub fn of(mass: f64, load: Load, zeta: f64, inertia_factor: f64) -> Self {
         let damped = 4.0 * zeta * zeta * mass;
         let g = |load: f64| {
             let root = (damped + 1.0 / load).sqrt();
@@ -42,8 +74,9 @@ impl Slack {
             1.0 / (load * (root + damped.sqrt()))
         };
         Self {
-            normal: g(load),
-            tangential: g(load * (1.0 + 1.0 / inertia_factor)),
+            normal: g(load.number),
+            tangential: g(load.number * (1.0 + 1.0 / inertia_factor)),
+            joint: g(load.joint),
         }
     }
 
@@ -54,6 +87,7 @@ impl Slack {
         Self {
             normal: self.normal.min(other.normal),
             tangential: self.tangential.min(other.tangential),
+            joint: self.joint.min(other.joint),
         }
     }
 }
@@ -108,7 +142,12 @@ impl Setting {
     #[must_use]
     pub fn pair(&self, zeta: f64) -> Slack {
         let m = self.lightest;
-        Slack::of(0.5 * m, 2.0 / m, zeta, self.inertia_factor)
+        // One contact: n = 1, |sum n| = 1, r = 1/c.
+        let load = Load {
+            number: 2.0 / m,
+            joint: 2.0 * (1.0 + 1.0 / self.inertia_factor) / m,
+        };
+        Slack::of(0.5 * m, load, zeta, self.inertia_factor)
     }
 
     /// The step \[s\] in which grains do not go too far at the speed `fastest` \[m/s\]: all that bounds grains that are driven.
@@ -145,12 +184,12 @@ impl Setting {
         } else {
             f64::INFINITY
         };
+        let normal = stable(doing.slack.normal, law.stiffness(&meeting));
+        let stiffest = law.stiffness(&meeting).max(law.tangential(&meeting));
+        let joint = stable(doing.slack.joint, stiffest);
         let bounds = [
-            (
-                stable(doing.slack.normal, law.stiffness(&meeting)),
-                "grain_normal",
-            ),
-            (tangential, "grain_tangential"),
+            (normal.max(joint), "grain_normal"),
+            (tangential.max(joint), "grain_tangential"),
             (duration / self.steps_per_contact, "grain_contact"),
             self.far(doing.fastest),
         ];
@@ -185,7 +224,11 @@ mod tests {
     fn a_damped_swing_is_stable_up_to_its_bound_and_not_beyond() {
         for zeta in [0.0, 0.05, 0.3, 0.7, 1.0, 3.0] {
             // Masses of 2 make an effective mass of 1, load 1.
-            let g = Slack::of(1.0, 1.0, zeta, 0.4).normal;
+            let load = Load {
+                number: 1.0,
+                joint: 1.0,
+            };
+            let g = Slack::of(1.0, load, zeta, 0.4).normal;
             assert!(!grows(zeta, 0.999 * 2.0 * g), "zeta {zeta}");
             assert!(grows(zeta, 1.01 * 2.0 * g), "zeta {zeta}");
         }
@@ -196,7 +239,11 @@ mod tests {
         // k = 75 N/m, d = 0.5 mm, 3230 kg/m3: 75 us and 40 us for a pair, 22 and 12 us with 12 contacts.
         let m = 3230.0 * std::f64::consts::PI / 6.0 * 0.5e-3_f64.powi(3);
         let bound = |n: f64| {
-            let slack = Slack::of(0.5 * m, 2.0 * n / m, 0.0, 0.4);
+            let load = Load {
+                number: 2.0 * n / m,
+                joint: 0.0,
+            };
+            let slack = Slack::of(0.5 * m, load, 0.0, 0.4);
             [slack.normal, slack.tangential].map(|g| 2e6 * g / 75.0_f64.sqrt())
         };
         let close =

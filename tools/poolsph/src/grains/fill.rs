@@ -7,7 +7,7 @@ use shapes::{Body, Shape};
 
 use super::parameters::{GrainBody, Parameters};
 use super::slow::SLOW;
-use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, PULL, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
+use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
 
 /// Place \[m\] and radius \[m\] of a grain.
 pub type Lying = ([f64; 3], f64);
@@ -179,7 +179,7 @@ pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
         set.declare(&DRIVEN);
     }
     if scene.sleep.is_some() {
-        for column in [&WATCHED, &TURNED, &PULL] {
+        for column in [&WATCHED, &TURNED] {
             set.declare(column);
         }
     }

@@ -11,10 +11,7 @@ use crate::state::State;
 impl Motion {
     /// The longest step \[s\] and what bounds it.
     pub(super) fn limit(&self) -> Limit {
-        let (setting, mut doing) = (&self.setting, self.doing);
-        if let Some(metal) = &self.metal {
-            doing.slack = metal.least(doing.slack);
-        }
+        let (setting, doing) = (&self.setting, self.doing);
         let rests = self.metal.as_ref().is_none_or(Metal::rests);
         let (mass, radius) = (0.5 * setting.lightest, 0.5 * setting.radii[0]);
         let (seconds, name) = match &self.law {

@@ -1,17 +1,14 @@
 //! Lists of who may touch whom, made anew as grains stray.
 
 use super::Motion;
-use super::bounds::Slack;
 use super::lists::Lists;
 use super::sleep::Sleep;
 
 impl Motion {
     /// Lists afresh who may touch metal.
     pub(super) fn list_metal(&mut self) {
-        let contacts = [&*self.lists.contacts, &*self.wall_contacts];
         if let Some(metal) = &mut self.metal {
-            let damping = (self.zeta, self.setting.inertia_factor);
-            metal.list(&self.moving.grains, contacts, damping);
+            metal.list(&self.moving.grains);
         }
     }
 
@@ -40,23 +37,10 @@ impl Motion {
         self.lists.list(grains, radii, between);
         let skin = Lists::skin(radii[0]);
         let still = &self.lists.again.still;
-        self.walls
-            .list((grains, still), skin, at_walls, &mut self.wall_contacts);
-        let (zeta, c) = (self.zeta, self.setting.inertia_factor);
-        let alone = self.setting.pair(zeta);
-        let pairs = self
-            .lists
-            .slack((grains, self.setting.alike), &self.wall_contacts, (zeta, c));
-        let contacts = self.lists.contacts.iter().zip(&self.wall_contacts);
-        let walls = contacts.zip(grains).filter(|((_, walls), _)| **walls > 0);
-        let walls = walls.map(|((pairs, walls), grain)| {
-            Slack::of(grain.mass, f64::from(pairs + walls) / grain.mass, zeta, c)
-        });
-        let least = walls.fold(pairs.unwrap_or(alone), Slack::least);
+        self.walls.list((grains, still), skin, at_walls);
         if let Some(sleep) = &mut self.sleep {
             sleep.list(&self.lists, grains.len());
         }
-        self.doing.slack = least.least(alone);
         let depth = self.sleep.as_ref().map_or(&[][..], Sleep::depth);
         self.lists.rest(depth);
     }

@@ -13,7 +13,6 @@ use rayon::prelude::*;
 use shapes::frame::Vector;
 
 use super::again::Again;
-use super::bounds::Slack;
 use super::depth::{CELL, kept};
 use super::memory::Memory;
 
@@ -181,8 +180,7 @@ pub struct Lists {
     places: Vec<Vector>,
     /// By chunks of rows.
     pub chunks: Vec<Chunk>,
-    /// Contacts of each row, those that are still apart among them.
-    pub contacts: Vec<u32>,
+    rows: usize,
     /// Chunks that need not be listed again.
     pub again: Again,
     rolls: bool,
@@ -196,7 +194,7 @@ impl Lists {
             grid: None,
             places: Vec::new(),
             chunks: Vec::new(),
-            contacts: Vec::new(),
+            rows: 0,
             again: Again::default(),
             rolls,
         }
@@ -232,29 +230,24 @@ impl Lists {
             let from = |row: usize| memories.partition_point(|m| (m.row as usize) < row);
             chunk.remember(first, &memories[from(first)..from(first + ROWS)]);
         });
-        self.turn_round(grains.len());
+        self.rows = grains.len();
+        self.turn_round();
     }
 
-    /// Finds for each chunk the pairs of others that end in it, and counts the pairs of each row.
-    fn turn_round(&mut self, rows: usize) {
-        self.contacts.clear();
-        self.contacts.resize(rows, 0);
+    /// Finds for each chunk the pairs of others that end in it.
+    fn turn_round(&mut self) {
         for chunk in &mut self.chunks {
             chunk.incoming.clear();
         }
         for c in 0..self.chunks.len() {
-            for place in 0..self.chunks[c].pairs.len() {
-                let pair = self.chunks[c].pairs[place];
-                let other = pair.other as usize;
-                self.contacts[c * ROWS + pair.own as usize] += 1;
-                self.contacts[other] += 1;
-                if let Some(number) = place.checked_sub(self.chunks[c].inner) {
-                    self.chunks[other / ROWS].incoming.push(Incoming {
-                        row: (other % ROWS) as u32,
-                        chunk: c as u32,
-                        number: number as u32,
-                    });
-                }
+            let inner = self.chunks[c].inner;
+            for place in inner..self.chunks[c].pairs.len() {
+                let other = self.chunks[c].pairs[place].other as usize;
+                self.chunks[other / ROWS].incoming.push(Incoming {
+                    row: (other % ROWS) as u32,
+                    chunk: c as u32,
+                    number: (place - inner) as u32,
+                });
             }
         }
     }
@@ -267,7 +260,7 @@ impl Lists {
 
     /// Finds which chunks need not be reckoned where cells sleep by `depth`.
     pub fn rest(&mut self, depth: &[u8]) {
-        let rows = self.contacts.len();
+        let rows = self.rows;
         let chunks = self.chunks.par_iter_mut().enumerate();
         chunks.for_each(|(c, chunk)| {
             let mut own = (c * ROWS..rows.min((c + 1) * ROWS)).step_by(CELL);
@@ -299,36 +292,6 @@ impl Lists {
     pub fn touching(&self) -> usize {
         let pairs = self.chunks.iter().flat_map(|chunk| &chunk.pairs);
         pairs.filter(|pair| pair.state == Touch::Touching).count()
-    }
-
-    /// Least slack of all pairs; `walls` tells how many walls a row may touch, `alike` the mass \[kg\] that all grains have if it is one.
-    #[must_use]
-    pub fn slack(
-        &self,
-        (grains, alike): (&[Grain], Option<f64>),
-        walls: &[u32],
-        (zeta, c): (f64, f64),
-    ) -> Option<Slack> {
-        let number = |a: usize| f64::from(self.contacts[a] + walls[a]);
-        let of = |(place, chunk): (usize, &Chunk)| {
-            if let Some(mass) = alike {
-                // Of equal masses the most crowded pair has the least slack.
-                let crowd = chunk.pairs.iter().map(|pair| {
-                    let (a, b) = (place * ROWS + pair.own as usize, pair.other as usize);
-                    self.contacts[a] + self.contacts[b] + walls[a] + walls[b]
-                });
-                let most = f64::from(crowd.max()?);
-                return Some(Slack::of(0.5 * mass, most / mass, zeta, c));
-            }
-            let pairs = chunk.pairs.iter().map(|pair| {
-                let (a, b) = (place * ROWS + pair.own as usize, pair.other as usize);
-                let (m, n) = (grains[a].mass, grains[b].mass);
-                Slack::of(m * n / (m + n), number(a) / m + number(b) / n, zeta, c)
-            });
-            pairs.reduce(Slack::least)
-        };
-        let chunks = self.chunks.par_iter().enumerate();
-        chunks.filter_map(of).reduce_with(Slack::least)
     }
 
     /// Bytes held.

@@ -39,6 +39,16 @@ impl Memory {
         }
     }
 
+    /// The same contact, seen from the grain of the lower row.
+    #[must_use]
+    pub fn in_order(self) -> Self {
+        if self.row > self.other {
+            self.turned()
+        } else {
+            self
+        }
+    }
+
     /// The same contact seen from the other grain: the stretch of sliding is the opposite, and so is the turning.
     fn turned(self) -> Self {
         Self {
@@ -60,9 +70,7 @@ pub fn renumber([between, at_walls]: &mut [Vec<Memory>; 2], rows: &[Option<u32>]
     between.retain_mut(|m| match (row(m.row), row(m.other)) {
         (Some(a), Some(b)) => {
             (m.row, m.other) = (a, b);
-            if a > b {
-                *m = m.turned();
-            }
+            *m = m.in_order();
             true
         }
         _ => false,

@@ -17,7 +17,6 @@ use neighbours::{Grid, Halo};
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference};
 
-use super::bounds::Slack;
 use super::depth::kept;
 use super::memory::Memory;
 use super::metal_heat::Exchange;
@@ -57,7 +56,6 @@ pub struct Metal {
     pub(super) grid: Option<Grid>,
     pub(super) places: Vec<Vector>,
     pub(super) near: Vec<bool>,
-    pub(super) slack: Option<Slack>,
     /// Force of the grains on metal at rest and in flow, along z \[N\].
     pub(super) borne: [f64; 2],
     /// Heat between both, if both have heat.
@@ -86,7 +84,6 @@ impl Metal {
             grid: None,
             places: Vec::new(),
             near: Vec::new(),
-            slack: None,
             borne: [0.0; 2],
             heat: None,
         }
@@ -102,12 +99,6 @@ impl Metal {
     pub(super) fn exchange(&mut self) -> Option<Exchanged<'_>> {
         let (pairs, bodies) = (&*self.pairs, &*self.bodies);
         self.heat.as_mut().map(|heat| (heat, (pairs, bodies)))
-    }
-
-    /// The lesser of `slack` and that of the contacts with metal.
-    #[must_use]
-    pub fn least(&self, slack: Slack) -> Slack {
-        self.slack.map_or(slack, |own| own.least(slack))
     }
 
     /// Adds the rows of the grains beside metal that flows, which may not sleep.
@@ -209,6 +200,7 @@ impl Metal {
     pub fn renumber(&mut self, rows: &[Option<u32>]) {
         let follow = |row: &mut u32| rows[*row as usize].map(|new| *row = new).is_some();
         self.pairs.retain_mut(|pair| follow(&mut pair.near.row));
+        self.memories.retain_mut(|memory| follow(&mut memory.row));
         self.aside.retain_mut(|(memory, _)| follow(&mut memory.row));
         self.rows.retain_mut(follow);
     }

@@ -8,8 +8,8 @@ use neighbours::{Grid, Halo};
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference, dot};
 
-use super::bounds::Slack;
 use super::depth::kept;
+use super::memory::Memory;
 use super::metal::Metal;
 use super::metal_pair::{Body, Pair};
 use super::near::Near;
@@ -111,7 +111,6 @@ impl Metal {
                 force: [0.0; 3],
                 before: [0.0; 3],
                 impulse: [0.0; 3],
-                contacts: 0,
             }
         }));
         for (id, force) in self.forces.drain(..) {
@@ -145,6 +144,13 @@ impl Metal {
         }
     }
 
+    /// All contacts that touch.
+    pub(super) fn touching(&self) -> impl Iterator<Item = Memory> {
+        let pairs = self.pairs.iter();
+        let pairs = pairs.filter_map(|pair| pair.near.memory(self.bodies[pair.body as usize].id));
+        pairs.chain(self.aside.iter().map(|(memory, _)| *memory))
+    }
+
     /// Keeps contacts that touch and forces that act.
     pub(super) fn remember(&mut self) {
         let (pairs, bodies) = (&self.pairs, &self.bodies);
@@ -159,8 +165,8 @@ impl Metal {
         self.pairs.clear();
     }
 
-    /// Lists who may touch whom; `contacts` are those of each grain with grains and with walls.
-    pub fn list(&mut self, grains: &[Grain], contacts: [&[u32]; 2], (zeta, c): (f64, f64)) {
+    /// Lists who may touch whom.
+    pub fn list(&mut self, grains: &[Grain]) {
         let bodies = &self.bodies;
         let touching = self.pairs.iter();
         let touching = touching.filter_map(|pair| pair.near.memory(bodies[pair.body as usize].id));
@@ -172,15 +178,13 @@ impl Metal {
         let Some(grid) = &mut self.grid else { return };
         grid.bin(&self.places);
         let rows = &self.rows;
-        for (place, body) in self.bodies.iter_mut().enumerate() {
+        for (place, body) in self.bodies.iter().enumerate() {
             let (at, own) = (body.grain.position, self.radius + self.skin);
-            body.contacts = 0;
             grid.runs(at, own + self.widest, |run| {
                 for (x, k) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
                     let row = &rows[*k as usize];
                     let (way, within) = (difference(*x, at), own + grains[*row as usize].radius);
                     if dot(way, way) < within * within {
-                        body.contacts += 1;
                         self.pairs.push(Pair {
                             near: Near::new(*row),
                             body: place as u32,
@@ -207,33 +211,6 @@ impl Metal {
         of_bodies.extend(self.bodies.iter().map(|body| body.grain.position));
         of_grains.clear();
         of_grains.extend_from_slice(&self.places);
-        self.bound(grains, contacts, (zeta, c));
-    }
-
-    /// The least slack of the contacts of grains that may touch metal, with metal and among each other.
-    fn bound(&mut self, grains: &[Grain], contacts: [&[u32]; 2], (zeta, c): (f64, f64)) {
-        let of_row = |row: &[Pair]| {
-            let a = row[0].near.row as usize;
-            let others = contacts.map(|of| of.get(a).copied().unwrap_or(0));
-            let mass = grains[a].mass;
-            let load = (f64::from(others[0] + others[1]) + row.len() as f64) / mass;
-            let with_metal = row.iter().map(|pair| {
-                let body = &self.bodies[pair.body as usize];
-                let m = body.grain.mass;
-                match body.member {
-                    None => Slack::of(mass, load, zeta, c),
-                    Some(_) => {
-                        let load = load + f64::from(body.contacts) / m;
-                        Slack::of(mass * m / (mass + m), load, zeta, c)
-                    }
-                }
-            });
-            // A grain beside it is as crowded.
-            let beside = Slack::of(0.5 * mass, 2.0 * load, zeta, c);
-            with_metal.fold(beside, Slack::least)
-        };
-        let rows = self.pairs.chunk_by(|a, b| a.near.row == b.near.row);
-        self.slack = rows.map(of_row).reduce(Slack::least);
     }
 
     /// Whether someone may touch who is not listed.

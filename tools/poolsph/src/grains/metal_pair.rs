@@ -20,8 +20,6 @@ pub(super) struct Body {
     pub(super) before: Vector,
     /// Integral of the force over the step of the metal \[N s\].
     pub(super) impulse: Vector,
-    /// Grains that may touch it.
-    pub(super) contacts: u32,
 }
 
 /// A grain and a particle of metal.

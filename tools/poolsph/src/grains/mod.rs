@@ -25,10 +25,12 @@ pub mod columns;
 mod conductances;
 mod conducting;
 pub mod cover;
+mod crowd;
 pub mod depth;
 pub mod faces;
 pub mod fill;
 pub mod heat;
+pub mod laid;
 pub mod law;
 pub mod light;
 mod limits;
@@ -83,7 +85,5 @@ pub const LISTED: Column<[f64; 3]> = Column::new("listed", "m", [0.0; 3]).saved(
 pub const WATCHED: Column<[f64; 3]> = Column::new("watched", "m", [0.0; 3]).saved();
 /// How far it has turned since \[rad\].
 pub const TURNED: Column<[f64; 3]> = Column::new("turned", "rad", [0.0; 3]).saved();
-/// Integral of F/m + g since, of one that sleeps beside others that are awake \[m/s\].
-pub const PULL: Column<[f64; 3]> = Column::new("pull", "m/s", [0.0; 3]).saved();
 /// Number of the body that drives it, plus one; 0 for a free grain.
 pub const DRIVEN: Column<u8> = Column::new("driven", "1", 0).saved();

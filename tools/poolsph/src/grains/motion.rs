@@ -1,21 +1,24 @@
 //! The motion of grains: steps within a step of the run.
 
+use artefact::Frame;
 use contact::{Contact, Friction, Grain, Normal, Rolling};
-use particles::Set;
+use particles::{ID, Set};
 use run::Fault;
 use run::property::OutOfRange;
 use shapes::frame::dot;
 
 use super::bounds::{Doing, Setting};
 use super::columns::STATE;
+use super::crowd::{self, Crowd};
 use super::heat::Heat;
+use super::laid::{self, Laid};
 use super::law::Law;
 use super::lists::Lists;
 use super::memory::Memory;
 use super::metal::Metal;
 use super::moving::Moving;
 use super::parameters::{BoundsScene, Parameters, RestScene};
-use super::sleep::Sleep;
+use super::sleep::{Sleep, depth};
 use super::walls::{self, Walls};
 use super::{MASS, RADIUS, VELOCITY, pairs};
 use crate::stage::{Figure, Limit, Stage, StageError};
@@ -25,7 +28,7 @@ use crate::state::State;
 pub struct Motion {
     pub(super) law: Law,
     pub(super) friction: Option<Friction>,
-    rolling: Option<Rolling>,
+    pub(super) rolling: Option<Rolling>,
     pub(super) setting: Setting,
     pub(super) zeta: f64,
     pub(super) walls: Walls,
@@ -41,12 +44,14 @@ pub struct Motion {
     pub(super) states: Vec<u8>,
     /// Lists made since rows were last put in order.
     pub(super) listings: f64,
-    pub(super) wall_contacts: Vec<u32>,
+    pub(super) crowd: Crowd,
     pub(super) moving: Moving,
     pub(super) memories: [Vec<Memory>; 2],
     pub(super) doing: Doing,
     begun: bool,
     restored: Option<Vec<f64>>,
+    /// Contacts of the bed that the run begins with.
+    laid: Option<Laid>,
     pub(super) lost: [f64; 2],
     pub(super) steps: f64,
     /// Into how many steps of its own the last step was divided.
@@ -90,7 +95,7 @@ impl Motion {
             stirred: Vec::new(),
             states: Vec::new(),
             listings: 0.0,
-            wall_contacts: Vec::new(),
+            crowd: Crowd::default(),
             moving: Moving::new(gravity, scene.inertia_factor, drives),
             memories: [Vec::new(), Vec::new()],
             doing: Doing {
@@ -100,6 +105,7 @@ impl Motion {
             },
             begun: false,
             restored: None,
+            laid: None,
             lost: [0.0; 2],
             steps: 0.0,
             parts: 1,
@@ -114,6 +120,12 @@ impl Motion {
         Self { metal, ..self }
     }
 
+    /// With contacts that go on.
+    #[must_use]
+    pub fn lying(self, laid: Option<Laid>) -> Self {
+        Self { laid, ..self }
+    }
+
     /// Forces of the start, or lists as they were when a checkpoint was written.
     fn begin(&mut self, set: &mut Set, time: f64) -> Result<(), OutOfRange> {
         self.begun = true;
@@ -123,6 +135,13 @@ impl Motion {
         }
         self.walls.begin(time)?;
         self.moving.begin(time)?;
+        if let Some(laid) = &self.laid {
+            self.memories = [laid.between.clone(), laid.at_walls.clone()];
+            if let Some(metal) = &mut self.metal {
+                metal.memories.clone_from(&laid.on_metal);
+            }
+            self.list_with_memories();
+        }
         self.put_in_order(set);
         self.list_metal();
         self.walls.spread(&self.moving.grains);
@@ -188,7 +207,9 @@ impl Motion {
         }
         self.moving.turn();
         self.act(step);
-        self.moving.feel(step, depth(&self.sleep));
+        if self.parts.is_multiple_of(crowd::STEPS) {
+            self.count_contacts();
+        }
         // By the speeds of the step before, which one step hardly changes.
         let next = (left > 0.0 && !self.moving.drives()).then(|| self.part(left));
         let [fastest, far] = self.moving.correct(step, next, depth(&self.sleep));
@@ -230,11 +251,6 @@ impl Motion {
     }
 }
 
-/// Depth of sleep by cells.
-fn depth(sleep: &Option<Sleep>) -> &[u8] {
-    sleep.as_ref().map_or(&[], Sleep::depth)
-}
-
 impl Stage for Motion {
     fn name(&self) -> &'static str {
         "grains"
@@ -269,6 +285,7 @@ impl Stage for Motion {
             }
             self.list_metal();
             self.walls.spread(&self.moving.grains);
+            self.count_contacts();
             let (mut done, mut next) = (0.0, None);
             self.parts = 0;
             while done < dt && !self.doing.fastest.is_nan() {
@@ -312,6 +329,22 @@ impl Stage for Motion {
 
     fn ends(&self) -> bool {
         self.until.is_some_and(|rest| self.quiet >= rest.held_s)
+    }
+
+    fn leaves(&self, state: &State) -> Option<(&'static str, Frame)> {
+        let set = state.grains.as_ref()?;
+        self.until?;
+        let contacts = self.touching(set.column(&ID), state);
+        Some((laid::CHANNEL, laid::frame(&contacts)))
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let lost = self.laid.as_ref().map(|laid| laid.lost);
+        let lost = lost.filter(|lost| *lost > 0);
+        let told = lost.map(|lost| {
+            format!("{lost} contacts of the bed are with metal that is not there: their grains begin to slip")
+        });
+        told.into_iter().collect()
     }
 
     fn figures(&self) -> Vec<Figure> {

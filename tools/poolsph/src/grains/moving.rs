@@ -9,7 +9,7 @@ use shapes::frame::{Vector, difference, dot};
 use super::depth::{CELL, asleep};
 use super::lists::ROWS;
 use super::walls::velocity;
-use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, PULL, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
+use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
 
 /// Cells of a unit of parallel work.
 const CELLS: usize = ROWS / CELL;
@@ -36,8 +36,8 @@ pub struct Moving {
     pub moment: Vec<Vector>,
     /// Where they were when neighbours were listed \[m\].
     pub listed: Vec<Vector>,
-    /// Where they were when sleep was last asked for \[m\], their turning \[rad\] and the pull \[m/s\] since; empty where none sleeps.
-    pub(super) watched: [Vec<Vector>; 3],
+    /// Where they were when sleep was last asked for \[m\], and their turning since \[rad\]; empty where none sleeps.
+    pub(super) watched: [Vec<Vector>; 2],
     /// Forces and moments of the step before.
     before: [Vec<Vector>; 2],
     driven: Vec<Driven>,
@@ -101,7 +101,7 @@ impl Moving {
             self.copy(set);
         }
         if set.has(&WATCHED) {
-            self.watched = [set.take(&WATCHED), set.take(&TURNED), set.take(&PULL)];
+            self.watched = [set.take(&WATCHED), set.take(&TURNED)];
         }
         self.driven.clear();
         let driven = set.column(&DRIVEN).iter().enumerate();
@@ -185,10 +185,9 @@ impl Moving {
         set.put(&MOMENT, std::mem::take(&mut self.moment));
         set.put(&LISTED, std::mem::take(&mut self.listed));
         if set.has(&WATCHED) {
-            let [watched, turned, pull] = std::mem::take(&mut self.watched);
+            let [watched, turned] = std::mem::take(&mut self.watched);
             set.put(&WATCHED, watched);
             set.put(&TURNED, turned);
-            set.put(&PULL, pull);
         }
     }
 

@@ -83,12 +83,17 @@ pub struct ContactScene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SleepScene {
-    /// No grain of the cell and of those beside it has gone farther than at this speed, nor its surface by its turning.
+    /// Grains of the cell and of those beside it have gone no farther than at this speed in the mean, nor their surfaces by their
+    /// turning.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub speed_m_s: f64,
     /// Within so long.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub held_s: f64,
+    /// Single grains may go so many times as far: those that rattle in a cage of others and bear nothing.
+    #[serde(default = "one")]
+    #[schemars(range(min = 1.0, max = 1000.0), extend("x-unit" = "1"))]
+    pub rattle: f64,
     /// Heat between grains that sleep deep, and from metal into these, goes once in so many steps of the run.
     #[serde(default = "each")]
     #[schemars(range(min = 1, max = 10000), extend("x-unit" = "1"))]

@@ -4,9 +4,12 @@ use shapes::frame::Vector;
 
 use super::bounds::Doing;
 use super::heat::Heat;
+use super::laid::{Touching, With};
 use super::memory::Memory;
+use super::metal::Metal;
 use super::motion::Motion;
 use super::sleep::Sleep;
+use crate::state::State;
 
 /// Numbers of a checkpoint ahead of the walls.
 const HEAD: usize = 16;
@@ -44,6 +47,37 @@ impl Motion {
             saved.extend(metal.append());
         }
         saved
+    }
+
+    /// All contacts that touch, of grains with the numbers `ids` by rows.
+    pub(super) fn touching(&self, ids: &[u32], state: &State) -> Vec<Touching> {
+        let (mut between, mut at_walls) = (Vec::new(), Vec::new());
+        self.lists.memories(&mut between, true);
+        self.walls.memories(&mut at_walls);
+        let on_metal = self.metal.iter().flat_map(Metal::touching);
+        let grains = &self.moving.grains;
+        let of = |with: With, memory: Memory| {
+            let (row, other) = (memory.row as usize, memory.other as usize);
+            let (other, place) = match with {
+                With::Grain => (ids[other], grains[other].position),
+                With::Wall => (memory.other, grains[row].position),
+                With::Metal => (memory.other, state.position[other]),
+            };
+            let row = ids[row];
+            Touching {
+                with,
+                place,
+                memory: Memory {
+                    row,
+                    other,
+                    ..memory
+                },
+            }
+        };
+        let between = between.into_iter().map(|m| of(With::Grain, m));
+        let at_walls = at_walls.into_iter().map(|m| of(With::Wall, m));
+        let on_metal = on_metal.map(|m| of(With::Metal, m));
+        between.chain(at_walls).chain(on_metal).collect()
     }
 
     /// Lists neighbours as they were when `saved` was.

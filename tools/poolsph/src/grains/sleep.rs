@@ -1,22 +1,22 @@
 //! Sleep: what rests is not moved, and deep within it nothing is reckoned.
 //!
 //! [`CELL`] rows make a cell, some four grains along each side; cells are neighbours where they share a pair. A cell is quiet
-//! where no grain, nor its surface by its turning, has gone farther within the time T than at the speed v:
+//! where its grains, or their surfaces by their turning, have gone no farther within the time T than at the speed v, in the mean, and
+//! none of them b times as far:
 //!
 //! ```text
-//! |x(t) - x(t - T)|, r |integral of w dt| < v T
+//! d_a = max(|x(t) - x(t - T)|, r |integral of w dt|)         sum d_a < N v T,   d_a < b v T
 //! ```
 //!
 //! So grains that tremble where they lie are quiet: sound of what moves goes through all of a bed, and shakes grains by less than a
-//! thousandth of their diameter. A quiet cell whose neighbours are quiet falls asleep: a ring of quiet cells stays awake around what moves.
-//! Its grains stand still, and the energy that they had is told. Cells that sleep beside others that are awake still
-//! feel them: where a grain would be carried that far by the mean of its forces over ten T, the cell wakes,
+//! thousandth of their diameter. With b above 1 so are the few that rattle in a cage of others, which bear nothing; what hits a
+//! sleeping bed then wakes it a little later.
 //!
-//! ```text
-//! |mean of F/m + g| > 2 v / T
-//! ```
-//!
-//! and also beside what moves, where a grain melts or sets, and beside a wall that moves, is fed or presses.
+//! A quiet cell whose neighbours are quiet falls asleep: a ring of quiet cells stays awake around what moves. Its grains stand still,
+//! and the energy that they had is told. Cells that sleep beside others that are awake still feel them, and are put to the test: each
+//! wakes after ten T for as long as it takes to see whether it goes on sleeping. What has grown around it by then pushes it as
+//! if it had never slept, for the springs across its contacts are kept. Cells wake at once beside what moves, where a grain
+//! melts or sets, and beside a wall that moves, is fed or presses.
 
 use particles::Set;
 
@@ -27,7 +27,7 @@ use super::lists::Lists;
 use super::moving::Moving;
 use super::parameters::SleepScene;
 
-/// Forces on what sleeps are averaged over so many times T.
+/// What sleeps beside others that are awake is put to the test after so many times T.
 const LONG: f64 = 10.0;
 
 /// Which cells sleep, and how deeply.
@@ -103,33 +103,41 @@ impl Sleep {
         }
     }
 
+    /// Tells how long a cell has been quiet after `dt` \[s\]; who has slept long beside others that are awake is put to the test.
+    fn look(&mut self, cell: usize, moving: &mut Moving, dt: f64) {
+        let (v, held) = (self.scene.speed_m_s, self.scene.held_s);
+        let age = self.age[cell] + dt;
+        let (still, done) = match self.depth[cell] {
+            AWAKE => {
+                let (way, most) = (moving.way(cell, dt), v * held);
+                // What is no number is not still.
+                let still = way.mean < most && way.greatest < self.scene.rattle * most;
+                (still, age >= held)
+            }
+            BORDER => (true, age >= LONG * held),
+            _ => (true, false),
+        };
+        self.quiet[cell] = match (still, done && self.depth[cell] == BORDER) {
+            (false, _) => 0.0,
+            // Quiet but for a while: those beside it sleep on.
+            (true, true) => dt.min(0.5 * held),
+            (true, false) => self.quiet[cell] + dt,
+        };
+        self.age[cell] = age;
+        if done || !still {
+            self.age[cell] = 0.0;
+            moving.look_again(cell);
+        }
+    }
+
     /// Puts cells to sleep and wakes them after `dt` \[s\]; `stirred` are rows that may not sleep.
     pub fn turn(&mut self, moving: &mut Moving, stirred: &[u32], dt: f64) {
         let cells = moving.grains.len().div_ceil(CELL);
         self.depth.resize(cells, AWAKE);
         self.quiet.resize(cells, 0.0);
         self.age.resize(cells, 0.0);
-        let SleepScene {
-            speed_m_s: v,
-            held_s: held,
-            ..
-        } = self.scene;
         for cell in 0..cells {
-            let age = self.age[cell] + dt;
-            let (still, done) = match self.depth[cell] {
-                AWAKE => (!moving.gone(cell, dt, v * held), age >= held),
-                BORDER => {
-                    let done = age >= LONG * held;
-                    (!done || moving.pulled(cell) < 2.0 * v * age / held, done)
-                }
-                _ => (true, false),
-            };
-            self.quiet[cell] = if still { self.quiet[cell] + dt } else { 0.0 };
-            self.age[cell] = age;
-            if done || !still {
-                self.age[cell] = 0.0;
-                moving.look_again(cell);
-            }
+            self.look(cell, moving, dt);
         }
         stirred.iter().for_each(|row| self.stir(*row as usize));
         // One pass each, so that nothing hangs on the order of cells.
@@ -230,6 +238,11 @@ impl Sleep {
         kept.for_each(|cell| moving.hold(cell));
         self.simplify();
     }
+}
+
+/// Depth of sleep by cells.
+pub(super) fn depth(sleep: &Option<Sleep>) -> &[u8] {
+    sleep.as_ref().map_or(&[], Sleep::depth)
 }
 
 impl Motion {

@@ -143,17 +143,8 @@ impl Walls {
         speeds.fold(0.0, f64::max)
     }
 
-    /// Lists the grains within `skin` \[m\] of each wall; `memories`, by walls and rows, go along. Counts the walls of each
-    /// row in `contacts`. Chunks of grains that are `still` are not looked at where the wall is far from them.
-    pub fn list(
-        &mut self,
-        (grains, still): (&[Grain], &[bool]),
-        skin: f64,
-        memories: &[Memory],
-        contacts: &mut Vec<u32>,
-    ) {
-        contacts.clear();
-        contacts.resize(grains.len(), 0);
+    /// Lists the grains within `skin` \[m\] of each wall; `memories`, by walls and rows, go along. Chunks of grains that are `still` are not looked at where the wall is far from them.
+    pub fn list(&mut self, (grains, still): (&[Grain], &[bool]), skin: f64, memories: &[Memory]) {
         for (w, wall) in self.walls.iter_mut().enumerate() {
             wall.listed = wall.moved;
             wall.near.clear();
@@ -179,7 +170,6 @@ impl Walls {
                     }
                     if distance < grain.radius + skin {
                         wall.near.push(Near::new(row));
-                        contacts[row as usize] += 1;
                     }
                     odd |= distance.is_nan();
                 }
@@ -242,6 +232,17 @@ impl Walls {
             if let Some(reply) = near.reply.filter(|_| !kept(depth, row)) {
                 force[row] = along(force[row], 1.0, reply.force);
                 moment[row] = along(moment[row], 1.0, reply.moment);
+            }
+        }
+    }
+
+    /// Calls `meet` with the row of each grain that touches a wall, and the normal out of that.
+    pub fn touching(&self, grains: &[Grain], mut meet: impl FnMut(usize, Vector)) {
+        for wall in &self.walls {
+            for near in wall.near.iter().filter(|near| near.touching) {
+                let grain = &grains[near.row as usize];
+                let place = difference(grain.position, wall.moved);
+                meet(near.row as usize, wall.face.at(place, grain.radius).1);
             }
         }
     }

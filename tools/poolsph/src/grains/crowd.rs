@@ -1,0 +1,275 @@
+//! How crowded grains are: the contacts that each has and how they lie, and the least slack that they leave.
+//!
+//! What is listed and apart bears nothing, and what sleeps does not swing: in a contact with a sleeper only the one that is awake
+//! does, as at a wall. Contacts are counted anew every few steps, for what has begun to touch since then is hardly pressed.
+
+use contact::Grain;
+use rayon::prelude::*;
+use shapes::frame::{Vector, along, difference, dot, length};
+
+use super::Motion;
+use super::bounds::{Load, Setting, Slack};
+use super::depth::asleep;
+use super::lists::{Chunk, Lists, ROWS, Touch};
+use super::metal::Metal;
+use super::sleep::depth;
+use super::walls::Walls;
+
+/// Steps of the grains from one count to the next.
+pub(super) const STEPS: u64 = 8;
+
+/// Contacts around a grain.
+#[derive(Debug, Clone, Copy, Default)]
+struct Around {
+    number: f64,
+    /// Sum of n.
+    sum: Vector,
+    /// Sum of n n: xx, yy, zz, yz, zx, xy.
+    square: [f64; 6],
+}
+
+impl Around {
+    fn add(&mut self, [x, y, z]: Vector) {
+        self.number += 1.0;
+        self.sum = along(self.sum, 1.0, [x, y, z]);
+        let squares = [x * x, y * y, z * z, y * z, z * x, x * y];
+        for (sum, square) in self.square.iter_mut().zip(squares) {
+            *sum += square;
+        }
+    }
+
+    /// What the grain bears; s of [`super::bounds`].
+    fn load(&self, mass: f64, c: f64) -> Load {
+        let n = self.number;
+        let r = (n - least_eigenvalue(self.square).max(0.0)) / c;
+        let joint = 0.5 * (n + r) + (0.5 * (n - r)).hypot(length(self.sum) / c.sqrt());
+        Load {
+            number: n / mass,
+            joint: joint / mass,
+        }
+    }
+}
+
+/// The least eigenvalue of a symmetric matrix xx, yy, zz, yz, zx, xy, by its angle (Smith 1961).
+fn least_eigenvalue([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
+    let mean = (xx + yy + zz) / 3.0;
+    let [a, b, c] = [xx - mean, yy - mean, zz - mean];
+    let off = yz * yz + zx * zx + xy * xy;
+    let p = ((a * a + b * b + c * c + 2.0 * off) / 6.0).sqrt();
+    if p <= f64::EPSILON * mean.abs() {
+        return mean;
+    }
+    let half = 0.5 * (a * b * c + 2.0 * yz * zx * xy - a * yz * yz - b * zx * zx - c * xy * xy);
+    let angle = (half / (p * p * p)).clamp(-1.0, 1.0).acos() / 3.0;
+    mean + 2.0 * p * (angle + std::f64::consts::TAU / 3.0).cos()
+}
+
+/// What grains and particles of metal bear.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Crowd {
+    around: Vec<Around>,
+    /// By rows.
+    loads: Vec<Load>,
+    /// Contacts by particles of metal.
+    on_metal: Vec<f64>,
+}
+
+/// Grains as they are seen here: themselves, how deeply they sleep, and what bounds their steps.
+#[derive(Clone, Copy)]
+struct Seen<'a> {
+    grains: &'a [Grain],
+    depth: &'a [u8],
+    setting: &'a Setting,
+    zeta: f64,
+}
+
+impl Seen<'_> {
+    /// The slack of a contact of effective `mass` \[kg\].
+    fn slack(&self, mass: f64, load: Load) -> Slack {
+        Slack::of(mass, load, self.zeta, self.setting.inertia_factor)
+    }
+
+    fn sleeps(&self, row: usize) -> bool {
+        asleep(self.depth, row)
+    }
+
+    /// Direction from b to a.
+    fn normal(&self, a: usize, b: Vector) -> Vector {
+        let way = difference(self.grains[a].position, b);
+        let far = dot(way, way).sqrt().max(f64::MIN_POSITIVE);
+        way.map(|w| w / far)
+    }
+}
+
+impl Crowd {
+    fn count(&mut self, lists: &Lists, walls: &Walls, metal: Option<&Metal>, seen: Seen<'_>) {
+        self.around.clear();
+        self.around.resize(seen.grains.len(), Around::default());
+        for (place, chunk) in lists.chunks.iter().enumerate().filter(|(_, c)| !c.rests) {
+            for (a, b) in touching(place, chunk) {
+                let normal = seen.normal(a, seen.grains[b].position);
+                self.around[a].add(normal);
+                self.around[b].add(normal.map(|n| -n));
+            }
+        }
+        walls.touching(seen.grains, |row, normal| self.around[row].add(normal));
+        self.on_metal.clear();
+        if let Some(metal) = metal {
+            self.on_metal.resize(metal.bodies.len(), 0.0);
+            for pair in metal.pairs.iter().filter(|pair| pair.near.touching) {
+                let (row, body) = (pair.near.row as usize, pair.body as usize);
+                let normal = seen.normal(row, metal.bodies[body].grain.position);
+                self.around[row].add(normal);
+                self.on_metal[body] += 1.0;
+            }
+        }
+        let c = seen.setting.inertia_factor;
+        let all = self.around.par_iter().zip(seen.grains).with_min_len(4096);
+        all.map(|(around, grain)| around.load(grain.mass, c))
+            .collect_into_vec(&mut self.loads);
+    }
+
+    /// The least slack of two grains that touch.
+    fn between(&self, lists: &Lists, seen: Seen<'_>) -> Option<Slack> {
+        let chunks = lists.chunks.par_iter().enumerate();
+        let awake = chunks.filter(|(_, chunk)| !chunk.rests);
+        let slacks = awake.filter_map(|(place, chunk)| {
+            let pairs = touching(place, chunk).filter_map(|(a, b)| {
+                let (m, n) = (seen.grains[a].mass, seen.grains[b].mass);
+                let [own, other] = [self.loads[a], self.loads[b]];
+                match (seen.sleeps(a), seen.sleeps(b)) {
+                    (true, true) => None,
+                    (false, true) => Some((m, own)),
+                    (true, false) => Some((n, other)),
+                    (false, false) => Some((m * n / (m + n), own + other)),
+                }
+            });
+            match seen.setting.alike {
+                Some(_) => most_loaded(pairs, seen),
+                None => pairs
+                    .map(|(mass, load)| seen.slack(mass, load))
+                    .reduce(Slack::least),
+            }
+        });
+        slacks.reduce_with(Slack::least)
+    }
+
+    /// The least slack at walls.
+    fn at_walls(&self, walls: &Walls, seen: Seen<'_>) -> Option<Slack> {
+        let mut least: Option<Slack> = None;
+        walls.touching(seen.grains, |row, _| {
+            if !seen.sleeps(row) {
+                let slack = seen.slack(seen.grains[row].mass, self.loads[row]);
+                least = Some(least.map_or(slack, |least| least.least(slack)));
+            }
+        });
+        least
+    }
+
+    /// The least slack of contacts with metal: what rests gives way to nothing, and what flows does not turn.
+    fn with_metal(&self, metal: &Metal, seen: Seen<'_>) -> Option<Slack> {
+        let pairs = metal.pairs.iter().filter(|pair| pair.near.touching);
+        let slacks = pairs.map(|pair| {
+            let (row, body) = (pair.near.row as usize, pair.body as usize);
+            let (mass, metal) = (seen.grains[row].mass, &metal.bodies[body]);
+            let load = self.loads[row];
+            if metal.member.is_none() {
+                return seen.slack(mass, load);
+            }
+            let m = metal.grain.mass;
+            let number = self.on_metal[body] / m;
+            let other = Load {
+                number,
+                joint: number,
+            };
+            seen.slack(mass * m / (mass + m), load + other)
+        });
+        slacks.reduce(Slack::least)
+    }
+}
+
+/// The least slack of contacts whose effective mass is that of two grains alike, or of one: of equal masses the most loaded has the least.
+fn most_loaded(contacts: impl Iterator<Item = (f64, Load)>, seen: Seen<'_>) -> Option<Slack> {
+    let mut most: [Option<(f64, Load)>; 2] = [None; 2];
+    for (mass, load) in contacts {
+        let alone = usize::from(mass > 0.75 * seen.setting.lightest);
+        let (_, greatest) = most[alone].get_or_insert((mass, load));
+        greatest.number = greatest.number.max(load.number);
+        greatest.joint = greatest.joint.max(load.joint);
+    }
+    let found = most.into_iter().flatten();
+    let slacks = found.map(|(mass, load)| seen.slack(mass, load));
+    slacks.reduce(Slack::least)
+}
+
+/// Rows of the pairs of a chunk that touch.
+fn touching(place: usize, chunk: &Chunk) -> impl Iterator<Item = (usize, usize)> {
+    let pairs = chunk.pairs.iter();
+    let touching = pairs.filter(|pair| pair.state == Touch::Touching);
+    touching.map(move |pair| (place * ROWS + pair.own as usize, pair.other as usize))
+}
+
+impl Motion {
+    /// Counts contacts, and finds the least slack that they leave.
+    pub(super) fn count_contacts(&mut self) {
+        let (lists, walls, metal) = (&self.lists, &self.walls, self.metal.as_ref());
+        let seen = Seen {
+            grains: &self.moving.grains,
+            depth: depth(&self.sleep),
+            setting: &self.setting,
+            zeta: self.zeta,
+        };
+        self.crowd.count(lists, walls, metal, seen);
+        let found = [
+            self.crowd.between(lists, seen),
+            self.crowd.at_walls(walls, seen),
+            metal.and_then(|metal| self.crowd.with_metal(metal, seen)),
+        ];
+        let alone = self.setting.pair(self.zeta);
+        let least = found.into_iter().flatten().fold(alone, Slack::least);
+        // Springs of rolling are not among those whose eigenvalue is known.
+        let joint = if self.rolling.is_some() {
+            0.0
+        } else {
+            least.joint
+        };
+        self.doing.slack = Slack { joint, ..least };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eigenvalues_are_those_of_known_matrices() {
+        let close = |found: f64, told: f64| (found - told).abs() < 1e-12;
+        assert!(close(least_eigenvalue([3.0, 1.0, 2.0, 0.0, 0.0, 0.0]), 1.0));
+        assert!(close(least_eigenvalue([2.0, 2.0, 2.0, 0.0, 0.0, 0.0]), 2.0));
+        // (1, 1, 1) has 3, what is across it 0.
+        assert!(close(least_eigenvalue([1.0; 6]), 0.0));
+        // 2 + 2 cos(k pi / 4) of a chain of three.
+        let chain = [2.0, 2.0, 2.0, 1.0, 0.0, 1.0];
+        assert!(close(least_eigenvalue(chain), 2.0 - 2.0_f64.sqrt()));
+    }
+
+    #[test]
+    fn a_contact_alone_bears_what_a_pair_bears_and_one_in_a_lattice_less() {
+        let mut one = Around::default();
+        one.add([0.6, 0.0, 0.8]);
+        let load = one.load(1.0, 0.4);
+        assert!((load.joint - 3.5).abs() < 1e-12, "{load:?}");
+        // Six neighbours of a cubic lattice: turning stretches four of them, 4 / c.
+        let mut six = Around::default();
+        for k in 0..3 {
+            for sign in [-1.0, 1.0] {
+                let mut normal = [0.0; 3];
+                normal[k] = sign;
+                six.add(normal);
+            }
+        }
+        let load = six.load(2.0, 0.4);
+        assert!((load.joint - 5.0).abs() < 1e-12, "{load:?}");
+        assert!((load.number - 3.0).abs() < 1e-12);
+    }
+}
