@@ -80,7 +80,18 @@ fn grains_lie_on_as_they_lay() {
         json!({"min_m": [-2e-5, 0, -1e-3], "max_m": [5.98e-3, 4e-3, 0]});
     let output = run(&shifted, ("shifted.mcap", folder.path()), &input);
     assert_eq!(output.status.code(), Some(3), "{}", said(&output));
-    assert!(said(&output).contains("metal that is not there"));
+    assert!(said(&output).contains("metal or walls that are not there"));
+    // Nor do those at the walls where these are farther off, or none.
+    for walls in [
+        json!([]),
+        json!([{"shape": {"box": {"min_m": [-1e-3, -1e-3, -0.01], "max_m": [7e-3, 5e-3, 0.1]}}, "hollow": true}]),
+    ] {
+        let mut open = later();
+        open["grains"]["walls"] = walls;
+        let output = run(&open, ("open.mcap", folder.path()), &input);
+        assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+        assert!(said(&output).contains("metal or walls that are not there"));
+    }
     // Single grains lie loose, and none of them bears the others.
     let still = gone(&folder.path().join("later.mcap"));
     let slipped = gone(&folder.path().join("shifted.mcap"));

@@ -51,7 +51,7 @@ impl Source<'_> {
         let motion = grains::Motion::new(scene, &set, warmed).map_err(within)?;
         let motion = motion
             .beside(metal)
-            .lying(laid(scene, (&bed, &counts), state));
+            .lying(laid(scene, (&bed, &counts), state), &set);
         Ok((Beside { motion, cover }, set, counts))
     }
 }

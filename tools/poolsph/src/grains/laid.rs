@@ -51,7 +51,7 @@ pub struct Laid {
     pub at_walls: Vec<Memory>,
     /// With metal, by its indices.
     pub on_metal: Vec<Memory>,
-    /// Contacts with metal that is not there.
+    /// Contacts with metal and with walls that are not there.
     pub lost: usize,
 }
 
@@ -77,7 +77,7 @@ pub fn frame(contacts: &[Touching]) -> Frame {
 /// where a file has none.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// A file that cannot be read, or a contact of a grain that it does not hold.
 pub fn read(reader: &Reader, ids: &[u32]) -> Result<Vec<Touching>, Failure> {
     let Some(last) = reader.count(CHANNEL).checked_sub(1) else {
         return Ok(Vec::new());
@@ -88,16 +88,17 @@ pub fn read(reader: &Reader, ids: &[u32]) -> Result<Vec<Touching>, Failure> {
     let (with, grain, other) = (frame.u8("with")?, frame.u32("grain")?, frame.u32("other")?);
     let rows: HashMap<u32, u32> = ids.iter().copied().zip(0..).collect();
     let contact = |k: usize| {
+        let row = |id: u32| rows.get(&id).copied().ok_or_else(|| contradicts(k, id));
         let with = match with[k] {
             0 => With::Grain,
             1 => With::Wall,
             _ => With::Metal,
         };
-        let row = *rows.get(&grain[k])?;
         let other = match with {
-            With::Grain => *rows.get(&other[k])?,
+            With::Grain => row(other[k])?,
             With::Wall | With::Metal => other[k],
         };
+        let row = row(grain[k])?;
         let (stretch, stiffness) = (stretches[k], stiffness[k]);
         let memory = Memory {
             row,
@@ -106,13 +107,20 @@ pub fn read(reader: &Reader, ids: &[u32]) -> Result<Vec<Touching>, Failure> {
             rolled: rolled[k],
         };
         let place = places[k];
-        Some(Touching {
+        Ok(Touching {
             with,
             place,
             memory,
         })
     };
-    Ok((0..frame.len()).filter_map(contact).collect())
+    (0..frame.len()).map(contact).collect()
+}
+
+/// What is said of a file whose contact `k` is one of a grain that is not in it.
+fn contradicts(k: usize, id: u32) -> Failure {
+    Failure::Other(format!(
+        "the input 'bed' contradicts itself: contact {k} of {CHANNEL} is one of grain {id}, which is not in /grains"
+    ))
 }
 
 impl Laid {
@@ -157,5 +165,15 @@ impl Laid {
         }
         laid.between.sort_unstable_by_key(|m| (m.row, m.other));
         laid
+    }
+
+    /// Those of them whose wall is there, as `at_wall` says, and those with metal if grains meet it.
+    #[must_use]
+    pub fn kept(mut self, at_wall: impl Fn(&Memory) -> bool, meets_metal: bool) -> Self {
+        let all = self.at_walls.len() + self.on_metal.len();
+        self.at_walls.retain(at_wall);
+        self.on_metal.retain(|_| meets_metal);
+        self.lost += all - self.at_walls.len() - self.on_metal.len();
+        self
     }
 }

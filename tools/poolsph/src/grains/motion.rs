@@ -2,7 +2,7 @@
 
 use artefact::Frame;
 use contact::{Contact, Friction, Grain, Normal, Rolling};
-use particles::{ID, Set};
+use particles::{ID, POSITION, Set};
 use run::Fault;
 use run::property::OutOfRange;
 use shapes::frame::dot;
@@ -120,9 +120,16 @@ impl Motion {
         Self { metal, ..self }
     }
 
-    /// With contacts that go on.
+    /// With contacts that go on, of the grains in `set`.
     #[must_use]
-    pub fn lying(self, laid: Option<Laid>) -> Self {
+    pub fn lying(self, laid: Option<Laid>, set: &Set) -> Self {
+        let (place, radius) = (set.column(&POSITION), set.column(&RADIUS));
+        let skin = Lists::skin(self.setting.radii[0]);
+        let at_wall = |memory: &Memory| {
+            let (row, wall) = (memory.row as usize, memory.other as usize);
+            self.walls.reaches(wall, place[row], radius[row] + skin)
+        };
+        let laid = laid.map(|laid| laid.kept(at_wall, self.metal.is_some()));
         Self { laid, ..self }
     }
 
@@ -342,7 +349,7 @@ impl Stage for Motion {
         let lost = self.laid.as_ref().map(|laid| laid.lost);
         let lost = lost.filter(|lost| *lost > 0);
         let told = lost.map(|lost| {
-            format!("{lost} contacts of the bed are with metal that is not there: their grains begin to slip")
+            format!("{lost} contacts of the bed are with metal or walls that are not there: their grains begin to slip")
         });
         told.into_iter().collect()
     }

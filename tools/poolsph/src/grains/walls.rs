@@ -183,6 +183,13 @@ impl Walls {
         }
     }
 
+    /// Whether the face of a number is there, and nearer to a place at the start than a distance \[m\].
+    #[must_use]
+    pub fn reaches(&self, wall: usize, place: Vector, within: f64) -> bool {
+        let wall = self.walls.get(wall);
+        wall.is_some_and(|wall| wall.face.distance(place) < within)
+    }
+
     /// Contacts that touch, by walls and rows.
     pub fn memories(&self, memories: &mut Vec<Memory>) {
         memories.clear();
