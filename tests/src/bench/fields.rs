@@ -124,12 +124,8 @@ impl Problem {
     fn solve(&self, lab: &Lab, python: &Path, missing: &mut Vec<Missing>) -> Vec<Judged> {
         let mut all = Vec::new();
         let mut scene = None;
-        let mut take = |what: String, found: Result<Judged, LabError>| match found {
-            Ok(judged) => all.push(judged),
-            Err(e) => missing.push(Missing {
-                what,
-                why: e.to_string(),
-            }),
+        let mut take = |what: String, found: Result<Judged, LabError>| {
+            all.extend(Missing::or_found(missing, what, found));
         };
         for ours in &self.ours {
             for spacing in &ours.spacings_m {
@@ -150,13 +146,7 @@ impl Problem {
         for [order, size] in &self.theirs {
             let what = format!("{}, elements of order {order} and size {size}", self.name);
             let found = self.theirs(lab, python, (&scene, *order, *size));
-            match found {
-                Ok(judged) => all.push(judged),
-                Err(e) => missing.push(Missing {
-                    what,
-                    why: e.to_string(),
-                }),
-            }
+            all.extend(Missing::or_found(missing, what, found));
         }
         all
     }

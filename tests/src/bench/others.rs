@@ -90,6 +90,24 @@ pub(super) struct Missing {
     pub(super) why: String,
 }
 
+impl Missing {
+    /// What was found; what was not is told in `all` by its name.
+    pub(super) fn or_found<T>(
+        all: &mut Vec<Self>,
+        what: String,
+        found: Result<T, LabError>,
+    ) -> Option<T> {
+        found
+            .map_err(|e| {
+                all.push(Self {
+                    what,
+                    why: e.to_string(),
+                });
+            })
+            .ok()
+    }
+}
+
 /// The record that `make bench-others` writes.
 #[derive(Debug, Serialize)]
 pub struct Record {
@@ -126,12 +144,9 @@ impl Others {
             let mut rows = Vec::new();
             for &along in &problem.along {
                 let named = |what: &str| format!("{}, {along} x {along}: {what}", problem.name);
-                let mut take = |what: String, found: Result<Vec<Row>, LabError>| match found {
-                    Ok(found) => rows.extend(found),
-                    Err(e) => missing.push(Missing {
-                        what,
-                        why: e.to_string(),
-                    }),
+                let mut take = |what: String, found: Result<Vec<Row>, LabError>| {
+                    let found = Missing::or_found(&mut missing, what, found);
+                    rows.extend(found.into_iter().flatten());
                 };
                 take(named(&self.tool), self.ours(lab, python, problem, along));
                 let fits = |p: &&String| problem.most.get(*p).is_none_or(|most| along <= *most);

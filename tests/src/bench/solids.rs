@@ -58,12 +58,8 @@ impl Solids {
     #[must_use]
     pub fn solve(&self, lab: &Lab, python: Option<&Path>) -> Record {
         let (mut rows, mut missing) = (Vec::new(), Vec::new());
-        let mut take = |what: String, found: Result<Row, LabError>| match found {
-            Ok(row) => rows.push(row),
-            Err(e) => missing.push(Missing {
-                what,
-                why: e.to_string(),
-            }),
+        let mut take = |what: String, found: Result<Row, LabError>| {
+            rows.extend(Missing::or_found(&mut missing, what, found));
         };
         for of in &self.theirs {
             for count in &of.rows {

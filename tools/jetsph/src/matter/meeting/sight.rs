@@ -17,7 +17,8 @@ pub struct Sight<K> {
     pub kernel: K,
     grid: Grid,
     points: Grid,
-    rows: Rows,
+    /// The points of the skin that each particle of water meets; none where the solid is out of sight.
+    pub rows: Rows,
 }
 
 impl<K: Kernel> Sight<K> {
@@ -51,23 +52,5 @@ impl<K: Kernel> Sight<K> {
         } else {
             self.rows.between(water, &self.points, reach);
         }
-    }
-
-    /// Number of particles of water that were looked at; none where the solid is out of sight.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Whether the solid is out of sight.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
-    }
-
-    /// The points that particle `a` of water meets.
-    #[must_use]
-    pub fn row(&self, a: usize) -> &[u32] {
-        self.rows.row(a)
     }
 }

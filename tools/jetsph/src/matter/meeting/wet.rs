@@ -67,7 +67,7 @@ impl<K: Kernel> Wet<K> {
         let (mass, density) = (set.column(&MASS), set.column(&DENSITY));
         let moving = Moving::of(&state.sets[self.sight.skin.set]);
         let of = |a: usize| -> Vec<Pair> {
-            let row = self.sight.row(a);
+            let row = self.sight.rows.row(a);
             if row.is_empty() {
                 return Vec::new();
             }
@@ -91,7 +91,9 @@ impl<K: Kernel> Wet<K> {
             };
             row.iter().map(pair).collect()
         };
-        let all = (0..self.sight.len()).into_par_iter().with_min_len(GRAIN);
+        let all = (0..self.sight.rows.len())
+            .into_par_iter()
+            .with_min_len(GRAIN);
         all.map(of).collect()
     }
 }
@@ -120,10 +122,10 @@ impl<K: Kernel> Stage for Wet<K> {
         );
         let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
         let density = set.column(&DENSITY);
-        if !self.sight.is_empty() {
+        if !self.sight.rows.is_empty() {
             sweep::change(&mut rate, |a, rate| {
                 let mut sum = 0.0;
-                for p in self.sight.row(a) {
+                for p in self.sight.rows.row(a) {
                     let point = &self.sight.skin.points[*p as usize];
                     let dx = [0, 1, 2].map(|k| position[a][k] - point.x[k]);
                     let u = moving.velocity(&self.sight.skin.pressed(&moving, *p, dx));
