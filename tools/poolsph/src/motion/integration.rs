@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::around::Around;
-use super::divergence_free::{DivergenceFree, Meeting};
+use super::divergence_free::{Closing, DivergenceFree};
 use super::homogenising::Homogenising;
 use super::law::Law;
 use super::noise::Noise;
@@ -92,7 +92,7 @@ pub struct Motion {
     projection: Projection,
     homogenising: Homogenising,
     divergence_free: DivergenceFree,
-    meeting: Meeting,
+    closing: Closing,
     predicted: Vec<[f64; 3]>,
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
@@ -116,7 +116,7 @@ impl Motion {
             projection: Projection::new(metal),
             homogenising: Homogenising::new(metal),
             divergence_free: DivergenceFree::new(metal),
-            meeting: Meeting::default(),
+            closing: Closing::default(),
             predicted: Vec::new(),
             multiplier: Vec::new(),
             solved: Solved::default(),
@@ -210,8 +210,8 @@ impl Motion {
         let capillary = (dt / capillary::limit(near, state.metal)).ceil();
         let mut substeps = courant.max(viscous).max(falling).max(capillary);
         if self.parameters.method == Method::DivergenceFree {
-            let meeting = dt / self.meeting.limit(near, state.metal.spacing);
-            substeps = substeps.max(meeting.ceil());
+            let closing = dt / self.closing.limit(near, state.metal.spacing);
+            substeps = substeps.max(closing.ceil());
         }
         Ok(substeps as u32)
     }
@@ -344,7 +344,7 @@ impl Stage for Motion {
     fn bytes(&self) -> usize {
         self.projection.bytes()
             + self.homogenising.bytes()
-            + self.meeting.bytes()
+            + self.closing.bytes()
             + self.divergence_free.bytes()
             + self.noise.bytes()
             + self.viscosity.bytes()

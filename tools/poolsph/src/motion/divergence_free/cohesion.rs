@@ -17,14 +17,15 @@
 //! apart. Forces act along the line of a pair: momentum and angular momentum are kept.
 
 use super::filled::{Filled, within};
+use super::openness::lack;
 use crate::forces::tension::mean_field;
 use crate::near::{Near, Role};
 use crate::state::Metal;
 use crate::vector::{dot, minus, plus, squared};
 
-/// Parts of the lattice's neighbours at which pairs pull wholly, and from which on they do not. A particle on top of a plane surface
-/// has 0.22, a row 0.23, the corner of a cube 0.42, a film of one layer 0.56, a plane surface 0.78.
-const FEW: [f64; 2] = [0.25, 0.40];
+/// Lack of neighbours, in parts of the lattice's, from which on pairs pull, and at which they do so wholly. A plane surface lacks 0.22,
+/// a film of one layer 0.44, the corner of a cube 0.58, a row 0.77, a particle on top of a plane surface 0.78.
+const FEW: [f64; 2] = [0.60, 0.75];
 /// q_0: distance at which a pair rests, in spacings.
 const REST: f64 = 0.75;
 /// D_0.
@@ -127,13 +128,9 @@ impl Cohesion {
 
     /// Finds s.
     fn count(&mut self, near: &Near, filled: Filled) {
-        let own = near.kernel.value(0.0);
-        let few = |a: usize| {
-            if near.role[a] != Role::Liquid {
-                return 0.0;
-            }
-            let part = (near.number[a].max(own) - own) / (filled.number - own);
-            1.0 - within(part, FEW)
+        let few = |a: usize| match near.role[a] {
+            Role::Liquid => within(lack(near, filled, a), FEW),
+            _ => 0.0,
         };
         self.few.clear();
         self.few.extend((0..near.len()).map(few));

@@ -27,10 +27,10 @@
 //! lattice has more, mirrored across the surface half a spacing away. Solid particles move as the mirror images of the
 //! liquid beside them: the wall stands half a spacing before their first layer.
 
+mod closing;
 mod cohesion;
 mod filled;
 mod islands;
-mod meeting;
 mod normals;
 mod openness;
 mod operators;
@@ -51,10 +51,10 @@ use crate::state::Metal;
 use crate::sweep::GRAIN;
 use crate::vector::{dot, minus, plus, squared};
 
+pub use self::closing::Closing;
 use self::cohesion::Cohesion;
 use self::filled::Filled;
 use self::islands::Islands;
-pub use self::meeting::Meeting;
 use self::normals::Normals;
 use self::operators::{Sums, times};
 use self::poisson::Poisson;

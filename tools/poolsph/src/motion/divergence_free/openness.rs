@@ -64,7 +64,7 @@ pub(super) fn open(near: &Near, filled: Filled, (a, row): (usize, Row<'_>)) -> f
 
 /// Part of the lattice's neighbours that a particle lacks.
 #[inline]
-fn lack(near: &Near, filled: Filled, a: usize) -> f64 {
+pub(super) fn lack(near: &Near, filled: Filled, a: usize) -> f64 {
     let own = near.kernel.value(0.0);
     1.0 - (near.number[a] - own) / (filled.number - own)
 }
