@@ -343,7 +343,7 @@ fn check_tells_the_memory_that_a_run_takes() {
     let march = driven(&json!({"transient": {"end_s": 0.2, "step_s": 0.01}}));
     for (name, scene, spacing) in [
         ("still", &own, 0.12),
-        ("direct", &own, 0.25),
+        ("direct", &own, 0.3),
         ("march", &march, 0.05),
     ] {
         let mut scene = scene.clone();
