@@ -74,8 +74,11 @@ mod liquid_charge;
 mod liquid_drop;
 mod liquid_field_drop;
 mod liquid_field_march;
+mod liquid_heat;
+mod liquid_leaky;
 mod liquid_levitation;
 mod liquid_rest;
+mod liquid_sessile;
 mod pool_dimple;
 mod pool_drop_oscillation;
 mod pool_drop_pressure;
@@ -230,6 +233,9 @@ fn liquids() -> Vec<Box<dyn Case>> {
         Box::new(liquid_field_drop::LiquidFieldDrop),
         Box::new(liquid_field_march::LiquidFieldMarch),
         Box::new(liquid_charge::LiquidCharge),
+        Box::new(liquid_heat::LiquidHeat),
+        Box::new(liquid_leaky::LiquidLeaky),
         Box::new(liquid_levitation::LiquidLevitation),
+        Box::new(liquid_sessile::LiquidSessile),
     ]
 }

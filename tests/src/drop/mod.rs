@@ -1,5 +1,6 @@
 //! References for drops that swing, and what is read of them.
 
+pub mod radial;
 pub mod swing;
 pub mod viscous;
 

@@ -23,6 +23,8 @@ pub(super) struct Acting {
     factor: f64,
     /// What the field adds to the pressure that the liquid carries, by point \[Pa\].
     pub(super) pressure: Vec<f64>,
+    /// Heat of currents, by point \[W/m3\]; nothing where the scene has no heat.
+    pub(super) heat: Vec<f64>,
     /// Greatest current through the surface so far, over that along it.
     through: f64,
 }
@@ -37,18 +39,22 @@ impl Acting {
         liquid: &Liquid<3>,
         session: &mut Session,
     ) -> Result<Self, Failure> {
-        let magnetic = match &part.magnetic {
+        let mut magnetic = match &part.magnetic {
             Some(given) => {
                 let made = || alternating((scene, given), liquid);
                 Some(session.timed("points about a ball", made)?)
             }
             None => None,
         };
+        if let Some(magnetic) = &mut magnetic {
+            magnetic.warms = part.heat.is_some();
+        }
         Ok(Self {
             electric: electric(part),
             magnetic,
             factor: 1.0,
             pressure: Vec::new(),
+            heat: Vec::new(),
             through: 0.0,
         })
     }
@@ -74,6 +80,7 @@ impl Acting {
             self.factor *= factor;
             let force = liquid.force[0].as_flattened_mut().iter_mut();
             let all = force.chain(&mut liquid.pull[0]).chain(&mut self.pressure);
+            let all = all.chain(&mut self.heat);
             all.for_each(|p| *p *= factor * factor);
         }
         Ok(())
@@ -97,6 +104,7 @@ impl Acting {
             let sides = session.timed("weights of the field", || electric.fit(&stood))?;
             let made = (&stood, &sides);
             let now = session.timed("electric field", || electric.traction(made, rule, effort))?;
+            liquid.drag.clone_from(&electric.drag);
             (now, Vec::new(), electric.force().map(|f| passed * f))
         } else if let Some(magnetic) = &mut self.magnetic {
             let about = outline(place.skin, centre)?;
@@ -109,6 +117,7 @@ impl Acting {
             })?;
             self.through = self.through.max(magnetic.out);
             let both = along(&before, 1.0, &magnetic.force());
+            self.heat = act.heat;
             let mut force = act.pull;
             let stirred = || liquid.stirred(&mut force, &act.phi, way, effort);
             let phi = session.timed("stirring", stirred)?;
@@ -149,6 +158,12 @@ impl Acting {
         magnetic.map_or([0.0; 3], Magnetic::force)
     }
 
+    /// Heat of the currents \[W\].
+    pub(super) fn power(&self) -> f64 {
+        let magnetic = self.magnetic.as_ref();
+        magnetic.map_or(0.0, |m| m.totals.heat_volume)
+    }
+
     /// Adds what fields do to a row.
     pub(super) fn row(&self, record: Record) -> Record {
         let Some(magnetic) = &self.magnetic else {
@@ -174,11 +189,13 @@ impl Acting {
     ) {
         if let Some(electric) = &self.electric {
             electric.save(checkpoint);
+            checkpoint.put_vectors("drag", &liquid.drag);
         } else if let Some(magnetic) = &self.magnetic {
             magnetic.save(checkpoint);
             checkpoint.put_vectors("force", &liquid.force[0]);
             checkpoint.put_vectors("force_rate", &liquid.force[1]);
             checkpoint.put_f64("magnetic_pressure", &self.pressure);
+            checkpoint.put_f64("magnetic_heat", &self.heat);
             checkpoint.put_f64("currents", &[self.factor, self.through]);
         } else {
             return;
@@ -200,6 +217,7 @@ impl Acting {
     ) -> Result<(), Failure> {
         if let Some(electric) = &mut self.electric {
             electric.restore(checkpoint, spacing)?;
+            liquid.drag = checkpoint.vectors("drag")?;
         } else if let Some(magnetic) = &mut self.magnetic {
             if let [factor, through] = checkpoint.f64("currents")?[..] {
                 (self.factor, self.through) = (factor, through);
@@ -207,6 +225,7 @@ impl Acting {
             }
             magnetic.restore(checkpoint, spacing)?;
             self.pressure = checkpoint.f64("magnetic_pressure")?;
+            self.heat = checkpoint.f64("magnetic_heat")?;
             liquid.force = [
                 checkpoint.vectors("force")?,
                 checkpoint.vectors("force_rate")?,
@@ -260,6 +279,7 @@ pub(super) fn electric(part: &Part) -> Option<Electric> {
     let applied = Applied {
         field: std::array::from_fn(|k| given.field_v_m.get(k).copied().unwrap_or(0.0)),
         permittivity: given.relative_permittivity,
+        leak: given.relative_conductivity,
         charge: given.charge_c.unwrap_or(0.0),
     };
     Some(Electric::new(applied, given.order))

@@ -4,13 +4,14 @@ use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
 
 use super::acting::Acting;
+use super::heated::Heated;
 use super::liquid::{fastest, filled, matter, start, steps, way};
 use super::steps::Steps;
-use crate::liquid::effort::Effort;
+use crate::liquid::effort::{Effort, failed};
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
 use crate::liquid::step::{Liquid, Matter, Way};
-use crate::liquid::surface::Patch;
+use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference};
 use crate::scene::output::Precision as Wanted;
@@ -35,6 +36,8 @@ struct March {
     effort: Effort,
     /// Fields that act on it.
     acting: Acting,
+    /// Heat in it; none where the scene has none.
+    heat: Option<Heated>,
     /// Steps that were divided.
     divided: u64,
     taken: u64,
@@ -64,6 +67,7 @@ pub fn flow(
         centre: [0.0; 3],
         effort: Effort::default(),
         acting: Acting::new((scene, part), &liquid, session)?,
+        heat: Heated::new(part, &liquid)?,
         divided: 0,
         taken: 0,
     };
@@ -77,7 +81,7 @@ pub fn flow(
         let made = march.step(&mut liquid, length, session)?;
         march.taken += 1;
         let (time, written) = steps.end(march.taken);
-        march.tell(&mut liquid, time, session)?;
+        march.tell(&mut liquid, (time, &made), session)?;
         if written {
             march.write(&liquid, (time, &made), session)?;
         }
@@ -125,7 +129,7 @@ impl March {
                 (sources / liquid.position.len() as f64).sqrt()
             ));
         }
-        self.tell(liquid, 0.0, session)?;
+        self.tell(liquid, (0.0, &made), session)?;
         self.write(liquid, (0.0, &made), session)
     }
 
@@ -136,6 +140,16 @@ impl March {
         length: f64,
         session: &mut Session,
     ) -> Result<Vec<Patch<3>>, Failure> {
+        if let Some(heat) = self.heat.as_mut().filter(|h| h.still) {
+            let surface = &liquid.position[..liquid.surface()];
+            let patches = patches(surface, &liquid.normal, self.way.spacing);
+            let patches = patches.map_err(|e| failed(&e))?;
+            let (how, effort) = ((&self.way, length), &mut self.effort);
+            session.timed("heat", || {
+                heat.rest((liquid, &patches), &self.acting, how, effort)
+            })?;
+            return Ok(patches);
+        }
         let far = fastest(liquid) * length / (FARTHEST * self.way.spacing);
         let parts = far.ceil().max(1.0);
         if parts > 1.0 {
@@ -148,8 +162,15 @@ impl March {
             let ended = session.timed("step", || {
                 liquid.advance(&self.matter, how, &mut self.effort)
             })?;
+            if let Some(heat) = &mut self.heat {
+                heat.flow(liquid, &ended, &self.acting, how, &mut self.effort)?;
+            }
             liquid.smooth(&ended.patches);
+            let apart = self.heat.is_some().then(|| liquid.position.clone());
             liquid.spread(&ended.rows, &ended.patches, self.way.spacing);
+            if let (Some(heat), Some(before)) = (&mut self.heat, apart) {
+                heat.carry(&ended.rows, &before, &liquid.position);
+            }
             made = ended.patches;
             self.pull(liquid, length / parts, session)?;
         }
@@ -177,7 +198,7 @@ impl March {
     fn tell(
         &mut self,
         liquid: &mut Liquid<3>,
-        time: f64,
+        (time, patches): (f64, &[Patch<3>]),
         session: &mut Session,
     ) -> Result<(), Failure> {
         let Some((_, totals)) = self.outline(liquid) else {
@@ -199,7 +220,11 @@ impl March {
         }
         if let Some((outline, totals)) = self.outline(liquid) {
             self.centre = totals.centre;
-            let row = self.acting.row(totals.row(&self.matter, &outline));
+            let mut row = self.acting.row(totals.row(&self.matter, &outline));
+            if let Some(heat) = &mut self.heat {
+                heat.keep(&totals, patches);
+                row = heat.row(row);
+            }
             session.record("/liquid", time, &row)?;
         }
         Ok(())
@@ -219,7 +244,10 @@ impl March {
         (time, patches): (f64, &[Patch<3>]),
         session: &mut Session,
     ) -> Result<(), Failure> {
-        let points = told::points(liquid, &self.acting.pressure, self.precision);
+        let mut points = told::points(liquid, &self.acting.pressure, self.precision);
+        if let Some(heat) = &self.heat {
+            points = heat.frame(points);
+        }
         session.frame("/points", time, &points)?;
         session.frame(
             "/surface",
@@ -233,9 +261,13 @@ impl March {
         checkpoint.put_vectors("velocity", &liquid.velocity);
         checkpoint.put_vectors("rate", &liquid.rate);
         checkpoint.put_vectors("normal", &liquid.normal);
+        checkpoint.put_vectors("follow", &liquid.follow);
         checkpoint.put_f64("pressure", &liquid.pressure);
         checkpoint.put_f64("stress", &liquid.stress);
         self.acting.save((liquid, &self.effort), checkpoint);
+        if let Some(heat) = &self.heat {
+            heat.save(checkpoint);
+        }
         let volume: Vec<f64> = self.volume.into_iter().collect();
         checkpoint.put_f64("volume", &volume);
         checkpoint.put_vectors("centre", &[self.drift, self.centre]);
@@ -261,10 +293,14 @@ impl March {
         liquid.velocity = checkpoint.vectors("velocity")?;
         liquid.rate = checkpoint.vectors("rate")?;
         liquid.normal = checkpoint.vectors("normal")?;
+        liquid.follow = checkpoint.vectors("follow")?;
         liquid.pressure = checkpoint.f64("pressure")?;
         liquid.stress = checkpoint.f64("stress")?;
         let kept = (&mut *liquid, &mut self.effort);
         self.acting.restore(kept, self.way.spacing, checkpoint)?;
+        if let Some(heat) = &mut self.heat {
+            heat.restore(checkpoint)?;
+        }
         self.volume = checkpoint.f64("volume")?.first().copied();
         if let [drift, centre] = checkpoint.vectors("centre")?[..] {
             (self.drift, self.centre) = (drift, centre);
@@ -288,6 +324,9 @@ impl March {
             session.closing("volume", "m3", volume);
         }
         self.acting.close(&self.effort, session);
+        if let Some(heat) = &self.heat {
+            heat.close(session);
+        }
         if self.divided > 0 {
             session.note(format!(
                 "{} steps were divided: points would have moved farther than {FARTHEST} spacings",

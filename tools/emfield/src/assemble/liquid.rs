@@ -16,7 +16,7 @@ use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
 use crate::scene::currents::Transient;
-use crate::scene::{Liquid as Part, LiquidMarch, Scene};
+use crate::scene::{Liquid as Part, LiquidHeat, LiquidMarch, Scene};
 
 /// Part of the time of a ripple of the drop that a step takes, over h/R.
 const RIPPLE: f64 = 0.3;
@@ -86,9 +86,17 @@ pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure
             v[k] = value.map_err(|e| Failure::Other(format!("velocity at {x:?} m: {e}")))?;
         }
     }
+    // Currents stir a drop whose shape all but stays.
+    let follows = part.magnetic.is_some();
     Ok(Liquid {
+        follow: if follows {
+            velocity.clone()
+        } else {
+            Vec::new()
+        },
         stress: vec![0.0; filled.normal.len()],
         pull: [Vec::new(), Vec::new()],
+        drag: Vec::new(),
         force: [Vec::new(), Vec::new()],
         position: filled.position,
         velocity,
@@ -184,6 +192,7 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
         }
         None => plan.left_out("magnetic field", "no key 'magnetic' of 'liquid'"),
     };
+    plan = warmed(plan, part.heat.as_ref());
     for (absent, name, key) in [
         (part.viscosity_pa_s.is_none(), "viscosity", "viscosity_pa_s"),
         (
@@ -198,6 +207,23 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
         }
     }
     Ok(plan)
+}
+
+/// Adds what heat does to a plan.
+fn warmed(plan: Plan, heat: Option<&LiquidHeat>) -> Plan {
+    let Some(heat) = heat else {
+        return plan.left_out("heat", "no key 'heat' of 'liquid'");
+    };
+    let mut plan = plan.stage("heat").column("temperature", "K");
+    for (absent, name) in [
+        (heat.radiation.is_none(), "radiation"),
+        (heat.melting.is_none(), "melting"),
+    ] {
+        if absent {
+            plan = plan.left_out(name, &format!("no key '{name}' of 'heat'"));
+        }
+    }
+    plan
 }
 
 /// Time of a run, from a step at its start.

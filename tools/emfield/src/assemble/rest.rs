@@ -6,6 +6,7 @@ use shapes::Shape;
 use shapes::shape::Sphere;
 
 use super::levitated::levitated;
+use super::sessile::sessile;
 use crate::liquid::equilibrium::{self, FEWEST, Found, Kind, MOST, Place, Sought};
 use crate::scene::output::Precision as Wanted;
 use crate::scene::{Equilibrium, Liquid as Part, Scene};
@@ -23,9 +24,22 @@ pub fn rest(
     let Shape::Sphere(sphere) = &part.shape else {
         return Ok(());
     };
-    let Some(applied) = rest.field_v_m else {
-        return levitated(scene, part, session);
-    };
+    if let Some(angle) = rest.contact_angle_deg {
+        return sessile(scene, (part, sphere, angle), session);
+    }
+    match rest.field_v_m {
+        Some(applied) => drawn(scene, (part, rest), (sphere, applied), session),
+        None => levitated(scene, part, session),
+    }
+}
+
+/// A drop in a uniform field.
+fn drawn(
+    scene: &Scene,
+    (part, rest): (&Part, &Equilibrium),
+    (sphere, applied): (&Sphere, f64),
+    session: &mut Session,
+) -> Result<(), Failure> {
     let radius = sphere.radius_m;
     let stress = part.surface_tension_n_m.unwrap_or(0.0) / radius;
     // Ca = eps0 E^2 R/gamma.

@@ -35,6 +35,6 @@ impl Effort {
     }
 }
 
-pub(super) fn failed(why: &dyn std::fmt::Display) -> Failure {
+pub(crate) fn failed(why: &dyn std::fmt::Display) -> Failure {
     Failure::Other(format!("liquid: {why}"))
 }

@@ -7,34 +7,17 @@
 //! du/dn = g(u) = -(grad_s u) . n - n (div_s u)
 //! ```
 //!
-//! (the first term: no tangential stress; the second: div u = 0). The normal stress `2 mu du_n/dn = 2 mu n . g(u)` belongs to
+//! (the first term: no tangential stress; the second: div u = 0). A field that drags the charges of the surface along it by the
+//! tangential traction t adds t/mu to that slope. The normal stress `2 mu du_n/dn = 2 mu n . g(u)` belongs to
 //! the pressure. The balance along the outward normal is `-p + 2 mu du_n/dn = -p_gas - gamma kappa`, so that it **raises** p
 //! where the liquid is drawn outward.
 
 use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
-use wls::{Cloud, Condition, Metric, Plan, Rules, Search, Stencils, Wants};
+use wls::Stencils;
 
+use super::operators::sloped;
 use super::surface::Patch;
 use super::vector::{along, dot};
-
-/// Rows of the Laplacian at the points of the surface.
-struct Surface<'a, const D: usize> {
-    points: &'a [[f64; D]],
-    patches: &'a [Patch<D>],
-}
-
-impl<const D: usize> Rules<D> for Surface<'_, D> {
-    fn wanted(&self, i: usize) -> bool {
-        i < self.patches.len()
-    }
-
-    fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
-        conditions.push(Condition::Flux {
-            at: self.points[i],
-            normal: self.patches[i].normal,
-        });
-    }
-}
 
 /// Why there are no equations.
 #[derive(Debug, thiserror::Error)]
@@ -50,6 +33,8 @@ pub enum Error {
 /// The equations of a velocity.
 pub struct Friction {
     system: System<f64, f64>,
+    /// What a unit of slope along the normal adds to the right side at points of the surface \[m\].
+    slopes: Vec<f64>,
 }
 
 impl Friction {
@@ -63,17 +48,7 @@ impl Friction {
         (spacing, order): (f64, u8),
         diffusion: f64,
     ) -> Result<Self, Error> {
-        let metrics = vec![Metric::round(spacing); points.len()];
-        let search = Search::new(Cloud {
-            points,
-            metrics: &metrics,
-        })?;
-        let wants = Wants {
-            laplacian: true,
-            ..Wants::default()
-        };
-        let plan = Plan::new::<D>(order, wants);
-        let surface = Stencils::build(&search, &plan, &Surface { points, patches })?;
+        let surface = sloped(points, patches, (spacing, order))?;
         let number = |j: usize, b: usize| (D * j + b) as u32;
         let matrix = Rows::gathered(D * points.len(), 0.0, |row, entries| {
             let (i, b) = (row / D, row % D);
@@ -103,7 +78,17 @@ impl Friction {
             ..Options::default()
         };
         let system = System::new(matrix, Vec::new(), options)?;
-        Ok(Self { system })
+        let slopes = (0..patches.len())
+            .map(|i| diffusion * surface.laplacian(i).conditions().sum::<f64>())
+            .collect();
+        Ok(Self { system, slopes })
+    }
+
+    /// Adds to velocities before friction what slopes `drag` along the normal, of points of the surface, bring \[1/s\].
+    pub fn drag<const D: usize>(&self, right: &mut [[f64; D]], drag: impl Fn(usize) -> [f64; D]) {
+        for (i, (right, slope)) in right.iter_mut().zip(&self.slopes).enumerate() {
+            *right = along(right, *slope, &drag(i));
+        }
     }
 
     /// Solves for the velocity, which is the first guess.
@@ -130,22 +115,4 @@ pub fn stretch<const D: usize>(patch: &Patch<D>, velocity: &[[f64; D]]) -> f64 {
     -near
         .map(|(&j, slope)| dot(slope, &velocity[j as usize]))
         .sum::<f64>()
-}
-
-/// `((w - u) . grad) u` of points that move at w = (u . n) n on the surface \[m/s2\].
-#[must_use]
-pub fn drift<const D: usize>(patches: &[Patch<D>], velocity: &[[f64; D]]) -> Vec<[f64; D]> {
-    let mut drift = vec![[0.0; D]; velocity.len()];
-    for (i, patch) in patches.iter().enumerate() {
-        let own = &velocity[i];
-        let back = along(
-            &patch.normal.map(|c| c * dot(own, &patch.normal)),
-            -1.0,
-            own,
-        );
-        for (&j, slope) in patch.neighbours.iter().zip(&patch.slope) {
-            drift[i] = along(&drift[i], dot(&back, slope), &velocity[j as usize]);
-        }
-    }
-    drift
 }

@@ -4,15 +4,20 @@
 
 pub mod air;
 pub mod balance;
+pub mod drift;
 pub mod effort;
 pub mod electric;
 pub mod equilibrium;
 pub mod fill;
+pub mod follow;
 pub mod friction;
+pub mod heat;
 pub mod magnetic;
+pub mod matter;
 pub mod operators;
 pub mod outline;
 pub mod pressure;
+pub mod sessile;
 mod settle;
 mod spheroidal;
 pub mod step;

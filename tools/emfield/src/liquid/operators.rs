@@ -1,6 +1,8 @@
 //! Gradients and Laplacians at all points of the liquid, by weighted least squares.
 
-use wls::{Cloud, Error, Everything, Metric, Plan, Search, Stencils, Wants};
+use wls::{Cloud, Condition, Error, Everything, Metric, Plan, Rules, Search, Stencils, Wants};
+
+use super::surface::Patch;
 
 /// Gradient and Laplacian rows of a cloud of points with one spacing \[m\].
 ///
@@ -8,6 +10,60 @@ use wls::{Cloud, Error, Everything, Metric, Plan, Search, Stencils, Wants};
 /// Where points coincide or no fit has the derivatives.
 pub fn operators<const D: usize>(
     points: &[[f64; D]],
+    how: (f64, u8),
+) -> Result<Stencils<D>, Error> {
+    derivatives(points, how, false)
+}
+
+/// The same with rows of the value of the fit, where they are wanted.
+///
+/// # Errors
+/// As [`operators`].
+pub fn derivatives<const D: usize>(
+    points: &[[f64; D]],
+    (spacing, order): (f64, u8),
+    value: bool,
+) -> Result<Stencils<D>, Error> {
+    let metrics = vec![Metric::round(spacing); points.len()];
+    let search = Search::new(Cloud {
+        points,
+        metrics: &metrics,
+    })?;
+    let wants = Wants {
+        value,
+        gradient: true,
+        laplacian: true,
+        ..Wants::default()
+    };
+    Stencils::build(&search, &Plan::new::<D>(order, wants), &Everything)
+}
+
+/// Rows at the points of a surface, which know the slope along its normal.
+struct Sloped<'a, const D: usize> {
+    points: &'a [[f64; D]],
+    patches: &'a [Patch<D>],
+}
+
+impl<const D: usize> Rules<D> for Sloped<'_, D> {
+    fn wanted(&self, i: usize) -> bool {
+        i < self.patches.len()
+    }
+
+    fn conditions(&self, i: usize, conditions: &mut Vec<Condition<D>>) {
+        conditions.push(Condition::Flux {
+            at: self.points[i],
+            normal: self.patches[i].normal,
+        });
+    }
+}
+
+/// Laplacians at the points of the surface, which come first, with the slope along its normal as a datum.
+///
+/// # Errors
+/// Where points coincide or no fit has the derivatives.
+pub fn sloped<const D: usize>(
+    points: &[[f64; D]],
+    patches: &[Patch<D>],
     (spacing, order): (f64, u8),
 ) -> Result<Stencils<D>, Error> {
     let metrics = vec![Metric::round(spacing); points.len()];
@@ -16,11 +72,11 @@ pub fn operators<const D: usize>(
         metrics: &metrics,
     })?;
     let wants = Wants {
-        gradient: true,
         laplacian: true,
         ..Wants::default()
     };
-    Stencils::build(&search, &Plan::new::<D>(order, wants), &Everything)
+    let plan = Plan::new::<D>(order, wants);
+    Stencils::build(&search, &plan, &Sloped { points, patches })
 }
 
 /// Divergence of a velocity at point `i` \[1/s\].

@@ -5,7 +5,8 @@
 //!
 //! A stage moves the liquid from `(x-, u-)`, where rates of the stage before have brought it, to
 //! `x = x- + tau w`, `u = u- + tau (-grad p/rho + nu div grad u + g + ((w - u) . grad) u)` with `div u = 0` (2.38 to 2.50,
-//! Matsuzawa 2017). Points inside move with the liquid, w = u; those of the surface along its normal, w = (u . n) n.
+//! Matsuzawa 2017). Points inside move with the liquid, w = u, or follow the surface ([`super::follow`]); those of the surface move along
+//! its normal, w = (u . n) n.
 //!
 //! What divergence fits leave is not taken away at once but by the share `CLEANED` in each stage: divergence and gradient of
 //! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface.
@@ -15,15 +16,18 @@ use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
 
+use super::drift;
 use super::effort::{Effort, failed};
-use super::friction::{Friction, drift, stretch};
-use super::operators::{divergence, operators, stretching};
+use super::friction::{Friction, stretch};
+use super::operators::{derivatives, divergence, operators, stretching};
 use super::pressure::{Conditions, Equations, bending};
 use super::surface::{Patch, patches};
 use super::vector::{along, difference, dot};
 
+pub use super::matter::{Matter, Way};
+
 /// g of the stages.
-const PART: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+pub(super) const PART: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Share of the divergence that a stage takes away.
 const CLEANED: f64 = 0.3;
 /// Rounds of pressure and friction at most, and those that are remembered.
@@ -31,21 +35,6 @@ const ROUNDS: usize = 40;
 const WINDOW: usize = 8;
 /// Change of the normal stress that ends them, over the pressure.
 const SETTLED: f64 = 1e-7;
-
-/// What the liquid is made of and what acts on it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Matter<const D: usize> {
-    /// Density \[kg/m3\].
-    pub density: f64,
-    /// Viscosity \[Pa s\]; none where it is absent.
-    pub viscosity: Option<f64>,
-    /// Surface tension \[N/m\].
-    pub tension: f64,
-    /// Pressure of the gas around \[Pa\].
-    pub gas: f64,
-    /// Acceleration of gravity \[m/s2\].
-    pub gravity: [f64; D],
-}
 
 /// Points of the liquid, those of the surface first, and what they carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,40 +47,19 @@ pub struct Liquid<const D: usize> {
     pub pressure: Vec<f64>,
     /// Rate of the velocity of each point along its way, in the last stage \[m/s2\].
     pub rate: Vec<[f64; D]>,
+    /// Velocities of points that follow the surface, in the last stage; nothing where those inside go with the liquid \[m/s\].
+    pub follow: Vec<[f64; D]>,
     /// Unit normals of the points of the surface.
     pub normal: Vec<[f64; D]>,
     /// Normal stress of friction on the surface, and what friction adds to its tension within a stage \[Pa\].
     pub stress: Vec<f64>,
     /// Traction of fields on the surface, outward, and how fast it changes \[Pa, Pa/s\]; none where there is no field.
     pub pull: [Vec<f64>; 2],
+    /// Traction of a field along the surface \[Pa\]; nothing where there is none.
+    pub drag: Vec<[f64; D]>,
     /// Force density of fields beside that traction, which stirs alone (see [`super::stirred`]), by point, and how fast it
     /// changes \[N/m3, N/(m3 s)\]; none where there is none.
     pub force: [Vec<[f64; D]>; 2],
-}
-
-/// How steps are taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Way {
-    /// Distance of points \[m\].
-    pub spacing: f64,
-    /// Degree of the fits.
-    pub order: u8,
-    /// Residual of solves.
-    pub tolerance: f64,
-    /// Most products of a solve.
-    pub products: usize,
-}
-
-impl Way {
-    /// When solves end.
-    #[must_use]
-    pub fn rule(&self) -> Rule<'static> {
-        Rule {
-            reduction: self.tolerance,
-            products: self.products,
-            ..Rule::default()
-        }
-    }
 }
 
 /// Where a stage begins, and how long it is.
@@ -120,8 +88,8 @@ impl<const D: usize> Base<D> {
 
 /// What a stage leaves for what follows it.
 pub struct Ended<const D: usize> {
-    /// Velocity at which the points have moved.
-    moved: Vec<[f64; D]>,
+    /// Velocity at which the points have moved \[m/s\].
+    pub moved: Vec<[f64; D]>,
     /// The surface.
     pub patches: Vec<Patch<D>>,
     /// Rows of derivatives.
@@ -239,11 +207,14 @@ impl<const D: usize> Liquid<D> {
     ) -> Result<Ended<D>, Failure> {
         let (n, surface, tau) = (base.position.len(), self.surface(), base.tau);
         let guess = stepped(&base.velocity, tau, &self.rate);
-        let place = stepped(&base.position, tau, &self.moved(&guess));
-        let rows = operators(&place, (way.spacing, way.order)).map_err(|e| failed(&e))?;
+        let goes = self.moved(&guess);
+        let place = stepped(&base.position, tau, &goes);
+        let follows = !self.follow.is_empty();
+        let rows = derivatives(&place, (way.spacing, way.order), follows);
+        let rows = rows.map_err(|e| failed(&e))?;
         let patches =
             patches(&place[..surface], &self.normal, way.spacing).map_err(|e| failed(&e))?;
-        let drift = drift(&patches, &guess);
+        let drift = self.drift((&guess, &goes), (&rows, &patches), way.spacing);
         let free = base.freed(matter, &drift);
         let right = right(matter, base, [&place, &free, &guess], (&rows, &patches));
         let conditions = Conditions {
@@ -282,11 +253,31 @@ impl<const D: usize> Liquid<D> {
         self.normal = patches.iter().map(|p| p.normal).collect();
         let moved = self.moved(&self.velocity);
         self.position = stepped(&base.position, tau, &moved);
+        if follows {
+            let how = (way.spacing, way.rule());
+            self.follow_surface(&rows, &moved[..surface], how, effort)?;
+        }
         Ok(Ended {
             moved,
             patches,
             rows,
         })
+    }
+
+    /// What a liquid that moves at u brings to points that move at w \[m/s2\].
+    fn drift(
+        &self,
+        (u, w): (&[[f64; D]], &[[f64; D]]),
+        (rows, patches): (&Stencils<D>, &[Patch<D>]),
+        spacing: f64,
+    ) -> Vec<[f64; D]> {
+        let back = |i: usize| difference(&w[i], &u[i]);
+        let mut drift = drift::along_surface(patches, u, back);
+        if !self.follow.is_empty() {
+            drift.extend(drift::inside(rows, u, back, (patches.len(), spacing)));
+        }
+        drift.resize(u.len(), [0.0; D]);
+        drift
     }
 
     /// Pressure and friction in turn, until the normal stress of friction on the surface is that of the velocity.
@@ -306,7 +297,10 @@ impl<const D: usize> Liquid<D> {
                 *r += s;
             }
             effort.add(&equations.solve(&with, &mut self.pressure, rounds.rule))?;
-            let pushed = rounds.pushed(free, &self.pressure);
+            let mut pushed = rounds.pushed(free, &self.pressure);
+            if !self.drag.is_empty() {
+                friction.drag(&mut pushed, |i| self.drag[i].map(|t| t / viscosity));
+            }
             effort.add(&friction.solve(&pushed, &mut self.velocity, rounds.rule))?;
             let slid: Vec<f64> = (0..surface)
                 .map(|s| {
@@ -332,15 +326,6 @@ impl<const D: usize> Liquid<D> {
         }
         effort.unsettled += 1;
         Ok(())
-    }
-
-    /// Velocities of the points of a liquid that moves at `velocity`.
-    fn moved(&self, velocity: &[[f64; D]]) -> Vec<[f64; D]> {
-        let mut moved = velocity.to_vec();
-        for (w, n) in moved.iter_mut().zip(&self.normal) {
-            *w = n.map(|c| c * dot(w, n));
-        }
-        moved
     }
 }
 

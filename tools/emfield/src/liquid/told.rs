@@ -25,6 +25,8 @@ pub struct Totals {
     pub drift: [f64; 3],
     /// Kinetic energy \[J\].
     pub kinetic: f64,
+    /// What points stand for \[m3\].
+    pub volumes: Vec<f64>,
 }
 
 impl Totals {
@@ -50,6 +52,7 @@ impl Totals {
             area: outline.area(),
             drift,
             kinetic,
+            volumes,
         })
     }
 

@@ -8,7 +8,7 @@ use shapes::Shape;
 use shapes::check::{self, Misfit};
 
 use super::faults::PLACE;
-use super::{Domain, Geometry, MagneticField, Scene};
+use super::{Domain, Geometry, LiquidHeat, MagneticField, Scene};
 
 /// How the liquid moves in time.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
@@ -23,14 +23,18 @@ pub struct LiquidMarch {
     pub step_s: Option<f64>,
 }
 
-/// The shape of a drop at rest, found without a march: in a uniform electric field along z, or in the alternating field that
-/// `magnetic` is. It begins as the sphere that `shape` is.
+/// The shape of a drop at rest, found without a march: in a uniform electric field along z, in the alternating field that
+/// `magnetic` is, or on a wall below it. It has the volume of the sphere that `shape` is.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Equilibrium {
     /// Electric field far away; absent in a magnetic field.
     #[schemars(extend("x-unit" = "V/m", "exclusiveMinimum" = 0.0))]
     pub field_v_m: Option<f64>,
+    /// Angle between the outline of the liquid and a wall on which it stands, within the liquid. The wall is horizontal and passes
+    /// through the centre of the sphere; gravity is along z, and upward where the drop hangs.
+    #[schemars(range(min = 1.0, max = 179.0), extend("x-unit" = "deg"))]
+    pub contact_angle_deg: Option<f64>,
     /// Permittivity of the liquid over that of the gas; a conductor when it is absent.
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_permittivity: Option<f64>,
@@ -49,6 +53,10 @@ pub struct ElectricField {
     /// Permittivity of the liquid over that of the gas; a conductor when it is absent.
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_permittivity: Option<f64>,
+    /// Conductivity of the liquid over that of the gas, where charges gather on the surface faster than it moves (Taylor 1966); nothing
+    /// leaks when it is absent.
+    #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub relative_conductivity: Option<f64>,
     /// Charge of a conductor.
     #[schemars(extend("x-unit" = "C"))]
     pub charge_c: Option<f64>,
@@ -92,6 +100,8 @@ pub struct Liquid {
     pub electric: Option<ElectricField>,
     /// Alternating magnetic field in which it moves or rests; none when it is absent.
     pub magnetic: Option<MagneticField>,
+    /// Heat in it; none when it is absent.
+    pub heat: Option<LiquidHeat>,
     /// Motion in time; this or `equilibrium`.
     pub march: Option<LiquidMarch>,
     /// Rest in a field; this or `march`.
@@ -144,6 +154,9 @@ impl Liquid {
         if let Some(magnetic) = &self.magnetic {
             magnetic.check(scene, misfits);
         }
+        if let Some(heat) = &self.heat {
+            heat.check(self, misfits);
+        }
         let fields = scene.electrostatics.is_some() || scene.eddy_currents.is_some();
         if fields {
             let what = "a liquid moves in the field of its key \"electric\" or \"magnetic\" alone: leave \"electrostatics\" and \"eddy_currents\" away";
@@ -169,6 +182,16 @@ impl Liquid {
             let what = "\"electric\" and \"magnetic\" exclude each other";
             misfits.push(Misfit::at("/liquid/electric", what));
         }
+        if electric.relative_conductivity.is_some() {
+            if electric.relative_permittivity.is_none() {
+                let what = "belongs to a dielectric: take \"relative_permittivity\"";
+                misfits.push(Misfit::at("/liquid/electric/relative_conductivity", what));
+            }
+            if self.viscosity_pa_s.is_none() {
+                let what = "charges that leak drag the surface along, and friction alone holds it: take \"viscosity_pa_s\"";
+                misfits.push(Misfit::at("/liquid/electric/relative_conductivity", what));
+            }
+        }
         if electric.charge_c.is_some() && electric.relative_permittivity.is_some() {
             let what = "a dielectric has no free charge: leave \"relative_permittivity\" away";
             misfits.push(Misfit::at("/liquid/electric/charge_c", what));
@@ -178,14 +201,24 @@ impl Liquid {
     /// What a drop at rest in a field is and is not.
     fn check_rest(&self, rest: &Equilibrium, misfits: &mut Vec<Misfit>) {
         let electric = rest.field_v_m.is_some();
-        if electric == self.magnetic.is_some() {
-            let what = "one of \"field_v_m\" and the key \"magnetic\" of the liquid is wanted";
+        let wall = rest.contact_angle_deg.is_some();
+        let given = [electric, wall, self.magnetic.is_some()];
+        if given.iter().filter(|g| **g).count() != 1 {
+            let what = "one of \"field_v_m\", \"contact_angle_deg\" and the key \"magnetic\" of the liquid is wanted";
             misfits.push(Misfit::at("/liquid/equilibrium", what));
         }
         if !electric && (rest.limit || rest.relative_permittivity.is_some()) {
             let what =
                 "\"limit\" and \"relative_permittivity\" belong to \"field_v_m\": leave them away";
             misfits.push(Misfit::at("/liquid/equilibrium", what));
+        }
+        let aslant = self
+            .gravity_m_s2
+            .as_ref()
+            .filter(|g| g.iter().take(2).any(|c| *c != 0.0));
+        if wall && aslant.is_some() {
+            let what = "a drop on a wall is round about z: take gravity along z";
+            misfits.push(Misfit::at("/liquid/gravity_m_s2", what));
         }
         if !matches!(self.shape, Shape::Sphere(_)) {
             let what = "a drop at rest in a field has the volume of a sphere: take \"sphere\"";
@@ -210,6 +243,9 @@ impl Liquid {
         for (k, v) in self.velocity_m_s.iter().flatten().enumerate() {
             let at = format!("/liquid/velocity_m_s/{k}");
             faults.extend(v.compile(&at, &PLACE).err());
+        }
+        if let Some(heat) = &self.heat {
+            heat.formulas(faults);
         }
     }
 }

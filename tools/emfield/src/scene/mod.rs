@@ -11,6 +11,7 @@ pub mod output;
 pub(crate) mod permeability;
 pub mod points;
 pub mod potential;
+pub mod warmth;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -24,6 +25,7 @@ pub use output::Output;
 pub use permeability::Permeability;
 pub use points::{Arrangement, Layers, Points};
 pub use potential::Electrostatics;
+pub use warmth::{LiquidHeat, LiquidMelting, LiquidRadiation};
 
 /// Electric and magnetic fields of bodies.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

@@ -31,6 +31,28 @@ pub fn dielectric(
     normal.map(|n| n * size)
 }
 
+/// Traction \[Pa\] outward and along a surface whose charge is what currents have brought to it, of a liquid of permittivity `s` and
+/// conductivity `ratio` over those outside. Both sides have the same current through the surface and the same `Et`; each is taken
+/// where its error counts least: the current from the lesser conductivity, `Et` from the greater.
+#[must_use]
+pub fn leaky(
+    [s, ratio]: [f64; 2],
+    [inside, outside]: [[f64; 3]; 2],
+    normal: [f64; 3],
+) -> (f64, [f64; 3]) {
+    let (current, rich) = if ratio > 1.0 {
+        (dot(outside, normal), inside)
+    } else {
+        (ratio * dot(inside, normal), outside)
+    };
+    let through = dot(rich, normal);
+    let along: [f64; 3] = std::array::from_fn(|k| rich[k] - through * normal[k]);
+    let inner = current / ratio;
+    let out = current * current - s * inner * inner + (s - 1.0) * dot(along, along);
+    let charge = EPS0 * (current - s * inner);
+    (0.5 * EPS0 * out, along.map(|e| charge * e))
+}
+
 /// Traction \[Pa\] on an electrode from the field outside: `eps E_n^2 / 2` (eq. 2.62).
 #[must_use]
 pub fn electrode(outer: f64, field: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
@@ -61,6 +83,23 @@ mod tests {
         ];
         for k in [0, 2] {
             assert!((a[k] / b[k] - 1.0).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn what_leaks_as_it_is_polarised_is_pulled_like_a_dielectric() {
+        let (normal, s) = ([0.0, 0.6, 0.8], 7.0);
+        let through = 2.0;
+        let along = [3.0, -0.8, 0.6];
+        let at = |factor: f64| std::array::from_fn(|k| along[k] + factor * through * normal[k]);
+        let (out, drag) = leaky([s, s], [at(1.0), at(s)], normal);
+        let wanted = dot(dielectric([s, 1.0], [at(1.0), at(s)], normal), normal);
+        assert!((out / wanted - 1.0).abs() < 1e-12);
+        assert!(drag.iter().all(|t| t.abs() < 1e-12 * out.abs()));
+        // Charge 5 - 7 of the field inside: against the field along the surface.
+        let (_, drag) = leaky([s, 5.0], [at(1.0), at(5.0)], normal);
+        for (t, e) in drag.iter().zip(along) {
+            assert!((t / (-2.0 * EPS0 * through * e) - 1.0).abs() < 1e-12);
         }
     }
 

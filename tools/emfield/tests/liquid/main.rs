@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod field;
+mod heat;
 mod lifted;
 
 use std::f64::consts::PI;

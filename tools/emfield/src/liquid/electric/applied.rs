@@ -12,6 +12,8 @@ pub struct Applied {
     pub field: [f64; 3],
     /// Permittivity over that of the air; none of a conductor.
     pub permittivity: Option<f64>,
+    /// Conductivity over that of the air, where charges gather on the surface at once; none where nothing leaks.
+    pub leak: Option<f64>,
     /// Charge of a conductor \[C\].
     pub charge: f64,
 }
@@ -30,7 +32,7 @@ impl Applied {
         region.places.iter().map(|x| self.at(x, air)).collect()
     }
 
-    /// `div(eps grad V) = 0`, with that potential on the wall far away, and none on a conductor and on points that sleep.
+    /// `div(eps grad V) = 0`, or `div(sigma grad V) = 0` where charges leak, with that potential on the wall far away, and none on a conductor and on points that sleep.
     pub(super) fn problem(&self, region: &Region<3>, air: &Air) -> Problem {
         let held = |(kind, x): (&Kind, &[f64; 3])| match kind {
             Kind::Wall { wall: 0, .. } => Some(Held::Potential(self.at(x, air))),
@@ -40,7 +42,7 @@ impl Applied {
         let mut electrodes = vec![None; usize::from(ASLEEP)];
         electrodes.push(Some(0.0));
         Problem {
-            permittivity: vec![1.0, self.permittivity.unwrap_or(1.0), 1.0],
+            permittivity: vec![1.0, self.leak.or(self.permittivity).unwrap_or(1.0), 1.0],
             electrodes,
             held: region.kinds.iter().zip(&region.places).map(held).collect(),
         }

@@ -9,6 +9,15 @@
 //!
 //! A conductor has the potential that its charge Q asks for: V = V_0 + U V_1, V_1 of unit potential on it and none far away.
 //! There is no tangential traction in either case.
+//!
+//! Where charges leak faster than the liquid moves (Taylor 1966, Melcher and Taylor 1969), `div(sigma grad V) = 0` and the charge of the
+//! surface is `q = eps0 (E_n - S E_n,in)`: with the ratio R of the conductivities `E_n = R E_n,in`, and the surface is pulled by
+//!
+//! ```text
+//! eps0/2 (E_n^2 - S E_n,in^2 + (S - 1) Et^2)    outward,        q E_t    along it.
+//! ```
+//!
+//! That the flow carries the charge is left out: it does where `eps0 u/(sigma R)` of the air and of the liquid are not small.
 
 mod applied;
 mod kept;
@@ -30,7 +39,7 @@ use super::effort::Effort;
 use super::vector::dot;
 use crate::solve::region::{Kind, Region};
 use crate::solve::sides::{Form, Sides};
-use crate::surface::traction::{EPS0, dielectric, electrode};
+use crate::surface::traction::{EPS0, dielectric, electrode, leaky};
 
 /// The points of a field where the liquid is.
 pub struct Stood {
@@ -48,6 +57,8 @@ pub struct Electric {
     state: State,
     /// Potential of the conductor \[V\].
     pub height: f64,
+    /// Traction along the surface \[Pa\]; nothing where nothing leaks.
+    pub drag: Vec<[f64; 3]>,
     /// Points that were awake in the last solve.
     pub awake: u64,
 }
@@ -66,6 +77,7 @@ impl Electric {
             kept: None,
             state: State::default(),
             height: 0.0,
+            drag: Vec::new(),
             awake: 0,
         }
     }
@@ -135,7 +147,9 @@ impl Electric {
         effort: &mut Effort,
     ) -> Result<Vec<f64>, Failure> {
         let potential = self.potential((stood, fitted), how, effort)?;
-        Ok(self.pulls(&stood.region, &fitted.sides, &potential))
+        let (pulls, drag) = self.pulls(&stood.region, &fitted.sides, &potential);
+        self.drag = drag;
+        Ok(pulls)
     }
 
     /// The potential by point \[V\].
@@ -171,24 +185,33 @@ impl Electric {
         Ok(potential)
     }
 
-    /// Tractions of a potential.
-    fn pulls(&self, region: &Region<3>, sides: &Sides<3>, potential: &[f64]) -> Vec<f64> {
+    /// Tractions of a potential: outward, and along the surface where charges leak.
+    fn pulls(
+        &self,
+        region: &Region<3>,
+        sides: &Sides<3>,
+        potential: &[f64],
+    ) -> (Vec<f64>, Vec<[f64; 3]>) {
         let field = |of: &wls::Stencils<3>, i: usize| of.gradient_of(potential, i).map(|g| -g);
         let on = |kind: &&Kind| matches!(kind, Kind::Interface(_) | Kind::Wall { wall: 1, .. });
         // Points of the surface come first.
         let surface = region.kinds.iter().take_while(on).count();
-        let each = (0..surface).map(|i| {
+        let mut drag = Vec::new();
+        let mut pulls = Vec::with_capacity(surface);
+        for i in 0..surface {
             let n = region.wall_normals[i];
-            let pull = match self.applied.permittivity {
-                Some(s) => {
-                    let both = [field(&sides.inner, i), field(&sides.outer, i)];
-                    dielectric([s, 1.0], both, n)
+            let both = || [field(&sides.inner, i), field(&sides.outer, i)];
+            pulls.push(match (self.applied.permittivity, self.applied.leak) {
+                (Some(s), Some(ratio)) => {
+                    let (out, along) = leaky([s, ratio], both(), n);
+                    drag.push(along);
+                    out
                 }
-                None => electrode(1.0, field(sides.at_walls(), i), n),
-            };
-            dot(&pull, &n)
-        });
-        each.collect()
+                (Some(s), None) => dot(&dielectric([s, 1.0], both(), n), &n),
+                (None, _) => dot(&electrode(1.0, field(sides.at_walls(), i), n), &n),
+            });
+        }
+        (pulls, drag)
     }
 }
 

@@ -38,6 +38,7 @@ fn applied(permittivity: Option<f64>) -> Applied {
     Applied {
         field: [0.0, 0.0, FIELD],
         permittivity,
+        leak: None,
         charge: 0.0,
     }
 }

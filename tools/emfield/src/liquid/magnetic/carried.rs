@@ -48,6 +48,8 @@ pub struct Act {
     pub phi: Vec<f64>,
     /// The pull along field lines, by point \[N/m3\].
     pub pull: Vec<[f64; 3]>,
+    /// Heat of currents, by point \[W/m3\]; nothing where it is not asked for.
+    pub heat: Vec<f64>,
 }
 
 /// A flux density on points, with slopes inside the ball.
@@ -57,6 +59,8 @@ pub(super) struct Flux<'a> {
     pub(super) flux: &'a [[C; 3]],
     /// Mean force density \[N/m3\], and what each point stands for \[m3\].
     pub(super) force: (&'a [[f64; 3]], &'a [f64]),
+    /// Heat of currents \[W/m3\]; none where it is not asked for.
+    pub(super) heat: Option<&'a [f64]>,
     /// The drop.
     pub(super) outline: &'a Outline,
     /// `j w mu sigma` of the ball: B obeys `lap B = j w mu sigma B`.
@@ -141,7 +145,35 @@ impl Flux<'_> {
             phi: place.skin.place.iter().map(phi).collect(),
             pressure: both.clone().map(|c| c[0]).collect(),
             pull: both.map(|c| [c[1], c[2], c[3]]).collect(),
+            heat: self
+                .heat
+                .map_or_else(Vec::new, |heat| self.warms((&all, heat), place)),
         }
+    }
+
+    /// Heat at points of the liquid: the mean over the points of the field that are nearest to each, which resolve the skin.
+    fn warms(&self, (all, heat): (&[usize], &[f64]), place: Place<'_>) -> Vec<f64> {
+        let points = [place.skin.place, place.inside].concat();
+        let tree = Tree::new(&points);
+        let (_, weights) = self.force;
+        let mut sums = vec![[0.0; 2]; points.len()];
+        for &i in all {
+            if let Some(own) = tree.nearest(self.region.places[i]) {
+                sums[own] = along(&sums[own], weights[i], &[heat[i], 1.0]);
+            }
+        }
+        let stand: Vec<[f64; 3]> = all.iter().map(|i| self.region.places[*i]).collect();
+        let field = Tree::new(&stand);
+        let nearest = |x: &[f64; 3]| field.nearest(*x).map_or(0.0, |k| heat[all[k]]);
+        let each = sums.iter().zip(&points);
+        each.map(|([q, volume], x)| {
+            if *volume > 0.0 {
+                q / volume
+            } else {
+                nearest(x)
+            }
+        })
+        .collect()
     }
 
     fn degree(&self) -> usize {

@@ -75,6 +75,8 @@ pub struct Magnetic {
     pub totals: Totals,
     /// Greatest current through the surface over the greatest along it.
     pub out: f64,
+    /// Whether its heat is asked for at points of the liquid.
+    pub warms: bool,
 }
 
 impl Magnetic {
@@ -94,6 +96,7 @@ impl Magnetic {
             state: State::default(),
             totals: Totals::default(),
             out: 0.0,
+            warms: false,
         }
     }
 
@@ -199,6 +202,7 @@ impl Magnetic {
             sides,
             flux: &fields.flux,
             force: (&fields.force, weights),
+            heat: self.warms.then_some(fields.heat.as_slice()),
             outline,
             rate: C::new(0.0, drive.omega * self.conductors.mu_sigma[1]),
         };

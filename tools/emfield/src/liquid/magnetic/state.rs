@@ -13,6 +13,7 @@ const SOLUTION: &str = "vector_potential";
 const ORIGIN: [&str; 3] = ["field_surface", "field_normal", "field_centre"];
 const COUNTS: &str = "field_factors";
 const TOTALS: &str = "field_force";
+const HEAT: &str = "field_heat";
 
 /// Solution, and where the liquid was when factors were made.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -60,6 +61,7 @@ impl Magnetic {
         let worn = u64::from(state.worn);
         checkpoint.put_u64(COUNTS, &[state.renewed, state.first, worn]);
         checkpoint.put_vectors(TOTALS, &[self.totals.force_coil]);
+        checkpoint.put_f64(HEAT, &[self.totals.heat_volume]);
     }
 
     /// Goes on from a checkpoint, of a surface whose points are so far apart \[m\].
@@ -79,6 +81,7 @@ impl Magnetic {
         if let [force] = checkpoint.vectors(TOTALS)?[..] {
             self.totals.force_coil = force;
         }
+        self.totals.heat_volume = checkpoint.f64(HEAT)?.first().copied().unwrap_or(0.0);
         let [place, normal, centre] = &self.state.origin;
         let skin = Skin {
             place,

@@ -1,0 +1,43 @@
+//! What a liquid is made of, and how its steps are taken.
+
+use krylov::Rule;
+
+/// What the liquid is made of and what acts on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matter<const D: usize> {
+    /// Density \[kg/m3\].
+    pub density: f64,
+    /// Viscosity \[Pa s\]; none where it is absent.
+    pub viscosity: Option<f64>,
+    /// Surface tension \[N/m\].
+    pub tension: f64,
+    /// Pressure of the gas around \[Pa\].
+    pub gas: f64,
+    /// Acceleration of gravity \[m/s2\].
+    pub gravity: [f64; D],
+}
+
+/// How steps are taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Way {
+    /// Distance of points \[m\].
+    pub spacing: f64,
+    /// Degree of the fits.
+    pub order: u8,
+    /// Residual of solves.
+    pub tolerance: f64,
+    /// Most products of a solve.
+    pub products: usize,
+}
+
+impl Way {
+    /// When solves end.
+    #[must_use]
+    pub fn rule(&self) -> Rule<'static> {
+        Rule {
+            reduction: self.tolerance,
+            products: self.products,
+            ..Rule::default()
+        }
+    }
+}
