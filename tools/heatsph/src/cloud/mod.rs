@@ -108,11 +108,13 @@ impl Cloud {
 
     fn fitted(body: &Body, points: &Points, dimensions: usize) -> Result<Self, CloudError> {
         let primitive = body.single().ok_or(CloudError::NotSingle)?;
-        let mut cloud = match primitive.kind {
-            Kind::Box(half) => lattice::fill(half, points, dimensions),
-            Kind::Cylinder { radius, half } => rings::fill(radius, half, points, dimensions),
-            Kind::Ball(radius) => shells::fill(radius, points),
-            Kind::Ellipsoid(_) | Kind::HalfSpace => return Err(CloudError::NotSingle),
+        let mut cloud = match &primitive.kind {
+            &Kind::Box(half) => lattice::fill(half, points, dimensions),
+            &Kind::Cylinder { radius, half } => rings::fill(radius, half, points, dimensions),
+            &Kind::Ball(radius) => shells::fill(radius, points),
+            Kind::Ellipsoid(_) | Kind::HalfSpace | Kind::Mesh(_) => {
+                return Err(CloudError::NotSingle);
+            }
         };
         for x in &mut cloud.position {
             *x = primitive.frame.place(*x);

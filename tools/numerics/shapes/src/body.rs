@@ -4,9 +4,12 @@
 //! its parts' (a lower bound of the true distance, with the right sign everywhere), which is all that the
 //! arrangement of points and the search for surfaces ask for.
 
+use std::sync::Arc;
+
 use crate::ellipsoid::Ellipsoid;
 use crate::frame::{Frame, Vector, along, direction, length};
-use crate::shape::{EllipsoidShape, Shape};
+use crate::mesh::Mesh;
+use crate::shape::{EllipsoidShape, Shape, Stl};
 
 /// What a primitive is, in its own frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +29,8 @@ pub enum Kind {
     Ellipsoid(Ellipsoid),
     /// All below the plane of its x and y.
     HalfSpace,
+    /// A closed surface of triangles about the origin of the frame.
+    Mesh(Arc<Mesh>),
 }
 
 /// A primitive where it stands.
@@ -63,16 +68,17 @@ impl Primitive {
     #[must_use]
     pub fn distance(&self, x: Vector) -> f64 {
         let q = self.frame.own(x);
-        match self.kind {
+        match &self.kind {
             Kind::Box(half) => rectangular([0, 1, 2].map(|k| q[k].abs() - half[k])),
             Kind::Cylinder { radius, half } => rectangular([
-                q[0].hypot(q[1]) - radius,
-                q[2].abs() - half,
+                q[0].hypot(q[1]) - *radius,
+                q[2].abs() - *half,
                 f64::NEG_INFINITY,
             ]),
-            Kind::Ball(radius) => length(q) - radius,
+            Kind::Ball(radius) => length(q) - *radius,
             Kind::Ellipsoid(e) => e.distance(q),
             Kind::HalfSpace => q[2],
+            Kind::Mesh(mesh) => mesh.distance(q),
         }
     }
 
@@ -103,18 +109,22 @@ impl Primitive {
                 frame.origin = along(frame.origin, by, frame.axes[2]);
                 true
             }
+            // Its triangles would part.
+            Kind::Mesh(_) => false,
         };
         left.then_some(grown)
     }
 
     /// Corners of a box that holds it \[m\]; infinite where it has no end.
     fn bounds(&self) -> [Vector; 2] {
-        let half = match self.kind {
-            Kind::Box(half) => half,
-            Kind::Cylinder { radius, half } => [radius, radius, half],
-            Kind::Ball(radius) => [radius; 3],
+        let half = match &self.kind {
+            Kind::Box(half) => *half,
+            Kind::Cylinder { radius, half } => [*radius, *radius, *half],
+            Kind::Ball(radius) => [*radius; 3],
             Kind::Ellipsoid(e) => e.half.map(|h| h + e.beyond),
             Kind::HalfSpace => [f64::INFINITY; 3],
+            // Its frame stands in the middle of the box around it.
+            Kind::Mesh(mesh) => mesh.bounds()[1],
         };
         let reach: Vector = std::array::from_fn(|k| {
             let part = |axis: usize| {
@@ -125,7 +135,7 @@ impl Primitive {
                     0.0
                 }
             };
-            match self.kind {
+            match &self.kind {
                 Kind::Ellipsoid(e) => {
                     let own = [0, 1, 2].map(|a| part(a) - e.beyond * self.frame.axes[a][k].abs());
                     length(own) + e.beyond
@@ -270,6 +280,21 @@ fn vector(coordinates: &[f64]) -> Vector {
     std::array::from_fn(|k| coordinates.get(k).copied().unwrap_or(0.0))
 }
 
+/// A surface about the middle of the box around it, and that middle \[m\].
+fn surface(stl: &Stl) -> (Mesh, Vector) {
+    let mut vertices = stl.vertices_m.clone().unwrap_or_default();
+    let triangles = stl.triangles.clone().unwrap_or_default();
+    let end =
+        |k: usize, of: fn(f64, f64) -> f64, from: f64| vertices.iter().map(|v| v[k]).fold(from, of);
+    let middle: Vector = std::array::from_fn(|k| {
+        0.5 * (end(k, f64::min, f64::INFINITY) + end(k, f64::max, f64::NEG_INFINITY))
+    });
+    for vertex in &mut vertices {
+        *vertex = along(*vertex, -1.0, middle);
+    }
+    (Mesh::new(vertices, triangles), middle)
+}
+
 impl Builder<'_> {
     fn leaf(&mut self, frame: Frame, kind: Kind, name: Option<&String>, cut: bool) -> Tree {
         self.primitives.push(Primitive {
@@ -324,6 +349,12 @@ impl Builder<'_> {
             Shape::HalfSpace(h) => {
                 let frame = Frame::facing(vector(&h.point_m), vector(&h.normal)).within(outer);
                 self.leaf(frame, Kind::HalfSpace, h.name.as_ref(), cut)
+            }
+            Shape::Stl(stl) => {
+                let (mesh, middle) = surface(stl);
+                let origin = stl.at_m.as_deref().map_or([0.0; 3], vector);
+                let frame = at(along(origin, 1.0, middle)).within(outer);
+                self.leaf(frame, Kind::Mesh(Arc::new(mesh)), stl.name.as_ref(), cut)
             }
             Shape::Turned(t) => {
                 let about = t.about_m.as_deref().map_or([0.0; 3], vector);

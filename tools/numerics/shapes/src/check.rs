@@ -1,6 +1,7 @@
 //! What the schema of a shape cannot tell.
 
-use crate::shape::{BoxShape, EllipsoidShape, Shape};
+use crate::mesh;
+use crate::shape::{BoxShape, EllipsoidShape, Shape, Stl};
 
 /// Something that is wrong with a shape, and where in the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -70,6 +71,10 @@ pub fn check(shape: &Shape, at: &str, dimensions: usize, faults: &mut Vec<Misfit
                 ));
             }
         }
+        Shape::Stl(stl) => {
+            only_in_space("surface of triangles", faults);
+            closed(stl, &format!("{at}/stl"), faults);
+        }
         Shape::Turned(t) => {
             let at = format!("{at}/turned");
             if dimensions == 2 && t.axis.index() != 2 {
@@ -87,6 +92,15 @@ pub fn check(shape: &Shape, at: &str, dimensions: usize, faults: &mut Vec<Misfit
         Shape::Intersection(all) => parts(all, &format!("{at}/intersection"), dimensions, faults),
         Shape::Difference(all) => parts(all, &format!("{at}/difference"), dimensions, faults),
     }
+}
+
+fn closed(stl: &Stl, at: &str, faults: &mut Vec<Misfit>) {
+    let what = match (&stl.vertices_m, &stl.triangles) {
+        (Some(vertices), Some(triangles)) => mesh::open(vertices, triangles),
+        _ => Some("has not been read".to_owned()),
+    };
+    let named = |what| Misfit::at(&format!("{at}/file"), format!("{} {what}", stl.file));
+    faults.extend(what.map(named));
 }
 
 fn corners(b: &BoxShape, at: &str, dimensions: usize, faults: &mut Vec<Misfit>) {

@@ -2,7 +2,8 @@
 
 use crate::body::{Kind, Primitive};
 use crate::ellipsoid::Ellipsoid;
-use crate::frame::{Frame, Vector};
+use crate::frame::{Frame, Vector, along, cross, difference, direction, length};
+use crate::mesh::Mesh;
 
 /// The shape of a face in the primitive's frame, with its two parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +18,8 @@ pub(crate) enum Sheet {
     Globe,
     /// Two lengths in the plane.
     Plane,
+    /// Number of a triangle; shares of the way from its first corner to the edge across, and of that edge.
+    Facet(usize),
 }
 
 /// A face of a primitive.
@@ -37,8 +40,8 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
         range,
         lengths,
     };
-    match primitive.kind {
-        Kind::Box(half) => {
+    match &primitive.kind {
+        &Kind::Box(half) => {
             const LABELS: [[&str; 2]; 3] = [["x-", "x+"], ["y-", "y+"], ["z-", "z+"]];
             let sides = (0..dimensions).flat_map(|axis| [(axis, 0), (axis, 1)]);
             sides
@@ -54,7 +57,7 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
                 })
                 .collect()
         }
-        Kind::Cylinder { radius, half } if dimensions == 3 => {
+        &Kind::Cylinder { radius, half } if dimensions == 3 => {
             let half = half.min(reach);
             let side = [[0.0, TAU], [-half, half]];
             let end = [[0.0, radius], [0.0, TAU]];
@@ -64,11 +67,11 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
             }
             all
         }
-        Kind::Cylinder { radius, .. } => {
+        &Kind::Cylinder { radius, .. } => {
             let range = [[0.0, TAU], [-0.5, 0.5]];
             vec![face(Sheet::Side, "rim", range, [TAU * radius, 1.0])]
         }
-        Kind::Ball(radius) => {
+        &Kind::Ball(radius) => {
             let lengths = [TAU * radius, 0.5 * TAU * radius];
             vec![face(
                 Sheet::Globe,
@@ -77,7 +80,8 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
                 lengths,
             )]
         }
-        Kind::Ellipsoid(e) => vec![skin(&e, dimensions)],
+        Kind::Ellipsoid(e) => vec![skin(e, dimensions)],
+        Kind::Mesh(mesh) => (0..mesh.len()).map(|t| facet(mesh, t)).collect(),
         Kind::HalfSpace => {
             let second = if dimensions == 3 { reach } else { 0.5 };
             let range = [[-reach, reach], [-second, second]];
@@ -88,6 +92,18 @@ pub(crate) fn faces(primitive: &Primitive, dimensions: usize, reach: f64) -> Vec
                 [2.0 * reach, 2.0 * second],
             )]
         }
+    }
+}
+
+/// A triangle as a face.
+fn facet(mesh: &Mesh, number: usize) -> Face {
+    let [a, b, c] = mesh.corners(number);
+    let far = length(difference(b, a)).max(length(difference(c, a)));
+    Face {
+        sheet: Sheet::Facet(number),
+        label: "surface",
+        range: [[0.0, 1.0]; 2],
+        lengths: [far, length(difference(c, b))],
     }
 }
 
@@ -154,6 +170,13 @@ impl Face {
                 let normal = [across * cosine, across * sine, v];
                 (normal.map(|n| radius * n), normal, radius * radius)
             }
+            (Sheet::Facet(t), Kind::Mesh(mesh)) => {
+                let [a, b, c] = mesh.corners(t);
+                let (ab, bc) = (difference(b, a), difference(c, b));
+                let twice = cross(ab, bc);
+                let place = along(along(a, u, ab), u * v, bc);
+                (place, direction(twice), u * length(twice))
+            }
             // The plane of a half space holds z in a plane scene: its line is along the other axis.
             _ => ([u, high, 0.0], [0.0, 0.0, 1.0], 1.0),
         }
@@ -175,7 +198,7 @@ impl Face {
         match self.sheet {
             Sheet::Side | Sheet::Globe => parameter == 0,
             Sheet::End(_) => parameter == 1,
-            Sheet::Flat(..) | Sheet::Plane => false,
+            Sheet::Flat(..) | Sheet::Plane | Sheet::Facet(_) => false,
         }
     }
 
@@ -190,8 +213,8 @@ impl Face {
         let (_, normal, density) = self.at((kind, frame), middle, dimensions);
         let area = density * (u[1] - u[0]) * (v[1] - v[0]);
         let mut heavy = middle;
-        if let Sheet::End(_) = self.sheet {
-            // Radius of the middle of a ring's sector.
+        if let Sheet::End(_) | Sheet::Facet(_) = self.sheet {
+            // Radius of the middle of a ring's sector, or of a strip that narrows towards a corner.
             heavy[0] = 2.0 / 3.0 * (u[0] * u[0] + u[0] * u[1] + u[1] * u[1]) / (u[0] + u[1]);
         }
         let (place, ..) = self.at((kind, frame), heavy, dimensions);

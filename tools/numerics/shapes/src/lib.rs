@@ -1,8 +1,8 @@
-//! Shapes: boxes, cylinders, balls, ellipsoids and what is composed of them.
+//! Shapes: boxes, cylinders, balls, ellipsoids, closed surfaces of triangles and what is composed of them.
 //!
 //! - [`shape`] is how a scene writes them, [`check`] what its types cannot tell;
 //! - [`body`] knows how far a place is from the surface, with sign, and which way the surface looks;
-//! - [`ellipsoid`] finds the nearest place of an ellipsoid;
+//! - [`ellipsoid`] finds the nearest place of an ellipsoid, [`mesh`] that of a closed surface of triangles;
 //! - [`surface`] divides the surface into pieces with area and normal, [`rule`] knows places and weights of integrals
 //!   over it;
 //! - [`frame`] holds the little vector algebra that all of them need.
@@ -12,10 +12,12 @@ pub mod check;
 pub mod ellipsoid;
 mod face;
 pub mod frame;
+pub mod mesh;
 pub mod rule;
 pub mod shape;
 pub mod surface;
 
 pub use body::{Body, Kind, Primitive};
 pub use ellipsoid::Ellipsoid;
+pub use mesh::Mesh;
 pub use shape::Shape;

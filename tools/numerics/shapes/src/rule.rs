@@ -24,11 +24,11 @@ pub fn rule(body: &Body, dimensions: usize, spacing: f64) -> Vec<Piece> {
 }
 
 fn ends(primitive: &Primitive) -> bool {
-    match primitive.kind {
+    match &primitive.kind {
         Kind::Box(half) => half.iter().all(|h| h.is_finite()),
         Kind::Cylinder { half, .. } => half.is_finite(),
         Kind::Ball(_) | Kind::Ellipsoid(_) => true,
-        Kind::HalfSpace => false,
+        Kind::HalfSpace | Kind::Mesh(_) => false,
     }
 }
 

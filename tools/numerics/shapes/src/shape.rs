@@ -1,10 +1,10 @@
 //! Shapes of bodies, regions and parts of faces, as a scene writes them.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A coordinate axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// Along x.
@@ -24,7 +24,7 @@ impl Axis {
 }
 
 /// A box along the axes; faces `x-`, `x+`, `y-`, `y+`, `z-`, `z+`.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxShape {
     /// Name, which its faces carry in front: `plate.x-`.
@@ -38,7 +38,7 @@ pub struct BoxShape {
 }
 
 /// A round bar along an axis; faces `side`, `bottom`, `top`.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Name, which its faces carry in front.
@@ -62,7 +62,7 @@ fn along_z() -> Axis {
 }
 
 /// A disc of a plane scene; face `rim`. In space: an endless bar along z.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
     /// Name, which its faces carry in front.
@@ -76,7 +76,7 @@ pub struct Disc {
 }
 
 /// A ball; face `surface`.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Name, which its faces carry in front.
@@ -91,7 +91,7 @@ pub struct Sphere {
 
 /// An ellipsoid with axes along those of the scene, or turned; face `surface`. An ellipse in a plane scene, face `rim`; about an
 /// axis, and centred on it, the section of a spheroid.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EllipsoidShape {
     /// Name, which its faces carry in front.
@@ -105,7 +105,7 @@ pub struct EllipsoidShape {
 }
 
 /// All that lies behind a plane; face `plane`.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpace {
     /// Name, which its faces carry in front.
@@ -118,8 +118,44 @@ pub struct HalfSpace {
     pub normal: Vec<f64>,
 }
 
+/// Unit of the lengths in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LengthUnit {
+    /// Millimetres.
+    Mm,
+    /// Centimetres.
+    Cm,
+    /// Metres.
+    M,
+    /// Inches.
+    Inch,
+}
+
+/// A closed surface of triangles from a file (STL, text or binary); face `surface`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stl {
+    /// Name, which its face carries in front.
+    pub name: Option<String>,
+    /// The file, beside the scene.
+    pub file: String,
+    /// Unit of its lengths: the file does not say it.
+    pub unit: LengthUnit,
+    /// Where its origin is; the scene's when it is absent.
+    #[schemars(extend("x-unit" = "m"), length(min = 3, max = 3))]
+    pub at_m: Option<Vec<f64>>,
+    /// Hash of the file as it was read; told by artefacts.
+    pub sha256: Option<String>,
+    /// Corners of its triangles as they were read; told by artefacts, which can be run again without the file.
+    #[schemars(extend("x-unit" = "m"))]
+    pub vertices_m: Option<Vec<[f64; 3]>>,
+    /// Its triangles, by numbers of corners; told by artefacts.
+    pub triangles: Option<Vec<[usize; 3]>>,
+}
+
 /// A shape turned about an axis through a place.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Turned {
     /// What is turned.
@@ -135,7 +171,7 @@ pub struct Turned {
 }
 
 /// A shape, named after what it is: `{"box": {...}}`.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A box along the axes.
@@ -150,6 +186,8 @@ pub enum Shape {
     Ellipsoid(EllipsoidShape),
     /// All behind a plane.
     HalfSpace(HalfSpace),
+    /// A closed surface from a file.
+    Stl(Stl),
     /// A shape turned.
     Turned(Turned),
     /// What is in any of the shapes.
