@@ -174,6 +174,8 @@ fn an_arc() {
                 *spacing = json!(coarse * spacing.as_f64().unwrap());
             }
         }
+        let steel = root.join("pipelines/materials/mild-steel-electrode.json");
+        scene["substances"]["steel"]["file"] = json!(steel);
         let expected = Expected {
             kind: "arcfvm.scene",
             version: 1,

@@ -210,6 +210,10 @@ fn scenes(campaign: &Campaign) -> Result<Vec<Scene>, String> {
     for path in paths {
         let text =
             std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        // A changed scene stands elsewhere; what it names stays where it is.
+        let folder = path.parent().unwrap_or(&campaign.root);
+        let beside = format!("\"file\": \"{}/../", folder.display());
+        let text = text.replace("\"file\": \"../", &beside);
         let value: Value =
             serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))?;
         let kind = value["kind"].as_str().unwrap_or_default();

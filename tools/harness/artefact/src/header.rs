@@ -15,6 +15,9 @@ use crate::version::Version;
 /// Name of the metadata record that makes an MCAP file one of ours.
 pub const METADATA: &str = "fusionline";
 
+/// Key of a recorded scene that named files: the hash of the scene as it was written, before what it names was read.
+pub const WRITTEN: &str = "written_sha256";
+
 /// Kinds of artefacts, each with its major version and the stages that write it.
 pub const KINDS: [(&str, u32, &[&str]); 7] = [
     ("arc-source", 1, &["arcfvm"]),

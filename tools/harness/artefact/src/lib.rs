@@ -72,7 +72,7 @@ pub use checkpoint::Checkpoint;
 pub use contents::Channel;
 pub use error::{Error, Result};
 pub use frame::{Column, Frame};
-pub use header::{Header, Identity, KINDS, METADATA, canonical, sha256, sha256_file};
+pub use header::{Header, Identity, KINDS, METADATA, WRITTEN, canonical, sha256, sha256_file};
 pub use json::{json_artefact, json_error, json_text};
 pub use key_unit::{KEY_UNITS, unit_of_key};
 pub use lattice::even_step;

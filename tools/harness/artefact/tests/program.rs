@@ -443,6 +443,38 @@ fn verify_hash_compares_scene_patches_and_inputs() {
 }
 
 #[test]
+fn a_scene_that_names_files_is_known_by_what_was_written() {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("materials")).unwrap();
+    let sheet = folder.path().join("materials/steel.json");
+    std::fs::write(&sheet, "a sheet").unwrap();
+    let written = serde_json::json!({
+        "kind": "poolsph.scene", "version": 1,
+        "substances": {"steel": {"file": "materials/steel.json"}}, "density_kg_m3": "steel"
+    });
+    let base = folder.path().join("scene.json");
+    std::fs::write(&base, written.to_string()).unwrap();
+    let mut header = header();
+    header.scene = serde_json::json!({
+        "kind": "poolsph.scene", "version": 1, "density_kg_m3": 7850,
+        "substances": {"steel": {"from": "materials/steel.json", "sha256": artefact::sha256(b"a sheet")}},
+        "written_sha256": artefact::sha256(artefact::canonical(&written).as_bytes())
+    });
+    let path = folder.path().join("named.mcap");
+    let mut writer = Writer::create(&path, &header).unwrap();
+    fill(&mut writer, 0.0);
+    writer.finish().unwrap();
+    let all = ["verify-hash", text(&path), "--scene", text(&base)];
+    let told = artefact(&all);
+    assert_eq!(told.code, 0, "{}{}", told.out, told.err);
+    assert!(told.out.contains("steel.json"), "{}", told.out);
+    std::fs::write(&sheet, "another sheet").unwrap();
+    let told = artefact(&all);
+    assert_eq!(told.code, 1, "{}", told.out);
+    assert!(told.out.contains("differs"), "{}", told.out);
+}
+
+#[test]
 fn export_takes_the_channels_and_messages_asked_for() {
     let folder = folder();
     let path = sample(folder.path(), "a.mcap", 0.0);

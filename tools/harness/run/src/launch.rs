@@ -20,7 +20,7 @@ use crate::plan::{Plan, bytes, duration};
 use crate::progress::Style;
 use crate::ready::{Ready, guarded, placed, prepare, read};
 use crate::record::RunRecord;
-use crate::scene::{schema_of, schema_text};
+use crate::scene::{named, schema_of, schema_text};
 use crate::session::{Opening, Session};
 use crate::tool::{Tool, expected};
 
@@ -39,7 +39,7 @@ pub fn main<T: Tool>() -> ExitCode {
         }
     };
     let done = match line.action {
-        Action::Schema => print(&schema_text(&schema_of::<T::Scene>(expected::<T>()))),
+        Action::Schema => print(&schema_text(&named(schema_of::<T::Scene>(expected::<T>())))),
         Action::Check(check) => check_scene::<T>(&check),
         Action::Run(run) => run_scene::<T>(run),
     };

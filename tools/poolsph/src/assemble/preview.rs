@@ -185,12 +185,15 @@ mod tests {
             env!("CARGO_MANIFEST_DIR"),
             "/../../pipelines/gmaw-300a/pool.json"
         );
-        let text = std::fs::read_to_string(path).unwrap();
-        let mut value: serde_json::Value = serde_json::from_str(&text).unwrap();
-        for key in ["$schema", "kind", "version", "comment"] {
-            value.as_object_mut().unwrap().remove(key);
-        }
-        let scene: Scene = serde_json::from_value(value).unwrap();
+        let (kind, version) = crate::scene::KIND;
+        let expected = run::scene::Expected {
+            kind,
+            version,
+            migrations: &[],
+        };
+        let schema = run::scene::schema_of::<Scene>(expected);
+        let loaded = run::scene::load::<Scene>(path.as_ref(), &[], &schema, expected);
+        let scene = loaded.unwrap().scene;
         let preview = preview(&scene, &Inputs::none()).unwrap();
         assert_eq!(preview.spots().len(), 40 * 130 * 10);
         let names: Vec<&str> = (preview.look.marks.iter())

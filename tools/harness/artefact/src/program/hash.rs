@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use artefact::{canonical, json_error, sha256, sha256_file};
+use artefact::{WRITTEN, canonical, json_error, sha256, sha256_file};
 use serde_json::{Map, Value};
 
 use super::open::open;
@@ -64,7 +64,22 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
         Some(path) => Some((scene_hash(path, &arguments.patch)?, path.as_path())),
         None => None,
     };
-    compare("scene", &header.scene_sha256(), scene)?;
+    // A scene that names files is known by what was written; the files that it names are compared beside it.
+    let own = header.scene_sha256();
+    let recorded = header.scene.get(WRITTEN).and_then(Value::as_str);
+    compare("scene", recorded.unwrap_or(&own), scene)?;
+    for (name, file, recorded) in named(&header.scene) {
+        let beside = arguments.scene.iter().chain(&arguments.patch);
+        let path = beside
+            .map(|scene| scene.parent().unwrap_or(Path::new("")).join(&file))
+            .chain([PathBuf::from(&file)])
+            .find(|path| path.is_file());
+        let found = match (&arguments.scene, &path) {
+            (Some(_), Some(path)) => Some((sha256_file(path)?, path.as_path())),
+            _ => None,
+        };
+        compare(&name, &recorded, found)?;
+    }
     for (name, recorded) in &header.inputs {
         let given = arguments.input.iter().find(|(n, _)| n == name);
         let found = match given {
@@ -85,6 +100,25 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
         }
     }
     Ok(Verdict::from_good(good))
+}
+
+/// The files that a recorded scene was read from: what each is, its name beside the scene, its hash.
+fn named(scene: &Value) -> Vec<(String, String, String)> {
+    let mut found = Vec::new();
+    match scene {
+        Value::Object(map) => {
+            let word = |key: &str| map.get(key)?.as_str().map(str::to_owned);
+            let file = word("from").or_else(|| word("file"));
+            if let (Some(file), Some(hash)) = (file, word("sha256")) {
+                let name = Path::new(&file).file_name().unwrap_or_default();
+                found.push((name.to_string_lossy().into_owned(), file, hash));
+            }
+            found.extend(map.values().flat_map(named));
+        }
+        Value::Array(list) => found.extend(list.iter().flat_map(named)),
+        _ => {}
+    }
+    found
 }
 
 fn scene_hash(path: &Path, patches: &[PathBuf]) -> Result<String, Trouble> {

@@ -7,8 +7,12 @@ mod origin;
 mod patch;
 pub(crate) mod quantity;
 mod schema;
+mod sheet;
+mod substance;
 mod suggest;
+mod surface;
 mod validate;
+mod wanted;
 mod whole;
 mod words;
 
@@ -22,6 +26,8 @@ use crate::failure::Failure;
 use crate::fault::Fault;
 pub use migrate::Migration;
 pub use schema::{schema_of, schema_text};
+pub use sheet::{SHEET, Substance, sheet_schema};
+pub use substance::named;
 pub use suggest::nearest;
 
 use origin::Document;
@@ -85,6 +91,16 @@ fn typed<S: DeserializeOwned>(
 ) -> Result<Loaded<S>, Failure> {
     check_kind(&merged, expected)?;
     let migrated = migrate::migrate(&mut merged, expected)?;
+    let written = merged.value().clone();
+    let mut unfilled = substance::fill(&mut merged, schema)?;
+    unfilled.extend(surface::fill(&mut merged, schema));
+    if *merged.value() != written {
+        let hash = artefact::sha256(artefact::canonical(&written).as_bytes());
+        merged.set(artefact::WRITTEN, hash.into());
+    }
+    if !unfilled.is_empty() {
+        return Err(Failure::Scene(located(unfilled, &merged)));
+    }
     let mut faults = validate::faults(&whole::bounded(schema.clone()), merged.value());
     let more = quantity::faults(merged.value()).into_iter();
     faults.extend(

@@ -1,7 +1,7 @@
 //! JSON Merge Patches (RFC 7386) that remember which file set each value.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
@@ -9,10 +9,15 @@ use super::origin::{Document, Place, escaped};
 use crate::failure::Failure;
 use crate::fault::{Fault, Spot};
 
+/// Where a file begins.
+const ROOT: Place = Place { key: 0, value: 0 };
+
 /// A scene with its patches applied; every value knows its file.
 #[derive(Debug)]
 pub struct Merged {
     documents: Vec<Document>,
+    /// Of these the scene and its patches; behind them files that they name.
+    written: usize,
     value: Value,
     origins: BTreeMap<String, (usize, Place)>,
 }
@@ -28,6 +33,7 @@ impl Merged {
             value: document.value.clone(),
             origins,
             documents: vec![document],
+            written: 1,
         }
     }
 
@@ -47,7 +53,7 @@ impl Merged {
 
     /// The patches in words: ", as A.json and B.json patch it"; nothing where there are none.
     pub(crate) fn patched(&self) -> String {
-        let names = self.documents[1..].iter();
+        let names = self.documents[1..self.written].iter();
         let names: Vec<String> = names.map(|d| d.path.display().to_string()).collect();
         if names.is_empty() {
             return String::new();
@@ -82,6 +88,63 @@ impl Merged {
         };
         merge.value(&mut self.value, &patch.value, "");
         self.documents.push(patch);
+        self.written = self.documents.len();
+    }
+
+    /// The path of a file that the value at a pointer names: beside the file that the value is in, or else from where the
+    /// program runs, as patches that are written into build folders have it.
+    pub(crate) fn beside(&self, pointer: &str, file: &str) -> PathBuf {
+        let (by, _) = self.origins.get(pointer).copied().unwrap_or((0, ROOT));
+        let folder = self.documents[by].path.parent();
+        let beside = folder.unwrap_or(Path::new("")).join(file);
+        if !beside.exists() && Path::new(file).exists() {
+            return file.into();
+        }
+        beside
+    }
+
+    /// Takes in a file whose values the scene shall have; gives its number.
+    pub(crate) fn adopt(&mut self, file: Document) -> usize {
+        self.documents.push(file);
+        self.documents.len() - 1
+    }
+
+    /// Adds a key to the object at a pointer; its origin is that of the object.
+    pub(crate) fn add(&mut self, pointer: &str, key: &str, value: Value) {
+        if let Some(Value::Object(map)) = self.value.pointer_mut(pointer) {
+            map.insert(key.to_owned(), value);
+        }
+    }
+
+    /// Replaces the value at a pointer by one that stands in another file at `source`, or in the scene itself.
+    pub(crate) fn put(&mut self, pointer: &str, value: Value, file: Option<usize>, source: &str) {
+        let inside = format!("{source}/");
+        let from: Vec<(String, (usize, Place))> = match file {
+            Some(file) => self.documents[file]
+                .places
+                .iter()
+                .map(|(at, &place)| (at.clone(), (file, place)))
+                .collect(),
+            None => self.origins.clone().into_iter().collect(),
+        };
+        for (at, origin) in from {
+            if at == source || at.starts_with(&inside) {
+                let target = format!("{pointer}{}", &at[source.len()..]);
+                self.origins.insert(target, origin);
+            }
+        }
+        let (around, key) = pointer.rsplit_once('/').unwrap_or(("", pointer));
+        match self.value.pointer_mut(around) {
+            Some(Value::Object(map)) => {
+                map.insert(key.replace("~1", "/").replace("~0", "~"), value);
+            }
+            Some(Value::Array(list)) => {
+                if let Some(entry) = key.parse::<usize>().ok().and_then(|i| list.get_mut(i)) {
+                    *entry = value;
+                }
+            }
+            _ => {}
+        }
     }
 
     /// Where the value at a pointer was set, or its nearest ancestor.

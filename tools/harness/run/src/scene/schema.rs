@@ -5,8 +5,18 @@ use serde_json::{Map, Value, json};
 
 use super::{Expected, names};
 
+/// The key of a scene that names its substances.
+pub(super) const SUBSTANCES: &str = "substances";
+
 /// Keys that every scene has or may have besides those of its type.
-pub(crate) const ENVELOPE: [&str; 4] = ["kind", "version", "$schema", "comment"];
+pub(crate) const ENVELOPE: [&str; 6] = [
+    "kind",
+    "version",
+    "$schema",
+    "comment",
+    SUBSTANCES,
+    artefact::WRITTEN,
+];
 
 /// The schema of a scene type with kind and version.
 #[must_use]
@@ -38,6 +48,13 @@ pub fn schema_of<S: JsonSchema>(expected: Expected) -> Value {
                 "comment".to_owned(),
                 json!({"type": "string", "description": "For people."}),
             );
+            if expected.kind.ends_with(".scene") {
+                all.insert(SUBSTANCES.to_owned(), substances());
+                all.insert(
+                    artefact::WRITTEN.to_owned(),
+                    json!({"type": "string", "description": "Hash of the scene before what it names was read; told by artefacts."}),
+                );
+            }
             all.extend(std::mem::take(old));
             *old = all;
         }
@@ -48,6 +65,16 @@ pub fn schema_of<S: JsonSchema>(expected: Expected) -> Value {
         }
     }
     schema
+}
+
+/// The schema of the key `substances`.
+fn substances() -> Value {
+    json!({
+        "type": "object",
+        "description": "Substances that values name: \"density_kg_m3\": \"steel\" takes the density of \"steel\". Each has the \
+                        file of a sheet (schemas/substance.v1.json), beside the scene, or values of its own, which go before.",
+        "additionalProperties": {"type": "object"}
+    })
 }
 
 /// The schema as text with a final line feed.
