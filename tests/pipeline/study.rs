@@ -138,6 +138,10 @@ fn a_changed_scene_wakes_only_what_is_behind_it() {
         assert_eq!(workshop.make(), woken, "{file}");
         assert!(workshop.make().is_empty(), "{file}: once is enough");
     }
+    // What a scene names is of no less account than what its rule names.
+    workshop.add("materials/mild-steel.json", " ");
+    assert_eq!(workshop.make(), ["poolsph"]);
+    assert!(workshop.make().is_empty());
     // What changes no byte of the arc wakes the arc alone, and what is written again as it was wakes nothing.
     workshop.add("gmaw-300a/arc.json", "a comment");
     assert_eq!(workshop.make(), ["arcfvm"]);
