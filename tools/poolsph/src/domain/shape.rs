@@ -5,6 +5,8 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::Body;
+use shapes::shape::{Stl, Turned};
 
 pub use super::container::Container;
 use super::container::{container_points, walls};
@@ -78,7 +80,7 @@ pub struct Ellipsoid {
 
 /// What a body looks like.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A box along the axes.
     Box(BoxShape),
@@ -90,9 +92,35 @@ pub enum Shape {
     Ellipsoid(Ellipsoid),
     /// Walls around a box.
     Container(Container),
+    /// A closed surface from a file.
+    Stl(Stl),
+    /// A shape turned.
+    Turned(Turned),
+    /// What is in any of the shapes.
+    Union(Vec<shapes::Shape>),
+    /// What is in all of the shapes.
+    Intersection(Vec<shapes::Shape>),
+    /// What is in the first shape and in none of the others.
+    Difference(Vec<shapes::Shape>),
 }
 
+/// A part of d by which a lattice point on the face of a composed shape may be outside for rounding.
+const SLACK: f64 = 1e-9;
+
 impl Shape {
+    /// A composed shape as the other tools read it; none for what is simple.
+    #[must_use]
+    pub fn composed(&self) -> Option<shapes::Shape> {
+        Some(match self {
+            Self::Stl(stl) => shapes::Shape::Stl(stl.clone()),
+            Self::Turned(turned) => shapes::Shape::Turned(turned.clone()),
+            Self::Union(parts) => shapes::Shape::Union(parts.clone()),
+            Self::Intersection(parts) => shapes::Shape::Intersection(parts.clone()),
+            Self::Difference(parts) => shapes::Shape::Difference(parts.clone()),
+            _ => return None,
+        })
+    }
+
     /// Lower and upper corner of the box around the shape \[m\].
     #[must_use]
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
@@ -110,7 +138,16 @@ impl Shape {
                 }
                 (low, high)
             }
+            composed => {
+                let [low, high] = composed.body().map_or([[0.0; 3]; 2], |body| body.bounds());
+                (low, high)
+            }
         }
+    }
+
+    /// The body of a composed shape.
+    fn body(&self) -> Option<Body> {
+        self.composed().map(|shape| Body::new(&shape, 3))
     }
 
     /// Lattice points of spacing `d` \[m\] along each edge of the box around the shape, before any is
@@ -132,13 +169,24 @@ impl Shape {
         let anchor = anchor.unwrap_or(low);
         let axes = [0, 1, 2].map(|k| lattice(anchor[k], low[k], high[k], d));
         let mut points = product(&axes);
-        points.retain(|p| self.holds(*p));
+        let body = self.body();
+        points.retain(|p| match &body {
+            Some(body) => body.distance(*p) <= SLACK * d,
+            None => self.holds(*p),
+        });
         points
     }
 
     fn holds(&self, p: [f64; 3]) -> bool {
         match self {
-            Self::Box(_) | Self::Container(_) => true,
+            // Of composed shapes the body knows.
+            Self::Box(_)
+            | Self::Container(_)
+            | Self::Stl(_)
+            | Self::Turned(_)
+            | Self::Union(_)
+            | Self::Intersection(_)
+            | Self::Difference(_) => true,
             Self::Cylinder(c) => {
                 let along = axis_index(c.axis);
                 let square: f64 = (0..3)

@@ -2,6 +2,8 @@
 
 use run::Fault;
 
+use shapes::check::{Misfit, check};
+
 use super::{Scene, StartState};
 use crate::domain::shape::Shape;
 use crate::grains;
@@ -39,6 +41,11 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         return faults;
     }
     faults.extend(unsaid(scene));
+    let misshapen = shapes(scene);
+    if !misshapen.is_empty() {
+        faults.extend(misshapen);
+        return faults;
+    }
     let metal = scene.metal();
     let ratio = metal.smoothing_length / metal.spacing;
     if !(0.8..=3.0).contains(&ratio) {
@@ -93,6 +100,18 @@ fn unsaid(scene: &Scene) -> Vec<Fault> {
     let missing = keys.into_iter().filter(|(_, value)| *value <= 0.0);
     let fault = |key: &str| Fault::at("", format!("needs the key '{key}', as it has bodies"));
     missing.map(|(key, _)| fault(key)).collect()
+}
+
+/// What is wrong with composed shapes.
+fn shapes(scene: &Scene) -> Vec<Fault> {
+    let mut misfits = Vec::new();
+    for (i, body) in scene.bodies.iter().enumerate() {
+        if let Some(shape) = body.shape.composed() {
+            check(&shape, &format!("/bodies/{i}/shape"), 3, &mut misfits);
+        }
+    }
+    let fault = |misfit: Misfit| Fault::at(&misfit.path, misfit.what);
+    misfits.into_iter().map(fault).collect()
 }
 
 /// What means nothing in a scene without metal.
