@@ -6,6 +6,7 @@ mod beside;
 mod new;
 mod preview;
 mod queue;
+mod sensitivity;
 mod slurm;
 mod study;
 mod sweep;

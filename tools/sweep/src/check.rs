@@ -130,11 +130,33 @@ fn of_parameters(sweep: &Sweep) -> Vec<Fault> {
             all.push(Fault::at(&format!("{at}/name"), what));
         }
     }
+    all.extend(repeated(sweep));
     if points > MOST_POINTS {
         let what = format!("these values make {points} points; at most {MOST_POINTS} are run");
         all.push(Fault::at("/parameters", what));
     }
     all
+}
+
+/// Values that stand twice: of a parameter alone, or together with those of all that go with it.
+fn repeated(sweep: &Sweep) -> Vec<Fault> {
+    let names = |p: &crate::plan::Parameter| -> Vec<String> {
+        let values = values::of(p).unwrap_or_default();
+        values.into_iter().map(|v| v.name).collect()
+    };
+    let mut found = Vec::new();
+    for (i, first) in sweep.parameters.iter().enumerate() {
+        if first.with.is_some() {
+            continue;
+        }
+        let beside = sweep.parameters.iter();
+        let beside = beside.filter(|p| p.with.as_ref() == Some(&first.name));
+        let all: Vec<Vec<String>> = [first].into_iter().chain(beside).map(names).collect();
+        let row = |k: usize| -> Vec<Option<&String>> { all.iter().map(|v| v.get(k)).collect() };
+        let again = (1..all[0].len()).filter(|k| (0..*k).any(|old| row(old) == row(*k)));
+        found.extend(again.map(|k| twice(&format!("/parameters/{i}/values/{k}"), &all[0][k])));
+    }
+    found
 }
 
 /// What is wrong with a parameter that goes with another; `counts` are numbers of values up to its own.
@@ -344,6 +366,18 @@ mod tests {
     }
 
     #[test]
+    fn what_goes_together_may_have_a_value_twice_if_no_point_stands_twice() {
+        let told = said(|v| {
+            v["parameters"] = json!([
+                {"name": "current", "values": [100, 100, 200]},
+                {"name": "speed", "values": [1, 2, 2], "with": "current"}
+            ]);
+            v["stages"][0]["template"]["title"] = json!("${current} ${speed}");
+        });
+        assert_eq!(told, "");
+    }
+
+    #[test]
     fn every_fault_of_a_parameter_or_figure_names_its_place_and_what_was_meant() {
         told(&[
             (
@@ -352,6 +386,16 @@ mod tests {
             ),
             (
                 |v| v["parameters"][0]["values"] = json!([100, 100]),
+                &["/parameters/0/values/1", "twice"],
+            ),
+            (
+                |v| {
+                    v["parameters"] = json!([
+                        {"name": "current", "values": [100, 100, 200]},
+                        {"name": "speed", "values": [1, 1, 1], "with": "current"}
+                    ]);
+                    v["stages"][0]["template"]["title"] = json!("${current} ${speed}");
+                },
                 &["/parameters/0/values/1", "twice"],
             ),
             (

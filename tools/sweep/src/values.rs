@@ -79,9 +79,6 @@ fn listed(values: &[Value]) -> Result<Vec<Named>, (String, String)> {
             );
             return Err((at, what));
         }
-        if all.iter().any(|old| old.name == entry.name) {
-            return Err((at, format!("{} stands here twice", entry.name)));
-        }
         all.push(entry);
     }
     Ok(all)
@@ -174,7 +171,6 @@ mod tests {
         for (wrong, at) in [
             (json!({"name": "s"}), ""),
             (json!({"name": "s", "values": [], }), "/values"),
-            (json!({"name": "s", "values": [1, 1]}), "/values/1"),
             (json!({"name": "s", "values": [[1]]}), "/values/0"),
             (json!({"name": "s", "values": ["../x"]}), "/values/0"),
             (
