@@ -150,7 +150,8 @@ impl Columns {
     }
 }
 
-/// A unit with a prefix that keeps numbers up to `most` short, and the factor to it. Powers are raised.
+/// A unit with a prefix that keeps numbers up to `most` short, and the factor to it. Powers are raised, and with them the
+/// prefix: mm² are 1e-6 m².
 pub(crate) fn prefixed(unit: &str, most: f64) -> (String, f64) {
     const PREFIXES: [(&str, f64); 9] = [
         ("G", 1e9),
@@ -164,8 +165,13 @@ pub(crate) fn prefixed(unit: &str, most: f64) -> (String, f64) {
         ("f", 1e-15),
     ];
     let raised = unit.replace("m2", "m\u{b2}").replace("m3", "m\u{b3}");
+    // The power of the symbol that takes the prefix.
+    let after = unit.trim_start_matches(char::is_alphabetic);
+    let power = after.chars().next().and_then(|c| c.to_digit(10));
+    let power = power.filter(|_| after.len() < unit.len()).unwrap_or(1);
+    let sized = PREFIXES.map(|(prefix, size)| (prefix, size.powi(power.cast_signed())));
     let fits = |(_, size): &&(&str, f64)| most >= *size * 0.9999;
-    let (prefix, size) = PREFIXES.iter().find(fits).copied().unwrap_or(("", 1.0));
+    let (prefix, size) = sized.iter().find(fits).copied().unwrap_or(("", 1.0));
     (format!("{prefix}{raised}"), 1.0 / size)
 }
 
@@ -205,5 +211,9 @@ mod tests {
         assert_eq!(prefixed("T", 0.04).0, "mT");
         assert_eq!(prefixed("V", 2500.0).0, "kV");
         assert_eq!(prefixed("V", 0.0), ("V".to_owned(), 1.0));
+        let (area, factor) = prefixed("m2", 3e-6);
+        assert!(area == "mm\u{b2}" && (3e-6 * factor - 3.0).abs() < 1e-12);
+        let (flow, factor) = prefixed("m3/s", 2e-7);
+        assert!(flow == "mm\u{b3}/s" && (2e-7 * factor - 200.0).abs() < 1e-9);
     }
 }
