@@ -50,6 +50,12 @@ sweep: programs ## all points of a sweep and the page that compares them (STUDY=
 	@[ "$(SWEEP)" != pipelines//sweep.json ] || { echo "say which: make sweep STUDY=arc-currents" >&2; exit 2; }
 	$(SWEEP_RUN) $(SWEEP)
 
+# What the figures of a study hang on: its inputs one at a time, and by the ways of Morris. The points are a sweep.
+.PHONY: sensitivity
+sensitivity: programs ## what a study hangs on: tornado plots and elementary effects (STUDY=name)
+	@[ -n "$(STUDY)" ] || { echo "say which: make sensitivity STUDY=first-weld" >&2; exit 2; }
+	+@tools/sweep/sensitivity pipelines/$(STUDY)/sensitivity.json --threads $(THREADS)
+
 A ?=
 B ?=
 COMPARED = build/compare/$(notdir $(A:/=))-$(notdir $(B:/=)).html
@@ -95,9 +101,37 @@ build/browser/.installed: tools/report/tests/pages/package.json
 	then touch $@; \
 	else rm -f $@; echo "chromium or npm is not here, or npm cannot install: no page is looked at in a browser"; fi
 
+# The book: mdBook, installed into build/ where it is not there already. Its gallery shows the studies that have been made here.
+MDBOOK := $(shell command -v mdbook || echo build/mdbook/bin/mdbook)
+.PHONY: book newcomer
+book: $(MDBOOK) ## tutorial, theory, file format, gallery: build/book/index.html (installs mdBook into build/)
+	@rm -rf build/book-source && mkdir -p build/book-source && cp -r tools/book/. build/book-source
+	@tools/book/gallery build build/book-source/src/gallery.md
+	@$(MDBOOK) build --dest-dir ../book build/book-source
+	@echo "to look at: build/book/index.html"
+
+build/mdbook/bin/mdbook:
+	cargo install mdbook --version 0.5.4 --locked --no-default-features --debug --quiet --root build/mdbook
+
+# A copy of this tree, with the programs that are built here, in which everything that the book says is typed.
+newcomer: programs ## type every command of the book in a fresh copy (some ten minutes)
+	@rm -rf build/newcomer && mkdir -p build/newcomer/target/release
+	@git ls-files -z --cached --others --exclude-standard | tar --null --files-from=- -cf - | tar -xf - -C build/newcomer
+	@cp $(PROGRAMS) build/newcomer/target/release
+	@tests/newcomer/type-the-book build/newcomer first-own-weld scene file-format
+
+# Programs that users call, for a machine or a package (DESTDIR).
+PREFIX ?= /usr/local
+.PHONY: install
+install: programs ## install the programs (PREFIX=/usr/local)
+	@install -d "$(DESTDIR)$(PREFIX)/bin"
+	@install $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield jetsph avg report sweep artefact) "$(DESTDIR)$(PREFIX)/bin"
+	@echo "the programs are in $(DESTDIR)$(PREFIX)/bin; studies are made from this folder"
+
 schemas: programs ## write schemas/*.scene.v1.json from the programs
 	@for tool in gasprop arcfvm poolsph heatsph emfield jetsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
 	@$(BIN)/sweep schema > schemas/sweep.v1.json
+	@cargo run --release --quiet -p run --example sheet > schemas/substance.v1.json
 
 # Evidence.
 CASE ?=
