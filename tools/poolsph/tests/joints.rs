@@ -3,8 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::path::Path;
-
-use assert_cmd::Command;
+use std::process::Command;
 
 /// Points of metal that `check --points` shows for one body of spacing 0.5 mm.
 fn particles(folder: &Path, shape: &str) -> Result<usize, String> {

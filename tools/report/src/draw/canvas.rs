@@ -264,6 +264,29 @@ mod tests {
     }
 
     #[test]
+    fn what_is_drawn_within_a_rectangle_ends_there() {
+        let rect = Rect {
+            x: 10.0,
+            y: 5.0,
+            w: 12.0,
+            h: 10.0,
+        };
+        let mut canvas = Canvas::new(40, 20);
+        canvas.within(rect, |canvas| {
+            canvas.arrow([-30.0, 10.0], [60.0, 10.0], INK, 3.0);
+            canvas.line([15.0, -9.0], [15.0, 40.0], INK, 3.0);
+            canvas.triangle([[0.0, 0.0], [40.0, 0.0], [20.0, 20.0]], INK);
+        });
+        let dark = |x, y| canvas.get(x, y) != Some(WHITE);
+        let reached = (0..40).flat_map(|x| (0..20).map(move |y| (x, y)));
+        let outside = |(x, y): &(i64, i64)| !(10..22).contains(x) || !(5..15).contains(y);
+        assert!(dark(10, 10) && dark(21, 10) && dark(15, 5) && dark(15, 14));
+        assert_eq!(reached.filter(outside).find(|(x, y)| dark(*x, *y)), None);
+        canvas.line([0.0, 1.5], [39.0, 1.5], INK, 1.0);
+        assert!(canvas.get(30, 1) != Some(WHITE), "all is open again");
+    }
+
+    #[test]
     fn a_smaller_picture_is_the_mean_of_its_blocks() {
         let mut canvas = Canvas::new(5, 4);
         canvas.blend(0, 0, [0.0; 3], 1.0);
