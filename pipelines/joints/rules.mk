@@ -14,4 +14,6 @@ build/joints/tee.mcap build/joints/lap.mcap build/joints/trough.mcap: build/join
 $(JOINTS:%=build/joints/%.html): build/joints/%.html: build/joints/%.mcap $(BIN)/report always
 	$(RERUN) $(BIN)/report page --study joints --pool $< --out $@
 
-.PRECIOUS: $(JOINTS:%=build/joints/%.mcap) $(JOINTS:%=build/joints/%.html)
+.PRECIOUS: build/joints/groove.mcap
+.PRECIOUS: build/joints/tee.mcap build/joints/lap.mcap build/joints/trough.mcap
+.PRECIOUS: $(JOINTS:%=build/joints/%.html)
