@@ -72,6 +72,7 @@ _ENDINGS = {
     "1_s": "1/s",
     "1_m": "1/m",
     "rad": "rad",
+    "deg": "deg",
     "mol": "mol",
     "m3": "m3",
     "m2": "m2",

@@ -1,7 +1,7 @@
 //! Units that keys state: a key that tells a dimensional number ends in its unit.
 
 /// Endings of keys with their unit.
-pub const KEY_UNITS: [(&str, &str); 69] = [
+pub const KEY_UNITS: [(&str, &str); 70] = [
     ("w_m2_k", "W/(m2 K)"),
     ("w_m_k", "W/(m K)"),
     ("j_kg_k", "J/(kg K)"),
@@ -63,6 +63,7 @@ pub const KEY_UNITS: [(&str, &str); 69] = [
     ("pa", "Pa"),
     ("hz", "Hz"),
     ("rad", "rad"),
+    ("deg", "deg"),
     ("j", "J"),
     ("w", "W"),
     ("a", "A"),
