@@ -112,7 +112,7 @@ fn tank(edge: u32) -> Value {
             {"shape": {"container": hollow}, "state": "wall"},
             {"shape": {"box": {"min_m": [0, 0, 0], "max_m": [length, length, length]}}, "state": "liquid"}
         ],
-        "flow": {"viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]},
+        "flow": {"method": "projection", "viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]},
         "tension": {"surface_tension_n_m": 1.0},
         "output": {"particles_interval_s": 0.1}
     })

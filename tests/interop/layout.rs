@@ -13,7 +13,7 @@ const WELD: &str = r#"{
     "time": {"step_s": 1e-4, "end_s": 0.004}, "density_kg_m3": 7850,
     "bodies": [{"shape": {"box": {"min_m": [-2e-3, -2e-3, -1e-3], "max_m": [2e-3, 2e-3, 0]}}, "state": "solid",
         "temperature_k": 1700}],
-    "flow": {"viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]},
+    "flow": {"method": "projection", "viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]},
     "source": {"start_m": [0, 0, 0], "velocity_m_s": [0, 0.005, 0]},
     "arc": {"flux_w_m2": {"expr": "4e8*exp(-(r/1e-3)^2)"}},
     "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700,

@@ -1,7 +1,7 @@
 //! `flow-poiseuille` and `flow-couette`: liquid between two plates, from rest on.
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::{Channel, layers};
+use crate::flow::{self, Channel, METHODS, layers};
 use crate::lab::{Finished, Lab, LabError};
 use crate::particles::{Frames, measurement, number};
 
@@ -37,6 +37,14 @@ impl Case for FlowChannel {
         self.reference
     }
 
+    fn methods(&self) -> &'static [&'static str] {
+        METHODS
+    }
+
+    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
+        flow::levels(method, asked)
+    }
+
     fn targets(&self) -> Vec<Target> {
         vec![
             Target::error("profile", 0.01).at_level(2),
@@ -44,11 +52,16 @@ impl Case for FlowChannel {
         ]
     }
 
-    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         // 10, 20 and 30 layers.
         let spacing = 1e-3 / f64::from(level);
-        let patch = serde_json::json!({"spacing_m": spacing});
-        let run = lab.run("poolsph", self.name, &format!("level{level}"), &patch)?;
+        let patch = serde_json::json!({"spacing_m": spacing, "flow": {"method": method}});
+        let run = lab.run(
+            "poolsph",
+            self.name,
+            &format!("{method}-level{level}"),
+            &patch,
+        )?;
         let frames = Frames::read(&run.artefact, "pressure")?;
         let errors = errors(&run, &frames)?;
         measurement(run, frames.liquid.len(), errors)

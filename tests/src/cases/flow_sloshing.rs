@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::zeros;
+use crate::flow::{self, METHODS, zeros};
 use crate::lab::{Finished, Lab, LabError};
 use crate::particles::{Frames, mean, measurement, number};
 
@@ -23,6 +23,14 @@ impl Case for FlowSloshing {
         "potential theory: omega^2 = g k tanh(k h); Lamb (1932), section 228"
     }
 
+    fn methods(&self) -> &'static [&'static str] {
+        METHODS
+    }
+
+    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
+        flow::levels(method, asked)
+    }
+
     fn targets(&self) -> Vec<Target> {
         vec![
             Target::error("period", 0.005),
@@ -30,11 +38,16 @@ impl Case for FlowSloshing {
         ]
     }
 
-    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         // 10, 15 and 20 layers.
         let spacing = 0.5 / f64::from(5 + 5 * level);
-        let patch = serde_json::json!({"spacing_m": spacing});
-        let run = lab.run("poolsph", self.name(), &format!("level{level}"), &patch)?;
+        let patch = serde_json::json!({"spacing_m": spacing, "flow": {"method": method}});
+        let run = lab.run(
+            "poolsph",
+            self.name(),
+            &format!("{method}-level{level}"),
+            &patch,
+        )?;
         let frames = Frames::read(&run.artefact, "pressure")?;
         let errors = errors(&run, &frames)?;
         measurement(run, frames.liquid.len(), errors)

@@ -67,7 +67,8 @@ fn falling() -> Value {
          "state": "wall", "temperature_k": 300},
         {"shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 1.5e-3]}}, "state": "liquid", "temperature_k": 1900}
     ]);
-    scene["flow"] = json!({"viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]});
+    scene["flow"] =
+        json!({"method": "projection", "viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]});
     scene["heat"] = json!({"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700,
         "melting": {"point_k": 1750, "latent_heat_j_kg": 250e3}});
     scene["grains"]["bodies"] = json!([{"shape": {"box": {"min_m": [0.5e-3, 0.5e-3, 2e-3], "max_m": [3.5e-3, 3.5e-3, 3.5e-3]}},
@@ -96,7 +97,7 @@ fn a_plate_carries_the_weight_of_grains_that_rest_on_it() {
 fn met(liquid: &Value, u: f64) -> Value {
     let mut scene = resting();
     scene["bodies"] = json!([{"shape": liquid, "state": "liquid"}]);
-    scene["flow"] = json!({"viscosity_pa_s": 0.004});
+    scene["flow"] = json!({"method": "projection", "viscosity_pa_s": 0.004});
     scene["grains"]
         .as_object_mut()
         .unwrap()

@@ -29,7 +29,7 @@ fn scene() -> Value {
             {"shape": {"sphere": {"centre_m": [2e-3, 2e-3, 4e-3], "radius_m": 1e-3}}, "state": "liquid",
              "velocity_m_s": [0, 0, -1], "temperature_k": 2300}
         ],
-        "flow": {"viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]},
+        "flow": {"method": "projection", "viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8]},
         "tension": {"surface_tension_n_m": 1.0},
         "heat": {
             "thermal_conductivity_w_m_k": {"t_k": [300, 1750, 3000], "value": [60, 30, 35]},
@@ -381,7 +381,7 @@ fn beside_faces_threads_do_not_show_and_totals_close() {
             "min_m": [0, 0, 0], "max_m": [4e-3, 3e-3, 4e-3], "periodic": ["y"], "mirror": ["x-"],
             "wall": [{"face": "x+", "velocity_m_s": [0, 0.1, 0], "temperature_k": 2000}, {"face": "z-", "temperature_k": hot}]
         },
-        "flow": {"viscosity_pa_s": 0.02, "gravity_m_s2": [0, 0, -9.8]},
+        "flow": {"method": "projection", "viscosity_pa_s": 0.02, "gravity_m_s2": [0, 0, -9.8]},
         "tension": {"surface_tension_n_m": 1.0},
         "marangoni": {"slope_n_m_k": -1e-4},
         "surface_stress": {"stress_pa": [0, 5, 0]},

@@ -33,7 +33,7 @@ fn drop(step: f64) -> Value {
         "kind": "poolsph.scene", "version": 1, "spacing_m": 1e-3, "time": {"step_s": step, "end_s": 3.0 * step},
         "density_kg_m3": 7850,
         "bodies": [{"shape": {"sphere": {"centre_m": [0, 0, 0], "radius_m": 4e-3}}, "state": "liquid"}],
-        "flow": {"viscosity_pa_s": 0.004}, "tension": {"surface_tension_n_m": 1.0},
+        "flow": {"method": "projection", "viscosity_pa_s": 0.004}, "tension": {"surface_tension_n_m": 1.0},
         "output": {"particles_interval_s": 3.0 * step}
     })
 }

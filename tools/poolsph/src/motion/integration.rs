@@ -33,14 +33,14 @@ const SUBSTEPS_MAX: u32 = 32;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// [`super::projection`]: no compression at the end of the step.
+    /// [`super::divergence_free`]: no divergence of the velocity, on particles that are kept even. Flows as a liquid does
+    /// where the others bear a stress.
     #[default]
+    DivergenceFree,
+    /// [`super::projection`]: no compression at the end of the step. Holds splashes of few particles together best.
     Projection,
     /// [`super::homogenising`]: Komen (2019), section 3.3.4.
     Homogenising,
-    /// [`super::divergence_free`]: no divergence of the velocity, on particles that are kept even. Flows as a liquid does
-    /// where the others bear a stress.
-    DivergenceFree,
 }
 
 /// How the liquid moves.

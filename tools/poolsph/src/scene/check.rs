@@ -290,7 +290,7 @@ mod tests {
             "time": {"step_s": 1e-4, "end_s": 2.0},
             "density_kg_m3": 7850,
             "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "liquid"}],
-            "flow": {"viscosity_pa_s": 0.004},
+            "flow": {"method": "projection", "viscosity_pa_s": 0.004},
             "source": {"start_m": [0, 0, 0], "velocity_m_s": [0, 0.005, 0]},
             "droplets": droplets,
             "output": {"particles_interval_s": 0.1}
