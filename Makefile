@@ -120,13 +120,28 @@ newcomer: programs ## type every command of the book in a fresh copy (some ten m
 	@cp $(PROGRAMS) build/newcomer/target/release
 	@tests/newcomer/type-the-book build/newcomer first-own-weld scene file-format
 
-# Programs that users call, for a machine or a package (DESTDIR).
+# Programs that users call, for a machine or a package (DESTDIR), with completions for shells and pages for man.
 PREFIX ?= /usr/local
-.PHONY: install
-install: programs ## install the programs (PREFIX=/usr/local)
+USED := gasprop arcfvm poolsph heatsph emfield jetsph avg report sweep artefact
+.PHONY: install deb
+install: programs ## install the programs, completions and man pages (PREFIX=/usr/local)
 	@install -d "$(DESTDIR)$(PREFIX)/bin"
-	@install $(addprefix $(BIN)/,gasprop arcfvm poolsph heatsph emfield jetsph avg report sweep artefact) "$(DESTDIR)$(PREFIX)/bin"
+	@install $(addprefix $(BIN)/,$(USED)) "$(DESTDIR)$(PREFIX)/bin"
+	@for program in $(USED); do $(BIN)/$$program manual --into "$(DESTDIR)$(PREFIX)" || exit 1; done
 	@echo "the programs are in $(DESTDIR)$(PREFIX)/bin; studies are made from this folder"
+
+# A package for Debian and its kin. A container is made from tools/Containerfile.
+VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
+DEB = build/deb/fusionline_$(VERSION)_$(shell dpkg --print-architecture).deb
+deb: programs ## make a package for Debian: build/deb/fusionline_VERSION_ARCHITECTURE.deb
+	@rm -rf build/deb && $(MAKE) --no-print-directory --old-file=programs install DESTDIR=build/deb/root PREFIX=/usr >/dev/null
+	@install -D -m 644 LICENSE build/deb/root/usr/share/doc/fusionline/copyright
+	@gzip -9 --no-name build/deb/root/usr/share/man/man1/*.1
+	@install -d build/deb/root/DEBIAN
+	@sed -e 's/@VERSION@/$(VERSION)/' -e "s/@ARCHITECTURE@/$$(dpkg --print-architecture)/" tools/debian-control \
+	  > build/deb/root/DEBIAN/control
+	@dpkg-deb --root-owner-group --build build/deb/root $(DEB) >/dev/null
+	@echo "made: $(DEB)"
 
 schemas: programs ## write schemas/*.scene.v1.json from the programs
 	@for tool in gasprop arcfvm poolsph heatsph emfield jetsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done

@@ -4,6 +4,7 @@
 
 mod beside;
 mod new;
+mod package;
 mod preview;
 mod queue;
 mod sensitivity;

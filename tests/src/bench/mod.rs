@@ -23,6 +23,11 @@ pub use record::{Count, Record, Verdict};
 use record::{Samples, verdict};
 
 use crate::lab::{LabError, discard_unfinished, read_json};
+use crate::speed::Row;
+
+/// The row that tells how far the time of a run is off what `check` tells, and the greatest factor that it should be.
+const CHECK: &str = "time off check";
+const FORETOLD: f64 = 2.0;
 
 /// `pipelines/bench/<name>/bench.json`; paths count from the repository root.
 #[derive(Debug, Clone, Deserialize)]
@@ -180,12 +185,22 @@ impl Stand {
                 }
             }
         }
-        let rows = samples.rows();
+        let mut rows = samples.rows();
+        let mut aims = bench.aims.clone();
+        if let Some(off) = self.off(bench, &last)? {
+            rows.push(Row::of(CHECK, "x", most, vec![off]));
+            aims.push(Aim {
+                name: CHECK.to_owned(),
+                unit: "x".to_owned(),
+                threads: most,
+                max: FORETOLD,
+            });
+        }
         let mut record = Record::of_rows(&bench.name, rows);
         record.tool = Some(bench.tool.clone());
         record.outcome = last["outcome"].as_str().map(str::to_owned);
         record.counts = counts(&self.artefact(&bench.name), &last)?;
-        let verdicts = bench.aims.iter().map(|aim| verdict(aim, &record.rows));
+        let verdicts = aims.iter().map(|aim| verdict(aim, &record.rows));
         record.aims = verdicts.collect();
         Ok(record)
     }
@@ -196,13 +211,23 @@ impl Stand {
         self.out.join(bench).join("run.mcap")
     }
 
-    /// Runs the scene once; its run record.
-    fn run(&self, bench: &Bench, threads: usize) -> Result<Value, LabError> {
-        let out = self.artefact(&bench.name);
-        discard_unfinished(&out);
-        let program = self.programs.join(&bench.tool);
-        let mut command = Command::new(&program);
-        command.arg("run").arg(&bench.scene);
+    /// By what factor the time of a run is off what `check` tells of its scene, whichever is longer; `None` where it tells none.
+    fn off(&self, bench: &Bench, record: &Value) -> Result<Option<f64>, LabError> {
+        let mut command = self.command(bench, "check");
+        command.arg("--json");
+        let plan: Value =
+            serde_json::from_str(&said(&mut command)?).map_err(|e| LabError::Content {
+                path: bench.scene.clone(),
+                what: format!("its plan is no JSON: {e}"),
+            })?;
+        let times = plan["time_s"].as_f64().zip(record["wall_s"].as_f64());
+        Ok(times.map(|(told, taken)| (told / taken).max(taken / told)))
+    }
+
+    /// A command of the tool on the scene with all that belongs to it.
+    fn command(&self, bench: &Bench, action: &str) -> Command {
+        let mut command = Command::new(self.programs.join(&bench.tool));
+        command.arg(action).arg(&bench.scene);
         for patch in &bench.patches {
             command.arg("--patch").arg(patch);
         }
@@ -214,19 +239,35 @@ impl Stand {
             let input = format!("{name}={}", path.display());
             command.arg("--input").arg(input);
         }
+        command
+    }
+
+    /// Runs the scene once; its run record.
+    fn run(&self, bench: &Bench, threads: usize) -> Result<Value, LabError> {
+        let out = self.artefact(&bench.name);
+        discard_unfinished(&out);
+        let mut command = self.command(bench, "run");
         command.arg("--out").arg(&out);
         command.args(["--threads", &threads.to_string(), "--progress", "none"]);
-        let output = command.output().map_err(io(&program))?;
-        // 3: finished, with warnings that matter; the record tells the outcome.
-        if !matches!(output.status.code(), Some(0 | 3)) {
-            return Err(LabError::Tool {
-                command: format!("{command:?}"),
-                code: output.status.code(),
-                stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
-            });
-        }
+        said(&mut command)?;
         read_json(&out.with_extension("run.json"))
     }
+}
+
+/// What a command that does its work prints.
+fn said(command: &mut Command) -> Result<String, LabError> {
+    let output = command
+        .output()
+        .map_err(io(Path::new(command.get_program())))?;
+    // 3: finished, with warnings that matter; the record tells the outcome.
+    if !matches!(output.status.code(), Some(0 | 3)) {
+        return Err(LabError::Tool {
+            command: format!("{command:?}"),
+            code: output.status.code(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+        });
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
 /// How large the problem was, from what was written.

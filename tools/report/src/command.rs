@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use run::{Failure, Form, Owned};
 
 use crate::files::{
@@ -88,6 +88,9 @@ enum Action {
         #[arg(long)]
         targets: PathBuf,
     },
+    /// Writes completions for shells and pages for man.
+    #[command(hide = true)]
+    Manual(manual::Wanted),
 }
 
 const PASSES: &str = "Example, from the repository root:\n  \
@@ -165,7 +168,10 @@ impl Action {
             Self::Compare(f) => Some(&mut f.out),
             Self::Preview(f) => Some(&mut f.out),
             Self::Index(f) => Some(&mut f.out),
-            Self::Validate { .. } | Self::Figures { .. } | Self::Probes { .. } => None,
+            Self::Validate { .. }
+            | Self::Figures { .. }
+            | Self::Probes { .. }
+            | Self::Manual(_) => None,
         }
     }
 
@@ -202,7 +208,8 @@ impl Action {
             Self::Compare(_)
             | Self::Validate { .. }
             | Self::Figures { .. }
-            | Self::Probes { .. } => Vec::new(),
+            | Self::Probes { .. }
+            | Self::Manual(_) => Vec::new(),
         }
     }
 }
@@ -281,5 +288,6 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
             isotherm_k,
         } => probes::run(file, *curves, *isotherm_k),
         Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),
+        Action::Manual(wanted) => run::explain(&Line::command(), wanted),
     }
 }

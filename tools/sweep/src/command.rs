@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use run::Failure;
 use run::scene::{schema_of, schema_text};
 
@@ -55,6 +55,9 @@ enum Action {
     },
     /// Prints the JSON Schema of sweeps.
     Schema,
+    /// Writes completions for shells and pages for man.
+    #[command(hide = true)]
+    Manual(manual::Wanted),
 }
 
 /// What makes the points.
@@ -98,6 +101,7 @@ fn act(action: &Action) -> Result<ExitCode, Failure> {
             say(&schema_text(&schema_of::<Sweep>(KIND)));
             Ok(ExitCode::SUCCESS)
         }
+        Action::Manual(wanted) => run::explain(&Line::command(), wanted),
     }
 }
 

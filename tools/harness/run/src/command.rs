@@ -24,6 +24,9 @@ pub(crate) enum Action {
     Check(Check),
     /// Prints the JSON Schema of the scene.
     Schema,
+    /// Writes completions for shells and pages for man.
+    #[command(hide = true)]
+    Manual(manual::Wanted),
 }
 
 /// A scene with what belongs to it.
@@ -60,6 +63,9 @@ pub(crate) struct Check {
     /// `report preview`.
     #[arg(long, value_name = "FILE.mcap")]
     pub(crate) points: Option<PathBuf>,
+    /// Prints the plan as JSON, for programs.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -109,6 +115,11 @@ impl Run {
 pub(crate) fn parse<T: Tool>(
     words: impl IntoIterator<Item = OsString>,
 ) -> Result<Line, clap::Error> {
+    Line::from_arg_matches(&line::<T>().try_get_matches_from(words)?)
+}
+
+/// What the command line of a tool holds.
+pub(crate) fn line<T: Tool>() -> clap::Command {
     let example: Vec<String> = T::EXAMPLE
         .lines()
         .map(|line| format!("  {}", runnable(T::NAME, line.trim())))
@@ -118,7 +129,7 @@ pub(crate) fn parse<T: Tool>(
          3 done with warnings that matter, 130 interrupted.",
         example.join("\n")
     );
-    let command = Line::command()
+    Line::command()
         .name(T::NAME)
         .version(T::VERSION)
         // A wrapped command could not be copied.
@@ -128,8 +139,7 @@ pub(crate) fn parse<T: Tool>(
         .mut_subcommand("run", |run| {
             run.after_help(after).mut_arg("inputs", inputs_help::<T>)
         })
-        .mut_subcommand("check", |check| check.mut_arg("inputs", inputs_help::<T>));
-    Line::from_arg_matches(&command.try_get_matches_from(words)?)
+        .mut_subcommand("check", |check| check.mut_arg("inputs", inputs_help::<T>))
 }
 
 /// A sample command that works from the repository root: `poolsph run ...` through cargo.

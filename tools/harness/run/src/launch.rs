@@ -8,7 +8,7 @@ use artefact::{Header, beside};
 
 use crate::awake::Awake;
 use crate::checked::check;
-use crate::command::{Action, Check, Run, parse};
+use crate::command::{self, Action, Check, Run, parse};
 use crate::console::{Level, data, line};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -42,6 +42,7 @@ pub fn main<T: Tool>() -> ExitCode {
         Action::Schema => print(&schema_text(&named(schema_of::<T::Scene>(expected::<T>())))),
         Action::Check(check) => check_scene::<T>(&check),
         Action::Run(run) => run_scene::<T>(run),
+        Action::Manual(wanted) => explain(&command::line::<T>(), &wanted),
     };
     done.unwrap_or_else(|failure| report_failure(T::NAME, &failure))
 }
@@ -84,8 +85,28 @@ fn check_scene<T: Tool>(wanted: &Check) -> Result<ExitCode, Failure> {
         ));
     }
     let (plan, judged) = check::<T>(study)?;
-    print(&format!("{}\n{plan}", title::<T>(&study.scene)))?;
+    let told = if wanted.json {
+        format!("{:#}\n", plan.json())
+    } else {
+        format!("{}\n{plan}", title::<T>(&study.scene))
+    };
+    print(&told)?;
     Ok(ExitCode::from(if judged { 0 } else { WARNED }))
+}
+
+/// Writes completions and pages about a program.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn explain(program: &clap::Command, wanted: &manual::Wanted) -> Result<ExitCode, Failure> {
+    let written = manual::write(program, &wanted.into);
+    written
+        .map(|()| ExitCode::SUCCESS)
+        .map_err(|source| Failure::Io {
+            path: wanted.into.clone(),
+            action: "write into",
+            source,
+        })
 }
 
 fn title<T: Tool>(scene: &Path) -> String {

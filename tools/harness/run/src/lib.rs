@@ -85,7 +85,7 @@ mod watched;
 pub use failure::Failure;
 pub use fault::Fault;
 pub use inputs::{Input, Inputs};
-pub use launch::{main, report_failure, say_usage};
+pub use launch::{explain, main, report_failure, say_usage};
 pub use owned::{Form, Owned};
 pub use plan::{Estimate, Plan, duration};
 pub use preview::Preview;

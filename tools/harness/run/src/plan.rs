@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde_json::{Map, Value, json};
+
 use crate::ledger::{Bytes, LeftOut, Limit};
 
 /// What a run would do. Built by [`crate::Tool::plan`], shown by `TOOL check` and at the head of
@@ -161,6 +163,31 @@ impl Plan {
         self.estimate = estimate;
         self.grows = grows;
         self
+    }
+}
+
+impl Plan {
+    /// What is told to programs: `TOOL check --json`. Where the time is only the least, `time_grows` says why.
+    pub(crate) fn json(&self) -> Value {
+        let counts: Map<String, Value> = self
+            .counts
+            .iter()
+            .map(|(name, number)| (name.clone(), (*number).into()))
+            .collect();
+        json!({
+            "kind": "plan",
+            "version": "1.0",
+            "stages": self.stages,
+            "counts": counts,
+            "memory_bytes": self.memory_bytes(),
+            "memory": self.memory,
+            "output_bytes": self.output_bytes(),
+            "limits": self.limits,
+            "left_out": self.left_out,
+            "notes": self.notes,
+            "time_s": self.estimate.as_ref().map(|estimate| estimate.seconds),
+            "time_grows": self.grows,
+        })
     }
 }
 

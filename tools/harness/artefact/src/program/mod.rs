@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use artefact::Shown;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use trouble::{Trouble, Verdict};
 
@@ -61,6 +61,9 @@ enum Command {
     Recover(recover::Arguments),
     /// Compares the hashes in a file with the scene and the inputs that it should come from.
     VerifyHash(hash::Arguments),
+    /// Writes completions for shells and pages for man.
+    #[command(hide = true)]
+    Manual(manual::Wanted),
 }
 
 /// Where a command writes.
@@ -108,6 +111,17 @@ pub(crate) fn main() -> ExitCode {
     }
 }
 
+fn explain(wanted: &manual::Wanted) -> Result<Verdict, Trouble> {
+    let written = manual::write(&Arguments::command(), &wanted.into);
+    written
+        .map(|()| Verdict::Good)
+        .map_err(|source| Trouble::File {
+            path: wanted.into.clone(),
+            action: "write into",
+            source,
+        })
+}
+
 /// Help and version go to stdout with code 0, what is wrong with a command line to stderr with code 2.
 fn refused(e: &clap::Error) -> ExitCode {
     if e.use_stderr() {
@@ -129,6 +143,7 @@ impl Command {
             Self::Export(arguments) => export::run(arguments, streams),
             Self::Recover(arguments) => recover::run(arguments, streams),
             Self::VerifyHash(arguments) => hash::run(arguments, streams),
+            Self::Manual(wanted) => explain(wanted),
         }
     }
 }
