@@ -4,18 +4,8 @@ use std::f64::consts::PI;
 
 use num_complex::Complex;
 
-/// Ways in which metal is kept incompressible, the default first.
-pub(crate) const METHODS: &[&str] = &["divergence_free", "projection", "homogenising"];
-
-/// The levels at which `method` is run: homogenising takes three to four times as long, and longer the finer.
-pub(crate) fn levels(method: &str, asked: &[u32]) -> Vec<u32> {
-    let most = if method == "homogenising" {
-        2
-    } else {
-        u32::MAX
-    };
-    asked.iter().copied().filter(|l| *l <= most).collect()
-}
+/// Ways in which metal is kept incompressible beside faces, the default first.
+pub(crate) const METHODS: &[&str] = &["divergence_free", "projection"];
 
 /// Terms of a series; at 1e-3 of the viscous time its last one is below 1e-15.
 const TERMS: u32 = 200;

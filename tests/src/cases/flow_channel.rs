@@ -1,7 +1,7 @@
 //! `flow-poiseuille` and `flow-couette`: liquid between two plates, from rest on.
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::{self, Channel, METHODS, layers};
+use crate::flow::{Channel, METHODS, layers};
 use crate::lab::{Finished, Lab, LabError};
 use crate::particles::{Frames, measurement, number};
 
@@ -39,10 +39,6 @@ impl Case for FlowChannel {
 
     fn methods(&self) -> &'static [&'static str] {
         METHODS
-    }
-
-    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
-        flow::levels(method, asked)
     }
 
     fn targets(&self) -> Vec<Target> {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::{self, METHODS, zeros};
+use crate::flow::{METHODS, zeros};
 use crate::lab::{Finished, Lab, LabError};
 use crate::particles::{Frames, mean, measurement, number};
 
@@ -25,10 +25,6 @@ impl Case for FlowSloshing {
 
     fn methods(&self) -> &'static [&'static str] {
         METHODS
-    }
-
-    fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
-        flow::levels(method, asked)
     }
 
     fn targets(&self) -> Vec<Target> {

@@ -260,6 +260,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
         Action::Sweep(_) => ("--points", true),
         Action::Compare(_) => ("--a and --b", true),
         Action::Preview(_) => ("FILE.mcap", true),
+        Action::Manual(_) => ("--into", true),
     };
     if !given {
         let what = format!("there is nothing to report on: name at least one of {wanted}");

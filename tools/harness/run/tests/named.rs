@@ -1,6 +1,7 @@
 //! What scenes take from files: substances by name, surfaces of triangles.
 
 #![allow(clippy::expect_used, reason = "a test fails by panicking")]
+#![allow(clippy::float_cmp, reason = "numbers are taken as they stand")]
 
 use std::path::Path;
 

@@ -280,8 +280,8 @@ fn vector(coordinates: &[f64]) -> Vector {
     std::array::from_fn(|k| coordinates.get(k).copied().unwrap_or(0.0))
 }
 
-/// A surface about the middle of the box around it, and that middle \[m\].
-fn surface(stl: &Stl) -> (Mesh, Vector) {
+/// A surface about the middle of the box around it, and where that middle stands \[m\].
+fn surface(stl: &Stl) -> (Kind, Vector) {
     let mut vertices = stl.vertices_m.clone().unwrap_or_default();
     let triangles = stl.triangles.clone().unwrap_or_default();
     let end =
@@ -292,7 +292,9 @@ fn surface(stl: &Stl) -> (Mesh, Vector) {
     for vertex in &mut vertices {
         *vertex = along(*vertex, -1.0, middle);
     }
-    (Mesh::new(vertices, triangles), middle)
+    let origin = stl.at_m.as_deref().map_or([0.0; 3], vector);
+    let kind = Kind::Mesh(Arc::new(Mesh::new(vertices, triangles)));
+    (kind, along(origin, 1.0, middle))
 }
 
 impl Builder<'_> {
@@ -351,10 +353,8 @@ impl Builder<'_> {
                 self.leaf(frame, Kind::HalfSpace, h.name.as_ref(), cut)
             }
             Shape::Stl(stl) => {
-                let (mesh, middle) = surface(stl);
-                let origin = stl.at_m.as_deref().map_or([0.0; 3], vector);
-                let frame = at(along(origin, 1.0, middle)).within(outer);
-                self.leaf(frame, Kind::Mesh(Arc::new(mesh)), stl.name.as_ref(), cut)
+                let (kind, middle) = surface(stl);
+                self.leaf(at(middle).within(outer), kind, stl.name.as_ref(), cut)
             }
             Shape::Turned(t) => {
                 let about = t.about_m.as_deref().map_or([0.0; 3], vector);

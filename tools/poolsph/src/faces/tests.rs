@@ -137,7 +137,8 @@ fn half_a_body_beside_a_mirror_moves_as_the_whole() {
     let points = disordered([5, 5, 5]);
     let mut half = body(faces(HALF), points.clone());
     let mut whole = body(Faces::default(), with_its_image(&points));
-    let text = r#"{"viscosity_pa_s": 10.0, "gravity_m_s2": [0, 0, -1], "density_tolerance": 1e-8, "sweeps_max": 1000}"#;
+    let text = r#"{"method": "projection", "viscosity_pa_s": 10.0, "gravity_m_s2": [0, 0, -1], "density_tolerance": 1e-8,
+        "sweeps_max": 1000}"#;
     for state in [&mut half, &mut whole] {
         let parameters: motion::Parameters = serde_json::from_str(text).unwrap();
         let mut motion = Motion::new(parameters, Law::Uniform(10.0), METAL);

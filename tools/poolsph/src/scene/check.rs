@@ -189,7 +189,7 @@ fn beside(scene: &Scene) -> Vec<Fault> {
         .as_ref()
         .filter(|flow| flow.method == Method::Homogenising);
     if homogenised.is_some() {
-        let what = "faces need the method \"projection\": homogenising knows no images";
+        let what = "homogenising knows no images beyond faces: leave \"method\" out, or take \"projection\"";
         faults.push(Fault::at("/flow/method", what));
     }
     let solid = scene
