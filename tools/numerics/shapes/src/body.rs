@@ -48,7 +48,7 @@ pub struct Primitive {
 
 /// A composition of primitives.
 #[derive(Debug, Clone, PartialEq)]
-enum Tree {
+pub(crate) enum Tree {
     Leaf(usize),
     Any(Vec<Tree>),
     All(Vec<Tree>),
@@ -60,7 +60,7 @@ enum Tree {
 pub struct Body {
     /// All primitives, in the order of the scene.
     pub primitives: Vec<Primitive>,
-    tree: Tree,
+    pub(crate) tree: Tree,
 }
 
 impl Primitive {
@@ -200,7 +200,7 @@ impl Body {
         }
     }
 
-    fn of(&self, tree: &Tree, x: Vector) -> f64 {
+    pub(crate) fn of(&self, tree: &Tree, x: Vector) -> f64 {
         let each = |trees: &'_ [Tree], of: fn(f64, f64) -> f64, from: f64| {
             let distances = trees.iter().map(|t| self.of(t, x));
             distances.fold(from, of)

@@ -2,6 +2,7 @@
 //!
 //! - [`shape`] is how a scene writes them, [`check`] what its types cannot tell;
 //! - [`body`] knows how far a place is from the surface, with sign, and which way the surface looks;
+//! - [`edges`] knows the same beside the edges of what is composed, where that is a bound only;
 //! - [`ellipsoid`] finds the nearest place of an ellipsoid, [`mesh`] that of a closed surface of triangles;
 //! - [`surface`] divides the surface into pieces with area and normal, [`rule`] knows places and weights of integrals
 //!   over it;
@@ -9,6 +10,7 @@
 
 pub mod body;
 pub mod check;
+pub mod edges;
 pub mod ellipsoid;
 mod face;
 pub mod frame;

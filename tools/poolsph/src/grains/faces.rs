@@ -1,6 +1,6 @@
 //! Faces of walls.
 //!
-//! A face gives a grain one contact, at the nearest place. The hollow of a box has six faces, that of a bar three.
+//! A face gives a grain one contact, at the nearest place, which may be on an edge. The hollow of a box has six faces, that of a bar three.
 
 use shapes::frame::{Frame, Vector, along, difference, dot, length};
 use shapes::{Body, Kind, Shape};
@@ -40,7 +40,7 @@ impl Face {
                 let far = length(off);
                 (wide - far, off.map(|d| -d / far))
             }
-            Self::Outside(body) => (body.distance(x), body.normal(x, SLOPE * radius)),
+            Self::Outside(body) => body.away(x, SLOPE * radius),
             Self::Inside(body) => {
                 let normal = body.normal(x, SLOPE * radius);
                 (-body.distance(x), normal.map(|n| -n))
@@ -48,7 +48,7 @@ impl Face {
         }
     }
 
-    /// Distance alone \[m\].
+    /// Distance alone \[m\]; beside an edge no more than that.
     #[must_use]
     pub fn distance(&self, x: Vector) -> f64 {
         match self {
