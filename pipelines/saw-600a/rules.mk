@@ -14,6 +14,17 @@ build/saw-600a/report.html: build/gmaw-600a/arc.mcap build/saw-600a/weld.mcap $(
 	$(RERUN) $(BIN)/report page --study saw-600a --out $@ \
 	  --arc build/gmaw-600a/arc.mcap --pool build/saw-600a/weld.mcap
 
+# Flux and slag around the cavity, averaged on a grid that moves with it.
+.PHONY: saw-600a-means
+saw-600a-means: build/saw-600a/flux.mcap build/saw-600a/slag.mcap ## mean flow and temperature of flux and slag (after the weld)
+
+build/saw-600a/flux.mcap: pipelines/saw-600a/flux.json build/saw-600a/weld.mcap $(BIN)/avg always
+	$(RERUN) $(BIN)/avg run pipelines/saw-600a/flux.json --input frames=build/saw-600a/weld.mcap --out $@ $(MACHINE)
+
+build/saw-600a/slag.mcap: pipelines/saw-600a/flux.json pipelines/saw-600a/slag.patch.json build/saw-600a/weld.mcap $(BIN)/avg always
+	$(RERUN) $(BIN)/avg run pipelines/saw-600a/flux.json --patch pipelines/saw-600a/slag.patch.json \
+	  --input frames=build/saw-600a/weld.mcap --out $@ $(MACHINE)
+
 # Half of it beside its mirror plane.
 .PHONY: saw-600a-half
 saw-600a-half: build/saw-600a/half.mcap ## half of saw-600a beside its mirror plane (long)
@@ -26,4 +37,4 @@ build/saw-600a/half.mcap: pipelines/saw-600a/weld.json pipelines/saw-600a/half.p
 	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/weld.json --patch pipelines/saw-600a/half.patch.json \
 	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-600a/half-bed.mcap --out $@ $(MACHINE)
 
-.PRECIOUS: build/saw-600a/half-bed.mcap build/saw-600a/half.mcap build/saw-600a/bed.mcap build/saw-600a/weld.mcap build/saw-600a/report.html
+.PRECIOUS: build/saw-600a/flux.mcap build/saw-600a/slag.mcap build/saw-600a/half-bed.mcap build/saw-600a/half.mcap build/saw-600a/bed.mcap build/saw-600a/weld.mcap build/saw-600a/report.html

@@ -1,6 +1,6 @@
 //! From the scene and the frames to the plan of the averages: the only place that asks what the scene contains.
 
-use artefact::{Precision, Reader, Values};
+use artefact::{Frame, Precision, Reader, Values};
 use thiserror::Error;
 
 use crate::frames::{self, Plate};
@@ -9,7 +9,7 @@ use crate::mean::Smoothing;
 use crate::parts::Parts;
 use crate::phase::{self, Source};
 use crate::profile::{self, Rings};
-use crate::scene::Scene;
+use crate::scene::{GrainState, Scene};
 
 /// Most grid points of all sections and phases: some 5 GB.
 const POINTS_MOST: f64 = 2e7;
@@ -25,6 +25,9 @@ pub enum AverageError {
         "the frames have no channel '/plate' that tells the spacing: name 'spacing_m' in the scene"
     )]
     NoSpacing,
+    /// What has landed is asked of grains.
+    #[error("the frames are of grains, of which none is in flight: leave 'landed' out")]
+    Landed,
     /// No frame lies in the span of the scene.
     #[error(
         "no frame of '{channel}' lies between {from_s} s and {to_s} s; it has {count} frames from {first_s} s to {last_s} s"
@@ -88,6 +91,8 @@ pub struct Plan {
     pub follow: Option<String>,
     /// Phase of the droplet at which the first of the phases stands, where there are some.
     pub origin: Option<f64>,
+    /// States of grains that count, where not all do.
+    pub states: Option<Vec<GrainState>>,
     /// Greatest distance between neighbours of what has landed \[m\], where only that counts.
     pub landed: Option<f64>,
     /// Indices of the frames that count, in the order of time.
@@ -139,7 +144,7 @@ impl Plan {
             });
         };
         let first = reader.frame(&scene.channel, *first)?;
-        let plate = Plate::read(reader)?;
+        let plate = plate(scene, reader, &first)?;
         let diameter = plate.map(|p| p.spacing_m);
         let spacing = scene
             .spacing_m
@@ -162,6 +167,7 @@ impl Plan {
             channel: scene.channel.clone(),
             follow: scene.follow.as_ref().map(|follow| follow.channel.clone()),
             origin: scene.phases.map(|phases| phases.origin),
+            states: scene.states.clone(),
             landed: scene.landed.map(|landed| landed.link_m),
             smoothing,
             sections: scene.sections(spacing),
@@ -194,6 +200,15 @@ impl Plan {
     #[must_use]
     pub fn frame_bytes(&self) -> u64 {
         (self.particles * 2 * (7 * 8 + 4 * 8)) as u64
+    }
+}
+
+/// What the frames say of their particles: metal, or grains, none of which is in flight.
+fn plate(scene: &Scene, reader: &Reader, first: &Frame) -> Result<Option<Plate>, AverageError> {
+    match frames::grains(first)? {
+        Some(_) if scene.landed.is_some() => Err(AverageError::Landed),
+        Some(grains) => Ok(Some(grains)),
+        None => Ok(Plate::read(reader)?),
     }
 }
 

@@ -85,7 +85,7 @@ impl<'a> Averaging<'a> {
     /// When the frame cannot be read, lacks a column, or the source has no place at its time.
     pub fn read(&mut self, reader: &Reader, place: usize) -> Result<Seen, AverageError> {
         let frame = reader.frame(&self.plan.channel, self.plan.frames[place])?;
-        let mut cloud = frames::cloud(&frame)?;
+        let mut cloud = frames::cloud(&frame, self.plan.states.as_deref())?;
         let time = frame.time_s;
         drop(frame);
         let mut phase = 0;

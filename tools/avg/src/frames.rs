@@ -5,6 +5,10 @@ use serde::Deserialize;
 
 use crate::cloud::Cloud;
 use crate::phase::Source;
+use crate::scene::GrainState;
+
+/// Share of the room that grains fill where they lie as they fell.
+const PACKED: f64 = 0.6;
 
 /// What the frames say of the metal.
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -79,19 +83,60 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-9
 }
 
-/// The particles of a frame. Walls and particles that are not metal are left out.
+/// What grains say of themselves: their diameter in the mean, and the room that each takes; none where a frame is of metal.
+///
+/// # Errors
+/// When the radii cannot be read.
+pub fn grains(frame: &Frame) -> artefact::Result<Option<Plate>> {
+    if !frame.has("radius") {
+        return Ok(None);
+    }
+    let radii = frame.f64("radius")?;
+    let count = radii.len().max(1) as f64;
+    let mean = |of: fn(f64) -> f64| radii.iter().map(|r| of(2.0 * r)).sum::<f64>() / count;
+    let ball = std::f64::consts::FRAC_PI_6 * mean(|d| d.powi(3));
+    Ok(Some(Plate {
+        spacing_m: mean(|d| d),
+        particle_volume_m3: Some(ball / PACKED),
+    }))
+}
+
+/// The grains of a frame in the states that count. All of them flow.
+fn grain_cloud(frame: &Frame, states: Option<&[GrainState]>) -> artefact::Result<Cloud> {
+    let position = frame.position_vectors()?;
+    let mut cloud = Cloud {
+        liquid: vec![true; position.len()],
+        position,
+        velocity: frame.vectors("velocity")?,
+        temperature: temperature(frame)?,
+    };
+    if let Some(states) = states {
+        let own = frame.u8("state")?.iter();
+        let counts: Vec<bool> = own
+            .map(|own| states.iter().any(|state| *state as u8 == *own))
+            .collect();
+        cloud.retain(&counts);
+    }
+    Ok(cloud)
+}
+
+fn temperature(frame: &Frame) -> artefact::Result<Option<Vec<f64>>> {
+    let told = frame.has("temperature");
+    told.then(|| frame.f64("temperature")).transpose()
+}
+
+/// The particles of a frame. Walls and particles that are not metal are left out, and grains that are in none of the `states`.
 ///
 /// # Errors
 /// When a column that averages need is absent.
-pub fn cloud(frame: &Frame) -> artefact::Result<Cloud> {
+pub fn cloud(frame: &Frame, states: Option<&[GrainState]>) -> artefact::Result<Cloud> {
+    if frame.has("radius") {
+        return grain_cloud(frame, states);
+    }
     let mut cloud = Cloud {
         position: frame.position_vectors()?,
         velocity: frame.vectors("velocity")?,
-        temperature: if frame.has("temperature") {
-            Some(frame.f64("temperature")?)
-        } else {
-            None
-        },
+        temperature: temperature(frame)?,
         liquid: frame.u8("molten")?.iter().map(|flag| *flag != 0).collect(),
     };
     if frame.has("wall") {
@@ -115,24 +160,52 @@ mod tests {
 
     #[test]
     fn a_frame_without_temperature_makes_a_cloud_without_temperature() {
-        let c = cloud(&frame()).unwrap();
+        let c = cloud(&frame(), None).unwrap();
         assert!(c.temperature.is_none());
         assert_eq!(c.liquid, [true, false]);
-        let hot = cloud(&frame().scalar("temperature", "K", [300.0, 400.0])).unwrap();
+        let hot = frame().scalar("temperature", "K", [300.0, 400.0]);
+        let hot = cloud(&hot, None).unwrap();
         assert_eq!(hot.temperature.unwrap(), [300.0, 400.0]);
     }
 
     #[test]
     fn walls_are_not_metal() {
-        let c = cloud(&frame().flag("wall", [0, 1])).unwrap();
+        let c = cloud(&frame().flag("wall", [0, 1]), None).unwrap();
         assert_eq!((c.len(), c.velocity.len(), c.liquid.len()), (1, 1, 1));
     }
 
     #[test]
     fn a_missing_column_is_named() {
         let bare = Frame::new(Precision::F32).positions([[0.0; 3]]);
-        let said = cloud(&bare).unwrap_err().to_string();
+        let said = cloud(&bare, None).unwrap_err().to_string();
         assert!(said.contains("velocity_x"), "{said}");
+    }
+
+    #[test]
+    fn grains_count_by_their_state_and_all_of_them_flow() {
+        let heap = Frame::new(Precision::F64)
+            .positions([[0.0; 3], [1.0; 3], [2.0; 3]])
+            .vector("velocity", "m/s", [[1.0, 2.0, 3.0]; 3])
+            .scalar("radius", "m", [0.5, 0.5, 1.0])
+            .flag("state", [0, 1, 2]);
+        let found = |states: &[GrainState]| cloud(&heap, Some(states)).unwrap().position;
+        assert_eq!(found(&[GrainState::Slag]), [[1.0; 3]]);
+        assert_eq!(
+            found(&[GrainState::Powder, GrainState::Frozen]),
+            [[0.0; 3], [2.0; 3]]
+        );
+        assert_eq!(cloud(&heap, None).unwrap().liquid, [true; 3]);
+        let own = grains(&heap).unwrap().unwrap();
+        assert!((own.spacing_m - 4.0 / 3.0).abs() < 1e-15);
+        let ball = std::f64::consts::FRAC_PI_6 * 10.0 / 3.0;
+        assert!((own.volume() / (ball / 0.6) - 1.0).abs() < 1e-12);
+        assert!(grains(&frame()).unwrap().is_none());
+        let cold = Frame::new(Precision::F64)
+            .positions([[0.0; 3]])
+            .vector("velocity", "m/s", [[0.0; 3]])
+            .scalar("radius", "m", [0.5]);
+        let said = cloud(&cold, Some(&[GrainState::Slag])).unwrap_err();
+        assert!(said.to_string().contains("state"), "{said}");
     }
 
     #[test]

@@ -11,6 +11,9 @@
 //! random particles its error is of the order of the jitter over the root of the number of independent frames,
 //! which the standard errors in the output tell ([`parts`]). Near a surface the kernel is cut off, and the mean
 //! is that of the metal inside: half a spacing below the surface, about.
+//!
+//! Grains of flux are averaged in the same way (Komen 2019, figs 5.33 to 5.38): all that lie in a state that counts, powder, slag or
+//! slag that has set, with the room that loose grains take in place of the volume of a particle.
 
 pub mod assemble;
 pub mod average;

@@ -105,6 +105,7 @@ fn failure(error: AverageError) -> Failure {
     let text = error.to_string();
     match error {
         AverageError::Artefact(e) => e.into(),
+        AverageError::Landed => Fault::at("/landed", text).into(),
         AverageError::NoSpacing => Fault::at("", text).into(),
         AverageError::NoFrames { .. } => Fault::at("/time", text).into(),
         AverageError::TooMany { section, .. } => {

@@ -26,7 +26,11 @@ pub struct Scene {
     /// Averages at equal phases of the droplet period; absent: over time alone. Needs `follow`.
     #[serde(default)]
     pub phases: Option<Phases>,
-    /// Leaves out liquid in flight; absent: everything counts.
+    /// States of grains that count, where the frames are of grains (`"channel": "/grains"`); absent: all grains.
+    #[serde(default)]
+    #[schemars(length(min = 1))]
+    pub states: Option<Vec<GrainState>>,
+    /// Leaves out liquid in flight; absent: everything counts. Not for grains.
     #[serde(default)]
     pub landed: Option<Landed>,
     /// Spacing of the grid \[m\]; absent: one particle diameter, as the frames' `/plate` says.
@@ -47,6 +51,18 @@ pub struct Scene {
 
 fn pool() -> String {
     "/pool".to_owned()
+}
+
+/// What a grain is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum GrainState {
+    /// Has not melted yet.
+    Powder,
+    /// Is molten.
+    Slag,
+    /// Has set again.
+    Frozen,
 }
 
 /// A span of simulated time.

@@ -193,6 +193,78 @@ fn each_phase_takes_its_own_frames_alone() {
     assert!((time.values("height_m").unwrap()[middle] + 0.5 * D).abs() < 1e-12);
 }
 
+/// Slag behind the source, which flows, and powder ahead of it, at rest.
+fn write_grains(path: &Path) {
+    let mut writer = Writer::create(path, &header("particle-frames")).unwrap();
+    for n in 0..3 {
+        let time = f64::from(n) * PERIOD;
+        let place = SPEED * time;
+        let source = json!({"time_s": time, "x_m": 0.0, "y_m": place, "z_m": 0.0, "phase": 0.0, "droplet": n});
+        writer.json("/source", time, SCHEMA, &source).unwrap();
+        let metal = frame(place, 0.0, &|_, _| ([0.0; 3], 300.0));
+        let (places, count) = (metal.position_vectors().unwrap(), metal.len());
+        let slag = |x: &[f64; 3]| x[1] < place;
+        let velocity = places.iter().map(|x| match slag(x) {
+            true => [0.0, SPEED - 0.02, 0.01],
+            false => [0.0; 3],
+        });
+        let heap = Frame::new(Precision::F64)
+            .positions(places.iter().copied())
+            .vector("velocity", "m/s", velocity)
+            .scalar("radius", "m", vec![0.5 * D; count])
+            .scalar(
+                "temperature",
+                "K",
+                places.iter().map(|x| if slag(x) { 2600.0 } else { 600.0 }),
+            )
+            .flag("state", places.iter().map(|x| u8::from(slag(x))));
+        writer.frame("/grains", time, &heap).unwrap();
+    }
+    writer.finish().unwrap();
+}
+
+#[test]
+fn flux_and_slag_come_back_in_the_moving_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let (from, to) = (folder.path().join("a.mcap"), folder.path().join("b.mcap"));
+    write_grains(&from);
+    let of = |states: serde_json::Value| {
+        let mut scene = cut();
+        scene["channel"] = json!("/grains");
+        scene.as_object_mut().unwrap().remove("phases");
+        scene["states"] = states;
+        let scene: Scene = serde_json::from_value(scene).unwrap();
+        let mean = average(&from, &to, &scene).unwrap();
+        mean.table("/section_x0/time_mean").unwrap()
+    };
+    for (states, ahead, wanted) in [
+        (json!(["slag"]), false, [-0.02, 0.01, 2600.0]),
+        (json!(["powder"]), true, [-SPEED, 0.0, 600.0]),
+        (json!(null), true, [-SPEED, 0.0, 600.0]),
+    ] {
+        let table = of(states);
+        let [uy, uz, t] = ["velocity_y_m_s", "velocity_z_m_s", "temperature_k"]
+            .map(|name| table.values(name).unwrap());
+        let mut seen = 0;
+        inside(&table, |y, _, i| {
+            let own = if ahead { y > 2.2 * D } else { y < -2.2 * D };
+            if own {
+                assert!((uy[i] - wanted[0]).abs() < 1e-12, "{} at {y}", uy[i]);
+                assert!((uz[i] - wanted[1]).abs() < 1e-12);
+                assert!((t[i] - wanted[2]).abs() < 1e-9);
+                seen += 1;
+            }
+        });
+        assert!(seen > 0, "nothing was looked at");
+    }
+    let mut scene = cut();
+    scene["channel"] = json!("/grains");
+    scene["landed"] = json!({"link_m": D});
+    let scene: Scene = serde_json::from_value(scene).unwrap();
+    let said = average(&from, &to, &scene).unwrap_err().to_string();
+    assert!(said.contains("landed"), "{said}");
+}
+
 #[test]
 fn sections_without_metal_are_named() {
     let folder = tempfile::tempdir().unwrap();

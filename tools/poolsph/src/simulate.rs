@@ -227,17 +227,18 @@ impl<'a> Simulation<'a> {
             let readings = probes::record(&output.probes, state);
             session.record(probes::CHANNEL, state.time, &readings)?;
         }
-        self.write_grains((last || is_due(output.grains_interval()), balance), session)?;
+        let grains = state.grains.is_some() && (last || is_due(output.grains_interval()));
+        self.write_grains((grains, balance), session)?;
         if last {
             for (channel, frame) in march.stages().filter_map(|stage| stage.leaves(state)) {
                 session.frame(channel, state.time, &frame)?;
             }
         }
-        if !self.scene.has_metal() || !(particles || pool.is_some() || balance) {
+        if !self.scene.has_metal() || !(particles || grains || pool.is_some() || balance) {
             return Ok(());
         }
         watch(state)?;
-        if let Some(note) = centre.filter(|_| particles || pool.is_some()) {
+        if let Some(note) = centre.filter(|_| particles || grains || pool.is_some()) {
             frames::source(&note, session)?;
         }
         if particles {
