@@ -1,6 +1,7 @@
 //! From the scene to stages and particles: the only place that asks what the scene contains.
 
 mod grains;
+mod metal;
 mod parts;
 pub mod preview;
 
@@ -13,7 +14,7 @@ use run::{Failure, Fault, Inputs};
 use self::grains::Beside;
 pub use self::parts::LeftOut;
 use self::parts::{Parts, Room};
-use crate::domain::bodies::{self, Body, Filled};
+use crate::domain::bodies::{Body, Filled};
 use crate::domain::bounds::Bounds;
 use crate::domain::droplet::Droplets;
 use crate::domain::fitting::fitting;
@@ -83,7 +84,12 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     // which the stages keep at a temperature.
     let columns = columns(&source.stages(Vec::new(), None)?);
     let mut state = State::new(scene.metal(), columns);
-    let filled = bodies::fill(&mut state, &bodies, source.caloric.as_deref())?;
+    let filled = metal::fill(
+        scene,
+        inputs,
+        &bodies,
+        (&mut state, source.caloric.as_deref()),
+    )?;
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
     let grains = match &scene.grains {
@@ -192,6 +198,9 @@ impl<'a> Source<'a> {
         let mut cover = None;
         if let Some(beside) = beside {
             parts.take(Room::Grains, Box::new(beside.motion));
+            if let Some(displaced) = beside.displaced {
+                parts.take(Room::Grains, Box::new(displaced));
+            }
             cover = beside.cover;
         }
         self.melting(&mut parts)?;

@@ -26,6 +26,11 @@ impl Tool for PoolSph {
             required: false,
         },
         Input {
+            name: "start",
+            what: "an earlier run (particle-frames 1.x) whose metal this one begins with, where the scene says so",
+            required: false,
+        },
+        Input {
             name: "bed",
             what: "grains at rest (particle-frames 1.x), for bodies of grains that say so",
             required: false,

@@ -91,6 +91,13 @@ impl Caloric {
         }
     }
 
+    /// h at the melting point of metal that holds a part of its latent heat, 0 to 1 \[J/kg\]; zero where it does not melt.
+    #[must_use]
+    pub fn halfway(&self, part: f64) -> f64 {
+        self.melting
+            .map_or(0.0, |m| m.solidus + part * m.latent_heat)
+    }
+
     /// T of the enthalpy \[K\].
     #[must_use]
     #[inline]
@@ -196,6 +203,7 @@ pub(crate) mod tests {
         let below = steel.enthalpy(1750.0);
         for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
             assert!((steel.temperature(below + part * 250e3) - 1750.0).abs() < 1e-9);
+            assert!((steel.molten(steel.halfway(part)) - part).abs() < 1e-12);
         }
         assert!(!steel.is_liquid(below + 0.49 * 250e3) && steel.is_liquid(below + 0.51 * 250e3));
         assert!((steel.enthalpy(1760.0) - below - 250e3 - 6500.0).abs() < 1e-6);

@@ -65,6 +65,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     faults.extend(hollows(scene));
     faults.extend(twice(scene));
     faults.extend(beside(scene));
+    faults.extend(begun(scene));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
         faults.extend(crowded(scene));
@@ -84,9 +85,26 @@ fn adaptive(scene: &Scene) -> Vec<Fault> {
         let what = format!("{most} s is shorter than the shortest step, {least} s");
         faults.push(Fault::at("/time/adaptive/greatest_s", what).or_at("/time/step_s"));
     }
-    if scene.grains.is_some() {
-        let what = "grains divide steps that are all alike: leave \"adaptive\" out";
-        faults.push(Fault::at("/time/adaptive", what).or_at("/grains"));
+    faults
+}
+
+/// What cannot be told of the metal of an earlier run.
+fn begun(scene: &Scene) -> Vec<Fault> {
+    if scene.start.is_none() {
+        return Vec::new();
+    }
+    let bodies = scene.bodies.iter().enumerate();
+    let held = bodies.filter(|(_, body)| body.held_temperature_k.is_some());
+    let mut faults: Vec<Fault> = held
+        .map(|(i, _)| {
+            let at = format!("/bodies/{i}/held_temperature_k");
+            let what = "which particles of the input 'start' keep it is not known";
+            Fault::at(&at, what).or_at("/start")
+        })
+        .collect();
+    if !scene.has_metal() {
+        let what = "the scene has no bodies, whose metal it would begin with";
+        faults.push(Fault::at("/start", what));
     }
     faults
 }

@@ -52,6 +52,9 @@ pub struct Scene {
     /// Metal at the start, in order: a later body gives way to an earlier one. None where there are grains alone.
     #[serde(default)]
     pub bodies: Vec<BodyScene>,
+    /// Begins with the metal of an earlier run, of the input `start`; absent: with that of the bodies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<source::start::Parameters>,
     /// Motion of the liquid; absent: nothing moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow: Option<motion::Parameters>,

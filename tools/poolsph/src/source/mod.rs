@@ -1,8 +1,9 @@
-//! The moving arc: where it stands and where in the droplet's period it is.
+//! What a run begins with and goes by: the moving arc, where it stands and where in the droplet's period it is; files of other runs.
 
 pub mod arc;
 pub mod bed;
 mod path;
+pub mod start;
 
 pub use path::{Parameters, Path};
 
