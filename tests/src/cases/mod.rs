@@ -21,6 +21,7 @@ mod dem_pile;
 mod dem_rigid;
 mod dem_rolling;
 mod dem_shear_loop;
+mod dem_silo;
 mod dem_wire;
 mod em_axisymmetric_sphere;
 mod em_bar;
@@ -87,6 +88,7 @@ mod pool_rosenthal;
 mod pool_similar;
 mod pool_stefan;
 mod pool_surface_heat;
+mod saw_float;
 mod saw_layer;
 mod solid_cook;
 mod solid_patch;
@@ -123,6 +125,8 @@ fn grains() -> Vec<Box<dyn Case>> {
         Box::new(dem_wire::DemCavity),
         Box::new(dem_pile::DemPile),
         Box::new(dem_rigid::DemRigid),
+        Box::new(dem_silo::DemSilo),
+        Box::new(saw_float::SawFloat),
         Box::new(saw_layer::SawLayer),
     ]
 }

@@ -99,3 +99,47 @@ fn grains_lie_on_as_they_lay() {
     assert!(still < 1e-4 * 5e-4, "{still:e} m");
     assert!(slipped > 10.0 * still, "{slipped:e} m");
 }
+
+#[test]
+fn a_bed_sleeps_from_the_start_where_nothing_stirs_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(&bed(), ("bed.mcap", folder.path()), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let input = format!("bed={}", folder.path().join("bed.mcap").display());
+    let asleep = |scene: &Value, name: &str| {
+        let output = run(scene, (name, folder.path()), &["--input", &input]);
+        assert!(
+            matches!(output.status.code(), Some(0 | 3)),
+            "{}",
+            said(&output)
+        );
+        let record = folder.path().join(name).with_extension("run.json");
+        let record: Value =
+            serde_json::from_str(&std::fs::read_to_string(record).unwrap()).unwrap();
+        let series = record["history"].as_array().unwrap().iter();
+        let own = series.clone().find(|h| h["name"] == "grains_grain_asleep");
+        let values = own.unwrap()["values"].as_array().unwrap().clone();
+        values[1].as_f64().unwrap()
+    };
+    let mut scene = later();
+    scene["output"]["balance_interval_s"] = json!(1e-4);
+    scene["time"]["end_s"] = json!(1e-3);
+    scene["grains"]["sleep"] = json!({"speed_m_s": 1e-3, "held_s": 5e-3});
+    let grains = Reader::open(folder.path().join("bed.mcap"))
+        .unwrap()
+        .frame("/grains", 0)
+        .unwrap()
+        .len() as f64;
+    assert!((asleep(&scene, "still.mcap") - grains).abs() < 0.5);
+    // A wall that moves keeps those beside it awake, and all where contacts are lost.
+    let mut stirred = scene.clone();
+    stirred["grains"]["walls"] = json!([
+        {"shape": {"box": {"min_m": [0, 0, -0.01], "max_m": [6e-3, 4e-3, 0.1]}}, "hollow": true},
+        {"shape": {"half_space": {"point_m": [0, 0, 0], "normal": [1, 0, 0]}}, "velocity_m_s": [1e-3, 0, 0]}
+    ]);
+    let beside = asleep(&stirred, "stirred.mcap");
+    assert!(beside > 0.0 && beside < grains, "{beside} of {grains}");
+    scene["bodies"][0]["shape"]["box"] =
+        json!({"min_m": [-2e-5, 0, -1e-3], "max_m": [5.98e-3, 4e-3, 0]});
+    assert!(asleep(&scene, "lost.mcap") < 0.5);
+}

@@ -215,6 +215,31 @@ fn an_interrupted_run_ends_in_the_same_bytes() {
 }
 
 #[test]
+fn steps_that_grow_lose_nothing_and_threads_do_not_show() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = |name: &str| -> PathBuf { folder.path().join(name) };
+    let mut scene = falling();
+    scene["time"]["adaptive"] = json!({"greatest_s": 4e-4});
+    scene["grains"]["sleep"] = json!({"speed_m_s": 1e-3, "held_s": 5e-3, "heat_interval_steps": 6});
+    let one = finished(&scene, &out("one.mcap"), &["--threads", "1"]);
+    let two = finished(&scene, &out("two.mcap"), &["--threads", "2"]);
+    assert!(one == two, "the bytes depend on the number of threads");
+    let (metal, grains) = (
+        ends(&out("one.mcap"), "/balance"),
+        ends(&out("one.mcap"), "/grains_balance"),
+    );
+    let given = grains[0].get("enthalpy_j").unwrap() - grains[1].get("enthalpy_j").unwrap();
+    let stored = metal[1].get("energy_stored_j").unwrap();
+    assert!((stored / given - 1.0).abs() < 1e-10, "{given} {stored}");
+    let record = std::fs::read_to_string(out("one.run.json")).unwrap();
+    let record: Value = serde_json::from_str(&record).unwrap();
+    let told = record["closing"].as_array().unwrap().iter();
+    let taken = told.clone().find(|c| c["name"] == "steps_taken").unwrap();
+    let taken = taken["value"].as_f64().unwrap();
+    assert!(taken < 300.0, "{taken} steps of 300: none has grown");
+}
+
+#[test]
 fn what_metal_is_to_grains_means_nothing_without_metal() {
     let folder = tempfile::tempdir().unwrap();
     let mut scene = resting();

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::ellipsoid::Ellipsoid;
 use crate::frame::{Frame, Vector, along, direction, length};
 use crate::mesh::Mesh;
-use crate::shape::{EllipsoidShape, Shape, Stl};
+use crate::shape::{BoxShape, EllipsoidShape, Shape, Stl};
 
 /// What a primitive is, in its own frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -315,12 +315,7 @@ impl Builder<'_> {
         };
         match shape {
             Shape::Box(b) => {
-                let (low, high) = (vector(&b.min_m), vector(&b.max_m));
-                let mut half: Vector = std::array::from_fn(|k| 0.5 * (high[k] - low[k]));
-                if self.dimensions == 2 {
-                    half[2] = f64::INFINITY;
-                }
-                let middle = std::array::from_fn(|k| 0.5 * (high[k] + low[k]));
+                let (middle, half) = self.cuboid(b);
                 let frame = at(middle).within(outer);
                 self.leaf(frame, Kind::Box(half), b.name.as_ref(), cut)
             }
@@ -369,6 +364,16 @@ impl Builder<'_> {
                 Tree::First(trees)
             }
         }
+    }
+
+    /// Middle and half extents of a box.
+    fn cuboid(&self, b: &BoxShape) -> (Vector, Vector) {
+        let (low, high) = (vector(&b.min_m), vector(&b.max_m));
+        let mut half: Vector = std::array::from_fn(|k| 0.5 * (high[k] - low[k]));
+        if self.dimensions == 2 {
+            half[2] = f64::INFINITY;
+        }
+        (std::array::from_fn(|k| 0.5 * (high[k] + low[k])), half)
     }
 
     fn ellipsoid(&self, e: &EllipsoidShape) -> Kind {

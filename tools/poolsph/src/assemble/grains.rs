@@ -5,15 +5,18 @@ use run::{Failure, Fault, Inputs};
 
 use super::Source;
 use crate::grains::cover::Cover;
+use crate::grains::displaced::Displaced;
 use crate::grains::laid::Laid;
 use crate::grains::{self, fill::fill};
+use crate::motion::Method;
 use crate::source::{self, bed::Bed};
 use crate::state::State;
 
-/// Stages of grains: their motion and heat, and what they cover of the metal.
+/// Stages of grains: their motion and heat, and what they cover of the metal and take from the room of the liquid.
 pub(super) struct Beside {
     pub(super) motion: grains::Motion,
     pub(super) cover: Option<Cover>,
+    pub(super) displaced: Option<Displaced>,
 }
 
 impl Source<'_> {
@@ -48,11 +51,19 @@ impl Source<'_> {
         let cover = metal
             .is_some()
             .then(|| Cover::new(self.scene.spacing_m, radii[1]));
+        let flow = self.scene.flow.as_ref().filter(|_| self.scene.has_metal());
+        let projected = flow.filter(|flow| flow.method == Method::Projection);
+        let displaced = projected.map(|_| Displaced::new(self.scene.metal(), radii[1]));
         let motion = grains::Motion::new(scene, &set, warmed).map_err(within)?;
         let motion = motion
             .beside(metal)
             .lying(laid(scene, (&bed, &counts), state), &set);
-        Ok((Beside { motion, cover }, set, counts))
+        let beside = Beside {
+            motion,
+            cover,
+            displaced,
+        };
+        Ok((beside, set, counts))
     }
 }
 
@@ -64,7 +75,9 @@ fn laid(
 ) -> Option<Laid> {
     let body = scene.bodies.iter().position(|body| body.bed)?;
     let first: usize = counts[..body].iter().sum();
-    Some(Laid::of(&bed.contacts, first as u32, state))
+    let whole = scene.bodies.len() == 1;
+    let laid = Laid::of(&bed.contacts, first as u32, state);
+    Some(Laid { whole, ..laid })
 }
 
 /// The input `bed`, if the scene wants it.

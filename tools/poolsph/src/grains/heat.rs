@@ -270,7 +270,7 @@ impl Heat {
             slow.waited += dt;
             let waited = slow.waited;
             let flags = set.take(&SLOW);
-            if slow.due(state.step) {
+            if slow.due(state.step, state.stride) {
                 let beside = (lists, metal.as_deref_mut());
                 self.pass((set, state), beside, (Pass::Slow(&flags), waited))?;
             }
@@ -281,7 +281,7 @@ impl Heat {
         };
         march().map_err(|what| StageError::Data(what.to_string()))?;
         if let Some(slow) = &mut self.slow
-            && slow.due(state.step)
+            && slow.due(state.step, state.stride)
         {
             slow.waited = 0.0;
             sweep::fill(set.column_mut(&SLOW), |row| u8::from(kept(depth, row)));
@@ -320,9 +320,9 @@ impl Heat {
         Self { slow, ..self }
     }
 
-    /// Whether heat of what sleeps goes in the step after `step` others, so that all contacts are wanted.
-    pub(super) fn wants_all(&self, step: u64) -> bool {
-        self.slow.as_ref().is_none_or(|slow| slow.due(step))
+    /// Whether heat of what sleeps goes in the step of `stride` of the scene's after `step` others, so that all contacts are wanted.
+    pub(super) fn wants_all(&self, (step, stride): (u64, u64)) -> bool {
+        self.slow.as_ref().is_none_or(|slow| slow.due(step, stride))
     }
 
     /// Sums, the longest step and the time of a long one, for a checkpoint.

@@ -53,6 +53,8 @@ pub struct Laid {
     pub on_metal: Vec<Memory>,
     /// Contacts with metal and with walls that are not there.
     pub lost: usize,
+    /// Whether all grains of the run are of the bed, and no contact is lost.
+    pub whole: bool,
 }
 
 /// Contacts as a frame.
@@ -174,6 +176,7 @@ impl Laid {
         self.at_walls.retain(at_wall);
         self.on_metal.retain(|_| meets_metal);
         self.lost += all - self.at_walls.len() - self.on_metal.len();
+        self.whole &= self.lost == 0 && !self.between.is_empty();
         self
     }
 }

@@ -27,6 +27,7 @@ mod conducting;
 pub mod cover;
 mod crowd;
 pub mod depth;
+pub mod displaced;
 pub mod faces;
 pub mod fill;
 pub mod heat;

@@ -51,7 +51,7 @@ pub struct Motion {
     begun: bool,
     restored: Option<Vec<f64>>,
     /// Contacts of the bed that the run begins with.
-    laid: Option<Laid>,
+    pub(super) laid: Option<Laid>,
     pub(super) lost: [f64; 2],
     pub(super) steps: f64,
     /// Into how many steps of its own the last step was divided.
@@ -153,6 +153,7 @@ impl Motion {
         self.list_metal();
         self.walls.spread(&self.moving.grains);
         self.act(0.0);
+        self.lie();
         Ok(())
     }
 
@@ -272,6 +273,11 @@ impl Stage for Motion {
             .or(Some(motion))
     }
 
+    fn follows(&self, _: &State) -> f64 {
+        // Grains step by their own limits, whatever the step of the run.
+        f64::INFINITY
+    }
+
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let Some(mut set) = state.grains.take() else {
             return Ok(());
@@ -279,7 +285,8 @@ impl Stage for Motion {
         self.moving.take(&mut set);
         if let Some(metal) = &mut self.metal {
             let grains = &self.moving.grains;
-            let all = (self.heat.as_ref()).is_some_and(|heat| heat.wants_all(state.step));
+            let all =
+                (self.heat.as_ref()).is_some_and(|heat| heat.wants_all((state.step, state.stride)));
             metal.see(state, (grains, depth(&self.sleep)), all);
             metal.take(state, grains, self.doing.fastest, dt);
         }

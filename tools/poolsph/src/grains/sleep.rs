@@ -16,7 +16,7 @@
 //! and the energy that they had is told. Cells that sleep beside others that are awake still feel them, and are put to the test: each
 //! wakes after ten T for as long as it takes to see whether it goes on sleeping. What has grown around it by then pushes it as
 //! if it had never slept, for the springs across its contacts are kept. Cells wake at once beside what moves, where a grain
-//! melts or sets, and beside a wall that moves, is fed or presses.
+//! melts or sets, and beside a wall that moves, is fed or presses. A bed that was handed on at rest sleeps from the start.
 
 use particles::Set;
 
@@ -76,6 +76,13 @@ impl Sleep {
         self.neighbours.dedup();
         self.quiet.resize(rows.div_ceil(CELL), 0.0);
         self.age.resize(rows.div_ceil(CELL), 0.0);
+    }
+
+    /// Takes all cells for quiet, as they were when they were handed on, and watches them from where they are.
+    pub fn lie(&mut self, moving: &mut Moving) {
+        let cells = moving.grains.len().div_ceil(CELL);
+        self.quiet = vec![self.scene.held_s; cells];
+        (0..cells).for_each(|cell| moving.look_again(cell));
     }
 
     /// Follows rows to their new places: `rows` has that of each old row, none where a grain leaves.
@@ -257,6 +264,14 @@ impl Motion {
             sleep.turn(&mut self.moving, &self.stirred, dt);
             self.lists.rest(sleep.depth());
             self.stirred.clear();
+        }
+    }
+
+    /// Lets a bed that was handed on with all of its contacts go on sleeping, but where it is stirred.
+    pub(super) fn lie(&mut self) {
+        let whole = self.laid.as_ref().is_some_and(|laid| laid.whole);
+        if let Some(sleep) = self.sleep.as_mut().filter(|_| whole) {
+            sleep.lie(&mut self.moving);
         }
     }
 

@@ -83,15 +83,15 @@ impl Busy {
 /// Long steps of heat.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Long {
-    /// Steps of the run in one.
+    /// Steps of the scene's length in one.
     pub(super) interval: u64,
     /// Time since the last \[s\].
     pub(super) waited: f64,
 }
 
 impl Long {
-    /// Whether one ends with the step that follows `step` others.
-    pub(super) fn due(self, step: u64) -> bool {
-        (step + 1).is_multiple_of(self.interval)
+    /// Whether one ends with the step that follows `step` others and holds `stride` of them.
+    pub(super) fn due(self, step: u64, stride: u64) -> bool {
+        (step + stride) / self.interval > step / self.interval
     }
 }

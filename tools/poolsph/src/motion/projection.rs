@@ -1,6 +1,6 @@
 //! Projection: the pressure that keeps every particle's density at or below that of the metal.
 //!
-//! With the relative density excess C_a = nu (W_0 + sum_b W_ab) - 1, nu the lattice's volume, and
+//! With the relative density excess C_a = nu (W_0 + sum_b W_ab) + G_a - 1, nu the lattice's volume, G_a what grains take, and
 //! its rate (J u)_a = nu sum_b grad W_ab . (u_a - u_b), the step asks for
 //!
 //! ```text
@@ -178,9 +178,8 @@ impl Projection {
             }
         }
         self.pressure.copy_from_slice(&self.tried);
-        let scale = self.scales.force;
-        self.push
-            .apply(near, &self.pressure, predicted, (step, scale));
+        let scale = (step, self.scales.force);
+        self.push.apply(near, &self.pressure, predicted, scale);
         solved
     }
 
@@ -273,6 +272,7 @@ impl Projection {
                     let over = (volume * solid - 1.0).max(0.0);
                     full += over + (YIELD * over).min(volume * beside);
                 }
+                full -= near.taken.get(a).copied().unwrap_or(0.0);
                 let excess = (volume * near.number[a] - full).min(release);
                 *residual = (excess + scale * rate) as f32;
             },
@@ -368,8 +368,8 @@ impl Projection {
 
     /// y = p_new + weight (p_new - p); p = p_new.
     fn extrapolate(&mut self, weight: f32) {
-        let points = self.tried.par_iter_mut().zip(&mut self.change);
-        let points = points.zip(&self.place).zip(&self.before);
+        let points = (self.tried.par_iter_mut().zip(&mut self.change)).zip(&self.place);
+        let points = points.zip(&self.before);
         points
             .zip(&self.advanced)
             .zip(&mut self.pressure)

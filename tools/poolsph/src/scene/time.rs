@@ -20,7 +20,8 @@ pub struct Time {
 }
 
 /// Steps of 1, 2, 4, 8 ... times `step_s`: the longest that no limit of a stage divides, from one step to the next at most twice as
-/// long. Frames, droplets and the end keep their times. Grains need steps that are all alike.
+/// long. Frames, droplets and the end keep their times. Grains divide
+/// each of them by limits of their own.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {

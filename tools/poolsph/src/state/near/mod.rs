@@ -76,6 +76,9 @@ pub struct Near {
     /// Surface tension of each liquid particle \[N/m\], `[m]`, where it acts by the curvature of the surface; empty without. Empty
     /// after gathering, a force stage may fill it.
     pub tension: Vec<f64>,
+    /// Share of the room around each liquid particle that grains take, `[m]`; empty without. Empty after gathering, a stage of grains
+    /// may fill it.
+    pub taken: Vec<f64>,
     /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
     /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
     pub virial: Vec<f64>,
@@ -122,6 +125,7 @@ impl Near {
             force: Vec::new(),
             outer: Vec::new(),
             tension: Vec::new(),
+            taken: Vec::new(),
             virial: Vec::new(),
             number: Vec::new(),
             gradient: Vec::new(),
@@ -213,6 +217,7 @@ impl Near {
         self.force.resize(self.len, [0.0; 3]);
         self.outer.clear();
         self.tension.clear();
+        self.taken.clear();
         self.virial.clear();
         self.virial.resize(self.len, 0.0);
         if state.faces.any() {
