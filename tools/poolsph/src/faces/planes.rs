@@ -58,11 +58,11 @@ impl Turn {
         std::array::from_fn(|k| self.sign[k] * x[k] + self.shift[k])
     }
 
-    /// True if it goes through a mirror or a wall, not through periodic faces alone.
+    /// Whether what has such an image is held along each axis: along that of a mirror, along all by a wall, which it sticks to.
     #[must_use]
     #[inline]
-    pub fn is_turned(&self) -> bool {
-        self.sign.iter().any(|sign| *sign < 0.0)
+    pub fn holds(&self) -> [bool; 3] {
+        std::array::from_fn(|k| self.sign[k] < 0.0 || self.stick[k] < 0.0)
     }
 
     /// The way from `x` to its image but for whole periods \[m\].

@@ -134,26 +134,31 @@ fn beside_a_mirror_sums_are_those_of_the_whole_body() {
 
 #[test]
 fn half_a_body_beside_a_mirror_moves_as_the_whole() {
-    let points = disordered([5, 5, 5]);
-    let mut half = body(faces(HALF), points.clone());
-    let mut whole = body(Faces::default(), with_its_image(&points));
-    let text = r#"{"method": "projection", "viscosity_pa_s": 10.0, "gravity_m_s2": [0, 0, -1], "density_tolerance": 1e-8,
-        "sweeps_max": 1000}"#;
-    for state in [&mut half, &mut whole] {
-        let parameters: motion::Parameters = serde_json::from_str(text).unwrap();
-        let mut motion = Motion::new(parameters, Law::Uniform(10.0), METAL);
-        for _ in 0..10 {
-            state.gather();
-            motion.advance(state, 0.02).unwrap();
+    // Without divergence the pressure is one of single precision.
+    for (method, most) in [("divergence_free", 2e-4), ("projection", 1e-5)] {
+        let points = disordered([5, 5, 5]);
+        let mut half = body(faces(HALF), points.clone());
+        let mut whole = body(Faces::default(), with_its_image(&points));
+        let text = format!(
+            r#"{{"method": "{method}", "viscosity_pa_s": 10.0, "gravity_m_s2": [0, 0, -1], "density_tolerance": 1e-8,
+                "sweeps_max": 1000}}"#
+        );
+        for state in [&mut half, &mut whole] {
+            let parameters: motion::Parameters = serde_json::from_str(&text).unwrap();
+            let mut motion = Motion::new(parameters, Law::Uniform(10.0), METAL);
+            for _ in 0..10 {
+                state.gather();
+                motion.advance(state, 0.02).unwrap();
+            }
         }
-    }
-    for a in 0..points.len() {
-        let apart = squared(minus(half.position[a], whole.position[a])).sqrt();
-        assert!(apart < 1e-5, "{a}: {apart}");
-        let turned = whole.position[a + points.len()];
-        let off = (turned[0] + whole.position[a][0]).abs();
-        assert!(off < 1e-5, "{a}: {off}");
-        assert!(half.position[a][0] >= 0.0);
+        for a in 0..points.len() {
+            let apart = squared(minus(half.position[a], whole.position[a])).sqrt();
+            assert!(apart < most, "{method}, {a}: {apart}");
+            let turned = whole.position[a + points.len()];
+            let off = (turned[0] + whole.position[a][0]).abs();
+            assert!(off < most, "{method}, {a}: {off}");
+            assert!(half.position[a][0] >= 0.0);
+        }
     }
 }
 

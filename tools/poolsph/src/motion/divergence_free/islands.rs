@@ -1,22 +1,22 @@
-//! Bodies of liquid that touch no solid and no face that mirrors: what their particles do to each other adds up to
-//! nothing.
+//! Bodies of liquid, what hangs together, and the axes along which something holds them.
 //!
-//! The gradient by differences is no sum of pair forces. In what hangs together without a wall the mean of grad p, but
+//! The gradient by differences is no sum of pair forces. Along an axis on which nothing holds a body the mean of grad p, but
 //! for what presses on the surface, is taken from each particle; any field of forces whose sum is zero is one of pair
-//! forces between neighbours, so that action and reaction hold. Liquid that touches a wall leaves its sum there.
+//! forces between neighbours, so that action and reaction hold. Solids and walls that the liquid sticks to hold it along
+//! all axes, a mirror along its own, and take up the sum there: half a body beside a mirror moves as the whole.
 
 use crate::faces::Turn;
 use crate::near::{Near, Role};
 use crate::vector::plus;
 
-/// Which liquid touches a wall, and the bodies that touch none.
+/// The bodies, and what holds them.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Islands {
     /// Taken into a body, `[m]` in the order of [`Near`].
     seen: Vec<bool>,
-    /// What touches a wall, `[m]` in the order of [`Near`].
-    stands: Vec<bool>,
-    /// Particles of what touches a wall, and of one body after the other, in the order in which they were found.
+    /// Axes along which the body of a particle is held, `[m]` in the order of [`Near`].
+    held: Vec<[bool; 3]>,
+    /// Particles of one body after the other, in the order in which they were found.
     members: Vec<u32>,
     /// Where each of these begins in `members`.
     begins: Vec<usize>,
@@ -27,54 +27,58 @@ impl Islands {
     pub(super) fn find(&mut self, near: &Near) {
         self.seen.clear();
         self.seen.resize(near.len(), false);
+        self.held.clear();
+        self.held.resize(near.len(), [false; 3]);
         self.members.clear();
         self.begins.clear();
-        let turned = |b: &u32| near.images().turn(*b as usize).is_some_and(Turn::is_turned);
-        for a in 0..near.len() {
-            if near.role[a] == Role::Wet {
-                self.reach(near, a);
-            } else if !near.images().is_empty() && near.lists.row(a).iter().any(turned) {
-                self.take(near, a);
-            }
-        }
-        self.spread(near, 0);
-        self.stands.clone_from(&self.seen);
         for a in 0..near.len() {
             if near.role[a] == Role::Liquid && !self.seen[a] {
                 let begin = self.members.len();
                 self.begins.push(begin);
                 self.take(near, a);
-                self.spread(near, begin);
+                let held = self.spread(near, begin);
+                for b in &self.members[begin..] {
+                    self.held[*b as usize] = held;
+                }
             }
         }
     }
 
-    /// Whether the liquid particle `a` belongs to a body that touches no wall.
-    pub(super) fn hold(&self, a: usize) -> bool {
-        !self.stands[a]
+    /// Whether nothing holds the body of the particle `a`.
+    pub(super) fn free(&self, a: usize) -> bool {
+        self.held[a] == [false; 3]
     }
 
-    /// Takes from the particles of every island what the mean of `slope` has over that of `upon`.
+    /// The part of `vector` along the axes on which the body of the particle `a` is held.
+    pub(super) fn borne(&self, a: usize, vector: [f64; 3]) -> [f64; 3] {
+        let held = self.held[a];
+        std::array::from_fn(|k| if held[k] { vector[k] } else { 0.0 })
+    }
+
+    /// Takes from the particles of every body, along the axes on which nothing holds it, what the mean of `slope` has over
+    /// that of `upon`.
     pub(super) fn balance(&self, slope: &mut [[f64; 3]], upon: impl Fn(usize) -> [f64; 3]) {
         let ends = self.begins.iter().skip(1).copied();
         let ends = ends.chain([self.members.len()]);
         for (&begin, end) in self.begins.iter().zip(ends) {
             let body = &self.members[begin..end];
-            let sum = body.iter().fold([0.0; 3], |sum, b| {
+            let held = self.held[body[0] as usize];
+            if held == [true; 3] {
+                continue;
+            }
+            let mut sum = body.iter().fold([0.0; 3], |sum, b| {
                 let b = *b as usize;
                 plus(plus(sum, 1.0, slope[b]), -1.0, upon(b))
             });
+            for (sum, held) in sum.iter_mut().zip(held) {
+                if held {
+                    *sum = 0.0;
+                }
+            }
             let part = -1.0 / body.len() as f64;
             for b in body {
                 slope[*b as usize] = plus(slope[*b as usize], part, sum);
             }
-        }
-    }
-
-    /// Takes the liquid neighbours of `a` into the body at hand.
-    fn reach(&mut self, near: &Near, a: usize) {
-        for &b in near.lists.row(a) {
-            self.take(near, near.images().original(b as usize));
         }
     }
 
@@ -86,18 +90,29 @@ impl Islands {
         }
     }
 
-    /// Takes in all that hangs together with the members from `next` on.
-    fn spread(&mut self, near: &Near, mut next: usize) {
+    /// Takes in all that hangs together with the members from `next` on; the axes on which it is held.
+    fn spread(&mut self, near: &Near, mut next: usize) -> [bool; 3] {
+        let mut held = [false; 3];
         while let Some(a) = self.members.get(next).copied() {
-            self.reach(near, a as usize);
+            for &b in near.lists.row(a as usize) {
+                let b = b as usize;
+                let by = if near.role[b] == Role::Wet {
+                    [true; 3]
+                } else {
+                    near.images().turn(b).map_or([false; 3], Turn::holds)
+                };
+                held = std::array::from_fn(|k| held[k] || by[k]);
+                self.take(near, near.images().original(b));
+            }
             next += 1;
         }
+        held
     }
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         self.seen.capacity()
-            + self.stands.capacity()
+            + 3 * self.held.capacity()
             + 4 * self.members.capacity()
             + 8 * self.begins.capacity()
     }

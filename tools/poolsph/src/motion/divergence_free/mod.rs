@@ -325,11 +325,18 @@ impl DivergenceFree {
         );
     }
 
-    /// What touches no wall moves as a whole by the pressure of the gas upon its surface alone; `level` is the mean of that.
-    fn balance(&mut self, near: &Near, level: f64) {
+    /// Along axes on which nothing holds it a body moves as a whole by the pressure of the gas upon its surface alone, whose
+    /// levels are `gas`.
+    fn balance(&mut self, near: &Near, gas: [f64; 2]) {
         let (rows, pull, moment) = (&self.rows, &self.pull, self.filled.moment);
+        let (weight, islands) = (&self.weight, &self.islands);
         let upon = |a: usize| {
-            let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a) - level);
+            if rows[a].missing <= 0.0 {
+                return [0.0; 3];
+            }
+            let surface = plus(near.position[a], 1.0, rows[a].outwards());
+            let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a));
+            let pressure = pressure - weight.above(gas, islands, (a, surface));
             rows[a].open.map(|x| -2.0 * pressure * x / moment)
         };
         self.islands.balance(&mut self.slope, upon);

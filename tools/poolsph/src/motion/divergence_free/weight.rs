@@ -8,8 +8,8 @@
 //!
 //! with the middle x_0 of the liquid, and p_0 such that p' is zero in the mean over the surface. Only p' is solved for,
 //! with the velocities that a has not changed, so that a weight that walls bear costs no accuracy however large it is and
-//! however the particles lie. Bodies that touch no wall fall: there a is zero. So it is along axes on which the
-//! liquid is periodic.
+//! however the particles lie. Along axes on which nothing holds a body it falls: there a is zero. So it is along axes on
+//! which the liquid is periodic.
 
 use rayon::prelude::*;
 
@@ -34,7 +34,8 @@ pub(super) struct Weight {
 }
 
 impl Weight {
-    /// Takes the acceleration `borne` \[m/s2\] out of the predicted velocities of what touches a wall.
+    /// Takes the acceleration `borne` \[m/s2\] out of the predicted velocities along the axes on which
+    /// bodies are held.
     pub(super) fn lift(
         &mut self,
         near: &Near,
@@ -49,8 +50,8 @@ impl Weight {
         }
         let mut count = 0.0;
         for (a, u) in predicted.iter_mut().enumerate() {
-            if near.role[a] == Role::Liquid && !islands.hold(a) {
-                *u = plus(*u, -step.dt, borne);
+            if near.role[a] == Role::Liquid && !islands.free(a) {
+                *u = plus(*u, -step.dt, islands.borne(a, borne));
                 self.middle = plus(self.middle, 1.0, near.position[a]);
                 count += 1.0;
             }
@@ -58,10 +59,11 @@ impl Weight {
         self.middle = self.middle.map(|x| x / f64::max(count, 1.0));
     }
 
-    /// Finds the level of the pressure upon the surface, and what is left of it there; gives the level of what falls \[Pa\].
+    /// Finds the levels of the pressure upon the surface, and what is left of it there; gives the levels of what walls bear and
+    /// of what falls \[Pa\].
     ///
     /// The surface lies where the mirror images of the neighbours that a particle lacks begin: half way to them.
-    pub(super) fn settle(&mut self, near: &Near, islands: &Islands, rows: &[Sums]) -> f64 {
+    pub(super) fn settle(&mut self, near: &Near, islands: &Islands, rows: &[Sums]) -> [f64; 2] {
         self.level = [0.0; 2];
         let mut upon = std::mem::take(&mut self.upon);
         let known = |a: usize, row: &Sums| {
@@ -77,17 +79,17 @@ impl Weight {
             .collect_into_vec(&mut upon);
         let mut sums = [[0.0; 2]; 2];
         for (a, (row, upon)) in rows.iter().zip(&upon).enumerate() {
-            let sum = &mut sums[usize::from(islands.hold(a))];
+            let sum = &mut sums[usize::from(islands.free(a))];
             *sum = [sum[0] + row.missing * upon, sum[1] + row.missing];
         }
         self.level = sums.map(|[sum, weight]| if weight > 0.0 { sum / weight } else { 0.0 });
         for (a, (row, upon)) in rows.iter().zip(&mut upon).enumerate() {
             if row.missing > 0.0 {
-                *upon -= self.level[usize::from(islands.hold(a))];
+                *upon -= self.level[usize::from(islands.free(a))];
             }
         }
         self.upon = upon;
-        self.level[1]
+        self.level
     }
 
     /// p' upon the surface \[Pa\], `[m]`; zero within.
@@ -98,10 +100,21 @@ impl Weight {
     /// p - p' at the place `x` of the particle `a` \[Pa\].
     #[inline]
     pub(super) fn known(&self, islands: &Islands, a: usize, x: [f64; 3]) -> f64 {
-        if islands.hold(a) {
-            self.level[1]
+        self.above(self.level, islands, (a, x))
+    }
+
+    /// The same above other levels \[Pa\], of what walls bear and of what falls.
+    #[inline]
+    pub(super) fn above(
+        &self,
+        level: [f64; 2],
+        islands: &Islands,
+        (a, x): (usize, [f64; 3]),
+    ) -> f64 {
+        if islands.free(a) {
+            level[1]
         } else {
-            self.level[0] + dot(self.slope, minus(x, self.middle))
+            level[0] + dot(islands.borne(a, self.slope), minus(x, self.middle))
         }
     }
 
