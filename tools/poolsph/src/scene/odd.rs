@@ -3,6 +3,7 @@
 use super::Scene;
 use super::body::{BodyScene, StartState};
 use crate::domain::shape::Shape;
+use crate::motion::Method;
 
 /// Notes on what will not happen although the scene names it.
 #[must_use]
@@ -29,7 +30,19 @@ fn shortened(scene: &Scene) -> Option<String> {
 /// What a run ends with warnings for, and is known before.
 #[must_use]
 pub fn doubts(scene: &Scene) -> Vec<String> {
-    thin(scene)
+    let mut doubts = thin(scene);
+    doubts.extend(roomless(scene));
+    doubts
+}
+
+/// Grains among metal whose way of flowing does not know the room that they take.
+fn roomless(scene: &Scene) -> Option<String> {
+    let flow = scene.flow.as_ref()?;
+    let meet = scene.grains.is_some() && !scene.bodies.is_empty();
+    (meet && flow.method != Method::Projection).then(|| {
+        "grains take no room in this liquid, and what floats lies too deep: \"method\": \"projection\" of the flow knows it"
+            .to_owned()
+    })
 }
 
 /// Fewest layers of particles that carry what lies on them: the kernel reaches over two spacings.
@@ -243,6 +256,21 @@ mod tests {
         let mut still = scene("wall", 1e-3);
         still.flow = None;
         assert!(thin(&still).is_empty());
+    }
+
+    #[test]
+    fn grains_without_room_are_told() {
+        let doubt = |method: &str, grains: bool| {
+            let mut scene = plain();
+            scene["flow"]["method"] = json!(method);
+            if grains {
+                scene["grains"] = json!({"density_kg_m3": 3000, "contact": {"law": {"linear": {"stiffness_n_m": 75}}, "restitution": 0.3},
+                    "bodies": [{"places_m": [[0, 0, 0.01]], "radius_m": 0.005}]});
+            }
+            roomless(&serde_json::from_value(scene).unwrap()).is_some()
+        };
+        assert!(doubt("divergence_free", true) && doubt("homogenising", true));
+        assert!(!doubt("projection", true) && !doubt("divergence_free", false));
     }
 
     #[test]
