@@ -11,12 +11,10 @@
 //! it is.
 
 use kernels::CubicSpline;
-use neighbours::{Grid, Halo};
-use particles::POSITION;
 use rayon::prelude::*;
 use shapes::rule::gauss;
 
-use super::RADIUS;
+use super::around::Around;
 use crate::near::Role;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{Metal, State};
@@ -28,13 +26,7 @@ const PLACES: usize = 8;
 pub struct Displaced {
     kernel: CubicSpline<3>,
     rule: Vec<(f64, f64)>,
-    /// Beyond this no grain takes room of a particle \[m\].
-    reach: f64,
-    halo: Halo,
-    grid: Grid,
-    liquid: Vec<[f64; 3]>,
-    places: Vec<[f64; 3]>,
-    radii: Vec<f64>,
+    around: Around,
     most: f64,
 }
 
@@ -42,49 +34,19 @@ impl Displaced {
     /// The room that grains of at most `widest` \[m\] in radius take of the liquid of a metal.
     #[must_use]
     pub fn new(metal: Metal, widest: f64) -> Self {
-        let reach = metal.support() + widest;
         Self {
             kernel: CubicSpline::new(metal.smoothing_length),
             rule: gauss(PLACES),
-            reach,
-            halo: Halo::new(reach),
-            grid: Grid::new(reach),
-            liquid: Vec::new(),
-            places: Vec::new(),
-            radii: Vec::new(),
+            around: Around::new(metal.support() + widest),
             most: 0.0,
         }
     }
 
-    /// The grains that are near the liquid.
-    fn look(&mut self, state: &State) {
-        self.places.clear();
-        self.radii.clear();
-        let near = &state.near;
-        let Some(set) = state.grains.as_ref().filter(|_| !near.is_empty()) else {
-            return;
-        };
-        self.liquid.clear();
-        let flows = near.role.iter().zip(&near.position);
-        let flows = flows.filter(|(role, _)| **role == Role::Liquid);
-        self.liquid.extend(flows.map(|(_, x)| *x));
-        self.halo.mark(&self.liquid);
-        let grains = set.column(&POSITION).iter().zip(set.column(&RADIUS));
-        for (x, r) in grains.filter(|(x, _)| self.halo.may_touch(**x)) {
-            self.places.push(*x);
-            self.radii.push(*r);
-        }
-        self.grid.bin(&self.places);
-    }
-
     /// G of a place.
     fn taken(&self, place: [f64; 3]) -> f64 {
-        let (grid, mut taken) = (&self.grid, 0.0);
-        grid.runs(place, self.reach, |run| {
-            for (x, k) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
-                let square: f64 = (0..3).map(|i| (x[i] - place[i]).powi(2)).sum();
-                taken += self.part(square.sqrt(), self.radii[*k as usize]);
-            }
+        let mut taken = 0.0;
+        self.around.each(place, |square, radius| {
+            taken += self.part(square.sqrt(), radius);
         });
         taken
     }
@@ -126,9 +88,11 @@ impl Stage for Displaced {
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        self.look(state);
+        let flows = state.near.role.iter().zip(&state.near.position);
+        let flows = flows.filter(|(role, _)| **role == Role::Liquid);
+        self.around.look(state, flows.map(|(_, x)| *x));
         self.most = 0.0;
-        if self.places.is_empty() {
+        if self.around.is_empty() {
             return Ok(());
         }
         let mut taken = std::mem::take(&mut state.near.taken);

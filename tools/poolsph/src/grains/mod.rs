@@ -19,6 +19,7 @@
 //! adds nothing.
 
 pub mod again;
+mod around;
 pub mod block;
 pub mod bounds;
 pub mod columns;
