@@ -75,6 +75,7 @@ mod liquid_charge;
 mod liquid_drop;
 mod liquid_field_drop;
 mod liquid_field_march;
+mod liquid_flow;
 mod liquid_heat;
 mod liquid_leaky;
 mod liquid_levitation;
@@ -237,6 +238,7 @@ fn liquids() -> Vec<Box<dyn Case>> {
         Box::new(liquid_field_drop::LiquidFieldDrop),
         Box::new(liquid_field_march::LiquidFieldMarch),
         Box::new(liquid_charge::LiquidCharge),
+        Box::new(liquid_flow::LiquidFlow),
         Box::new(liquid_heat::LiquidHeat),
         Box::new(liquid_leaky::LiquidLeaky),
         Box::new(liquid_levitation::LiquidLevitation),

@@ -4,6 +4,7 @@ use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
 
 use super::acting::Acting;
+use super::between::between;
 use super::heated::Heated;
 use super::liquid::{fastest, filled, matter, start, steps, way};
 use super::steps::Steps;
@@ -15,7 +16,7 @@ use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference};
 use crate::scene::output::Precision as Wanted;
-use crate::scene::{Liquid as Part, LiquidMarch, Scene};
+use crate::scene::{Geometry, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that a point may move in a step; longer ones are divided.
 const FARTHEST: f64 = 0.5;
@@ -52,16 +53,20 @@ pub fn flow(
     (part, marched): (&Part, &LiquidMarch),
     session: &mut Session,
 ) -> Result<(), Failure> {
+    if let Some(faces) = &part.faces {
+        let of = ((part, faces), marched);
+        return match scene.geometry {
+            Geometry::Space => between::<3>(scene, of, session),
+            _ => between::<2>(scene, of, session),
+        };
+    }
     let filled = session.timed("points", || filled(scene, part))?;
     let mut liquid = start(part, filled)?;
     let steps = steps(scene, (part, marched), &liquid);
     let mut march = March {
         matter: matter(part),
         way: way(scene, part),
-        precision: match scene.output.precision {
-            Wanted::F32 => Precision::F32,
-            Wanted::F64 => Precision::F64,
-        },
+        precision: precision(scene),
         volume: None,
         drift: [0.0; 3],
         centre: [0.0; 3],
@@ -99,6 +104,30 @@ pub fn flow(
     }
     march.close(&steps, session);
     Ok(())
+}
+
+/// How frames are written.
+pub(super) fn precision(scene: &Scene) -> Precision {
+    match scene.output.precision {
+        Wanted::F32 => Precision::F32,
+        Wanted::F64 => Precision::F64,
+    }
+}
+
+/// Warns of what did not converge.
+pub(super) fn doubts(effort: &Effort, session: &mut Session) {
+    if effort.unsolved > 0 {
+        session.warn(format!(
+            "not converged: {} solves of the liquid",
+            effort.unsolved
+        ));
+    }
+    if effort.unsettled > 0 {
+        session.warn(format!(
+            "not converged: friction and pressure of {} stages",
+            effort.unsettled
+        ));
+    }
 }
 
 impl March {
@@ -165,9 +194,10 @@ impl March {
             if let Some(heat) = &mut self.heat {
                 heat.flow(liquid, &ended, &self.acting, how, &mut self.effort)?;
             }
-            liquid.smooth(&ended.patches);
+            liquid.smooth(&ended.patches, &ended.images);
             let apart = self.heat.is_some().then(|| liquid.position.clone());
-            liquid.spread(&ended.rows, &ended.patches, self.way.spacing);
+            let fits = (&ended.rows, &ended.images);
+            liquid.spread(fits, &ended.patches, self.way.spacing);
             if let (Some(heat), Some(before)) = (&mut self.heat, apart) {
                 heat.carry(&ended.rows, &before, &liquid.position);
             }
@@ -244,7 +274,8 @@ impl March {
         (time, patches): (f64, &[Patch<3>]),
         session: &mut Session,
     ) -> Result<(), Failure> {
-        let mut points = told::points(liquid, &self.acting.pressure, self.precision);
+        let of = (liquid, &self.matter);
+        let mut points = told::points(of, &self.acting.pressure, self.precision);
         if let Some(heat) = &self.heat {
             points = heat.frame(points);
         }
@@ -333,17 +364,6 @@ impl March {
                 self.divided
             ));
         }
-        if self.effort.unsolved > 0 {
-            session.warn(format!(
-                "not converged: {} solves of the liquid",
-                self.effort.unsolved
-            ));
-        }
-        if self.effort.unsettled > 0 {
-            session.warn(format!(
-                "not converged: friction and pressure of {} stages",
-                self.effort.unsettled
-            ));
-        }
+        doubts(&self.effort, session);
     }
 }

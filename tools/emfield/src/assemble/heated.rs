@@ -116,7 +116,7 @@ impl Heated {
         if self.rows.is_none() {
             let how = (way.spacing, way.order);
             let inside = operators(&liquid.position, how).map_err(|e| failed(&e))?;
-            let surface = sloped(&liquid.position, patches, how).map_err(|e| failed(&e))?;
+            let surface = sloped(&liquid.position, patches, how, false).map_err(|e| failed(&e))?;
             self.rows = Some([inside, surface]);
         }
         if let Some([inside, surface]) = self.rows.take() {
@@ -149,6 +149,7 @@ impl Heated {
             moved,
             patches,
             rows,
+            ..
         } = ended;
         let how = (way.spacing, way.order);
         let surface = sloped(&liquid.position, patches, how).map_err(|e| failed(&e))?;
@@ -157,8 +158,8 @@ impl Heated {
         let back = |i: usize| difference(&moved[i], &liquid.velocity[i]);
         let mut drift = drift::along_surface(patches, &field, back);
         if !liquid.follow.is_empty() {
-            let apart = (patches.len(), way.spacing);
-            drift.extend(drift::inside(rows, &field, back, apart));
+            let apart = (patches.len()..field.len(), way.spacing);
+            drift.extend(drift::inside((rows, rows), &field, back, apart));
         }
         let ground = Ground {
             inside: rows,

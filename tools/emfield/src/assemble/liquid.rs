@@ -6,24 +6,26 @@ use shapes::Body;
 
 use super::acting::electric;
 use super::alternating::alternating;
+use super::between;
 use super::steps::Steps;
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::electric::Electric;
 use crate::liquid::fill::{Filled, fill};
 use crate::liquid::magnetic::{Magnetic, outline};
+use crate::liquid::room::Room;
 use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
 use crate::scene::currents::Transient;
-use crate::scene::{Liquid as Part, LiquidHeat, LiquidMarch, Scene};
+use crate::scene::{Geometry, Liquid as Part, LiquidHeat, LiquidMarch, Scene};
 
 /// Part of the time of a ripple of the drop that a step takes, over h/R.
-const RIPPLE: f64 = 0.3;
+pub(super) const RIPPLE: f64 = 0.3;
 /// Part of the time in which a spacing is fallen or passed.
-const PASSED: f64 = 0.25;
+pub(super) const PASSED: f64 = 0.25;
 /// Most points of a liquid.
-const MOST: f64 = 5e6;
+pub(super) const MOST: f64 = 5e6;
 /// Bytes that a step holds for each point, about: weights, rows and factors.
 const BYTES: u64 = 6_000;
 
@@ -55,7 +57,7 @@ pub(super) fn filled(scene: &Scene, liquid: &Part) -> Result<Filled<3>, Failure>
     Ok(filled)
 }
 
-pub(super) fn matter(liquid: &Part) -> Matter<3> {
+pub(super) fn matter<const D: usize>(liquid: &Part) -> Matter<D> {
     let gravity = liquid.gravity_m_s2.as_deref().unwrap_or(&[]);
     Matter {
         density: liquid.density_kg_m3,
@@ -103,6 +105,7 @@ pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure
         pressure: vec![part.gas_pressure_pa; n],
         rate: vec![[0.0; 3]; n],
         normal: filled.normal,
+        room: Room::default(),
     })
 }
 
@@ -112,7 +115,7 @@ fn longest(scene: &Scene, (part, march): (&Part, &LiquidMarch), liquid: &Liquid<
         return step;
     }
     let spacing = scene.points.spacing_m;
-    let matter = matter(part);
+    let matter: Matter<3> = matter(part);
     let mut step = march.end_s;
     if matter.tension > 0.0 {
         let volume = liquid.position.len() as f64 * spacing.powi(3);
@@ -158,6 +161,13 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
             .stage("equilibrium")
             .left_out("points", "no key 'march' of 'liquid'"));
     };
+    if let Some(faces) = &part.faces {
+        let of = ((part, faces), march);
+        return match scene.geometry {
+            Geometry::Space => between::plan::<3>(scene, of),
+            _ => between::plan::<2>(scene, of),
+        };
+    }
     let liquid = start(part, filled(scene, part)?)?;
     let steps = steps(scene, (part, march), &liquid);
     let points = liquid.position.len() as u64;
@@ -193,6 +203,11 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
         None => plan.left_out("magnetic field", "no key 'magnetic' of 'liquid'"),
     };
     plan = warmed(plan, part.heat.as_ref());
+    Ok(lacks(plan, part))
+}
+
+/// Adds what a liquid does without to a plan.
+pub(super) fn lacks(mut plan: Plan, part: &Part) -> Plan {
     for (absent, name, key) in [
         (part.viscosity_pa_s.is_none(), "viscosity", "viscosity_pa_s"),
         (
@@ -206,7 +221,7 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
             plan = plan.left_out(name, &format!("no key '{key}' of 'liquid'"));
         }
     }
-    Ok(plan)
+    plan
 }
 
 /// Adds what heat does to a plan.
@@ -234,6 +249,14 @@ pub fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure>
     let Some(march) = &part.march else {
         return Ok(None);
     };
+    if let Some(faces) = &part.faces {
+        let of = ((part, faces), march);
+        return match scene.geometry {
+            Geometry::Space => between::estimate::<3>(scene, of),
+            _ => between::estimate::<2>(scene, of),
+        }
+        .map(Some);
+    }
     let mut liquid = start(part, filled(scene, part)?)?;
     let steps = steps(scene, (part, march), &liquid);
     let (way, mut effort) = (way(scene, part), Effort::default());

@@ -5,6 +5,7 @@ mod acting;
 mod agree;
 mod alternating;
 mod bars;
+mod between;
 mod broken;
 mod charge;
 mod currents;

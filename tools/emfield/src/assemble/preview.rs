@@ -8,8 +8,9 @@ use shapes::frame::{Frame, Vector};
 
 use super::liquid::filled;
 use crate::cloud::{Class, Cloud};
+use crate::liquid::vector::spatial;
 use crate::scene::currents::Loop;
-use crate::scene::{Coil, Geometry, Liquid, Scene};
+use crate::scene::{Coil, Faces, Geometry, Liquid, Scene};
 
 /// Sides of the polygon that a loop is drawn as.
 const SIDES: usize = 48;
@@ -66,6 +67,11 @@ pub fn preview(scene: &Scene) -> Result<Preview, Failure> {
 
 /// The points of a liquid at its start.
 fn liquid(scene: &Scene, part: &Liquid) -> Result<Preview, Failure> {
+    match (&part.faces, scene.geometry) {
+        (Some(faces), Geometry::Space) => return between::<3>(scene, (part, faces)),
+        (Some(faces), _) => return between::<2>(scene, (part, faces)),
+        (None, _) => {}
+    }
     let filled = filled(scene, part)?;
     let mut preview = Preview::new(Coordinates::Space);
     let material = preview.material("liquid");
@@ -76,6 +82,33 @@ fn liquid(scene: &Scene, part: &Liquid) -> Result<Preview, Failure> {
             size: [scene.points.spacing_m; 3],
             material,
             condition: if i < filled.normal.len() { free } else { 0 },
+        });
+    }
+    Ok(preview)
+}
+
+/// The points of a liquid between faces at its start.
+fn between<const D: usize>(scene: &Scene, of: (&Liquid, &Faces)) -> Result<Preview, Failure> {
+    let (room, filled) = super::between::filled::<D>(scene, of)?;
+    let mut preview = Preview::new(match scene.geometry {
+        Geometry::Space => Coordinates::Space,
+        _ => Coordinates::Plane,
+    });
+    let material = preview.material("liquid");
+    let surface = filled.normal.len();
+    let walls = surface..surface + room.held.len();
+    let free = preview.condition("free surface");
+    let held = preview.condition("wall");
+    for (i, place) in filled.position.iter().enumerate() {
+        preview.spot(Spot {
+            place: spatial(place),
+            size: extent(scene.geometry, scene.points.spacing_m),
+            material,
+            condition: match i {
+                _ if i < surface => free,
+                _ if walls.contains(&i) => held,
+                _ => 0,
+            },
         });
     }
     Ok(preview)

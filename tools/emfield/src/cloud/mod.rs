@@ -10,7 +10,7 @@ mod count;
 mod faces;
 mod gaps;
 mod inner;
-mod jitter;
+pub(crate) mod jitter;
 pub(crate) mod lattice;
 mod layers;
 pub(crate) mod occupied;

@@ -3,6 +3,8 @@
 //! The liquid that passes a point brings what is smooth: as much of f as passes of a spacing in a second goes over into the value of
 //! the fit. Sums without a side would let ripples grow that fits do not see.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use wls::Stencils;
 
@@ -30,21 +32,21 @@ pub fn along_surface<const D: usize, const C: usize>(
     patches.iter().enumerate().map(at).collect()
 }
 
-/// At points inside, from the first one on, that follow the surface.
+/// At a range of points inside that follow the surface, by rows of slopes and of values of fits.
 #[must_use]
 pub fn inside<const D: usize, const C: usize>(
-    rows: &Stencils<D>,
+    (rows, fits): (&Stencils<D>, &Stencils<D>),
     f: &[[f64; C]],
     back: impl Fn(usize) -> [f64; D] + Sync,
-    (first, spacing): (usize, f64),
+    (range, spacing): (Range<usize>, f64),
 ) -> Vec<[f64; C]> {
-    (first..f.len())
+    range
         .into_par_iter()
         .map(|i| {
             let back = back(i);
             let passed = length(&back) / spacing;
             let mut sum = f[i].map(|c| -passed * c);
-            for (j, weight) in rows.value(i).iter() {
+            for (j, weight) in fits.value(i).iter() {
                 sum = along(&sum, passed * weight, &f[j]);
             }
             for (a, part) in back.iter().enumerate() {
@@ -60,7 +62,7 @@ pub fn inside<const D: usize, const C: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::liquid::operators::derivatives;
+    use crate::liquid::operators::{Fits, derivatives, values};
 
     /// A cube of points a unit apart, and the one in its middle.
     fn cube() -> (Vec<[f64; 3]>, usize) {
@@ -71,9 +73,11 @@ mod tests {
     #[test]
     fn a_smooth_field_comes_as_its_slope_says() {
         let (points, middle) = cube();
-        let rows = derivatives(&points, (1.0, 3), true).unwrap();
+        let (cloud, how) = ((&points[..], points.len()), (1.0, 3));
+        let rows = derivatives(cloud, how, Fits { through: true, value: false }).unwrap();
+        let fits = values(cloud, how).unwrap();
         let f: Vec<[f64; 1]> = points.iter().map(|x| [x[0] + 0.1 * x[1] * x[1]]).collect();
-        let found = inside(&rows, &f, |_| [0.2, -0.1, 0.0], (middle, 1.0));
+        let found = inside((&rows, &fits), &f, |_| [0.2, -0.1, 0.0], (middle..middle + 1, 1.0));
         let [_, y, _] = points[middle];
         assert!((found[0][0] - (0.2 - 0.02 * y)).abs() < 1e-9, "{found:?}");
     }

@@ -9,8 +9,9 @@ use run::Failure;
 use wls::Stencils;
 
 use super::effort::{Effort, failed};
+use super::room::images::Images;
 use super::step::Liquid;
-use super::vector::{along, difference, dot};
+use super::vector::{along, difference, dot, spatial};
 
 impl<const D: usize> Liquid<D> {
     /// Velocities of the points of a liquid that moves at `velocity` \[m/s\].
@@ -24,6 +25,12 @@ impl<const D: usize> Liquid<D> {
             return moved;
         }
         let mut moved = self.follow.clone();
+        if self.room.bounds() {
+            for ((w, u), n) in moved.iter_mut().zip(velocity).zip(&self.normal) {
+                *w = n.map(|c| c * dot(u, n));
+            }
+            return moved;
+        }
         let share = (velocity.len() as f64).recip();
         let sum = |sum: [f64; D], u: &[f64; D]| along(&sum, share, u);
         let whole = velocity.iter().fold([0.0; D], sum);
@@ -39,11 +46,14 @@ impl<const D: usize> Liquid<D> {
     /// Where the equations have no solution.
     pub fn follow_surface(
         &mut self,
-        rows: &Stencils<D>,
+        (rows, images): (&Stencils<D>, &Images<D>),
         surface: &[[f64; D]],
         (spacing, rule): (f64, Rule<'_>),
         effort: &mut Effort,
     ) -> Result<(), Failure> {
+        if self.room.bounds() {
+            return self.follow_in_room((rows, images), surface, (spacing, rule), effort);
+        }
         let (on, n) = (surface.len(), self.follow.len());
         let square = spacing * spacing;
         let matrix = Rows::gathered(n, 0.0, |i, row| {
@@ -59,9 +69,59 @@ impl<const D: usize> Liquid<D> {
             ..Options::default()
         };
         let mut system = System::new(matrix, Vec::new(), options).map_err(|e| failed(&e))?;
-        let mut sides = vec![[0.0; D]; n];
-        sides[..on].copy_from_slice(surface);
+        let mut sides = vec![[0.0; 3]; n];
+        for (side, w) in sides.iter_mut().zip(surface) {
+            *side = spatial(w);
+        }
         self.follow[..on].copy_from_slice(surface);
-        effort.add(&system.solve(&sides, &mut self.follow, rule))
+        let mut unknown: Vec<[f64; 3]> = self.follow.iter().map(spatial).collect();
+        let solved = system.solve(&sides, &mut unknown, rule);
+        for (w, x) in self.follow.iter_mut().zip(&unknown) {
+            *w = std::array::from_fn(|k| x[k]);
+        }
+        effort.add(&solved)
+    }
+
+    /// The same within faces, component by component, since mirrors turn each its own way; points on walls stay.
+    fn follow_in_room(
+        &mut self,
+        (rows, images): (&Stencils<D>, &Images<D>),
+        surface: &[[f64; D]],
+        (spacing, rule): (f64, Rule<'_>),
+        effort: &mut Effort,
+    ) -> Result<(), Failure> {
+        let (on, n) = (surface.len(), self.follow.len());
+        if on == 0 {
+            return Ok(());
+        }
+        let fixed = on + self.room.held.len();
+        let square = spacing * spacing;
+        for k in 0..D {
+            let matrix = Rows::gathered(n, 0.0, |i, row| {
+                if i < fixed {
+                    row.push((i as u32, 1.0));
+                } else {
+                    let all = rows.laplacian(i).iter();
+                    row.extend(all.map(|(j, w)| {
+                        (images.origin(j) as u32, -square * images.sign(j, k) * w)
+                    }));
+                }
+            });
+            let options = Options {
+                method: Method::Incomplete(Keep::PATTERN),
+                ..Options::default()
+            };
+            let mut system = System::new(matrix, Vec::new(), options).map_err(|e| failed(&e))?;
+            let mut sides = vec![[0.0]; n];
+            let mut unknown: Vec<[f64; 1]> = self.follow.iter().map(|w| [w[k]]).collect();
+            for (i, w) in surface.iter().enumerate() {
+                (sides[i], unknown[i]) = ([w[k]], [w[k]]);
+            }
+            effort.add(&system.solve(&sides, &mut unknown, rule))?;
+            for (w, x) in self.follow.iter_mut().zip(&unknown) {
+                w[k] = x[0];
+            }
+        }
+        Ok(())
     }
 }

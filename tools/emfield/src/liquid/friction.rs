@@ -16,6 +16,7 @@ use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
 use wls::Stencils;
 
 use super::operators::sloped;
+use super::room::images::Images;
 use super::surface::Patch;
 use super::vector::{along, dot};
 
@@ -30,6 +31,21 @@ pub enum Error {
     Rows(#[from] krylov::Error),
 }
 
+/// What friction knows of a liquid.
+#[derive(Debug, Clone, Copy)]
+pub struct Ground<'a, const D: usize> {
+    /// Rows of derivatives.
+    pub inside: &'a Stencils<D>,
+    /// The surface, whose points come first.
+    pub patches: &'a [Patch<D>],
+    /// Images beyond faces.
+    pub images: &'a Images<D>,
+    /// Points on walls, which follow those of the surface: their velocity is given.
+    pub held: usize,
+    /// Fits pass through the value of their own point.
+    pub through: bool,
+}
+
 /// The equations of a velocity.
 pub struct Friction {
     system: System<f64, f64>,
@@ -38,37 +54,49 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// Makes them; `diffusion` is `tau nu` \[m2\].
+    /// Makes them; `points` have their images behind them, and `diffusion` is `tau nu` \[m2\].
     ///
     /// # Errors
     /// Where fits or equations cannot be made.
     pub fn new<const D: usize>(
         points: &[[f64; D]],
-        (inside, patches): (&Stencils<D>, &[Patch<D>]),
+        ground: Ground<'_, D>,
         (spacing, order): (f64, u8),
         diffusion: f64,
     ) -> Result<Self, Error> {
-        let surface = sloped(points, patches, (spacing, order))?;
-        let number = |j: usize, b: usize| (D * j + b) as u32;
-        let matrix = Rows::gathered(D * points.len(), 0.0, |row, entries| {
+        let Ground {
+            inside,
+            patches,
+            images,
+            held,
+            through,
+        } = ground;
+        let surface = sloped(points, patches, (spacing, order), through)?;
+        let number = |j: usize, b: usize| (D * images.origin(j) + b) as u32;
+        let walls = patches.len()..patches.len() + held;
+        let matrix = Rows::gathered(D * images.own(), 0.0, |row, entries| {
             let (i, b) = (row / D, row % D);
             entries.push((number(i, b), 1.0));
+            if walls.contains(&i) {
+                return;
+            }
+            let part = |j: usize, c: usize| -diffusion * images.sign(j, c);
             let Some(patch) = patches.get(i) else {
                 let all = inside.laplacian(i).iter();
-                entries.extend(all.map(|(j, w)| (number(j, b), -diffusion * w)));
+                entries.extend(all.map(|(j, w)| (number(j, b), part(j, b) * w)));
                 return;
             };
             let laplacian = surface.laplacian(i);
             entries.extend(
                 laplacian
                     .iter()
-                    .map(|(j, w)| (number(j, b), -diffusion * w)),
+                    .map(|(j, w)| (number(j, b), part(j, b) * w)),
             );
             let share: f64 = laplacian.conditions().sum();
             for (&j, slope) in patch.neighbours.iter().zip(&patch.slope) {
                 for c in 0..D {
                     let g = -(slope[b] * patch.normal[c] + patch.normal[b] * slope[c]);
-                    entries.push((number(j as usize, c), -diffusion * share * g));
+                    entries.push((number(j as usize, c), part(j as usize, c) * share * g));
                 }
             }
         });

@@ -17,6 +17,8 @@ pub mod matter;
 pub mod operators;
 pub mod outline;
 pub mod pressure;
+pub mod room;
+mod rounds;
 pub mod sessile;
 mod settle;
 mod spheroidal;

@@ -1,6 +1,6 @@
 //! Gradients and Laplacians at all points of the liquid, by weighted least squares.
 
-use wls::{Cloud, Condition, Error, Everything, Metric, Plan, Rules, Search, Stencils, Wants};
+use wls::{Cloud, Condition, Error, Metric, Plan, Rules, Search, Stencils, Wants};
 
 use super::surface::Patch;
 
@@ -12,17 +12,35 @@ pub fn operators<const D: usize>(
     points: &[[f64; D]],
     how: (f64, u8),
 ) -> Result<Stencils<D>, Error> {
-    derivatives(points, how, false)
+    derivatives((points, points.len()), how, Fits::default())
 }
 
-/// The same with rows of the value of the fit, where they are wanted.
+/// Rows are made at the first of the points; the others are images.
+struct First(usize);
+
+impl<const D: usize> Rules<D> for First {
+    fn wanted(&self, i: usize) -> bool {
+        i < self.0
+    }
+}
+
+/// What fits are like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Fits {
+    /// They pass through the value of their own point: no wave of the field is then without a Laplacian.
+    pub through: bool,
+    /// Rows of their values are wanted too.
+    pub value: bool,
+}
+
+/// The same at the first `own` of the points.
 ///
 /// # Errors
 /// As [`operators`].
 pub fn derivatives<const D: usize>(
-    points: &[[f64; D]],
+    (points, own): (&[[f64; D]], usize),
     (spacing, order): (f64, u8),
-    value: bool,
+    fits: Fits,
 ) -> Result<Stencils<D>, Error> {
     let metrics = vec![Metric::round(spacing); points.len()];
     let search = Search::new(Cloud {
@@ -30,12 +48,36 @@ pub fn derivatives<const D: usize>(
         metrics: &metrics,
     })?;
     let wants = Wants {
-        value,
+        value: fits.value,
         gradient: true,
         laplacian: true,
         ..Wants::default()
     };
-    Stencils::build(&search, &Plan::new::<D>(order, wants), &Everything)
+    let plan = Plan {
+        interpolating: fits.through,
+        ..Plan::new::<D>(order, wants)
+    };
+    Stencils::build(&search, &plan, &First(own))
+}
+
+/// Values of fits that do not pass through their points, at the first `own` of them.
+///
+/// # Errors
+/// Where points coincide.
+pub fn values<const D: usize>(
+    (points, own): (&[[f64; D]], usize),
+    (spacing, order): (f64, u8),
+) -> Result<Stencils<D>, Error> {
+    let metrics = vec![Metric::round(spacing); points.len()];
+    let search = Search::new(Cloud {
+        points,
+        metrics: &metrics,
+    })?;
+    let wants = Wants {
+        value: true,
+        ..Wants::default()
+    };
+    Stencils::build(&search, &Plan::new::<D>(order, wants), &First(own))
 }
 
 /// Rows at the points of a surface, which know the slope along its normal.
@@ -65,6 +107,7 @@ pub fn sloped<const D: usize>(
     points: &[[f64; D]],
     patches: &[Patch<D>],
     (spacing, order): (f64, u8),
+    through: bool,
 ) -> Result<Stencils<D>, Error> {
     let metrics = vec![Metric::round(spacing); points.len()];
     let search = Search::new(Cloud {
@@ -75,7 +118,10 @@ pub fn sloped<const D: usize>(
         laplacian: true,
         ..Wants::default()
     };
-    let plan = Plan::new::<D>(order, wants);
+    let plan = Plan {
+        interpolating: through,
+        ..Plan::new::<D>(order, wants)
+    };
     Stencils::build(&search, &plan, &Sloped { points, patches })
 }
 

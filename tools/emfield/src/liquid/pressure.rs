@@ -11,12 +11,17 @@
 //! with kappa that of the predicted surface x~ and t_n the outward traction of fields, which lowers the pressure (2.40 has the
 //! other sign): at the surface `-p + 2 mu du_n/dn + gamma kappa = -p_gas + t_n`. Waves of the surface that a step does not
 //! resolve are damped, and none has a limit of the step. The slope `q = n . grad p` of each surface point is an unknown of
-//! its own: rows stay short.
+//! its own: rows stay short. Where faces bear the weight of the liquid ([`super::room`]), K has `-rho g . n` beside `gamma K`, and
+//! the surface `-rho g . (x~ - c)`.
+//!
+//! On a wall with the normal n, `n . grad p = rho/tau n . (u* - u)` and what friction adds to it. Without a free surface p is
+//! known but for a constant, and its sources are made to add up: one even source is found beside it, and its mean is zero.
 
 use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
 use rayon::prelude::*;
 use wls::Stencils;
 
+use super::room::images::Images;
 use super::surface::Patch;
 use super::vector::dot;
 
@@ -39,6 +44,12 @@ pub struct Conditions<'a, const D: usize> {
     pub spacing: f64,
     /// Surface tension times square of the stage over density \[m3\].
     pub stiffness: f64,
+    /// Images beyond faces.
+    pub images: &'a Images<D>,
+    /// Normals of points on walls, which follow those of the surface.
+    pub held: &'a [[f64; D]],
+    /// Gravity that faces bear times the square of the stage \[m\].
+    pub fall: [f64; D],
 }
 
 /// K f at surface point `own`: what a displacement f along the normal adds to the curvature.
@@ -63,6 +74,25 @@ fn options() -> Options {
 pub struct Equations<'a, const D: usize> {
     conditions: Conditions<'a, D>,
     system: System<f64, f64>,
+    /// Where there is no free surface.
+    loose: Option<Loose>,
+}
+
+/// A pressure that is known but for a constant: that of the last point is zero instead of its own equation.
+struct Loose {
+    /// The equation of that point.
+    row: Vec<(usize, f64)>,
+    /// The pressure of one even source, and what it leaves of that equation.
+    even: Vec<f64>,
+    left: f64,
+}
+
+impl Loose {
+    /// What a pressure leaves of the equation of the last point.
+    fn left(&self, right: f64, pressure: &[f64]) -> f64 {
+        let all = self.row.iter().map(|(j, w)| w * pressure[*j]);
+        right - all.sum::<f64>()
+    }
 }
 
 impl<'a, const D: usize> Equations<'a, D> {
@@ -76,10 +106,15 @@ impl<'a, const D: usize> Equations<'a, D> {
             patches,
             spacing,
             stiffness,
+            images,
+            held,
+            fall,
         } = conditions;
         let surface = patches.len();
         let square = spacing * spacing;
         let stiff = stiffness / spacing;
+        let pinned = surface == 0;
+        let at = |j: usize| images.origin(j) as u32;
         let matrix = Rows::gathered(n + surface, 0.0, |i, row| {
             if i >= n {
                 let own = i - n;
@@ -87,39 +122,117 @@ impl<'a, const D: usize> Equations<'a, D> {
                 for k in 0..D {
                     let factor = -spacing * patches[own].normal[k];
                     let slopes = rows.derivative(own, k).iter();
-                    row.extend(slopes.map(|(j, w)| (j as u32, factor * w)));
+                    row.extend(slopes.map(|(j, w)| (at(j), factor * w)));
                 }
             } else if i < surface {
                 let patch = &patches[i];
                 row.push((i as u32, 1.0));
-                row.push(((n + i) as u32, -stiff * patch.squares));
+                let heavy = dot(&fall, &patch.normal) / spacing;
+                row.push(((n + i) as u32, -stiff * patch.squares - heavy));
                 let along = patch.neighbours.iter().zip(&patch.laplace);
-                row.extend(along.map(|(&j, w)| (n as u32 + j, -stiff * w)));
+                row.extend(along.map(|(&j, w)| (n as u32 + at(j as usize), -stiff * w)));
+            } else if let Some(normal) = held.get(i - surface) {
+                for (k, c) in normal.iter().enumerate() {
+                    let slopes = rows.derivative(i, k).iter();
+                    row.extend(slopes.map(|(j, w)| (at(j), spacing * c * w)));
+                }
+            } else if pinned && i + 1 == n {
+                row.push((i as u32, 1.0));
             } else {
                 let all = rows.laplacian(i).iter();
-                row.extend(all.map(|(j, w)| (j as u32, -square * w)));
+                row.extend(all.map(|(j, w)| (at(j), -square * w)));
             }
         });
         let system = System::new(matrix, Vec::new(), options())?;
-        Ok(Self { conditions, system })
+        let mut made = Self {
+            conditions,
+            system,
+            loose: None,
+        };
+        if pinned {
+            made.loosen(n);
+        }
+        Ok(made)
+    }
+
+    /// Finds what an even source does.
+    fn loosen(&mut self, n: usize) {
+        let Conditions {
+            rows,
+            images,
+            spacing,
+            held,
+            ..
+        } = self.conditions;
+        let square = spacing * spacing;
+        let all = rows.laplacian(n - 1).iter();
+        let mut loose = Loose {
+            row: all.map(|(j, w)| (images.origin(j), -square * w)).collect(),
+            even: Vec::new(),
+            left: 1.0,
+        };
+        let mut sides = vec![[1.0]; n];
+        sides[..held.len()].fill([0.0]);
+        sides[n - 1] = [0.0];
+        let mut even = vec![[0.0]; n];
+        self.system.solve(&sides, &mut even, Rule::default());
+        loose.even = even.as_flattened().to_vec();
+        loose.left = loose.left(1.0, &loose.even);
+        self.loose = Some(loose);
+    }
+
+    /// Solves where there is no free surface: `p = p0 - s p1`, with the even source s that the last equation wants.
+    fn solve_loose(
+        &mut self,
+        loose: &Loose,
+        (right, pressure): (&[f64], &mut [f64]),
+        rule: Rule<'_>,
+    ) -> Solved {
+        let (n, held) = (right.len(), self.conditions.held.len());
+        let square = self.conditions.spacing * self.conditions.spacing;
+        let mut sides: Vec<[f64; 1]> = right.iter().map(|r| [-square * r]).collect();
+        for (side, r) in sides.iter_mut().zip(&right[..held]) {
+            *side = [*r];
+        }
+        let last = sides[n - 1][0];
+        sides[n - 1] = [0.0];
+        let off = pressure[n - 1];
+        let mut unknown: Vec<[f64; 1]> = pressure.iter().map(|p| [p - off]).collect();
+        let solved = self.system.solve(&sides, &mut unknown, rule);
+        let even = loose.left(last, unknown.as_flattened()) / loose.left;
+        for ((p, x), e) in pressure.iter_mut().zip(&unknown).zip(&loose.even) {
+            *p = x[0] - even * e;
+        }
+        let mean = pressure.iter().sum::<f64>() / n as f64;
+        pressure.iter_mut().for_each(|p| *p -= mean);
+        solved
     }
 
     /// Solves for the pressure; `right` is `rho/tau div u*` inside and what stands on the right of the condition on the
-    /// surface, `pressure` the first guess.
+    /// surface, on walls the slope along their normal times the spacing; `pressure` the first guess.
     pub fn solve(&mut self, right: &[f64], pressure: &mut [f64], rule: Rule<'_>) -> Solved {
+        if let Some(loose) = self.loose.take() {
+            let solved = self.solve_loose(&loose, (right, pressure), rule);
+            self.loose = Some(loose);
+            return solved;
+        }
         let Conditions {
             rows,
             patches,
             spacing,
+            images,
+            held,
             ..
         } = self.conditions;
         let (n, surface) = (right.len(), patches.len());
+        let walled = surface + held.len();
         let square = spacing * spacing;
         // Slopes know no constant: what all of the surface has in common is no part of what is solved for.
         let even = right[..surface].iter().sum::<f64>() / surface as f64;
         let whole: f64 = right[..surface].iter().map(|r| r * r).sum();
+        let wide = images.scalars(pressure);
         let slope = |s: usize| -> f64 {
-            let gradient = rows.gradient_of(pressure, s);
+            let gradient = rows.gradient_of(&wide, s);
             spacing * dot(&patches[s].normal, &gradient)
         };
         let mut unknown: Vec<[f64; 1]> = pressure.iter().map(|p| [*p - even]).collect();
@@ -127,6 +240,8 @@ impl<'a, const D: usize> Equations<'a, D> {
         let side = |i: usize| {
             if i < surface {
                 right[i] - even
+            } else if i < walled {
+                right[i]
             } else {
                 -square * right[i]
             }

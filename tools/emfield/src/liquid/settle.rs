@@ -3,6 +3,7 @@
 use wls::Stencils;
 
 use super::fill::pushes;
+use super::room::images::Images;
 use super::step::Liquid;
 use super::surface::Patch;
 use super::vector::{across, along, dot, length};
@@ -17,10 +18,11 @@ const YIELD: f64 = 0.3;
 impl<const D: usize> Liquid<D> {
     /// Moves surface points toward the fitted surface, as a whole neither out nor in, by what the fit of the offsets leaves of
     /// them: what the fits know of a shape to a part `e` is then damped by `e^2`, the ripples that they do not know as before.
-    pub fn smooth(&mut self, patches: &[Patch<D>]) {
+    pub fn smooth(&mut self, patches: &[Patch<D>], images: &Images<D>) {
         let known = |p: &Patch<D>| -> f64 {
             let near = p.neighbours.iter().zip(&p.value);
-            near.map(|(&j, w)| w * patches[j as usize].offset).sum()
+            near.map(|(&j, w)| w * patches[images.origin(j as usize)].offset)
+                .sum()
         };
         let moves: Vec<f64> = patches.iter().map(|p| p.offset - known(p)).collect();
         let area: f64 = patches.iter().map(|p| p.area).sum();
@@ -38,17 +40,36 @@ impl<const D: usize> Liquid<D> {
         }
     }
 
+    /// Moves the free face of a room evenly across it by `distance` \[m\].
+    pub fn lift(&mut self, distance: f64) {
+        let Some((axis, up)) = self.room.free() else {
+            return;
+        };
+        let surface = self.surface();
+        for x in &mut self.position[..surface] {
+            x[axis] += if up { distance } else { -distance };
+        }
+    }
+
     /// Moves points that have come too close apart, those of the surface along it; they take the values of their new
     /// places.
-    pub fn spread(&mut self, rows: &Stencils<D>, patches: &[Patch<D>], spacing: f64) {
+    pub fn spread(
+        &mut self,
+        (rows, images): (&Stencils<D>, &Images<D>),
+        patches: &[Patch<D>],
+        spacing: f64,
+    ) {
         let surface = patches.len();
-        let mut push = pushes(&self.position, spacing);
-        let shell = pushes(&self.position[..surface], spacing);
+        let mut push = self.pushed_apart(self.position.len(), spacing);
+        let shell = self.pushed_apart(surface, spacing);
         for (s, (p, along_surface)) in push.iter_mut().zip(&shell).enumerate() {
             *p = across(along_surface, &patches[s].normal);
         }
-        let (velocity, rate) = (self.velocity.clone(), self.rate.clone());
-        let pressure = self.pressure.clone();
+        let walls = surface..surface + self.room.held.len();
+        push[walls].fill([0.0; D]);
+        let velocity = images.vectors(&self.velocity).into_owned();
+        let rate = images.vectors(&self.rate).into_owned();
+        let pressure = images.scalars(&self.pressure).into_owned();
         for (i, p) in push.iter().enumerate() {
             if length(p) < CALM * spacing {
                 continue;
@@ -60,6 +81,14 @@ impl<const D: usize> Liquid<D> {
             self.rate[i] = along(&self.rate[i], 1.0, &r);
             self.pressure[i] += dot(&rows.gradient_of(&pressure, i), &step);
         }
+    }
+}
+
+impl<const D: usize> Liquid<D> {
+    /// How far the first `count` points push each other, with their images \[m\].
+    fn pushed_apart(&self, count: usize, spacing: f64) -> Vec<[f64; D]> {
+        let (all, _) = self.room.images(&self.position[..count], spacing);
+        pushes((&all, count), spacing)
     }
 }
 

@@ -11,17 +11,21 @@
 //! What divergence fits leave is not taken away at once but by the share `CLEANED` in each stage: divergence and gradient of
 //! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface.
 
-use krylov::{Anderson, Rule};
+use std::ops::Range;
+
 use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
 
 use super::drift;
 use super::effort::{Effort, failed};
-use super::friction::{Friction, stretch};
-use super::operators::{derivatives, divergence, operators, stretching};
+use super::friction::{Friction, Ground, stretch};
+use super::operators::{derivatives, divergence, stretching, values};
 use super::pressure::{Conditions, Equations, bending};
-use super::surface::{Patch, patches};
+use super::room::Room;
+use super::room::images::Images;
+use super::rounds::Rounds;
+use super::surface::{Bare, Patch, beside};
 use super::vector::{along, difference, dot};
 
 pub use super::matter::{Matter, Way};
@@ -30,20 +34,17 @@ pub use super::matter::{Matter, Way};
 pub(super) const PART: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Share of the divergence that a stage takes away.
 const CLEANED: f64 = 0.3;
-/// Rounds of pressure and friction at most, and those that are remembered.
-const ROUNDS: usize = 40;
-const WINDOW: usize = 8;
-/// Change of the normal stress that ends them, over the pressure.
-const SETTLED: f64 = 1e-7;
+/// The same between faces: beside a free surface, and where there is none.
+const BETWEEN: [f64; 2] = [0.1, 1.0];
 
-/// Points of the liquid, those of the surface first, and what they carry.
+/// Points of the liquid, those of the surface first, then those on walls, and what they carry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Liquid<const D: usize> {
     /// Places \[m\].
     pub position: Vec<[f64; D]>,
     /// Velocity \[m/s\].
     pub velocity: Vec<[f64; D]>,
-    /// Pressure \[Pa\].
+    /// Pressure, less the weight that faces bear ([`super::room`]) \[Pa\].
     pub pressure: Vec<f64>,
     /// Rate of the velocity of each point along its way, in the last stage \[m/s2\].
     pub rate: Vec<[f64; D]>,
@@ -51,7 +52,8 @@ pub struct Liquid<const D: usize> {
     pub follow: Vec<[f64; D]>,
     /// Unit normals of the points of the surface.
     pub normal: Vec<[f64; D]>,
-    /// Normal stress of friction on the surface, and what friction adds to its tension within a stage \[Pa\].
+    /// Normal stress of friction on the surface, and what friction adds to its tension within a stage; on walls what it adds to
+    /// the slope of the pressure, times the spacing \[Pa\].
     pub stress: Vec<f64>,
     /// Traction of fields on the surface, outward, and how fast it changes \[Pa, Pa/s\]; none where there is no field.
     pub pull: [Vec<f64>; 2],
@@ -60,6 +62,8 @@ pub struct Liquid<const D: usize> {
     /// Force density of fields beside that traction, which stirs alone (see [`super::stirred`]), by point, and how fast it
     /// changes \[N/m3, N/(m3 s)\]; none where there is none.
     pub force: [Vec<[f64; D]>; 2],
+    /// Faces that bound it beside the surface.
+    pub room: Room<D>,
 }
 
 /// Where a stage begins, and how long it is.
@@ -75,9 +79,9 @@ struct Base<const D: usize> {
 
 impl<const D: usize> Base<D> {
     /// Velocities at the end of the stage without pressure and friction.
-    fn freed(&self, matter: &Matter<D>, drift: &[[f64; D]]) -> Vec<[f64; D]> {
+    fn freed(&self, gravity: &[f64; D], drift: &[[f64; D]]) -> Vec<[f64; D]> {
         let mut free: Vec<[f64; D]> = (self.velocity.iter().zip(drift))
-            .map(|(u, drift)| along(u, self.tau, &along(&matter.gravity, 1.0, drift)))
+            .map(|(u, drift)| along(u, self.tau, &along(gravity, 1.0, drift)))
             .collect();
         for (free, own) in free.iter_mut().zip(&self.pushed) {
             *free = along(free, self.tau, own);
@@ -94,15 +98,8 @@ pub struct Ended<const D: usize> {
     pub patches: Vec<Patch<D>>,
     /// Rows of derivatives.
     pub rows: Stencils<D>,
-}
-
-/// What the rounds of a stage share.
-struct Rounds<'a, const D: usize> {
-    matter: &'a Matter<D>,
-    patches: &'a [Patch<D>],
-    rows: &'a Stencils<D>,
-    tau: f64,
-    rule: Rule<'a>,
+    /// Images that stand in them.
+    pub images: Images<D>,
 }
 
 impl<const D: usize> Liquid<D> {
@@ -110,6 +107,17 @@ impl<const D: usize> Liquid<D> {
     #[must_use]
     pub fn surface(&self) -> usize {
         self.normal.len()
+    }
+
+    /// Points on walls.
+    #[must_use]
+    pub fn walls(&self) -> Range<usize> {
+        self.surface()..self.surface() + self.room.held.len()
+    }
+
+    /// The normal of a wall at one of its points.
+    fn wall(&self, i: usize) -> Option<&[f64; D]> {
+        self.room.held.get(i.checked_sub(self.surface())?)
     }
 
     /// The middle of the points of the surface \[m\].
@@ -162,22 +170,28 @@ impl<const D: usize> Liquid<D> {
         way: &Way,
         effort: &mut Effort,
     ) -> Result<Vec<Patch<D>>, Failure> {
-        let (n, surface) = (self.position.len(), self.surface());
-        let how = (way.spacing, way.order);
-        let rows = operators(&self.position, how).map_err(|e| failed(&e))?;
-        let made = patches(&self.position[..surface], &self.normal, way.spacing);
-        let patches = made.map_err(|e| failed(&e))?;
+        let n = self.position.len();
+        let (all, images) = self.room.images(&self.position, way.spacing);
+        let rows = derivatives((&all, n), (way.spacing, way.order), self.room.fits(false));
+        let rows = rows.map_err(|e| failed(&e))?;
+        let patches = self.patches(&self.position, way.spacing);
+        let patches = patches.map_err(|e| failed(&e))?;
         self.normal = patches.iter().map(|p| p.normal).collect();
         let drawn = 2.0 * matter.viscosity.unwrap_or(0.0);
         let pushed = self.pushed(matter, 0.0);
+        let driving = self.room.driving(&matter.gravity);
+        let velocity = images.vectors(&self.velocity);
         let right: Vec<f64> = (0..n)
-            .map(|i| match patches.get(i) {
-                Some(patch) => {
-                    let stress = drawn * stretch(patch, &self.velocity);
+            .map(|i| match (patches.get(i), self.wall(i)) {
+                (Some(patch), _) => {
+                    let stress = drawn * stretch(patch, &velocity);
+                    let weight = self.room.potential(&matter.gravity, &self.position[i]);
                     matter.gas + matter.tension * patch.curvature + stress
                         - self.pull[0].get(i).copied().unwrap_or(0.0)
+                        - matter.density * weight
                 }
-                None => -matter.density * stretching(&rows, &self.velocity, i),
+                (None, Some(normal)) => way.spacing * matter.density * dot(normal, &driving),
+                (None, None) => -matter.density * stretching(&rows, &velocity, i),
             })
             .collect();
         let conditions = Conditions {
@@ -185,16 +199,22 @@ impl<const D: usize> Liquid<D> {
             patches: &patches,
             spacing: way.spacing,
             stiffness: 0.0,
+            images: &images,
+            held: &self.room.held,
+            fall: [0.0; D],
         };
         let mut equations = Equations::new(conditions, n).map_err(|e| failed(&e))?;
         effort.add(&equations.solve(&right, &mut self.pressure, way.rule()))?;
         let push = -matter.density.recip();
+        let pressure = images.scalars(&self.pressure);
         self.rate = (0..n)
-            .map(|i| along(&matter.gravity, push, &rows.gradient_of(&self.pressure, i)))
+            .map(|i| along(&driving, push, &rows.gradient_of(&pressure, i)))
             .collect();
         for (rate, own) in self.rate.iter_mut().zip(&pushed) {
             *rate = along(rate, 1.0, own);
         }
+        let walls = self.walls();
+        self.rate[walls].fill([0.0; D]);
         Ok(patches)
     }
 
@@ -210,31 +230,49 @@ impl<const D: usize> Liquid<D> {
         let goes = self.moved(&guess);
         let place = stepped(&base.position, tau, &goes);
         let follows = !self.follow.is_empty();
-        let rows = derivatives(&place, (way.spacing, way.order), follows);
-        let rows = rows.map_err(|e| failed(&e))?;
-        let patches =
-            patches(&place[..surface], &self.normal, way.spacing).map_err(|e| failed(&e))?;
-        let drift = self.drift((&guess, &goes), (&rows, &patches), way.spacing);
-        let free = base.freed(matter, &drift);
-        let right = right(matter, base, [&place, &free, &guess], (&rows, &patches));
+        let (all, images) = self.room.images(&place, way.spacing);
+        let how = (way.spacing, way.order);
+        let rows = derivatives((&all, n), how, self.room.fits(follows)).map_err(|e| failed(&e))?;
+        // Fits through their own points smooth nothing.
+        let apart = follows && self.room.bounds();
+        let fits = apart.then(|| values((&all, n), how)).transpose();
+        let fits = fits.map_err(|e| failed(&e))?;
+        let patches = self.patches(&place, way.spacing);
+        let patches = patches.map_err(|e| failed(&e))?;
+        let wide = images.vectors(&guess);
+        let both = (&rows, fits.as_ref().unwrap_or(&rows));
+        let drift = self.drift((&wide, &goes), (both, &patches), way.spacing);
+        let free = base.freed(&self.room.driving(&matter.gravity), &drift);
+        let right = self.right(matter, base, [&place, &free, &wide], (&rows, &patches, &images), way);
         let conditions = Conditions {
             rows: &rows,
             patches: &patches,
             spacing: way.spacing,
             stiffness: matter.tension * tau * tau / matter.density,
+            images: &images,
+            held: &self.room.held.clone(),
+            fall: self.room.borne(&matter.gravity).map(|g| g * tau * tau),
         };
         let mut equations = Equations::new(conditions, n).map_err(|e| failed(&e))?;
         let rounds = Rounds {
             matter,
             patches: &patches,
             rows: &rows,
+            images: &images,
             tau,
+            spacing: way.spacing,
             rule: way.rule(),
         };
         if let Some(viscosity) = matter.viscosity {
             let diffusion = tau * viscosity / matter.density;
-            let how = (way.spacing, way.order);
-            let friction = Friction::new(&place, (&rows, &patches), how, diffusion);
+            let ground = Ground {
+                inside: &rows,
+                patches: &patches,
+                images: &images,
+                held: self.room.held.len(),
+                through: self.room.bounds(),
+            };
+            let friction = Friction::new(&all, ground, how, diffusion);
             let mut friction = friction.map_err(|e| failed(&e))?;
             self.velocity = guess;
             self.rub(
@@ -255,123 +293,100 @@ impl<const D: usize> Liquid<D> {
         self.position = stepped(&base.position, tau, &moved);
         if follows {
             let how = (way.spacing, way.rule());
-            self.follow_surface(&rows, &moved[..surface], how, effort)?;
+            self.follow_surface((&rows, &images), &moved[..surface], how, effort)?;
         }
         Ok(Ended {
             moved,
             patches,
             rows,
+            images,
         })
+    }
+
+    /// Share of the divergence that a stage takes away.
+    fn cleaned(&self) -> f64 {
+        match (self.room.bounds(), self.surface()) {
+            (false, _) => CLEANED,
+            (true, 0) => BETWEEN[1],
+            (true, _) => BETWEEN[0],
+        }
+    }
+
+    /// The surface with points at `place`.
+    fn patches(&self, place: &[[f64; D]], spacing: f64) -> Result<Vec<Patch<D>>, Bare> {
+        let (n, surface) = (place.len(), self.surface());
+        let (all, images) = self.room.images(&place[..surface], spacing);
+        let normals = images.vectors(&self.normal);
+        let mut patches = beside((&all, &normals), surface, spacing)?;
+        // Images of the surface are the first of all images.
+        for j in patches.iter_mut().flat_map(|p| &mut p.neighbours) {
+            if *j as usize >= surface {
+                *j += (n - surface) as u32;
+            }
+        }
+        Ok(patches)
     }
 
     /// What a liquid that moves at u brings to points that move at w \[m/s2\].
     fn drift(
         &self,
         (u, w): (&[[f64; D]], &[[f64; D]]),
-        (rows, patches): (&Stencils<D>, &[Patch<D>]),
+        (rows, patches): ((&Stencils<D>, &Stencils<D>), &[Patch<D>]),
         spacing: f64,
     ) -> Vec<[f64; D]> {
         let back = |i: usize| difference(&w[i], &u[i]);
+        let (n, walled) = (w.len(), self.walls().end);
         let mut drift = drift::along_surface(patches, u, back);
         if !self.follow.is_empty() {
-            drift.extend(drift::inside(rows, u, back, (patches.len(), spacing)));
+            drift.resize(walled, [0.0; D]);
+            drift.extend(drift::inside(rows, u, back, (walled..n, spacing)));
         }
-        drift.resize(u.len(), [0.0; D]);
+        drift.resize(n, [0.0; D]);
         drift
     }
 
-    /// Pressure and friction in turn, until the normal stress of friction on the surface is that of the velocity.
-    fn rub(
-        &mut self,
-        rounds: &Rounds<'_, D>,
-        (equations, friction): (&mut Equations<'_, D>, &mut Friction),
-        (free, right): (&[[f64; D]], Vec<f64>),
-        effort: &mut Effort,
-    ) -> Result<(), Failure> {
-        let (matter, surface) = (rounds.matter, rounds.patches.len());
-        let viscosity = matter.viscosity.unwrap_or(0.0);
-        let mut anderson = Anderson::new(WINDOW);
-        for _ in 0..ROUNDS {
-            let mut with = right.clone();
-            for (r, s) in with.iter_mut().zip(&self.stress) {
-                *r += s;
-            }
-            effort.add(&equations.solve(&with, &mut self.pressure, rounds.rule))?;
-            let mut pushed = rounds.pushed(free, &self.pressure);
-            if !self.drag.is_empty() {
-                friction.drag(&mut pushed, |i| self.drag[i].map(|t| t / viscosity));
-            }
-            effort.add(&friction.solve(&pushed, &mut self.velocity, rounds.rule))?;
-            let slid: Vec<f64> = (0..surface)
-                .map(|s| {
-                    let more = difference(&self.velocity[s], &pushed[s]);
-                    rounds.tau * dot(&rounds.patches[s].normal, &more)
-                })
-                .collect();
-            let mut found: Vec<f64> = (0..surface)
-                .map(|s| {
-                    let bent = bending(&rounds.patches[s], s, |j| slid[j]);
-                    2.0 * viscosity * stretch(&rounds.patches[s], &self.velocity)
-                        + matter.tension * bent
-                })
-                .collect();
-            let lack: Vec<f64> = found.iter().zip(&self.stress).map(|(a, b)| a - b).collect();
-            let size = norm(&lack);
-            let whole = norm(&found) + norm(&right[..surface]);
-            anderson.next(&mut found, &lack);
-            self.stress = found;
-            if size <= SETTLED * whole {
-                return Ok(());
-            }
-        }
-        effort.unsettled += 1;
-        Ok(())
-    }
-}
-
-impl<const D: usize> Rounds<'_, D> {
-    /// `u* - tau/rho grad p`.
-    fn pushed(&self, free: &[[f64; D]], pressure: &[f64]) -> Vec<[f64; D]> {
-        let push = -self.tau / self.matter.density;
-        (0..free.len())
+    /// The right sides of the pressure: see [`super::pressure`].
+    fn right(
+        &self,
+        matter: &Matter<D>,
+        base: &Base<D>,
+        [place, free, guess]: [&[[f64; D]]; 3],
+        (rows, patches, images): (&Stencils<D>, &[Patch<D>], &Images<D>),
+        way: &Way,
+    ) -> Vec<f64> {
+        let ahead = |j: usize| {
+            let i = images.origin(j);
+            let end = along(&base.position[i], base.tau, &free[i]);
+            dot(&patches[i].normal, &difference(&end, &place[i]))
+        };
+        let source = matter.density / base.tau;
+        let borne = self.room.borne(&matter.gravity);
+        let wide = images.vectors(free);
+        let cleaned = self.cleaned();
+        (0..place.len())
             .into_par_iter()
-            .map(|i| along(&free[i], push, &self.rows.gradient_of(pressure, i)))
+            .map(|i| match (patches.get(i), self.wall(i)) {
+                (Some(patch), _) => {
+                    let weight = self.room.potential(&matter.gravity, &place[i])
+                        + dot(&borne, &patch.normal) * ahead(i);
+                    matter.gas + matter.tension * (patch.curvature + bending(patch, i, ahead))
+                        - base.pull.get(i).copied().unwrap_or(0.0)
+                        - matter.density * weight
+                }
+                (None, Some(normal)) => {
+                    let lack = difference(&free[i], &base.velocity[i]);
+                    way.spacing * source * dot(normal, &lack)
+                }
+                (None, None) => {
+                    cleaned * source * divergence(rows, &wide, i)
+                        - (1.0 - cleaned) * matter.density * stretching(rows, guess, i)
+                }
+            })
             .collect()
     }
-}
-
-/// The right sides of the pressure: see [`super::pressure`].
-fn right<const D: usize>(
-    matter: &Matter<D>,
-    base: &Base<D>,
-    [place, free, guess]: [&[[f64; D]]; 3],
-    (rows, patches): (&Stencils<D>, &[Patch<D>]),
-) -> Vec<f64> {
-    let ahead = |i: usize| {
-        let end = along(&base.position[i], base.tau, &free[i]);
-        dot(&patches[i].normal, &difference(&end, &place[i]))
-    };
-    let source = matter.density / base.tau;
-    (0..place.len())
-        .into_par_iter()
-        .map(|i| match patches.get(i) {
-            Some(patch) => {
-                matter.gas + matter.tension * (patch.curvature + bending(patch, i, ahead))
-                    - base.pull.get(i).copied().unwrap_or(0.0)
-            }
-            None => {
-                CLEANED * source * divergence(rows, free, i)
-                    - (1.0 - CLEANED) * matter.density * stretching(rows, guess, i)
-            }
-        })
-        .collect()
 }
 
 /// `x + time v`, point by point.
 fn stepped<const D: usize>(x: &[[f64; D]], time: f64, v: &[[f64; D]]) -> Vec<[f64; D]> {
     x.iter().zip(v).map(|(x, v)| along(x, time, v)).collect()
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>().sqrt()
 }

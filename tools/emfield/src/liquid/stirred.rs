@@ -9,6 +9,7 @@ use run::Failure;
 use super::effort::{Effort, failed};
 use super::operators::{divergence, operators};
 use super::pressure::{Conditions, Equations};
+use super::room::images::Images;
 use super::step::{Liquid, Matter, Way};
 use super::surface::patches;
 use super::vector::{across, along};
@@ -43,11 +44,15 @@ impl<const D: usize> Liquid<D> {
         let rows = operators(&self.position, (way.spacing, way.order)).map_err(|e| failed(&e))?;
         let surface = &self.position[..phi.len()];
         let patches = patches(surface, &self.normal, way.spacing).map_err(|e| failed(&e))?;
+        let images = Images::none(n);
         let conditions = Conditions {
             rows: &rows,
             patches: &patches,
             spacing: way.spacing,
             stiffness: 0.0,
+            images: &images,
+            held: &[],
+            fall: [0.0; D],
         };
         let inside = (phi.len()..n).map(|i| -divergence(&rows, force, i));
         let right: Vec<f64> = phi.iter().copied().chain(inside).collect();

@@ -69,10 +69,22 @@ pub fn patches<const D: usize>(
     normals: &[[f64; D]],
     spacing: f64,
 ) -> Result<Vec<Patch<D>>, Bare> {
+    beside((points, normals), points.len(), spacing)
+}
+
+/// Patches of the first `own` surface points; the others are images.
+///
+/// # Errors
+/// Where too few points are near.
+pub fn beside<const D: usize>(
+    (points, normals): (&[[f64; D]], &[[f64; D]]),
+    own: usize,
+    spacing: f64,
+) -> Result<Vec<Patch<D>>, Bare> {
     let places: Vec<[f64; 3]> = points.iter().map(spatial).collect();
     let tree = Tree::new(&places);
     let exponents = exponents(D - 1);
-    (0..points.len())
+    (0..own)
         .into_par_iter()
         .map(|i| {
             let near = support(i, (points, normals), &tree, (spacing, exponents.len()))?;

@@ -5,7 +5,7 @@ use artefact::{Frame, Precision, Record};
 use super::outline::Outline;
 use super::step::{Liquid, Matter};
 use super::surface::Patch;
-use super::vector::{along, dot};
+use super::vector::{along, dot, spatial};
 
 /// Modes that are told, from 2.
 const MODES: usize = 6;
@@ -90,28 +90,42 @@ impl Totals {
     }
 }
 
-/// Places, kinds (1 on the surface), velocity and pressure of all points, without the magnetic pressure that it carries.
+/// Places, kinds (1 on the surface, 2 on a wall), velocity and pressure of all points, without the magnetic pressure that it
+/// carries.
 #[must_use]
-pub fn points(liquid: &Liquid<3>, magnetic: &[f64], precision: Precision) -> Frame {
+pub fn points<const D: usize>(
+    (liquid, matter): (&Liquid<D>, &Matter<D>),
+    magnetic: &[f64],
+    precision: Precision,
+) -> Frame {
     let carried = |i: usize| magnetic.get(i).copied().unwrap_or(0.0);
+    let borne = |i: usize| {
+        let x = &liquid.position[i];
+        matter.density * liquid.room.potential(&matter.gravity, x)
+    };
     let pressure = liquid.pressure.iter().enumerate();
-    let pressure = pressure.map(|(i, p)| p - carried(i));
-    let surface = liquid.surface();
-    let kinds = (0..liquid.position.len()).map(|i| u8::from(i < surface));
+    let pressure = pressure.map(|(i, p)| p - carried(i) + borne(i));
+    let (surface, walls) = (liquid.surface(), liquid.walls());
+    let kind = |i: usize| u8::from(i < surface) + 2 * u8::from(walls.contains(&i));
     Frame::new(precision)
-        .positions(liquid.position.iter().copied())
-        .flag("kind", kinds)
-        .vector("velocity", "m/s", liquid.velocity.iter().copied())
+        .positions(liquid.position.iter().map(spatial))
+        .flag("kind", (0..liquid.position.len()).map(kind))
+        .vector("velocity", "m/s", liquid.velocity.iter().map(spatial))
         .scalar("pressure", "Pa", pressure)
 }
 
 /// Places, normals, areas and curvatures of the surface.
 #[must_use]
-pub fn surface(liquid: &Liquid<3>, patches: &[Patch<3>], precision: Precision) -> Frame {
+pub fn surface<const D: usize>(
+    liquid: &Liquid<D>,
+    patches: &[Patch<D>],
+    precision: Precision,
+) -> Frame {
+    let unit = if D == 2 { "m" } else { "m2" };
     let frame = Frame::new(precision)
-        .positions(liquid.position[..patches.len()].iter().copied())
-        .vector("normal", "1", patches.iter().map(|p| p.normal))
-        .scalar("area", "m2", patches.iter().map(|p| p.area))
+        .positions(liquid.position[..patches.len()].iter().map(spatial))
+        .vector("normal", "1", patches.iter().map(|p| spatial(&p.normal)))
+        .scalar("area", unit, patches.iter().map(|p| p.area))
         .scalar("curvature", "1/m", patches.iter().map(|p| p.curvature));
     if liquid.pull[0].is_empty() {
         frame

@@ -8,7 +8,7 @@ use shapes::Shape;
 use shapes::check::{self, Misfit};
 
 use super::faults::PLACE;
-use super::{Domain, Geometry, LiquidHeat, MagneticField, Scene};
+use super::{Domain, Faces, Geometry, LiquidHeat, MagneticField, Scene};
 
 /// How the liquid moves in time.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
@@ -73,6 +73,8 @@ pub struct ElectricField {
 pub struct Liquid {
     /// What it fills at the start.
     pub shape: Shape,
+    /// Faces of the box that it fills, between which it moves; a drop in the open when it is absent.
+    pub faces: Option<Faces>,
     /// Density.
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
     pub density_kg_m3: f64,
@@ -116,8 +118,10 @@ impl Liquid {
     pub(super) fn check(&self, scene: &Scene, misfits: &mut Vec<Misfit>) {
         let dimensions = scene.geometry.dimensions();
         check::check(&self.shape, "/liquid/shape", dimensions, misfits);
-        if scene.geometry != Geometry::Space {
-            let what = "a liquid moves in space: take \"space\"";
+        if let Some(faces) = &self.faces {
+            faces.check(scene, self, misfits);
+        } else if scene.geometry != Geometry::Space {
+            let what = "a drop moves in space: take \"space\", or \"faces\" of the liquid";
             misfits.push(Misfit::at("/geometry", what));
         }
         if let Some(g) = &self.gravity_m_s2 {

@@ -1,0 +1,407 @@
+//! The march of a liquid between faces: in a plane or in space.
+
+use artefact::{Checkpoint, Precision, Record};
+use run::property::Arguments;
+use run::{Estimate, Failure, Fault, Plan, Session};
+
+use super::liquid::{MOST, PASSED, RIPPLE, matter, way};
+use super::steps::Steps;
+use crate::liquid::effort::Effort;
+use crate::liquid::fill::Filled;
+use crate::liquid::room::level::Level;
+use crate::liquid::room::{Room, furnish};
+use crate::liquid::step::{Ended, Liquid, Matter, Way};
+use crate::liquid::surface::Patch;
+use crate::liquid::told;
+use crate::liquid::vector::{along, dot, length, spatial};
+use crate::scene::currents::Transient;
+use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
+
+/// Spacings that the liquid may pass in a step; longer ones are divided.
+const FARTHEST: f64 = 0.5;
+/// Bytes that a step holds for each point, about.
+const BYTES: u64 = 4_000;
+/// Names of axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A liquid between faces, and how it is moved.
+struct March<const D: usize> {
+    matter: Matter<D>,
+    way: Way,
+    precision: Precision,
+    /// Volume at the start \[m3; m2 in a plane\], where there is a free surface.
+    volume: Option<f64>,
+    effort: Effort,
+    /// Steps that were divided.
+    divided: u64,
+    taken: u64,
+}
+
+/// The room of a scene and its points.
+pub(super) fn filled<const D: usize>(
+    scene: &Scene,
+    (part, faces): (&Part, &Faces),
+) -> Result<(Room<D>, Filled<D>), Failure> {
+    let mut room = faces.room::<D>(&part.shape);
+    let spacing = scene.points.spacing_m;
+    let fault = |what: String| Failure::from(vec![Fault::at("/points/spacing_m", what)]);
+    let many: f64 = (0..D).map(|k| room.length(k) / spacing).product();
+    if many.is_nan() || many > MOST {
+        let what =
+            format!("{spacing} m: some {many:.0} points would fill the liquid, at most {MOST:e} can");
+        return Err(fault(what));
+    }
+    let filled = furnish(&mut room, spacing, (scene.points.jitter, scene.points.seed));
+    let faces = filled.normal.len() + room.held.len();
+    if filled.position.len() <= faces {
+        return Err(fault(format!("{spacing} m: no point fits inside the liquid")));
+    }
+    Ok((room, filled))
+}
+
+/// The liquid at its start.
+fn start<const D: usize>(scene: &Scene, of: (&Part, &Faces)) -> Result<Liquid<D>, Failure> {
+    let part = of.0;
+    let (room, filled) = filled::<D>(scene, of)?;
+    let n = filled.position.len();
+    let mut velocity = vec![[0.0; D]; n];
+    for (k, v) in part.velocity_m_s.iter().flatten().enumerate().take(D) {
+        let curve = v.compile(&format!("/liquid/velocity_m_s/{k}"), &["x", "y", "z", "r"])?;
+        for (x, v) in filled.position.iter().zip(&mut velocity) {
+            let value = curve.value(&Arguments::at(spatial(x), 0.0));
+            v[k] = value.map_err(|e| Failure::Other(format!("velocity at {x:?} m: {e}")))?;
+        }
+    }
+    let surface = filled.normal.len();
+    for (u, normal) in velocity[surface..].iter_mut().zip(&room.held) {
+        *u = room.slides(normal);
+    }
+    Ok(Liquid {
+        follow: vec![[0.0; D]; n],
+        stress: vec![0.0; surface + room.held.len()],
+        pull: [Vec::new(), Vec::new()],
+        drag: Vec::new(),
+        force: [Vec::new(), Vec::new()],
+        position: filled.position,
+        velocity,
+        pressure: vec![part.gas_pressure_pa; n],
+        rate: vec![[0.0; D]; n],
+        normal: filled.normal,
+        room,
+    })
+}
+
+fn fastest<const D: usize>(liquid: &Liquid<D>) -> f64 {
+    liquid.velocity.iter().map(length).fold(0.0, f64::max)
+}
+
+/// Steps, the longest of which waves, gravity and the liquid allow.
+fn steps<const D: usize>(
+    scene: &Scene,
+    (part, march): (&Part, &LiquidMarch),
+    liquid: &Liquid<D>,
+) -> Steps {
+    let spacing = scene.points.spacing_m;
+    let matter: Matter<D> = matter(part);
+    let mut step = march.end_s;
+    let half = (0..D).map(|k| 0.5 * liquid.room.length(k));
+    let radius = half.fold(0.0, f64::max);
+    if matter.tension > 0.0 && liquid.surface() > 0 {
+        let ripple = (matter.density * radius.powi(3) / matter.tension).sqrt();
+        step = step.min(RIPPLE * ripple * spacing / radius);
+    }
+    let gravity = length(&matter.gravity);
+    if gravity > 0.0 {
+        step = step.min(PASSED * spacing / (2.0 * gravity * radius).sqrt());
+    }
+    let fastest = fastest(liquid);
+    if fastest > 0.0 {
+        step = step.min(PASSED * spacing / fastest);
+    }
+    let transient = Transient {
+        end_s: march.end_s,
+        step_s: march.step_s.unwrap_or(step),
+        wave: None,
+    };
+    Steps::new(&transient, &scene.output)
+}
+
+/// Moves the liquid of a scene from its start to the end.
+///
+/// # Errors
+/// Where fits or equations fail, the user interrupts, or the disk refuses.
+pub(super) fn between<const D: usize>(
+    scene: &Scene,
+    ((part, faces), marched): ((&Part, &Faces), &LiquidMarch),
+    session: &mut Session,
+) -> Result<(), Failure> {
+    let mut liquid = session.timed("points", || start::<D>(scene, (part, faces)))?;
+    let steps = steps(scene, (part, marched), &liquid);
+    let mut march = March {
+        matter: matter(part),
+        way: way(scene, part),
+        precision: super::flow::precision(scene),
+        volume: None,
+        effort: Effort::default(),
+        divided: 0,
+        taken: 0,
+    };
+    if let Some(mut checkpoint) = session.restored() {
+        march.restore(&mut liquid, &mut checkpoint)?;
+    } else {
+        let made = liquid.balance(&march.matter, &march.way, &mut march.effort)?;
+        march.tell(&mut liquid, 0.0, session)?;
+        march.write(&liquid, (0.0, &made), session)?;
+    }
+    while march.taken < steps.count() {
+        let (_, length) = steps.step(march.taken);
+        let ended = march.step(&mut liquid, length, session)?;
+        march.taken += 1;
+        let (time, written) = steps.end(march.taken);
+        march.tell(&mut liquid, time, session)?;
+        if written {
+            march.write(&liquid, (time, &ended.patches), session)?;
+        }
+        let speed = fastest(&liquid);
+        session.progress(march.taken, steps.count(), || {
+            vec![
+                ("time", time, "s"),
+                ("step", length, "s"),
+                ("fastest", speed, "m/s"),
+            ]
+        });
+        if march.taken < steps.count() {
+            session.keep(|checkpoint| march.save(&liquid, checkpoint))?;
+        }
+    }
+    march.close(&steps, session);
+    Ok(())
+}
+
+impl<const D: usize> March<D> {
+    /// One step, in parts where the liquid would pass too many spacings.
+    fn step(
+        &mut self,
+        liquid: &mut Liquid<D>,
+        length: f64,
+        session: &mut Session,
+    ) -> Result<Ended<D>, Failure> {
+        let far = fastest(liquid) * length / (FARTHEST * self.way.spacing);
+        let parts = far.ceil().max(1.0);
+        if parts > 1.0 {
+            self.divided += 1;
+            session.substepped();
+        }
+        let mut left = parts as u64;
+        loop {
+            let how = (&self.way, length / parts);
+            let ended = session.timed("step", || {
+                liquid.advance(&self.matter, how, &mut self.effort)
+            })?;
+            if liquid.surface() > 0 {
+                liquid.smooth(&ended.patches, &ended.images);
+                let fits = (&ended.rows, &ended.images);
+                liquid.spread(fits, &ended.patches, self.way.spacing);
+                for x in &mut liquid.position {
+                    liquid.room.wrap(x);
+                }
+            }
+            left -= 1;
+            if left == 0 {
+                return Ok(ended);
+            }
+        }
+    }
+
+    /// Keeps the volume, and writes a row.
+    fn tell(
+        &mut self,
+        liquid: &mut Liquid<D>,
+        time: f64,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        let level = |liquid: &Liquid<D>| {
+            Level::new(&liquid.room, &liquid.position[..liquid.surface()])
+        };
+        let mut now = level(liquid);
+        match (&now, self.volume) {
+            (Some(found), None) => self.volume = Some(found.volume),
+            (Some(found), Some(volume)) => {
+                let free = liquid.room.free().map_or(0, |f| f.0);
+                let across = (0..D).filter(|k| *k != free);
+                let base: f64 = across.map(|k| liquid.room.length(k)).product();
+                // A surface that rises evenly by a height encloses that much more over its shadow, however steep.
+                liquid.lift((volume - found.volume) / base);
+                now = level(liquid);
+            }
+            (None, _) => {}
+        }
+        session.record("/liquid", time, &self.row(liquid, now.as_ref()))
+    }
+
+    /// Mean velocity and kinetic energy by even shares of the volume, and the surface.
+    fn row(&self, liquid: &Liquid<D>, level: Option<&Level>) -> Record {
+        let sides = liquid.walls().end;
+        let share = |i: usize| if i < sides { 0.5 } else { 1.0 };
+        let box_volume: f64 = (0..D).map(|k| liquid.room.length(k)).product();
+        let volume = level.map_or(box_volume, |l| l.volume);
+        let (mut whole, mut mean, mut square) = (0.0, [0.0; D], 0.0);
+        for (i, u) in liquid.velocity.iter().enumerate() {
+            whole += share(i);
+            mean = along(&mean, share(i), u);
+            square += share(i) * dot(u, u);
+        }
+        let kinetic = 0.5 * self.matter.density * volume * square / whole;
+        let units = if D == 2 { ["m2", "J/m"] } else { ["m3", "J"] };
+        let mut record = Record::new().with("volume", units[0], volume);
+        for (axis, u) in AXES.iter().zip(mean) {
+            record = record.with(&format!("velocity_{axis}"), "m/s", u / whole);
+        }
+        record = record
+            .with("kinetic_energy", units[1], kinetic)
+            .with("fastest", "m/s", fastest(liquid));
+        let Some(level) = level else { return record };
+        record = record.with("height", "m", level.height);
+        for (axis, number, amplitude) in &level.waves {
+            let name = format!("wave_{}_{number}", AXES[*axis]);
+            record = record.with(&name, "m", *amplitude);
+        }
+        record.with("level_residual", "m", level.residual)
+    }
+
+    fn write(
+        &self,
+        liquid: &Liquid<D>,
+        (time, patches): (f64, &[Patch<D>]),
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        let points = told::points((liquid, &self.matter), &[], self.precision);
+        session.frame("/points", time, &points)?;
+        if patches.is_empty() {
+            return Ok(());
+        }
+        let surface = told::surface(liquid, patches, self.precision);
+        session.frame("/surface", time, &surface)
+    }
+
+    fn save(&self, liquid: &Liquid<D>, checkpoint: &mut Checkpoint) -> artefact::Result<()> {
+        for (name, vectors) in [
+            ("position", &liquid.position),
+            ("velocity", &liquid.velocity),
+            ("rate", &liquid.rate),
+            ("normal", &liquid.normal),
+            ("follow", &liquid.follow),
+        ] {
+            checkpoint.put_f64(name, vectors.as_flattened());
+        }
+        checkpoint.put_f64("pressure", &liquid.pressure);
+        checkpoint.put_f64("stress", &liquid.stress);
+        let volume: Vec<f64> = self.volume.into_iter().collect();
+        checkpoint.put_f64("volume", &volume);
+        checkpoint.put_f64("residual", &[self.effort.residual]);
+        let e = &self.effort;
+        let counts = [
+            self.taken,
+            self.divided,
+            e.products,
+            e.unsolved,
+            e.unsettled,
+        ];
+        checkpoint.put_u64("counts", &counts);
+        Ok(())
+    }
+
+    fn restore(
+        &mut self,
+        liquid: &mut Liquid<D>,
+        checkpoint: &mut Checkpoint,
+    ) -> Result<(), Failure> {
+        for (name, vectors) in [
+            ("position", &mut liquid.position),
+            ("velocity", &mut liquid.velocity),
+            ("rate", &mut liquid.rate),
+            ("normal", &mut liquid.normal),
+            ("follow", &mut liquid.follow),
+        ] {
+            *vectors = checkpoint.f64(name)?.as_chunks::<D>().0.to_vec();
+        }
+        liquid.pressure = checkpoint.f64("pressure")?;
+        liquid.stress = checkpoint.f64("stress")?;
+        self.volume = checkpoint.f64("volume")?.first().copied();
+        let residual = checkpoint.f64("residual")?;
+        self.effort.residual = residual.first().copied().unwrap_or(0.0);
+        if let [taken, divided, products, unsolved, unsettled] = checkpoint.u64("counts")?[..] {
+            (self.taken, self.divided) = (taken, divided);
+            self.effort.products = products;
+            (self.effort.unsolved, self.effort.unsettled) = (unsolved, unsettled);
+        }
+        Ok(())
+    }
+
+    fn close(&self, steps: &Steps, session: &mut Session) {
+        session.steps(steps.count());
+        session.closing("step", "s", steps.longest());
+        session.closing("products", "1", self.effort.products as f64);
+        session.closing("residual", "1", self.effort.residual);
+        if let Some(volume) = self.volume {
+            session.closing("volume", if D == 2 { "m2" } else { "m3" }, volume);
+        }
+        if self.divided > 0 {
+            session.note(format!(
+                "{} steps were divided: the liquid would have passed more than {FARTHEST} spacings",
+                self.divided
+            ));
+        }
+        super::flow::doubts(&self.effort, session);
+    }
+}
+
+/// What a run would do.
+///
+/// # Errors
+/// Where the spacing suits the box ill, and of formulas.
+pub(super) fn plan<const D: usize>(
+    scene: &Scene,
+    (of, march): ((&Part, &Faces), &LiquidMarch),
+) -> Result<Plan, Failure> {
+    let liquid = start::<D>(scene, of)?;
+    let steps = steps(scene, (of.0, march), &liquid);
+    let points = liquid.position.len() as u64;
+    let mut plan = Plan::new()
+        .stage("liquid")
+        .count("points", points)
+        .count("on walls", liquid.room.held.len() as u64)
+        .count("steps", steps.count())
+        .column("velocity", "m/s")
+        .column("pressure", "Pa")
+        .limit("step", steps.longest(), "s")
+        .memory("equations", BYTES * points);
+    plan = match liquid.surface() {
+        0 => plan.left_out("free surface", "all faces are named"),
+        surface => plan
+            .stage("free surface")
+            .count("on the surface", surface as u64),
+    };
+    Ok(super::liquid::lacks(plan, of.0))
+}
+
+/// Time of a run, from a step at its start.
+///
+/// # Errors
+/// Those of a step.
+pub(super) fn estimate<const D: usize>(
+    scene: &Scene,
+    (of, march): ((&Part, &Faces), &LiquidMarch),
+) -> Result<Estimate, Failure> {
+    let mut liquid = start::<D>(scene, of)?;
+    let steps = steps(scene, (of.0, march), &liquid);
+    let (way, mut effort) = (way(scene, of.0), Effort::default());
+    let began = std::time::Instant::now();
+    liquid.advance(&matter(of.0), (&way, steps.step(0).1), &mut effort)?;
+    let each = began.elapsed().as_secs_f64();
+    Ok(Estimate {
+        seconds: each * steps.count() as f64,
+        basis: format!("{each:.3} s a step, as at the start"),
+        memory: Vec::new(),
+    })
+}

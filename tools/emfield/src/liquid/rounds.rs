@@ -1,0 +1,126 @@
+//! Pressure and friction of a stage in turn.
+
+use krylov::{Anderson, Rule};
+use rayon::prelude::*;
+use run::Failure;
+use wls::Stencils;
+
+use super::effort::Effort;
+use super::friction::{Friction, stretch};
+use super::matter::Matter;
+use super::operators::divergence;
+use super::pressure::{Equations, bending};
+use super::room::images::Images;
+use super::step::Liquid;
+use super::surface::Patch;
+use super::vector::{along, difference, dot};
+
+/// Rounds at most, and those that are remembered.
+const ROUNDS: usize = 40;
+const WINDOW: usize = 8;
+/// Change of the normal stress that ends them, over the pressure.
+const SETTLED: f64 = 1e-7;
+
+/// What the rounds of a stage share.
+pub(super) struct Rounds<'a, const D: usize> {
+    pub(super) matter: &'a Matter<D>,
+    pub(super) patches: &'a [Patch<D>],
+    pub(super) rows: &'a Stencils<D>,
+    pub(super) images: &'a Images<D>,
+    pub(super) tau: f64,
+    pub(super) spacing: f64,
+    pub(super) rule: Rule<'a>,
+}
+
+impl<const D: usize> Liquid<D> {
+    /// Pressure and friction in turn, until the normal stress of friction on the surface, and on walls what it adds to the slope
+    /// of the pressure, is that of the velocity.
+    pub(super) fn rub(
+        &mut self,
+        rounds: &Rounds<'_, D>,
+        (equations, friction): (&mut Equations<'_, D>, &mut Friction),
+        (free, right): (&[[f64; D]], Vec<f64>),
+        effort: &mut Effort,
+    ) -> Result<(), Failure> {
+        let (matter, surface) = (rounds.matter, rounds.patches.len());
+        let viscosity = matter.viscosity.unwrap_or(0.0);
+        let walls = self.walls();
+        let mut anderson = Anderson::new(WINDOW);
+        for _ in 0..ROUNDS {
+            let mut with = right.clone();
+            for (r, s) in with.iter_mut().zip(&self.stress) {
+                *r += s;
+            }
+            effort.add(&equations.solve(&with, &mut self.pressure, rounds.rule))?;
+            let mut pushed = rounds.pushed(free, &self.pressure);
+            pushed[walls.clone()].copy_from_slice(&self.velocity[walls.clone()]);
+            if !self.drag.is_empty() {
+                friction.drag(&mut pushed, |i| self.drag[i].map(|t| t / viscosity));
+            }
+            effort.add(&friction.solve(&pushed, &mut self.velocity, rounds.rule))?;
+            let slid: Vec<f64> = (0..surface)
+                .map(|s| {
+                    let more = difference(&self.velocity[s], &pushed[s]);
+                    rounds.tau * dot(&rounds.patches[s].normal, &more)
+                })
+                .collect();
+            let wide = rounds.images.vectors(&self.velocity);
+            let mut found: Vec<f64> = (0..surface)
+                .map(|s| {
+                    let bent = bending(&rounds.patches[s], s, |j| slid[rounds.images.origin(j)]);
+                    2.0 * viscosity * stretch(&rounds.patches[s], &wide) + matter.tension * bent
+                })
+                .collect();
+            let mut whole = norm(&found) + norm(&right[..surface]);
+            if !walls.is_empty() {
+                found.extend(rounds.rubbed(&wide, &self.room.held));
+                let speed = norm(self.velocity.as_flattened());
+                whole += norm(&right[walls.clone()]) + viscosity / rounds.spacing * speed;
+            }
+            let lack: Vec<f64> = found.iter().zip(&self.stress).map(|(a, b)| a - b).collect();
+            let size = norm(&lack);
+            anderson.next(&mut found, &lack);
+            self.stress = found;
+            if size <= SETTLED * whole {
+                return Ok(());
+            }
+        }
+        effort.unsettled += 1;
+        Ok(())
+    }
+}
+
+impl<const D: usize> Rounds<'_, D> {
+    /// `u* - tau/rho grad p`.
+    pub(super) fn pushed(&self, free: &[[f64; D]], pressure: &[f64]) -> Vec<[f64; D]> {
+        let push = -self.tau / self.matter.density;
+        let pressure = self.images.scalars(pressure);
+        (0..free.len())
+            .into_par_iter()
+            .map(|i| along(&free[i], push, &self.rows.gradient_of(&pressure, i)))
+            .collect()
+    }
+
+    /// `h mu n . (div grad u - grad div u)` on walls \[Pa\]; `velocity` has its images behind it.
+    fn rubbed(&self, velocity: &[[f64; D]], held: &[[f64; D]]) -> Vec<f64> {
+        let sources: Vec<f64> = (0..self.images.own())
+            .into_par_iter()
+            .map(|i| divergence(self.rows, velocity, i))
+            .collect();
+        let sources = self.images.scalars(&sources);
+        let scale = self.spacing * self.matter.viscosity.unwrap_or(0.0);
+        let at = |(k, normal): (usize, &[f64; D])| {
+            let i = self.patches.len() + k;
+            let laplacian = self.rows.laplacian(i);
+            let spread: [f64; D] =
+                std::array::from_fn(|c| laplacian.apply_with(|j| velocity[j][c]));
+            let rise = self.rows.gradient_of(&sources, i);
+            scale * dot(normal, &difference(&spread, &rise))
+        };
+        held.iter().enumerate().map(at).collect()
+    }
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
