@@ -152,7 +152,7 @@ impl Heated {
             ..
         } = ended;
         let how = (way.spacing, way.order);
-        let surface = sloped(&liquid.position, patches, how).map_err(|e| failed(&e))?;
+        let surface = sloped(&liquid.position, patches, how, false).map_err(|e| failed(&e))?;
         let density = self.warmth.density;
         let field: Vec<[f64; 1]> = self.enthalpy.iter().map(|h| [density * h]).collect();
         let back = |i: usize| difference(&moved[i], &liquid.velocity[i]);

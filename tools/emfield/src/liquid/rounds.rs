@@ -5,11 +5,11 @@ use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
 
-use super::effort::Effort;
-use super::friction::{Friction, stretch};
+use super::effort::{Effort, failed};
+use super::friction::{Friction, Ground, stretch};
 use super::matter::Matter;
 use super::operators::divergence;
-use super::pressure::{Equations, bending};
+use super::pressure::{Conditions, Equations, bending};
 use super::room::images::Images;
 use super::step::Liquid;
 use super::surface::Patch;
@@ -24,18 +24,61 @@ const SETTLED: f64 = 1e-7;
 /// What the rounds of a stage share.
 pub(super) struct Rounds<'a, const D: usize> {
     pub(super) matter: &'a Matter<D>,
+    /// Points with their images behind them.
+    pub(super) place: &'a [[f64; D]],
     pub(super) patches: &'a [Patch<D>],
     pub(super) rows: &'a Stencils<D>,
     pub(super) images: &'a Images<D>,
     pub(super) tau: f64,
-    pub(super) spacing: f64,
+    /// Spacing \[m\] and degree of fits.
+    pub(super) how: (f64, u8),
     pub(super) rule: Rule<'a>,
 }
 
 impl<const D: usize> Liquid<D> {
+    /// What pressure and friction do to velocities `free` of both; `guess` is what comes of it, about.
+    pub(super) fn push(
+        &mut self,
+        rounds: &Rounds<'_, D>,
+        (free, right): (&[[f64; D]], Vec<f64>),
+        guess: Vec<[f64; D]>,
+        effort: &mut Effort,
+    ) -> Result<(), Failure> {
+        let (matter, tau) = (rounds.matter, rounds.tau);
+        let held = self.room.held.clone();
+        let conditions = Conditions {
+            rows: rounds.rows,
+            patches: rounds.patches,
+            spacing: rounds.how.0,
+            stiffness: matter.tension * tau * tau / matter.density,
+            images: rounds.images,
+            held: &held,
+            fall: self.room.borne(&matter.gravity).map(|g| g * tau * tau),
+        };
+        let equations = Equations::new(conditions, rounds.images.own());
+        let mut equations = equations.map_err(|e| failed(&e))?;
+        let Some(viscosity) = matter.viscosity else {
+            effort.add(&equations.solve(&right, &mut self.pressure, rounds.rule))?;
+            self.velocity = rounds.pushed(free, &self.pressure);
+            return Ok(());
+        };
+        let ground = Ground {
+            inside: rounds.rows,
+            patches: rounds.patches,
+            images: rounds.images,
+            held: held.len(),
+            through: self.room.bounds(),
+        };
+        let diffusion = tau * viscosity / matter.density;
+        let friction = Friction::new(rounds.place, ground, rounds.how, diffusion);
+        let mut friction = friction.map_err(|e| failed(&e))?;
+        self.velocity = guess;
+        self.rub(rounds, (&mut equations, &mut friction), (free, right), effort)
+    }
+
     /// Pressure and friction in turn, until the normal stress of friction on the surface, and on walls what it adds to the slope
     /// of the pressure, is that of the velocity.
-    pub(super) fn rub(
+    fn rub(
         &mut self,
         rounds: &Rounds<'_, D>,
         (equations, friction): (&mut Equations<'_, D>, &mut Friction),
@@ -75,7 +118,7 @@ impl<const D: usize> Liquid<D> {
             if !walls.is_empty() {
                 found.extend(rounds.rubbed(&wide, &self.room.held));
                 let speed = norm(self.velocity.as_flattened());
-                whole += norm(&right[walls.clone()]) + viscosity / rounds.spacing * speed;
+                whole += norm(&right[walls.clone()]) + viscosity / rounds.how.0 * speed;
             }
             let lack: Vec<f64> = found.iter().zip(&self.stress).map(|(a, b)| a - b).collect();
             let size = norm(&lack);
@@ -108,7 +151,7 @@ impl<const D: usize> Rounds<'_, D> {
             .map(|i| divergence(self.rows, velocity, i))
             .collect();
         let sources = self.images.scalars(&sources);
-        let scale = self.spacing * self.matter.viscosity.unwrap_or(0.0);
+        let scale = self.how.0 * self.matter.viscosity.unwrap_or(0.0);
         let at = |(k, normal): (usize, &[f64; D])| {
             let i = self.patches.len() + k;
             let laplacian = self.rows.laplacian(i);

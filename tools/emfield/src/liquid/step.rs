@@ -19,7 +19,7 @@ use wls::Stencils;
 
 use super::drift;
 use super::effort::{Effort, failed};
-use super::friction::{Friction, Ground, stretch};
+use super::friction::stretch;
 use super::operators::{derivatives, divergence, stretching, values};
 use super::pressure::{Conditions, Equations, bending};
 use super::room::Room;
@@ -239,52 +239,22 @@ impl<const D: usize> Liquid<D> {
         let fits = fits.map_err(|e| failed(&e))?;
         let patches = self.patches(&place, way.spacing);
         let patches = patches.map_err(|e| failed(&e))?;
-        let wide = images.vectors(&guess);
+        let wide = images.vectors(&guess).into_owned();
         let both = (&rows, fits.as_ref().unwrap_or(&rows));
         let drift = self.drift((&wide, &goes), (both, &patches), way.spacing);
         let free = base.freed(&self.room.driving(&matter.gravity), &drift);
         let right = self.right(matter, base, [&place, &free, &wide], (&rows, &patches, &images), way);
-        let conditions = Conditions {
-            rows: &rows,
-            patches: &patches,
-            spacing: way.spacing,
-            stiffness: matter.tension * tau * tau / matter.density,
-            images: &images,
-            held: &self.room.held.clone(),
-            fall: self.room.borne(&matter.gravity).map(|g| g * tau * tau),
-        };
-        let mut equations = Equations::new(conditions, n).map_err(|e| failed(&e))?;
         let rounds = Rounds {
             matter,
+            place: &all,
             patches: &patches,
             rows: &rows,
             images: &images,
             tau,
-            spacing: way.spacing,
+            how,
             rule: way.rule(),
         };
-        if let Some(viscosity) = matter.viscosity {
-            let diffusion = tau * viscosity / matter.density;
-            let ground = Ground {
-                inside: &rows,
-                patches: &patches,
-                images: &images,
-                held: self.room.held.len(),
-                through: self.room.bounds(),
-            };
-            let friction = Friction::new(&all, ground, how, diffusion);
-            let mut friction = friction.map_err(|e| failed(&e))?;
-            self.velocity = guess;
-            self.rub(
-                &rounds,
-                (&mut equations, &mut friction),
-                (&free, right),
-                effort,
-            )?;
-        } else {
-            effort.add(&equations.solve(&right, &mut self.pressure, rounds.rule))?;
-            self.velocity = rounds.pushed(&free, &self.pressure);
-        }
+        self.push(&rounds, (&free, right), guess, effort)?;
         self.rate = (0..n)
             .map(|i| difference(&self.velocity[i], &base.velocity[i]).map(|d| d / tau))
             .collect();

@@ -115,6 +115,38 @@ impl Faces {
     }
 
     pub(super) fn check(&self, scene: &Scene, liquid: &Liquid, misfits: &mut Vec<Misfit>) {
+        self.check_faces(scene, liquid, misfits);
+        self.check_walls(scene.geometry.dimensions(), misfits);
+        let absent = [
+            (liquid.electric.is_some(), "electric"),
+            (liquid.magnetic.is_some(), "magnetic"),
+            (liquid.heat.is_some(), "heat"),
+            (liquid.equilibrium.is_some(), "equilibrium"),
+        ];
+        for (_, key) in absent.iter().filter(|(given, _)| *given) {
+            let what = format!("a liquid between faces has no \"{key}\" yet: leave it away");
+            misfits.push(Misfit::at(&format!("/liquid/{key}"), what));
+        }
+    }
+
+    /// Walls that slide.
+    fn check_walls(&self, dimensions: usize, misfits: &mut Vec<Misfit>) {
+        for (k, wall) in self.wall.iter().enumerate() {
+            let Some(velocity) = &wall.velocity_m_s else {
+                continue;
+            };
+            let at = format!("/liquid/faces/wall/{k}/velocity_m_s");
+            check::coordinates(velocity, &at, dimensions, misfits);
+            let across = velocity.get(wall.face.place().0);
+            if across.is_some_and(|v| *v != 0.0) {
+                let what = "a wall slides along itself: 0 is wanted across it";
+                misfits.push(Misfit::at(&at, what));
+            }
+        }
+    }
+
+    /// Which faces are named, and how often.
+    fn check_faces(&self, scene: &Scene, liquid: &Liquid, misfits: &mut Vec<Misfit>) {
         let dimensions = scene.geometry.dimensions();
         let mut at = |key: &str, what: String| {
             misfits.push(Misfit::at(&format!("/liquid/faces{key}"), what));
@@ -166,26 +198,6 @@ impl Faces {
         if !self.wall.is_empty() && liquid.viscosity_pa_s.is_none() {
             let what = "a liquid without viscosity sticks to nothing: take \"mirror\", or \"viscosity_pa_s\" of the liquid";
             at("/wall", what.to_owned());
-        }
-        let absent = [
-            (liquid.electric.is_some(), "electric"),
-            (liquid.magnetic.is_some(), "magnetic"),
-            (liquid.heat.is_some(), "heat"),
-            (liquid.equilibrium.is_some(), "equilibrium"),
-        ];
-        for (_, key) in absent.iter().filter(|(given, _)| *given) {
-            let what = format!("a liquid between faces has no \"{key}\" yet: leave it away");
-            misfits.push(Misfit::at(&format!("/liquid/{key}"), what));
-        }
-        for (k, wall) in self.wall.iter().enumerate() {
-            let Some(velocity) = &wall.velocity_m_s else {
-                continue;
-            };
-            let at = format!("/liquid/faces/wall/{k}/velocity_m_s");
-            check::coordinates(velocity, &at, dimensions, misfits);
-            if velocity.get(wall.face.place().0).is_some_and(|v| *v != 0.0) {
-                misfits.push(Misfit::at(&at, "a wall slides along itself: 0 is wanted across it"));
-            }
         }
     }
 }
