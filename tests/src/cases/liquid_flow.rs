@@ -148,7 +148,11 @@ fn vortices(run: &Finished) -> Result<Errors, LabError> {
         [x.sin() * y.cos(), -x.cos() * y.sin(), 0.0]
     };
     let (mut along, mut square) = (0.0, 0.0);
-    for (x, u) in first.position_vectors()?.iter().zip(first.vectors("velocity")?) {
+    for (x, u) in first
+        .position_vectors()?
+        .iter()
+        .zip(first.vectors("velocity")?)
+    {
         let m = mode(x);
         along += m[0] * u[0] + m[1] * u[1];
         square += m[0] * m[0] + m[1] * m[1];
@@ -219,7 +223,11 @@ fn sloshing(run: &Finished) -> Result<Errors, LabError> {
     let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
     let first = reader.frame("/points", 0)?;
     let (mut along, mut square) = (0.0, 0.0);
-    for (x, u) in first.position_vectors()?.iter().zip(first.vectors("velocity")?) {
+    for (x, u) in first
+        .position_vectors()?
+        .iter()
+        .zip(first.vectors("velocity")?)
+    {
         let m = (wave * x[1]).sinh() * (wave * x[0]).cos();
         along += m * u[1];
         square += m * m;

@@ -47,14 +47,17 @@ pub(super) fn filled<const D: usize>(
     let fault = |what: String| Failure::from(vec![Fault::at("/points/spacing_m", what)]);
     let many: f64 = (0..D).map(|k| room.length(k) / spacing).product();
     if many.is_nan() || many > MOST {
-        let what =
-            format!("{spacing} m: some {many:.0} points would fill the liquid, at most {MOST:e} can");
+        let what = format!(
+            "{spacing} m: some {many:.0} points would fill the liquid, at most {MOST:e} can"
+        );
         return Err(fault(what));
     }
     let filled = furnish(&mut room, spacing, (scene.points.jitter, scene.points.seed));
     let faces = filled.normal.len() + room.held.len();
     if filled.position.len() <= faces {
-        return Err(fault(format!("{spacing} m: no point fits inside the liquid")));
+        return Err(fault(format!(
+            "{spacing} m: no point fits inside the liquid"
+        )));
     }
     Ok((room, filled))
 }
@@ -220,9 +223,8 @@ impl<const D: usize> March<D> {
         time: f64,
         session: &mut Session,
     ) -> Result<(), Failure> {
-        let level = |liquid: &Liquid<D>| {
-            Level::new(&liquid.room, &liquid.position[..liquid.surface()])
-        };
+        let level =
+            |liquid: &Liquid<D>| Level::new(&liquid.room, &liquid.position[..liquid.surface()]);
         let mut now = level(liquid);
         match (&now, self.volume) {
             (Some(found), None) => self.volume = Some(found.volume),
@@ -257,9 +259,11 @@ impl<const D: usize> March<D> {
         for (axis, u) in AXES.iter().zip(mean) {
             record = record.with(&format!("velocity_{axis}"), "m/s", u / whole);
         }
-        record = record
-            .with("kinetic_energy", units[1], kinetic)
-            .with("fastest", "m/s", fastest(liquid));
+        record = record.with("kinetic_energy", units[1], kinetic).with(
+            "fastest",
+            "m/s",
+            fastest(liquid),
+        );
         let Some(level) = level else { return record };
         record = record.with("height", "m", level.height);
         for (axis, number, amplitude) in &level.waves {

@@ -74,10 +74,23 @@ mod tests {
     fn a_smooth_field_comes_as_its_slope_says() {
         let (points, middle) = cube();
         let (cloud, how) = ((&points[..], points.len()), (1.0, 3));
-        let rows = derivatives(cloud, how, Fits { through: true, value: false }).unwrap();
+        let rows = derivatives(
+            cloud,
+            how,
+            Fits {
+                through: true,
+                value: false,
+            },
+        )
+        .unwrap();
         let fits = values(cloud, how).unwrap();
         let f: Vec<[f64; 1]> = points.iter().map(|x| [x[0] + 0.1 * x[1] * x[1]]).collect();
-        let found = inside((&rows, &fits), &f, |_| [0.2, -0.1, 0.0], (middle..middle + 1, 1.0));
+        let found = inside(
+            (&rows, &fits),
+            &f,
+            |_| [0.2, -0.1, 0.0],
+            (middle..middle + 1, 1.0),
+        );
         let [_, y, _] = points[middle];
         assert!((found[0][0] - (0.2 - 0.02 * y)).abs() < 1e-9, "{found:?}");
     }

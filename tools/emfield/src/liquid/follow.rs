@@ -97,16 +97,17 @@ impl<const D: usize> Liquid<D> {
         let fixed = on + self.room.held.len();
         let square = spacing * spacing;
         for k in 0..D {
-            let matrix = Rows::gathered(n, 0.0, |i, row| {
-                if i < fixed {
-                    row.push((i as u32, 1.0));
-                } else {
-                    let all = rows.laplacian(i).iter();
-                    row.extend(all.map(|(j, w)| {
-                        (images.origin(j) as u32, -square * images.sign(j, k) * w)
-                    }));
-                }
-            });
+            let matrix =
+                Rows::gathered(n, 0.0, |i, row| {
+                    if i < fixed {
+                        row.push((i as u32, 1.0));
+                    } else {
+                        let all = rows.laplacian(i).iter();
+                        row.extend(all.map(|(j, w)| {
+                            (images.origin(j) as u32, -square * images.sign(j, k) * w)
+                        }));
+                    }
+                });
             let options = Options {
                 method: Method::Incomplete(Keep::PATTERN),
                 ..Options::default()

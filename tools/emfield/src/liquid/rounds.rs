@@ -73,7 +73,12 @@ impl<const D: usize> Liquid<D> {
         let friction = Friction::new(rounds.place, ground, rounds.how, diffusion);
         let mut friction = friction.map_err(|e| failed(&e))?;
         self.velocity = guess;
-        self.rub(rounds, (&mut equations, &mut friction), (free, right), effort)
+        self.rub(
+            rounds,
+            (&mut equations, &mut friction),
+            (free, right),
+            effort,
+        )
     }
 
     /// Pressure and friction in turn, until the normal stress of friction on the surface, and on walls what it adds to the slope

@@ -243,7 +243,13 @@ impl<const D: usize> Liquid<D> {
         let both = (&rows, fits.as_ref().unwrap_or(&rows));
         let drift = self.drift((&wide, &goes), (both, &patches), way.spacing);
         let free = base.freed(&self.room.driving(&matter.gravity), &drift);
-        let right = self.right(matter, base, [&place, &free, &wide], (&rows, &patches, &images), way);
+        let right = self.right(
+            matter,
+            base,
+            [&place, &free, &wide],
+            (&rows, &patches, &images),
+            way,
+        );
         let rounds = Rounds {
             matter,
             place: &all,

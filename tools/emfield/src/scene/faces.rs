@@ -156,13 +156,19 @@ impl Faces {
             at("", what.to_owned());
         }
         if !matches!(liquid.shape, Shape::Box(_)) {
-            at("", "are those of a box: take \"box\" as the shape".to_owned());
+            at(
+                "",
+                "are those of a box: take \"box\" as the shape".to_owned(),
+            );
         }
         let mut seen = [[0; 2]; 3];
         for (k, axis) in self.periodic.iter().enumerate() {
             let axis = *axis as usize;
             if axis >= dimensions {
-                at(&format!("/periodic/{k}"), format!("there are {dimensions} axes"));
+                at(
+                    &format!("/periodic/{k}"),
+                    format!("there are {dimensions} axes"),
+                );
             }
             seen[axis] = seen[axis].map(|n| n + 1);
         }
@@ -185,7 +191,10 @@ impl Faces {
             .filter(|(axis, up)| seen[*axis][*up] == 0)
             .collect();
         if free.len() > 1 {
-            let what = format!("{} faces are not named: at most one can be the free surface", free.len());
+            let what = format!(
+                "{} faces are not named: at most one can be the free surface",
+                free.len()
+            );
             at("", what);
         }
         if let [(axis, _)] = free[..] {

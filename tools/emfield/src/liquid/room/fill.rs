@@ -98,16 +98,15 @@ mod tests {
         let mut room = Room::<2> {
             min: [0.0, 0.0],
             max: [1.0, 0.5],
-            sides: [
-                [Side::Mirror; 2],
-                [Side::Wall([0.0, 0.0]), Side::Open],
-            ],
+            sides: [[Side::Mirror; 2], [Side::Wall([0.0, 0.0]), Side::Open]],
             ..Room::default()
         };
         let filled = furnish(&mut room, 0.1, (0.0, 0));
         assert_eq!((filled.normal.len(), room.held.len()), (10, 10));
         assert_eq!(filled.position.len(), 20 + 10 * 4);
-        assert!((filled.position[0][1] - 0.5).abs() < 1e-12 && filled.position[10][1].abs() < 1e-12);
+        assert!(
+            (filled.position[0][1] - 0.5).abs() < 1e-12 && filled.position[10][1].abs() < 1e-12
+        );
         assert!((filled.position[20][0] - 0.05).abs() < 1e-12);
         assert!((filled.position[20][1] - 0.1).abs() < 1e-12);
         assert!(room.held[0][1] < 0.0 && filled.normal[0][1] > 0.0);

@@ -186,7 +186,11 @@ mod tests {
         let (all, images) = room.images(&filled.position, 0.05);
         let rows = derivatives((&all, filled.position.len()), (0.05, 3), Fits::default()).unwrap();
         let pi = std::f64::consts::PI;
-        let f: Vec<f64> = filled.position.iter().map(|x| (pi * x[0]).sin() * (pi * (x[1] - 1.0)).cos()).collect();
+        let f: Vec<f64> = filled
+            .position
+            .iter()
+            .map(|x| (pi * x[0]).sin() * (pi * (x[1] - 1.0)).cos())
+            .collect();
         let wide = images.scalars(&f);
         for (i, f) in f.iter().enumerate() {
             let found = rows.laplacian(i).apply(&wide);
