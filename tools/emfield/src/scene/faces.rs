@@ -117,6 +117,10 @@ impl Faces {
     pub(super) fn check(&self, scene: &Scene, liquid: &Liquid, misfits: &mut Vec<Misfit>) {
         self.check_faces(scene, liquid, misfits);
         self.check_walls(scene.geometry.dimensions(), misfits);
+        if !self.wall.is_empty() && liquid.viscosity_pa_s.is_none() {
+            let what = "a liquid without viscosity sticks to nothing: take \"mirror\", or \"viscosity_pa_s\" of the liquid";
+            misfits.push(Misfit::at("/liquid/faces/wall", what));
+        }
         let absent = [
             (liquid.electric.is_some(), "electric"),
             (liquid.magnetic.is_some(), "magnetic"),
@@ -203,10 +207,6 @@ impl Faces {
                 let what = "the free surface cannot move along a wall to which the liquid sticks: take \"mirror\" for faces beside it";
                 at(&format!("/wall/{k}/face"), what.to_owned());
             }
-        }
-        if !self.wall.is_empty() && liquid.viscosity_pa_s.is_none() {
-            let what = "a liquid without viscosity sticks to nothing: take \"mirror\", or \"viscosity_pa_s\" of the liquid";
-            at("/wall", what.to_owned());
         }
     }
 }

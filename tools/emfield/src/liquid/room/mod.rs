@@ -133,9 +133,9 @@ impl<const D: usize> Room<D> {
 
     /// Brings a place that has left through a periodic face back.
     pub fn wrap(&self, x: &mut [f64; D]) {
-        for k in 0..D {
+        for (k, c) in x.iter_mut().enumerate() {
             if self.sides[k][0] == Side::Periodic {
-                x[k] -= self.length(k) * ((x[k] - self.min[k]) / self.length(k)).floor();
+                *c -= self.length(k) * ((*c - self.min[k]) / self.length(k)).floor();
             }
         }
     }
