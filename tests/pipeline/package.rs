@@ -22,6 +22,8 @@ fn sh(words: &[&str]) -> String {
     let output = Command::new(words[0])
         .args(&words[1..])
         .current_dir(root())
+        .env_remove("MAKEFLAGS")
+        .env_remove("MAKELEVEL")
         .output()
         .unwrap();
     assert!(output.status.success(), "{words:?}: {output:?}");
