@@ -70,7 +70,8 @@ pub(super) fn hold(magnetic: &Magnetic, matter: &Matter<3>, volume: f64) -> Resu
 
 #[cfg(test)]
 mod tests {
-    use super::super::liquid::{filled, start, way};
+    use super::super::liquid::{filled, start};
+    use super::super::matter::way;
     use super::*;
     use crate::liquid::effort::Effort;
     use crate::liquid::vector::along;

@@ -6,7 +6,8 @@ use run::{Failure, Session};
 use super::acting::Acting;
 use super::between::between;
 use super::heated::Heated;
-use super::liquid::{fastest, filled, matter, start, steps, way};
+use super::liquid::{fastest, filled, start, steps};
+use super::matter::{matter, way};
 use super::steps::Steps;
 use crate::liquid::effort::{Effort, failed};
 use crate::liquid::operators::{divergence, operators};
@@ -15,7 +16,6 @@ use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference};
-use crate::scene::output::Precision as Wanted;
 use crate::scene::{Geometry, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that a point may move in a step; longer ones are divided.
@@ -66,7 +66,7 @@ pub fn flow(
     let mut march = March {
         matter: matter(part),
         way: way(scene, part),
-        precision: precision(scene),
+        precision: scene.output.precision.into(),
         volume: None,
         drift: [0.0; 3],
         centre: [0.0; 3],
@@ -104,30 +104,6 @@ pub fn flow(
     }
     march.close(&steps, session);
     Ok(())
-}
-
-/// How frames are written.
-pub(super) fn precision(scene: &Scene) -> Precision {
-    match scene.output.precision {
-        Wanted::F32 => Precision::F32,
-        Wanted::F64 => Precision::F64,
-    }
-}
-
-/// Warns of what did not converge.
-pub(super) fn doubts(effort: &Effort, session: &mut Session) {
-    if effort.unsolved > 0 {
-        session.warn(format!(
-            "not converged: {} solves of the liquid",
-            effort.unsolved
-        ));
-    }
-    if effort.unsettled > 0 {
-        session.warn(format!(
-            "not converged: friction and pressure of {} stages",
-            effort.unsettled
-        ));
-    }
 }
 
 impl March {
@@ -364,6 +340,8 @@ impl March {
                 self.divided
             ));
         }
-        doubts(&self.effort, session);
+        for doubt in self.effort.doubts() {
+            session.warn(doubt);
+        }
     }
 }

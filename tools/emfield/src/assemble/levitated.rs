@@ -6,11 +6,11 @@
 //! `a_l` the next one has `c + a_l/omega_l^2`: Newton's method but for what the field changes with the shape. The centre stays;
 //! what moves it is told.
 
-use artefact::Precision;
 use run::{Failure, Session};
 
 use super::acting::Acting;
-use super::liquid::{filled, matter, start, way};
+use super::liquid::{filled, start};
+use super::matter::{matter, way};
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::magnetic::{Mould, not_round, outline};
@@ -18,7 +18,6 @@ use crate::liquid::outline::Outline;
 use crate::liquid::step::Liquid;
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{difference, direction, dot};
-use crate::scene::output::Precision as Wanted;
 use crate::scene::{Liquid as Part, Scene};
 
 /// Rounds at most.
@@ -108,11 +107,8 @@ fn write(
     acting: &Acting,
     session: &mut Session,
 ) -> Result<(), Failure> {
-    let matter = super::liquid::matter(part);
-    let precision = match scene.output.precision {
-        Wanted::F32 => Precision::F32,
-        Wanted::F64 => Precision::F64,
-    };
+    let matter = matter(part);
+    let precision = scene.output.precision.into();
     let totals = Totals::new(liquid, &matter, shape).ok_or_else(not_round)?;
     let row = acting.row(totals.row(&matter, shape));
     session.record("/liquid", 0.0, &row)?;

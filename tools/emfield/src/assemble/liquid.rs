@@ -7,6 +7,7 @@ use shapes::Body;
 use super::acting::electric;
 use super::alternating::alternating;
 use super::between;
+use super::matter::{PASSED, RIPPLE, few, lacks, matter, way};
 use super::steps::Steps;
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
@@ -20,12 +21,6 @@ use crate::liquid::vector::length;
 use crate::scene::currents::Transient;
 use crate::scene::{Geometry, Liquid as Part, LiquidHeat, LiquidMarch, Scene};
 
-/// Part of the time of a ripple of the drop that a step takes, over h/R.
-pub(super) const RIPPLE: f64 = 0.3;
-/// Part of the time in which a spacing is fallen or passed.
-pub(super) const PASSED: f64 = 0.25;
-/// Most points of a liquid.
-pub(super) const MOST: f64 = 5e6;
 /// Bytes that a step holds for each point, about: weights, rows and factors.
 const BYTES: u64 = 6_000;
 
@@ -38,13 +33,8 @@ pub(super) fn filled(scene: &Scene, liquid: &Part) -> Result<Filled<3>, Failure>
     let spacing = scene.points.spacing_m;
     let [low, high] = body.bounds();
     let room: f64 = (0..3).map(|k| (high[k] - low[k]) / spacing).product();
+    few(room, spacing)?;
     let fault = |what: String| Failure::from(vec![Fault::at("/points/spacing_m", what)]);
-    if room.is_nan() || room > MOST {
-        let what = format!(
-            "{spacing} m: some {room:.0} points would fill the liquid, at most {MOST:e} can"
-        );
-        return Err(fault(what));
-    }
     let filled = fill::<3>(&body, spacing);
     let surface = filled.normal.len();
     let made = patches(&filled.position[..surface], &filled.normal, spacing);
@@ -55,26 +45,6 @@ pub(super) fn filled(scene: &Scene, liquid: &Part) -> Result<Filled<3>, Failure>
         )));
     }
     Ok(filled)
-}
-
-pub(super) fn matter<const D: usize>(liquid: &Part) -> Matter<D> {
-    let gravity = liquid.gravity_m_s2.as_deref().unwrap_or(&[]);
-    Matter {
-        density: liquid.density_kg_m3,
-        viscosity: liquid.viscosity_pa_s,
-        tension: liquid.surface_tension_n_m.unwrap_or(0.0),
-        gas: liquid.gas_pressure_pa,
-        gravity: std::array::from_fn(|k| gravity.get(k).copied().unwrap_or(0.0)),
-    }
-}
-
-pub(super) fn way(scene: &Scene, liquid: &Part) -> Way {
-    Way {
-        spacing: scene.points.spacing_m,
-        order: liquid.order,
-        tolerance: scene.solver.tolerance,
-        products: scene.solver.iterations,
-    }
 }
 
 /// The liquid at its start.
@@ -204,24 +174,6 @@ pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
     };
     plan = warmed(plan, part.heat.as_ref());
     Ok(lacks(plan, part))
-}
-
-/// Adds what a liquid does without to a plan.
-pub(super) fn lacks(mut plan: Plan, part: &Part) -> Plan {
-    for (absent, name, key) in [
-        (part.viscosity_pa_s.is_none(), "viscosity", "viscosity_pa_s"),
-        (
-            part.surface_tension_n_m.is_none(),
-            "surface tension",
-            "surface_tension_n_m",
-        ),
-        (part.gravity_m_s2.is_none(), "gravity", "gravity_m_s2"),
-    ] {
-        if absent {
-            plan = plan.left_out(name, &format!("no key '{key}' of 'liquid'"));
-        }
-    }
-    plan
 }
 
 /// Adds what heat does to a plan.

@@ -22,6 +22,7 @@ mod liquid;
 mod magnetic;
 mod magnets;
 mod march;
+mod matter;
 mod open;
 mod potential;
 mod preview;

@@ -1,6 +1,6 @@
 //! A drop at rest in a uniform field: from a scene to its shape.
 
-use artefact::{Frame, Precision, Record, Table};
+use artefact::{Frame, Record, Table};
 use run::{Failure, Session};
 use shapes::Shape;
 use shapes::shape::Sphere;
@@ -8,7 +8,6 @@ use shapes::shape::Sphere;
 use super::levitated::levitated;
 use super::sessile::sessile;
 use crate::liquid::equilibrium::{self, FEWEST, Found, Kind, MOST, Place, Sought};
-use crate::scene::output::Precision as Wanted;
 use crate::scene::{Equilibrium, Liquid as Part, Scene};
 use crate::surface::traction::EPS0;
 
@@ -124,10 +123,7 @@ fn outline(
         .column("curvature", "1/m", places.iter().map(bent))
         .column("traction", "Pa", places.iter().map(pulled));
     session.table("/outline", 0.0, &table)?;
-    let precision = match scene.output.precision {
-        Wanted::F32 => Precision::F32,
-        Wanted::F64 => Precision::F64,
-    };
+    let precision = scene.output.precision.into();
     let both: Vec<(&Place, f64)> = places.iter().flat_map(|p| [(p, 1.0), (p, -1.0)]).collect();
     let position = both.iter().map(|(p, side)| {
         let at = [p.r * radius, 0.0, side * p.z * radius];

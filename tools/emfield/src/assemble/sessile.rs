@@ -1,11 +1,10 @@
 //! A drop at rest on a wall: from a scene to its shape.
 
-use artefact::{Frame, Precision, Record, Table};
+use artefact::{Frame, Record, Table};
 use run::{Failure, Session};
 use shapes::shape::Sphere;
 
 use crate::liquid::sessile::{Place, Sessile, Stood, stands};
-use crate::scene::output::Precision as Wanted;
 use crate::scene::{Liquid as Part, Scene};
 
 /// Finds the shape and writes it.
@@ -71,10 +70,7 @@ fn outline(
         .column("z_m", "m", places.iter().map(up))
         .column("curvature", "1/m", places.iter().map(bent));
     session.table("/outline", 0.0, &table)?;
-    let precision = match scene.output.precision {
-        Wanted::F32 => Precision::F32,
-        Wanted::F64 => Precision::F64,
-    };
+    let precision = scene.output.precision.into();
     let both: Vec<(&Place, f64)> = places.iter().flat_map(|p| [(p, 1.0), (p, -1.0)]).collect();
     let position = both.iter().map(|(p, side)| {
         let at = [side * p.r * radius, 0.0, up(p)];

@@ -33,6 +33,21 @@ impl Effort {
         }
         Ok(())
     }
+
+    /// What a reader of the run must be told.
+    #[must_use]
+    pub fn doubts(&self) -> Vec<String> {
+        let told = [
+            (self.unsolved, "solves of the liquid"),
+            (
+                self.unsettled,
+                "stages, whose friction and pressure did not settle",
+            ),
+        ];
+        let told = told.iter().filter(|(n, _)| *n > 0);
+        told.map(|(n, what)| format!("not converged: {n} {what}"))
+            .collect()
+    }
 }
 
 pub(crate) fn failed(why: &dyn std::fmt::Display) -> Failure {

@@ -9,9 +9,9 @@ use super::effort::{Effort, failed};
 use super::friction::{Friction, Ground, stretch};
 use super::matter::Matter;
 use super::operators::divergence;
+use super::points::Liquid;
 use super::pressure::{Conditions, Equations, bending};
 use super::room::images::Images;
-use super::step::Liquid;
 use super::surface::Patch;
 use super::vector::{along, difference, dot};
 

@@ -11,8 +11,6 @@
 //! What divergence fits leave is not taken away at once but by the share `CLEANED` in each stage: divergence and gradient of
 //! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
@@ -22,13 +20,13 @@ use super::effort::{Effort, failed};
 use super::friction::stretch;
 use super::operators::{derivatives, divergence, stretching, values};
 use super::pressure::{Conditions, Equations, bending};
-use super::room::Room;
 use super::room::images::Images;
 use super::rounds::Rounds;
 use super::surface::{Bare, Patch, beside};
 use super::vector::{along, difference, dot};
 
 pub use super::matter::{Matter, Way};
+pub use super::points::Liquid;
 
 /// g of the stages.
 pub(super) const PART: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -36,35 +34,6 @@ pub(super) const PART: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 const CLEANED: f64 = 0.3;
 /// The same between faces: beside a free surface, and where there is none.
 const BETWEEN: [f64; 2] = [0.1, 1.0];
-
-/// Points of the liquid, those of the surface first, then those on walls, and what they carry.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Liquid<const D: usize> {
-    /// Places \[m\].
-    pub position: Vec<[f64; D]>,
-    /// Velocity \[m/s\].
-    pub velocity: Vec<[f64; D]>,
-    /// Pressure, less the weight that faces bear ([`super::room`]) \[Pa\].
-    pub pressure: Vec<f64>,
-    /// Rate of the velocity of each point along its way, in the last stage \[m/s2\].
-    pub rate: Vec<[f64; D]>,
-    /// Velocities of points that follow the surface, in the last stage; nothing where those inside go with the liquid \[m/s\].
-    pub follow: Vec<[f64; D]>,
-    /// Unit normals of the points of the surface.
-    pub normal: Vec<[f64; D]>,
-    /// Normal stress of friction on the surface, and what friction adds to its tension within a stage; on walls what it adds to
-    /// the slope of the pressure, times the spacing \[Pa\].
-    pub stress: Vec<f64>,
-    /// Traction of fields on the surface, outward, and how fast it changes \[Pa, Pa/s\]; none where there is no field.
-    pub pull: [Vec<f64>; 2],
-    /// Traction of a field along the surface \[Pa\]; nothing where there is none.
-    pub drag: Vec<[f64; D]>,
-    /// Force density of fields beside that traction, which stirs alone (see [`super::stirred`]), by point, and how fast it
-    /// changes \[N/m3, N/(m3 s)\]; none where there is none.
-    pub force: [Vec<[f64; D]>; 2],
-    /// Faces that bound it beside the surface.
-    pub room: Room<D>,
-}
 
 /// Where a stage begins, and how long it is.
 struct Base<const D: usize> {
@@ -103,31 +72,6 @@ pub struct Ended<const D: usize> {
 }
 
 impl<const D: usize> Liquid<D> {
-    /// Number of points on the surface.
-    #[must_use]
-    pub fn surface(&self) -> usize {
-        self.normal.len()
-    }
-
-    /// Points on walls.
-    #[must_use]
-    pub fn walls(&self) -> Range<usize> {
-        self.surface()..self.surface() + self.room.held.len()
-    }
-
-    /// The normal of a wall at one of its points.
-    fn wall(&self, i: usize) -> Option<&[f64; D]> {
-        self.room.held.get(i.checked_sub(self.surface())?)
-    }
-
-    /// The middle of the points of the surface \[m\].
-    #[must_use]
-    pub fn middle(&self) -> [f64; D] {
-        let share = (self.surface() as f64).recip();
-        let surface = self.position[..self.surface()].iter();
-        surface.fold([0.0; D], |sum, x| along(&sum, share, x))
-    }
-
     /// Takes a step of `dt` \[s\].
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 mod sample;
 
-use artefact::{Frame, Precision, Record, Table};
+use artefact::{Frame, Record, Table};
 use run::{Failure, Session};
 use shapes::frame::{Vector, length};
 
@@ -10,7 +10,6 @@ pub use sample::Samples;
 
 use crate::cloud::{Class, Cloud};
 use crate::scene::Scene;
-use crate::scene::output::Precision as Wanted;
 
 /// Values of a quantity at all points.
 #[derive(Debug, Clone, PartialEq)]
@@ -156,10 +155,7 @@ pub fn write(
 }
 
 fn frame(scene: &Scene) -> Frame {
-    Frame::new(match scene.output.precision {
-        Wanted::F32 => Precision::F32,
-        Wanted::F64 => Precision::F64,
-    })
+    Frame::new(scene.output.precision.into())
 }
 
 /// Places, kinds and fields of all points.

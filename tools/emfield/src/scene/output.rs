@@ -78,6 +78,15 @@ pub enum Precision {
     F64,
 }
 
+impl From<Precision> for artefact::Precision {
+    fn from(wanted: Precision) -> Self {
+        match wanted {
+            Precision::F32 => Self::F32,
+            Precision::F64 => Self::F64,
+        }
+    }
+}
+
 /// What is written: the fields of all points at the end, in a march at its start too, and what is asked for here.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -1,20 +1,21 @@
 //! The march of a liquid between faces: in a plane or in space.
 
-use artefact::{Checkpoint, Precision, Record};
-use run::property::Arguments;
-use run::{Estimate, Failure, Fault, Plan, Session};
+mod start;
 
-use super::liquid::{MOST, PASSED, RIPPLE, matter, way};
-use super::steps::Steps;
+pub(super) use start::filled;
+
+use artefact::{Checkpoint, Precision, Record};
+use run::{Estimate, Failure, Plan, Session};
+
+use self::start::{fastest, start, steps};
+use crate::assemble::matter::{lacks, matter, way};
+use crate::assemble::steps::Steps;
 use crate::liquid::effort::Effort;
-use crate::liquid::fill::Filled;
 use crate::liquid::room::level::Level;
-use crate::liquid::room::{Room, furnish};
 use crate::liquid::step::{Ended, Liquid, Matter, Way};
 use crate::liquid::surface::Patch;
 use crate::liquid::told;
-use crate::liquid::vector::{along, dot, length, spatial};
-use crate::scene::currents::Transient;
+use crate::liquid::vector::{along, dot};
 use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that the liquid may pass in a step; longer ones are divided.
@@ -37,103 +38,11 @@ struct March<const D: usize> {
     taken: u64,
 }
 
-/// The room of a scene and its points.
-pub(super) fn filled<const D: usize>(
-    scene: &Scene,
-    (part, faces): (&Part, &Faces),
-) -> Result<(Room<D>, Filled<D>), Failure> {
-    let mut room = faces.room::<D>(&part.shape);
-    let spacing = scene.points.spacing_m;
-    let fault = |what: String| Failure::from(vec![Fault::at("/points/spacing_m", what)]);
-    let many: f64 = (0..D).map(|k| room.length(k) / spacing).product();
-    if many.is_nan() || many > MOST {
-        let what = format!(
-            "{spacing} m: some {many:.0} points would fill the liquid, at most {MOST:e} can"
-        );
-        return Err(fault(what));
-    }
-    let filled = furnish(&mut room, spacing, (scene.points.jitter, scene.points.seed));
-    let faces = filled.normal.len() + room.held.len();
-    if filled.position.len() <= faces {
-        return Err(fault(format!(
-            "{spacing} m: no point fits inside the liquid"
-        )));
-    }
-    Ok((room, filled))
-}
-
-/// The liquid at its start.
-fn start<const D: usize>(scene: &Scene, of: (&Part, &Faces)) -> Result<Liquid<D>, Failure> {
-    let part = of.0;
-    let (room, filled) = filled::<D>(scene, of)?;
-    let n = filled.position.len();
-    let mut velocity = vec![[0.0; D]; n];
-    for (k, v) in part.velocity_m_s.iter().flatten().enumerate().take(D) {
-        let curve = v.compile(&format!("/liquid/velocity_m_s/{k}"), &["x", "y", "z", "r"])?;
-        for (x, v) in filled.position.iter().zip(&mut velocity) {
-            let value = curve.value(&Arguments::at(spatial(x), 0.0));
-            v[k] = value.map_err(|e| Failure::Other(format!("velocity at {x:?} m: {e}")))?;
-        }
-    }
-    let surface = filled.normal.len();
-    for (u, normal) in velocity[surface..].iter_mut().zip(&room.held) {
-        *u = room.slides(normal);
-    }
-    Ok(Liquid {
-        follow: vec![[0.0; D]; n],
-        stress: vec![0.0; surface + room.held.len()],
-        pull: [Vec::new(), Vec::new()],
-        drag: Vec::new(),
-        force: [Vec::new(), Vec::new()],
-        position: filled.position,
-        velocity,
-        pressure: vec![part.gas_pressure_pa; n],
-        rate: vec![[0.0; D]; n],
-        normal: filled.normal,
-        room,
-    })
-}
-
-fn fastest<const D: usize>(liquid: &Liquid<D>) -> f64 {
-    liquid.velocity.iter().map(length).fold(0.0, f64::max)
-}
-
-/// Steps, the longest of which waves, gravity and the liquid allow.
-fn steps<const D: usize>(
-    scene: &Scene,
-    (part, march): (&Part, &LiquidMarch),
-    liquid: &Liquid<D>,
-) -> Steps {
-    let spacing = scene.points.spacing_m;
-    let matter: Matter<D> = matter(part);
-    let mut step = march.end_s;
-    let half = (0..D).map(|k| 0.5 * liquid.room.length(k));
-    let radius = half.fold(0.0, f64::max);
-    if matter.tension > 0.0 && liquid.surface() > 0 {
-        let ripple = (matter.density * radius.powi(3) / matter.tension).sqrt();
-        step = step.min(RIPPLE * ripple * spacing / radius);
-    }
-    let gravity = length(&matter.gravity);
-    if gravity > 0.0 {
-        step = step.min(PASSED * spacing / (2.0 * gravity * radius).sqrt());
-    }
-    let fastest = fastest(liquid);
-    if fastest > 0.0 {
-        step = step.min(PASSED * spacing / fastest);
-    }
-    let transient = Transient {
-        end_s: march.end_s,
-        step_s: march.step_s.unwrap_or(step),
-        wave: None,
-    };
-    Steps::new(&transient, &scene.output)
-}
-
 /// Moves the liquid of a scene from its start to the end.
 ///
 /// # Errors
 /// Where fits or equations fail, the user interrupts, or the disk refuses.
-pub(super) fn between<const D: usize>(
+pub(in crate::assemble) fn between<const D: usize>(
     scene: &Scene,
     ((part, faces), marched): ((&Part, &Faces), &LiquidMarch),
     session: &mut Session,
@@ -143,7 +52,7 @@ pub(super) fn between<const D: usize>(
     let mut march = March {
         matter: matter(part),
         way: way(scene, part),
-        precision: super::flow::precision(scene),
+        precision: scene.output.precision.into(),
         volume: None,
         effort: Effort::default(),
         divided: 0,
@@ -356,7 +265,9 @@ impl<const D: usize> March<D> {
                 self.divided
             ));
         }
-        super::flow::doubts(&self.effort, session);
+        for doubt in self.effort.doubts() {
+            session.warn(doubt);
+        }
     }
 }
 
@@ -364,7 +275,7 @@ impl<const D: usize> March<D> {
 ///
 /// # Errors
 /// Where the spacing suits the box ill, and of formulas.
-pub(super) fn plan<const D: usize>(
+pub(in crate::assemble) fn plan<const D: usize>(
     scene: &Scene,
     (of, march): ((&Part, &Faces), &LiquidMarch),
 ) -> Result<Plan, Failure> {
@@ -386,14 +297,14 @@ pub(super) fn plan<const D: usize>(
             .stage("free surface")
             .count("on the surface", surface as u64),
     };
-    Ok(super::liquid::lacks(plan, of.0))
+    Ok(lacks(plan, of.0))
 }
 
 /// Time of a run, from a step at its start.
 ///
 /// # Errors
 /// Those of a step.
-pub(super) fn estimate<const D: usize>(
+pub(in crate::assemble) fn estimate<const D: usize>(
     scene: &Scene,
     (of, march): ((&Part, &Faces), &LiquidMarch),
 ) -> Result<Estimate, Failure> {

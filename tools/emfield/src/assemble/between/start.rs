@@ -1,0 +1,101 @@
+//! A liquid between faces as it starts, and the steps that it allows.
+
+use run::property::Arguments;
+use run::{Failure, Fault};
+
+use crate::assemble::matter::{PASSED, RIPPLE, few, matter};
+use crate::assemble::steps::Steps;
+use crate::liquid::fill::Filled;
+use crate::liquid::room::{Room, furnish};
+use crate::liquid::step::{Liquid, Matter};
+use crate::liquid::vector::{length, spatial};
+use crate::scene::currents::Transient;
+use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
+
+/// The room of a scene and its points.
+pub(in crate::assemble) fn filled<const D: usize>(
+    scene: &Scene,
+    (part, faces): (&Part, &Faces),
+) -> Result<(Room<D>, Filled<D>), Failure> {
+    let mut room = faces.room::<D>(&part.shape);
+    let spacing = scene.points.spacing_m;
+    few((0..D).map(|k| room.length(k) / spacing).product(), spacing)?;
+    let filled = furnish(&mut room, spacing, (scene.points.jitter, scene.points.seed));
+    let faces = filled.normal.len() + room.held.len();
+    if filled.position.len() <= faces {
+        let what = format!("{spacing} m: no point fits inside the liquid");
+        return Err(vec![Fault::at("/points/spacing_m", what)].into());
+    }
+    Ok((room, filled))
+}
+
+/// The liquid at its start.
+pub(super) fn start<const D: usize>(
+    scene: &Scene,
+    of: (&Part, &Faces),
+) -> Result<Liquid<D>, Failure> {
+    let part = of.0;
+    let (room, filled) = filled::<D>(scene, of)?;
+    let n = filled.position.len();
+    let mut velocity = vec![[0.0; D]; n];
+    for (k, v) in part.velocity_m_s.iter().flatten().enumerate().take(D) {
+        let curve = v.compile(&format!("/liquid/velocity_m_s/{k}"), &["x", "y", "z", "r"])?;
+        for (x, v) in filled.position.iter().zip(&mut velocity) {
+            let value = curve.value(&Arguments::at(spatial(x), 0.0));
+            v[k] = value.map_err(|e| Failure::Other(format!("velocity at {x:?} m: {e}")))?;
+        }
+    }
+    let surface = filled.normal.len();
+    for (u, normal) in velocity[surface..].iter_mut().zip(&room.held) {
+        *u = room.slides(normal);
+    }
+    Ok(Liquid {
+        follow: vec![[0.0; D]; n],
+        stress: vec![0.0; surface + room.held.len()],
+        pull: [Vec::new(), Vec::new()],
+        drag: Vec::new(),
+        force: [Vec::new(), Vec::new()],
+        position: filled.position,
+        velocity,
+        pressure: vec![part.gas_pressure_pa; n],
+        rate: vec![[0.0; D]; n],
+        normal: filled.normal,
+        room,
+    })
+}
+
+/// The greatest speed \[m/s\].
+pub(super) fn fastest<const D: usize>(liquid: &Liquid<D>) -> f64 {
+    liquid.velocity.iter().map(length).fold(0.0, f64::max)
+}
+
+/// Steps, the longest of which waves, gravity and the liquid allow.
+pub(super) fn steps<const D: usize>(
+    scene: &Scene,
+    (part, march): (&Part, &LiquidMarch),
+    liquid: &Liquid<D>,
+) -> Steps {
+    let spacing = scene.points.spacing_m;
+    let matter: Matter<D> = matter(part);
+    let mut step = march.end_s;
+    let half = (0..D).map(|k| 0.5 * liquid.room.length(k));
+    let radius = half.fold(0.0, f64::max);
+    if matter.tension > 0.0 && liquid.surface() > 0 {
+        let ripple = (matter.density * radius.powi(3) / matter.tension).sqrt();
+        step = step.min(RIPPLE * ripple * spacing / radius);
+    }
+    let gravity = length(&matter.gravity);
+    if gravity > 0.0 {
+        step = step.min(PASSED * spacing / (2.0 * gravity * radius).sqrt());
+    }
+    let fastest = fastest(liquid);
+    if fastest > 0.0 {
+        step = step.min(PASSED * spacing / fastest);
+    }
+    let transient = Transient {
+        end_s: march.end_s,
+        step_s: march.step_s.unwrap_or(step),
+        wave: None,
+    };
+    Steps::new(&transient, &scene.output)
+}
