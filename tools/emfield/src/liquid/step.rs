@@ -9,7 +9,9 @@
 //! its normal, w = (u . n) n.
 //!
 //! What divergence fits leave is not taken away at once but by the share `CLEANED` in each stage: divergence and gradient of
-//! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface.
+//! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface. Between faces all of it
+//! goes, as the values of fits that do not pass through their points have it: they know no waves as short as the spacing,
+//! which are what grows.
 
 use rayon::prelude::*;
 use run::Failure;
@@ -32,8 +34,6 @@ pub use super::points::Liquid;
 pub(super) const PART: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Share of the divergence that a stage takes away.
 const CLEANED: f64 = 0.3;
-/// The same between faces: beside a free surface, and where there is none.
-const BETWEEN: [f64; 2] = [0.1, 1.0];
 
 /// Where a stage begins, and how long it is.
 struct Base<const D: usize> {
@@ -191,7 +191,7 @@ impl<const D: usize> Liquid<D> {
             matter,
             base,
             [&place, &free, &wide],
-            (&rows, &patches, &images),
+            (both, &patches, &images),
             way,
         );
         let rounds = Rounds {
@@ -221,15 +221,6 @@ impl<const D: usize> Liquid<D> {
             rows,
             images,
         })
-    }
-
-    /// Share of the divergence that a stage takes away.
-    fn cleaned(&self) -> f64 {
-        match (self.room.bounds(), self.surface()) {
-            (false, _) => CLEANED,
-            (true, 0) => BETWEEN[1],
-            (true, _) => BETWEEN[0],
-        }
     }
 
     /// The surface with points at `place`.
@@ -271,7 +262,7 @@ impl<const D: usize> Liquid<D> {
         matter: &Matter<D>,
         base: &Base<D>,
         [place, free, guess]: [&[[f64; D]]; 3],
-        (rows, patches, images): (&Stencils<D>, &[Patch<D>], &Images<D>),
+        ((rows, fits), patches, images): ((&Stencils<D>, &Stencils<D>), &[Patch<D>], &Images<D>),
         way: &Way,
     ) -> Vec<f64> {
         let ahead = |j: usize| {
@@ -282,7 +273,15 @@ impl<const D: usize> Liquid<D> {
         let source = matter.density / base.tau;
         let borne = self.room.borne(&matter.gravity);
         let wide = images.vectors(free);
-        let cleaned = self.cleaned();
+        let bounds = self.room.bounds();
+        let cleaned = if bounds { 1.0 } else { CLEANED };
+        let each = (0..place.len()).into_par_iter();
+        let mut sources: Vec<f64> = each.map(|i| divergence(rows, &wide, i)).collect();
+        if bounds {
+            let wide = images.scalars(&sources);
+            let each = (0..place.len()).into_par_iter();
+            sources = each.map(|i| fits.value(i).apply(&wide)).collect();
+        }
         (0..place.len())
             .into_par_iter()
             .map(|i| match (patches.get(i), self.wall(i)) {
@@ -298,7 +297,7 @@ impl<const D: usize> Liquid<D> {
                     way.spacing * source * dot(normal, &lack)
                 }
                 (None, None) => {
-                    cleaned * source * divergence(rows, &wide, i)
+                    cleaned * source * sources[i]
                         - (1.0 - cleaned) * matter.density * stretching(rows, guess, i)
                 }
             })
