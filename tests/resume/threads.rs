@@ -35,7 +35,7 @@ fn an_arc_has_the_same_bytes_on_one_and_two_threads() {
 fn an_average_has_the_same_bytes_on_one_and_two_threads() {
     let folder = folder();
     let frames = folder.path().join("frames.mcap");
-    std::fs::write(&frames, Scene::Drop.straight()).unwrap();
+    std::fs::write(&frames, &Scene::Drop.straight().bytes).unwrap();
     let scene = folder.path().join("avg.json");
     let text = r#"{"kind": "avg.scene", "version": 1, "channel": "/particles", "sections": [
         {"name": "middle", "cut": {"plane": {"normal": "x", "half_thickness_m": 1e-3}},

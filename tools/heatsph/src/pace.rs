@@ -3,7 +3,7 @@
 use artefact::Checkpoint;
 use run::Failure;
 
-use crate::march::State;
+use crate::march::{Method, State};
 use crate::system::System;
 
 /// What of the march changes from step to step.
@@ -47,7 +47,12 @@ impl Pace {
     ///
     /// # Errors
     /// None: the signature is that of [`run::Session::keep`].
-    pub fn save(&self, state: &State, checkpoint: &mut Checkpoint) -> artefact::Result<()> {
+    pub fn save(
+        &self,
+        state: &State,
+        method: &dyn Method,
+        checkpoint: &mut Checkpoint,
+    ) -> artefact::Result<()> {
         checkpoint.put_f64("time", &[state.time, state.source]);
         checkpoint.put_f64("temperature", &state.temperature);
         if !state.heat.is_empty() {
@@ -56,6 +61,8 @@ impl Pace {
         checkpoint.put_f64("entries", &state.entries);
         let [most, least] = self.taken;
         checkpoint.put_f64("pace", &[self.step, self.range, self.limit, most, least]);
+        let done: Vec<f64> = method.report().iter().map(|(_, n)| *n).collect();
+        checkpoint.put_f64("method", &done);
         let flag = u64::from(self.substepped);
         checkpoint.put_u64(
             "count",
@@ -68,7 +75,11 @@ impl Pace {
     ///
     /// # Errors
     /// When the checkpoint lacks a part.
-    pub fn restore(checkpoint: &mut Checkpoint, system: &System) -> Result<(Self, State), Failure> {
+    pub fn restore(
+        checkpoint: &mut Checkpoint,
+        system: &System,
+        method: &mut dyn Method,
+    ) -> Result<(Self, State), Failure> {
         let (time, pace, count) = (
             checkpoint.f64("time")?,
             checkpoint.f64("pace")?,
@@ -80,6 +91,7 @@ impl Pace {
             None => Vec::new(),
         };
         let entries = checkpoint.f64("entries")?;
+        method.count_from(&checkpoint.f64("method")?);
         let (
             &[time, source],
             &[step, range, limit, most, least],

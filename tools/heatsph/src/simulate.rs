@@ -64,7 +64,8 @@ pub fn march(
     let resumed = session.restored();
     let fresh = resumed.is_none();
     if let Some(mut checkpoint) = resumed {
-        (march.pace, march.state) = Pace::restore(&mut checkpoint, march.system)?;
+        let method = &mut *march.method;
+        (march.pace, march.state) = Pace::restore(&mut checkpoint, march.system, method)?;
     }
     march.begin(session, fresh)?;
     if fresh {
@@ -74,7 +75,7 @@ pub fn march(
         let event = events[march.pace.next];
         march.toward(event, session)?;
         march.write(&mut output, event, session)?;
-        session.keep(|checkpoint| march.pace.save(&march.state, checkpoint))?;
+        march.keep(session)?;
     }
     march.close(&output, session)
 }
@@ -137,11 +138,16 @@ impl March<'_> {
             });
             session.steps(self.pace.steps);
             if self.state.time < event.time {
-                session.keep(|checkpoint| self.pace.save(&self.state, checkpoint))?;
+                self.keep(session)?;
             }
         }
         self.pace.next += 1;
         Ok(())
+    }
+
+    /// Keeps the march where a checkpoint is due.
+    fn keep(&self, session: &mut Session) -> Result<(), Failure> {
+        session.keep(|checkpoint| self.pace.save(&self.state, &*self.method, checkpoint))
     }
 
     /// Goes across a jump of what varies in time, to the first instant after it.
@@ -335,7 +341,7 @@ impl March<'_> {
         });
         let heats = heats.map_err(|error| self.diverged("property", &error.to_string(), None))?;
         if heats.is_none() {
-            session.keep(|checkpoint| self.pace.save(&self.state, checkpoint))?;
+            self.keep(session)?;
         }
         Ok(heats.unwrap_or_default())
     }

@@ -40,4 +40,10 @@ impl Method for Explicit {
     fn report(&self) -> Vec<(&'static str, f64)> {
         vec![("explicit_steps", self.steps as f64)]
     }
+
+    fn count_from(&mut self, done: &[f64]) {
+        if let &[steps] = done {
+            self.steps = steps as u64;
+        }
+    }
 }

@@ -209,6 +209,13 @@ impl Method for Implicit {
             ("euler_steps", self.euler as f64),
         ]
     }
+
+    fn count_from(&mut self, done: &[f64]) {
+        if let &[newton, iterations, euler] = done {
+            (self.newton, self.iterations, self.euler) =
+                (newton as u64, iterations as u64, euler as u64);
+        }
+    }
 }
 
 /// What a stage starts from: heats where capacities depend on temperature, else temperatures.

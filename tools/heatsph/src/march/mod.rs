@@ -62,6 +62,9 @@ pub trait Method {
 
     /// Names and numbers of what it has done so far.
     fn report(&self) -> Vec<(&'static str, f64)>;
+
+    /// Goes on from these numbers, in the order of [`Method::report`].
+    fn count_from(&mut self, done: &[f64]);
 }
 
 impl State {

@@ -77,6 +77,12 @@ impl Method for Stabilised {
             ("stages_most", self.most_stages as f64),
         ]
     }
+
+    fn count_from(&mut self, done: &[f64]) {
+        if let &[evaluations, most] = done {
+            (self.evaluations, self.most_stages) = (evaluations as u64, most as usize);
+        }
+    }
 }
 
 impl Stabilised {
