@@ -23,6 +23,7 @@ mod magnetic;
 mod magnets;
 mod march;
 mod matter;
+mod meridian;
 mod open;
 mod potential;
 mod preview;

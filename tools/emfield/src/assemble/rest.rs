@@ -1,13 +1,14 @@
 //! A drop at rest in a uniform field: from a scene to its shape.
 
-use artefact::{Frame, Record, Table};
+use artefact::Record;
 use run::{Failure, Session};
 use shapes::Shape;
 use shapes::shape::Sphere;
 
 use super::levitated::levitated;
+use super::meridian;
 use super::sessile::sessile;
-use crate::liquid::equilibrium::{self, FEWEST, Found, Kind, MOST, Place, Sought};
+use crate::liquid::equilibrium::{self, FEWEST, Found, Kind, MOST, Sought};
 use crate::scene::{Equilibrium, Liquid as Part, Scene};
 use crate::surface::traction::EPS0;
 
@@ -84,12 +85,19 @@ fn drawn(
         }
     }
     session.record("/liquid", 0.0, &record)?;
-    outline(
-        scene,
-        sphere,
-        (&shape.places(kind), capillary * stress),
-        session,
-    )?;
+    let found = shape.places(kind);
+    let places: Vec<[f64; 2]> = (found.iter())
+        .map(|p| [p.r * radius, p.z * radius])
+        .collect();
+    let bent = found.iter().map(|p| p.curvature / radius);
+    let traction = capillary * stress;
+    let pulled = found.iter().map(|p| p.traction * traction);
+    let carried = [
+        ("curvature", "1/m", bent.collect()),
+        ("traction", "Pa", pulled.collect()),
+    ];
+    let places = (&places[..], [1.0, -1.0]);
+    meridian::write(scene, &sphere.centre_m, places, &carried, session)?;
     session.closing("deformation", "1", shape.deformation());
     session.closing("residual", "Pa", shape.residual * stress);
     Ok(())
@@ -105,33 +113,4 @@ fn row(shape: &equilibrium::Shape, radius: f64) -> Record {
         .with("axis_ratio", "1", a / b)
         .with("deformation", "1", shape.deformation())
         .with("capillary_number", "1", shape.capillary)
-}
-
-/// Writes places of the outline over the radius, with tractions over `traction` \[Pa\], as a table and as a frame.
-fn outline(
-    scene: &Scene,
-    sphere: &Sphere,
-    (places, traction): (&[Place], f64),
-    session: &mut Session,
-) -> Result<(), Failure> {
-    let radius = sphere.radius_m;
-    let bent = |p: &Place| p.curvature / radius;
-    let pulled = |p: &Place| p.traction * traction;
-    let table = Table::new(places.len())
-        .column("r_m", "m", places.iter().map(|p| p.r * radius))
-        .column("z_m", "m", places.iter().map(|p| p.z * radius))
-        .column("curvature", "1/m", places.iter().map(bent))
-        .column("traction", "Pa", places.iter().map(pulled));
-    session.table("/outline", 0.0, &table)?;
-    let precision = scene.output.precision.into();
-    let both: Vec<(&Place, f64)> = places.iter().flat_map(|p| [(p, 1.0), (p, -1.0)]).collect();
-    let position = both.iter().map(|(p, side)| {
-        let at = [p.r * radius, 0.0, side * p.z * radius];
-        std::array::from_fn(|k| sphere.centre_m[k] + at[k])
-    });
-    let frame = Frame::new(precision)
-        .positions(position)
-        .scalar("curvature", "1/m", both.iter().map(|(p, _)| bent(p)))
-        .scalar("traction", "Pa", both.iter().map(|(p, _)| pulled(p)));
-    session.frame("/surface", 0.0, &frame)
 }

@@ -1,10 +1,11 @@
 //! A drop at rest on a wall: from a scene to its shape.
 
-use artefact::{Frame, Record, Table};
+use artefact::Record;
 use run::{Failure, Session};
 use shapes::shape::Sphere;
 
-use crate::liquid::sessile::{Place, Sessile, Stood, stands};
+use super::meridian;
+use crate::liquid::sessile::{Stood, stands};
 use crate::scene::{Liquid as Part, Scene};
 
 /// Finds the shape and writes it.
@@ -49,37 +50,14 @@ pub(super) fn sessile(
             part.gas_pressure_pa + shape.pressure * stress,
         );
     session.record("/liquid", 0.0, &record)?;
-    outline((scene, sphere), &shape, session)?;
+    let places: Vec<[f64; 2]> = (shape.places.iter())
+        .map(|p| [p.r * radius, (shape.height() - p.z) * radius])
+        .collect();
+    let bent = shape.places.iter().map(|p| p.curvature / radius);
+    let carried = [("curvature", "1/m", bent.collect())];
+    let places = (&places[..], [-1.0, 1.0]);
+    meridian::write(scene, &sphere.centre_m, places, &carried, session)?;
     session.closing("height", "m", shape.height() * radius);
     session.closing("radius_base", "m", shape.base() * radius);
     Ok(())
-}
-
-/// Writes places of the outline as a table and, on both sides of the axis, as a frame.
-fn outline(
-    (scene, sphere): (&Scene, &Sphere),
-    shape: &Sessile,
-    session: &mut Session,
-) -> Result<(), Failure> {
-    let radius = sphere.radius_m;
-    let places = &shape.places;
-    let up = |p: &Place| (shape.height() - p.z) * radius;
-    let bent = |p: &Place| p.curvature / radius;
-    let table = Table::new(places.len())
-        .column("r_m", "m", places.iter().map(|p| p.r * radius))
-        .column("z_m", "m", places.iter().map(up))
-        .column("curvature", "1/m", places.iter().map(bent));
-    session.table("/outline", 0.0, &table)?;
-    let precision = scene.output.precision.into();
-    let both: Vec<(&Place, f64)> = places.iter().flat_map(|p| [(p, 1.0), (p, -1.0)]).collect();
-    let position = both.iter().map(|(p, side)| {
-        let at = [side * p.r * radius, 0.0, up(p)];
-        std::array::from_fn(|k| sphere.centre_m[k] + at[k])
-    });
-    let frame = Frame::new(precision).positions(position).scalar(
-        "curvature",
-        "1/m",
-        both.iter().map(|(p, _)| bent(p)),
-    );
-    session.frame("/surface", 0.0, &frame)
 }
