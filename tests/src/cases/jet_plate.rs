@@ -1,18 +1,23 @@
 //! `jet-plate`: a jet of water meets a plate, in the plane at four speeds and in space.
 
 use artefact::{Frame, Reader};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Lab, LabError};
 
-/// Methods: the scene and the speed \[m/s\].
-const METHODS: [(&str, bool, f64); 5] = [
-    ("plane-5", false, 5.0),
-    ("plane-12", false, 12.0),
-    ("plane-50", false, 50.0),
-    ("plane-500", false, 500.0),
-    ("space-5", true, 5.0),
+/// A method: its name, whether the jet is one in space, its speed \[m/s\] and whether its water has sound.
+type Jet = (&'static str, bool, f64, bool);
+/// All methods.
+const METHODS: [Jet; 8] = [
+    ("plane-5", false, 5.0, true),
+    ("plane-12", false, 12.0, true),
+    ("plane-50", false, 50.0, true),
+    ("plane-500", false, 500.0, true),
+    ("space-5", true, 5.0, true),
+    ("soundless-5", false, 5.0, false),
+    ("soundless-50", false, 50.0, false),
+    ("soundless-space-5", true, 5.0, false),
 ];
 /// Widths of the jet that the water goes in a run.
 const WIDTHS: f64 = 20.0;
@@ -38,17 +43,26 @@ impl Case for JetPlate {
     }
 
     fn methods(&self) -> &'static [&'static str] {
-        &["plane-5", "plane-12", "plane-50", "plane-500", "space-5"]
+        &[
+            "plane-5",
+            "plane-12",
+            "plane-50",
+            "plane-500",
+            "space-5",
+            "soundless-5",
+            "soundless-50",
+            "soundless-space-5",
+        ]
     }
 
     fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
         // A jet in space of 40 particles across takes an hour.
-        let most = if method == "space-5" { 2 } else { 3 };
+        let most = if method.contains("space") { 2 } else { 3 };
         asked.iter().copied().filter(|l| *l <= most).collect()
     }
 
     fn targets(&self) -> Vec<Target> {
-        let plane = METHODS.iter().filter(|(_, space, _)| !space);
+        let plane = METHODS.iter().filter(|(_, space, ..)| !space);
         let each = plane.flat_map(|(method, ..)| {
             [
                 ("force", 0.02),
@@ -57,13 +71,14 @@ impl Case for JetPlate {
             ]
             .map(|(what, most)| Target::error(what, most).at_level(2).of(*method))
         });
-        each.chain([Target::error("force", 0.02).at_level(2).of("space-5")])
+        let space = METHODS.iter().filter(|(_, space, ..)| *space);
+        each.chain(space.map(|(method, ..)| Target::error("force", 0.02).at_level(2).of(*method)))
             .collect()
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let chosen = METHODS.iter().find(|(name, ..)| *name == method);
-        let (_, space, speed) = *chosen.unwrap_or(&METHODS[0]);
+        let (_, space, speed, has_sound) = *chosen.unwrap_or(&METHODS[0]);
         // 10, 20 and 40 particles across.
         let spacing = 1e-3 / f64::from(1 << (level.clamp(1, 4) - 1));
         let width = 0.01;
@@ -73,11 +88,13 @@ impl Case for JetPlate {
             "water": {"spacing_m": spacing},
             "output": {"frames_interval_s": end / FRAMES, "balance_interval_s": end / 600.0}
         });
+        if !has_sound {
+            soundless(&mut patch);
+        }
+        if space {
+            in_space(&mut patch);
+        }
         let (exit, down) = if space {
-            patch["dimensions"] = json!(3);
-            patch["water"]["outlets"] = json!([{"name": "around", "beyond": {"cylinder": {
-                "centre_m": [0, 0, 0], "radius_m": 0.025, "length_m": 1}}}]);
-            patch["walls"] = json!([{"name": "plate", "body": {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}}]);
             (json!([0, 0, 0.03]), json!([0, 0, -1]))
         } else {
             (json!([0, 0.03]), json!([0, -1]))
@@ -122,6 +139,21 @@ impl Case for JetPlate {
         }
         Ok(Measurement::of(run, points, spacing, errors))
     }
+}
+
+/// Takes the sound out of the water, and what belongs to it.
+fn soundless(patch: &mut Value) {
+    patch["water"]["method"] = json!("divergence_free");
+    patch["water"]["artificial_viscosity"] = Value::Null;
+    patch["water"]["density_diffusion"] = Value::Null;
+}
+
+/// Makes the jet one in space.
+fn in_space(patch: &mut Value) {
+    patch["dimensions"] = json!(3);
+    patch["water"]["outlets"] = json!([{"name": "around", "beyond": {"cylinder": {
+        "centre_m": [0, 0, 0], "radius_m": 0.025, "length_m": 1}}}]);
+    patch["walls"] = json!([{"name": "plate", "body": {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}}]);
 }
 
 /// Mean force on the plate in the second half of the run, by what it was given \[N\].

@@ -7,7 +7,7 @@
 //! - [`stage`] is what a physical effect promises, [`mod@march`] takes all of them through a step;
 //! - [`simulate`] leads the run: steps, outputs, checkpoints ([`resume`]); [`frames`] writes, [`balance`] keeps the books.
 //!
-//! Water is weakly compressible: see [`matter::water`]. A solid is total Lagrangian with quadratics fitted at rest: see [`matter::solid`].
+//! Water is weakly compressible, or has no sound where a scene says so: see [`matter::water`]. A solid is total Lagrangian with quadratics fitted at rest: see [`matter::solid`].
 
 pub mod assemble;
 pub mod balance;

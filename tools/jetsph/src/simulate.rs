@@ -7,7 +7,7 @@ use crate::assemble::{Assembled, assemble};
 use crate::balance::Balance;
 use crate::frames;
 use crate::resume;
-use crate::scene::Scene;
+use crate::scene::{Method, Scene};
 use crate::stage::{Limit, StageError, place_text};
 use crate::state::{State, VELOCITY};
 
@@ -62,6 +62,12 @@ pub fn plan(scene: &Scene) -> Result<Plan, Failure> {
     }
     for (name, why) in &left_out {
         plan = plan.left_out(name, why);
+    }
+    let soundless = scene.water.as_ref().map(|water| water.method) == Some(Method::DivergenceFree);
+    if soundless && scene.gravity_m_s2.is_some() {
+        plan = plan.note(
+            "water without sound is for jets: a tank does not rest under gravity, take sound there",
+        );
     }
     if state.dimensions == 2 {
         plan = plan.note("a plane scene: masses, forces and energies are per metre of depth");

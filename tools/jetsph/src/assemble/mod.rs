@@ -12,7 +12,7 @@ pub use preview::preview;
 use crate::march::March;
 use crate::motion::gravity::Gravity;
 use crate::motion::repulsion::{Repulsion, Wall};
-use crate::scene::{RepulsionScene, Scene, WallScene};
+use crate::scene::{Method, RepulsionScene, Scene, WallScene};
 use crate::stage::Stage;
 use crate::state::State;
 
@@ -45,8 +45,13 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
             Ok((stage, law, after)) => {
                 let meet = |solid| water::meet(of, law, solid, &mut state);
                 stages.splice(0..0, solids.iter().map(meet).collect::<Vec<_>>());
-                stages.push(stage);
                 last = after;
+                if of.method == Method::DivergenceFree {
+                    // Its pressure answers what all others do.
+                    last.insert(0, stage);
+                } else {
+                    stages.push(stage);
+                }
             }
             Err(fault) => faults.push(fault.within("/water")),
         }

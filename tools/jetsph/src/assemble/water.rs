@@ -20,8 +20,8 @@ use crate::matter::water::near::LISTED;
 use crate::matter::water::nozzle::{Feed, LED, Nozzle};
 use crate::matter::water::outlet::Outlet;
 use crate::matter::water::tait::Tait;
-use crate::matter::water::{Flow, Water};
-use crate::scene::{KernelScene, NozzleScene, OutletScene, Scene, WaterBody, WaterScene};
+use crate::matter::water::{DivergenceFree, Flow, Liquid, Water};
+use crate::scene::{KernelScene, Method, NozzleScene, OutletScene, Scene, WaterBody, WaterScene};
 use crate::stage::Stage;
 use crate::state::{ACCELERATION, DENSITY, MASS, State, VELOCITY};
 
@@ -55,18 +55,35 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
     }
     let law = Tait {
         density: of.density_kg_m3,
-        sound_speed: sound(of, fastest)?,
+        sound_speed: if of.method == Method::DivergenceFree {
+            0.0
+        } else {
+            sound(of, fastest)?
+        },
         exponent: of.exponent,
         tension: of.tension,
     };
     for (row, pressure) in pressures.into_iter().enumerate() {
-        let density = law.density_at(pressure);
+        let density = match of.method {
+            Method::WeaklyCompressible => law.density_at(pressure),
+            Method::DivergenceFree => of.density_kg_m3,
+        };
         set.column_mut(&DENSITY)[row] = density;
         set.column_mut(&MASS)[row] *= density;
     }
     state.sets.push(set);
     let last = ways(of, nozzles, (law, place), state)?;
     let h = of.smoothing * of.spacing_m;
+    if of.method == Method::DivergenceFree {
+        let liquid = Liquid {
+            set: place,
+            density: of.density_kg_m3,
+            spacing: of.spacing_m,
+            smoothing_length: h,
+            walls,
+        };
+        return Ok((soundless(liquid, (dimensions, of.kernel)), law, last));
+    }
     let artificial = of.artificial_viscosity;
     let water = Water {
         set: place,
@@ -77,13 +94,39 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
         diffusion: of.density_diffusion,
         walls,
     };
-    let stage: Box<dyn Stage> = match (dimensions, of.kernel) {
+    Ok((sounding(water, (dimensions, of.kernel)), law, last))
+}
+
+/// The stage of water with sound.
+fn sounding(water: Water, kind: (usize, KernelScene)) -> Box<dyn Stage> {
+    let h = water.smoothing_length;
+    match kind {
         (2, KernelScene::Spline) => Box::new(Flow::<2, _>::new(water, CubicSpline::<2>::new(h))),
         (2, KernelScene::Wendland) => Box::new(Flow::<2, _>::new(water, Wendland::<2>::new(h))),
         (_, KernelScene::Spline) => Box::new(Flow::<3, _>::new(water, CubicSpline::<3>::new(h))),
         (_, KernelScene::Wendland) => Box::new(Flow::<3, _>::new(water, Wendland::<3>::new(h))),
-    };
-    Ok((stage, law, last))
+    }
+}
+
+/// The stage of water without sound.
+fn soundless(liquid: Liquid, kind: (usize, KernelScene)) -> Box<dyn Stage> {
+    let h = liquid.smoothing_length;
+    match kind {
+        (2, KernelScene::Spline) => Box::new(DivergenceFree::<2, _>::new(
+            liquid,
+            CubicSpline::<2>::new(h),
+        )),
+        (2, KernelScene::Wendland) => {
+            Box::new(DivergenceFree::<2, _>::new(liquid, Wendland::<2>::new(h)))
+        }
+        (_, KernelScene::Spline) => Box::new(DivergenceFree::<3, _>::new(
+            liquid,
+            CubicSpline::<3>::new(h),
+        )),
+        (_, KernelScene::Wendland) => {
+            Box::new(DivergenceFree::<3, _>::new(liquid, Wendland::<3>::new(h)))
+        }
+    }
 }
 
 /// The stage of a solid and the water, which was put into the state last.
@@ -304,6 +347,7 @@ fn nozzle(
             2.0 * water.smoothing * water.spacing_m,
         ),
         dimensions,
+        has_sound: water.method == Method::WeaklyCompressible,
     })
 }
 

@@ -4,7 +4,7 @@ use run::Fault;
 use shapes::Shape;
 use shapes::check::{Misfit, check};
 
-use super::{Scene, Solid};
+use super::{Method, Scene, Solid};
 use crate::matter::solid::fracture::Criterion;
 use crate::matter::solid::law::Plane;
 
@@ -87,6 +87,9 @@ impl Scene {
             }
         }
         if let Some(water) = &self.water {
+            if water.method == Method::DivergenceFree {
+                water.soundless_faults(!self.solids.is_empty(), faults);
+            }
             water.faults(self.dimensions, (&mut vectors, &mut misfits), faults);
         }
         for (at, vector) in vectors {
@@ -141,6 +144,35 @@ impl super::WaterScene {
                 }
                 _ => faults.push(Fault::at(&at, "wants either 'within' or 'beyond'")),
             }
+        }
+    }
+}
+
+impl super::WaterScene {
+    /// Faults of water without sound.
+    fn soundless_faults(&self, meets_solids: bool, faults: &mut Vec<Fault>) {
+        let with_pressure = self.bodies.iter().any(|body| body.pressure_pa.is_some());
+        let told = [
+            ("sound_speed_m_s", self.sound_speed_m_s.is_some()),
+            ("reference_speed_m_s", self.reference_speed_m_s.is_some()),
+            ("artificial_viscosity", self.artificial_viscosity.is_some()),
+            ("density_diffusion", self.density_diffusion.is_some()),
+            ("viscosity_pa_s", self.viscosity_pa_s.is_some()),
+            ("bodies", with_pressure),
+        ];
+        for (key, _) in told.iter().filter(|(_, is_told)| *is_told) {
+            let what = match *key {
+                "bodies" => "water without sound finds its pressure: leave 'pressure_pa' out",
+                "viscosity_pa_s" => {
+                    "water without sound has no friction yet: leave this or 'method' out"
+                }
+                _ => "belongs to water with sound: leave this or 'method' out",
+            };
+            faults.push(Fault::at(&format!("/water/{key}"), what));
+        }
+        if meets_solids {
+            let what = "water without sound meets plain walls alone: beside 'solids' take \"weakly_compressible\"";
+            faults.push(Fault::at("/water/method", what));
         }
     }
 }

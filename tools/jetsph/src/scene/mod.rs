@@ -12,7 +12,7 @@ pub use output::{FloatWidth, Output};
 pub use solid::{Clamp, ContactScene, LatticeScene, LoadScene, Solid, UpdatedForm};
 
 pub use water::{
-    KernelScene, NozzleScene, OutletScene, RepulsionScene, WallScene, WaterBody, WaterScene,
+    KernelScene, Method, NozzleScene, OutletScene, RepulsionScene, WallScene, WaterBody, WaterScene,
 };
 
 use crate::matter::solid::law::Plane;

@@ -19,6 +19,9 @@ pub struct WaterScene {
     /// Spacing d of its particles.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: f64,
+    /// Whether it has sound.
+    #[serde(default)]
+    pub method: Method,
     /// Kernel.
     #[serde(default)]
     pub kernel: KernelScene,
@@ -55,6 +58,17 @@ pub struct WaterScene {
     /// Where it leaves.
     #[serde(default)]
     pub outlets: Vec<OutletScene>,
+}
+
+/// How water keeps its volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// By its pressure after an equation of state: it has sound, of a speed that the scene may tell.
+    #[default]
+    WeaklyCompressible,
+    /// By a pressure that leaves its velocity without divergence: it has no sound. Among plain walls, without solids.
+    DivergenceFree,
 }
 
 /// A kernel.

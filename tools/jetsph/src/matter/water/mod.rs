@@ -1,4 +1,4 @@
-//! Weakly compressible water.
+//! Water: weakly compressible, or without sound ([`divergence_free`]).
 //!
 //! ```text
 //! d(rho_i)/dt = rho_i sum_j V_j (u_i - u_j) . grad W_ij                                        (22), by volumes
@@ -12,10 +12,13 @@
 //! without pressure, and nothing clumps.
 //!
 //! - [`tait`] is the equation of state, [`friction`] artificial and true viscosity, [`diffusion`] that of density;
+//! - [`divergence_free`] is the other stage, of water without sound;
 //! - [`near`] keeps neighbours, [`images`] are plain walls, [`flow`] is the stage, `sums` what it gathers over pairs;
 //! - [`nozzle`] brings water in, [`outlet`] takes it away.
 
+mod around;
 pub mod diffusion;
+pub mod divergence_free;
 pub mod flow;
 pub mod friction;
 pub mod images;
@@ -25,5 +28,7 @@ pub mod outlet;
 mod seen;
 mod sums;
 pub mod tait;
+mod walls;
 
+pub use divergence_free::{DivergenceFree, Liquid};
 pub use flow::{Flow, Water};

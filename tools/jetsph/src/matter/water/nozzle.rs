@@ -44,6 +44,8 @@ pub struct Nozzle {
     pub matter: (f64, f64, f64),
     /// 2 or 3.
     pub dimensions: usize,
+    /// Whether the water has sound, and densities that change.
+    pub has_sound: bool,
 }
 
 /// A column of particles.
@@ -212,7 +214,7 @@ impl Stage for Feed {
     }
 
     fn flows(&self) -> bool {
-        true
+        self.nozzle.has_sound
     }
 
     fn flow(&mut self, state: &mut State, _: f64) -> Result<(), StageError> {

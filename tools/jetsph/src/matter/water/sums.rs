@@ -4,52 +4,13 @@ use kernels::Kernel;
 use particles::sweep;
 use rayon::prelude::*;
 
+use super::around::GRAIN;
 use super::diffusion::{Form, corrected};
-use super::flow::{Flow, GRAIN};
+use super::flow::Flow;
 use super::friction::{Friction, Viscous};
-use super::images::{Plane, image, mirrors};
 use super::seen::Seen;
 
 impl<const D: usize, K: Kernel> Flow<D, K> {
-    /// Calls `visit` with the others of particle `a` within the support: itself, the offset from it \[m\], r^2 \[m2\] and
-    /// grad W = slope . offset.
-    #[inline(always)]
-    fn around(&self, a: usize, mut visit: impl FnMut(&Seen, [f64; 3], f64, f64)) {
-        let own = &self.seen[a];
-        let limit = self.kernel.support() * self.kernel.support();
-        for b in self.near.rows.row(a) {
-            let other = &self.seen[*b as usize];
-            let dx = [0, 1, 2].map(|k| own.x[k] - other.x[k]);
-            let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
-            if square < limit {
-                visit(other, dx, square, self.kernel.slope(square.sqrt()));
-            }
-        }
-    }
-
-    /// The same for the images of all others and its own; `visit` is told the first wall, too.
-    fn mirrored(&self, a: usize, mut visit: impl FnMut(usize, &Seen, [f64; 3], f64, f64)) {
-        let own = &self.seen[a];
-        let reach = self.kernel.support();
-        let mut each = |mirror: &[Plane], other: &Seen| {
-            let Some((x, u)) = image(mirror, own.x, (other.x, other.u)) else {
-                return;
-            };
-            let dx = [0, 1, 2].map(|k| own.x[k] - x[k]);
-            let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
-            if square < reach * reach {
-                let slope = self.kernel.slope(square.sqrt());
-                visit(mirror[0].wall, &Seen { x, u, ..*other }, dx, square, slope);
-            }
-        };
-        for mirror in mirrors(&self.bodies, own.x, reach) {
-            each(&mirror, own);
-            for b in self.near.rows.row(a) {
-                each(&mirror, &self.seen[*b as usize]);
-            }
-        }
-    }
-
     /// d(rho)/dt of a pair, over rho (22).
     #[inline(always)]
     fn closing(own: &Seen, other: &Seen, dx: [f64; 3], slope: f64) -> f64 {
@@ -71,24 +32,24 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
         let form = self.water.diffusion.map(|diffusion| diffusion.form);
         let mut slopes = std::mem::take(&mut self.slopes);
         if form == Some(Form::Antuono) {
-            slopes.resize(self.seen.len(), [0.0; 3]);
+            slopes.resize(self.around.seen.len(), [0.0; 3]);
             sweep::fill(&mut slopes, |a| self.slope(a));
         }
         self.slopes = slopes;
-        let mut rates = vec![[0.0; 2]; self.seen.len()];
+        let mut rates = vec![[0.0; 2]; self.around.seen.len()];
         let closing = |a: usize| {
-            let own = &self.seen[a];
+            let own = &self.around.seen[a];
             let mut sum = 0.0;
-            self.around(a, |other, dx, _, slope| {
+            self.around.each(a, |_, other, dx, _, slope| {
                 sum += Self::closing(own, other, dx, slope)
             });
             [sum * own.value, 0.0]
         };
         match (scale, form) {
             (Some(scale), Some(Form::Molteni)) => sweep::fill(&mut rates, |a| {
-                let own = &self.seen[a];
+                let own = &self.around.seen[a];
                 let (mut sum, mut even) = (0.0, 0.0);
-                self.around(a, |other, dx, _, slope| {
+                self.around.each(a, |_, other, dx, _, slope| {
                     sum += Self::closing(own, other, dx, slope);
                     even += Self::evening(own, other, slope, 0.0);
                 });
@@ -100,20 +61,21 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
             _ => sweep::fill(&mut rates, closing),
         }
         let images = |a: &u32| {
-            let own = &self.seen[*a as usize];
+            let own = &self.around.seen[*a as usize];
             let mut sum = 0.0;
-            self.mirrored(*a as usize, |_, other, dx, _, slope| {
+            self.around.mirrored(*a as usize, |_, other, dx, _, slope| {
                 sum += Self::closing(own, other, dx, slope);
             });
             sum * own.value
         };
         let found: Vec<f64> = self
+            .around
             .beside
             .par_iter()
             .with_min_len(GRAIN)
             .map(images)
             .collect();
-        for (a, rate) in self.beside.iter().zip(found) {
+        for (a, rate) in self.around.beside.iter().zip(found) {
             rates[*a as usize][0] += rate;
         }
         rates
@@ -121,13 +83,13 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
 
     /// Rate of density with the diffusion of Antuono et al., and that.
     fn rate_by_slopes(&self, a: usize, scale: f64) -> [f64; 2] {
-        let own = &self.seen[a];
+        let own = &self.around.seen[a];
         let (mut sum, mut even, g) = (0.0, 0.0, self.slopes[a]);
-        for b in self.near.rows.row(a) {
-            let (b, other) = (*b as usize, &self.seen[*b as usize]);
+        for b in self.around.near.rows.row(a) {
+            let (b, other) = (*b as usize, &self.around.seen[*b as usize]);
             let dx = [0, 1, 2].map(|k| own.x[k] - other.x[k]);
             let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
-            let slope = self.kernel.slope(square.sqrt());
+            let slope = self.around.kernel.slope(square.sqrt());
             let f = self.slopes[b];
             let along: f64 = (0..3).map(|k| -dx[k] * (g[k] + f[k])).sum();
             sum += Self::closing(own, other, dx, slope);
@@ -138,9 +100,9 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
 
     /// Corrected slope of density.
     fn slope(&self, a: usize) -> [f64; 3] {
-        let own = &self.seen[a];
+        let own = &self.around.seen[a];
         let (mut moment, mut rise) = ([[0.0; 3]; 3], [0.0; 3]);
-        self.around(a, |other, dx, _, slope| {
+        self.around.each(a, |_, other, dx, _, slope| {
             let weight = other.volume * slope;
             for k in 0..3 {
                 rise[k] += weight * (other.value - own.value) * dx[k];
@@ -166,40 +128,44 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
             let du = [0, 1, 2].map(|k| own.u[k] - other.u[k]);
             friction.pressure(du[0] * dx[0] + du[1] * dx[1] + du[2] * dx[2], square)
         };
-        let mut forces = vec![[0.0; 4]; self.seen.len()];
+        let mut forces = vec![[0.0; 4]; self.around.seen.len()];
         let each = forces.par_chunks_mut(GRAIN).enumerate();
         each.for_each(|(chunk, forces)| {
             sweep::wide(|| {
                 for (k, force) in forces.iter_mut().enumerate() {
-                    let own = &self.seen[chunk * GRAIN + k];
+                    let own = &self.around.seen[chunk * GRAIN + k];
                     let mut sum = [0.0; 4];
-                    self.around(chunk * GRAIN + k, |other, dx, square, slope| {
-                        let part = Self::pull(own, other, dx, (slope, q(own, other, dx, square)));
-                        (0..4).for_each(|i| sum[i] += part[i]);
-                    });
+                    self.around
+                        .each(chunk * GRAIN + k, |_, other, dx, square, slope| {
+                            let part =
+                                Self::pull(own, other, dx, (slope, q(own, other, dx, square)));
+                            (0..4).for_each(|i| sum[i] += part[i]);
+                        });
                     *force = sum.map(|x| own.volume * x);
                 }
             });
         });
-        let walls = self.bodies.len();
+        let walls = self.around.bodies.len();
         let images = |a: &u32| {
-            let own = &self.seen[*a as usize];
+            let own = &self.around.seen[*a as usize];
             let mut sums = vec![[0.0; 4]; walls];
-            self.mirrored(*a as usize, |wall, other, dx, square, slope| {
-                let part = Self::pull(own, other, dx, (slope, q(own, other, dx, square)));
-                (0..4).for_each(|i| sums[wall][i] += own.volume * part[i]);
-            });
+            self.around
+                .mirrored(*a as usize, |(wall, _), other, dx, square, slope| {
+                    let part = Self::pull(own, other, dx, (slope, q(own, other, dx, square)));
+                    (0..4).for_each(|i| sums[wall][i] += own.volume * part[i]);
+                });
             sums
         };
         let found: Vec<Vec<[f64; 4]>> = self
+            .around
             .beside
             .par_iter()
             .with_min_len(GRAIN)
             .map(images)
             .collect();
-        self.forces.fill([0.0; 3]);
-        for (a, sums) in self.beside.iter().zip(&found) {
-            for (wall, part) in self.forces.iter_mut().zip(sums) {
+        self.walls.forces.fill([0.0; 3]);
+        for (a, sums) in self.around.beside.iter().zip(&found) {
+            for (wall, part) in self.walls.forces.iter_mut().zip(sums) {
                 (0..4).for_each(|i| forces[*a as usize][i] += part[i]);
                 (0..3).for_each(|i| wall[i] -= part[i]);
             }

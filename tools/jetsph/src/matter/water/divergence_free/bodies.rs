@@ -1,0 +1,111 @@
+//! What hangs together, and what holds it.
+//!
+//! The gradient by differences is no sum of pair forces. What touches neither a wall nor a nozzle keeps its momentum: the
+//! mean of its accelerations is taken away. What is held gives the whole of it to what holds it: to each wall and nozzle what pairs
+//! across it tell, V_a V_b (p_a + p_b) grad W, and of what is left a share by the size of that.
+
+use kernels::Kernel;
+
+use super::operators::is_led;
+use crate::matter::water::around::Around;
+
+/// Bodies of free water.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Bodies {
+    seen: Vec<bool>,
+    /// Particles of one body after the other, in the order in which they were found.
+    members: Vec<u32>,
+    /// Where each of these ends in `members`.
+    ends: Vec<usize>,
+}
+
+/// Force of the water on each wall, and on all nozzles last \[N\].
+pub(super) type Forces = Vec<[f64; 3]>;
+
+impl Bodies {
+    /// Finds them.
+    fn find<K: Kernel>(&mut self, around: &Around<K>) {
+        let n = around.seen.len();
+        self.seen.clear();
+        self.seen.extend(around.seen.iter().map(is_led));
+        self.members.clear();
+        self.ends.clear();
+        for a in 0..n {
+            if !self.seen[a] {
+                let mut next = self.members.len();
+                self.seen[a] = true;
+                self.members.push(a as u32);
+                while let Some(b) = self.members.get(next).copied() {
+                    around.each(b as usize, |c, _, _, _, _| {
+                        if !std::mem::replace(&mut self.seen[c], true) {
+                            self.members.push(c as u32);
+                        }
+                    });
+                    next += 1;
+                }
+                self.ends.push(self.members.len());
+            }
+        }
+    }
+
+    /// Balances the `accelerations` by the pressure \[m/s2\] of free water of `density` \[kg/m3\]; `across` tells the forces of each particle on
+    /// what it touches \[N\], as [`Forces`]. Gives what acts on each wall and on the nozzles.
+    pub(super) fn balance<K: Kernel>(
+        &mut self,
+        around: &Around<K>,
+        (density, accelerations): (f64, &mut [[f64; 3]]),
+        across: &[(u32, Forces)],
+    ) -> Forces {
+        self.find(around);
+        let holders = around.bodies.len() + 1;
+        let mut touched = vec![u32::MAX; accelerations.len()];
+        for (k, (a, _)) in across.iter().enumerate() {
+            touched[*a as usize] = k as u32;
+        }
+        let mut total = vec![[0.0; 3]; holders];
+        let mut begin = 0;
+        for end in self.ends.iter().copied() {
+            let body = &self.members[begin..end];
+            begin = end;
+            let (mut sum, mut mass) = ([0.0; 3], 0.0);
+            let mut told: Forces = vec![[0.0; 3]; holders];
+            let mut is_held = false;
+            for a in body.iter().map(|a| *a as usize) {
+                let own = density * around.seen[a].volume;
+                mass += own;
+                (0..3).for_each(|k| sum[k] += own * accelerations[a][k]);
+                if let Some((_, forces)) = across.get(touched[a] as usize) {
+                    is_held = true;
+                    for (told, force) in told.iter_mut().zip(forces) {
+                        (0..3).for_each(|k| told[k] += force[k]);
+                    }
+                }
+            }
+            if !is_held {
+                let mean = sum.map(|x| x / mass);
+                for a in body {
+                    (0..3).for_each(|k| accelerations[*a as usize][k] -= mean[k]);
+                }
+                continue;
+            }
+            let size = |f: &[f64; 3]| f.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let whole: f64 = told.iter().map(size).sum();
+            let left: [f64; 3] =
+                std::array::from_fn(|k| -sum[k] - told.iter().map(|f| f[k]).sum::<f64>());
+            for (total, force) in total.iter_mut().zip(&told) {
+                let share = if whole > 0.0 {
+                    size(force) / whole
+                } else {
+                    1.0 / holders as f64
+                };
+                (0..3).for_each(|k| total[k] += force[k] + share * left[k]);
+            }
+        }
+        total
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        self.seen.capacity() + 4 * self.members.capacity() + 8 * self.ends.capacity()
+    }
+}

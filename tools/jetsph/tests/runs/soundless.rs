@@ -1,0 +1,117 @@
+//! Water without sound.
+
+use super::begun;
+use jetsph::assemble::Assembled;
+use jetsph::balance::Balance;
+use jetsph::state::VELOCITY;
+use particles::POSITION;
+
+/// A jet that pulses, leans and moves, falls on a plate beside a post, and leaves.
+pub(super) const JET: &str = r#"{
+    "kind": "jetsph.scene", "version": 1, "dimensions": 2,
+    "time": {"end_s": 1},
+    "water": {
+        "density_kg_m3": 1000, "spacing_m": 0.001, "method": "divergence_free",
+        "bodies": [{"body": {"box": {"min_m": [-0.004, 0], "max_m": [0.004, 0.003]}}}],
+        "nozzles": [{"name": "jet", "exit_m": [0, 0.008], "direction": [0.2, -1], "width_m": 0.004,
+                     "speed_m_s": {"expr": "5 + sin(2000*t)"}, "profile": {"expr": "1 - 0.5*r^2"}, "traverse_m_s": [0.5, 0]}],
+        "outlets": [{"name": "around", "beyond": {"box": {"min_m": [-0.006, -1], "max_m": [0.006, 1]}}}]
+    },
+    "gravity_m_s2": [0, -9.81],
+    "walls": [{"name": "plate", "body": {"half_space": {"point_m": [0, 0], "normal": [0, 1]}}},
+              {"name": "post", "body": {"box": {"min_m": [0.006, 0], "max_m": [0.008, 0.002]}},
+               "repulsion": {"strength_m2_s2": 25}}],
+    "output": {"frames_interval_s": 1}
+}"#;
+/// A jet that meets nothing.
+const ALONE: &str = r#"{
+    "kind": "jetsph.scene", "version": 1, "dimensions": 2,
+    "time": {"end_s": 1},
+    "water": {
+        "density_kg_m3": 1000, "spacing_m": 0.001, "method": "divergence_free",
+        "nozzles": [{"name": "jet", "exit_m": [0, 0], "direction": [3, -4], "width_m": 0.0073, "speed_m_s": 5}]
+    },
+    "output": {"frames_interval_s": 1}
+}"#;
+/// Two blocks of water that meet in the air.
+const CLASH: &str = r#"{
+    "kind": "jetsph.scene", "version": 1, "dimensions": 3,
+    "time": {"end_s": 1},
+    "water": {
+        "density_kg_m3": 1000, "spacing_m": 0.001, "method": "divergence_free",
+        "bodies": [{"body": {"box": {"min_m": [0, 0, 0], "max_m": [0.006, 0.006, 0.006]}}, "velocity_m_s": [0, 0, 2]},
+                   {"body": {"box": {"min_m": [0.001, 0.002, 0.008], "max_m": [0.006, 0.006, 0.012]}}, "velocity_m_s": [0, 0.5, -2]}]
+    },
+    "output": {"frames_interval_s": 1}
+}"#;
+
+/// Steps within all limits, as a run takes them.
+fn march(run: &mut Assembled, n: usize) {
+    for _ in 0..n {
+        let limit = run.march.limit(&run.state);
+        let dt = limit.map_or(5e-5, |limit| limit.seconds.min(5e-5));
+        run.march
+            .step(&mut run.state, dt, &mut |_, work| work())
+            .unwrap();
+        run.state.time += dt;
+    }
+}
+
+#[test]
+fn a_jet_that_meets_nothing_keeps_its_speed_to_the_last_bit() {
+    let mut run = begun(ALONE);
+    let dt = 0.1 * 0.001 / 5.0;
+    for _ in 0..600 {
+        run.march
+            .step(&mut run.state, dt, &mut |_, work| work())
+            .unwrap();
+        run.state.time += dt;
+    }
+    let set = &run.state.sets[0];
+    let told = set.column(&VELOCITY)[0].map(f64::to_bits);
+    assert!(set.len() > 400, "{}", set.len());
+    assert!(
+        set.column(&VELOCITY)
+            .iter()
+            .all(|u| u.map(f64::to_bits) == told)
+    );
+    let flown = set.column(&POSITION).iter().map(|x| x[0].hypot(x[1]));
+    assert!(flown.fold(0.0, f64::max) > 0.055);
+}
+
+#[test]
+fn water_without_sound_comes_and_leaves_and_the_books_close() {
+    let mut run = begun(JET);
+    let start = Balance::of(&run.state, &run.march);
+    march(&mut run, 900);
+    let now = Balance::of(&run.state, &run.march);
+    assert!(
+        now.entry.mass.abs() > 0.05 * start.mass,
+        "nothing came or left: {now:?}"
+    );
+    assert!(now.mass_error(&start).abs() < 1e-12, "{now:?}");
+    assert!(
+        now.momentum_error(&start) < 1e-8,
+        "{}",
+        now.momentum_error(&start)
+    );
+    assert!(now.energy_error(&start).abs() < 0.02, "{now:?} {start:?}");
+}
+
+#[test]
+fn blocks_that_meet_in_the_air_keep_their_momentum_and_gain_nothing() {
+    let mut run = begun(CLASH);
+    let start = Balance::of(&run.state, &run.march);
+    march(&mut run, 150);
+    let now = Balance::of(&run.state, &run.march);
+    assert!(
+        now.momentum_error(&start) < 1e-12,
+        "{}",
+        now.momentum_error(&start)
+    );
+    assert!(
+        now.kinetic < 0.9 * start.kinetic,
+        "they did not meet: {now:?}"
+    );
+    assert!(now.energy_error(&start).abs() < 1e-9, "{now:?}");
+}
