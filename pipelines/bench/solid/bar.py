@@ -59,11 +59,16 @@ def lattice(low, high, spacing):
     ]
 
 
-def report(program, version, method, count, scene, march):
-    """Times the march alone."""
+def timed(march, scene):
+    """The course of a march and the seconds of it alone."""
     course, start = Course(scene.end), time.perf_counter()
     march(course)
-    spent = time.perf_counter() - start
+    return course, time.perf_counter() - start
+
+
+def tell(program, version, method, count, course):
+    """Prints size, run time and period."""
+    course, spent = course
     told = {
         "program": program,
         "version": version,
@@ -74,6 +79,11 @@ def report(program, version, method, count, scene, march):
         "run_time_greatest_s": spent,
         "repeats": 1,
         "peak_memory_bytes": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024,
-        "period_s": course.period,
+        "period_s": course.period and float(course.period),
     }
     print(json.dumps(told))
+
+
+def report(program, version, method, count, scene, march):
+    """Times the march alone."""
+    tell(program, version, method, count, timed(march, scene))

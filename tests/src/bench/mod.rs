@@ -6,6 +6,7 @@
 
 pub mod absence;
 pub mod fields;
+pub mod flow;
 pub mod grains;
 pub mod others;
 mod record;

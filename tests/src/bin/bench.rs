@@ -13,6 +13,7 @@ use clap::Parser;
 use serde::Serialize;
 use verification::bench::absence::{Absence, Bench, absences};
 use verification::bench::fields::Fields;
+use verification::bench::flow;
 use verification::bench::grains::Beside;
 use verification::bench::others::{self, Others};
 use verification::bench::solids::Solids;
@@ -148,13 +149,26 @@ fn fields(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(),
     written(arguments, "em", &all.solve(&lab, python))
 }
 
-/// Times LAMMPS beside the solids of jetsph, all on one thread.
+/// Times programs of other people beside the solids of jetsph, and LAMMPS beside its water, all on one thread.
 fn solids(arguments: &Arguments, programs: PathBuf, python: &Path) -> Result<(), String> {
     let mut lab = lab(arguments, programs, "solid")?;
     lab.threads = 1;
     let python = Some(python).filter(|python| python.is_file());
     let all = Solids::read(&lab.root).map_err(|e| e.to_string())?;
-    written(arguments, "solid", &all.solve(&lab, python))
+    let solved = written(arguments, "solid", &all.solve(&lab, python));
+    let beside = flow::Beside {
+        programs: &lab.programs,
+        python,
+        out: &lab.out,
+        runs: arguments.runs,
+    };
+    let (record, holds) = beside.time().map_err(|e| e.to_string())?;
+    write(&arguments.out, "flow", &record, &record.table())?;
+    solved?;
+    if holds {
+        return Ok(());
+    }
+    Err("water takes longer than is asked for; see above".to_owned())
 }
 
 /// Times LAMMPS beside the grains of poolsph.
