@@ -140,7 +140,7 @@ deb: programs ## make a package for Debian: build/deb/fusionline_VERSION_ARCHITE
 	@install -d build/deb/root/DEBIAN
 	@sed -e 's/@VERSION@/$(VERSION)/' -e "s/@ARCHITECTURE@/$$(dpkg --print-architecture)/" tools/debian-control \
 	  > build/deb/root/DEBIAN/control
-	@dpkg-deb --root-owner-group --build build/deb/root $(DEB) >/dev/null
+	@dpkg-deb -Zxz -z0 --root-owner-group --build build/deb/root $(DEB) >/dev/null
 	@echo "made: $(DEB)"
 
 schemas: programs ## write schemas/*.scene.v1.json from the programs
