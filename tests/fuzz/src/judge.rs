@@ -6,6 +6,9 @@ use crate::watch::Ended;
 /// Most that is kept of what a program said.
 const KEPT: usize = 600;
 
+/// Number of the signal that asks to stop.
+const INTERRUPT: i32 = 2;
+
 /// What must not be, each with what was said.
 pub(crate) fn faults(ended: &Ended, codes: &[i32]) -> Vec<(&'static str, String)> {
     let mut found = Vec::new();
@@ -23,6 +26,8 @@ pub(crate) fn faults(ended: &Ended, codes: &[i32]) -> Vec<(&'static str, String)
             "hang",
             &format!("killed after {:.1} s: ", ended.took.as_secs_f64()),
         ),
+        // Asked to stop before it had begun, as on a machine that gave it no time.
+        (None, Some(INTERRUPT)) if err.is_empty() && ended.out.is_empty() => {}
         (None, Some(signal)) => say("abort", &format!("signal {signal}: ")),
         (None, None) => {}
     }
@@ -87,6 +92,10 @@ mod tests {
         assert_eq!(kinds(&ended(2, "key '\u{1b}[2J'")), ["control"]);
         let mut killed = ended(0, "");
         (killed.code, killed.signal) = (None, Some(6));
+        assert_eq!(kinds(&killed), ["abort"]);
+        killed.signal = Some(INTERRUPT);
+        assert!(kinds(&killed).is_empty(), "it had not begun");
+        killed.err = "step 1\n".to_owned();
         assert_eq!(kinds(&killed), ["abort"]);
         killed.over = Some("time");
         assert_eq!(kinds(&killed), ["hang"]);

@@ -210,10 +210,7 @@ fn scenes(campaign: &Campaign) -> Result<Vec<Scene>, String> {
     for path in paths {
         let text =
             std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        // A changed scene stands elsewhere; what it names stays where it is.
-        let folder = path.parent().unwrap_or(&campaign.root);
-        let beside = format!("\"file\": \"{}/../", folder.display());
-        let text = text.replace("\"file\": \"../", &beside);
+        let text = elsewhere(&text, path.parent().unwrap_or(&campaign.root));
         let value: Value =
             serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))?;
         let kind = value["kind"].as_str().unwrap_or_default();
@@ -225,6 +222,12 @@ fn scenes(campaign: &Campaign) -> Result<Vec<Scene>, String> {
     // As many trials for each tool, however many scenes it has.
     scenes.sort_by(|a, b| a.tool.cmp(&b.tool));
     Ok(scenes)
+}
+
+/// The text of a scene of `folder` for a place elsewhere: what it names stays where it is.
+pub(crate) fn elsewhere(text: &str, folder: &Path) -> String {
+    let beside = format!("\"file\": \"{}/../", folder.display());
+    text.replace("\"file\": \"../", &beside)
 }
 
 fn json_files(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), String> {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::Trials;
+use crate::seeds::elsewhere;
 
 /// A run that can be started again and again.
 #[derive(Debug, Clone)]
@@ -101,7 +102,10 @@ pub(super) fn jobs(trials: &Trials) -> Result<Vec<Job>, String> {
         }
         std::fs::create_dir_all(&folder).map_err(told)?;
         let own = folder.join("scene.json");
-        std::fs::copy(trials.root.join(scene), &own).map_err(told)?;
+        let scene = trials.root.join(scene);
+        let whole = std::fs::read_to_string(&scene).map_err(told)?;
+        let whole = elsewhere(&whole, scene.parent().unwrap_or(&trials.root));
+        std::fs::write(&own, whole).map_err(told)?;
         let patched = folder.join("patch.json");
         std::fs::write(&patched, patch).map_err(told)?;
         let mut arguments = words(&["run", &text(&own), "--patch", &text(&patched)]);
@@ -169,4 +173,26 @@ pub(super) fn text(path: &Path) -> String {
 
 fn words(of: &[&str]) -> Vec<String> {
     of.iter().map(|word| (*word).to_owned()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_find_what_they_name_from_elsewhere() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let mut named = 0;
+        for (name, _, scene, ..) in RECIPES {
+            let path = root.join(scene);
+            let whole = std::fs::read_to_string(&path).unwrap();
+            let whole = elsewhere(&whole, path.parent().unwrap());
+            for file in whole.split("\"file\": \"").skip(1) {
+                let file = Path::new(file.split('"').next().unwrap());
+                assert!(file.is_absolute() && file.exists(), "{name}: {file:?}");
+                named += 1;
+            }
+        }
+        assert!(named > 0);
+    }
 }
