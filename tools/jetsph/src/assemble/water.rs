@@ -50,8 +50,13 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
         fastest = fastest.max(u[0].hypot(u[1]).hypot(u[2]));
     }
     let nozzles = nozzles(scene, of, place)?;
-    for nozzle in &nozzles {
-        fastest = fastest.max(fastest_of(nozzle, scene.time.end_s));
+    for Nozzle {
+        fastest: own,
+        traverse: [x, y, z],
+        ..
+    } in &nozzles
+    {
+        fastest = fastest.max(own + x.hypot(*y).hypot(*z));
     }
     let law = Tait {
         density: of.density_kg_m3,
@@ -196,21 +201,20 @@ fn empty_set(of: &WaterScene) -> Set {
 fn nozzles(scene: &Scene, of: &WaterScene, set: usize) -> Result<Vec<Nozzle>, Fault> {
     let each = of.nozzles.iter().enumerate();
     each.map(|(k, nozzle)| {
-        let found = self::nozzle(nozzle, of, (scene.dimensions, set, k));
-        found.map_err(|fault| fault.within(&format!("/nozzles/{k}")))
+        let made = self::nozzle(nozzle, of, (scene.dimensions, set, k));
+        let mut made = made.map_err(|fault| fault.within(&format!("/nozzles/{k}")))?;
+        made.fastest = fastest_of(&made, scene.time.end_s);
+        Ok(made)
     })
     .collect()
 }
 
-/// Greatest speed of the water of a nozzle until the end \[m/s\].
+/// Greatest mean speed of the water of a nozzle until the end \[m/s\].
 fn fastest_of(nozzle: &Nozzle, end: f64) -> f64 {
-    let [x, y, z] = nozzle.traverse;
-    let own = x.hypot(y).hypot(z);
-    let looks = (0..LOOKS).map(|look| end * look as f64 / LOOKS as f64);
+    let (from, to) = (nozzle.runs.0.min(end), nozzle.runs.1.min(end));
+    let looks = (0..=LOOKS).map(|look| from + (to - from) * look as f64 / LOOKS as f64);
     let speed = looks.map(|time| nozzle.speed.value(&Arguments::at([0.0; 3], time)));
-    speed.fold(0.0, |most, speed| {
-        f64::max(most, speed.unwrap_or(0.0) + own)
-    })
+    speed.fold(0.0, |most, speed| f64::max(most, speed.unwrap_or(0.0)))
 }
 
 /// Nozzles and outlets, which come after all other stages.
@@ -334,6 +338,7 @@ fn nozzle(
         across: [first, second],
         width: of.width_m,
         speed: of.speed_m_s.compile("/speed_m_s", &["t"])?,
+        fastest: 0.0,
         profile: of
             .profile
             .as_ref()

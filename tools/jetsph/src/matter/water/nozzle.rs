@@ -9,11 +9,14 @@ use run::property::{Arguments, Curve};
 
 use super::near::LISTED;
 use crate::matter::lattice::cross_section;
-use crate::stage::{Course, Entry, Figure, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
 use crate::state::{ACCELERATION, DENSITY, DENSITY_RATE, MASS, State, VELOCITY};
 
 /// 1 + number of the nozzle that leads a particle; 0 for a free one.
 pub const LED: Column<u8> = Column::new("led", "1", 0).saved();
+
+/// Way of what comes in within a step, in spacings: a column takes in one particle a step at most.
+const LONGEST: f64 = 0.5;
 
 /// What a scene says of a nozzle.
 #[derive(Debug, Clone)]
@@ -34,6 +37,8 @@ pub struct Nozzle {
     pub width: f64,
     /// Mean speed over time \[m/s\].
     pub speed: Curve,
+    /// The greatest that was found of it until the end \[m/s\].
+    pub fastest: f64,
     /// Its shape over r, the distance from the axis over half the width; mean 1 after scaling.
     pub profile: Option<Curve>,
     /// Its own velocity \[m/s\].
@@ -213,6 +218,15 @@ impl Stage for Feed {
         state.sets[self.nozzle.set].declare(&LED);
     }
 
+    fn limit(&self, _: &State) -> Option<Limit> {
+        let shares = self.lanes.iter().map(|lane| lane.share);
+        let fastest = shares.fold(0.0, f64::max) * self.nozzle.fastest;
+        (!self.nozzle.has_sound && fastest > 0.0).then(|| Limit {
+            seconds: LONGEST * self.nozzle.matter.1 / fastest,
+            name: "nozzle",
+        })
+    }
+
     fn flows(&self) -> bool {
         self.nozzle.has_sound
     }
@@ -277,6 +291,15 @@ impl Stage for Feed {
         set.put(&LED, led);
         for lane in 0..self.lanes.len() {
             let Lane { share, .. } = self.lanes[lane];
+            if share * gone > spacing {
+                let what = format!(
+                    "nozzle {}: its water goes {} m in a step of {dt} s, further than the spacing of {spacing} m; \
+                     give a smaller 'step_s'",
+                    self.nozzle.name,
+                    share * gone
+                );
+                return Err(StageError::Data(what));
+            }
             self.lanes[lane].last += share * gone;
             let next = self.lanes[lane].last - spacing;
             if next >= -self.length - 0.5 * spacing && speed > 0.0 {

@@ -18,7 +18,8 @@
 //! preconditioner (`poisson`), which begins from the last pressure. Particles come to lie in rows along streamlines and
 //! are shifted back (`shift`). A jet without an obstacle has p = 0 to the last bit, and keeps its speed.
 //!
-//! The step is bounded by how far neighbours go against one another, by no speed of sound.
+//! The step is bounded by how far neighbours go against one another and how far anything goes at all (it must see a wall
+//! before it is behind it), by no speed of sound.
 
 mod bodies;
 mod equations;
@@ -48,6 +49,8 @@ const PRESSURE: Column<f64> = Column::new("pressure", "Pa", 0.0).saved().shown()
 
 /// Way of neighbours against one another in a step, in spacings.
 const LONGEST: f64 = 0.2;
+/// Way of a particle in a step, in spacings.
+const FARTHEST: f64 = 0.5;
 /// Part of the time in which what pushes moves water by a spacing that a step may take.
 const PUSH: f64 = 0.25;
 
@@ -235,13 +238,15 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
 
     fn limit(&self, state: &State) -> Option<Limit> {
         let (d, mut closing) = (self.liquid.spacing, self.closing);
+        let u = state.sets[self.liquid.set].column(&VELOCITY);
+        let most = sweep::greatest(u.len(), |a| u[a].iter().map(|u| u * u).sum());
+        let fastest = most.map_or(0.0, |(_, most)| most.sqrt());
         if state.step == 0 && self.closing <= 0.0 {
             // Before the first step nobody has looked: at most all go against one another.
-            let u = state.sets[self.liquid.set].column(&VELOCITY);
-            let fastest = sweep::greatest(u.len(), |a| u[a][0].hypot(u[a][1]).hypot(u[a][2]));
-            closing = fastest.map_or(0.0, |(_, most)| most);
+            closing = fastest;
         }
         let limits = [
+            ("courant", FARTHEST * d / fastest),
             ("closing", LONGEST * d / closing),
             ("acceleration", PUSH * (d / self.push).sqrt()),
         ];
