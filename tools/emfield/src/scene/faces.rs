@@ -2,60 +2,11 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use shapes::Shape;
 use shapes::check::{self, Misfit};
+use shapes::{Axis, Face, Shape};
 
 use super::{Geometry, Liquid, Scene};
 use crate::liquid::room::{Room, Side};
-
-/// An axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// x.
-    X,
-    /// y.
-    Y,
-    /// z.
-    Z,
-}
-
-/// A face of the box that the liquid fills.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum Face {
-    /// The lower one across x.
-    #[serde(rename = "x-")]
-    XLow,
-    /// The upper one across x.
-    #[serde(rename = "x+")]
-    XHigh,
-    /// The lower one across y.
-    #[serde(rename = "y-")]
-    YLow,
-    /// The upper one across y.
-    #[serde(rename = "y+")]
-    YHigh,
-    /// The lower one across z.
-    #[serde(rename = "z-")]
-    ZLow,
-    /// The upper one across z.
-    #[serde(rename = "z+")]
-    ZHigh,
-}
-
-impl Face {
-    /// Its axis, and 1 for the upper one.
-    fn place(self) -> (usize, usize) {
-        match self {
-            Self::XLow => (0, 0),
-            Self::XHigh => (0, 1),
-            Self::YLow => (1, 0),
-            Self::YHigh => (1, 1),
-            Self::ZLow => (2, 0),
-            Self::ZHigh => (2, 1),
-        }
-    }
-}
 
 /// A wall to which the liquid sticks.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -95,7 +46,7 @@ impl Faces {
         room.min = std::array::from_fn(|k| own.min_m.get(k).copied().unwrap_or(0.0));
         room.max = std::array::from_fn(|k| own.max_m.get(k).copied().unwrap_or(0.0));
         for axis in &self.periodic {
-            if let Some(sides) = room.sides.get_mut(*axis as usize) {
+            if let Some(sides) = room.sides.get_mut(axis.index()) {
                 *sides = [Side::Periodic; 2];
             }
         }
@@ -106,9 +57,9 @@ impl Faces {
         });
         let mirrors = self.mirror.iter().map(|face| (*face, Side::Mirror));
         for (face, side) in mirrors.chain(walls) {
-            let (axis, up) = face.place();
+            let (axis, up) = face.side();
             if let Some(sides) = room.sides.get_mut(axis) {
-                sides[up] = side;
+                sides[usize::from(up)] = side;
             }
         }
         room
@@ -141,7 +92,7 @@ impl Faces {
             };
             let at = format!("/liquid/faces/wall/{k}/velocity_m_s");
             check::coordinates(velocity, &at, dimensions, misfits);
-            let across = velocity.get(wall.face.place().0);
+            let across = velocity.get(wall.face.side().0);
             if across.is_some_and(|v| *v != 0.0) {
                 let what = "a wall slides along itself: 0 is wanted across it";
                 misfits.push(Misfit::at(&at, what));
@@ -167,7 +118,7 @@ impl Faces {
         }
         let mut seen = [[0; 2]; 3];
         for (k, axis) in self.periodic.iter().enumerate() {
-            let axis = *axis as usize;
+            let axis = axis.index();
             if axis >= dimensions {
                 at(
                     &format!("/periodic/{k}"),
@@ -181,12 +132,12 @@ impl Faces {
         let walls = self.wall.iter().enumerate();
         let walls = walls.map(|(k, wall)| (format!("/wall/{k}/face"), wall.face));
         for (key, face) in mirrors.chain(walls) {
-            let (axis, up) = face.place();
+            let (axis, up) = face.side();
             if axis >= dimensions {
                 at(&key, format!("there are {dimensions} axes"));
             }
-            seen[axis][up] += 1;
-            if seen[axis][up] > 1 {
+            seen[axis][usize::from(up)] += 1;
+            if seen[axis][usize::from(up)] > 1 {
                 at(&key, "the face has been named before".to_owned());
             }
         }
@@ -202,7 +153,7 @@ impl Faces {
             at("", what);
         }
         if let [(axis, _)] = free[..] {
-            let beside = self.wall.iter().position(|w| w.face.place().0 != axis);
+            let beside = self.wall.iter().position(|w| w.face.side().0 != axis);
             if let Some(k) = beside {
                 let what = "the free surface cannot move along a wall to which the liquid sticks: take \"mirror\" for faces beside it";
                 at(&format!("/wall/{k}/face"), what.to_owned());

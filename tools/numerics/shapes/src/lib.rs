@@ -22,4 +22,4 @@ pub mod surface;
 pub use body::{Body, Kind, Primitive};
 pub use ellipsoid::Ellipsoid;
 pub use mesh::Mesh;
-pub use shape::Shape;
+pub use shape::{Axis, Face, Shape};

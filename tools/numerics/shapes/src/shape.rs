@@ -23,6 +23,44 @@ impl Axis {
     }
 }
 
+/// A face of a box, by the direction that it looks to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Face {
+    /// Towards lesser x.
+    #[serde(rename = "x-")]
+    XLow,
+    /// Towards greater x.
+    #[serde(rename = "x+")]
+    XHigh,
+    /// Towards lesser y.
+    #[serde(rename = "y-")]
+    YLow,
+    /// Towards greater y.
+    #[serde(rename = "y+")]
+    YHigh,
+    /// Towards lesser z.
+    #[serde(rename = "z-")]
+    ZLow,
+    /// Towards greater z.
+    #[serde(rename = "z+")]
+    ZHigh,
+}
+
+impl Face {
+    /// Number of the axis across it, and whether it is the upper one of that axis.
+    #[must_use]
+    pub fn side(self) -> (usize, bool) {
+        match self {
+            Self::XLow => (0, false),
+            Self::XHigh => (0, true),
+            Self::YLow => (1, false),
+            Self::YHigh => (1, true),
+            Self::ZLow => (2, false),
+            Self::ZHigh => (2, true),
+        }
+    }
+}
+
 /// A box along the axes; faces `x-`, `x+`, `y-`, `y+`, `z-`, `z+`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

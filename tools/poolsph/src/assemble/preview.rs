@@ -3,9 +3,9 @@
 use particles::POSITION;
 use run::preview::{Coordinates, Marked, Preview, Spot, edges, face};
 use run::{Failure, Inputs};
+use shapes::Face;
 
 use crate::domain::bodies::{self, Body};
-use crate::faces::Face;
 use crate::grains::{self, RADIUS};
 use crate::scene::{Scene, StartState};
 use crate::source::bed;
@@ -152,7 +152,7 @@ fn conditions(scene: &Scene, preview: &mut Preview) {
     let sides = |faces: &[Face]| faces.iter().map(|f| f.side()).collect::<Vec<_>>();
     if let Some(faces) = &scene.faces {
         let corners = [faces.min_m, faces.max_m];
-        let along = faces.periodic.iter().map(|axis| *axis as usize);
+        let along = faces.periodic.iter().map(|axis| axis.index());
         let periodic: Vec<_> = along.flat_map(|k| [(k, false), (k, true)]).collect();
         told("flow: periodic", corners, &periodic);
         told("flow: mirror", corners, &sides(&faces.mirror));

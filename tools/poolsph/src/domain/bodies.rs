@@ -188,8 +188,9 @@ fn body_points(body: &Body, d: f64) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::domain::shape::{BoxShape, Container, Face, Sphere};
+    use crate::domain::shape::{BoxShape, Container, Sphere};
     use crate::state::{Column, Metal};
+    use shapes::Face;
 
     const D: f64 = 1e-3;
 

@@ -5,8 +5,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::Face;
 
-use super::row::{Face, lattice, product};
+use super::row::{lattice, product};
 
 /// Walls outside of an inner box.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,44 +1,4 @@
-//! Rows of places along the axes, and the faces of a box that they end at.
-
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// A face of a box by its outward direction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Face {
-    /// Towards smaller x.
-    #[serde(rename = "x-")]
-    XLow,
-    /// Towards greater x.
-    #[serde(rename = "x+")]
-    XHigh,
-    /// Towards smaller y.
-    #[serde(rename = "y-")]
-    YLow,
-    /// Towards greater y.
-    #[serde(rename = "y+")]
-    YHigh,
-    /// Towards smaller z.
-    #[serde(rename = "z-")]
-    ZLow,
-    /// Towards greater z.
-    #[serde(rename = "z+")]
-    ZHigh,
-}
-
-impl Face {
-    /// Axis (0, 1, 2) and whether it is the upper side.
-    pub(super) fn side(self) -> (usize, bool) {
-        match self {
-            Self::XLow => (0, false),
-            Self::XHigh => (0, true),
-            Self::YLow => (1, false),
-            Self::YHigh => (1, true),
-            Self::ZLow => (2, false),
-            Self::ZHigh => (2, true),
-        }
-    }
-}
+//! Rows of places along the axes.
 
 /// Coordinates `anchor + (i + 1/2) d` within `low..high`.
 pub(super) fn lattice(anchor: f64, low: f64, high: f64, d: f64) -> Vec<f64> {

@@ -5,12 +5,11 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use shapes::Body;
 use shapes::shape::{Stl, Turned};
+use shapes::{Axis, Body};
 
 pub use super::container::Container;
 use super::container::{container_points, walls};
-pub use super::row::Face;
 use super::row::{lattice, product};
 
 /// A box along the axes.
@@ -23,18 +22,6 @@ pub struct BoxShape {
     /// Upper corner \[m\].
     #[schemars(extend("x-unit" = "m"))]
     pub max_m: [f64; 3],
-}
-
-/// A coordinate axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// Across the weld.
-    X,
-    /// Along the weld.
-    Y,
-    /// Upwards.
-    Z,
 }
 
 /// A round bar along an axis.
@@ -188,7 +175,7 @@ impl Shape {
             | Self::Intersection(_)
             | Self::Difference(_) => true,
             Self::Cylinder(c) => {
-                let along = axis_index(c.axis);
+                let along = c.axis.index();
                 let square: f64 = (0..3)
                     .filter(|k| *k != along)
                     .map(|k| (p[k] - c.centre_m[k]).powi(2))
@@ -207,17 +194,9 @@ impl Shape {
     }
 }
 
-fn axis_index(axis: Axis) -> usize {
-    match axis {
-        Axis::X => 0,
-        Axis::Y => 1,
-        Axis::Z => 2,
-    }
-}
-
 fn cylinder_half(c: &Cylinder) -> [f64; 3] {
     let mut half = [c.radius_m; 3];
-    half[axis_index(c.axis)] = 0.5 * c.length_m;
+    half[c.axis.index()] = 0.5 * c.length_m;
     half
 }
 

@@ -19,7 +19,7 @@ mod parameters;
 mod planes;
 
 pub use images::{Image, Images};
-pub use parameters::{Axis, Face, Parameters, WallParameters};
+pub use parameters::{Parameters, WallParameters};
 pub use planes::{Faces, Turn};
 
 #[cfg(test)]

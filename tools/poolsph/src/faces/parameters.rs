@@ -4,58 +4,9 @@ use run::Fault;
 use run::property::{Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::{Axis, Face};
 
 use super::planes::{Faces, Side};
-
-/// A face of a box, by the direction that it looks to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Face {
-    /// Towards lesser x.
-    #[serde(rename = "x-")]
-    XMinus,
-    /// Towards greater x.
-    #[serde(rename = "x+")]
-    XPlus,
-    /// Towards lesser y.
-    #[serde(rename = "y-")]
-    YMinus,
-    /// Towards greater y.
-    #[serde(rename = "y+")]
-    YPlus,
-    /// Down.
-    #[serde(rename = "z-")]
-    ZMinus,
-    /// Up.
-    #[serde(rename = "z+")]
-    ZPlus,
-}
-
-impl Face {
-    /// Number of the axis across the face, and whether it is the upper one of its axis.
-    #[must_use]
-    pub fn side(self) -> (usize, bool) {
-        match self {
-            Self::XMinus => (0, false),
-            Self::XPlus => (0, true),
-            Self::YMinus => (1, false),
-            Self::YPlus => (1, true),
-            Self::ZMinus => (2, false),
-            Self::ZPlus => (2, true),
-        }
-    }
-}
-
-/// An axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-    /// Along z.
-    Z,
-}
 
 /// The box whose faces the flow goes on beside, and what its faces are (key `faces`). A face that is not named is none:
 /// the liquid may leave the box there.
@@ -128,7 +79,7 @@ impl Parameters {
             for upper in [false, true] {
                 claim(
                     format!("/periodic/{i}"),
-                    (*axis as usize, upper),
+                    (axis.index(), upper),
                     Side::Periodic,
                 )?;
             }

@@ -7,9 +7,9 @@ use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::Face;
 
 use super::caloric::{Caloric, Melting};
-use crate::faces::Face;
 use crate::rest::Plane;
 
 /// Temperatures \[K\] that a metal can have; a run that leaves them has diverged.

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use run::property::{Curve, Property};
+use shapes::Face;
 
 use super::caloric::Melting;
 use super::caloric::tests::{plain, steel};
 use super::*;
-use crate::faces::Face;
 use crate::stage::Stage;
 use crate::state::{self, Column, Metal, Particle, State};
 
@@ -43,12 +43,12 @@ fn metal(density: f64, spacing: f64) -> Metal {
 /// Mirrors all faces of the box but those in `open`.
 fn parameters(metal: Metal, n: [usize; 3], open: Vec<Face>) -> Parameters {
     let all = [
-        Face::XMinus,
-        Face::XPlus,
-        Face::YMinus,
-        Face::YPlus,
-        Face::ZMinus,
-        Face::ZPlus,
+        Face::XLow,
+        Face::XHigh,
+        Face::YLow,
+        Face::YHigh,
+        Face::ZLow,
+        Face::ZHigh,
     ];
     Parameters {
         thermal_conductivity_w_m_k: Property::Constant(1.0),
@@ -275,7 +275,7 @@ fn an_open_face_lets_a_steady_gradient_through() {
     let size = [12, 4, 4];
     let slope = |x: [f64; 3]| 100.0 - 10.0 * x[0];
     let mut state = lattice(metal, size, &caloric, slope);
-    let given = parameters(metal, size, vec![Face::XPlus]);
+    let given = parameters(metal, size, vec![Face::XHigh]);
     let mut stage = Conduction::new(&given, caloric.clone(), metal).unwrap();
     for a in (0..state.len()).filter(|a| a % size[0] < 2) {
         stage.hold(a..a + 1, Curve::Constant(slope(state.position[a])));
@@ -304,7 +304,7 @@ fn an_open_face_never_falls_below_the_surroundings() {
     let hot = |x: [f64; 3]| if x[0] < 2e-3 { 1700.0 } else { 300.0 };
     let mut state = lattice(metal, size, &caloric, hot);
     let before = stored(&state);
-    let mut given = parameters(metal, size, vec![Face::XPlus]);
+    let mut given = parameters(metal, size, vec![Face::XHigh]);
     given.faces.as_mut().unwrap().surroundings_k = 300.0;
     let mut stage = Conduction::new(&given, caloric, metal).unwrap();
     for _ in 0..4000 {
@@ -343,7 +343,7 @@ fn stefan_error(n: usize) -> f64 {
         .as_mut()
         .unwrap()
         .mirror
-        .retain(|f| *f != Face::XMinus);
+        .retain(|f| *f != Face::XLow);
     for j in 0..18 {
         state.push(Particle {
             position: [
