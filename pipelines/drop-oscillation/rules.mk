@@ -1,7 +1,7 @@
 # drop-oscillation: a water drop of 35 um swings about the sphere.
 
 .PHONY: drop-oscillation
-drop-oscillation: build/drop-oscillation/report.html ## a drop that swings about the sphere: radii, modes and a moving picture
+drop-oscillation: build/drop-oscillation/report.html ## a drop that oscillates about the sphere: radii, modes and a moving picture
 
 build/drop-oscillation/drop.mcap: pipelines/drop-oscillation/scene.json $(BIN)/emfield always
 	$(RERUN) $(BIN)/emfield run pipelines/drop-oscillation/scene.json --out $@ $(MACHINE)

@@ -1,7 +1,7 @@
 # first-weld: a weld that is small enough to be changed and made again while one waits: an arc, and 0.3 s of its pool.
 
 .PHONY: first-weld
-first-weld: build/first-weld/report.html ## a small weld with its own arc, to begin an own study from (minutes)
+first-weld: build/first-weld/report.html ## a small weld with its own arc, to start a study of your own from (minutes)
 
 build/first-weld/arc.mcap: pipelines/gmaw-300a/arc.json pipelines/first-weld/arc.patch.json build/gases/argon.mcap $(BIN)/arcfvm always
 	$(RERUN) $(BIN)/arcfvm run pipelines/gmaw-300a/arc.json --patch pipelines/first-weld/arc.patch.json \

@@ -48,17 +48,17 @@ struct Arguments {
     /// Times that each core is measured.
     #[arg(long, default_value_t = 11)]
     repeats: usize,
-    /// A Python with the programs of other people: they alone are timed, beside ours on the same
+    /// A Python with scikit-fem and FiPy: only these are timed, and ours on the same
     /// problems.
     #[arg(long)]
     others: Option<PathBuf>,
-    /// A Python with NGSolve: it alone is timed, beside emfield on the same problems.
+    /// A Python with NGSolve: only it is timed, and emfield on the same problems.
     #[arg(long)]
     em: Option<PathBuf>,
-    /// A Python with LAMMPS: grains alone are timed, beside it where it can be had.
+    /// A Python with LAMMPS: only grains are timed, and LAMMPS where it can be installed.
     #[arg(long)]
     grains: Option<PathBuf>,
-    /// A Python with LAMMPS: a swinging bar alone is timed, beside it where it can be had.
+    /// A Python with LAMMPS: only an oscillating bar is timed, and LAMMPS where it can be installed.
     #[arg(long)]
     solid: Option<PathBuf>,
     /// Times that each scene is run on that many threads; on one thread it is run once.

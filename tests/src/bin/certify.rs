@@ -14,7 +14,7 @@ use clap::Parser;
 use verification::certify::{self, Certificate, Tolerance, proof};
 use verification::{keep::keep, lab::Lab};
 
-/// Runs a study over what its numbers hang on, and tells each headline figure with its numerical band.
+/// Runs a study over spacings and steps, and gives each headline figure with its numerical error band.
 ///
 /// Example: certify --study gmaw-quick --budget 30min --tolerance "penetration 0.2 mm"
 #[derive(Parser)]
@@ -22,13 +22,13 @@ struct Arguments {
     /// The study, whose plan is pipelines/STUDY/certify.json.
     #[arg(long, required_unless_present = "proof")]
     study: Option<String>,
-    /// Greatest time for new runs: a number with s, min or h. What would not end is left out and told; call again to go on.
+    /// Greatest time for new runs: a number with s, min or h. Runs that would take longer are left out, with a message; call again to continue.
     #[arg(long, default_value = "30min", value_parser = duration)]
     budget: Duration,
-    /// A figure, an error and a unit, as in "penetration 0.2 mm": names the least run that meets it.
+    /// A figure, an error and a unit, as in "penetration 0.2 mm": names the smallest run that meets it.
     #[arg(long)]
     tolerance: Option<String>,
-    /// Certifies problems with exact answers instead, and counts how often the truth lies in the band.
+    /// Certifies problems with exact answers instead, and counts how often the exact value lies in the band.
     #[arg(long)]
     proof: bool,
     /// Where records and artefacts go.

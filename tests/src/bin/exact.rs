@@ -11,9 +11,9 @@ use verification::em::exact::Known;
 use verification::keep::keep_owned;
 use verification::lab::read_json;
 
-/// Writes the exact fields along the lines of a scene, for the report to draw beside those found.
+/// Writes the exact fields along the lines of a scene, for the report to draw beside the computed ones.
 ///
-/// Known are a dielectric sphere whose dipole is imposed on the walls, and a conducting sphere among coaxial loops.
+/// It knows a dielectric sphere whose dipole is imposed on the walls, and a conducting sphere among coaxial loops.
 ///
 /// Example: exact pipelines/levitation-field/scene.json --out build/levitation-field/exact.json
 #[derive(Parser)]

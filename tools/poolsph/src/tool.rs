@@ -27,7 +27,7 @@ impl Tool for PoolSph {
         },
         Input {
             name: "start",
-            what: "an earlier run (particle-frames 1.x) whose metal this one begins with, where the scene says so",
+            what: "an earlier run (particle-frames 1.x), whose metal is the initial state where the scene says so",
             required: false,
         },
         Input {

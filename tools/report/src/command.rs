@@ -29,15 +29,15 @@ struct Line {
 
 #[derive(Debug, Subcommand)]
 enum Action {
-    /// One page about a study; it shows what there is of it.
+    /// One page about a study; it shows all inputs that are given.
     Page(PageFiles),
-    /// One page about an arc and a pool that were computed in turns, each from what the other left.
+    /// One page about an arc and a pool that were computed in turns, each from the result of the other.
     #[command(after_help = PASSES)]
     Passes(PassesFiles),
     /// One page about a study of heat conduction, of one run or of several.
     #[command(after_help = HEAT)]
     Heat(HeatFiles),
-    /// One page about jets of water that meet solids, with films, of one run or of several.
+    /// One page about water jets that hit solids, with films, of one run or of several.
     #[command(after_help = JET)]
     Jet(JetFiles),
     /// One page about electric and magnetic fields, of one run or of several.
@@ -54,7 +54,7 @@ enum Action {
     /// One page that compares two runs: what was changed, numbers, pictures, curves.
     #[command(after_help = COMPARE)]
     Compare(PairFiles),
-    /// One page about what would be there before a run, of the points that `TOOL check --points` writes.
+    /// One page about the initial state of a run, from the points that `TOOL check --points` writes.
     #[command(after_help = PREVIEW)]
     Preview(PreviewFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
@@ -65,11 +65,11 @@ enum Action {
         #[arg(long)]
         pool: PathBuf,
     },
-    /// Prints what thermocouples tell as CSV: peaks, cooling times, the heat-affected zone; or their curves.
+    /// Prints results of thermocouples as CSV: peaks, cooling times, the heat-affected zone; or their curves.
     Probes {
         /// Particle frames with probes, or points with monitors.
         file: PathBuf,
-        /// The curves in place of what they tell.
+        /// The curves instead of the results.
         #[arg(long)]
         curves: bool,
         /// Isotherm of the heat-affected zone, in K.
@@ -81,14 +81,14 @@ enum Action {
         /// Particle frames of the weld.
         #[arg(long)]
         pool: Option<PathBuf>,
-        /// Arc source; of several, what the targets call each.
+        /// Arc source; if there are several, each with its name in the targets.
         #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named)]
         arc: Vec<(String, PathBuf)>,
         /// Published values.
         #[arg(long)]
         targets: PathBuf,
     },
-    /// Writes completions for shells and pages for man.
+    /// Writes shell completions and manual pages.
     #[command(hide = true)]
     Manual(manual::Wanted),
 }

@@ -39,23 +39,23 @@ enum Action {
         /// Threads of each run.
         #[arg(long, default_value_t = 1)]
         threads: usize,
-        /// Waits until jobs that were submitted have ended.
+        /// Waits until all submitted jobs have ended.
         #[arg(long)]
         wait: bool,
     },
-    /// Reads the sweep and tells what it would run; runs nothing.
+    /// Reads the sweep and prints what it would run; runs nothing.
     Check {
         /// The sweep.
         sweep: PathBuf,
     },
-    /// Makes the page of what the last run left.
+    /// Makes the page from the results of the last run.
     Page {
         /// The sweep.
         sweep: PathBuf,
     },
     /// Prints the JSON Schema of sweeps.
     Schema,
-    /// Writes completions for shells and pages for man.
+    /// Writes shell completions and manual pages.
     #[command(hide = true)]
     Manual(manual::Wanted),
 }

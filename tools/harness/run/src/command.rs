@@ -24,7 +24,7 @@ pub(crate) enum Action {
     Check(Check),
     /// Prints the JSON Schema of the scene.
     Schema,
-    /// Writes completions for shells and pages for man.
+    /// Writes shell completions and manual pages.
     #[command(hide = true)]
     Manual(manual::Wanted),
 }
@@ -59,7 +59,7 @@ impl Study {
 pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) study: Study,
-    /// Writes what would be there before anything runs: points by material and condition, axis, path and walls, for
+    /// Writes the initial state without running: points by material and condition, axis, path and walls, for
     /// `report preview`.
     #[arg(long, value_name = "FILE.mcap")]
     pub(crate) points: Option<PathBuf>,
@@ -78,19 +78,19 @@ pub(crate) struct Run {
     /// Threads; the result is the same for any number [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
-    /// Goes on from FILE.mcap.checkpoint to the same bytes as an undisturbed run.
+    /// Continues from FILE.mcap.checkpoint, to the same bytes as an uninterrupted run.
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Wall time between two checkpoints [default: what suits the tool, mostly 60].
+    /// Wall time between two checkpoints [default: depends on the tool, mostly 60].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) checkpoint_s: Option<Duration>,
     /// How progress is shown.
     #[arg(long, value_enum, default_value_t = Style::Auto)]
     pub(crate) progress: Style,
-    /// Says only warnings and errors.
+    /// Prints only warnings and errors.
     #[arg(short, long, conflicts_with = "verbose")]
     pub(crate) quiet: bool,
-    /// Says hashes and checkpoints as well.
+    /// Prints hashes and checkpoints as well.
     #[arg(short, long, action = ArgAction::SetTrue)]
     pub(crate) verbose: bool,
 }

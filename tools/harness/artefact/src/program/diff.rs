@@ -21,7 +21,7 @@ For each column that differs it prints, over all messages of the channel,
 Frames with a column 'id' are compared particle by particle. Headers (scene, inputs, versions) are
 shown where they differ, and do not count: exit code 0 when all messages are equal, 1 when not.")]
 pub(crate) struct Arguments {
-    /// The file to measure against.
+    /// The reference file.
     #[arg(value_name = "A")]
     a: PathBuf,
     /// The other file.

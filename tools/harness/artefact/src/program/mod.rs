@@ -21,11 +21,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 use trouble::{Trouble, Verdict};
 
-/// Looks into artefacts, checks, compares, exports and saves them.
+/// Shows, checks, compares, exports and recovers artefacts.
 ///
 /// An artefact is what one stage hands to the next: NAME.mcap with frames, tables and records over
 /// simulated time, and NAME.run.json beside it with all that varies between two runs (time,
-/// memory, warnings). What a file does not hold, its scene did not ask for.
+/// memory, warnings). A file holds only what its scene asked for.
 #[derive(Debug, Parser)]
 #[command(
     name = "artefact",
@@ -47,7 +47,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Says what a file is: who wrote it from what, its channels, columns, units and ranges.
+    /// Describes a file: its tool and inputs, its channels, columns, units and ranges.
     Info(info::Arguments),
     /// Lists the messages of a file in order of time.
     Ls(ls::Arguments),
@@ -55,13 +55,13 @@ enum Command {
     Validate(validate::Arguments),
     /// Compares two files column by column; exit code 0 when equal, 1 when different.
     Diff(diff::Arguments),
-    /// Writes for ParaView (vtu), NumPy (npz) or anything (csv).
+    /// Writes for ParaView (vtu), NumPy (npz) or other programs (csv).
     Export(export::Arguments),
-    /// Saves what is whole of a file whose run was killed.
+    /// Saves the undamaged part of a file whose run was killed.
     Recover(recover::Arguments),
     /// Compares the hashes in a file with the scene and the inputs that it should come from.
     VerifyHash(hash::Arguments),
-    /// Writes completions for shells and pages for man.
+    /// Writes shell completions and manual pages.
     #[command(hide = true)]
     Manual(manual::Wanted),
 }

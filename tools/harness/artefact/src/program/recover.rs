@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// Where to write; by default NAME.recovered.mcap beside it.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Writes over a file that exists.
+    /// Overwrites an existing file.
     #[arg(long)]
     force: bool,
 }
