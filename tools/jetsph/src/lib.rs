@@ -5,7 +5,8 @@
 //! - [`scene`] is what a person writes, [`assemble`] the only file that asks what it contains;
 //! - [`matter`] fills bodies with particles and knows water and solids, [`motion`] what acts on both;
 //! - [`stage`] is what a physical effect promises, [`mod@march`] takes all of them through a step;
-//! - [`simulate`] leads the run: steps, outputs, checkpoints ([`resume`]); [`frames`] writes, [`balance`] keeps the books.
+//! - [`simulate`] leads the run: steps, outputs, checkpoints ([`resume`]); [`frames`] writes, [`balance`]
+//!   checks mass, momentum and energy.
 //!
 //! Water is weakly compressible, or has no sound where a scene says so: see [`matter::water`]. A solid is total Lagrangian with quadratics fitted at rest: see [`matter::solid`].
 

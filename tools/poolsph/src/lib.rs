@@ -1,4 +1,14 @@
-//! Incompressible SPH weld pool and bead under a moving arc source.
+//! Incompressible SPH weld pool and bead under a moving arc source, with grains of flux (Komen 2019, sections 3.3, 4 and 5.3).
+//!
+//! The way of a scene through the crate:
+//!
+//! - [`scene`] is what a person writes, [`assemble`] the only place that asks what it contains;
+//! - [`domain`] fills bodies and adds droplets, [`source`] moves the arc and reads files of other runs;
+//! - [`state`] holds the columns of the metal, [`surface`] finds its free surface, [`faces`] continues it as images;
+//! - [`forces`], [`heat`] and [`motion`] act on the metal, [`grains`] are discrete elements beside it;
+//! - [`stage`] is what a physical effect promises, [`mod@march`] takes all of them through a step;
+//! - [`simulate`] leads the run: steps, outputs, checkpoints ([`resume`]); [`frames`] writes, [`balance`] checks mass, momentum
+//!   and energy.
 
 pub mod assemble;
 pub mod balance;

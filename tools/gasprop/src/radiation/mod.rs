@@ -6,7 +6,7 @@
 //! (Lowke 1974, J. Quant. Spectrosc. Radiat. Transfer 14, 111): each line leaves by its [`escape::factor`], with a
 //! Voigt profile of Doppler and collision [`width`], the absorption integrated over the line being
 //! `K = lambda^2/(8 pi) g_u A n/Q (exp(-E_l/kT) - exp(-E_u/kT))` (Kirchhoff). Resonance lines in the far ultraviolet
-//! are absorbed by that, not by decree.
+//! are absorbed by this model, not by an assumption.
 //!
 //! Neglected: overlap of lines (each is alone: an upper bound of what leaves), bands of molecules (CO, C2, FeO; no
 //! data), lines of ions beyond the first, free-bound light below 200 nm.
