@@ -1,5 +1,5 @@
-//! Texts: decisions, one file per tool, with numbers that run through all of them and entries of half a page; and the map
-//! from claims to cases.
+//! Texts: decisions, one file per tool, with numbers that run through all of them and entries of half a page in sentences below
+//! 30 words; and the map from claims to cases.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -113,6 +113,60 @@ fn each_decision_takes_half_a_page_at_most() {
         long.is_empty(),
         "over {most} lines; figures belong into the README of their study: {long:#?}"
     );
+}
+
+/// Most words of a sentence, numbers and signs aside.
+const BREATH: usize = 29;
+
+/// Sentences of a text; what stands in backticks is one word, and a colon or semicolon ends a sentence too.
+fn sentences(text: &str) -> Vec<String> {
+    let mut code = false;
+    let plain: String = text
+        .chars()
+        .filter_map(|c| {
+            let tick = c == '`';
+            code ^= tick;
+            (!code || tick).then_some(if tick { 'x' } else { c })
+        })
+        .collect();
+    let mut all = vec![String::new()];
+    for word in plain.split_whitespace() {
+        if let Some(last) = all.last_mut() {
+            last.push(' ');
+            last.push_str(word);
+        }
+        if word.ends_with(['.', ';', ':', '?']) {
+            all.push(String::new());
+        }
+    }
+    all
+}
+
+/// Words of a sentence, numbers and signs aside.
+fn words(sentence: &str) -> usize {
+    let all = sentence.split_whitespace();
+    all.filter(|word| word.contains(char::is_alphabetic))
+        .count()
+}
+
+#[test]
+fn decisions_are_read_once() {
+    let mut long = Vec::new();
+    for file in files() {
+        for (number, text) in entries(&file) {
+            let all = sentences(&text).into_iter();
+            let found = all.filter(|sentence| words(sentence) > BREATH);
+            long.extend(found.map(|sentence| format!("{}, {number}:{sentence}", file.display())));
+        }
+    }
+    assert!(long.is_empty(), "over {BREATH} words: {long:#?}");
+}
+
+#[test]
+fn sentences_end_and_code_is_a_word() {
+    let told = sentences("One `a b c` two. Three; four");
+    assert_eq!(told, [" One xx two.", " Three;", " four"]);
+    assert_eq!(words("10 % of a drop (0.2 mm)"), 4);
 }
 
 /// Texts of ours below a folder.
