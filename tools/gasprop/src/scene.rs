@@ -31,7 +31,7 @@ pub struct Scene {
     /// Other values for inputs that are uncertain; absent: those of the data.
     #[serde(default)]
     pub uncertain: Option<Uncertain>,
-    /// What the table must meet; absent: its errors are told, and nothing is asked of them.
+    /// Limits of the table's errors; absent: errors are reported without a limit.
     #[serde(default)]
     pub accuracy: Option<Accuracy>,
 }

@@ -19,8 +19,8 @@ const WALL: f64 = 10.0;
 const FIRST: f64 = 0.3;
 const THIN: f64 = 0.25;
 
-/// An alternating magnetic field about a liquid that conducts: the mean force of its currents acts at every step. By symmetry
-/// no current may meet the surface, as in a drop on the axis of its coils: what does is told.
+/// An alternating magnetic field about a liquid that conducts: the mean force of its currents acts at every step. The
+/// currents must not meet the surface, as in a drop on the axis of its coils; those that do are reported.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MagneticField {
@@ -36,7 +36,8 @@ pub struct MagneticField {
     /// What their currents mean.
     #[serde(default)]
     pub amplitude: Amplitude,
-    /// Whether all currents are multiplied by one factor with which the lift at the start is the weight; the factor is told.
+    /// Whether all currents are multiplied by one factor so that the lift at the start equals the weight; the factor is
+    /// reported.
     #[serde(default)]
     pub balanced: bool,
     /// Distance of the points of the field along the surface; that of `points` when it is absent.

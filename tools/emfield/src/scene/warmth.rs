@@ -50,7 +50,7 @@ pub struct LiquidHeat {
     pub radiation: Option<LiquidRadiation>,
     /// Melting; none when it is absent.
     pub melting: Option<LiquidMelting>,
-    /// Whether the drop stands still, as a solid does, so that heat alone marches, in steps as long as `step_s` says.
+    /// Whether the drop stands still, like a solid, so that only heat is marched, in steps of `step_s`.
     #[serde(default)]
     pub still: bool,
 }

@@ -71,7 +71,7 @@ pub struct Controlled {
     #[serde(default = "tolerance")]
     #[schemars(range(min = 1e-12, max = 0.1), extend("x-unit" = "1"))]
     pub tolerance: f64,
-    /// Error of a step that is none, whatever the range of temperature; 1e-10 of the greatest temperature when it
+    /// Error of a step that is always accepted, for any range of temperature; 1e-10 of the greatest temperature when it
     /// is absent.
     #[schemars(extend("x-unit" = "K", "exclusiveMinimum" = 0.0))]
     pub floor_k: Option<f64>,

@@ -32,7 +32,7 @@ pub struct WaterScene {
     /// c, in place of ten times the reference speed.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub sound_speed_m_s: Option<f64>,
-    /// V: c is 10 V (18). Where neither is told it is the greatest speed of the nozzles and bodies at the start.
+    /// V: c is 10 V (18). Where neither is given it is the greatest speed of the nozzles and bodies at the start.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub reference_speed_m_s: Option<f64>,
     /// n of the equation of state (15).

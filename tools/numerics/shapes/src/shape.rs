@@ -183,12 +183,12 @@ pub struct Stl {
     /// Where its origin is; the scene's when it is absent.
     #[schemars(extend("x-unit" = "m"), length(min = 3, max = 3))]
     pub at_m: Option<Vec<f64>>,
-    /// Hash of the file as it was read; told by artefacts.
+    /// Hash of the file as it was read; only in artefacts.
     pub sha256: Option<String>,
-    /// Corners of its triangles as they were read; told by artefacts, which can be run again without the file.
+    /// Corners of its triangles as they were read; only in artefacts, which can be run again without the file.
     #[schemars(extend("x-unit" = "m"))]
     pub vertices_m: Option<Vec<[f64; 3]>>,
-    /// Its triangles, by numbers of corners; told by artefacts.
+    /// Its triangles, by numbers of corners; only in artefacts.
     pub triangles: Option<Vec<[usize; 3]>>,
 }
 

@@ -15,7 +15,7 @@ pub enum Beyond {
     /// It is given to what lies inside: the body takes the whole power.
     #[default]
     Inside,
-    /// It is lost, and told. Beside a mirror plane along the path, the half that the mirror holds.
+    /// It is lost, and reported. Beside a mirror plane along the path it is the half behind the mirror.
     Lost,
 }
 

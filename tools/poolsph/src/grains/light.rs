@@ -36,7 +36,7 @@ pub struct LightScene {
     /// eps of the grains.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
     pub emissivity: f64,
-    /// T_0 of what the wall shines on.
+    /// T_0 of the surroundings to which the wall radiates.
     #[schemars(range(min = 0.0, max = 1e4), extend("x-unit" = "K"))]
     pub surroundings_k: f64,
 }

@@ -38,7 +38,7 @@ pub struct Parameters {
     pub walls: Vec<WallScene>,
     /// Grains are followed within this box and forgotten outside; absent: everywhere.
     pub bounds: Option<BoundsScene>,
-    /// Heat between grains that touch; absent: temperatures are of no account.
+    /// Heat between grains that touch; absent: no temperatures.
     pub heat: Option<GrainHeat>,
     /// What metal is to grains, where a scene has both; absent: it rubs as grains do, and is as hard as steel.
     pub metal: Option<MetalScene>,
@@ -265,7 +265,7 @@ pub struct GrainMelting {
     #[serde(default = "three")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub slag_conductivity_ratio: f64,
-    /// T at which slag boils: what heat it gets beyond goes off with vapour, whose mass is of no account. Absent: it never boils.
+    /// T at which slag boils: further heat leaves with vapour, whose mass is neglected. Absent: it never boils.
     #[schemars(extend("x-unit" = "K"), range(min = 1.0, max = 1e4))]
     pub boiling_k: Option<f64>,
 }

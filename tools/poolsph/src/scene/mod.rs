@@ -73,7 +73,7 @@ pub struct Scene {
     /// Buoyancy; absent: the density does not depend on the temperature.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buoyancy: Option<buoyancy::Parameters>,
-    /// The moving axis of the arc; absent: there is none.
+    /// The moving axis of the arc; absent: no arc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<source::Parameters>,
     /// Shear by the gas of the input `arc`; absent: none.
@@ -94,7 +94,7 @@ pub struct Scene {
     /// Droplets from the wire; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub droplets: Option<droplet::Parameters>,
-    /// Heat conduction and melting; absent: temperatures are of no account.
+    /// Heat conduction and melting; absent: no temperatures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat: Option<heat::Parameters>,
     /// Heat of the arc on the surface; absent: none.
