@@ -3,6 +3,7 @@
 mod edges;
 mod electrodes;
 mod gas;
+mod gas_file;
 mod granular;
 mod layout;
 mod matter;
@@ -25,7 +26,7 @@ use crate::scene::{
     self, Body, Current, ElectrodeAt, Film, Heat, Moving, Scene, SheathAt, SheathKeeps,
 };
 use electrodes::Electrodes;
-pub use gas::GasFile;
+pub use gas_file::GasFile;
 use layout::Layout;
 pub use preview::preview;
 

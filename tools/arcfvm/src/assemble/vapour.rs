@@ -1,7 +1,7 @@
 //! Iron vapour of the scene.
 
 use crate::assemble::electrodes::Electrodes;
-use crate::assemble::gas::GasFile;
+use crate::assemble::gas_file::GasFile;
 use crate::assemble::layout::Layout;
 use crate::assemble::{Faults, PLACE, cell_source, edges, value};
 use crate::case::{FlowCase, Ionisation, VapourCase};
