@@ -5,7 +5,7 @@ use crate::bed::granular::Granular;
 pub use crate::current::setup::{PotentialCase, PotentialEdge};
 use crate::curve::Surface;
 pub use crate::edges::Edges;
-pub use crate::flow::setup::{FlowCase, FlowEdge, Gravity};
+pub use crate::flow::setup::{Face, Faces, FlowCase, FlowEdge, Gravity, Inlets};
 use crate::grid::Grid;
 pub use crate::heat::setup::{
     Conduction, Drops, Electrons, FeedRule, HeatCase, HeatEdge, MovingPlate, Wire,
@@ -106,6 +106,20 @@ impl Case {
     pub fn clear_bed(&self) -> Option<&Granular> {
         let granular = self.bed()?;
         granular.melts_within.and(Some(granular))
+    }
+
+    /// Brings everything that follows from the materials of the cells to what those are now.
+    pub(crate) fn renew(&mut self) {
+        let (grid, material) = (&self.grid, &self.material);
+        if let Some(surfaces) = &mut self.surfaces {
+            surfaces.renew(grid, material);
+        }
+        if let Some(sheath) = self.potential.as_mut().and_then(|p| p.sheath.as_mut()) {
+            sheath.renew(grid, material);
+        }
+        if let Some(flow) = &mut self.flow {
+            flow.faces = Faces::new(grid, material, &flow.edges);
+        }
     }
 
     /// A cell with its position, for messages.

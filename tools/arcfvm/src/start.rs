@@ -11,9 +11,9 @@
 use artefact::{Reader, Table};
 use run::Failure;
 
-use crate::flow::field::{Face, Flow};
+use crate::case::Face;
+use crate::flow::field::{Carried, Flow};
 use crate::frames::role;
-use crate::grid::Grid;
 use crate::solver::Arc;
 
 /// The fields of another solution.
@@ -182,25 +182,30 @@ impl Arc {
     /// the velocities in the middle of its own cells, heights fastest, those at the faces follow from them.
     fn take_flow(&mut self, value: &dyn Fn(usize, f64, f64) -> f64, centres: Option<[&[f64]; 2]>) {
         self.take_properties();
-        if let Some(flowing) = &mut self.flowing {
-            let density = &self.properties.density;
+        if let Some((setup, flowing)) = self.case.flow.as_ref().zip(self.flowing.as_mut()) {
             let flow = &mut flowing.flow;
-            flow.take(&self.case.grid, density, value);
+            let gas = Carried {
+                grid: &self.case.grid,
+                setup,
+                density: &self.properties.density,
+            };
+            flow.take(gas, value);
             if let Some(centres) = centres {
-                unmix_all(&self.case.grid, flow, centres);
-                flow.carry(&self.case.grid, density);
+                unmix_all(gas, flow, centres);
+                flow.carry(gas);
             }
         }
     }
 }
 
 /// Velocities at faces from those in the middle of cells, row by row and column by column.
-fn unmix_all(grid: &Grid, flow: &mut Flow, [radial, axial]: [&[f64]; 2]) {
+fn unmix_all(gas: Carried<'_>, flow: &mut Flow, [radial, axial]: [&[f64]; 2]) {
+    let (grid, faces) = (gas.grid, &gas.setup.faces);
     for j in 0..grid.nz {
         let at = |i: usize| grid.radial_face(i, j);
         let centres: Vec<f64> = (0..grid.nr).map(|i| radial[i * grid.nz + j]).collect();
         let solved: Vec<bool> = (0..=grid.nr)
-            .map(|i| flow.radial_kind[at(i)] == Face::Solved)
+            .map(|i| faces.radial[at(i)] == Face::Solved)
             .collect();
         let mut line: Vec<f64> = (0..=grid.nr).map(|i| flow.radial[at(i)]).collect();
         unmix(&mut line, &solved, &centres);
@@ -212,7 +217,7 @@ fn unmix_all(grid: &Grid, flow: &mut Flow, [radial, axial]: [&[f64]; 2]) {
         let at = |j: usize| grid.axial_face(i, j);
         let centres = &axial[i * grid.nz..(i + 1) * grid.nz];
         let solved: Vec<bool> = (0..=grid.nz)
-            .map(|j| flow.axial_kind[at(j)] == Face::Solved)
+            .map(|j| faces.axial[at(j)] == Face::Solved)
             .collect();
         let mut line: Vec<f64> = (0..=grid.nz).map(|j| flow.axial[at(j)]).collect();
         unmix(&mut line, &solved, centres);

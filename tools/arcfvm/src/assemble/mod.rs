@@ -5,6 +5,7 @@ mod electrodes;
 mod gas;
 mod gas_file;
 mod granular;
+mod inlets;
 mod layout;
 mod matter;
 pub(crate) mod pool;
@@ -16,7 +17,8 @@ use run::property::{Arguments, Curve, Property};
 use run::{Failure, Fault};
 
 use crate::case::{
-    Case, Edges, FlowCase, Gravity, HeatCase, HeatEdge, MovingPlate, PotentialCase, Wire,
+    Case, Edges, Faces, FlowCase, Gravity, HeatCase, HeatEdge, Inlets, MovingPlate, PotentialCase,
+    Wire,
 };
 use crate::current::sheath::Sheath;
 use crate::grid::Grid;
@@ -110,7 +112,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     faults.none()?;
     let surfaces = surfaces(scene, &layout, &electrodes);
     let base = electrodes.base.and_then(|m| layout.base(m, &bodies));
-    Ok(Case {
+    let mut case = Case {
         material: layout.material,
         materials,
         start,
@@ -122,7 +124,12 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         wire,
         base,
         grid: layout.grid,
-    })
+    };
+    let inlets = inlets::inlets(&case);
+    if let Some(flow) = &mut case.flow {
+        flow.inlets = inlets;
+    }
+    Ok(case)
 }
 
 /// A property in r, z, T at one place.
@@ -220,6 +227,8 @@ fn flow(
             reference_density: density.map_or(0.0, |d| d.at(grid.rc[0], grid.zc[0], REFERENCE_K)),
         });
     FlowCase {
+        faces: Faces::new(grid, &layout.material, &edges),
+        inlets: Inlets::default(),
         edges,
         gravity,
         force,
@@ -317,6 +326,7 @@ fn surfaces(scene: &Scene, layout: &Layout, all: &Electrodes) -> Option<Surfaces
     let mut surfaces = Surfaces {
         electrodes,
         contacts: Vec::new(),
+        beside: Vec::new(),
         absorbed: heat.and_then(|h| h.absorbed_radiation),
         electrode_of: index,
         at: heat.map_or(ElectrodeAt::default(), |h| h.electrode_at),

@@ -63,24 +63,17 @@ impl Arc {
         self.reshape(&now);
     }
 
-    /// Brings everything that follows from the materials of the cells from what they were `before` to
-    /// what they are.
+    /// Takes the materials of the cells, which were others `before`.
     fn reshape(&mut self, before: &[usize]) {
-        let case = &mut self.case;
-        if let Some(surfaces) = &mut case.surfaces {
-            surfaces.renew(&case.grid, &case.material);
-        }
-        let sheath = case.potential.as_mut().and_then(|p| p.sheath.as_mut());
-        if let Some(sheath) = sheath {
-            sheath.renew(&case.grid, &case.material);
-        }
+        self.case.renew();
+        let case = &self.case;
         if let Some(heating) = &mut self.heating {
-            heating.energy.touch(case);
+            heating.energy.follow(case);
             heating.sources.look_again();
         }
         if let Some((setup, flowing)) = case.flow.as_ref().zip(self.flowing.as_mut()) {
             let was_gas = |k: usize| before[k] == GAS;
-            flowing.flow.reshape(case, setup, was_gas);
+            flowing.flow.follow(case, setup, was_gas);
         }
     }
 }

@@ -1,17 +1,8 @@
 //! Velocities, pressure and mass fluxes on the staggered grid.
 
-use crate::case::{Case, FlowCase, FlowEdge, HeatEdge, VapourEdge};
+use crate::case::{Case, Face, Faces, FlowCase};
 use crate::grid::Grid;
 use crate::material::GAS;
-
-/// Whether a face velocity is solved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Face {
-    /// Known, at a wall or inlet \[m/s\].
-    Fixed(f64),
-    /// Between two gas cells, or an open edge.
-    Solved,
-}
 
 /// Velocities, pressure and mass fluxes.
 #[derive(Debug, Clone)]
@@ -28,20 +19,15 @@ pub struct Flow {
     pub mass_axial: Vec<f64>,
     /// Mass that comes into each cell with vapour \[kg/s\]; empty where none does.
     pub mass_source: Vec<f64>,
-    /// What each radial face is.
-    pub radial_kind: Vec<Face>,
-    /// What each axial face is.
-    pub axial_kind: Vec<Face>,
-    /// Density at edge faces where gas of a known temperature enters \[kg/m3\].
-    inlet_density: Inlets,
 }
 
-/// Density of gas entering at the outer, bottom and top edges, if its temperature is given.
-#[derive(Debug, Clone, Default)]
-struct Inlets {
-    outer: Vec<Option<f64>>,
-    bottom: Vec<Option<f64>>,
-    top: Vec<Option<f64>>,
+/// The gas that velocities carry.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Carried<'a> {
+    pub(crate) grid: &'a Grid,
+    pub(crate) setup: &'a FlowCase,
+    /// Density of each cell \[kg/m3\].
+    pub(crate) density: &'a [f64],
 }
 
 impl Flow {
@@ -49,39 +35,40 @@ impl Flow {
     #[must_use]
     pub fn new(case: &Case, setup: &FlowCase) -> Self {
         let grid = &case.grid;
-        let [radial_kind, axial_kind] = kinds(case, setup);
         let adds = case.vapour.as_ref().is_some_and(|v| v.adds);
-        let start = |kinds: &[Face]| {
-            kinds
-                .iter()
-                .map(|k| if let Face::Fixed(v) = k { *v } else { 0.0 })
-                .collect::<Vec<_>>()
-        };
-        Self {
-            radial: start(&radial_kind),
-            axial: start(&axial_kind),
+        let mut flow = Self {
+            radial: vec![0.0; grid.radial_faces()],
+            axial: vec![0.0; grid.axial_faces()],
             pressure: vec![0.0; grid.len()],
             mass_radial: vec![0.0; grid.radial_faces()],
             mass_axial: vec![0.0; grid.axial_faces()],
             mass_source: vec![0.0; if adds { grid.len() } else { 0 }],
-            radial_kind,
-            axial_kind,
-            inlet_density: inlets(case),
+        };
+        flow.hold(setup);
+        flow
+    }
+
+    /// Gives fixed faces their velocity.
+    fn hold(&mut self, setup: &FlowCase) {
+        let Faces { radial, axial } = &setup.faces;
+        for (faces, velocity) in [(radial, &mut self.radial), (axial, &mut self.axial)] {
+            for (face, v) in faces.iter().zip(velocity) {
+                if let Face::Fixed(fixed) = face {
+                    *v = *fixed;
+                }
+            }
         }
     }
 
-    /// Takes the gas cells of `case` anew: faces that are walls now have their velocity, and cells that
+    /// Follows the gas cells of `case`: faces that are walls now have their velocity, and cells that
     /// were none before have the pressure of their neighbours.
-    pub(crate) fn reshape(
+    pub(crate) fn follow(
         &mut self,
         case: &Case,
         setup: &FlowCase,
         was_gas: impl Fn(usize) -> bool,
     ) {
-        let [radial_kind, axial_kind] = kinds(case, setup);
-        hold(&radial_kind, &mut self.radial);
-        hold(&axial_kind, &mut self.axial);
-        (self.radial_kind, self.axial_kind) = (radial_kind, axial_kind);
+        self.hold(setup);
         let grid = &case.grid;
         for k in (0..grid.len()).filter(|k| case.material[*k] == GAS && !was_gas(*k)) {
             self.pressure[k] = self.around(case, k, &was_gas);
@@ -105,12 +92,17 @@ impl Flow {
 
     /// Density carried through radial face `i` of row `j` \[kg/m3\]: that of the edge where it is known
     /// and the gas comes from there or its velocity is given, else that of the cell.
-    pub(crate) fn radial_density(&self, grid: &Grid, density: &[f64], i: usize, j: usize) -> f64 {
+    pub(crate) fn radial_density(&self, gas: Carried<'_>, i: usize, j: usize) -> f64 {
+        let Carried {
+            grid,
+            setup,
+            density,
+        } = gas;
         if i == grid.nr {
             let own = density[grid.cell(i - 1, j)];
             let face = grid.radial_face(i, j);
-            let known = self.radial[face] < 0.0 || self.radial_kind[face] != Face::Solved;
-            return self.inlet_density.outer[j].filter(|_| known).unwrap_or(own);
+            let known = self.radial[face] < 0.0 || setup.faces.radial[face] != Face::Solved;
+            return setup.inlets.outer[j].filter(|_| known).unwrap_or(own);
         }
         if i == 0 {
             return density[grid.cell(0, j)];
@@ -119,18 +111,24 @@ impl Flow {
     }
 
     /// Density carried through axial face `j` of column `i` \[kg/m3\].
-    pub(crate) fn axial_density(&self, grid: &Grid, density: &[f64], i: usize, j: usize) -> f64 {
-        let speed = self.axial[grid.axial_face(i, j)];
-        let fixed = self.axial_kind[grid.axial_face(i, j)] != Face::Solved;
+    pub(crate) fn axial_density(&self, gas: Carried<'_>, i: usize, j: usize) -> f64 {
+        let Carried {
+            grid,
+            setup,
+            density,
+        } = gas;
+        let face = grid.axial_face(i, j);
+        let speed = self.axial[face];
+        let fixed = setup.faces.axial[face] != Face::Solved;
         if j == 0 {
             let own = density[grid.cell(i, 0)];
-            return self.inlet_density.bottom[i]
+            return setup.inlets.bottom[i]
                 .filter(|_| fixed || speed > 0.0)
                 .unwrap_or(own);
         }
         if j == grid.nz {
             let own = density[grid.cell(i, j - 1)];
-            return self.inlet_density.top[i]
+            return setup.inlets.top[i]
                 .filter(|_| fixed || speed < 0.0)
                 .unwrap_or(own);
         }
@@ -191,13 +189,13 @@ impl Flow {
         }
         for [radial, axial] in [lorentz, given].into_iter().flatten() {
             for (k, force) in radial.iter().enumerate() {
-                if self.radial_kind[k] == Face::Solved {
+                if setup.faces.radial[k] == Face::Solved {
                     let (i, j) = (k % (grid.nr + 1), k / (grid.nr + 1));
                     sum += force.abs() * grid.volume(i.min(grid.nr - 1), j);
                 }
             }
             for (k, force) in axial.iter().enumerate() {
-                if self.axial_kind[k] == Face::Solved {
+                if setup.faces.axial[k] == Face::Solved {
                     let (i, j) = (k % grid.nr, k / grid.nr);
                     sum += force.abs() * grid.volume(i, j.min(grid.nz - 1));
                 }
@@ -207,27 +205,23 @@ impl Flow {
     }
 
     /// Takes what is solved from a function of which (radial, axial velocity, pressure) and place.
-    pub(crate) fn take(
-        &mut self,
-        grid: &Grid,
-        density: &[f64],
-        value: &dyn Fn(usize, f64, f64) -> f64,
-    ) {
+    pub(crate) fn take(&mut self, gas: Carried<'_>, value: &dyn Fn(usize, f64, f64) -> f64) {
+        let (grid, faces) = (gas.grid, &gas.setup.faces);
         for (face, u) in self.radial.iter_mut().enumerate() {
-            if self.radial_kind[face] == Face::Solved {
+            if faces.radial[face] == Face::Solved {
                 let (i, j) = (face % (grid.nr + 1), face / (grid.nr + 1));
                 *u = value(0, grid.rf[i], grid.zc[j]);
             }
         }
         for (face, w) in self.axial.iter_mut().enumerate() {
-            if self.axial_kind[face] == Face::Solved {
+            if faces.axial[face] == Face::Solved {
                 *w = value(1, grid.rc[face % grid.nr], grid.zf[face / grid.nr]);
             }
         }
         for (k, p) in self.pressure.iter_mut().enumerate() {
             *p = value(2, grid.rc[k % grid.nr], grid.zc[k / grid.nr]);
         }
-        self.carry(grid, density);
+        self.carry(gas);
     }
 
     /// True if no speed is above `most` \[m/s\] and each is a number.
@@ -237,140 +231,37 @@ impl Flow {
     }
 
     /// Slows what is solved as a whole, so that no speed is above `most` \[m/s\]; fluxes that balance do so still.
-    pub(crate) fn slow(&mut self, most: f64) {
+    pub(crate) fn slow(&mut self, setup: &FlowCase, most: f64) {
+        let Faces { radial, axial } = &setup.faces;
         let speeds = self.radial.iter().chain(&self.axial);
         let part = most / speeds.fold(most, |fastest, u| fastest.max(u.abs()));
-        for (kinds, velocity, mass) in [
-            (&self.radial_kind, &mut self.radial, &mut self.mass_radial),
-            (&self.axial_kind, &mut self.axial, &mut self.mass_axial),
+        for (faces, velocity, mass) in [
+            (radial, &mut self.radial, &mut self.mass_radial),
+            (axial, &mut self.axial, &mut self.mass_axial),
         ] {
-            let faces = kinds.iter().zip(velocity).zip(mass);
-            for ((_, u), m) in faces.filter(|((kind, _), _)| **kind == Face::Solved) {
+            let faces = faces.iter().zip(velocity).zip(mass);
+            for ((_, u), m) in faces.filter(|((face, _), _)| **face == Face::Solved) {
                 (*u, *m) = (part * *u, part * *m);
             }
         }
     }
 
     /// Face mass fluxes from velocities and density.
-    pub(crate) fn carry(&mut self, grid: &Grid, density: &[f64]) {
+    pub(crate) fn carry(&mut self, gas: Carried<'_>) {
+        let grid = gas.grid;
         for j in 0..grid.nz {
             for i in 0..=grid.nr {
                 let face = grid.radial_face(i, j);
-                let rho = self.radial_density(grid, density, i, j);
+                let rho = self.radial_density(gas, i, j);
                 self.mass_radial[face] = rho * grid.area(i, j) * self.radial[face];
             }
         }
         for j in 0..=grid.nz {
             for i in 0..grid.nr {
                 let face = grid.axial_face(i, j);
-                let rho = self.axial_density(grid, density, i, j);
+                let rho = self.axial_density(gas, i, j);
                 self.mass_axial[face] = rho * grid.ring[i] * self.axial[face];
             }
         }
-    }
-}
-
-/// Gives fixed faces their velocity.
-fn hold(kinds: &[Face], velocity: &mut [f64]) {
-    for (kind, v) in kinds.iter().zip(velocity) {
-        if let Face::Fixed(fixed) = kind {
-            *v = *fixed;
-        }
-    }
-}
-
-/// What each radial and each axial face is.
-fn kinds(case: &Case, setup: &FlowCase) -> [Vec<Face>; 2] {
-    let grid = &case.grid;
-    let fixed = |edge: FlowEdge, axis: usize| match edge {
-        FlowEdge::Velocity(v) => Face::Fixed(v[axis]),
-        FlowEdge::Open(_) => Face::Solved,
-        FlowEdge::Slip => Face::Fixed(0.0),
-    };
-    let mut radial_kind = vec![Face::Fixed(0.0); grid.radial_faces()];
-    for j in 0..grid.nz {
-        for i in 1..grid.nr {
-            if case.is_gas(i - 1, j) && case.is_gas(i, j) {
-                radial_kind[grid.radial_face(i, j)] = Face::Solved;
-            }
-        }
-        if case.is_gas(grid.nr - 1, j) {
-            radial_kind[grid.radial_face(grid.nr, j)] = fixed(setup.edges.outer[j], 0);
-        }
-        if case.is_gas(0, j) && grid.rf[0] > 0.0 {
-            radial_kind[grid.radial_face(0, j)] = fixed(setup.edges.inner[j], 0);
-        }
-    }
-    let mut axial_kind = vec![Face::Fixed(0.0); grid.axial_faces()];
-    for i in 0..grid.nr {
-        for j in 1..grid.nz {
-            if case.is_gas(i, j - 1) && case.is_gas(i, j) {
-                axial_kind[grid.axial_face(i, j)] = Face::Solved;
-            }
-        }
-        if case.is_gas(i, 0) {
-            axial_kind[grid.axial_face(i, 0)] = fixed(setup.edges.bottom[i], 1);
-        }
-        if case.is_gas(i, grid.nz - 1) {
-            axial_kind[grid.axial_face(i, grid.nz)] = fixed(setup.edges.top[i], 1);
-        }
-    }
-    [radial_kind, axial_kind]
-}
-
-/// An edge face that gas may enter through.
-struct Entrance {
-    cell: usize,
-    place: [f64; 2],
-    heat: Option<HeatEdge>,
-    iron: Option<VapourEdge>,
-}
-
-impl Entrance {
-    /// Density of the gas that enters, where its temperature and its iron are known \[kg/m3\].
-    fn density(&self, case: &Case) -> Option<f64> {
-        let t = match (self.heat, self.iron) {
-            (Some(HeatEdge::Temperature(t)), _) => t,
-            // Vapour at temperatures that are not solved.
-            (None, Some(_)) => case.start[self.cell],
-            _ => return None,
-        };
-        let y = match self.iron {
-            None => 0.0,
-            Some(VapourEdge::Fraction(y)) => y,
-            Some(VapourEdge::Sealed) => return None,
-        };
-        let ([r, z], law) = (self.place, case.materials[GAS].density.as_ref());
-        law.map(|l| l.within(r, z, t, y))
-    }
-}
-
-/// Densities of the gas at edges where its state is given.
-fn inlets(case: &Case) -> Inlets {
-    let grid = &case.grid;
-    let heat = case.heat.as_ref().map(|h| &h.edges);
-    let iron = case.vapour.as_ref().map(|v| &v.edges);
-    let outer = |j: usize| Entrance {
-        cell: grid.cell(grid.nr - 1, j),
-        place: [grid.rf[grid.nr], grid.zc[j]],
-        heat: heat.map(|e| e.outer[j]),
-        iron: iron.map(|e| e.outer[j]),
-    };
-    let bottom = |i: usize| Entrance {
-        cell: grid.cell(i, 0),
-        place: [grid.rc[i], grid.zf[0]],
-        heat: heat.map(|e| e.bottom[i]),
-        iron: iron.map(|e| e.bottom[i]),
-    };
-    let top = |i: usize| Entrance {
-        cell: grid.cell(i, grid.nz - 1),
-        place: [grid.rc[i], grid.zf[grid.nz]],
-        heat: heat.map(|e| e.top[i]),
-        iron: iron.map(|e| e.top[i]),
-    };
-    Inlets {
-        outer: (0..grid.nz).map(|j| outer(j).density(case)).collect(),
-        bottom: (0..grid.nr).map(|i| bottom(i).density(case)).collect(),
-        top: (0..grid.nr).map(|i| top(i).density(case)).collect(),
     }
 }

@@ -8,10 +8,10 @@ use std::f64::consts::PI;
 
 use relax::Coefficients;
 
-use crate::case::{Case, FlowCase, FlowEdge};
+use crate::case::{Case, Face, FlowCase, FlowEdge};
 use crate::equation::transport::{hybrid, unbalanced};
 use crate::flow::edge_shear::Rows;
-use crate::flow::field::{Face, Flow};
+use crate::flow::field::Flow;
 use crate::flow::momentum_side::{Across, Half, Side, corner_viscosity};
 
 /// What the axial momentum equation reads.
@@ -36,7 +36,7 @@ impl AxialMomentum<'_> {
     pub fn equation(&self, i: usize, j: usize) -> Coefficients {
         let (grid, flow) = (&self.case.grid, self.flow);
         let face = grid.axial_face(i, j);
-        if let Face::Fixed(value) = flow.axial_kind[face] {
+        if let Face::Fixed(value) = self.setup.faces.axial[face] {
             return Coefficients::fixed(value);
         }
         let mut c = Coefficients::default();

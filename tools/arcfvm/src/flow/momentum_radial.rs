@@ -10,10 +10,10 @@ use std::f64::consts::PI;
 
 use relax::Coefficients;
 
-use crate::case::{Case, FlowCase, FlowEdge};
+use crate::case::{Case, Face, FlowCase, FlowEdge};
 use crate::equation::transport::{hybrid, unbalanced};
 use crate::flow::edge_shear::Rows;
-use crate::flow::field::{Face, Flow};
+use crate::flow::field::Flow;
 use crate::flow::momentum_side::{Across, Half, Side, corner_viscosity};
 
 /// What the radial momentum equation reads.
@@ -36,7 +36,7 @@ impl RadialMomentum<'_> {
     pub fn equation(&self, i: usize, j: usize) -> Coefficients {
         let (grid, flow) = (&self.case.grid, self.flow);
         let face = grid.radial_face(i, j);
-        if let Face::Fixed(value) = flow.radial_kind[face] {
+        if let Face::Fixed(value) = self.setup.faces.radial[face] {
             return Coefficients::fixed(value);
         }
         let mut c = Coefficients::default();

@@ -7,9 +7,9 @@
 
 use relax::{Coefficients, FivePoint, Outcome};
 
-use crate::case::{Case, FlowCase};
+use crate::case::{Case, Face, FlowCase};
 use crate::equation::{Solver, Unsolved};
-use crate::flow::field::{Face, Flow};
+use crate::flow::field::{Carried, Flow};
 use crate::flow::momentum_axial::AxialMomentum;
 use crate::flow::momentum_radial::RadialMomentum;
 use crate::grid::Grid;
@@ -147,10 +147,15 @@ impl FlowSolver {
         self.momentum_solver[1]
             .solve(&self.axial, &mut flow.axial)
             .map_err(named("axial momentum"))?;
-        flow.carry(&case.grid, density);
-        self.slopes(case, flow);
+        let gas = Carried {
+            grid: &case.grid,
+            setup,
+            density,
+        };
+        flow.carry(gas);
+        self.slopes(gas);
         let (mass, correction) = self
-            .correct(case, setup, flow, density)
+            .correct(case, gas, flow)
             .map_err(named("pressure correction"))?;
         Ok(FlowResidual {
             force,
@@ -161,8 +166,8 @@ impl FlowSolver {
     }
 
     /// `du` of eqs 3.74 and 3.76 for every face.
-    fn slopes(&mut self, case: &Case, flow: &Flow) {
-        let grid = &case.grid;
+    fn slopes(&mut self, gas: Carried<'_>) {
+        let (grid, faces) = (gas.grid, &gas.setup.faces);
         let simplec = self.relaxation.coupling == Coupling::Simplec;
         let slope = |a: &FivePoint, k: usize, area: f64| {
             let sides = a.east[k] + a.west[k] + a.north[k] + a.south[k];
@@ -171,7 +176,7 @@ impl FlowSolver {
         for j in 0..grid.nz {
             for i in 0..=grid.nr {
                 let k = grid.radial_face(i, j);
-                let free = flow.radial_kind[k] == Face::Solved;
+                let free = faces.radial[k] == Face::Solved;
                 self.radial_slope[k] = if free {
                     slope(&self.radial, k, grid.area(i, j))
                 } else {
@@ -182,7 +187,7 @@ impl FlowSolver {
         for j in 0..=grid.nz {
             for i in 0..grid.nr {
                 let k = grid.axial_face(i, j);
-                let free = flow.axial_kind[k] == Face::Solved;
+                let free = faces.axial[k] == Face::Solved;
                 self.axial_slope[k] = if free {
                     slope(&self.axial, k, grid.ring[i])
                 } else {
@@ -196,18 +201,17 @@ impl FlowSolver {
     fn correct(
         &mut self,
         case: &Case,
-        setup: &FlowCase,
+        gas: Carried<'_>,
         flow: &mut Flow,
-        density: &[f64],
     ) -> Result<(Unbalanced, Outcome), Unsolved> {
-        let grid = &case.grid;
+        let (grid, closed) = (gas.grid, gas.setup.closed);
         let east = |i: usize, j: usize| {
             let slope = self.radial_slope[grid.radial_face(i, j)];
-            slope * grid.area(i, j) * flow.radial_density(grid, density, i, j)
+            slope * grid.area(i, j) * flow.radial_density(gas, i, j)
         };
         let north = |i: usize, j: usize| {
             let slope = self.axial_slope[grid.axial_face(i, j)];
-            slope * grid.ring[i] * flow.axial_density(grid, density, i, j)
+            slope * grid.ring[i] * flow.axial_density(gas, i, j)
         };
         self.correction.fill(|i, j| {
             if !case.is_gas(i, j) {
@@ -228,7 +232,7 @@ impl FlowSolver {
                 source: if centre > 0.0 { source } else { 0.0 },
             }
         });
-        if setup.closed {
+        if closed {
             balance(case, &mut self.correction);
         }
         let mass = Unbalanced::of(&self.correction.source, grid.nr);
@@ -236,15 +240,15 @@ impl FlowSolver {
         let outcome = self
             .pressure_solver
             .solve(&self.correction, &mut self.change)?;
-        self.apply(case, flow, density);
-        if setup.closed {
+        self.apply(gas, flow);
+        if closed {
             centre_pressure(case, &mut flow.pressure);
         }
         Ok((mass, outcome))
     }
 
-    fn apply(&self, case: &Case, flow: &mut Flow, density: &[f64]) {
-        let grid = &case.grid;
+    fn apply(&self, gas: Carried<'_>, flow: &mut Flow) {
+        let grid = gas.grid;
         let at = |inside: bool, k: usize| if inside { self.change[k] } else { 0.0 };
         for j in 0..grid.nz {
             for i in 1..=grid.nr {
@@ -252,7 +256,7 @@ impl FlowSolver {
                 let west = at(true, grid.cell(i - 1, j));
                 let east = at(i < grid.nr, grid.cell(i.min(grid.nr - 1), j));
                 let step = self.radial_slope[face] * (west - east);
-                let rho = flow.radial_density(grid, density, i, j);
+                let rho = flow.radial_density(gas, i, j);
                 flow.radial[face] += step;
                 flow.mass_radial[face] += rho * grid.area(i, j) * step;
             }
@@ -263,7 +267,7 @@ impl FlowSolver {
                 let south = at(j > 0, grid.cell(i, j.saturating_sub(1)));
                 let north = at(j < grid.nz, grid.cell(i, j.min(grid.nz - 1)));
                 let step = self.axial_slope[face] * (south - north);
-                let rho = flow.axial_density(grid, density, i, j);
+                let rho = flow.axial_density(gas, i, j);
                 flow.axial[face] += step;
                 flow.mass_axial[face] += rho * grid.ring[i] * step;
             }

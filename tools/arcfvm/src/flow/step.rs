@@ -43,7 +43,7 @@ impl Arc {
             .pass(case, setup, flow, reads)
             .map_err(|(name, e)| Error::solver(name, *iteration, case, &e))?;
         if *iteration <= FIRST && !flow.within(ABSURD_M_S) {
-            flow.slow(FIRST_M_S);
+            flow.slow(setup, FIRST_M_S);
         }
         check(case, "velocity", "m/s", *iteration, &flow.axial, ABSURD_M_S)?;
         let FlowResidual {

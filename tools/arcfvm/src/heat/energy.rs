@@ -58,7 +58,6 @@ pub struct Energy {
     pub(crate) electrons: Option<Drift>,
     /// Surfaces of electrodes, where they have temperatures of their own.
     pub(crate) skins: Vec<Skin>,
-    on_electrode: Vec<bool>,
     /// Calmness of each cell, times the under-relaxation: falls where changes alternate.
     pub(crate) calm: Vec<f64>,
     /// Last change of each temperature \[K\].
@@ -98,15 +97,6 @@ fn capacity(here: (f64, f64), there: (f64, f64), slope: impl Fn() -> f64) -> f64
     if dt.abs() > 1e-3 { dh / dt } else { slope() }
 }
 
-/// Gas cells that touch an electrode.
-fn on_electrode(case: &Case) -> Vec<bool> {
-    let mut on_electrode = vec![false; case.grid.len()];
-    for contact in case.contacts() {
-        on_electrode[contact.gas] = true;
-    }
-    on_electrode
-}
-
 impl Energy {
     /// Starts from `case.start`.
     #[must_use]
@@ -121,7 +111,6 @@ impl Energy {
                 .and_then(|h| h.electrons)
                 .map(|_| Drift::new(case)),
             skins: Skin::all(case.surfaces.as_ref(), &[], &case.start),
-            on_electrode: on_electrode(case),
             calm: vec![1.0; grid.len()],
             last: vec![0.0; grid.len()],
             alternations: vec![0; grid.len()],
@@ -137,10 +126,9 @@ impl Energy {
         }
     }
 
-    /// Takes the surfaces of `case` anew.
-    pub(crate) fn touch(&mut self, case: &Case) {
+    /// Follows the surfaces of `case`: those that were there before keep their temperatures.
+    pub(crate) fn follow(&mut self, case: &Case) {
         self.skins = Skin::all(case.surfaces.as_ref(), &self.skins, &self.temperature);
-        self.on_electrode = on_electrode(case);
     }
 
     /// Heat flux between the middles of gas and metal of a contact \[W/m2\].
@@ -285,7 +273,8 @@ impl Energy {
     /// the film's conductance being taken from the iteration before.
     fn relaxation(&self, case: &Case, k: usize, gas: f64) -> f64 {
         if case.material[k] == GAS {
-            return self.calm[k] * if self.on_electrode[k] { 0.5 * gas } else { gas };
+            let film = case.surfaces.as_ref().is_some_and(|s| s.beside[k]);
+            return self.calm[k] * if film { 0.5 * gas } else { gas };
         }
         let fed = case
             .wire

@@ -69,6 +69,8 @@ pub struct Surfaces {
     pub electrodes: Vec<Electrode>,
     /// Faces, rows first.
     pub contacts: Vec<Contact>,
+    /// Whether a cell is gas that touches an electrode, `[nr nz]`.
+    pub beside: Vec<bool>,
     /// Part of all radiation that electrodes which absorb take up.
     pub absorbed: Option<f64>,
     /// The electrode that each material is.
@@ -87,6 +89,11 @@ impl Surfaces {
     /// Takes the faces of `material` anew.
     pub fn renew(&mut self, grid: &Grid, material: &[usize]) {
         self.contacts = contacts(grid, material, |m| self.electrode_of[m]);
+        self.beside.clear();
+        self.beside.resize(grid.len(), false);
+        for contact in &self.contacts {
+            self.beside[contact.gas] = true;
+        }
         self.layers.clear();
         if let Some(depth) = self.film_depth {
             let layers = self.contacts.iter();
