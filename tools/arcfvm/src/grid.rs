@@ -113,6 +113,15 @@ fn graded(a: f64, b: f64, spacing: &Spacing, faces: &mut Vec<f64>) {
     }
 }
 
+/// A face of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FaceIndex {
+    /// Radial face.
+    Radial(usize),
+    /// Axial face.
+    Axial(usize),
+}
+
 /// Faces, centres and sizes of all cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {

@@ -184,29 +184,8 @@ impl Arc {
         self.take_properties();
         self.settle_vapour();
         self.take_sources();
-        let (heat, heating) = self.case.heat.as_ref().zip(self.heating.as_ref())?;
-        let Heating { energy, sources } = heating;
-        let mut balance = Balance::new(
-            &self.case,
-            heat,
-            energy,
-            &self.properties,
-            sources,
-            self.feed,
-        );
-        if let Some(electric) = &self.electric {
-            let joule = &electric.potential.joule;
-            for (n, one) in balance.electrodes.iter_mut().enumerate() {
-                let contact = self.case.contacts().iter().find(|c| c.electrode == n);
-                let material = contact.map(|c| self.case.material[c.metal]);
-                let own = joule.iter().zip(&self.case.material);
-                one.joule = own
-                    .filter(|(_, m)| Some(**m) == material)
-                    .map(|(j, _)| j)
-                    .sum();
-            }
-        }
-        Some(balance)
+        let (Heating { energy, sources }, around) = self.heating_within()?;
+        Some(Balance::new(around, energy, sources))
     }
 
     pub(crate) fn take_properties(&mut self) {

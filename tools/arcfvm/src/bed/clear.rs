@@ -12,8 +12,7 @@
 
 use crate::case::Case;
 use crate::equation::faces::FaceOf;
-use crate::grid::Grid;
-use crate::heat::FaceIndex;
+use crate::grid::{FaceIndex, Grid};
 
 /// How far past an end of its melting range a cell goes at once, as part of half of the range.
 const PAST: f64 = 0.1;

@@ -10,8 +10,8 @@
 //! of q, l being the length of absorption; what is left where the bed ends stays in its last cell. Grains scatter light
 //! and shine on each other, so that l is some grains long whatever they are made of. Neglected: what the wall shines back.
 
-use crate::grid::Grid;
-use crate::heat::{Contact, FaceIndex, contacts, radiation};
+use crate::grid::{FaceIndex, Grid};
+use crate::heat::{Contact, contacts, radiation};
 
 /// Part of all that the cells of `own` take up that each cell does; nothing where nothing shines or is lit.
 #[must_use]

@@ -1,8 +1,7 @@
 //! The four faces of a cell as a transported quantity sees them.
 
 use crate::edges::Side;
-use crate::grid::Grid;
-use crate::heat::FaceIndex;
+use crate::grid::{FaceIndex, Grid};
 
 /// What lies beyond a face.
 #[derive(Debug, Clone, Copy)]
@@ -26,41 +25,41 @@ pub(crate) struct FaceOf {
 
 /// Mass fluxes and conductances at the faces of the grid.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Carriers<'a> {
-    /// Mass flux through radial faces, outward \[kg/s\].
-    pub(crate) mass_radial: &'a [f64],
-    /// Mass flux through axial faces, upward \[kg/s\].
-    pub(crate) mass_axial: &'a [f64],
+pub(crate) struct Carriers<'a, M> {
+    /// Mass flux through a face, outward or upward \[kg/s\].
+    pub(crate) mass: M,
     /// Conductance of radial faces.
     pub(crate) radial: &'a [f64],
     /// Conductance of axial faces.
     pub(crate) axial: &'a [f64],
 }
 
-impl Carriers<'_> {
+impl<M: Fn(FaceIndex) -> f64> Carriers<'_, M> {
     /// East, west, north and south of cell `(i, j)`.
     pub(crate) fn faces(&self, grid: &Grid, i: usize, j: usize) -> [FaceOf; 4] {
         let own = grid.cell(i, j);
         let radial = |at: usize, sign: f64, beyond: Beyond| {
             let face = grid.radial_face(at, j);
+            let index = FaceIndex::Radial(face);
             FaceOf {
                 own,
                 beyond,
-                at: FaceIndex::Radial(face),
+                at: index,
                 before: sign < 0.0,
-                mass_out: sign * self.mass_radial[face],
+                mass_out: sign * (self.mass)(index),
                 conductance: self.radial[face],
                 area: grid.area(at, j),
             }
         };
         let axial = |at: usize, sign: f64, beyond: Beyond| {
             let face = grid.axial_face(i, at);
+            let index = FaceIndex::Axial(face);
             FaceOf {
                 own,
                 beyond,
-                at: FaceIndex::Axial(face),
+                at: index,
                 before: sign < 0.0,
-                mass_out: sign * self.mass_axial[face],
+                mass_out: sign * (self.mass)(index),
                 conductance: self.axial[face],
                 area: grid.ring[i],
             }

@@ -1,7 +1,7 @@
 //! Velocities, pressure and mass fluxes on the staggered grid.
 
 use crate::case::{Case, Face, Faces, FlowCase};
-use crate::grid::Grid;
+use crate::grid::{FaceIndex, Grid};
 use crate::material::GAS;
 
 /// Velocities, pressure and mass fluxes.
@@ -133,6 +133,15 @@ impl Flow {
                 .unwrap_or(own);
         }
         0.5 * (density[grid.cell(i, j - 1)] + density[grid.cell(i, j)])
+    }
+
+    /// Mass flux through a face, outward or upward \[kg/s\].
+    #[inline]
+    pub(crate) fn mass(&self, face: FaceIndex) -> f64 {
+        match face {
+            FaceIndex::Radial(at) => self.mass_radial[at],
+            FaceIndex::Axial(at) => self.mass_axial[at],
+        }
     }
 
     /// Mass that leaves cell `(i, j)` more than enters it \[kg/s\].

@@ -34,7 +34,7 @@ impl Reads<'_> {
     ) -> impl Fn(f64) -> [f64; 2] + 's {
         let contact = &surfaces.contacts[n];
         let electrode = self.electrode(surfaces, n);
-        let current = self.potential.map_or(0.0, |p| current(p, contact));
+        let current = self.around.potential.map_or(0.0, |p| current(p, contact));
         move |t| {
             let gas = edge.unwrap_or_else(|| self.gas_beside(surfaces, n, t));
             let [vapour, steeper] = self.vapour_at(contact, t);
@@ -55,16 +55,16 @@ impl Reads<'_> {
 
     /// Heat that vapour brings a surface at `t` \[K\], and how it falls with t.
     fn vapour_at(&self, contact: &Contact, t: f64) -> [f64; 2] {
-        let Some(of) = self.vapour else {
+        let Some(of) = self.around.vapour else {
             return [0.0; 2];
         };
         let passed = of
             .vapour
-            .pass(self.case, of.setup, contact, t, self.temperature);
+            .pass(self.around.case, of.setup, contact, t, self.temperature);
         let carried = self.carried(of, contact, &passed, t);
         let slope = of
             .vapour
-            .slope(self.case, of.setup, contact, t, self.temperature);
+            .slope(self.around.case, of.setup, contact, t, self.temperature);
         [carried.map_or(0.0, |c| c.metal), slope]
     }
 }

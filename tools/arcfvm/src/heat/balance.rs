@@ -1,9 +1,9 @@
 //! The heat balance: what enters, what leaves, part by part.
 
-use crate::case::{Case, HeatCase};
+use crate::case::Case;
 use crate::heat::energy::Energy;
+use crate::heat::reads::Around;
 use crate::heat::sources::Sources;
-use crate::properties::Properties;
 
 /// Heat of one electrode by part \[W\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -76,32 +76,30 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// Adds up the present state; `speed` is that of the wire \[m/s\].
+    /// Adds up the present state.
     #[must_use]
-    pub fn new(
-        case: &Case,
-        heat: &HeatCase,
-        energy: &Energy,
-        properties: &Properties,
-        sources: &Sources,
-        speed: f64,
-    ) -> Self {
-        let through = energy.edges(case, heat, properties);
+    pub fn new(around: Around<'_>, energy: &Energy, sources: &Sources) -> Self {
+        let (case, enthalpy) = (around.case, &around.properties.enthalpy);
+        let through = energy.edges(around);
         let drops = case
             .wire
-            .map_or(0.0, |w| w.drops(case, speed, &properties.enthalpy));
+            .map_or(0.0, |w| w.drops(case, around.feed, enthalpy));
+        let mut electrodes = electrodes(case, energy, sources);
+        for (n, one) in electrodes.iter_mut().enumerate() {
+            one.joule = joule(around, n);
+        }
         Self {
             joule: sources.joule,
             given: sources.given,
             radiation: -sources.emission.iter().sum::<f64>(),
-            electrodes: electrodes(case, energy, sources),
+            electrodes,
             plate: -sources.plates.iter().sum::<f64>(),
             granular: sources.granular,
             vapour: sources.vapour,
             edges: through.conduction,
             flow: through.flow,
             drops: -drops,
-            electrons: energy.carried(case, heat),
+            electrons: energy.carried(around),
         }
     }
 
@@ -116,6 +114,19 @@ impl Balance {
         let known = inner + self.plate + self.edges + self.flow + self.drops;
         known + self.electrons.unwrap_or(0.0)
     }
+}
+
+/// Joule heat within the metal of an electrode \[W\].
+fn joule(around: Around<'_>, electrode: usize) -> f64 {
+    let (Some(potential), case) = (around.potential, around.case) else {
+        return 0.0;
+    };
+    let mut contacts = case.contacts().iter();
+    let contact = contacts.find(|c| c.electrode == electrode);
+    let material = contact.map(|c| case.material[c.metal]);
+    let cells = potential.joule.iter().zip(&case.material);
+    let own = cells.filter(|(_, m)| Some(**m) == material);
+    own.map(|(joule, _)| joule).sum()
 }
 
 /// Heat of every electrode without its Joule heat.

@@ -11,10 +11,9 @@
 //! Bodies hold no such enthalpy: what crosses their surfaces and the edges is an item of the balance.
 //! Komen (2019), eqs 3.6 and 5.8, has no such term.
 
-use crate::case::Case;
-use crate::current::potential::Potential;
 use crate::equation::faces::{Beyond, FaceOf};
-use crate::heat::FaceIndex;
+use crate::grid::FaceIndex;
+use crate::heat::reads::Around;
 use crate::material::GAS;
 
 /// Enthalpy of an electron over its charge and temperature, 5/2 k/e \[V/K\].
@@ -60,67 +59,53 @@ impl Carried for Nothing {
     }
 }
 
-/// Electrons.
-#[derive(Debug, Clone)]
-pub(crate) struct Drift {
-    /// Heat through radial faces, outward \[W/K\].
-    radial: Vec<f64>,
-    /// Heat through axial faces, upward \[W/K\].
-    axial: Vec<f64>,
-    /// Cells of gas.
-    gas: Vec<bool>,
+/// Electrons of a current.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Drift<'a> {
+    /// Current through radial faces, outward \[A\].
+    radial: &'a [f64],
+    /// Current through axial faces, upward \[A\].
+    axial: &'a [f64],
+    /// Material of each cell.
+    material: &'a [usize],
 }
 
-impl Drift {
-    /// Electrons at rest.
-    pub(crate) fn new(case: &Case) -> Self {
-        let grid = &case.grid;
-        Self {
-            radial: vec![0.0; grid.radial_faces()],
-            axial: vec![0.0; grid.axial_faces()],
-            gas: vec![false; grid.len()],
-        }
-    }
-
-    /// Takes the electrons of a current.
-    pub(crate) fn follow(&mut self, case: &Case, potential: &Potential) {
-        for (gas, material) in self.gas.iter_mut().zip(&case.material) {
-            *gas = *material == GAS;
-        }
-        let currents = [&potential.radial, &potential.axial];
-        for (carried, current) in [&mut self.radial, &mut self.axial]
-            .into_iter()
-            .zip(currents)
-        {
-            for (carried, current) in carried.iter_mut().zip(current) {
-                *carried = -ENTHALPY * current;
-            }
-        }
+impl<'a> Drift<'a> {
+    /// Those of the present current, where they carry heat.
+    pub(crate) fn of(around: Around<'a>) -> Option<Self> {
+        around.heat.electrons?;
+        let potential = around.potential?;
+        Some(Self {
+            radial: &potential.radial,
+            axial: &potential.axial,
+            material: &around.case.material,
+        })
     }
 
     /// Whether there is gas on this side of a face and a body on the other.
     pub(crate) fn at_body(&self, face: &FaceOf) -> bool {
-        matches!(face.beyond, Beyond::Cell(n) if self.gas[face.own] && !self.gas[n])
+        matches!(face.beyond, Beyond::Cell(n) if self.in_gas(face.own) && !self.in_gas(n))
     }
 
     /// Heat through a face, outward or upward \[W/K\].
     pub(crate) fn through(&self, face: FaceIndex) -> f64 {
-        match face {
-            FaceIndex::Radial(at) => self.radial[at],
-            FaceIndex::Axial(at) => self.axial[at],
-        }
+        -ENTHALPY
+            * match face {
+                FaceIndex::Radial(at) => self.radial[at],
+                FaceIndex::Axial(at) => self.axial[at],
+            }
     }
 
     /// Whether a cell is gas.
     pub(crate) fn in_gas(&self, k: usize) -> bool {
-        self.gas[k]
+        self.material[k] == GAS
     }
 }
 
-impl Carried for Drift {
+impl Carried for Drift<'_> {
     fn out(&self, face: &FaceOf) -> f64 {
         let outward = self.through(face.at);
-        match (self.gas[face.own], face.before) {
+        match (self.in_gas(face.own), face.before) {
             (false, _) => 0.0,
             (true, true) => -outward,
             (true, false) => outward,
@@ -167,12 +152,11 @@ mod tests {
     fn what_leaves_one_cell_enters_the_next() {
         let (capacity, [t, beyond]) = (2.0, [900.0, 400.0]);
         for (electrons, mass) in [(0.1, 0.0), (0.1, 0.07), (-2.0, 0.07), (5.0, -0.2)] {
-            let drift = |gas| Drift {
-                radial: Vec::new(),
-                axial: vec![electrons],
-                gas,
+            let both = Drift {
+                radial: &[],
+                axial: &[-electrons / ENTHALPY],
+                material: &[GAS; 2],
             };
-            let both = drift(vec![true, true]);
             let [a, b] = [false, true].map(|before| {
                 let face = face(mass, before);
                 (
@@ -189,9 +173,9 @@ mod tests {
     #[test]
     fn metal_takes_up_what_gas_gives_less_what_stays_with_electrons() {
         let drift = Drift {
-            radial: Vec::new(),
-            axial: vec![0.2],
-            gas: vec![true, false],
+            radial: &[],
+            axial: &[-0.2 / ENTHALPY],
+            material: &[GAS, 1],
         };
         let [gas, metal] =
             [false, true].map(|before| drift.link(&face(0.0, before), hybrid, || 1.0));

@@ -9,18 +9,18 @@
 use relax::{Coefficients, FivePoint, Outcome};
 
 use crate::bed::clear::{Slopes, to_the_bend};
-use crate::case::{Case, HeatCase, HeatEdge, VapourCase};
+use crate::case::{Case, HeatEdge};
 use crate::edges::Side;
 use crate::equation::faces::{Beyond, Carriers, FaceOf};
 use crate::equation::transport::{dirichlet, hybrid, kept};
 use crate::equation::{Solver, Unsolved};
+use crate::grid::FaceIndex;
 use crate::heat::electrons::{Carried, Drift, Nothing};
-use crate::heat::{Contact, FaceIndex, Skin};
+use crate::heat::reads::Around;
+use crate::heat::{Contact, Skin};
 use crate::material::GAS;
-use crate::properties::Properties;
 use crate::residual::Unbalanced;
-use crate::vapour::field::Vapour;
-use crate::vapour::mixing::{Mixed, Mixing};
+use crate::vapour::mixing::Mixing;
 
 /// Factor on the relaxation of a cell whose changes alternate.
 const CALMER: f64 = 0.7;
@@ -43,10 +43,6 @@ pub struct Energy {
     pub radial: Vec<f64>,
     /// Conductance of axial faces \[W/K\].
     pub axial: Vec<f64>,
-    /// Mass flux through radial faces, outward \[kg/s\].
-    pub mass_radial: Vec<f64>,
-    /// Mass flux through axial faces, upward, of gas and of wire \[kg/s\].
-    pub mass_axial: Vec<f64>,
     /// Heat into each cell \[W\] and its slope with the temperature \[W/K\]: Joule heat, radiation,
     /// surfaces, plate, given sources.
     pub source: Vec<[f64; 2]>,
@@ -54,8 +50,6 @@ pub struct Energy {
     mixing: Option<Mixing>,
     /// How heat in and around a clear bed changes with temperatures, where there is one.
     pub(crate) slopes: Option<Slopes>,
-    /// Electrons that carry heat, where they do.
-    pub(crate) electrons: Option<Drift>,
     /// Surfaces of electrodes, where they have temperatures of their own.
     pub(crate) skins: Vec<Skin>,
     /// Calmness of each cell, times the under-relaxation: falls where changes alternate.
@@ -91,10 +85,22 @@ pub struct Step {
     pub limit: f64,
 }
 
-/// Specific heat between two states of temperature and enthalpy.
-fn capacity(here: (f64, f64), there: (f64, f64), slope: impl Fn() -> f64) -> f64 {
-    let (dt, dh) = (here.0 - there.0, here.1 - there.1);
-    if dt.abs() > 1e-3 { dh / dt } else { slope() }
+/// What a cell or an edge holds.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct State {
+    /// Temperature \[K\].
+    pub(crate) temperature: f64,
+    /// Enthalpy \[J/kg\].
+    pub(crate) enthalpy: f64,
+}
+
+impl State {
+    /// Specific heat between this and another state; `slope` is that of this one.
+    fn capacity(self, there: Self, slope: impl Fn() -> f64) -> f64 {
+        let dt = self.temperature - there.temperature;
+        let dh = self.enthalpy - there.enthalpy;
+        if dt.abs() > 1e-3 { dh / dt } else { slope() }
+    }
 }
 
 impl Energy {
@@ -105,11 +111,6 @@ impl Energy {
         Self {
             mixing: case.vapour.as_ref().map(|_| Mixing::new(case)),
             slopes: case.clear_bed().map(|_| Slopes::new(grid)),
-            electrons: case
-                .heat
-                .as_ref()
-                .and_then(|h| h.electrons)
-                .map(|_| Drift::new(case)),
             skins: Skin::all(case.surfaces.as_ref(), &[], &case.start),
             calm: vec![1.0; grid.len()],
             last: vec![0.0; grid.len()],
@@ -117,8 +118,6 @@ impl Energy {
             temperature: case.start.clone(),
             radial: vec![0.0; grid.radial_faces()],
             axial: vec![0.0; grid.axial_faces()],
-            mass_radial: vec![0.0; grid.radial_faces()],
-            mass_axial: vec![0.0; grid.axial_faces()],
             source: vec![[0.0; 2]; grid.len()],
             equation: FivePoint::new(grid.nr, grid.nz),
             scratch: vec![0.0; grid.len()],
@@ -149,43 +148,39 @@ impl Energy {
 
     fn equation(
         &self,
-        case: &Case,
-        heat: &HeatCase,
-        properties: &Properties,
+        around: Around<'_>,
         carried: &impl Carried,
-        (i, j): (usize, usize),
+        i: usize,
+        j: usize,
     ) -> Coefficients {
-        let (grid, h) = (&case.grid, &properties.enthalpy);
-        let k = grid.cell(i, j);
-        let here = (self.temperature[k], h[k]);
-        let specific_heat = || {
-            case.of(k)
-                .enthalpy
-                .as_ref()
-                .map_or(1.0, |e| e.slope(here.0))
-        };
+        let case = around.case;
+        let k = case.grid.cell(i, j);
+        let here = self.state(around, k);
+        let t = here.temperature;
+        let specific_heat = || case.of(k).enthalpy.as_ref().map_or(1.0, |e| e.slope(t));
         let mut c = Coefficients::default();
-        let faces = self.faces(case, i, j);
+        let faces = self.faces(around, i, j);
         let mut sides = [0.0; 4];
         for (side, face) in sides.iter_mut().zip(faces) {
             match face.beyond {
                 Beyond::Cell(n) => {
-                    let there = (self.temperature[n], h[n]);
+                    let there = self.state(around, n);
                     *side = self.link(carried, &face, hybrid, || {
-                        capacity(here, there, specific_heat)
+                        here.capacity(there, specific_heat)
                     });
                     c.source -= self.mixed(&face, hybrid);
                     if let Some([own, other]) = self.slopes.as_ref().and_then(|s| s.seen(&face)) {
                         c.centre += own - other;
-                        c.source += own * here.0 - other * there.0 - *side * (here.0 - there.0);
+                        let beyond = there.temperature;
+                        c.source += own * t - other * beyond - *side * (t - beyond);
                         *side = other;
                     }
                 }
                 Beyond::Edge(edge) => {
-                    let (a, t) = self.edge(case, heat, carried, (edge, face), here);
+                    let (a, given) = self.edge(around, carried, edge, &face, here);
                     c.centre += a;
-                    c.source += a * t - self.mixed(&face, dirichlet);
-                    if let HeatEdge::Flux(flux) = *heat.edges.at(edge) {
+                    c.source += a * given - self.mixed(&face, dirichlet);
+                    if let HeatEdge::Flux(flux) = *around.heat.edges.at(edge) {
                         c.source += flux * face.area;
                     }
                 }
@@ -193,34 +188,45 @@ impl Energy {
         }
         [c.east, c.west, c.north, c.south] = sides;
         let [value, slope] = self.source[k];
-        c.source += value - slope * here.0;
+        c.source += value - slope * t;
         c.centre += sides.iter().sum::<f64>() - slope;
         let out: f64 = faces.iter().map(|face| face.mass_out.max(0.0)).sum();
         let with_electrons: f64 = faces.iter().map(|face| carried.out(face).max(0.0)).sum();
-        let out = out * capacity(here, here, specific_heat) + with_electrons;
-        kept(&mut c, out, here.0);
+        let out = out * here.capacity(here, specific_heat) + with_electrons;
+        kept(&mut c, out, t);
         c
     }
 
     /// Coefficient and temperature of an edge face.
     pub(crate) fn edge(
         &self,
-        case: &Case,
-        heat: &HeatCase,
+        around: Around<'_>,
         carried: &impl Carried,
-        (edge, face): (Side, FaceOf),
-        here: (f64, f64),
+        edge: Side,
+        face: &FaceOf,
+        here: State,
     ) -> (f64, f64) {
-        let HeatEdge::Temperature(t) = *heat.edges.at(edge) else {
+        let HeatEdge::Temperature(t) = *around.heat.edges.at(edge) else {
             return (0.0, 0.0);
         };
-        let Some(enthalpy) = &case.of(face.own).enthalpy else {
+        let Some(enthalpy) = &around.case.of(face.own).enthalpy else {
             return (0.0, 0.0);
         };
-        let there = (t, enthalpy.at(t));
-        let slope = || enthalpy.slope(here.0);
-        let a = self.link(carried, &face, dirichlet, || capacity(here, there, slope));
+        let there = State {
+            temperature: t,
+            enthalpy: enthalpy.at(t),
+        };
+        let slope = || enthalpy.slope(here.temperature);
+        let a = self.link(carried, face, dirichlet, || here.capacity(there, slope));
         (a, t)
+    }
+
+    /// What cell `k` holds.
+    pub(crate) fn state(&self, around: Around<'_>, k: usize) -> State {
+        State {
+            temperature: self.temperature[k],
+            enthalpy: around.properties.enthalpy[k],
+        }
     }
 
     /// The scheme's coefficient of a face in W/K.
@@ -245,27 +251,20 @@ impl Energy {
         })
     }
 
-    /// Takes the mixing with `vapour` at the present temperatures.
-    pub fn mix(&mut self, case: &Case, heat: &HeatCase, setup: &VapourCase, vapour: &Vapour) {
-        if let Some(mixing) = &mut self.mixing {
-            mixing.update(Mixed {
-                case,
-                heat,
-                setup,
-                vapour,
-                temperature: &self.temperature,
-            });
+    /// Takes the mixing with vapour at the present temperatures, where there is any.
+    pub fn mix(&mut self, around: Around<'_>) {
+        if let Some((mixing, vapours)) = self.mixing.as_mut().zip(around.vapour) {
+            mixing.update(around, vapours, &self.temperature);
         }
     }
 
-    pub(crate) fn faces(&self, case: &Case, i: usize, j: usize) -> [FaceOf; 4] {
+    pub(crate) fn faces(&self, around: Around<'_>, i: usize, j: usize) -> [FaceOf; 4] {
         let carriers = Carriers {
-            mass_radial: &self.mass_radial,
-            mass_axial: &self.mass_axial,
+            mass: |face| around.mass(face),
             radial: &self.radial,
             axial: &self.axial,
         };
-        carriers.faces(&case.grid, i, j)
+        carriers.faces(&around.case.grid, i, j)
     }
 
     /// Under-relaxation of cell `k`. Metal conducts almost linearly: relaxing it would only let its
@@ -303,19 +302,12 @@ impl Energy {
     ///
     /// # Errors
     /// When the equation is not usable or temperatures leave the numbers.
-    pub fn solve(
-        &mut self,
-        case: &Case,
-        heat: &HeatCase,
-        properties: &Properties,
-        step: Step,
-    ) -> Result<EnergyResidual, Unsolved> {
+    pub fn solve(&mut self, around: Around<'_>, step: Step) -> Result<EnergyResidual, Unsolved> {
+        let case = around.case;
         let mut equation = std::mem::replace(&mut self.equation, FivePoint::new(0, 0));
-        match &self.electrons {
-            Some(drift) => {
-                equation.fill(|i, j| self.equation(case, heat, properties, drift, (i, j)));
-            }
-            None => equation.fill(|i, j| self.equation(case, heat, properties, &Nothing, (i, j))),
+        match Drift::of(around) {
+            Some(drift) => equation.fill(|i, j| self.equation(around, &drift, i, j)),
+            None => equation.fill(|i, j| self.equation(around, &Nothing, i, j)),
         }
         self.equation = equation;
         self.equation.residual(&self.temperature, &mut self.scratch);

@@ -3,14 +3,14 @@
 //! Half of the way conducts as its cell does, in series with the other half; or as the integral of the conductivity over
 //! temperature says, where the scene asks for that (`energy_integral`).
 
-use crate::case::Case;
 use crate::heat::energy::Energy;
-use crate::properties::Properties;
+use crate::heat::reads::Around;
 
 impl Energy {
     /// Conductances at the present temperatures.
-    pub fn conduct(&mut self, case: &Case, properties: &Properties) {
-        let (grid, kappa) = (&case.grid, &properties.thermal);
+    pub fn conduct(&mut self, around: Around<'_>) {
+        let case = around.case;
+        let (grid, kappa) = (&case.grid, &around.properties.thermal);
         let series = |a: f64, b: f64, area: f64| if a + b > 0.0 { area / (a + b) } else { 0.0 };
         for j in 0..grid.nz {
             for i in 0..=grid.nr {
@@ -29,11 +29,11 @@ impl Energy {
             }
         }
         if case.integrates_conduction() || case.clear_bed().is_some() {
-            self.integrate(case, properties);
+            self.integrate(around);
         }
         if let Some(surfaces) = &case.surfaces {
-            self.resist(case, surfaces, properties);
-            self.conduct_surfaces(case, surfaces, properties);
+            self.resist(around, surfaces);
+            self.conduct_surfaces(around, surfaces);
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Heat through the edges of the domain.
 
-use crate::case::{Case, HeatCase, HeatEdge};
+use crate::case::HeatEdge;
 use crate::edges::Side;
 use crate::equation::faces::{Beyond, FaceOf};
 use crate::equation::transport::dirichlet;
-use crate::heat::electrons::{Carried, Nothing};
+use crate::heat::electrons::{Carried, Drift, Nothing};
 use crate::heat::energy::Energy;
-use crate::properties::Properties;
+use crate::heat::reads::Around;
 
 /// Heat through the edges \[W\]; what enters is positive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -22,21 +22,21 @@ pub struct EdgeHeat {
 impl Energy {
     fn through_edge(
         &self,
-        case: &Case,
-        heat: &HeatCase,
-        properties: &Properties,
+        around: Around<'_>,
         carried: &impl Carried,
-        (edge, face): (Side, FaceOf),
+        edge: Side,
+        face: &FaceOf,
     ) -> EdgeHeat {
-        let here = (self.temperature[face.own], properties.enthalpy[face.own]);
-        let (a, t) = self.edge(case, heat, carried, (edge, face), here);
+        let here = self.state(around, face.own);
+        let (a, t) = self.edge(around, carried, edge, face, here);
         // Electrons pass a given temperature with that, else with the cell's own.
-        let electrons = match *heat.edges.at(edge) {
-            HeatEdge::Temperature(_) => carried.out(&face),
+        let condition = *around.heat.edges.at(edge);
+        let electrons = match condition {
+            HeatEdge::Temperature(_) => carried.out(face),
             HeatEdge::Insulated | HeatEdge::Flux(_) => 0.0,
         };
-        let exchange = (a + electrons) * (t - here.0) - self.mixed(&face, dirichlet);
-        let flux = match *heat.edges.at(edge) {
+        let exchange = (a + electrons) * (t - here.temperature) - self.mixed(face, dirichlet);
+        let flux = match condition {
             HeatEdge::Flux(flux) => flux * face.area,
             _ => 0.0,
         };
@@ -48,28 +48,24 @@ impl Energy {
         if face.mass_out == 0.0 {
             through.conduction += exchange;
         } else {
-            through.flow = exchange - face.mass_out * here.1;
+            through.flow = exchange - face.mass_out * here.enthalpy;
         }
         through
     }
 
     /// Heat through all edges.
     #[must_use]
-    pub fn edges(&self, case: &Case, heat: &HeatCase, properties: &Properties) -> EdgeHeat {
-        let grid = &case.grid;
+    pub fn edges(&self, around: Around<'_>) -> EdgeHeat {
+        let (grid, drift) = (&around.case.grid, Drift::of(around));
         let mut all = EdgeHeat::default();
         for j in 0..grid.nz {
             let whole = j == 0 || j + 1 == grid.nz;
             for i in (0..grid.nr).filter(|i| whole || *i == 0 || *i + 1 == grid.nr) {
-                for face in self.faces(case, i, j) {
+                for face in &self.faces(around, i, j) {
                     if let Beyond::Edge(edge) = face.beyond {
-                        let part = match &self.electrons {
-                            Some(drift) => {
-                                self.through_edge(case, heat, properties, drift, (edge, face))
-                            }
-                            None => {
-                                self.through_edge(case, heat, properties, &Nothing, (edge, face))
-                            }
+                        let part = match &drift {
+                            Some(drift) => self.through_edge(around, drift, edge, face),
+                            None => self.through_edge(around, &Nothing, edge, face),
                         };
                         all.size += part.size;
                         all.conduction += part.conduction;

@@ -1,8 +1,9 @@
 //! How gas conducts heat at the surface of an electrode (Komen 2019, eqs 5.17, 5.18).
 
-use crate::case::Case;
+use crate::grid::FaceIndex;
 use crate::heat::energy::Energy;
-use crate::heat::{Contact, FaceIndex, Film, Layer, Surfaces};
+use crate::heat::reads::Around;
+use crate::heat::{Contact, Film, Layer, Surfaces};
 use crate::material::Law;
 use crate::properties::Properties;
 
@@ -13,18 +14,13 @@ const HALVINGS: usize = 50;
 
 impl Energy {
     /// Conductances at film temperature of the ways from gas to electrodes.
-    pub(crate) fn conduct_surfaces(
-        &mut self,
-        case: &Case,
-        surfaces: &Surfaces,
-        properties: &Properties,
-    ) {
+    pub(crate) fn conduct_surfaces(&mut self, around: Around<'_>, surfaces: &Surfaces) {
         for (n, contact) in surfaces.contacts.iter().enumerate() {
             if let Some(layer) = surfaces.layers.get(n) {
-                self.lay(case, surfaces, n, layer, properties);
+                self.lay(around, surfaces, n, layer);
                 continue;
             }
-            let conductance = self.film(case, surfaces.film, n, contact, properties);
+            let conductance = self.film(around, surfaces.film, n, contact);
             self.set(contact.face, conductance);
         }
     }
@@ -38,14 +34,8 @@ impl Energy {
 
     /// Conductances of the ways through a film of given thickness, at the mean temperature of the metal and of
     /// the gas at its edge. Of the way between the centres, as much again lies before the surface.
-    fn lay(
-        &mut self,
-        case: &Case,
-        surfaces: &Surfaces,
-        n: usize,
-        layer: &Layer,
-        properties: &Properties,
-    ) {
+    fn lay(&mut self, around: Around<'_>, surfaces: &Surfaces, n: usize, layer: &Layer) {
+        let (case, properties) = (around.case, around.properties);
         let (contact, way) = (&surfaces.contacts[n], surfaces.film);
         let kappa = &properties.thermal;
         let metal = self.skin(n, contact).temperature;
@@ -98,14 +88,8 @@ impl Energy {
     /// Gas at the mean of both temperatures in series with half a metal cell, or all the way between the
     /// centres (eqs 5.17, 5.18); where the surface has a temperature, half of the difference to that over half of the
     /// way, in series with the metal.
-    fn film(
-        &self,
-        case: &Case,
-        way: Film,
-        n: usize,
-        contact: &Contact,
-        properties: &Properties,
-    ) -> f64 {
+    fn film(&self, around: Around<'_>, way: Film, n: usize, contact: &Contact) -> f64 {
+        let (case, properties) = (around.case, around.properties);
         let iron = properties.iron_at(contact.gas);
         let metal = self.before(n, contact, properties);
         let ends = [

@@ -12,7 +12,9 @@
 //! there: where k(T) jumps it bends, and where halves conduct as their cells do it jumps.
 
 use crate::case::{Case, HeatEdge};
+use crate::grid::FaceIndex;
 use crate::heat::energy::Energy;
+use crate::heat::reads::Around;
 use crate::material::{GAS, Law};
 use crate::properties::Properties;
 
@@ -30,9 +32,11 @@ struct Link {
 
 impl Energy {
     /// Conductances between cells that conduct by integrals, and to edges of given temperature.
-    pub(crate) fn integrate(&mut self, case: &Case, properties: &Properties) {
-        let grid = &case.grid;
-        let edges = case.heat.as_ref().map(|h| &h.edges);
+    pub(crate) fn integrate(&mut self, around: Around<'_>) {
+        let Around {
+            case, properties, ..
+        } = around;
+        let (grid, edges) = (&case.grid, &around.heat.edges);
         let between = Between {
             case,
             properties,
@@ -44,7 +48,7 @@ impl Energy {
                 let cells = [grid.cell(i - 1, j), grid.cell(i, j)];
                 let ways = [0.5 * grid.dr[i - 1], 0.5 * grid.dr[i]];
                 let (face, area) = (grid.radial_face(i, j), grid.area(i, j));
-                let passed = (area, self.mass_radial[face]);
+                let passed = (area, around.mass(FaceIndex::Radial(face)));
                 let link = between.through(cells, ways, [grid.rf[i], grid.zc[j]], passed);
                 if let Some(link) = link {
                     self.radial[face] = link.conductance;
@@ -53,10 +57,10 @@ impl Energy {
                     slopes.radial[face] = link.and_then(|link| link.slopes);
                 }
             }
-            let ends = edges.map(|e| [e.inner[j], e.outer[j]]);
-            for (edge, (i, face)) in ends.iter().flatten().zip([(0, 0), (grid.nr - 1, grid.nr)]) {
+            let ends = [edges.inner[j], edges.outer[j]];
+            for (edge, (i, face)) in ends.into_iter().zip([(0, 0), (grid.nr - 1, grid.nr)]) {
                 let place = [grid.rf[face], grid.zc[j]];
-                if let Some(mean) = between.edge(grid.cell(i, j), *edge, place) {
+                if let Some(mean) = between.edge(grid.cell(i, j), edge, place) {
                     let conductance = grid.area(face, j) * mean / (0.5 * grid.dr[i]);
                     self.radial[grid.radial_face(face, j)] = conductance;
                 }
@@ -67,7 +71,7 @@ impl Energy {
                 let cells = [grid.cell(i, j - 1), grid.cell(i, j)];
                 let ways = [0.5 * grid.dz[j - 1], 0.5 * grid.dz[j]];
                 let (face, area) = (grid.axial_face(i, j), grid.ring[i]);
-                let passed = (area, self.mass_axial[face]);
+                let passed = (area, around.mass(FaceIndex::Axial(face)));
                 let link = between.through(cells, ways, [grid.rc[i], grid.zf[j]], passed);
                 if let Some(link) = link {
                     self.axial[face] = link.conductance;
@@ -76,10 +80,10 @@ impl Energy {
                     slopes.axial[face] = link.and_then(|link| link.slopes);
                 }
             }
-            let ends = edges.map(|e| [e.bottom[i], e.top[i]]);
-            for (edge, (j, face)) in ends.iter().flatten().zip([(0, 0), (grid.nz - 1, grid.nz)]) {
+            let ends = [edges.bottom[i], edges.top[i]];
+            for (edge, (j, face)) in ends.into_iter().zip([(0, 0), (grid.nz - 1, grid.nz)]) {
                 let place = [grid.rc[i], grid.zf[face]];
-                if let Some(mean) = between.edge(grid.cell(i, j), *edge, place) {
+                if let Some(mean) = between.edge(grid.cell(i, j), edge, place) {
                     let conductance = grid.ring[i] * mean / (0.5 * grid.dz[j]);
                     self.axial[grid.axial_face(i, face)] = conductance;
                 }

@@ -1,9 +1,11 @@
 //! Surfaces of electrodes that have a temperature of their own.
 
 use crate::case::Case;
+use crate::grid::FaceIndex;
+use crate::heat::electrons::Drift;
 use crate::heat::energy::Energy;
-use crate::heat::{Contact, FaceIndex, Skin, Surfaces};
-use crate::properties::Properties;
+use crate::heat::reads::Around;
+use crate::heat::{Contact, Skin, Surfaces};
 
 impl Energy {
     /// The surface of contact `n`.
@@ -26,19 +28,19 @@ impl Energy {
     }
 
     /// Resistances between surfaces and the middles of their metal; none where the wire melts off.
-    pub(crate) fn resist(&mut self, case: &Case, surfaces: &Surfaces, properties: &Properties) {
+    pub(crate) fn resist(&mut self, around: Around<'_>, surfaces: &Surfaces) {
         for (skin, contact) in self.skins.iter_mut().zip(&surfaces.contacts) {
-            let half = contact.metal_half / properties.thermal[contact.metal];
-            let melts_off = fed(case, contact, &self.mass_axial) > 0.0;
+            let half = contact.metal_half / around.properties.thermal[contact.metal];
+            let melts_off = fed(around, contact) > 0.0;
             skin.resistance = if melts_off { 0.0 } else { half };
         }
     }
 
     /// Takes out of the gas at surfaces what electrons that carry heat pass those with beyond what they have at the
     /// temperatures of the middles of the metal.
-    pub(crate) fn pass_surfaces(&mut self, case: &Case) {
+    pub(crate) fn pass_surfaces(&mut self, around: Around<'_>) {
         let mut source = std::mem::take(&mut self.source);
-        for (k, electrons) in self.electrons_beyond(case) {
+        for (k, electrons) in self.electrons_beyond(around) {
             source[k][0] -= electrons;
         }
         self.source = source;
@@ -48,15 +50,16 @@ impl Energy {
     /// metal \[W\].
     pub(crate) fn electrons_beyond<'a>(
         &'a self,
-        case: &'a Case,
+        around: Around<'a>,
     ) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let with = self.electrons.iter();
-        with.flat_map(|drift| {
-            self.warmer(case).map(|(contact, [surface, middle])| {
-                let [r, z] = contact.normal;
-                let out = -(r + z) * drift.through(contact.face);
-                (contact.gas, out * (surface - middle))
-            })
+        let with = Drift::of(around).into_iter();
+        with.flat_map(move |drift| {
+            self.warmer(around.case)
+                .map(move |(contact, [surface, middle])| {
+                    let [r, z] = contact.normal;
+                    let out = -(r + z) * drift.through(contact.face);
+                    (contact.gas, out * (surface - middle))
+                })
         })
     }
 
@@ -71,12 +74,13 @@ impl Energy {
 }
 
 /// Mass of the wire that reaches a contact and melts off there \[kg/s\].
-fn fed(case: &Case, contact: &Contact, mass_axial: &[f64]) -> f64 {
+fn fed(around: Around<'_>, contact: &Contact) -> f64 {
+    let case = around.case;
     let Some(wire) = case.wire else { return 0.0 };
     let own = wire.material == case.material[contact.metal];
     match contact.face {
         FaceIndex::Axial(face) if own && contact.normal[1] < 0.0 => {
-            -mass_axial[face + case.grid.nr]
+            -around.mass(FaceIndex::Axial(face + case.grid.nr))
         }
         _ => 0.0,
     }

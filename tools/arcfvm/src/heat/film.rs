@@ -11,8 +11,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::grid::Grid;
-use crate::heat::{Contact, FaceIndex};
+use crate::grid::{FaceIndex, Grid};
+use crate::heat::Contact;
 use crate::material::GAS;
 
 /// Part of its thickness by which a film may miss the middle of a cell.

@@ -27,7 +27,7 @@ pub use electrode::{Electrode, Emission, Evaporation, Role, SurfaceHeat};
 pub use film::{Film, Layer};
 pub use skin::{ElectrodeAt, Skin};
 
-use crate::grid::Grid;
+use crate::grid::{FaceIndex, Grid};
 use crate::material::GAS;
 
 /// A face between the gas and a metal with electrode heat.
@@ -51,15 +51,6 @@ pub struct Contact {
     pub place: [f64; 2],
     /// Unit vector from metal to gas, radial and axial.
     pub normal: [f64; 2],
-}
-
-/// A face of the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FaceIndex {
-    /// Radial face.
-    Radial(usize),
-    /// Axial face.
-    Axial(usize),
 }
 
 /// The electrodes and their faces to the gas.

@@ -1,6 +1,7 @@
 //! Heat that moves with metal: the fed wire and the moving plate.
 
 use crate::case::{Case, Drops, FeedRule, MovingPlate, Wire};
+use crate::grid::Grid;
 use crate::heat::energy::Energy;
 use crate::material::{Enthalpy, GAS};
 
@@ -67,15 +68,13 @@ impl Wire {
         cells.sum::<f64>() / area
     }
 
-    /// Adds the wire's downward mass flux to the axial faces of its cells, tip excluded: there the
-    /// metal leaves as drops \[kg/s\].
-    pub fn carry(&self, case: &Case, speed: f64, mass_axial: &mut [f64]) {
-        let grid = &case.grid;
-        for j in self.tip + 1..=grid.nz {
-            for i in 0..self.columns {
-                mass_axial[grid.axial_face(i, j)] = -self.density * speed * grid.ring[i];
-            }
-        }
+    /// Mass of the wire through an axial face within it, upward, its tip excluded: there the metal leaves as
+    /// drops \[kg/s\].
+    #[inline]
+    pub(crate) fn carried(&self, grid: &Grid, speed: f64, face: usize) -> Option<f64> {
+        let above = face >= grid.axial_face(0, self.tip + 1);
+        let within = above && face % grid.nr < self.columns;
+        within.then(|| -self.density * speed * grid.ring[face % grid.nr])
     }
 
     /// Heat that leaves with drops \[W\], their enthalpy being that of the tip cells or their part of it.

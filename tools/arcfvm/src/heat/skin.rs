@@ -25,7 +25,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::heat::{Contact, FaceIndex, Surfaces};
+use crate::grid::FaceIndex;
+use crate::heat::{Contact, Surfaces};
 
 /// Newton steps that are enough, halvings among them.
 const STEPS: usize = 100;

@@ -2,8 +2,9 @@
 
 use crate::bed::lit_wall;
 use crate::current::potential::Potential;
+use crate::grid::FaceIndex;
 use crate::heat::reads::Reads;
-use crate::heat::{Contact, FaceIndex, Skin, SurfaceHeat, Surfaces, radiation};
+use crate::heat::{Contact, Skin, SurfaceHeat, Surfaces, radiation};
 
 /// Heat of one contact \[W/m2\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -67,14 +68,14 @@ impl Sources {
     pub fn update(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
         out.fill([0.0; 2]);
         self.joule = 0.0;
-        if let Some(potential) = reads.potential {
+        if let Some(potential) = reads.around.potential {
             for (cell, joule) in out.iter_mut().zip(&potential.joule) {
                 cell[0] += joule;
             }
             self.joule = potential.joule.iter().sum();
         }
         self.given = 0.0;
-        if let Some(given) = &reads.heat.source {
+        if let Some(given) = &reads.around.heat.source {
             for (cell, value) in out.iter_mut().zip(given) {
                 cell[0] += value;
             }
@@ -83,9 +84,9 @@ impl Sources {
         }
         self.shine(reads, out);
         self.warm_bed(reads, out);
-        if let Some(surfaces) = &reads.case.surfaces {
+        if let Some(surfaces) = &reads.around.case.surfaces {
             self.surfaces(reads, surfaces, out);
-            if let Some(vapours) = reads.vapour {
+            if let Some(vapours) = reads.around.vapour {
                 self.vapour = self.take_vapour(reads, surfaces, vapours, out);
             }
         }
@@ -118,16 +119,16 @@ impl Sources {
     }
 
     fn shine(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
-        let case = reads.case;
+        let case = reads.around.case;
         self.emit(reads);
-        for (k, value) in reads.properties.emission.iter().enumerate() {
+        for (k, value) in reads.around.properties.emission.iter().enumerate() {
             let (i, j) = (k % case.grid.nr, k / case.grid.nr);
             let volume = case.grid.volume(i, j);
             let Some(law) = case.of(k).net_emission.as_ref().filter(|_| *value > 0.0) else {
                 continue;
             };
             let (r, z, t) = (case.grid.rc[i], case.grid.zc[j], reads.temperature[k]);
-            let y = reads.properties.iron_at(k);
+            let y = reads.around.properties.iron_at(k);
             let slope = (law.within(r, z, 1.001 * t, y) - value) / (0.001 * t);
             out[k][0] -= value * volume;
             out[k][1] -= slope.max(0.0) * volume;
@@ -136,8 +137,8 @@ impl Sources {
 
     /// Radiation of each cell.
     fn emit(&mut self, reads: Reads<'_>) {
-        let grid = &reads.case.grid;
-        let cells = reads.properties.emission.iter().enumerate();
+        let grid = &reads.around.case.grid;
+        let cells = reads.around.properties.emission.iter().enumerate();
         let power = cells.map(|(k, value)| value * grid.volume(k % grid.nr, k / grid.nr));
         self.emission.clear();
         self.emission.extend(power);
@@ -148,7 +149,7 @@ impl Sources {
         self.contacts.resize(count, ContactHeat::default());
         for (n, contact) in surfaces.contacts.iter().enumerate() {
             let electrode = reads.electrode(surfaces, n);
-            let current = reads.potential.map_or(0.0, |p| current(p, contact));
+            let current = reads.around.potential.map_or(0.0, |p| current(p, contact));
             let skin = reads.skin(n, contact);
             let t = skin.temperature;
             let gas = skin
@@ -194,17 +195,22 @@ impl Sources {
 
     /// Works out what each contact absorbs, where `anew` or what surfaces there are has changed.
     pub(crate) fn look(&mut self, reads: Reads<'_>, anew: bool) {
-        let surfaces = reads.case.surfaces.as_ref();
+        let surfaces = reads.around.case.surfaces.as_ref();
         let contacts = surfaces.map_or(0, |s| s.contacts.len());
         self.absorbed.resize(contacts, 0.0);
-        let length = reads.heat.granular.as_ref().and_then(|bed| bed.length);
+        let length = reads
+            .around
+            .heat
+            .granular
+            .as_ref()
+            .and_then(|bed| bed.length);
         if (anew || self.stale) && (surfaces.is_some() || length.is_some()) {
             self.emit(reads);
             if let Some(surfaces) = surfaces {
                 self.view(reads, surfaces);
             }
-            if let Some((bed, length)) = reads.heat.granular.as_ref().zip(length) {
-                let case = reads.case;
+            if let Some((bed, length)) = reads.around.heat.granular.as_ref().zip(length) {
+                let case = reads.around.case;
                 let (grid, material) = (&case.grid, &case.material);
                 self.lit = lit_wall::shares(grid, material, bed.material, length, &self.emission);
             }
@@ -221,7 +227,7 @@ impl Sources {
             .filter(|n| absorbs(&surfaces.contacts[*n]))
             .collect();
         let contacts: Vec<&Contact> = chosen.iter().map(|n| &surfaces.contacts[*n]).collect();
-        let flux = radiation::absorbed(&reads.case.grid, &contacts, &self.emission, part);
+        let flux = radiation::absorbed(&reads.around.case.grid, &contacts, &self.emission, part);
         for (n, value) in chosen.into_iter().zip(flux) {
             self.absorbed[n] = value;
         }
@@ -234,8 +240,8 @@ impl Sources {
 
     fn warm_bed(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
         self.granular = 0.0;
-        if let Some(bed) = &reads.heat.granular {
-            let (case, shine) = (reads.case, self.emission.iter().sum());
+        if let Some(bed) = &reads.around.heat.granular {
+            let (case, shine) = (reads.around.case, self.emission.iter().sum());
             let give = |k: usize, heat: f64| out[k][0] += heat;
             self.granular = bed.take_up(&case.grid, &case.material, shine, &self.lit, give);
         }
@@ -243,8 +249,8 @@ impl Sources {
 
     fn carry_away(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
         self.plates.clear();
-        let case = reads.case;
-        for plate in &reads.heat.plates {
+        let case = reads.around.case;
+        for plate in &reads.around.heat.plates {
             let mut carried = 0.0;
             for (k, cell) in out.iter_mut().enumerate() {
                 if case.material[k] == plate.material {

@@ -31,7 +31,7 @@ impl Reads<'_> {
     pub(crate) fn electrode<'s>(&self, surfaces: &'s Surfaces, n: usize) -> Cow<'s, Electrode> {
         let contact = &surfaces.contacts[n];
         let electrode = &surfaces.electrodes[contact.electrode];
-        let Some(Vapours { setup, vapour }) = self.vapour else {
+        let Some(Vapours { setup, vapour }) = self.around.vapour else {
             return Cow::Borrowed(electrode);
         };
         let Some(iron) = setup.ionisation else {
@@ -55,7 +55,7 @@ impl Reads<'_> {
     ) -> Option<Carried> {
         let Vapours { setup, vapour } = of;
         let metal = setup.metals[contact.electrode].as_ref()?;
-        let law = self.case.of(contact.gas).enthalpy.as_ref()?;
+        let law = self.around.case.of(contact.gas).enthalpy.as_ref()?;
         let gas = self.temperature[contact.gas];
         let (flux, iron) = (passed.flux, vapour.iron[contact.gas]);
         let held = if setup.adds { iron } else { 0.0 };
@@ -93,7 +93,9 @@ impl Sources {
                 continue;
             };
             let (surface, gas) = (skin.temperature, reads.temperature);
-            let slope = of.vapour.slope(reads.case, of.setup, contact, surface, gas);
+            let slope = of
+                .vapour
+                .slope(reads.around.case, of.setup, contact, surface, gas);
             self.contacts[n].parts.vapour += carried.metal;
             self.take_up(out, contact, n, skin, [carried.metal, -slope]);
             out[contact.gas][0] += contact.area * carried.gas;
@@ -107,8 +109,8 @@ impl Sources {
     /// enters the gas with both \[W\].
     fn take_up_at_wall(&self, reads: Reads<'_>, of: Vapours<'_>, out: &mut [[f64; 2]]) -> f64 {
         let mut enters = 0.0;
-        of.vapour.walls(reads.case, of.setup, |k, rate| {
-            if let Some(law) = &reads.case.of(k).enthalpy {
+        of.vapour.walls(reads.around.case, of.setup, |k, rate| {
+            if let Some(law) = &reads.around.case.of(k).enthalpy {
                 let t = reads.temperature[k];
                 let heat = rate * (law.within(t, 1.0) - law.within(t, 0.0));
                 out[k][0] += heat;

@@ -36,8 +36,6 @@ pub struct Vapour {
     pub axial: Vec<f64>,
     /// What passes each contact.
     pub passed: Vec<Evaporated>,
-    mass_radial: Vec<f64>,
-    mass_axial: Vec<f64>,
     /// What evaporates into each cell over the distance from equilibrium \[kg/s\], and that times
     /// equilibrium.
     gathers: Vec<[f64; 2]>,
@@ -81,8 +79,6 @@ impl Vapour {
             radial: vec![0.0; grid.radial_faces()],
             axial: vec![0.0; grid.axial_faces()],
             passed: vec![Evaporated::default(); case.contacts().len()],
-            mass_radial: vec![0.0; grid.radial_faces()],
-            mass_axial: vec![0.0; grid.axial_faces()],
             gathers: vec![[0.0; 2]; grid.len()],
             equation: FivePoint::new(grid.nr, grid.nz),
             scratch: vec![0.0; grid.len()],
@@ -90,18 +86,8 @@ impl Vapour {
         }
     }
 
-    /// Conductances at the present state, and the mass fluxes of the gas.
-    pub fn carry(
-        &mut self,
-        case: &Case,
-        setup: &VapourCase,
-        properties: &Properties,
-        flow: Option<&Flow>,
-    ) {
-        if let Some(flow) = flow {
-            self.mass_radial.copy_from_slice(&flow.mass_radial);
-            self.mass_axial.copy_from_slice(&flow.mass_axial);
-        }
+    /// Conductances at the present state.
+    pub fn conduct(&mut self, case: &Case, setup: &VapourCase, properties: &Properties) {
         let (grid, product) = (&case.grid, &properties.iron_diffusion);
         let half = |width: f64, k: usize| match case.material[k] {
             GAS => 0.5 * width / product[k],
@@ -198,24 +184,37 @@ impl Vapour {
         }
     }
 
-    pub(crate) fn faces(&self, case: &Case, i: usize, j: usize) -> [FaceOf; 4] {
+    /// East, west, north and south of cell `(i, j)`; without a `flow` no mass passes them.
+    pub(crate) fn faces(
+        &self,
+        case: &Case,
+        flow: Option<&Flow>,
+        i: usize,
+        j: usize,
+    ) -> [FaceOf; 4] {
         let carriers = Carriers {
-            mass_radial: &self.mass_radial,
-            mass_axial: &self.mass_axial,
+            mass: |face| flow.map_or(0.0, |flow| flow.mass(face)),
             radial: &self.radial,
             axial: &self.axial,
         };
         carriers.faces(&case.grid, i, j)
     }
 
-    fn equation(&self, case: &Case, setup: &VapourCase, i: usize, j: usize) -> Coefficients {
+    fn equation(
+        &self,
+        case: &Case,
+        setup: &VapourCase,
+        flow: Option<&Flow>,
+        i: usize,
+        j: usize,
+    ) -> Coefficients {
         let k = case.grid.cell(i, j);
         if case.material[k] != GAS {
             return Coefficients::fixed(0.0);
         }
         let mut c = Coefficients::default();
         let mut sides = [0.0; 4];
-        for (side, face) in sides.iter_mut().zip(self.faces(case, i, j)) {
+        for (side, face) in sides.iter_mut().zip(self.faces(case, flow, i, j)) {
             match face.beyond {
                 Beyond::Cell(n) if case.material[n] == GAS => {
                     *side = hybrid(face.mass_out, face.conductance);
@@ -255,10 +254,11 @@ impl Vapour {
         &mut self,
         case: &Case,
         setup: &VapourCase,
+        flow: Option<&Flow>,
         relaxation: f64,
     ) -> Result<f64, Unsolved> {
         let mut equation = std::mem::replace(&mut self.equation, FivePoint::new(0, 0));
-        equation.fill(|i, j| self.equation(case, setup, i, j));
+        equation.fill(|i, j| self.equation(case, setup, flow, i, j));
         self.equation = equation;
         self.equation.residual(&self.iron, &mut self.scratch);
         let gas = |k: &usize| case.material[*k] == GAS;
@@ -275,7 +275,7 @@ impl Vapour {
 
     /// Iron that enters and leaves the gas.
     #[must_use]
-    pub fn balance(&self, case: &Case, setup: &VapourCase) -> IronBalance {
+    pub fn balance(&self, case: &Case, setup: &VapourCase, flow: Option<&Flow>) -> IronBalance {
         let mut all = IronBalance::default();
         for (contact, passed) in case.contacts().iter().zip(&self.passed) {
             let rate = contact.area * passed.flux;
@@ -295,7 +295,7 @@ impl Vapour {
         for j in 0..grid.nz {
             let whole = j == 0 || j + 1 == grid.nz;
             for i in (0..grid.nr).filter(|i| whole || *i == 0 || *i + 1 == grid.nr) {
-                for face in self.faces(case, i, j) {
+                for face in self.faces(case, flow, i, j) {
                     if let (Beyond::Edge(edge), GAS) = (face.beyond, case.material[face.own]) {
                         let rate = self.through(setup, edge, &face);
                         all.edges += rate;
@@ -314,7 +314,7 @@ impl Vapour {
         }
         let grid = &case.grid;
         for k in (0..grid.len()).filter(|k| case.material[*k] == GAS) {
-            for face in self.faces(case, k % grid.nr, k / grid.nr) {
+            for face in self.faces(case, None, k % grid.nr, k / grid.nr) {
                 if let Beyond::Cell(n) = face.beyond
                     && let Some(y) = setup.at_wall(case.material[n])
                 {

@@ -13,11 +13,11 @@
 //! and cools nothing. Komen (2019), eq. 5.8, leaves out this part, which heats or cools gas wherever iron
 //! diffuses against the flow.
 
-use crate::case::{Case, HeatCase, HeatEdge, VapourCase, VapourEdge};
+use crate::case::{Case, HeatEdge, VapourEdge};
 use crate::equation::faces::{Beyond, FaceOf};
-use crate::heat::FaceIndex;
+use crate::grid::FaceIndex;
+use crate::heat::reads::{Around, Vapours};
 use crate::material::{Enthalpy, GAS};
-use crate::vapour::field::Vapour;
 
 /// Difference of temperature below which the slope tells the specific heat \[K\].
 const NEAR_K: f64 = 1e-3;
@@ -52,12 +52,10 @@ pub(crate) struct Mixing {
 
 /// What the mixing reads.
 #[derive(Clone, Copy)]
-pub(crate) struct Mixed<'a> {
-    pub(crate) case: &'a Case,
-    pub(crate) heat: &'a HeatCase,
-    pub(crate) setup: &'a VapourCase,
-    pub(crate) vapour: &'a Vapour,
-    pub(crate) temperature: &'a [f64],
+struct Reads<'a> {
+    around: Around<'a>,
+    of: Vapours<'a>,
+    temperature: &'a [f64],
 }
 
 impl Mixing {
@@ -68,12 +66,17 @@ impl Mixing {
         }
     }
 
-    /// Takes every face at the present temperatures and fractions.
-    pub(crate) fn update(&mut self, reads: Mixed<'_>) {
-        let grid = &reads.case.grid;
+    /// Takes every face at these temperatures and the present fractions.
+    pub(crate) fn update(&mut self, around: Around<'_>, of: Vapours<'_>, temperature: &[f64]) {
+        let grid = &around.case.grid;
+        let reads = Reads {
+            around,
+            of,
+            temperature,
+        };
         for j in 0..grid.nz {
             for i in 0..grid.nr {
-                let [east, west, north, south] = reads.vapour.faces(reads.case, i, j);
+                let [east, west, north, south] = of.vapour.faces(around.case, None, i, j);
                 // Every face once: that to the east and north, and those of edges to the west and south.
                 self.radial[grid.radial_face(i + 1, j)] = reads.mix(&east);
                 self.axial[grid.axial_face(i, j + 1)] = reads.mix(&north);
@@ -107,10 +110,10 @@ impl Mix {
     }
 }
 
-impl Mixed<'_> {
+impl Reads<'_> {
     /// The mixing at a face, from its cell.
     fn mix(&self, face: &FaceOf) -> Mix {
-        let (case, iron, t) = (self.case, &self.vapour.iron, self.temperature);
+        let (case, iron, t) = (self.around.case, &self.of.vapour.iron, self.temperature);
         let Some(law) = &case.of(face.own).enthalpy else {
             return Mix::default();
         };
@@ -126,11 +129,11 @@ impl Mixed<'_> {
             }
             Beyond::Cell(_) => Mix::default(),
             Beyond::Edge(edge) => {
-                let there = match *self.heat.edges.at(edge) {
+                let there = match *self.around.heat.edges.at(edge) {
                     HeatEdge::Temperature(t) => t,
                     _ => here.0,
                 };
-                match *self.setup.edges.at(edge) {
+                match *self.of.setup.edges.at(edge) {
                     VapourEdge::Fraction(y) if case.material[face.own] == GAS => {
                         split(law, here, (there, y), face.conductance)
                     }

@@ -9,8 +9,7 @@ impl Arc {
     /// Conductances and evaporation at the last state.
     pub(crate) fn settle_vapour(&mut self) {
         if let Some((setup, vapour)) = self.case.vapour.as_ref().zip(self.vapour.as_mut()) {
-            let flow = self.flowing.as_ref().map(|f| &f.flow);
-            vapour.carry(&self.case, setup, &self.properties, flow);
+            vapour.conduct(&self.case, setup, &self.properties);
         }
         self.evaporate();
     }
@@ -40,9 +39,10 @@ impl Arc {
         let Some((setup, vapour)) = case.vapour.as_ref().zip(self.vapour.as_mut()) else {
             return Ok(0.0);
         };
-        let scale = vapour.balance(case, setup).size;
+        let flow = self.flowing.as_ref().map(|f| &f.flow);
+        let scale = vapour.balance(case, setup, flow).size;
         let found = vapour
-            .solve(case, setup, relaxation)
+            .solve(case, setup, flow, relaxation)
             .map_err(|e| Error::solver("iron", self.iteration, case, &e))?;
         self.evaporate();
         self.blow();
@@ -61,6 +61,7 @@ impl Arc {
     #[must_use]
     pub fn iron_balance(&self) -> Option<IronBalance> {
         let (setup, vapour) = self.case.vapour.as_ref().zip(self.vapour.as_ref())?;
-        Some(vapour.balance(&self.case, setup))
+        let flow = self.flowing.as_ref().map(|f| &f.flow);
+        Some(vapour.balance(&self.case, setup, flow))
     }
 }
