@@ -6,29 +6,41 @@ use crate::equation::{Method, Solver};
 use crate::flow::pressure::{self, Relaxation};
 use crate::scene::{Coupling, Iterate, LinearSolver};
 
-/// Solvers and relaxation of every field.
+/// How the fields of an arc are solved and iterated.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Solver of the potential.
-    pub potential: Solver,
-    /// Solver of each momentum equation.
-    pub momentum: Solver,
-    /// Solver of the pressure correction.
-    pub pressure: Solver,
-    /// Solver of the energy.
-    pub energy: Solver,
-    /// Relaxation of the flow.
-    pub flow: Relaxation,
-    /// Relaxation of the temperature.
-    pub heat_relaxation: f64,
-    /// Largest change of a temperature in one iteration \[K\].
-    pub heat_step: f64,
-    /// Whether what surfaces see is renewed in every iteration.
-    pub view_always: bool,
+    /// Solvers.
+    pub solvers: Solvers,
+    /// How far an iteration goes.
+    pub advance: Advance,
 }
 
-impl From<&Iterate> for Settings {
-    fn from(scene: &Iterate) -> Self {
+/// Solvers of the equations.
+#[derive(Debug, Clone)]
+pub struct Solvers {
+    /// Of the potential.
+    pub potential: Solver,
+    /// Of each momentum equation.
+    pub momentum: Solver,
+    /// Of the pressure correction.
+    pub pressure: Solver,
+    /// Of the energy and of the iron.
+    pub energy: Solver,
+}
+
+/// How far an iteration goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Advance {
+    /// Relaxation of the flow.
+    pub flow: Relaxation,
+    /// Relaxation of temperature and iron.
+    pub heat: f64,
+    /// Largest change of a temperature in one iteration \[K\].
+    pub heat_step: f64,
+}
+
+impl From<LinearSolver> for Solvers {
+    fn from(chosen: LinearSolver) -> Self {
         let rule = |reduction, iterations| Krylov {
             reduction,
             floor: 0.0,
@@ -48,7 +60,7 @@ impl From<&Iterate> for Settings {
                 reduction,
             })
         };
-        let (potential, momentum, pressure, energy) = match scene.solver {
+        let (potential, momentum, pressure, energy) = match chosen {
             LinearSolver::Incomplete => (
                 Method::Incomplete(rule(1e-2, 300)),
                 Method::Incomplete(rule(1e-2, 20)),
@@ -75,17 +87,27 @@ impl From<&Iterate> for Settings {
             momentum: Solver::new(momentum, false),
             pressure: Solver::new(pressure, true),
             energy: Solver::new(energy, false),
-            flow: Relaxation {
-                velocity: scene.velocity(),
-                pressure: scene.pressure(),
-                coupling: match scene.coupling {
-                    Coupling::Simple => pressure::Coupling::Simple,
-                    Coupling::Simplec => pressure::Coupling::Simplec,
-                },
+        }
+    }
+}
+
+impl From<&Iterate> for Settings {
+    fn from(scene: &Iterate) -> Self {
+        let flow = Relaxation {
+            velocity: scene.velocity(),
+            pressure: scene.pressure(),
+            coupling: match scene.coupling {
+                Coupling::Simple => pressure::Coupling::Simple,
+                Coupling::Simplec => pressure::Coupling::Simplec,
             },
-            heat_relaxation: scene.temperature_relaxation,
-            heat_step: scene.temperature_step_k,
-            view_always: false,
+        };
+        Self {
+            solvers: scene.solver.into(),
+            advance: Advance {
+                flow,
+                heat: scene.temperature_relaxation,
+                heat_step: scene.temperature_step_k,
+            },
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::heat::energy::Energy;
 use crate::heat::sources::Sources;
 use crate::properties::Properties;
 use crate::residual::Residuals;
-use crate::settings::Settings;
+use crate::settings::{Advance, Settings};
 use crate::vapour::field::Vapour;
 
 /// Relaxation of the speed of the wire.
@@ -60,7 +60,7 @@ pub struct Heating {
 pub struct Arc {
     /// The problem.
     pub case: Case,
-    pub(crate) settings: Settings,
+    pub(crate) advance: Advance,
     /// Iterations done.
     pub iteration: usize,
     /// Properties of every cell.
@@ -85,29 +85,25 @@ impl Arc {
     /// Memory for what `case` solves.
     #[must_use]
     pub fn new(case: Case, settings: Settings) -> Self {
-        let grid = &case.grid;
+        let (grid, solvers) = (&case.grid, settings.solvers);
         let electric = case.potential.as_ref().map(|_| Electric {
-            potential: Potential::new(grid, settings.potential.clone()),
+            potential: Potential::new(grid, solvers.potential),
             magnetic: Magnetic::new(grid),
         });
-        let flowing = case.flow.as_ref().map(|setup| {
-            let [momentum, pressure] = [settings.momentum.clone(), settings.pressure.clone()];
-            let solver = FlowSolver::new(grid, settings.flow, momentum, pressure);
-            Flowing {
-                flow: Flow::new(&case, setup),
-                solver,
-            }
+        let flowing = case.flow.as_ref().map(|setup| Flowing {
+            flow: Flow::new(&case, setup),
+            solver: FlowSolver::new(grid, solvers.momentum, solvers.pressure),
         });
         let heating = case.heat.as_ref().map(|_| Heating {
-            energy: Energy::new(&case, settings.energy.clone()),
+            energy: Energy::new(&case, solvers.energy.clone()),
             sources: Sources::default(),
         });
         let vapour = case.vapour.as_ref();
-        let vapour = vapour.map(|setup| Vapour::new(&case, setup, settings.energy.clone()));
+        let vapour = vapour.map(|setup| Vapour::new(&case, setup, solvers.energy));
         let properties = Properties::new(&case);
         let mut arc = Self {
             case,
-            settings,
+            advance: settings.advance,
             iteration: 0,
             properties,
             electric,
@@ -124,10 +120,8 @@ impl Arc {
 
     /// Sets the under-relaxation of velocities and temperature.
     pub fn relax(&mut self, velocity: f64, temperature: f64) {
-        self.settings.heat_relaxation = temperature;
-        if let Some(flowing) = &mut self.flowing {
-            flowing.solver.relaxation.velocity = velocity;
-        }
+        self.advance.heat = temperature;
+        self.advance.flow.velocity = velocity;
     }
 
     /// Temperatures: solved, or those of the start \[K\].

@@ -16,11 +16,6 @@ pub fn base(arc: &Arc) -> Option<usize> {
     arc.case.base.as_ref().map(|base| base.material)
 }
 
-fn surfaces(arc: &Arc) -> Option<(&Surfaces, &[ContactHeat])> {
-    let heating = arc.heating.as_ref()?;
-    Some((arc.case.surfaces.as_ref()?, &heating.sources.contacts))
-}
-
 /// Voltage over the wire on the axis \[V\].
 #[must_use]
 pub fn wire_drop(arc: &Arc) -> Option<f64> {
@@ -67,10 +62,10 @@ fn columns(arc: &Arc, surfaces: &Surfaces) -> Vec<Column> {
 /// The table of the surface, where there is a base metal, heat, current and flow.
 #[must_use]
 pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
-    let (surfaces, found) = surfaces(arc)?;
-    let (heating, _) = (arc.heating.as_ref()?, arc.flowing.as_ref()?);
+    let (surfaces, heating) = (arc.case.surfaces.as_ref()?, arc.heating.as_ref()?);
+    let (found, absorbed) = (&heating.sources.contacts, heating.sources.absorbed());
     let rows = columns(arc, surfaces);
-    rows.first()?;
+    rows.first().zip(arc.flowing.as_ref())?;
     let ring = &arc.case.grid.ring;
     // Per area of the plane: what steep parts take up belongs to their column.
     let over = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
@@ -97,7 +92,7 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
     let per = |value: &dyn Fn(&ContactHeat) -> f64| over(&|n| value(&found[n]));
     let gas = |n: usize| heating.energy.convection(&surfaces.contacts[n]) - found[n].held;
     let convection = over(&gas);
-    let rest = per(&|f| f.absorbed + f.parts.sum());
+    let rest = over(&|n| absorbed[n] + found[n].parts.sum());
     let total = convection.iter().zip(rest).map(|(q, rest)| q + rest);
     let table = gas_columns(arc, sample, &rows)
         .column(
@@ -105,7 +100,7 @@ pub fn table(arc: &Arc, sample: &Sample) -> Option<Table> {
             "W/m2",
             convection.iter().copied(),
         )
-        .column("heat_flux_radiation_w_m2", "W/m2", per(&|f| f.absorbed))
+        .column("heat_flux_radiation_w_m2", "W/m2", over(&|n| absorbed[n]))
         .column(
             "heat_flux_electron_w_m2",
             "W/m2",
@@ -162,13 +157,10 @@ fn gas_columns(arc: &Arc, sample: &Sample, rows: &[Column]) -> Table {
 fn surface_temperature(arc: &Arc, column: &Column) -> f64 {
     let grid = &arc.case.grid;
     let metal = arc.temperature()[grid.cell(column.i, column.row - 1)];
-    let Some((surfaces, heating)) = surfaces(arc).zip(arc.heating.as_ref()) else {
+    let (contacts, Some(heating)) = (arc.case.contacts(), &arc.heating) else {
         return metal;
     };
-    let contacts = column
-        .contacts
-        .iter()
-        .map(|n| (*n, &surfaces.0.contacts[*n]));
+    let contacts = column.contacts.iter().map(|n| (*n, &contacts[*n]));
     let mut level = contacts.filter(|(_, contact)| contact.normal[1] > 0.0);
     level.next().map_or(metal, |(n, contact)| {
         heating.energy.skin(n, contact).temperature

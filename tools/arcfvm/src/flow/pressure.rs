@@ -48,8 +48,6 @@ pub struct FlowSolver {
     scratch: [Vec<f64>; 2],
     momentum_solver: [Solver; 2],
     pub(crate) pressure_solver: Solver,
-    /// Relaxation.
-    pub relaxation: Relaxation,
 }
 
 /// Residuals of one pass.
@@ -79,7 +77,7 @@ pub struct FlowProperties<'a> {
 impl FlowSolver {
     /// Memory for the grid.
     #[must_use]
-    pub fn new(grid: &Grid, relaxation: Relaxation, momentum: Solver, pressure: Solver) -> Self {
+    pub fn new(grid: &Grid, momentum: Solver, pressure: Solver) -> Self {
         Self {
             radial: FivePoint::new(grid.nr + 1, grid.nz),
             axial: FivePoint::new(grid.nr, grid.nz + 1),
@@ -93,7 +91,6 @@ impl FlowSolver {
             ],
             momentum_solver: [momentum.clone(), momentum],
             pressure_solver: pressure,
-            relaxation,
         }
     }
 
@@ -107,6 +104,7 @@ impl FlowSolver {
         setup: &FlowCase,
         flow: &mut Flow,
         properties: FlowProperties,
+        relaxation: Relaxation,
     ) -> Result<FlowResidual, (&'static str, Unsolved)> {
         let FlowProperties {
             density,
@@ -136,10 +134,8 @@ impl FlowSolver {
             &mut self.scratch[1],
         ));
         let inertia = amount(&self.radial, &flow.radial) + amount(&self.axial, &flow.axial);
-        self.radial
-            .under_relax(&flow.radial, self.relaxation.velocity);
-        self.axial
-            .under_relax(&flow.axial, self.relaxation.velocity);
+        self.radial.under_relax(&flow.radial, relaxation.velocity);
+        self.axial.under_relax(&flow.axial, relaxation.velocity);
         let named = |name| move |e| (name, e);
         self.momentum_solver[0]
             .solve(&self.radial, &mut flow.radial)
@@ -153,9 +149,9 @@ impl FlowSolver {
             density,
         };
         flow.carry(gas);
-        self.slopes(gas);
+        self.slopes(gas, relaxation.coupling);
         let (mass, correction) = self
-            .correct(case, gas, flow)
+            .correct(case, gas, flow, relaxation.pressure)
             .map_err(named("pressure correction"))?;
         Ok(FlowResidual {
             force,
@@ -166,9 +162,9 @@ impl FlowSolver {
     }
 
     /// `du` of eqs 3.74 and 3.76 for every face.
-    fn slopes(&mut self, gas: Carried<'_>) {
+    fn slopes(&mut self, gas: Carried<'_>, coupling: Coupling) {
         let (grid, faces) = (gas.grid, &gas.setup.faces);
-        let simplec = self.relaxation.coupling == Coupling::Simplec;
+        let simplec = coupling == Coupling::Simplec;
         let slope = |a: &FivePoint, k: usize, area: f64| {
             let sides = a.east[k] + a.west[k] + a.north[k] + a.south[k];
             area / (a.centre[k] - if simplec { sides } else { 0.0 })
@@ -203,6 +199,7 @@ impl FlowSolver {
         case: &Case,
         gas: Carried<'_>,
         flow: &mut Flow,
+        relaxation: f64,
     ) -> Result<(Unbalanced, Outcome), Unsolved> {
         let (grid, closed) = (gas.grid, gas.setup.closed);
         let east = |i: usize, j: usize| {
@@ -240,14 +237,14 @@ impl FlowSolver {
         let outcome = self
             .pressure_solver
             .solve(&self.correction, &mut self.change)?;
-        self.apply(gas, flow);
+        self.apply(gas, flow, relaxation);
         if closed {
             centre_pressure(case, &mut flow.pressure);
         }
         Ok((mass, outcome))
     }
 
-    fn apply(&self, gas: Carried<'_>, flow: &mut Flow) {
+    fn apply(&self, gas: Carried<'_>, flow: &mut Flow, relaxation: f64) {
         let grid = gas.grid;
         let at = |inside: bool, k: usize| if inside { self.change[k] } else { 0.0 };
         for j in 0..grid.nz {
@@ -273,7 +270,7 @@ impl FlowSolver {
             }
         }
         for (p, change) in flow.pressure.iter_mut().zip(&self.change) {
-            *p += self.relaxation.pressure * change;
+            *p += relaxation * change;
         }
     }
 }

@@ -26,6 +26,7 @@ impl Arc {
             electric,
             flowing,
             iteration,
+            advance,
             ..
         } = self;
         let Some((setup, flowing)) = case.flow.as_ref().zip(flowing.as_mut()) else {
@@ -40,7 +41,7 @@ impl Arc {
             lorentz,
         };
         let found = solver
-            .pass(case, setup, flow, reads)
+            .pass(case, setup, flow, reads, advance.flow)
             .map_err(|(name, e)| Error::solver(name, *iteration, case, &e))?;
         if *iteration <= FIRST && !flow.within(ABSURD_M_S) {
             flow.slow(setup, FIRST_M_S);

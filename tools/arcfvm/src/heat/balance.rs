@@ -136,10 +136,11 @@ pub fn electrodes(case: &Case, energy: &Energy, sources: &Sources) -> Vec<Electr
         return Vec::new();
     };
     let mut all = vec![ElectrodeHeat::default(); surfaces.electrodes.len()];
-    for (contact, found) in surfaces.contacts.iter().zip(&sources.contacts) {
+    let taken_up = sources.contacts.iter().zip(sources.absorbed());
+    for (contact, (found, absorbed)) in surfaces.contacts.iter().zip(taken_up) {
         let one = &mut all[contact.electrode];
         one.convection += (energy.convection(contact) - found.held) * contact.area;
-        one.radiation += found.absorbed * contact.area;
+        one.radiation += absorbed * contact.area;
         one.electron += found.parts.electron * contact.area;
         one.ion += found.parts.ion * contact.area;
         one.emission += found.parts.emission * contact.area;

@@ -16,8 +16,7 @@ impl Arc {
         let heating = self.heating.as_ref()?;
         let all = electrodes(&self.case, &heating.energy, &heating.sources);
         let surfaces = self.case.surfaces.as_ref();
-        let name = &self.case.materials[wire.material].name;
-        let own = surfaces.and_then(|s| s.electrodes.iter().position(|e| *e.name == **name));
+        let own = surfaces.and_then(|s| s.electrode_of[wire.material]);
         let boiled = own.map_or(0.0, |n| -all[n].vapour);
         let surface = own.map_or(0.0, |n| all[n].sum()) + boiled;
         let joule = self.electric.as_ref().map_or(0.0, |e| {

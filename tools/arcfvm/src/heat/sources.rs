@@ -15,8 +15,6 @@ pub struct ContactHeat {
     pub emitted: f64,
     /// Electrons, ions, surface radiation, vapour.
     pub parts: SurfaceHeat,
-    /// Radiation of the arc taken up.
-    pub absorbed: f64,
     /// Heat that emitted electrons bring into the gas.
     pub into_gas: f64,
     /// Power of the layer in front of a cathode.
@@ -162,7 +160,6 @@ impl Sources {
                 current,
                 emitted,
                 parts,
-                absorbed: self.absorbed[n],
                 into_gas,
                 layer: electrode.layer(current, emitted),
                 ionisation: electrode.ionisation(),

@@ -49,7 +49,7 @@ impl Arc {
 
     /// What surfaces absorb and, where they have temperatures of their own, those, with what evaporates at them.
     fn settle_surfaces(&mut self) {
-        let anew = self.iteration % VIEW_EVERY == 1 || self.settings.view_always;
+        let anew = self.iteration % VIEW_EVERY == 1;
         let Some((Heating { energy, sources }, around)) = self.heating_within() else {
             return;
         };
@@ -111,8 +111,8 @@ impl Arc {
     pub(crate) fn solve_heat(&mut self) -> Result<(f64, Unbalanced, usize), Error> {
         let iteration = self.iteration;
         let step = Step {
-            relaxation: self.settings.heat_relaxation,
-            limit: self.settings.heat_step,
+            relaxation: self.advance.heat,
+            limit: self.advance.heat_step,
         };
         let Some((Heating { energy, sources }, around)) = self.heating_within() else {
             return Ok((0.0, Unbalanced::default(), 0));

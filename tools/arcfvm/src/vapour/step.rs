@@ -35,7 +35,7 @@ impl Arc {
     /// When the fractions leave the numbers.
     pub(crate) fn solve_vapour(&mut self) -> Result<f64, Error> {
         self.settle_vapour();
-        let (case, relaxation) = (&self.case, self.settings.heat_relaxation);
+        let (case, relaxation) = (&self.case, self.advance.heat);
         let Some((setup, vapour)) = case.vapour.as_ref().zip(self.vapour.as_mut()) else {
             return Ok(0.0);
         };
