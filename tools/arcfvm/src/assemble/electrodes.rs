@@ -3,9 +3,9 @@
 use crate::assemble::Faults;
 use crate::assemble::layout::Layout;
 use crate::case::{Edges, PotentialCase, PotentialEdge};
-use crate::heat::{Electrode, Emission, Evaporation, Role};
+use crate::heat::{Electrode, Emission, Evaporation, Role, Surfaces};
 use crate::material::REFERENCE_K;
-use crate::scene::{self, Body};
+use crate::scene::{self, Body, ElectrodeAt, Film, Scene};
 
 /// Electrodes by material, the gas being 0.
 pub(crate) struct Electrodes {
@@ -190,4 +190,39 @@ fn as_cathode(e: &scene::Electrode) -> scene::Cathode {
         emissivity: e.emissivity,
         evaporation: e.evaporation.clone(),
     }
+}
+
+/// Surfaces of the electrodes, where heat or vapour meets them.
+pub(super) fn surfaces(scene: &Scene, layout: &Layout, all: &Electrodes) -> Option<Surfaces> {
+    let heat = scene.heat.as_ref();
+    if heat.is_none() && scene.vapour.is_none() {
+        return None;
+    }
+    let mut electrodes = Vec::new();
+    let mut index = vec![None; all.of.len()];
+    for (material, electrode) in all.of.iter().enumerate() {
+        if let Some(electrode) = electrode {
+            index[material] = Some(electrodes.len());
+            let mut electrode = electrode.clone();
+            // Where vapour is solved, surfaces do not evaporate into a vacuum.
+            electrode.evaporation = electrode.evaporation.filter(|_| scene.vapour.is_none());
+            electrodes.push(electrode);
+        }
+    }
+    if electrodes.is_empty() {
+        return None;
+    }
+    let mut surfaces = Surfaces {
+        electrodes,
+        contacts: Vec::new(),
+        beside: Vec::new(),
+        absorbed: heat.and_then(|h| h.absorbed_radiation),
+        electrode_of: index,
+        at: heat.map_or(ElectrodeAt::default(), |h| h.electrode_at),
+        film: heat.map_or(Film::default(), |h| h.film),
+        film_depth: heat.and_then(|h| h.film_m),
+        layers: Vec::new(),
+    };
+    surfaces.renew(&layout.grid, &layout.material);
+    Some(surfaces)
 }

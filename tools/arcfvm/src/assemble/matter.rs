@@ -4,8 +4,8 @@ use props::Table;
 use run::property::{Arguments, Curve, Extrapolate, Property, TemperatureTable};
 
 use crate::assemble::Faults;
+use crate::assemble::bed::conductivity;
 use crate::assemble::gas_file::GasFile;
-use crate::assemble::granular::conductivity;
 use crate::material::{Enthalpy, Law, Material, Melting, REFERENCE_K, Strict};
 use crate::scene::{Body, Gas, GivenGas, Metal, Scene, SpecificHeat};
 

@@ -4,7 +4,7 @@ use run::Failure;
 use run::preview::{Coordinates, Marked, Preview, Spot};
 
 use super::layout::Layout;
-use super::{Faults, edges};
+use super::{Faults, current, flow, heat};
 use crate::case::{FlowEdge, HeatEdge, PotentialEdge};
 use crate::grid::Grid;
 use crate::scene::Scene;
@@ -52,11 +52,11 @@ pub fn preview(scene: &Scene) -> Result<Preview, Failure> {
 fn conditions(scene: &Scene, layout: &Layout, faults: &mut Faults) -> Vec<Option<String>> {
     let grid = &layout.grid;
     let current = scene.current.as_ref();
-    let current = current.map(|_| edges::current(scene, grid, faults));
+    let current = current.map(|_| current::edges(scene, grid, faults));
     let heat = scene.heat.as_ref();
-    let heat = heat.map(|_| edges::heat(scene, grid, faults));
+    let heat = heat.map(|_| heat::edges(scene, grid, faults));
     let flow = scene.flow.as_ref();
-    let flow = flow.map(|_| edges::flow(scene, layout, faults).0);
+    let flow = flow.map(|_| flow::edges(scene, layout, faults).0);
     let mut all = vec![None; grid.len()];
     for (k, side, n) in at_edges(grid) {
         let parts = [

@@ -1,10 +1,12 @@
 //! Iron vapour of the scene.
 
+use crate::assemble::edges::{paint, values};
 use crate::assemble::electrodes::Electrodes;
 use crate::assemble::gas_file::GasFile;
 use crate::assemble::layout::Layout;
-use crate::assemble::{Faults, PLACE, cell_source, edges, value};
-use crate::case::{FlowCase, Ionisation, VapourCase};
+use crate::assemble::{Faults, PLACE, cell_source, value};
+use crate::case::{Edges, FlowCase, Ionisation, VapourCase, VapourEdge};
+use crate::grid::Grid;
 use crate::material::REFERENCE_K;
 use crate::mixture::Molar;
 use crate::scene::{Amount, Body, Evaporation, Gas, Returns, Scene, Vapour, VapourMass};
@@ -57,7 +59,7 @@ pub(crate) fn vapour(
     let (molar, pressure) = mixture(scene, gas, &bodies, faults)?;
     of_one_kind(&bodies, molar.iron, faults);
     Some(VapourCase {
-        edges: edges::vapour(scene, &layout.grid, faults),
+        edges: edges(scene, &layout.grid, faults),
         start: start(given, layout, faults),
         source,
         metals: metals(&bodies, electrodes),
@@ -72,6 +74,32 @@ pub(crate) fn vapour(
         returns_hot: given.returns == Returns::Gas,
         wall: wall(&bodies),
     })
+}
+
+/// Edges of the vapour.
+fn edges(scene: &Scene, grid: &Grid, faults: &mut Faults) -> Edges<VapourEdge> {
+    let mut edges = Edges::uniform(grid, VapourEdge::Sealed);
+    let Some(vapour) = &scene.vapour else {
+        return edges;
+    };
+    paint(
+        &vapour.edges,
+        grid,
+        "/vapour/edges",
+        &mut edges,
+        |at, c, faces| {
+            let at = format!("{at}/iron_mass_fraction");
+            let found = values(&c.iron_mass_fraction, c.over_m, faces, &at, faults);
+            if found.iter().flatten().any(|y| !(0.0..=1.0).contains(y)) {
+                faults.add(&at, "is not from 0 to 1 everywhere");
+            }
+            found
+                .into_iter()
+                .map(|y| y.map(VapourEdge::Fraction))
+                .collect()
+        },
+    );
+    edges
 }
 
 /// The granular body, where slag takes iron up.
