@@ -56,7 +56,7 @@ impl Tool for ArcFvm {
 
     fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
         let (scene, case) = problem(scene, inputs)?;
-        let plan = plan::plan(&scene, &case);
+        let plan = plan::plan(&case);
         Ok(match pool::told(&scene, &case) {
             Some(told) => plan.note(told),
             None => plan,

@@ -16,14 +16,6 @@ pub fn base(arc: &Arc) -> Option<usize> {
     arc.case.base.as_ref().map(|base| base.material)
 }
 
-/// Voltage over the wire on the axis \[V\].
-#[must_use]
-pub fn wire_drop(arc: &Arc) -> Option<f64> {
-    let (wire, electric) = (arc.case.wire?, arc.electric.as_ref()?);
-    let tip = electric.potential.value[arc.case.grid.cell(0, wire.tip)];
-    Some((electric.potential.drive - tip).abs())
-}
-
 /// A column of the base metal's surface.
 struct Column {
     /// Column of the grid.

@@ -1,6 +1,6 @@
 //! What is written of granular flux, slag and cavity.
 
-use artefact::Record;
+use artefact::{Record, Table};
 
 use crate::bed::granular::Granular;
 use crate::material::GAS;
@@ -35,6 +35,18 @@ pub fn slag(arc: &Arc) -> Option<Vec<f64>> {
     let molten = |k: usize| material[k] == granular.material && t[k] > granular.melting;
     let cells = 0..arc.case.grid.len();
     Some(cells.map(|k| f64::from(u8::from(molten(k)))).collect())
+}
+
+/// Name and unit of the column of every cell.
+pub(crate) const COLUMN: (&str, &str) = ("slag", "1");
+
+/// Adds the column of every cell, where there is a bed.
+pub(crate) fn plasma(arc: &Arc, table: Table) -> Table {
+    let (grid, Some(slag)) = (&arc.case.grid, slag(arc)) else {
+        return table;
+    };
+    let values = grid.by_height(|i, j| slag[grid.cell(i, j)]);
+    table.column(COLUMN.0, COLUMN.1, values)
 }
 
 /// Adds up the bed.

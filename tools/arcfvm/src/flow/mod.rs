@@ -2,6 +2,7 @@
 
 pub mod edge_shear;
 pub mod field;
+pub(crate) mod figures;
 pub mod momentum_axial;
 pub mod momentum_radial;
 mod momentum_side;

@@ -12,6 +12,7 @@ mod energy_film;
 mod energy_integral;
 mod energy_skin;
 mod feed;
+pub(crate) mod figures;
 pub mod film;
 pub mod motion;
 pub mod radiation;

@@ -8,6 +8,7 @@ pub mod stagnation;
 use artefact::Checkpoint;
 use run::{Failure, Session};
 
+use crate::flow::figures;
 use crate::heat::balance::Balance;
 use crate::march::continuation::Steps;
 use crate::march::pace::Pace;
@@ -183,12 +184,7 @@ pub fn close(arc: &Arc, balance: Option<&Balance>, session: &mut Session) {
     if let Some(balance) = balance {
         arc.tell_supply(balance, session);
     }
-    if let Some(flowing) = &arc.flowing {
-        let grid = &arc.case.grid;
-        let cells = (0..grid.nz).flat_map(|j| (0..grid.nr).map(move |i| (i, j)));
-        let lost: f64 = cells
-            .map(|(i, j)| flowing.flow.imbalance(grid, i, j).abs())
-            .sum();
+    if let Some(lost) = figures::unbalanced(arc) {
         session.closing("mass_unbalanced_kg_s", "kg/s", lost);
     }
 }

@@ -7,13 +7,16 @@ use crate::material::GAS;
 use crate::residual::part;
 use crate::solver::Arc;
 
+/// Name and unit of the column of every cell that is there with vapour.
+pub(crate) const COLUMN: (&str, &str) = ("iron_mass_fraction", "1");
+
 /// Adds the mass fraction of iron, where there is vapour, and the electrons, where the gas tells them.
 pub(crate) fn plasma(arc: &Arc, mut table: Table) -> Table {
     let grid = &arc.case.grid;
     if let Some(vapour) = &arc.vapour {
         let iron = &vapour.iron;
         let values = grid.by_height(|i, j| iron[grid.cell(i, j)]);
-        table = table.column("iron_mass_fraction", "1", values);
+        table = table.column(COLUMN.0, COLUMN.1, values);
     }
     if let Some(law) = &arc.case.materials[GAS].electron_density {
         let values = grid.by_height(|i, j| {
