@@ -59,6 +59,8 @@ pub struct Case {
     pub heat: Option<HeatCase>,
     /// Iron vapour.
     pub vapour: Option<VapourCase>,
+    /// Granular flux that boils into the cavity, where heat is solved.
+    pub bed: Option<Granular>,
     /// Surfaces of electrodes, where heat or vapour meets them.
     pub surfaces: Option<Surfaces>,
     /// The wire, where there is one.
@@ -95,21 +97,38 @@ impl Case {
         self.surfaces.as_ref().map_or(&[], |s| &s.contacts)
     }
 
-    /// The bed of granular flux.
-    #[must_use]
-    pub fn bed(&self) -> Option<&Granular> {
-        self.heat.as_ref()?.granular.as_ref()
-    }
-
     /// The bed of granular flux, where its slag is clear.
     #[must_use]
     pub fn clear_bed(&self) -> Option<&Granular> {
-        let granular = self.bed()?;
-        granular.melts_within.and(Some(granular))
+        self.bed.as_ref().filter(|bed| bed.melts_within.is_some())
     }
 
-    /// Brings everything that follows from the materials of the cells to what those are now.
-    pub(crate) fn renew(&mut self) {
+    /// Turns slag to gas and back by the temperature of the cells \[K\]; returns how many of them changed.
+    pub(crate) fn boil(&mut self, temperature: &[f64]) -> usize {
+        let bed = self.bed.as_mut();
+        let changed = bed.map_or(0, |bed| {
+            bed.boil(&self.grid, temperature, &mut self.material)
+        });
+        if changed > 0 {
+            self.renew();
+        }
+        changed
+    }
+
+    /// Takes which cells of the bed have boiled, and how often each has changed.
+    pub(crate) fn restore_bed(&mut self, boiled: &[u8], changes: Vec<u8>) {
+        let Some(bed) = &mut self.bed else {
+            return;
+        };
+        for (k, gas) in bed.cells.iter().zip(boiled) {
+            self.material[*k] = if *gas == 1 { GAS } else { bed.material };
+        }
+        bed.changes = changes;
+        self.renew();
+    }
+
+    /// Brings what follows from the materials of the cells to what those are now.
+    fn renew(&mut self) {
         let (grid, material) = (&self.grid, &self.material);
         if let Some(surfaces) = &mut self.surfaces {
             surfaces.renew(grid, material);

@@ -2,8 +2,9 @@
 //! a base metal (Komen 2019, sections 3.2 and 5.2).
 //!
 //! One folder per effect: [`flow`], [`heat`], [`current`], [`vapour`], [`bed`]. Each holds what is set up (`setup`), its field and
-//! [`equation`], its step within an iteration (`step`), and what is told of it (`figures`, `balance`). The [`case`] owns all
-//! that is set up; the [`solver`] iterates.
+//! [`equation`], its step within an iteration (`step`), its `balance` and what is told of it (`figures`); in [`scene`] and
+//! [`assemble`] each has a file of its own. The [`case`] owns all that is set up, and what follows from the materials of the
+//! cells; fields borrow it. The [`solver`] iterates.
 
 pub mod assemble;
 pub mod bed;
@@ -33,6 +34,5 @@ pub mod scene;
 pub mod settings;
 pub mod solver;
 pub mod start;
-pub mod supply;
 pub mod surface;
 pub mod vapour;

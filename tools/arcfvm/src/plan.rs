@@ -75,7 +75,7 @@ pub(crate) fn plan(case: &Case) -> Plan {
     let mut columns: Vec<_> = written.flat_map(|effect| effect.columns).collect();
     // The density of electrons with vapour, and the cells' places, slag and material.
     let plasma = columns.len() + usize::from(vapour.solved) + 4;
-    columns.extend(case.bed().map(|_| &bed::figures::COLUMN));
+    columns.extend(case.bed.as_ref().map(|_| &bed::figures::COLUMN));
     for (name, unit) in columns {
         plan = plan.column(name, unit);
     }

@@ -108,7 +108,7 @@ pub fn restore(arc: &mut Arc, c: &mut Checkpoint) -> artefact::Result<()> {
 
 /// Length within which the wall of a cavity takes up light, where it has one.
 fn length(case: &Case) -> Option<f64> {
-    case.bed()?.length
+    case.bed.as_ref()?.length
 }
 
 /// Puts what a solver remembers.

@@ -159,7 +159,7 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Fai
 
 /// Lets the bed of flux be gas where it is in the other solution, if that has one.
 fn take_bed(arc: &mut Arc, other: &Other) {
-    let (Some(granular), Some(kinds)) = (arc.case.bed(), other.column("material")) else {
+    let (Some(granular), Some(kinds)) = (arc.case.bed.as_ref(), other.column("material")) else {
         return;
     };
     let own = role(arc, granular.material as f64);

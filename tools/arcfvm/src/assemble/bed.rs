@@ -17,12 +17,13 @@ const SLAG_STEP_K: f64 = 25.0;
 const MOST_STEPS: f64 = 1000.0;
 
 /// The granular body of the scene, if heat is solved and there is one.
-pub(crate) fn granular(
+pub(super) fn bed(
     scene: &Scene,
     layout: &Layout,
     bodies: &[(&String, &Body)],
     faults: &mut Faults,
 ) -> Option<Granular> {
+    let heat = scene.heat.as_ref()?;
     let mut all = bodies.iter().enumerate();
     let (n, (name, body)) = all.find(|(_, (_, b))| b.granular.is_some())?;
     if let Some((_, (second, _))) = all.find(|(_, (_, b))| b.granular.is_some()) {
@@ -46,8 +47,7 @@ pub(crate) fn granular(
         faults.add(&format!("{at}/boiling_k"), what);
     }
     let taken = given.absorbed_radiation.unwrap_or(0.0);
-    let base = scene.heat.as_ref().and_then(|h| h.absorbed_radiation);
-    if taken + base.unwrap_or(0.0) > 1.0 {
+    if taken + heat.absorbed_radiation.unwrap_or(0.0) > 1.0 {
         let what = format!("{taken} and the base metal's part are more than all radiation");
         faults.add(&format!("{at}/absorbed_radiation"), what);
     }

@@ -2,7 +2,7 @@
 
 use super::edges::{paint, values};
 use super::layout::Layout;
-use super::{Faults, bed, cell_source};
+use super::{Faults, cell_source};
 use crate::case::{Edges, HeatCase, HeatEdge, MovingPlate};
 use crate::grid::Grid;
 use crate::material::REFERENCE_K;
@@ -21,7 +21,6 @@ pub(super) fn heat(
     Some(HeatCase {
         plates: plates(bodies, &edges),
         edges,
-        granular: bed::granular(scene, layout, bodies, faults),
         source: cell_source(&layout.grid, source, at, faults),
         electrons: carriers(scene, heat, faults),
         conduction: heat.conduction,

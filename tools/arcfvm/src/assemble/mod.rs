@@ -79,6 +79,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
     }
     let flow = flow::flow(scene, &layout, &materials, &mut faults);
     let heat = heat::heat(scene, &layout, &bodies, &mut faults);
+    let bed = bed::bed(scene, &layout, &bodies, &mut faults);
     let flows = flow.as_ref();
     let vapour = vapour::vapour(scene, gas, &layout, &electrodes, flows, &mut faults);
     faults.none()?;
@@ -92,6 +93,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         flow,
         heat,
         vapour,
+        bed,
         surfaces,
         wire,
         base,

@@ -30,7 +30,7 @@ pub struct Bed {
 /// Whether each cell of the bed is slag now: 1 where it is, 0 elsewhere.
 #[must_use]
 pub fn slag(arc: &Arc) -> Option<Vec<f64>> {
-    let granular = arc.case.bed()?;
+    let granular = arc.case.bed.as_ref()?;
     let (t, material) = (arc.temperature(), &arc.case.material);
     let molten = |k: usize| material[k] == granular.material && t[k] > granular.melting;
     let cells = 0..arc.case.grid.len();
@@ -52,7 +52,7 @@ pub(crate) fn plasma(arc: &Arc, table: Table) -> Table {
 /// Adds up the bed.
 #[must_use]
 pub fn measure(arc: &Arc) -> Option<Bed> {
-    let (granular, slag) = (arc.case.bed()?, slag(arc)?);
+    let (granular, slag) = (arc.case.bed.as_ref()?, slag(arc)?);
     let (grid, material) = (&arc.case.grid, &arc.case.material);
     let mut bed = Bed::default();
     for k in &granular.cells {
@@ -174,7 +174,8 @@ fn side(arc: &Arc, granular: &Granular, bed: &mut Bed) {
 pub fn record(arc: &Arc, record: Record) -> Record {
     let Some((granular, bed, heating, heat)) = arc
         .case
-        .bed()
+        .bed
+        .as_ref()
         .zip(measure(arc))
         .and_then(|(g, b)| Some((g, b, arc.heating.as_ref()?, arc.case.heat.as_ref()?)))
     else {

@@ -17,21 +17,19 @@ impl Arc {
     /// What boils does not come back beside hot gas, and any wider cavity is at rest too, its wall the colder: slag that boiled in a bed
     /// on its way to its temperatures would leave a cavity that tells of the way.
     pub(crate) fn boil(&mut self) -> Option<f64> {
-        let heating = self.heating.as_ref()?;
-        let case = &mut self.case;
-        let granular = case.heat.as_mut()?.granular.as_mut()?;
+        let cells = self.case.bed.as_ref()?.cells.len();
+        let temperature = &self.heating.as_ref()?.energy.temperature;
         if self.iteration < FIRST_LOOK {
             return Some(1.0);
         }
         if self.iteration.is_multiple_of(LOOK_EVERY) {
             self.boiled = None;
             if self.unsettled <= SETTLED {
-                let temperature = &heating.energy.temperature;
-                let before = case.material.clone();
-                let changed = granular.boil(&case.grid, temperature, &mut case.material);
-                self.boiled = Some(changed as f64 / granular.cells.len().max(1) as f64);
+                let before = self.case.material.clone();
+                let changed = self.case.boil(temperature);
+                self.boiled = Some(changed as f64 / cells.max(1) as f64);
                 if changed > 0 {
-                    self.reshape(&before);
+                    self.follow(&before);
                 }
             }
         }
@@ -41,31 +39,20 @@ impl Arc {
 
     /// The bed as it is, for a checkpoint: what boiled, and how often each cell changed.
     pub(crate) fn bed(&self) -> Option<[Vec<u8>; 2]> {
-        let granular = self.case.bed()?;
+        let bed = self.case.bed.as_ref()?;
         let gas = |k: &usize| u8::from(self.case.material[*k] == GAS);
-        let boiled = granular.cells.iter().map(gas).collect();
-        Some([boiled, granular.changes.clone()])
+        Some([bed.cells.iter().map(gas).collect(), bed.changes.clone()])
     }
 
     /// Takes the bed from a checkpoint.
     pub(crate) fn restore_bed(&mut self, boiled: &[u8], changes: Vec<u8>) {
-        let heat = self.case.heat.as_mut();
-        let Some(granular) = heat.and_then(|h| h.granular.as_mut()) else {
-            return;
-        };
-        for (k, gas) in granular.cells.iter().zip(boiled) {
-            let now = if *gas == 1 { GAS } else { granular.material };
-            self.case.material[*k] = now;
-        }
-        granular.changes = changes;
+        self.case.restore_bed(boiled, changes);
         // Pressures come from the checkpoint: no cell is new.
-        let now = self.case.material.clone();
-        self.reshape(&now);
+        self.follow(&self.case.material.clone());
     }
 
-    /// Takes the materials of the cells, which were others `before`.
-    fn reshape(&mut self, before: &[usize]) {
-        self.case.renew();
+    /// Lets the fields follow the materials of the cells, which were others `before`.
+    fn follow(&mut self, before: &[usize]) {
         let case = &self.case;
         if let Some(heating) = &mut self.heating {
             heating.energy.follow(case);

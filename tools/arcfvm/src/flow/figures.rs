@@ -46,10 +46,3 @@ pub(crate) fn record(arc: &Arc, record: Record) -> Record {
     let fastest = speeds.fold(0.0_f64, |m, u| m.max(u.abs()));
     record.with("fastest_m_s", "m/s", fastest)
 }
-
-/// Sum of the mass that cells lack or have too much of \[kg/s\].
-pub(crate) fn unbalanced(arc: &Arc) -> Option<f64> {
-    let (grid, flow) = (&arc.case.grid, &arc.flowing.as_ref()?.flow);
-    let cells = (0..grid.nz).flat_map(|j| (0..grid.nr).map(move |i| (i, j)));
-    Some(cells.map(|(i, j)| flow.imbalance(grid, i, j).abs()).sum())
-}

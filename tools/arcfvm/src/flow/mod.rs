@@ -1,5 +1,6 @@
 //! The flow of the gas (Komen 2019, eqs 3.3 to 3.5).
 
+pub mod balance;
 pub mod edge_shear;
 pub mod field;
 pub(crate) mod figures;

@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::bed::granular::Granular;
 use crate::edges::Edges;
 
 /// What heat meets at an edge face.
@@ -119,8 +118,6 @@ pub struct HeatCase {
     pub source: Option<Vec<f64>>,
     /// Plates and beds of flux that move past the arc.
     pub plates: Vec<MovingPlate>,
-    /// Granular flux that boils into the cavity.
-    pub granular: Option<Granular>,
     /// What electrons carry through the gas.
     pub electrons: Option<Electrons>,
     /// Conductivity of the way from one cell to the next.

@@ -195,18 +195,13 @@ impl Sources {
         let surfaces = reads.around.case.surfaces.as_ref();
         let contacts = surfaces.map_or(0, |s| s.contacts.len());
         self.absorbed.resize(contacts, 0.0);
-        let length = reads
-            .around
-            .heat
-            .granular
-            .as_ref()
-            .and_then(|bed| bed.length);
+        let length = reads.around.case.bed.as_ref().and_then(|bed| bed.length);
         if (anew || self.stale) && (surfaces.is_some() || length.is_some()) {
             self.emit(reads);
             if let Some(surfaces) = surfaces {
                 self.view(reads, surfaces);
             }
-            if let Some((bed, length)) = reads.around.heat.granular.as_ref().zip(length) {
+            if let Some((bed, length)) = reads.around.case.bed.as_ref().zip(length) {
                 let case = reads.around.case;
                 let (grid, material) = (&case.grid, &case.material);
                 self.lit = lit_wall::shares(grid, material, bed.material, length, &self.emission);
@@ -237,7 +232,7 @@ impl Sources {
 
     fn warm_bed(&mut self, reads: Reads<'_>, out: &mut [[f64; 2]]) {
         self.granular = 0.0;
-        if let Some(bed) = &reads.around.heat.granular {
+        if let Some(bed) = &reads.around.case.bed {
             let (case, shine) = (reads.around.case, self.emission.iter().sum());
             let give = |k: usize, heat: f64| out[k][0] += heat;
             self.granular = bed.take_up(&case.grid, &case.material, shine, &self.lit, give);

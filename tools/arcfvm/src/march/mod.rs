@@ -8,7 +8,6 @@ pub mod stagnation;
 use artefact::Checkpoint;
 use run::{Failure, Session};
 
-use crate::flow::figures;
 use crate::heat::balance::Balance;
 use crate::march::continuation::Steps;
 use crate::march::pace::Pace;
@@ -184,7 +183,8 @@ pub fn close(arc: &Arc, balance: Option<&Balance>, session: &mut Session) {
     if let Some(balance) = balance {
         arc.tell_supply(balance, session);
     }
-    if let Some(lost) = figures::unbalanced(arc) {
+    if let Some(flowing) = &arc.flowing {
+        let lost = flowing.flow.unbalanced(&arc.case.grid);
         session.closing("mass_unbalanced_kg_s", "kg/s", lost);
     }
 }

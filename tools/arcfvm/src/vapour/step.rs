@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::residual::part;
 use crate::solver::Arc;
-use crate::vapour::field::IronBalance;
+use crate::vapour::balance::IronBalance;
 
 impl Arc {
     /// Conductances and evaporation at the last state.
