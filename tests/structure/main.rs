@@ -22,7 +22,7 @@ const NUMERICS: [&str; 10] = [
     "particles",
     "torch",
 ];
-const HARNESS: [&str; 2] = ["artefact", "run"];
+const HARNESS: [&str; 3] = ["artefact", "run", "columns"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -40,6 +40,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "wls" => &["neighbours", "krylov"],
         "artefact" => &["manual"],
         "run" => &["artefact", "manual"],
+        "columns" => &["artefact", "particles"],
         "fuzz" => &["artefact"],
         "report" | "sweep" => &["artefact", "manual", "run"],
         "verification" => &["artefact", "kernels", "neighbours", "relax", "run", "wls"],

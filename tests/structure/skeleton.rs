@@ -43,7 +43,7 @@ const PROGRAM: [&str; 10] = [
 ];
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 24] = [
+const READING: [(&str, &str); 23] = [
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/cells"),
@@ -67,7 +67,6 @@ const READING: [(&str, &str); 24] = [
     ("heatsph", "operator"),
     ("heatsph", "output"),
     ("heatsph", "steady"),
-    ("poolsph", "columns"),
 ];
 
 fn source(stage: &str) -> std::path::PathBuf {

@@ -1,7 +1,6 @@
 //! Checkpoint of the columns and of the stages, bit for bit.
 
 use artefact::{Checkpoint, Result};
-use particles::Store;
 
 use crate::balance::Balance;
 use crate::march::March;
@@ -17,22 +16,8 @@ pub fn save(
     march: &March,
     start: &Balance,
 ) -> Result<()> {
-    for (place, set) in state.sets.iter().enumerate() {
-        for column in set.declared().filter(|column| column.saved) {
-            let name = entry(place, column.name);
-            match column.values {
-                Store::Scalars(values) => checkpoint.put_f64(&name, values),
-                Store::Vectors(values) => checkpoint.put_vectors(&name, values),
-                Store::Matrices(values) => {
-                    checkpoint.put_f64(&name, values.as_flattened().as_flattened())
-                }
-                Store::Flags(values) => checkpoint.put_u8(&name, values),
-                Store::Ids(values) => {
-                    let wide: Vec<u64> = values.iter().map(|id| u64::from(*id)).collect();
-                    checkpoint.put_u64(&name, &wide);
-                }
-            }
-        }
+    for set in &state.sets {
+        columns::save(checkpoint, set);
     }
     for (place, stage) in march.stages.iter().enumerate() {
         checkpoint.put_f64(&format!("stage.{place}.{}", stage.name()), &stage.save());
@@ -53,8 +38,8 @@ pub fn restore(
     state: &mut State,
     march: &mut March,
 ) -> Result<Balance> {
-    for (place, set) in state.sets.iter_mut().enumerate() {
-        set.restore(|name, kind| column(checkpoint, &entry(place, name), kind))?;
+    for set in &mut state.sets {
+        columns::restore(checkpoint, set)?;
     }
     let counts = checkpoint.u64("step")?;
     state.step = counts.first().copied().unwrap_or(0);
@@ -66,21 +51,4 @@ pub fn restore(
         stage.restore(state, &saved);
     }
     Ok(Balance::restored(&checkpoint.f64("start")?))
-}
-
-fn column(checkpoint: &mut Checkpoint, name: &str, kind: &Store) -> Result<Store> {
-    Ok(match kind {
-        Store::Scalars(_) => Store::Scalars(checkpoint.f64(name)?),
-        Store::Vectors(_) => Store::Vectors(checkpoint.vectors(name)?),
-        Store::Matrices(_) => {
-            let rows = checkpoint.vectors(name)?;
-            Store::Matrices(rows.as_chunks::<3>().0.to_vec())
-        }
-        Store::Flags(_) => Store::Flags(checkpoint.u8(name)?),
-        Store::Ids(_) => Store::Ids(checkpoint.u64(name)?.iter().map(|id| *id as u32).collect()),
-    })
-}
-
-fn entry(place: usize, column: &str) -> String {
-    format!("set.{place}.{column}")
 }

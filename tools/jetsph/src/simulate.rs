@@ -40,7 +40,7 @@ pub fn plan(scene: &Scene) -> Result<Plan, Failure> {
             plan = plan.column(&format!("{}.{}", set.name(), column.name), &column.unit);
         }
         plan = plan.output(
-            &frames::channel(set),
+            &columns::channel(set),
             frames,
             frames * n * frame.row_bytes() as u64,
         );

@@ -1,6 +1,8 @@
 //! What is written of the particles: frames with a column for each physics that is active.
 
-use artefact::{Frame, Precision};
+use artefact::Frame;
+use columns::Form;
+use particles::Set;
 use run::{Failure, Session};
 use serde::Serialize;
 
@@ -68,15 +70,11 @@ impl Layout {
     /// The particles `ids` as a frame.
     #[must_use]
     pub fn frame(&self, state: &State, ids: &[usize]) -> Frame {
-        let precision = match self.width {
-            FloatWidth::F32 => Precision::F32,
-            FloatWidth::F64 => Precision::F64,
-        };
         let moving = |a: &usize| match state.phase[*a] {
             Phase::Liquid | Phase::Flying => state.velocity[*a],
             Phase::Solid => [0.0; 3],
         };
-        let mut frame = Frame::new(precision)
+        let mut frame = Frame::new(self.width.into())
             .positions(ids.iter().map(|a| state.position[*a]))
             .vector("velocity", "m/s", ids.iter().map(moving));
         if state.has(Column::Temperature) {
@@ -140,6 +138,17 @@ impl Layout {
         let ids: Vec<usize> = (0..state.len()).filter(inside).collect();
         session.frame("/pool", state.time, &self.frame(state, &ids))
     }
+}
+
+/// Grains as a frame, by their numbers, in whatever order they are kept.
+#[must_use]
+pub fn grains(set: &Set, width: FloatWidth) -> Frame {
+    let form = Form {
+        precision: width.into(),
+        dimensions: 3,
+    };
+    let rows = columns::by_number(set);
+    columns::frame(columns::shown(set), rows.into_iter(), form)
 }
 
 /// Frames that are written every `interval` \[s\], at the start and at the end.

@@ -12,7 +12,6 @@
 
 pub mod assemble;
 pub mod balance;
-pub mod columns;
 pub mod domain;
 pub mod faces;
 pub mod forces;

@@ -3,7 +3,6 @@
 use artefact::{Checkpoint, Result};
 
 use crate::balance::Start;
-use crate::columns;
 use crate::march::March;
 use crate::patch::Patch;
 use crate::state::{Phase, State};
@@ -27,7 +26,7 @@ pub fn save(checkpoint: &mut Checkpoint, state: &State, march: &March, start: St
     let patches: Vec<f64> = state.surface.iter().flat_map(Patch::save).collect();
     checkpoint.put_f64("surface", &patches);
     if let Some(grains) = &state.grains {
-        columns::save(checkpoint, grains)?;
+        columns::save(checkpoint, grains);
     }
     checkpoint.put_u8("flowing", &[u8::from(state.flowing)]);
     checkpoint.put_u64("step", &[state.step]);

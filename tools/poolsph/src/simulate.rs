@@ -4,7 +4,6 @@ use run::{Failure, Fault, Inputs, Plan, Session};
 
 use crate::assemble::{Assembled, assemble};
 use crate::balance::{Balance, Start, thrown, unclosed};
-use crate::columns;
 use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
 use crate::probes;
@@ -107,7 +106,7 @@ fn with_grains(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<P
         }
     }
     if let Some(grains) = &assembled.state.grains {
-        let frame = columns::frame(grains, scene.output.precision);
+        let frame = frames::grains(grains, scene.output.precision);
         for column in frame.columns() {
             plan = plan.column(&format!("{}.{}", grains.name(), column.name), &column.unit);
         }
@@ -273,7 +272,7 @@ impl<'a> Simulation<'a> {
             return Ok(());
         };
         if frame {
-            let grains = columns::frame(set, self.scene.output.precision);
+            let grains = frames::grains(set, self.scene.output.precision);
             session.frame(&columns::channel(set), state.time, &grains)?;
         }
         if balance {

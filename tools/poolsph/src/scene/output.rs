@@ -1,5 +1,6 @@
 //! What a run writes, and when.
 
+use artefact::Precision;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +15,15 @@ pub enum FloatWidth {
     F32,
     /// 8 bytes.
     F64,
+}
+
+impl From<FloatWidth> for Precision {
+    fn from(width: FloatWidth) -> Self {
+        match width {
+            FloatWidth::F32 => Self::F32,
+            FloatWidth::F64 => Self::F64,
+        }
+    }
 }
 
 /// Frames and series. A frame stands at the step nearest to its time.
