@@ -26,22 +26,6 @@ pub(crate) fn middle(places: &[[f64; 3]]) -> [f64; 3] {
     std::array::from_fn(|k| 0.5 * (low[k] + high[k]))
 }
 
-/// Work in the widest vectors that the machine has. No operation is fused or reordered for it.
-pub(crate) fn wide(work: impl FnMut()) {
-    pulp::Arch::new().dispatch(Wide(work));
-}
-
-struct Wide<W>(W);
-
-impl<W: FnMut()> pulp::NullaryFnOnce for Wide<W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(mut self) {
-        (self.0)();
-    }
-}
-
 /// Sum of `weight` times `field` over the neighbours of a `row`, of every fourth one on its own, so
 /// that additions need not wait for each other.
 #[inline(always)]

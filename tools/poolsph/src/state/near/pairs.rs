@@ -2,9 +2,9 @@
 
 use kernels::CubicSpline;
 use neighbours::{Chunk, Lists, ROWS};
+use particles::sweep::wide;
 use rayon::prelude::*;
 
-use crate::sweep::wide;
 use crate::vector::{minus, squared};
 
 /// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists; buffers may
