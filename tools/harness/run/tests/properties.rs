@@ -73,6 +73,14 @@ fn faults_in_formulas_name_their_column() {
         ("sin(x", "column 6: a ')' is missing"),
         ("1 +", "column 4: ends where"),
         ("2 x", "column 3: 'x' was not expected here"),
+        (
+            "x < 3",
+            "column 3: '<' was not expected here; a choice is if(a, b, c): b where a is above 0, c elsewhere",
+        ),
+        (
+            "if(x > 3, 1, 0)",
+            "column 6: '>' was not expected here; a choice is",
+        ),
         ("foo(x)", "unknown function 'foo'"),
         ("sinn(x)", "did you mean 'sin'?"),
         ("1 + tt", "column 5: unknown name 'tt'"),

@@ -5,6 +5,8 @@
 
 use super::operation::{CONSTANTS, DEPTH, ONE, Operation, TWO, VARIABLES};
 
+/// Signs of comparisons, which formulas do not have.
+const COMPARISONS: &str = "<>=!&|?";
 /// Deepest nesting of parentheses.
 const NESTED: usize = 64;
 
@@ -22,7 +24,7 @@ pub(super) fn parse(text: &str, names: &[&str]) -> Result<Vec<Operation>, String
     parser.skip_space();
     match parser.peek() {
         None => Ok(parser.operations),
-        Some(c) => Err(parser.wrong(parser.at, format!("'{c}' was not expected here"))),
+        Some(c) => Err(parser.unexpected(c)),
     }
 }
 
@@ -204,8 +206,20 @@ impl Parser<'_> {
     fn close(&mut self) -> Result<(), String> {
         match self.next_of(")") {
             Some(_) => Ok(()),
-            None => Err(self.wrong(self.at, "a ')' is missing".to_owned())),
+            None => match self.peek().filter(|c| COMPARISONS.contains(*c)) {
+                Some(c) => Err(self.unexpected(c)),
+                None => Err(self.wrong(self.at, "a ')' is missing".to_owned())),
+            },
         }
+    }
+
+    /// What to say of a character behind which nothing can go on.
+    fn unexpected(&self, c: char) -> String {
+        let mut what = format!("'{c}' was not expected here");
+        if COMPARISONS.contains(c) {
+            what.push_str("; a choice is if(a, b, c): b where a is above 0, c elsewhere");
+        }
+        self.wrong(self.at, what)
     }
 
     fn push(&mut self, operation: Operation, start: usize) -> Result<(), String> {
