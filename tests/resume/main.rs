@@ -35,9 +35,11 @@ enum Scene {
     Charges,
     /// A drop of liquid that swings and falls.
     Liquid,
+    /// A liquid that swings between faces.
+    Basin,
 }
 
-const SCENES: [Scene; 7] = [
+const SCENES: [Scene; 8] = [
     Scene::Drop,
     Scene::Weld,
     Scene::Heat,
@@ -45,6 +47,7 @@ const SCENES: [Scene; 7] = [
     Scene::Field,
     Scene::Charges,
     Scene::Liquid,
+    Scene::Basin,
 ];
 
 impl Scene {
@@ -57,6 +60,7 @@ impl Scene {
             Self::Field => "field.json",
             Self::Charges => "charges.json",
             Self::Liquid => "liquid.json",
+            Self::Basin => "basin.json",
         };
         Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("resume")
@@ -67,7 +71,7 @@ impl Scene {
         match self {
             Self::Drop | Self::Weld => "poolsph",
             Self::Heat | Self::Rod => "heatsph",
-            Self::Field | Self::Charges | Self::Liquid => "emfield",
+            Self::Field | Self::Charges | Self::Liquid | Self::Basin => "emfield",
         }
     }
 
@@ -75,7 +79,7 @@ impl Scene {
     fn frames(self) -> &'static str {
         match self {
             Self::Drop | Self::Weld => "/particles",
-            Self::Heat | Self::Rod | Self::Field | Self::Charges | Self::Liquid => "/points",
+            _ => "/points",
         }
     }
 
@@ -113,23 +117,8 @@ impl Scene {
 
     /// The undisturbed run on one thread, made once for all tests.
     fn straight(self) -> &'static Straight {
-        static DROP: OnceLock<Straight> = OnceLock::new();
-        static WELD: OnceLock<Straight> = OnceLock::new();
-        static HEAT: OnceLock<Straight> = OnceLock::new();
-        static ROD: OnceLock<Straight> = OnceLock::new();
-        static FIELD: OnceLock<Straight> = OnceLock::new();
-        static CHARGES: OnceLock<Straight> = OnceLock::new();
-        static LIQUID: OnceLock<Straight> = OnceLock::new();
-        let bytes = match self {
-            Self::Drop => &DROP,
-            Self::Weld => &WELD,
-            Self::Heat => &HEAT,
-            Self::Rod => &ROD,
-            Self::Field => &FIELD,
-            Self::Charges => &CHARGES,
-            Self::Liquid => &LIQUID,
-        };
-        bytes.get_or_init(|| {
+        static RUNS: [OnceLock<Straight>; SCENES.len()] = [const { OnceLock::new() }; SCENES.len()];
+        RUNS[self as usize].get_or_init(|| {
             let folder = folder();
             let bytes = finish(&mut self.command(folder.path(), 1), folder.path());
             let reader = Reader::open(folder.path().join(OUT)).unwrap();
@@ -138,6 +127,7 @@ impl Scene {
                 Self::Heat | Self::Rod => warms(&reader),
                 Self::Field | Self::Charges => enters(&reader),
                 Self::Liquid => swings(&reader),
+                Self::Basin => sloshes(&reader),
             }
             Straight {
                 bytes,
@@ -179,6 +169,18 @@ fn swings(reader: &Reader) {
     let last = rows.len() - 1;
     assert!(at(0, "axis_ratio") - at(last, "axis_ratio") > 0.01);
     assert!(at(last, "centre_z") < -1e-5);
+}
+
+/// The surface must rise and fall.
+fn sloshes(reader: &Reader) {
+    let last = reader.count("/points") - 1;
+    let heights = |i: usize| {
+        let frame = reader.frame("/points", i).unwrap();
+        frame.position_vectors().unwrap()
+    };
+    let moved = heights(0).into_iter().zip(heights(last));
+    let most = moved.map(|(a, b)| (a[2] - b[2]).abs().max((a[1] - b[1]).abs()));
+    assert!(most.fold(0.0, f64::max) > 1e-5);
 }
 
 /// Temperatures must change, and heat must not be lost.
