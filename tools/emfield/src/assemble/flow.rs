@@ -12,6 +12,7 @@ use super::steps::Steps;
 use crate::liquid::effort::{Effort, failed};
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
+use crate::liquid::passing::Passing;
 use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
@@ -39,6 +40,8 @@ struct March {
     acting: Acting,
     /// Heat in it; none where the scene has none.
     heat: Option<Heated>,
+    /// How fast a stirred liquid passes its points.
+    passing: Passing,
     /// Steps that were divided.
     divided: u64,
     taken: u64,
@@ -73,6 +76,7 @@ pub fn flow(
         effort: Effort::default(),
         acting: Acting::new((scene, part), &liquid, session)?,
         heat: Heated::new(part, &liquid)?,
+        passing: Passing::default(),
         divided: 0,
         taken: 0,
     };
@@ -102,7 +106,7 @@ pub fn flow(
             session.keep(|checkpoint| march.save(&liquid, checkpoint))?;
         }
     }
-    march.close(&steps, session);
+    march.close(&liquid, &steps, session);
     Ok(())
 }
 
@@ -207,6 +211,10 @@ impl March {
         (time, patches): (f64, &[Patch<3>]),
         session: &mut Session,
     ) -> Result<(), Failure> {
+        if let Some(viscosity) = self.stirs(liquid) {
+            let how = (viscosity / self.matter.density, self.way.spacing);
+            self.passing.look(liquid, how, time);
+        }
         let Some((_, totals)) = self.outline(liquid) else {
             session.warn("the drop is no longer one whose surface every ray from its centre meets once: its radii, modes and volume are neither told nor kept");
             return Ok(());
@@ -234,6 +242,11 @@ impl March {
             session.record("/liquid", time, &row)?;
         }
         Ok(())
+    }
+
+    /// The viscosity that bounds what a force stirs \[Pa s\], where points are passed.
+    fn stirs(&self, liquid: &Liquid<3>) -> Option<f64> {
+        self.matter.viscosity.filter(|_| !liquid.follow.is_empty())
     }
 
     /// The outline from the centre that was told last.
@@ -275,6 +288,9 @@ impl March {
         if let Some(heat) = &self.heat {
             heat.save(checkpoint);
         }
+        if self.stirs(liquid).is_some() {
+            checkpoint.put_f64("passing", &self.passing.save());
+        }
         let volume: Vec<f64> = self.volume.into_iter().collect();
         checkpoint.put_f64("volume", &volume);
         checkpoint.put_vectors("centre", &[self.drift, self.centre]);
@@ -308,6 +324,9 @@ impl March {
         if let Some(heat) = &mut self.heat {
             heat.restore(checkpoint)?;
         }
+        if self.stirs(liquid).is_some() {
+            self.passing = Passing::restored(&checkpoint.f64("passing")?);
+        }
         self.volume = checkpoint.f64("volume")?.first().copied();
         if let [drift, centre] = checkpoint.vectors("centre")?[..] {
             (self.drift, self.centre) = (drift, centre);
@@ -322,7 +341,7 @@ impl March {
         Ok(())
     }
 
-    fn close(&self, steps: &Steps, session: &mut Session) {
+    fn close(&self, liquid: &Liquid<3>, steps: &Steps, session: &mut Session) {
         session.steps(steps.count());
         session.closing("step", "s", steps.longest());
         session.closing("products", "1", self.effort.products as f64);
@@ -340,7 +359,10 @@ impl March {
                 self.divided
             ));
         }
-        for doubt in self.effort.doubts() {
+        if self.stirs(liquid).is_some() {
+            session.closing("cell_reynolds", "1", self.passing.greatest);
+        }
+        for doubt in self.effort.doubts().into_iter().chain(self.passing.doubt()) {
             session.warn(doubt);
         }
     }

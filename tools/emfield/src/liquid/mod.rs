@@ -16,6 +16,7 @@ pub mod magnetic;
 pub mod matter;
 pub mod operators;
 pub mod outline;
+pub mod passing;
 pub mod points;
 pub mod pressure;
 pub mod room;

@@ -185,7 +185,11 @@ impl<const D: usize> Liquid<D> {
         let patches = patches.map_err(|e| failed(&e))?;
         let wide = images.vectors(&guess).into_owned();
         let both = (&rows, fits.as_ref().unwrap_or(&rows));
-        let drift = self.drift((&wide, &goes), (both, &patches), way.spacing);
+        let drift = self.drift(
+            (&wide, &goes),
+            (both, &patches),
+            (way.spacing, &place, tau / PART),
+        );
         let free = base.freed(&self.room.driving(&matter.gravity), &drift);
         let right = self.right(
             matter,
@@ -243,7 +247,7 @@ impl<const D: usize> Liquid<D> {
         &self,
         (u, w): (&[[f64; D]], &[[f64; D]]),
         (rows, patches): ((&Stencils<D>, &Stencils<D>), &[Patch<D>]),
-        spacing: f64,
+        (spacing, place, time): (f64, &[[f64; D]], f64),
     ) -> Vec<[f64; D]> {
         let back = |i: usize| difference(&w[i], &u[i]);
         let (n, walled) = (w.len(), self.walls().end);
@@ -251,6 +255,9 @@ impl<const D: usize> Liquid<D> {
         if !self.follow.is_empty() {
             drift.resize(walled, [0.0; D]);
             drift.extend(drift::inside(rows, u, back, (walled..n, spacing)));
+            if !self.room.bounds() {
+                drift::bound(&mut drift, rows.1, (place, u), (time, spacing));
+            }
         }
         drift.resize(n, [0.0; D]);
         drift
