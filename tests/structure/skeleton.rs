@@ -23,10 +23,9 @@ const ROOMS: [(&str, &[&str]); 5] = [
 ];
 
 /// Rooms that a stage lacks, or has under another name.
-const LACKING: [(&str, &str); 10] = [
+const LACKING: [(&str, &str); 9] = [
     ("avg", "march or iterate"),
     ("emfield", "frames"),
-    ("emfield", "march or iterate"),
     ("emfield", "program"),
     ("gasprop", "frames"),
     ("gasprop", "march or iterate"),

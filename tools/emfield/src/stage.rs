@@ -8,9 +8,9 @@ use run::{Estimate, Failure, Inputs, Plan, Preview, Session, Tool};
 
 use crate::assemble;
 use crate::cloud::Cloud;
+use crate::magnetic::unknown::Unknown;
 use crate::scene::{EddyCurrents, Geometry, Scene};
 use crate::solution;
-use crate::solve::unknown::Unknown;
 use crate::surface::enclosing::Enclosing;
 use crate::trial::{self, Planned};
 

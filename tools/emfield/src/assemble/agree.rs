@@ -12,14 +12,14 @@ use super::enclosed::Closed;
 use super::forces::{seen, unit};
 use super::setting::Setting;
 use crate::cloud::{Class, Cloud, SurfacePoint};
+use crate::electric::traction::{EPS0, stress};
+use crate::magnetic::fields::{Beyond, Fields};
+use crate::magnetic::source::minus;
+use crate::magnetic::totals::{Acting, Totals, spread};
+use crate::magnetic::unknown::Unknown;
 use crate::output::Doubt;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Geometry, Scene};
-use crate::solve::eddy::{Beyond, Fields};
-use crate::solve::totals::{Acting, Totals, spread};
-use crate::solve::unknown::Unknown;
-use crate::source::minus;
-use crate::surface::traction::{EPS0, stress};
 
 /// Difference of two ways over the size of the force from which it is told.
 const APART: f64 = 0.05;

@@ -10,9 +10,9 @@ use crate::liquid::magnetic::{Applied, Ball, Magnetic, outline};
 use crate::liquid::step::{Liquid, Matter};
 use crate::liquid::vector::{dot, length};
 use crate::scene::{MagneticField, Scene};
-use crate::solve::quadrature::{self, Moments};
-use crate::solve::region::Region;
-use crate::solve::sides::Form;
+use crate::stencils::quadrature::{self, Moments};
+use crate::stencils::region::Region;
+use crate::stencils::sides::Form;
 
 /// The field of a scene on points about a ball as large as the liquid is.
 ///

@@ -5,11 +5,11 @@ use run::{Failure, Fault};
 
 use super::setting::Setting;
 use crate::cloud::Cloud;
+use crate::magnetic::driven::bar::Bar;
+use crate::magnetic::unknown::Unknown;
 use crate::output::Found;
 use crate::scene::{EddyCurrents, Geometry, Scene};
-use crate::solve::bars::Bar;
-use crate::solve::region::Region;
-use crate::solve::unknown::Unknown;
+use crate::stencils::region::Region;
 
 type C = Complex<f64>;
 

@@ -5,14 +5,14 @@ use run::{Failure, Session};
 
 use super::setting::{Setting, media};
 use super::unfit::no_stencil;
+use crate::magnetic::charge::equations::Coupled;
+use crate::magnetic::charge::parts::Parts;
+use crate::magnetic::charge::potential::{Charge, Side};
+use crate::magnetic::charge::solution::AtRate;
+use crate::magnetic::driven::right::Drive;
+use crate::magnetic::open::multipoles::Multipoles;
 use crate::scene::currents::OuterReaction;
-use crate::solve::at_rate::AtRate;
-use crate::solve::charge::{Charge, Side};
-use crate::solve::coupled::Coupled;
-use crate::solve::drive::Drive;
-use crate::solve::multipole::Multipoles;
-use crate::solve::parts::Parts;
-use crate::solve::region::Kind;
+use crate::stencils::region::Kind;
 
 type C = Complex<f64>;
 

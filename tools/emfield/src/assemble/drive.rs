@@ -5,10 +5,10 @@ use run::Fault;
 use shapes::frame::direction;
 
 use crate::cloud::region::vector;
+use crate::magnetic::source::{Loop, Origin, Segment, Source, Uniform, Wire};
+use crate::magnetic::unknown::Unknown;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Coil, EddyCurrents, ElectricPotential, Geometry, Magnet, Scene};
-use crate::solve::unknown::Unknown;
-use crate::source::{Loop, Origin, Segment, Source, Uniform, Wire};
 
 type C = Complex<f64>;
 

@@ -9,15 +9,15 @@ use super::enclosing::enclosing;
 use super::forces::{seen, strength, unit};
 use super::setting::Setting;
 use crate::cloud::Cloud;
+use crate::electric::traction::EPS0;
+use crate::magnetic::fields::{Fields, Solution, cross_mean};
+use crate::magnetic::source::{MU0, Source, minus};
+use crate::magnetic::totals::{Acting, Totals, spread};
 use crate::output::Found;
 use crate::scene::{Geometry, Scene};
-use crate::solve::eddy::{Fields, Solution, cross_mean};
-use crate::solve::enclosed::Enclosed;
-use crate::solve::region::Region;
-use crate::solve::sides::Form;
-use crate::solve::totals::{Acting, Totals, spread};
-use crate::source::{MU0, Source, minus};
-use crate::surface::traction::EPS0;
+use crate::stencils::region::Region;
+use crate::stencils::sides::Form;
+use crate::surface::fits::Enclosed;
 
 type C = Complex<f64>;
 

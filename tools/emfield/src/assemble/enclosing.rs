@@ -9,10 +9,10 @@ use shapes::surface::Piece;
 use super::drive;
 use crate::cloud::region::Region as Ground;
 use crate::cloud::{Class, Cloud, SurfacePoint};
+use crate::magnetic::source::Source;
+use crate::magnetic::unknown::Unknown;
 use crate::scene::output::{Closed, Enclosure};
 use crate::scene::{Geometry, Scene};
-use crate::solve::unknown::Unknown;
-use crate::source::Source;
 use crate::surface::enclosing::Enclosing;
 
 /// Most places on a surface.

@@ -4,12 +4,12 @@ use num_complex::Complex;
 use shapes::frame::Vector;
 
 use super::setting::Setting;
+use crate::magnetic::driven::right::Drive;
+use crate::magnetic::medium::interface::Bound;
+use crate::magnetic::open::multipoles::Multipoles;
+use crate::magnetic::source::{MU0, Source};
+use crate::magnetic::unknown::Unknown;
 use crate::scene::currents::OuterReaction;
-use crate::solve::drive::Drive;
-use crate::solve::multipole::Multipoles;
-use crate::solve::permeable::Bound;
-use crate::solve::unknown::Unknown;
-use crate::source::{MU0, Source};
 
 type C = Complex<f64>;
 

@@ -5,16 +5,16 @@ use shapes::frame::Vector;
 
 use super::charge::Charged;
 use super::setting::{Setting, media};
+use crate::magnetic::driven::winding::Windings;
+use crate::magnetic::fields::{Fields, Media, Solution};
+use crate::magnetic::medium::law::traction;
+use crate::magnetic::source::Source;
+use crate::magnetic::totals::{Acting, Totals};
+use crate::magnetic::unknown::Unknown;
 use crate::output::{Column, Found};
 use crate::scene::Geometry;
-use crate::solve::eddy::{Fields, Media, Solution};
-use crate::solve::magnetisation::traction;
-use crate::solve::region::{Face, Region};
-use crate::solve::sides::Sides;
-use crate::solve::totals::{Acting, Totals};
-use crate::solve::unknown::Unknown;
-use crate::solve::winding::Windings;
-use crate::source::Source;
+use crate::stencils::region::{Face, Region};
+use crate::stencils::sides::Sides;
 
 type C = Complex<f64>;
 

@@ -4,8 +4,8 @@ use run::Fault;
 
 use super::drive::source;
 use crate::cloud::region::Region as Ground;
+use crate::magnetic::source::Source;
 use crate::scene::{Coil, EddyCurrents, Geometry, Scene};
-use crate::source::Source;
 
 /// Pieces of a loop or segment that are looked at.
 const PIECES: usize = 48;

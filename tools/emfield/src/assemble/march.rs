@@ -14,16 +14,16 @@ use super::setting::Setting;
 use super::steps::Steps;
 use super::unfit::no_stencil;
 use crate::cloud::Cloud;
+use crate::magnetic::charge::stage::Charged;
+use crate::magnetic::driven::right::{Drive, pairs};
+use crate::magnetic::fields::Solution;
+use crate::magnetic::open::multipoles::Multipoles;
+use crate::magnetic::stage::{Alone, Equations};
+use crate::march::scheme::{March, Settled, Stage, State, slope};
 use crate::output::Found;
 use crate::scene::currents::{OuterReaction, Transient};
 use crate::scene::{EddyCurrents, Scene};
-use crate::solve::alone::{Alone, Equations};
-use crate::solve::charged::Charged;
-use crate::solve::drive::{Drive, pairs};
-use crate::solve::eddy::Solution;
-use crate::solve::march::{March, Settled, Stage, State, slope};
-use crate::solve::multipole::Multipoles;
-use crate::solve::sides::{Form, Sides};
+use crate::stencils::sides::{Form, Sides};
 
 type C = Complex<f64>;
 

@@ -48,7 +48,7 @@ use run::{Failure, Session};
 use crate::cloud::Cloud;
 use crate::scene::Scene;
 use crate::scene::method::Way;
-use crate::solve::sides::Form;
+use crate::stencils::sides::Form;
 
 pub use currents::eddy_currents;
 pub use enclosing::enclosing;

@@ -5,13 +5,13 @@ use run::{Failure, Fault, Session};
 use super::about::{halfway, middle, surface};
 use super::walls::Walls;
 use crate::cloud::{Class, Cloud};
+use crate::electric::open::Open;
+use crate::electric::traction::EPS0;
 use crate::output::Found;
 use crate::scene::{Electrostatics, Geometry, Scene};
-use crate::solve::enclosed::Enclosed;
-use crate::solve::open::Open;
-use crate::solve::region::{Kind, Region};
-use crate::solve::sides::Form;
-use crate::surface::traction::EPS0;
+use crate::stencils::region::{Kind, Region};
+use crate::stencils::sides::Form;
+use crate::surface::fits::Enclosed;
 
 /// Where what is wrong with open walls is told.
 const AT: &str = "/electrostatics/outer";

@@ -12,13 +12,13 @@ use super::region::{raise, region};
 use super::unfit::no_stencil;
 use super::walls::Walls;
 use crate::cloud::{Class, Cloud, SurfacePoint};
+use crate::electric::equations::{Equations, Held, Problem, Smeared};
+use crate::electric::traction::{dielectric, electrode};
 use crate::output::{Column, Found};
 use crate::scene::{Electrostatics, Interfaces, Scene};
-use crate::solve::electrostatic::{Equations, Held, Problem, Smeared};
-use crate::solve::enclosed::Enclosed;
-use crate::solve::region::Region;
-use crate::solve::sides::{Form, Sides};
-use crate::surface::traction::{dielectric, electrode};
+use crate::stencils::region::Region;
+use crate::stencils::sides::{Form, Sides};
+use crate::surface::fits::Enclosed;
 
 /// Solves the electrostatics of a scene in `D` coordinates.
 ///

@@ -6,7 +6,7 @@ use wls::Metric;
 use crate::cloud::region::vector;
 use crate::cloud::{self, Class, Cloud};
 use crate::scene::{Domain, Geometry, Scene};
-use crate::solve::region::{Face, Kind, Region};
+use crate::stencils::region::{Face, Kind, Region};
 
 /// The first `D` coordinates of the scene of a place or direction in space.
 pub(super) fn reduce<const D: usize>(geometry: Geometry, x: Vector) -> [f64; D] {
@@ -138,9 +138,9 @@ fn bent(scene: &Scene) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::diffusion::Conductors;
-    use crate::solve::sides::{Form, Sides};
-    use crate::solve::unknown::Unknown;
+    use crate::magnetic::diffusion::Conductors;
+    use crate::magnetic::unknown::Unknown;
+    use crate::stencils::sides::{Form, Sides};
 
     /// What stands before the own value and before its rate in a row of an interface have opposite signs, or the value
     /// grows by itself: slopes of quartics on boxes of a few spacings leaned on their own points with the sign of others.

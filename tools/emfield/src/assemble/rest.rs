@@ -8,9 +8,9 @@ use shapes::shape::Sphere;
 use super::levitated::levitated;
 use super::meridian;
 use super::sessile::sessile;
+use crate::electric::traction::EPS0;
 use crate::liquid::equilibrium::{self, FEWEST, Found, Kind, MOST, Sought};
 use crate::scene::{Equilibrium, Liquid as Part, Scene};
-use crate::surface::traction::EPS0;
 
 /// Finds the shape and writes it.
 ///

@@ -4,11 +4,11 @@ use artefact::Checkpoint;
 use run::{Failure, Session};
 
 use super::setting::Setting;
+use crate::magnetic::open::multipoles::Multipoles;
+use crate::magnetic::saturation::equations::Saturation;
+use crate::magnetic::saturation::stage::Saturated;
+use crate::march::scheme::{Settled, Stage};
 use crate::scene::currents::OuterReaction;
-use crate::solve::march::{Settled, Stage};
-use crate::solve::multipole::Multipoles;
-use crate::solve::saturated::Saturated;
-use crate::solve::saturation::Saturation;
 
 impl<const D: usize> Setting<'_, D> {
     /// A stage with what such bodies make of its field; as it is where there are none.

@@ -3,17 +3,17 @@
 use run::Fault;
 
 use crate::cloud::Cloud;
+use crate::magnetic::diffusion::Conductors;
+use crate::magnetic::driven::bar::Bar;
+use crate::magnetic::driven::winding::Windings;
+use crate::magnetic::medium::law::{Curve, Law};
+use crate::magnetic::source::{MU0, Source};
+use crate::magnetic::unknown::Unknown;
+use crate::magnetic::waves::weights::Waves;
 use crate::scene::{EddyCurrents, Medium, Scene};
-use crate::solve::bars::Bar;
-use crate::solve::diffusion::Conductors;
-use crate::solve::enclosed::Enclosed;
-use crate::solve::magnetisation::{Curve, Law};
-use crate::solve::region::Region;
-use crate::solve::sides::Sides;
-use crate::solve::unknown::Unknown;
-use crate::solve::waves::Waves;
-use crate::solve::winding::Windings;
-use crate::source::{MU0, Source};
+use crate::stencils::region::Region;
+use crate::stencils::sides::Sides;
+use crate::surface::fits::Enclosed;
 
 /// What currents of a scene in `D` coordinates are computed with.
 pub(super) struct Setting<'a, const D: usize> {

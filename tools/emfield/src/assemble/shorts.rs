@@ -6,8 +6,8 @@ use shapes::frame::Vector;
 
 use super::walls::Walls;
 use crate::cloud::{Class, Cloud};
+use crate::electric::equations::Held;
 use crate::scene::{Electrostatics, Scene};
-use crate::solve::electrostatic::Held;
 
 /// Gap over spacing below which electrodes count as touching: far less than points can resolve.
 const TOUCH: f64 = 0.03;

@@ -5,9 +5,9 @@ use run::{Failure, Session};
 use super::march::{View, stage};
 use super::setting::Setting;
 use crate::cloud::Cloud;
+use crate::march::scheme::State;
 use crate::output::Found;
 use crate::scene::{EddyCurrents, Scene};
-use crate::solve::march::State;
 
 /// Solves the fields of steady currents in a scene in `D` coordinates with `K` unknowns a point: 3 in space, else 1.
 ///

@@ -85,7 +85,7 @@ mod tests {
         let cloud = Cloud::new(&scene).unwrap();
         let region = crate::assemble::region::<D>(&scene, &cloud, &|_| false);
         let form = crate::assemble::form(&scene);
-        let error = crate::solve::sides::Sides::new(&region, &form).unwrap_err();
+        let error = crate::stencils::sides::Sides::new(&region, &form).unwrap_err();
         no_stencil("potential", &error, (&scene, &cloud)).to_string()
     }
 
@@ -161,6 +161,6 @@ mod tests {
         let cloud = Cloud::new(&scene).unwrap();
         let region = crate::assemble::region::<2>(&scene, &cloud, &|_| false);
         let form = crate::assemble::form(&scene);
-        assert!(crate::solve::sides::Sides::new(&region, &form).is_ok());
+        assert!(crate::stencils::sides::Sides::new(&region, &form).is_ok());
     }
 }

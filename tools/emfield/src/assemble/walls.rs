@@ -5,9 +5,9 @@ use run::{Failure, Fault};
 use shapes::frame::{Vector, dot};
 
 use super::region::walls;
+use crate::electric::equations::Held;
 use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Scene};
-use crate::solve::electrostatic::Held;
 
 /// An entry of the walls, ready to be evaluated.
 struct Entry {

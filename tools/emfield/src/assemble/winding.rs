@@ -9,9 +9,9 @@ use shapes::surface::{Piece, enclosed};
 
 use crate::cloud::Cloud;
 use crate::cloud::region::Region as Ground;
+use crate::magnetic::driven::winding::{Flow, Winding};
 use crate::scene::currents::Region;
 use crate::scene::{EddyCurrents, Geometry, Scene};
-use crate::solve::winding::{Flow, Winding};
 
 type C = Complex<f64>;
 

@@ -11,7 +11,7 @@ use crate::cloud::lattice::{Node, graded};
 use crate::cloud::occupied::Occupied;
 use crate::cloud::region::Region;
 use crate::cloud::seeds;
-use crate::solve::region::{Face, Kind, Region as Points};
+use crate::stencils::region::{Face, Kind, Region as Points};
 use crate::surface::enclosing::Enclosing;
 use shapes::shape::{Shape, Sphere};
 use shapes::{Body, rule::rule};

@@ -8,8 +8,8 @@ use super::Column;
 use crate::cloud::region::{Region as Ground, vector};
 use crate::cloud::{Class, Cloud};
 use crate::scene::{Geometry, Interfaces, Scene};
-use crate::solve::region::Region;
-use crate::solve::sides::Form;
+use crate::stencils::region::Region;
+use crate::stencils::sides::Form;
 
 /// A point and its weight; a point of an interface counts with its outer side where it is marked.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -62,7 +62,7 @@ impl MagneticField {
     #[must_use]
     pub fn skin(&self) -> f64 {
         let omega = std::f64::consts::TAU * self.frequency_hz;
-        (2.0 / (omega * crate::source::MU0 * self.conductivity_s_m)).sqrt()
+        (2.0 / (omega * crate::magnetic::source::MU0 * self.conductivity_s_m)).sqrt()
     }
 
     /// The scene of the field about a ball in place of the drop, all else left as it is.

@@ -5,7 +5,7 @@ use run::property::{Arguments, Curve, Formula, Property};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::source::MU0;
+use crate::magnetic::source::MU0;
 
 /// Slope of B over H, in that of vacuum, below which the last rows of a table are no magnetisation: 1 but for what tables
 /// are rounded by.

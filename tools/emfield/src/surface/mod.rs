@@ -1,4 +1,4 @@
-//! What fields do to surfaces: of bodies, and around them.
+//! Closed surfaces around bodies: [`enclosing`] what acts on all within, [`fits`] the fields there.
 
 pub mod enclosing;
-pub mod traction;
+pub mod fits;

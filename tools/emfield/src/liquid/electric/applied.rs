@@ -1,9 +1,9 @@
 //! What is given of an electric field about a liquid: the field far away, and what the liquid is.
 
+use crate::electric::equations::{Held, Problem};
 use crate::liquid::air::{ASLEEP, Air};
 use crate::liquid::vector::{difference, dot};
-use crate::solve::electrostatic::{Held, Problem};
-use crate::solve::region::{Kind, Region};
+use crate::stencils::region::{Kind, Region};
 
 /// What acts on the liquid, and what it is.
 #[derive(Debug, Clone, Copy, PartialEq)]

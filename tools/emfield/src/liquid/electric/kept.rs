@@ -4,12 +4,12 @@ use krylov::{Ending, Grids, Method, Options, Pair, Rule, System};
 use run::Failure;
 
 use super::applied::Applied;
+use crate::electric::open::Open;
 use crate::liquid::air::{ASLEEP, Air, Place};
 use crate::liquid::effort::{Effort, failed};
-use crate::solve::enclosed::Enclosed;
-use crate::solve::open::Open;
-use crate::solve::region::{Kind, Region};
-use crate::solve::sides::{Form, Sides};
+use crate::stencils::region::{Kind, Region};
+use crate::stencils::sides::{Form, Sides};
+use crate::surface::fits::Enclosed;
 
 /// Factors that need so many times the products that they needed at first are made anew.
 const WORN: u64 = 3;

@@ -37,9 +37,9 @@ pub use state::State;
 use super::air::{Air, Place};
 use super::effort::Effort;
 use super::vector::dot;
-use crate::solve::region::{Kind, Region};
-use crate::solve::sides::{Form, Sides};
-use crate::surface::traction::{EPS0, dielectric, electrode, leaky};
+use crate::electric::traction::{EPS0, dielectric, electrode, leaky};
+use crate::stencils::region::{Kind, Region};
+use crate::stencils::sides::{Form, Sides};
 
 /// The points of a field where the liquid is.
 pub struct Stood {

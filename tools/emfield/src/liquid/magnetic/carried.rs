@@ -21,9 +21,9 @@ use crate::liquid::air::Place;
 use crate::liquid::outline::{Outline, harmonics};
 use crate::liquid::surface::tangents;
 use crate::liquid::vector::{along, difference, direction, dot, length};
-use crate::solve::region::Region;
-use crate::solve::sides::Sides;
-use crate::source::MU0;
+use crate::magnetic::source::MU0;
+use crate::stencils::region::Region;
+use crate::stencils::sides::Sides;
 
 type C = Complex<f64>;
 

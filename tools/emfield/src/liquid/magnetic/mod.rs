@@ -24,16 +24,16 @@ use super::effort::{Effort, failed};
 use super::outline::Outline;
 use super::surface::tangents;
 use super::vector::{along, difference, direction, length};
-use crate::solve::diffusion::{Conductors, shift};
-use crate::solve::drive::Drive;
-use crate::solve::eddy::{Fields, Media, Solution, steady_change};
-use crate::solve::magnetisation::Law;
-use crate::solve::multipole::Multipoles;
-use crate::solve::region::Region;
-use crate::solve::sides::{Form, Sides};
-use crate::solve::totals::{Acting, Totals};
-use crate::solve::unknown::Unknown;
-use crate::source::{MU0, Source};
+use crate::magnetic::diffusion::{Conductors, shift};
+use crate::magnetic::driven::right::Drive;
+use crate::magnetic::fields::{Fields, Media, Solution, steady_change};
+use crate::magnetic::medium::law::Law;
+use crate::magnetic::open::multipoles::Multipoles;
+use crate::magnetic::source::{MU0, Source};
+use crate::magnetic::totals::{Acting, Totals};
+use crate::magnetic::unknown::Unknown;
+use crate::stencils::region::Region;
+use crate::stencils::sides::{Form, Sides};
 
 type C = Complex<f64>;
 

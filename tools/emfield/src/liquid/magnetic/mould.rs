@@ -14,8 +14,8 @@ use rayon::prelude::*;
 
 use crate::liquid::outline::Outline;
 use crate::liquid::vector::{along, difference, direction, dot, length};
-use crate::solve::region::{Kind, Region};
-use crate::solve::sides::{Form, Sides};
+use crate::stencils::region::{Kind, Region};
+use crate::stencils::sides::{Form, Sides};
 
 /// Beyond so many radii from the centre points move with it alone.
 const FAR: f64 = 2.5;

@@ -1,0 +1,10 @@
+//! What drives currents, and what pulls back at it.
+//!
+//! 1. [`right`]: what sources put on the right of the rows, and walls that know of the currents;
+//! 2. [`winding`]: coils that are regions of points; [`bar`]: net currents along z in a plane;
+//! 3. `force`: the force on coils in the field of the currents found.
+
+pub mod bar;
+pub(crate) mod force;
+pub mod right;
+pub mod winding;

@@ -1,0 +1,6 @@
+//! Eddy currents on clouds made by hand.
+
+mod axis;
+mod fields;
+mod holes;
+mod stage;
