@@ -1,6 +1,7 @@
 //! Solvers and relaxation, from the scene.
 
-use relax::{Krylov, Sor};
+use krylov::Krylov;
+use relax::Sor;
 
 use crate::equation::{Method, Solver};
 use crate::flow::pressure::{self, Relaxation};
@@ -46,13 +47,8 @@ impl From<LinearSolver> for Solvers {
             floor: 0.0,
             iterations,
         };
-        let multigrid = |reduction, iterations| {
-            Method::Multigrid(krylov::Krylov {
-                reduction,
-                floor: 0.0,
-                iterations,
-            })
-        };
+        let incomplete = |reduction, iterations| Method::Incomplete(rule(reduction, iterations));
+        let multigrid = |reduction, iterations| Method::Multigrid(rule(reduction, iterations));
         let sor = |relaxation, sweeps, reduction| {
             Method::Sor(Sor {
                 relaxation,
@@ -62,17 +58,17 @@ impl From<LinearSolver> for Solvers {
         };
         let (potential, momentum, pressure, energy) = match chosen {
             LinearSolver::Incomplete => (
-                Method::Incomplete(rule(1e-2, 300)),
-                Method::Incomplete(rule(1e-2, 20)),
-                Method::Incomplete(rule(1e-2, 100)),
-                Method::Incomplete(rule(1e-3, 50)),
+                incomplete(1e-2, 300),
+                incomplete(1e-2, 20),
+                incomplete(1e-2, 100),
+                incomplete(1e-3, 50),
             ),
             // Where gas is carried, incomplete factors follow the stream and multigrid does not.
             LinearSolver::Multigrid => (
                 multigrid(1e-2, 60),
-                Method::Incomplete(rule(1e-2, 20)),
+                incomplete(1e-2, 20),
                 multigrid(1e-2, 60),
-                Method::Incomplete(rule(1e-3, 50)),
+                incomplete(1e-3, 50),
             ),
             // Enough sweeps that what an iteration changes travels as far as its relaxation lets it.
             LinearSolver::Sor => (

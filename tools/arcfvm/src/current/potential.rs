@@ -5,7 +5,7 @@
 //! conductivities. Each half resistance heats its own cell with I^2 R: the sum over all cells is the
 //! power of the source exactly, as the sum of current times voltage over any closed network is zero.
 
-use relax::{Coefficients, FivePoint, Outcome};
+use relax::{Coefficients, FivePoint};
 
 use crate::case::{Case, PotentialCase, PotentialEdge};
 use crate::equation::{Solver, Unsolved};
@@ -97,7 +97,7 @@ impl Potential {
         case: &Case,
         setup: &PotentialCase,
         sigma: &[f64],
-    ) -> Result<Outcome, Unsolved> {
+    ) -> Result<(), Unsolved> {
         let network = Network {
             grid: &case.grid,
             sigma,
@@ -107,12 +107,12 @@ impl Potential {
             .fill(|i, j| cell_equation(&network, setup, drive, (i, j)));
         self.equation.residual(&self.value, &mut self.scratch);
         self.unbalanced = Unbalanced::of(&self.scratch, case.grid.nr);
-        let outcome = self.solver.solve(&self.equation, &mut self.value)?;
+        self.solver.solve(&self.equation, &mut self.value)?;
         self.currents(&network, setup);
         if let Some(current) = setup.driven {
             self.drive_to(&case.grid, setup, current);
         }
-        Ok(outcome)
+        Ok(())
     }
 
     fn currents(&mut self, network: &Network, setup: &PotentialCase) {

@@ -4,9 +4,10 @@
 //! with incomplete factors; Krylov methods with algebraic multigrid. They differ in time, not in the
 //! solution: the outer iteration ends only where the residuals before any solve are small.
 
-use relax::{FivePoint, Incomplete, Krylov, Outcome, Sor, Workspace, bicgstab, conjugate_gradient};
+use krylov::{Error, Krylov, Workspace, bicgstab, conjugate_gradient};
+use relax::{FivePoint, Sor, StencilFactors};
 
-use crate::equation::multigrid::Multigrid;
+use crate::equation::aggregated::Aggregated;
 
 /// How the equation of a field is solved within an outer iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +17,7 @@ pub enum Method {
     /// A Krylov method preconditioned by incomplete factors.
     Incomplete(Krylov),
     /// A Krylov method preconditioned by multigrid.
-    Multigrid(krylov::Krylov),
+    Multigrid(Krylov),
 }
 
 /// Why an equation could not be solved, and the cell where it showed.
@@ -31,19 +32,22 @@ pub struct Unsolved {
     pub what: String,
 }
 
-impl From<relax::Error> for Unsolved {
-    fn from(error: relax::Error) -> Self {
-        let (column, row, what) = match error {
-            relax::Error::NotFinite { column, row, what } => {
-                (column, row, format!("{what} is not a finite number"))
+impl Unsolved {
+    /// Of an equation with `columns` cells in a row.
+    fn new(error: Error, columns: usize) -> Self {
+        let (index, what) = match error {
+            Error::NotFinite { index, what } => (index, format!("{what} is not a finite number")),
+            Error::NotPositive { index, value } => {
+                let what = format!("central coefficient {value} is not positive");
+                (index, what)
             }
-            relax::Error::NotPositive { column, row, value } => (
-                column,
-                row,
-                format!("central coefficient {value} is not positive"),
-            ),
+            other => (0, other.to_string()),
         };
-        Self { column, row, what }
+        Self {
+            column: index % columns,
+            row: index / columns,
+            what,
+        }
     }
 }
 
@@ -53,8 +57,8 @@ pub struct Solver {
     /// The method.
     pub method: Method,
     symmetric: bool,
-    factors: Incomplete,
-    multigrid: Multigrid,
+    factors: StencilFactors,
+    aggregated: Aggregated,
     work: Workspace,
     /// What the sweeps need, or the values before a Krylov method.
     kept: Vec<f64>,
@@ -67,8 +71,8 @@ impl Solver {
         Self {
             method,
             symmetric,
-            factors: Incomplete::default(),
-            multigrid: Multigrid::new(symmetric),
+            factors: StencilFactors::default(),
+            aggregated: Aggregated::new(symmetric),
             work: Workspace::default(),
             kept: Vec::new(),
         }
@@ -76,59 +80,54 @@ impl Solver {
 
     /// What the next solve needs to know of those before, for a checkpoint.
     pub(crate) fn memory(&self) -> (Vec<f64>, Option<usize>) {
-        self.multigrid.memory()
+        self.aggregated.memory()
     }
 
     /// Takes what [`Self::memory`] gave, for an equation of `columns` in a row.
     pub(crate) fn restore(&mut self, columns: usize, values: &[f64], fresh: Option<usize>) {
-        self.multigrid.restore(columns, values, fresh);
+        self.aggregated.restore(columns, values, fresh);
     }
 
     /// Improves `x`.
     ///
     /// # Errors
     /// When the equation is not usable or the values leave the numbers.
-    pub fn solve(&mut self, equation: &FivePoint, x: &mut [f64]) -> Result<Outcome, Unsolved> {
-        match self.method {
-            Method::Sor(sor) => Ok(sor.solve_within(equation, x, &mut self.kept)?),
+    pub fn solve(&mut self, equation: &FivePoint, x: &mut [f64]) -> Result<(), Unsolved> {
+        let improved = self.improve(equation, x);
+        improved.map_err(|error| Unsolved::new(error, equation.columns))
+    }
+
+    fn improve(&mut self, equation: &FivePoint, x: &mut [f64]) -> Result<(), Error> {
+        self.kept.clear();
+        self.kept.extend_from_slice(x);
+        let better = match self.method {
+            Method::Sor(sor) => return sor.solve_within(equation, x, &mut self.kept).map(drop),
             Method::Incomplete(rule) => {
                 self.factors.rebuild(equation)?;
-                Ok(self.factorised(equation, x, rule)?)
+                self.factorised(equation, x, rule)
             }
             Method::Multigrid(rule) => {
                 equation.check()?;
-                self.kept.clear();
-                self.kept.extend_from_slice(x);
-                if let Some(outcome) = self.multigrid.solve(equation, x, rule) {
-                    return Ok(outcome);
-                }
-                x.copy_from_slice(&self.kept);
-                Ok(FALLBACK.solve_within(equation, x, &mut self.kept)?)
+                self.aggregated.solve(equation, x, rule)
             }
+        };
+        if better {
+            return Ok(());
         }
+        // Krylov methods can break down; sweeps over a dominant diagonal cannot.
+        x.copy_from_slice(&self.kept);
+        FALLBACK.solve_within(equation, x, &mut self.kept).map(drop)
     }
 
-    /// Solves with the incomplete factors that there are.
-    fn factorised(
-        &mut self,
-        equation: &FivePoint,
-        x: &mut [f64],
-        rule: Krylov,
-    ) -> Result<Outcome, relax::Error> {
-        let (factors, work) = (&mut self.factors, &mut self.work);
-        if self.symmetric {
-            return conjugate_gradient(equation, x, factors, rule, work);
-        }
-        self.kept.clear();
-        self.kept.extend_from_slice(x);
-        match bicgstab(equation, x, factors, rule, work) {
-            Ok(found) if found.last <= found.first => Ok(found),
-            // BiCGSTAB can break down; sweeps over a dominant diagonal cannot.
-            _ => {
-                x.copy_from_slice(&self.kept);
-                FALLBACK.solve_within(equation, x, &mut self.kept)
-            }
-        }
+    /// Solves with the incomplete factors that there are; whether `x` is better.
+    fn factorised(&mut self, equation: &FivePoint, x: &mut [f64], rule: Krylov) -> bool {
+        let (factors, work, source) = (&mut self.factors, &mut self.work, &equation.source);
+        let found = if self.symmetric {
+            conjugate_gradient(equation, source, x, factors, rule, work)
+        } else {
+            bicgstab(equation, source, x, factors, rule, work)
+        };
+        found.is_ok_and(|found| found.last <= found.first)
     }
 }
 

@@ -1,8 +1,8 @@
 //! The one equation that all transported values obey: its faces, its coefficients, and how it is solved.
 
+pub mod aggregated;
 pub(crate) mod faces;
 pub mod linear;
-pub mod multigrid;
 pub mod transport;
 
 pub use linear::{Method, Solver, Unsolved};

@@ -5,7 +5,7 @@
 //! one r too many in both). Face mass fluxes are kept and corrected, so the other fields are carried
 //! by fluxes that balance to the solver's tolerance.
 
-use relax::{Coefficients, FivePoint, Outcome};
+use relax::{Coefficients, FivePoint};
 
 use crate::case::{Case, Face, FlowCase};
 use crate::equation::{Solver, Unsolved};
@@ -59,8 +59,6 @@ pub struct FlowResidual {
     pub inertia: f64,
     /// Unbalanced mass fluxes before correction \[kg/s\].
     pub mass: Unbalanced,
-    /// How the pressure correction was solved.
-    pub correction: Outcome,
 }
 
 /// Properties that the flow reads.
@@ -150,14 +148,13 @@ impl FlowSolver {
         };
         flow.carry(gas);
         self.slopes(gas, relaxation.coupling);
-        let (mass, correction) = self
+        let mass = self
             .correct(case, gas, flow, relaxation.pressure)
             .map_err(named("pressure correction"))?;
         Ok(FlowResidual {
             force,
             inertia,
             mass,
-            correction,
         })
     }
 
@@ -200,7 +197,7 @@ impl FlowSolver {
         gas: Carried<'_>,
         flow: &mut Flow,
         relaxation: f64,
-    ) -> Result<(Unbalanced, Outcome), Unsolved> {
+    ) -> Result<Unbalanced, Unsolved> {
         let (grid, closed) = (gas.grid, gas.setup.closed);
         let east = |i: usize, j: usize| {
             let slope = self.radial_slope[grid.radial_face(i, j)];
@@ -234,14 +231,13 @@ impl FlowSolver {
         }
         let mass = Unbalanced::of(&self.correction.source, grid.nr);
         self.change.fill(0.0);
-        let outcome = self
-            .pressure_solver
+        self.pressure_solver
             .solve(&self.correction, &mut self.change)?;
         self.apply(gas, flow, relaxation);
         if closed {
             centre_pressure(case, &mut flow.pressure);
         }
-        Ok((mass, outcome))
+        Ok(mass)
     }
 
     fn apply(&self, gas: Carried<'_>, flow: &mut Flow, relaxation: f64) {

@@ -51,7 +51,6 @@ impl Arc {
             force,
             inertia,
             mass,
-            ..
         } = found;
         let forces = inertia + flow.forces(case, setup, lorentz, &properties.density);
         let throughput = flow.throughput(case, &properties.density);

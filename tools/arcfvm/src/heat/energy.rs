@@ -6,7 +6,7 @@
 //! the edges: no heat is lost between cells. At the surface of an electrode the gas conducts at film
 //! temperature (eqs 5.17, 5.18).
 
-use relax::{Coefficients, FivePoint, Outcome};
+use relax::{Coefficients, FivePoint};
 
 use crate::bed::clear::{Slopes, to_the_bend};
 use crate::case::{Case, HeatEdge};
@@ -72,8 +72,6 @@ pub struct EnergyResidual {
     pub change: f64,
     /// Cells whose change was limited.
     pub limited: usize,
-    /// The linear solve.
-    pub outcome: Outcome,
 }
 
 /// Relaxation of the temperature.
@@ -320,7 +318,7 @@ impl Energy {
             .under_relax_each(&self.temperature, |k| relaxation[k]);
         self.scratch = relaxation;
         self.scratch.copy_from_slice(&self.temperature);
-        let outcome = self.solver.solve(&self.equation, &mut self.temperature)?;
+        self.solver.solve(&self.equation, &mut self.temperature)?;
         let (mut change, mut limited) = (0.0_f64, 0);
         for k in 0..self.temperature.len() {
             let old = self.scratch[k];
@@ -347,7 +345,6 @@ impl Energy {
             heat: unbalanced,
             change,
             limited,
-            outcome,
         })
     }
 }

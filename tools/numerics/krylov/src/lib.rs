@@ -5,7 +5,7 @@
 //!
 //! - [`Sparse`]: rows over a shared [`Pattern`], the diagonal apart;
 //! - [`conjugate_gradient`] for symmetric, [`gmres`] for other matrices, flexible both: the preconditioner may differ from
-//!   call to call;
+//!   call to call; [`bicgstab`] for other matrices that a few iterations solve;
 //! - [`Jacobi`] (the diagonal), [`Scaled`] (columns scaled by known factors) and [`Aggregation`] (algebraic multigrid),
 //!   whose iteration count hardly knows the number of unknowns or the jumps.
 //!
@@ -29,6 +29,7 @@
 
 mod aggregation;
 mod anderson;
+mod bicgstab;
 mod columns;
 mod conjugate;
 mod direct;
@@ -54,6 +55,7 @@ mod unknown;
 
 pub use aggregation::Aggregation;
 pub use anderson::Anderson;
+pub use bicgstab::bicgstab;
 pub use conjugate::conjugate_gradient;
 pub use direct::Direct;
 pub use ending::{Breakdown, Ending, Rule, Solved, Stagnation};
@@ -132,7 +134,7 @@ pub struct Outcome {
     pub iterations: usize,
     /// Euclidean norm of the residual before, in the unit of the right side.
     pub first: f64,
-    /// Euclidean norm of the residual after, `b - A x` evaluated anew, in the same unit.
+    /// Euclidean norm of the residual after, `b - A x` evaluated anew (but for [`bicgstab`]), in the same unit.
     pub last: f64,
     /// What rounding leaves of a residual, about ([`Linear::rounding`]), in the same unit.
     pub rounding: f64,

@@ -1,6 +1,8 @@
 //! Red-black successive over-relaxation (Komen 2019, eqs 3.58 to 3.63).
 
-use crate::{Error, FivePoint, Outcome};
+use krylov::{Error, Outcome};
+
+use crate::FivePoint;
 
 /// The colour of a cell, `(i + j) mod 2`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +20,7 @@ pub struct Sor {
     pub relaxation: f64,
     /// Most sweeps; a sweep visits both colours.
     pub sweeps: usize,
-    /// Stop when the L1 residual has fallen to this part of its first value.
+    /// Stop when the residual has fallen to this part of its first value.
     pub reduction: f64,
 }
 
@@ -43,7 +45,7 @@ impl Sor {
     ) -> Result<Outcome, Error> {
         equation.check()?;
         scratch.resize(x.len(), 0.0);
-        let first = l1(equation, x, scratch);
+        let first = norm(equation, x, scratch);
         let mut last = first;
         let mut iterations = 0;
         while iterations < self.sweeps && last > self.reduction * first {
@@ -51,27 +53,28 @@ impl Sor {
             sweep(equation, x, self.relaxation, Colour::Black, scratch);
             iterations += 1;
             if iterations % 4 == 0 || iterations == self.sweeps {
-                last = l1(equation, x, scratch);
+                last = norm(equation, x, scratch);
             }
         }
         match x.iter().position(|v| !v.is_finite()) {
-            Some(k) => Err(Error::NotFinite {
-                column: k % equation.columns,
-                row: k / equation.columns,
+            Some(index) => Err(Error::NotFinite {
+                index,
                 what: "the value",
             }),
             None => Ok(Outcome {
                 iterations,
                 first,
                 last,
+                rounding: 0.0,
             }),
         }
     }
 }
 
-fn l1(equation: &FivePoint, x: &[f64], scratch: &mut [f64]) -> f64 {
+/// Euclidean norm of the residual.
+fn norm(equation: &FivePoint, x: &[f64], scratch: &mut [f64]) -> f64 {
     equation.residual(x, scratch);
-    scratch.iter().map(|r| r.abs()).sum()
+    scratch.iter().map(|r| r * r).sum::<f64>().sqrt()
 }
 
 /// Updates the cells of one colour. They read only the other colour, whose values stand in

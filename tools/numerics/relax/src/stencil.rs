@@ -1,8 +1,7 @@
 //! The five-point equation of every cell, as columns.
 
+use krylov::{Error, Linear};
 use rayon::prelude::*;
-
-use crate::Error;
 
 /// Cells below which a loop stays on one thread.
 const PARALLEL_FROM: usize = 4096;
@@ -154,20 +153,6 @@ impl FivePoint {
             });
     }
 
-    /// Makes cell `k` keep `value`.
-    pub fn fix(&mut self, k: usize, value: f64) {
-        self.centre[k] = 1.0;
-        for column in [
-            &mut self.east,
-            &mut self.west,
-            &mut self.north,
-            &mut self.south,
-        ] {
-            column[k] = 0.0;
-        }
-        self.source[k] = value;
-    }
-
     pub(crate) fn row(&self, j: usize) -> Row<'_> {
         let range = j * self.columns..(j + 1) * self.columns;
         Row {
@@ -195,7 +180,7 @@ impl FivePoint {
     }
 
     /// `out = AP x_P - sum of neighbours`, the operator without the source.
-    pub fn apply(&self, x: &[f64], out: &mut [f64]) {
+    pub fn product(&self, x: &[f64], out: &mut [f64]) {
         let work = |(j, out): (usize, &mut [f64])| {
             let (row, near) = (self.row(j), self.near(x, j));
             for (i, o) in out.iter_mut().enumerate() {
@@ -257,32 +242,38 @@ impl FivePoint {
     /// # Errors
     /// Names the first cell that fails.
     pub fn check(&self) -> Result<(), Error> {
-        for k in 0..self.len() {
-            let (column, row) = (k % self.columns, k / self.columns);
-            let sides = self.east[k] + self.west[k] + self.north[k] + self.south[k];
-            if !(self.centre[k] + sides).is_finite() {
-                return Err(Error::NotFinite {
-                    column,
-                    row,
-                    what: "a coefficient",
-                });
+        for index in 0..self.len() {
+            let (centre, source) = (self.centre[index], self.source[index]);
+            let sides = self.east[index] + self.west[index] + self.north[index] + self.south[index];
+            let not_finite = |what| Err(Error::NotFinite { index, what });
+            if !(centre + sides).is_finite() {
+                return not_finite("a coefficient");
             }
-            if !self.source[k].is_finite() {
-                return Err(Error::NotFinite {
-                    column,
-                    row,
-                    what: "the source",
-                });
+            if !source.is_finite() {
+                return not_finite("the source");
             }
-            if self.centre[k] <= 0.0 {
-                return Err(Error::NotPositive {
-                    column,
-                    row,
-                    value: self.centre[k],
-                });
+            if centre <= 0.0 {
+                let value = centre;
+                return Err(Error::NotPositive { index, value });
             }
         }
         Ok(())
+    }
+}
+
+impl Linear for FivePoint {
+    fn len(&self) -> usize {
+        self.centre.len()
+    }
+
+    fn apply(&self, x: &[f64], out: &mut [f64]) {
+        self.product(x, out);
+    }
+
+    fn rounding(&self, x: &[f64]) -> f64 {
+        // Each of the five terms of a cell rounds, about as large as the central one.
+        let squares = self.centre.iter().zip(x).map(|(c, x)| (c * x) * (c * x));
+        f64::EPSILON * (5.0 * squares.sum::<f64>()).sqrt()
     }
 }
 
@@ -322,7 +313,7 @@ mod tests {
         }
         let x = [1.0, -2.0, 3.0, 0.5, 4.0, -1.0];
         let (mut ax, mut r) = ([0.0; 6], [0.0; 6]);
-        a.apply(&x, &mut ax);
+        a.product(&x, &mut ax);
         a.residual(&x, &mut r);
         let dense = |k: usize| {
             let at = |on: bool, c: f64, m: usize| if on { c * x[m.min(5)] } else { 0.0 };
@@ -347,8 +338,7 @@ mod tests {
         assert_eq!(
             a.check(),
             Err(Error::NotPositive {
-                column: 1,
-                row: 1,
+                index: 3,
                 value: -1.0
             })
         );
