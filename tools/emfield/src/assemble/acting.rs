@@ -102,18 +102,18 @@ impl Acting {
         let (traction, force, impulse) = if let Some(electric) = &mut self.electric {
             let stood = session.timed("points of the field", || electric.stand(place))?;
             let sides = session.timed("weights of the field", || electric.fit(&stood))?;
-            let made = (&stood, &sides);
-            let now = session.timed("electric field", || electric.traction(made, rule, effort))?;
+            let now = session.timed("electric field", || {
+                electric.traction(&stood, &sides, rule, effort)
+            })?;
             liquid.drag.clone_from(&electric.drag);
             (now, Vec::new(), electric.force().map(|f| passed * f))
         } else if let Some(magnetic) = &mut self.magnetic {
             let about = outline(place.skin, centre)?;
-            let stood = session.timed("points of the field", || magnetic.stand(&about));
+            let stood = session.timed("points of the field", || magnetic.stand(&about, centre));
             let sides = session.timed("weights of the field", || magnetic.fit(&stood))?;
             let before = magnetic.force();
-            let at = (place, centre);
             let act = session.timed("magnetic field", || {
-                magnetic.act((&stood, &sides), at, (rule, effort))
+                magnetic.act(&stood, &sides, place, rule, effort)
             })?;
             self.through = self.through.max(magnetic.out);
             let both = along(&before, 1.0, &magnetic.force());

@@ -47,7 +47,7 @@ pub(super) fn alternating(
         omega: std::f64::consts::TAU * given.frequency_hz,
         conductivity: given.conductivity_s_m,
     };
-    let ball = Ball::new((region, weights), (middle, radius), &form).map_err(failed)?;
+    let ball = Ball::new(region, weights, middle, radius, &form).map_err(failed)?;
     Ok(Magnetic::new(applied, ball, form))
 }
 
@@ -97,17 +97,15 @@ mod tests {
         let mut magnetic = alternating((&scene, part.magnetic.as_ref().unwrap()), &liquid).unwrap();
         let skin = Place::of(&liquid.position, &liquid.normal, 5e-4).skin;
         let about = outline(skin, liquid.middle()).unwrap();
-        let stood = magnetic.stand(&about);
+        let stood = magnetic.stand(&about, about.origin);
         let sides = magnetic.fit(&stood).unwrap();
         let (on, inside, areas, volumes) = stood.parts();
         let own = [on.clone(), inside].concat();
         let normals: Vec<[f64; 3]> = areas.iter().map(|(n, _)| *n).collect();
         let at = Place::of(&own, &normals, 5e-4);
         let (way, mut effort) = (way(&scene, part), Effort::default());
-        let how = (way.rule(), &mut effort);
-        let act = magnetic
-            .act((&stood, &sides), (at, about.origin), how)
-            .unwrap();
+        let act = magnetic.act(&stood, &sides, at, way.rule(), &mut effort);
+        let act = act.unwrap();
         let (mut split, mut pressed) = ([0.0; 3], [0.0; 3]);
         for (k, (n, area)) in areas.iter().enumerate() {
             split = along(&split, -act.pressure[k] * area, n);

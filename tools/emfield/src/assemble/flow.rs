@@ -13,7 +13,7 @@ use crate::liquid::effort::{Effort, failed};
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
 use crate::liquid::passing::Passing;
-use crate::liquid::step::{Liquid, Matter, Way};
+use crate::liquid::step::{Ended, Liquid, Matter, Way};
 use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference};
@@ -122,7 +122,7 @@ impl March {
         let weighed = (part, &self.matter);
         self.acting.begin(weighed, at, &mut self.effort, session)?;
         let made = liquid.balance(&self.matter, &self.way, &mut self.effort)?;
-        let rows = operators(&liquid.position, (self.way.spacing, self.way.order));
+        let rows = operators(&liquid.position, &self.way);
         let rows = rows.map_err(|e| Failure::Other(format!("liquid: {e}")))?;
         let (mut sources, mut slopes) = (0.0_f64, 0.0_f64);
         for i in 0..liquid.position.len() {
@@ -167,17 +167,17 @@ impl March {
         }
         let mut made = Vec::new();
         for _ in 0..parts as u64 {
-            let how = (&self.way, length / parts);
+            let (way, dt) = (&self.way, length / parts);
             let ended = session.timed("step", || {
-                liquid.advance(&self.matter, how, &mut self.effort)
+                liquid.advance(&self.matter, way, dt, &mut self.effort)
             })?;
             if let Some(heat) = &mut self.heat {
-                heat.flow(liquid, &ended, &self.acting, how, &mut self.effort)?;
+                heat.flow(liquid, &ended, &self.acting, (way, dt), &mut self.effort)?;
             }
             liquid.smooth(&ended.patches, &ended.images);
             let apart = self.heat.is_some().then(|| liquid.position.clone());
-            let fits = (&ended.rows, &ended.images);
-            liquid.spread(fits, &ended.patches, self.way.spacing);
+            let Ended { rows, images, .. } = &ended;
+            liquid.spread(rows, images, &ended.patches, self.way.spacing);
             if let (Some(heat), Some(before)) = (&mut self.heat, apart) {
                 heat.carry(&ended.rows, &before, &liquid.position);
             }
@@ -212,8 +212,8 @@ impl March {
         session: &mut Session,
     ) -> Result<(), Failure> {
         if let Some(viscosity) = self.stirs(liquid) {
-            let how = (viscosity / self.matter.density, self.way.spacing);
-            self.passing.look(liquid, how, time);
+            let diffusion = viscosity / self.matter.density;
+            self.passing.look(liquid, diffusion, self.way.spacing, time);
         }
         let Some((_, totals)) = self.outline(liquid) else {
             session.warn("the drop is no longer one whose surface every ray from its centre meets once: its radii, modes and volume are neither told nor kept");
@@ -263,8 +263,8 @@ impl March {
         (time, patches): (f64, &[Patch<3>]),
         session: &mut Session,
     ) -> Result<(), Failure> {
-        let of = (liquid, &self.matter);
-        let mut points = told::points(of, &self.acting.pressure, self.precision);
+        let carried = &self.acting.pressure;
+        let mut points = told::points(liquid, &self.matter, carried, self.precision);
         if let Some(heat) = &self.heat {
             points = heat.frame(points);
         }

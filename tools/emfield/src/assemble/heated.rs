@@ -6,9 +6,9 @@ use run::{Failure, Fault, Session};
 use wls::Stencils;
 
 use super::acting::Acting;
-use crate::liquid::drift;
+use crate::liquid::drift::{self, Fitted};
 use crate::liquid::effort::{Effort, failed};
-use crate::liquid::heat::{Added, Ground, Melting, Warmth, warmed};
+use crate::liquid::heat::{Added, Flow, Ground, Melting, Warmth, warmed};
 use crate::liquid::operators::{operators, sloped};
 use crate::liquid::step::{Ended, Liquid, Way};
 use crate::liquid::surface::Patch;
@@ -114,9 +114,8 @@ impl Heated {
         effort: &mut Effort,
     ) -> Result<(), Failure> {
         if self.rows.is_none() {
-            let how = (way.spacing, way.order);
-            let inside = operators(&liquid.position, how).map_err(|e| failed(&e))?;
-            let surface = sloped(&liquid.position, patches, how, false).map_err(|e| failed(&e))?;
+            let inside = operators(&liquid.position, way).map_err(|e| failed(&e))?;
+            let surface = sloped(&liquid.position, patches, way, false).map_err(|e| failed(&e))?;
             self.rows = Some([inside, surface]);
         }
         if let Some([inside, surface]) = self.rows.take() {
@@ -151,15 +150,18 @@ impl Heated {
             rows,
             ..
         } = ended;
-        let how = (way.spacing, way.order);
-        let surface = sloped(&liquid.position, patches, how, false).map_err(|e| failed(&e))?;
+        let surface = sloped(&liquid.position, patches, way, false).map_err(|e| failed(&e))?;
         let density = self.warmth.density;
         let field: Vec<[f64; 1]> = self.enthalpy.iter().map(|h| [density * h]).collect();
         let back = |i: usize| difference(&moved[i], &liquid.velocity[i]);
         let mut drift = drift::along_surface(patches, &field, back);
         if !liquid.follow.is_empty() {
-            let apart = (patches.len()..field.len(), way.spacing);
-            drift.extend(drift::inside((rows, rows), &field, back, apart));
+            let fitted = Fitted {
+                slopes: rows,
+                values: rows,
+            };
+            let inside = patches.len()..field.len();
+            drift.extend(drift::inside(fitted, &field, back, inside, way.spacing));
         }
         let ground = Ground {
             inside: rows,
@@ -187,8 +189,13 @@ impl Heated {
             heat.iter_mut().for_each(|q| *q *= self.power / whole);
         }
         let added = Added { heat: &heat, drift };
-        let now = (self.enthalpy.as_slice(), added);
-        self.enthalpy = warmed(&self.warmth, ground, now, (way.rule(), dt), effort)?;
+        let flow = Flow {
+            ground,
+            added,
+            rule: way.rule(),
+            dt,
+        };
+        self.enthalpy = warmed(&self.warmth, flow, &self.enthalpy, effort)?;
         self.since += dt;
         Ok(())
     }

@@ -112,7 +112,7 @@ fn write(
     let totals = Totals::new(liquid, &matter, shape).ok_or_else(not_round)?;
     let row = acting.row(totals.row(&matter, shape));
     session.record("/liquid", 0.0, &row)?;
-    let points = told::points((liquid, &matter), &acting.pressure, precision);
+    let points = told::points(liquid, &matter, &acting.pressure, precision);
     session.frame("/points", 0.0, &points)?;
     let surface = &liquid.position[..liquid.surface()];
     let patches = crate::liquid::surface::patches(surface, &liquid.normal, scene.points.spacing_m);

@@ -226,7 +226,7 @@ pub fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure>
         lift(field, &mut liquid, &way, &mut effort)?;
     }
     let began = std::time::Instant::now();
-    liquid.advance(&matter(part), (&way, steps.step(0).1), &mut effort)?;
+    liquid.advance(&matter(part), &way, steps.step(0).1, &mut effort)?;
     if let Some(field) = &mut field {
         pull(field, &liquid, &way, &mut effort)?;
     }
@@ -251,9 +251,9 @@ fn lift(
     let place = Place::of(&liquid.position, &liquid.normal, way.spacing);
     let centre = liquid.middle();
     let about = outline(place.skin, centre)?;
-    let stood = field.stand(&about);
+    let stood = field.stand(&about, centre);
     let sides = field.fit(&stood)?;
-    let act = field.act((&stood, &sides), (place, centre), (way.rule(), effort))?;
+    let act = field.act(&stood, &sides, place, way.rule(), effort)?;
     let mut force = act.pull;
     let phi = liquid.stirred(&mut force, &act.phi, way, effort)?;
     let traction = phi.iter().zip(&act.pressure).take(liquid.surface());
@@ -272,5 +272,5 @@ fn pull(
 ) -> Result<Vec<f64>, Failure> {
     let stood = field.stand(Place::of(&liquid.position, &liquid.normal, way.spacing))?;
     let fitted = field.fit(&stood)?;
-    field.traction((&stood, &fitted), way.rule(), effort)
+    field.traction(&stood, &fitted, way.rule(), effort)
 }

@@ -160,7 +160,7 @@ impl Shape {
         let mut right = DVector::zeros(sides * many);
         let table: Vec<Vec<[[f64; 3]; 2]>> = nodes
             .iter()
-            .map(|&eta| terms_at(terms, (self.coordinate(eta)[0], waist), eta))
+            .map(|&eta| terms_at(terms, self.coordinate(eta)[0], waist, eta))
             .collect();
         for (i, &eta) in nodes.iter().enumerate() {
             right[i] = -self.applied(eta)[0];

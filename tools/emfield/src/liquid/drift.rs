@@ -11,6 +11,15 @@ use wls::Stencils;
 use super::surface::Patch;
 use super::vector::{across, along, difference, dot, length};
 
+/// Rows of slopes and of values of fits.
+#[derive(Debug, Clone, Copy)]
+pub struct Fitted<'a, const D: usize> {
+    /// Rows of slopes.
+    pub slopes: &'a Stencils<D>,
+    /// Rows of the values of fits that need not pass through their points.
+    pub values: &'a Stencils<D>,
+}
+
 /// Spacings within which a point has its neighbours.
 const NEAR: f64 = 2.0;
 
@@ -35,13 +44,14 @@ pub fn along_surface<const D: usize, const C: usize>(
     patches.iter().enumerate().map(at).collect()
 }
 
-/// At a range of points inside that follow the surface, by rows of slopes and of values of fits.
+/// At a range of points inside that follow the surface.
 #[must_use]
 pub fn inside<const D: usize, const C: usize>(
-    (rows, fits): (&Stencils<D>, &Stencils<D>),
+    fitted: Fitted<'_, D>,
     f: &[[f64; C]],
     back: impl Fn(usize) -> [f64; D] + Sync,
-    (range, spacing): (Range<usize>, f64),
+    range: Range<usize>,
+    spacing: f64,
 ) -> Vec<[f64; C]> {
     range
         .into_par_iter()
@@ -49,11 +59,11 @@ pub fn inside<const D: usize, const C: usize>(
             let back = back(i);
             let passed = length(&back) / spacing;
             let mut sum = f[i].map(|c| -passed * c);
-            for (j, weight) in fits.value(i).iter() {
+            for (j, weight) in fitted.values.value(i).iter() {
                 sum = along(&sum, passed * weight, &f[j]);
             }
             for (a, part) in back.iter().enumerate() {
-                for (j, weight) in rows.derivative(i, a).iter() {
+                for (j, weight) in fitted.slopes.derivative(i, a).iter() {
                     sum = along(&sum, part * weight, &f[j]);
                 }
             }
@@ -68,9 +78,11 @@ pub fn inside<const D: usize, const C: usize>(
 /// between what is around (Bermejo and Staniforth 1992). Velocities count along the change, so that no axis is preferred.
 pub fn bound<const D: usize>(
     drift: &mut [[f64; D]],
-    fits: &Stencils<D>,
-    (place, u): (&[[f64; D]], &[[f64; D]]),
-    (time, spacing): (f64, f64),
+    values: &Stencils<D>,
+    place: &[[f64; D]],
+    u: &[[f64; D]],
+    time: f64,
+    spacing: f64,
 ) {
     drift.par_iter_mut().enumerate().for_each(|(i, own)| {
         let size = length(own);
@@ -78,7 +90,7 @@ pub fn bound<const D: usize>(
             return;
         }
         let way = own.map(|c| c / size);
-        let near = fits.value(i).iter().map(|(j, _)| j);
+        let near = values.value(i).iter().map(|(j, _)| j);
         let near = near.filter(|j| length(&difference(&place[*j], &place[i])) < NEAR * spacing);
         let most = near.map(|j| dot(&way, &difference(&u[j], &u[i])));
         let most = most.fold(0.0, f64::max);
@@ -91,7 +103,19 @@ pub fn bound<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::liquid::operators::{Fits, derivatives, values};
+    use crate::liquid::matter::Way;
+    use crate::liquid::operators::{Fits, Points, derivatives, values};
+
+    const WAY: Way = Way {
+        spacing: 1.0,
+        order: 3,
+        tolerance: 1e-9,
+        products: 100,
+    };
+    const THROUGH: Fits = Fits {
+        through: true,
+        value: false,
+    };
 
     /// A cube of points a unit apart, and the one in its middle.
     fn cube() -> (Vec<[f64; 3]>, usize) {
@@ -102,24 +126,14 @@ mod tests {
     #[test]
     fn a_smooth_field_comes_as_its_slope_says() {
         let (points, middle) = cube();
-        let (cloud, how) = ((&points[..], points.len()), (1.0, 3));
-        let rows = derivatives(
-            cloud,
-            how,
-            Fits {
-                through: true,
-                value: false,
-            },
-        )
-        .unwrap();
-        let fits = values(cloud, how).unwrap();
+        let own = points.len();
+        let all = Points { all: &points, own };
+        let slopes = &derivatives(all, &WAY, THROUGH).unwrap();
+        let values = &values(all, &WAY).unwrap();
         let f: Vec<[f64; 1]> = points.iter().map(|x| [x[0] + 0.1 * x[1] * x[1]]).collect();
-        let found = inside(
-            (&rows, &fits),
-            &f,
-            |_| [0.2, -0.1, 0.0],
-            (middle..middle + 1, 1.0),
-        );
+        let fitted = Fitted { slopes, values };
+        let back = |_| [0.2, -0.1, 0.0];
+        let found = inside(fitted, &f, back, middle..middle + 1, 1.0);
         let [_, y, _] = points[middle];
         assert!((found[0][0] - (0.2 - 0.02 * y)).abs() < 1e-9, "{found:?}");
     }
@@ -127,27 +141,24 @@ mod tests {
     #[test]
     fn streams_that_meet_drive_neither_on() {
         let (points, middle) = cube();
-        let (cloud, how) = ((&points[..], points.len()), (1.0, 3));
-        let through = Fits {
-            through: true,
-            value: false,
-        };
-        let rows = derivatives(cloud, how, through).unwrap();
-        let fits = values(cloud, how).unwrap();
+        let own = points.len();
+        let all = Points { all: &points, own };
+        let slopes = &derivatives(all, &WAY, THROUGH).unwrap();
+        let values = &values(all, &WAY).unwrap();
         // Both sides go against the plane x = 3.5, half a spacing beyond the middle of the cube.
         let u: Vec<[f64; 3]> = points
             .iter()
             .map(|x| [if x[0] < 3.5 { 1.0 } else { -1.0 }, 0.0, 0.0])
             .collect();
-        let all = 0..points.len();
-        let mut drift = inside((&rows, &fits), &u, |i| u[i].map(|c| -c), (all, 1.0));
+        let fitted = Fitted { slopes, values };
+        let mut drift = inside(fitted, &u, |i| u[i].map(|c| -c), 0..own, 1.0);
         assert!(drift[middle][0] > 0.1, "{:?}", drift[middle]);
-        bound(&mut drift, &fits, (&points, &u), (0.5, 1.0));
+        bound(&mut drift, values, &points, &u, 0.5, 1.0);
         let after = drift.iter().zip(&u).map(|(d, u)| u[0] + 0.5 * d[0]);
         assert!(after.fold(0.0, |most, u| f64::max(most, u.abs())) <= 1.0 + 1e-12);
         // What turns one into the other stays.
         let mut turned = vec![[-0.5, 0.0, 0.0]; points.len()];
-        bound(&mut turned, &fits, (&points, &u), (0.5, 1.0));
+        bound(&mut turned, values, &points, &u, 0.5, 1.0);
         assert!((turned[middle][0] + 0.5).abs() < 1e-12);
     }
 }

@@ -46,7 +46,7 @@ pub fn rest(sought: Sought, capillary: f64) -> Found {
             return Found::Lost(height);
         };
         if next.capillary >= capillary {
-            return between(kind, (low, next, height), capillary);
+            return between(kind, &low, next, height, capillary);
         }
         let now = [height, next.capillary];
         if now[1] < last[1] {
@@ -74,7 +74,7 @@ fn summit(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     a[1] + u * (top - a[0]) + bend * (top - a[0]) * (top - b[0])
 }
 
-fn between(kind: Kind, (low, high, height): (Shape, Shape, f64), capillary: f64) -> Found {
+fn between(kind: Kind, low: &Shape, high: Shape, height: f64, capillary: f64) -> Found {
     let (mut short, mut tall) = (height - STEP, height);
     let mut best = if high.capillary - capillary < capillary - low.capillary {
         high

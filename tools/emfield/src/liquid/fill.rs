@@ -39,7 +39,7 @@ pub fn fill<const D: usize>(body: &Body, spacing: f64) -> Filled<D> {
     let inside = lattice.filter(|x| body.distance(spatial(x)) < -DEPTH * spacing);
     position.extend(inside);
     for _ in 0..ROUNDS {
-        let push = pushes((&position, position.len()), spacing);
+        let push = pushes(&position, position.len(), spacing);
         position = (0..position.len())
             .into_par_iter()
             .map(|i| {
@@ -90,7 +90,8 @@ fn kept<const D: usize>(body: &Body, x: &[f64; D], spacing: f64) -> [f64; D] {
 
 /// How far neighbours push each of the first `own` points \[m\]: each by `PUSH (1 - r/R)^2` of a spacing.
 pub(super) fn pushes<const D: usize>(
-    (points, own): (&[[f64; D]], usize),
+    points: &[[f64; D]],
+    own: usize,
     spacing: f64,
 ) -> Vec<[f64; D]> {
     let places: Vec<[f64; 3]> = points.iter().map(spatial).collect();

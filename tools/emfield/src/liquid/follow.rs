@@ -4,11 +4,12 @@
 //! at w with `div grad w = 0` and that of the surface on it, `w = U + ((u - U) . n) n` with U of the whole: their distances stay
 //! nearly what they were. The liquid then passes them at u - w ([`super::drift`]).
 
-use krylov::{Keep, Method, Options, Rows, Rule, System};
+use krylov::{Keep, Method, Options, Rows, System};
 use run::Failure;
 use wls::Stencils;
 
 use super::effort::{Effort, failed};
+use super::matter::Way;
 use super::room::images::Images;
 use super::step::Liquid;
 use super::vector::{along, difference, dot, spatial};
@@ -46,16 +47,17 @@ impl<const D: usize> Liquid<D> {
     /// Where the equations have no solution.
     pub fn follow_surface(
         &mut self,
-        (rows, images): (&Stencils<D>, &Images<D>),
+        rows: &Stencils<D>,
+        images: &Images<D>,
         surface: &[[f64; D]],
-        (spacing, rule): (f64, Rule<'_>),
+        way: &Way,
         effort: &mut Effort,
     ) -> Result<(), Failure> {
         if self.room.bounds() {
-            return self.follow_in_room((rows, images), surface, (spacing, rule), effort);
+            return self.follow_in_room(rows, images, surface, way, effort);
         }
         let (on, n) = (surface.len(), self.follow.len());
-        let square = spacing * spacing;
+        let square = way.spacing * way.spacing;
         let matrix = Rows::gathered(n, 0.0, |i, row| {
             if i < on {
                 row.push((i as u32, 1.0));
@@ -75,7 +77,7 @@ impl<const D: usize> Liquid<D> {
         }
         self.follow[..on].copy_from_slice(surface);
         let mut unknown: Vec<[f64; 3]> = self.follow.iter().map(spatial).collect();
-        let solved = system.solve(&sides, &mut unknown, rule);
+        let solved = system.solve(&sides, &mut unknown, way.rule());
         for (w, x) in self.follow.iter_mut().zip(&unknown) {
             *w = std::array::from_fn(|k| x[k]);
         }
@@ -85,9 +87,10 @@ impl<const D: usize> Liquid<D> {
     /// The same within faces, component by component, since mirrors turn each its own way; points on walls stay.
     fn follow_in_room(
         &mut self,
-        (rows, images): (&Stencils<D>, &Images<D>),
+        rows: &Stencils<D>,
+        images: &Images<D>,
         surface: &[[f64; D]],
-        (spacing, rule): (f64, Rule<'_>),
+        way: &Way,
         effort: &mut Effort,
     ) -> Result<(), Failure> {
         let (on, n) = (surface.len(), self.follow.len());
@@ -95,7 +98,7 @@ impl<const D: usize> Liquid<D> {
             return Ok(());
         }
         let fixed = on + self.room.held.len();
-        let square = spacing * spacing;
+        let square = way.spacing * way.spacing;
         for k in 0..D {
             let matrix =
                 Rows::gathered(n, 0.0, |i, row| {
@@ -118,7 +121,7 @@ impl<const D: usize> Liquid<D> {
             for (i, w) in surface.iter().enumerate() {
                 (sides[i], unknown[i]) = ([w[k]], [w[k]]);
             }
-            effort.add(&system.solve(&sides, &mut unknown, rule))?;
+            effort.add(&system.solve(&sides, &mut unknown, way.rule()))?;
             for (w, x) in self.follow.iter_mut().zip(&unknown) {
                 w[k] = x[0];
             }

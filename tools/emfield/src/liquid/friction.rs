@@ -15,6 +15,7 @@
 use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
 use wls::Stencils;
 
+use super::matter::Way;
 use super::operators::sloped;
 use super::room::images::Images;
 use super::surface::Patch;
@@ -61,7 +62,7 @@ impl Friction {
     pub fn new<const D: usize>(
         points: &[[f64; D]],
         ground: Ground<'_, D>,
-        (spacing, order): (f64, u8),
+        way: &Way,
         diffusion: f64,
     ) -> Result<Self, Error> {
         let Ground {
@@ -71,7 +72,7 @@ impl Friction {
             held,
             through,
         } = ground;
-        let surface = sloped(points, patches, (spacing, order), through)?;
+        let surface = sloped(points, patches, way, through)?;
         let number = |j: usize, b: usize| (D * images.origin(j) + b) as u32;
         let walls = patches.len()..patches.len() + held;
         let matrix = Rows::gathered(D * images.own(), 0.0, |row, entries| {

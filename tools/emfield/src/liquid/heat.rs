@@ -128,37 +128,54 @@ impl Added<'_> {
     }
 }
 
-/// Enthalpies of the points of a liquid, over a step of `dt` \[s\].
+/// How heat goes for a while.
+#[derive(Clone, Copy)]
+pub struct Flow<'a, const D: usize> {
+    /// Where.
+    pub ground: &'a Ground<'a, D>,
+    /// Beside conduction.
+    pub added: Added<'a>,
+    /// When solves end.
+    pub rule: Rule<'a>,
+    /// For how long \[s\].
+    pub dt: f64,
+}
+
+/// Enthalpies of the points of a liquid at the end of a step.
 ///
 /// # Errors
 /// Where the equations have no solution.
 pub fn warmed<const D: usize>(
     warmth: &Warmth,
-    ground: &Ground<'_, D>,
-    (enthalpy, added): (&[f64], Added<'_>),
-    (rule, dt): (Rule<'_>, f64),
+    flow: Flow<'_, D>,
+    enthalpy: &[f64],
     effort: &mut Effort,
 ) -> Result<Vec<f64>, Failure> {
-    let tau = PART * dt;
-    let how = (ground, added, (rule, tau));
-    let first = stage(warmth, how, (enthalpy, enthalpy), effort)?;
+    let tau = PART * flow.dt;
+    let part = Flow { dt: tau, ..flow };
+    let first = stage(warmth, part, enthalpy, enthalpy, effort)?;
     // The rate of the first stage acts for what is left of the step.
-    let rest = (dt - tau) / tau;
+    let rest = (flow.dt - tau) / tau;
     let base: Vec<f64> = (enthalpy.iter().zip(&first))
         .map(|(h, end)| h + rest * (end - h))
         .collect();
-    stage(warmth, how, (&base, &first), effort)
+    stage(warmth, part, &base, &first, effort)
 }
-
-type How<'a, const D: usize> = (&'a Ground<'a, D>, Added<'a>, (Rule<'a>, f64));
 
 /// `rho (H - H_base) = tau (k div grad T(H) + q)`.
 fn stage<const D: usize>(
     warmth: &Warmth,
-    (ground, added, (rule, tau)): How<'_, D>,
-    (base, guess): (&[f64], &[f64]),
+    flow: Flow<'_, D>,
+    base: &[f64],
+    guess: &[f64],
     effort: &mut Effort,
 ) -> Result<Vec<f64>, Failure> {
+    let Flow {
+        ground,
+        added,
+        rule,
+        dt: tau,
+    } = flow;
     let share = tau / warmth.density;
     let (n, k) = (base.len(), warmth.conductivity);
     let most = base.iter().fold(0.0_f64, |m, h| m.max(h.abs()));

@@ -2,17 +2,28 @@
 
 use wls::{Cloud, Condition, Error, Metric, Plan, Rules, Search, Stencils, Wants};
 
+use super::matter::Way;
 use super::surface::Patch;
 
-/// Gradient and Laplacian rows of a cloud of points with one spacing \[m\].
+/// Points with their images behind them.
+#[derive(Debug, Clone, Copy)]
+pub struct Points<'a, const D: usize> {
+    /// All \[m\].
+    pub all: &'a [[f64; D]],
+    /// Those that are no images.
+    pub own: usize,
+}
+
+/// Gradient and Laplacian rows of a cloud of points with one spacing.
 ///
 /// # Errors
 /// Where points coincide or no fit has the derivatives.
-pub fn operators<const D: usize>(
-    points: &[[f64; D]],
-    how: (f64, u8),
-) -> Result<Stencils<D>, Error> {
-    derivatives((points, points.len()), how, Fits::default())
+pub fn operators<const D: usize>(points: &[[f64; D]], way: &Way) -> Result<Stencils<D>, Error> {
+    let points = Points {
+        all: points,
+        own: points.len(),
+    };
+    derivatives(points, way, Fits::default())
 }
 
 /// Rows are made at the first of the points; the others are images.
@@ -38,13 +49,13 @@ pub struct Fits {
 /// # Errors
 /// As [`operators`].
 pub fn derivatives<const D: usize>(
-    (points, own): (&[[f64; D]], usize),
-    (spacing, order): (f64, u8),
+    points: Points<'_, D>,
+    way: &Way,
     fits: Fits,
 ) -> Result<Stencils<D>, Error> {
-    let metrics = vec![Metric::round(spacing); points.len()];
+    let metrics = vec![Metric::round(way.spacing); points.all.len()];
     let search = Search::new(Cloud {
-        points,
+        points: points.all,
         metrics: &metrics,
     })?;
     let wants = Wants {
@@ -55,29 +66,27 @@ pub fn derivatives<const D: usize>(
     };
     let plan = Plan {
         interpolating: fits.through,
-        ..Plan::new::<D>(order, wants)
+        ..Plan::new::<D>(way.order, wants)
     };
-    Stencils::build(&search, &plan, &First(own))
+    Stencils::build(&search, &plan, &First(points.own))
 }
 
 /// Values of fits that do not pass through their points, at the first `own` of them.
 ///
 /// # Errors
 /// Where points coincide.
-pub fn values<const D: usize>(
-    (points, own): (&[[f64; D]], usize),
-    (spacing, order): (f64, u8),
-) -> Result<Stencils<D>, Error> {
-    let metrics = vec![Metric::round(spacing); points.len()];
+pub fn values<const D: usize>(points: Points<'_, D>, way: &Way) -> Result<Stencils<D>, Error> {
+    let metrics = vec![Metric::round(way.spacing); points.all.len()];
     let search = Search::new(Cloud {
-        points,
+        points: points.all,
         metrics: &metrics,
     })?;
     let wants = Wants {
         value: true,
         ..Wants::default()
     };
-    Stencils::build(&search, &Plan::new::<D>(order, wants), &First(own))
+    let plan = Plan::new::<D>(way.order, wants);
+    Stencils::build(&search, &plan, &First(points.own))
 }
 
 /// Rows at the points of a surface, which know the slope along its normal.
@@ -106,10 +115,10 @@ impl<const D: usize> Rules<D> for Sloped<'_, D> {
 pub fn sloped<const D: usize>(
     points: &[[f64; D]],
     patches: &[Patch<D>],
-    (spacing, order): (f64, u8),
+    way: &Way,
     through: bool,
 ) -> Result<Stencils<D>, Error> {
-    let metrics = vec![Metric::round(spacing); points.len()];
+    let metrics = vec![Metric::round(way.spacing); points.len()];
     let search = Search::new(Cloud {
         points,
         metrics: &metrics,
@@ -120,7 +129,7 @@ pub fn sloped<const D: usize>(
     };
     let plan = Plan {
         interpolating: through,
-        ..Plan::new::<D>(order, wants)
+        ..Plan::new::<D>(way.order, wants)
     };
     Stencils::build(&search, &plan, &Sloped { points, patches })
 }

@@ -25,7 +25,8 @@ impl Passing {
     pub fn look<const D: usize>(
         &mut self,
         liquid: &Liquid<D>,
-        (diffusion, spacing): (f64, f64),
+        diffusion: f64,
+        spacing: f64,
         time: f64,
     ) {
         let passed = liquid.velocity.iter().zip(&liquid.follow);
@@ -88,12 +89,12 @@ mod tests {
 
     #[test]
     fn what_passes_points_too_fast_is_told_with_the_time() {
-        let (how, mut passing) = ((1e-6, 1e-4), Passing::default());
-        passing.look(&passed_at(0.1), how, 1e-3);
+        let mut passing = Passing::default();
+        passing.look(&passed_at(0.1), 1e-6, 1e-4, 1e-3);
         assert!((passing.greatest - 10.0).abs() < 1e-12);
         assert_eq!(passing.doubt(), None);
-        passing.look(&passed_at(0.3), how, 2e-3);
-        passing.look(&passed_at(0.2), how, 3e-3);
+        passing.look(&passed_at(0.3), 1e-6, 1e-4, 2e-3);
+        passing.look(&passed_at(0.2), 1e-6, 1e-4, 3e-3);
         let doubt = passing.doubt().unwrap();
         assert!(
             doubt.contains("from 2.000e-3 s") && doubt.contains("up to 30"),

@@ -185,7 +185,8 @@ impl<'a, const D: usize> Equations<'a, D> {
     fn solve_loose(
         &mut self,
         loose: &Loose,
-        (right, pressure): (&[f64], &mut [f64]),
+        right: &[f64],
+        pressure: &mut [f64],
         rule: Rule<'_>,
     ) -> Solved {
         let (n, held) = (right.len(), self.conditions.held.len());
@@ -212,7 +213,7 @@ impl<'a, const D: usize> Equations<'a, D> {
     /// surface, on walls the slope along their normal times the spacing; `pressure` the first guess.
     pub fn solve(&mut self, right: &[f64], pressure: &mut [f64], rule: Rule<'_>) -> Solved {
         if let Some(loose) = self.loose.take() {
-            let solved = self.solve_loose(&loose, (right, pressure), rule);
+            let solved = self.solve_loose(&loose, right, pressure, rule);
             self.loose = Some(loose);
             return solved;
         }

@@ -1,13 +1,13 @@
 //! Pressure and friction of a stage in turn.
 
-use krylov::{Anderson, Rule};
+use krylov::Anderson;
 use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
 
 use super::effort::{Effort, failed};
 use super::friction::{Friction, Ground, stretch};
-use super::matter::Matter;
+use super::matter::{Matter, Way};
 use super::operators::divergence;
 use super::points::Liquid;
 use super::pressure::{Conditions, Equations, bending};
@@ -30,9 +30,13 @@ pub(super) struct Rounds<'a, const D: usize> {
     pub(super) rows: &'a Stencils<D>,
     pub(super) images: &'a Images<D>,
     pub(super) tau: f64,
-    /// Spacing \[m\] and degree of fits.
-    pub(super) how: (f64, u8),
-    pub(super) rule: Rule<'a>,
+    pub(super) way: &'a Way,
+}
+
+/// Equations of the pressure and of friction.
+struct Pair<'a, 'b, const D: usize> {
+    equations: &'a mut Equations<'b, D>,
+    friction: &'a mut Friction,
 }
 
 impl<const D: usize> Liquid<D> {
@@ -40,7 +44,8 @@ impl<const D: usize> Liquid<D> {
     pub(super) fn push(
         &mut self,
         rounds: &Rounds<'_, D>,
-        (free, right): (&[[f64; D]], Vec<f64>),
+        free: &[[f64; D]],
+        right: &[f64],
         guess: Vec<[f64; D]>,
         effort: &mut Effort,
     ) -> Result<(), Failure> {
@@ -49,7 +54,7 @@ impl<const D: usize> Liquid<D> {
         let conditions = Conditions {
             rows: rounds.rows,
             patches: rounds.patches,
-            spacing: rounds.how.0,
+            spacing: rounds.way.spacing,
             stiffness: matter.tension * tau * tau / matter.density,
             images: rounds.images,
             held: &held,
@@ -58,7 +63,7 @@ impl<const D: usize> Liquid<D> {
         let equations = Equations::new(conditions, rounds.images.own());
         let mut equations = equations.map_err(|e| failed(&e))?;
         let Some(viscosity) = matter.viscosity else {
-            effort.add(&equations.solve(&right, &mut self.pressure, rounds.rule))?;
+            effort.add(&equations.solve(right, &mut self.pressure, rounds.way.rule()))?;
             self.velocity = rounds.pushed(free, &self.pressure);
             return Ok(());
         };
@@ -70,15 +75,14 @@ impl<const D: usize> Liquid<D> {
             through: self.room.bounds(),
         };
         let diffusion = tau * viscosity / matter.density;
-        let friction = Friction::new(rounds.place, ground, rounds.how, diffusion);
+        let friction = Friction::new(rounds.place, ground, rounds.way, diffusion);
         let mut friction = friction.map_err(|e| failed(&e))?;
         self.velocity = guess;
-        self.rub(
-            rounds,
-            (&mut equations, &mut friction),
-            (free, right),
-            effort,
-        )
+        let mut pair = Pair {
+            equations: &mut equations,
+            friction: &mut friction,
+        };
+        self.rub(rounds, &mut pair, free, right, effort)
     }
 
     /// Pressure and friction in turn, until the normal stress of friction on the surface, and on walls what it adds to the slope
@@ -86,26 +90,29 @@ impl<const D: usize> Liquid<D> {
     fn rub(
         &mut self,
         rounds: &Rounds<'_, D>,
-        (equations, friction): (&mut Equations<'_, D>, &mut Friction),
-        (free, right): (&[[f64; D]], Vec<f64>),
+        pair: &mut Pair<'_, '_, D>,
+        free: &[[f64; D]],
+        right: &[f64],
         effort: &mut Effort,
     ) -> Result<(), Failure> {
         let (matter, surface) = (rounds.matter, rounds.patches.len());
+        let rule = rounds.way.rule();
         let viscosity = matter.viscosity.unwrap_or(0.0);
         let walls = self.walls();
         let mut anderson = Anderson::new(WINDOW);
         for _ in 0..ROUNDS {
-            let mut with = right.clone();
+            let mut with = right.to_vec();
             for (r, s) in with.iter_mut().zip(&self.stress) {
                 *r += s;
             }
-            effort.add(&equations.solve(&with, &mut self.pressure, rounds.rule))?;
+            effort.add(&pair.equations.solve(&with, &mut self.pressure, rule))?;
             let mut pushed = rounds.pushed(free, &self.pressure);
             pushed[walls.clone()].copy_from_slice(&self.velocity[walls.clone()]);
             if !self.drag.is_empty() {
-                friction.drag(&mut pushed, |i| self.drag[i].map(|t| t / viscosity));
+                pair.friction
+                    .drag(&mut pushed, |i| self.drag[i].map(|t| t / viscosity));
             }
-            effort.add(&friction.solve(&pushed, &mut self.velocity, rounds.rule))?;
+            effort.add(&pair.friction.solve(&pushed, &mut self.velocity, rule))?;
             let slid: Vec<f64> = (0..surface)
                 .map(|s| {
                     let more = difference(&self.velocity[s], &pushed[s]);
@@ -123,7 +130,7 @@ impl<const D: usize> Liquid<D> {
             if !walls.is_empty() {
                 found.extend(rounds.rubbed(&wide, &self.room.held));
                 let speed = norm(self.velocity.as_flattened());
-                whole += norm(&right[walls.clone()]) + viscosity / rounds.how.0 * speed;
+                whole += norm(&right[walls.clone()]) + viscosity / rounds.way.spacing * speed;
             }
             let lack: Vec<f64> = found.iter().zip(&self.stress).map(|(a, b)| a - b).collect();
             let size = norm(&lack);
@@ -156,7 +163,7 @@ impl<const D: usize> Rounds<'_, D> {
             .map(|i| divergence(self.rows, velocity, i))
             .collect();
         let sources = self.images.scalars(&sources);
-        let scale = self.how.0 * self.matter.viscosity.unwrap_or(0.0);
+        let scale = self.way.spacing * self.matter.viscosity.unwrap_or(0.0);
         let at = |(k, normal): (usize, &[f64; D])| {
             let i = self.patches.len() + k;
             let laplacian = self.rows.laplacian(i);

@@ -137,7 +137,7 @@ pub fn stands(angle: f64, bond: f64) -> Stood {
         if found.volume < wanted {
             below = Some(radius(k));
         } else if let Some(low) = below {
-            return between([low, radius(k)], (angle, bond), wanted);
+            return between([low, radius(k)], angle, bond, wanted);
         }
     }
     if bond < 0.0 {
@@ -147,7 +147,8 @@ pub fn stands(angle: f64, bond: f64) -> Stood {
     }
 }
 
-fn between([mut low, mut high]: [f64; 2], (angle, bond): (f64, f64), wanted: f64) -> Stood {
+fn between(radii: [f64; 2], angle: f64, bond: f64, wanted: f64) -> Stood {
+    let [mut low, mut high] = radii;
     let mut best = None;
     for _ in 0..ROUNDS {
         let middle = 0.5 * (low + high);

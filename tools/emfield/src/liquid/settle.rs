@@ -55,7 +55,8 @@ impl<const D: usize> Liquid<D> {
     /// places.
     pub fn spread(
         &mut self,
-        (rows, images): (&Stencils<D>, &Images<D>),
+        rows: &Stencils<D>,
+        images: &Images<D>,
         patches: &[Patch<D>],
         spacing: f64,
     ) {
@@ -88,7 +89,7 @@ impl<const D: usize> Liquid<D> {
     /// How far the first `count` points push each other, with their images \[m\].
     fn pushed_apart(&self, count: usize, spacing: f64) -> Vec<[f64; D]> {
         let (all, _) = self.room.images(&self.position[..count], spacing);
-        pushes((&all, count), spacing)
+        pushes(&all, count, spacing)
     }
 }
 

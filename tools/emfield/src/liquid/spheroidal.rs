@@ -55,7 +55,7 @@ fn second_kind(most: usize, x: f64) -> Vec<[f64; 2]> {
 }
 
 /// Of each odd harmonic, inside and outside: value, derivatives over xi and eta; 1 at the waist and the pole.
-pub(super) fn terms_at(terms: usize, (xi, waist): (f64, f64), eta: f64) -> Vec<[[f64; 3]; 2]> {
+pub(super) fn terms_at(terms: usize, xi: f64, waist: f64, eta: f64) -> Vec<[[f64; 3]; 2]> {
     let (here, there) = (second_kind(2 * terms, xi), second_kind(2 * terms, waist));
     let each = (0..terms).map(|k| {
         let l = 2 * k + 1;

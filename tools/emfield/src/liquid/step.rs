@@ -13,18 +13,20 @@
 //! goes, as the values of fits that do not pass through their points have it: they know no waves as short as the spacing,
 //! which are what grows.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
 
-use super::drift;
+use super::drift::{self, Fitted};
 use super::effort::{Effort, failed};
 use super::friction::stretch;
-use super::operators::{derivatives, divergence, stretching, values};
+use super::operators::{Points, derivatives, divergence, stretching, values};
 use super::pressure::{Conditions, Equations, bending};
 use super::room::images::Images;
 use super::rounds::Rounds;
-use super::surface::{Bare, Patch, beside};
+use super::surface::{Bare, Patch, Sheet, beside};
 use super::vector::{along, difference, dot};
 
 pub use super::matter::{Matter, Way};
@@ -59,6 +61,20 @@ impl<const D: usize> Base<D> {
     }
 }
 
+/// Where the points of a stage come to lie, about, and what is fitted there.
+struct There<'a, const D: usize> {
+    base: &'a Base<D>,
+    place: &'a [[f64; D]],
+    /// Velocities that are expected, with those of images behind them.
+    guess: Cow<'a, [[f64; D]]>,
+    /// Velocities of the points.
+    goes: &'a [[f64; D]],
+    fitted: Fitted<'a, D>,
+    patches: &'a [Patch<D>],
+    images: &'a Images<D>,
+    spacing: f64,
+}
+
 /// What a stage leaves for what follows it.
 pub struct Ended<const D: usize> {
     /// Velocity at which the points have moved \[m/s\].
@@ -79,7 +95,8 @@ impl<const D: usize> Liquid<D> {
     pub fn advance(
         &mut self,
         matter: &Matter<D>,
-        (way, dt): (&Way, f64),
+        way: &Way,
+        dt: f64,
         effort: &mut Effort,
     ) -> Result<Ended<D>, Failure> {
         let tau = PART * dt;
@@ -116,8 +133,8 @@ impl<const D: usize> Liquid<D> {
     ) -> Result<Vec<Patch<D>>, Failure> {
         let n = self.position.len();
         let (all, images) = self.room.images(&self.position, way.spacing);
-        let rows = derivatives((&all, n), (way.spacing, way.order), self.room.fits(false));
-        let rows = rows.map_err(|e| failed(&e))?;
+        let points = Points { all: &all, own: n };
+        let rows = derivatives(points, way, self.room.fits(false)).map_err(|e| failed(&e))?;
         let patches = self.patches(&self.position, way.spacing);
         let patches = patches.map_err(|e| failed(&e))?;
         self.normal = patches.iter().map(|p| p.normal).collect();
@@ -175,29 +192,30 @@ impl<const D: usize> Liquid<D> {
         let place = stepped(&base.position, tau, &goes);
         let follows = !self.follow.is_empty();
         let (all, images) = self.room.images(&place, way.spacing);
-        let how = (way.spacing, way.order);
-        let rows = derivatives((&all, n), how, self.room.fits(follows)).map_err(|e| failed(&e))?;
+        let points = Points { all: &all, own: n };
+        let rows = derivatives(points, way, self.room.fits(follows)).map_err(|e| failed(&e))?;
         // Fits through their own points smooth nothing.
         let apart = follows && self.room.bounds();
-        let fits = apart.then(|| values((&all, n), how)).transpose();
+        let fits = apart.then(|| values(points, way)).transpose();
         let fits = fits.map_err(|e| failed(&e))?;
         let patches = self.patches(&place, way.spacing);
         let patches = patches.map_err(|e| failed(&e))?;
-        let wide = images.vectors(&guess).into_owned();
-        let both = (&rows, fits.as_ref().unwrap_or(&rows));
-        let drift = self.drift(
-            (&wide, &goes),
-            (both, &patches),
-            (way.spacing, &place, tau / PART),
-        );
-        let free = base.freed(&self.room.driving(&matter.gravity), &drift);
-        let right = self.right(
-            matter,
+        let there = There {
             base,
-            [&place, &free, &wide],
-            (both, &patches, &images),
-            way,
-        );
+            place: &place,
+            guess: images.vectors(&guess),
+            goes: &goes,
+            fitted: Fitted {
+                slopes: &rows,
+                values: fits.as_ref().unwrap_or(&rows),
+            },
+            patches: &patches,
+            images: &images,
+            spacing: way.spacing,
+        };
+        let drift = self.drift(&there);
+        let free = base.freed(&self.room.driving(&matter.gravity), &drift);
+        let right = self.right(matter, &there, &free);
         let rounds = Rounds {
             matter,
             place: &all,
@@ -205,10 +223,9 @@ impl<const D: usize> Liquid<D> {
             rows: &rows,
             images: &images,
             tau,
-            how,
-            rule: way.rule(),
+            way,
         };
-        self.push(&rounds, (&free, right), guess, effort)?;
+        self.push(&rounds, &free, &right, guess, effort)?;
         self.rate = (0..n)
             .map(|i| difference(&self.velocity[i], &base.velocity[i]).map(|d| d / tau))
             .collect();
@@ -216,8 +233,7 @@ impl<const D: usize> Liquid<D> {
         let moved = self.moved(&self.velocity);
         self.position = stepped(&base.position, tau, &moved);
         if follows {
-            let how = (way.spacing, way.rule());
-            self.follow_surface((&rows, &images), &moved[..surface], how, effort)?;
+            self.follow_surface(&rows, &images, &moved[..surface], way, effort)?;
         }
         Ok(Ended {
             moved,
@@ -232,7 +248,11 @@ impl<const D: usize> Liquid<D> {
         let (n, surface) = (place.len(), self.surface());
         let (all, images) = self.room.images(&place[..surface], spacing);
         let normals = images.vectors(&self.normal);
-        let mut patches = beside((&all, &normals), surface, spacing)?;
+        let sheet = Sheet {
+            points: &all,
+            normals: &normals,
+        };
+        let mut patches = beside(sheet, surface, spacing)?;
         // Images of the surface are the first of all images.
         for j in patches.iter_mut().flat_map(|p| &mut p.neighbours) {
             if *j as usize >= surface {
@@ -243,35 +263,33 @@ impl<const D: usize> Liquid<D> {
     }
 
     /// What a liquid that moves at u brings to points that move at w \[m/s2\].
-    fn drift(
-        &self,
-        (u, w): (&[[f64; D]], &[[f64; D]]),
-        (rows, patches): ((&Stencils<D>, &Stencils<D>), &[Patch<D>]),
-        (spacing, place, time): (f64, &[[f64; D]], f64),
-    ) -> Vec<[f64; D]> {
-        let back = |i: usize| difference(&w[i], &u[i]);
-        let (n, walled) = (w.len(), self.walls().end);
-        let mut drift = drift::along_surface(patches, u, back);
+    fn drift(&self, there: &There<'_, D>) -> Vec<[f64; D]> {
+        let (u, spacing) = (&there.guess, there.spacing);
+        let back = |i: usize| difference(&there.goes[i], &u[i]);
+        let (n, walled) = (there.goes.len(), self.walls().end);
+        let mut drift = drift::along_surface(there.patches, u, back);
         if !self.follow.is_empty() {
             drift.resize(walled, [0.0; D]);
-            drift.extend(drift::inside(rows, u, back, (walled..n, spacing)));
+            drift.extend(drift::inside(there.fitted, u, back, walled..n, spacing));
             if !self.room.bounds() {
-                drift::bound(&mut drift, rows.1, (place, u), (time, spacing));
+                let (values, time) = (there.fitted.values, there.base.tau / PART);
+                drift::bound(&mut drift, values, there.place, u, time, spacing);
             }
         }
         drift.resize(n, [0.0; D]);
         drift
     }
 
-    /// The right sides of the pressure: see [`super::pressure`].
-    fn right(
-        &self,
-        matter: &Matter<D>,
-        base: &Base<D>,
-        [place, free, guess]: [&[[f64; D]]; 3],
-        ((rows, fits), patches, images): ((&Stencils<D>, &Stencils<D>), &[Patch<D>], &Images<D>),
-        way: &Way,
-    ) -> Vec<f64> {
+    /// The right sides of the pressure for velocities `free` of pressure and friction: see [`super::pressure`].
+    fn right(&self, matter: &Matter<D>, there: &There<'_, D>, free: &[[f64; D]]) -> Vec<f64> {
+        let There {
+            base,
+            place,
+            patches,
+            images,
+            ..
+        } = *there;
+        let Fitted { slopes, values } = there.fitted;
         let ahead = |j: usize| {
             let i = images.origin(j);
             let end = along(&base.position[i], base.tau, &free[i]);
@@ -283,11 +301,11 @@ impl<const D: usize> Liquid<D> {
         let bounds = self.room.bounds();
         let cleaned = if bounds { 1.0 } else { CLEANED };
         let each = (0..place.len()).into_par_iter();
-        let mut sources: Vec<f64> = each.map(|i| divergence(rows, &wide, i)).collect();
+        let mut sources: Vec<f64> = each.map(|i| divergence(slopes, &wide, i)).collect();
         if bounds {
             let wide = images.scalars(&sources);
             let each = (0..place.len()).into_par_iter();
-            sources = each.map(|i| fits.value(i).apply(&wide)).collect();
+            sources = each.map(|i| values.value(i).apply(&wide)).collect();
         }
         (0..place.len())
             .into_par_iter()
@@ -301,11 +319,11 @@ impl<const D: usize> Liquid<D> {
                 }
                 (None, Some(normal)) => {
                     let lack = difference(&free[i], &base.velocity[i]);
-                    way.spacing * source * dot(normal, &lack)
+                    there.spacing * source * dot(normal, &lack)
                 }
                 (None, None) => {
                     cleaned * source * sources[i]
-                        - (1.0 - cleaned) * matter.density * stretching(rows, guess, i)
+                        - (1.0 - cleaned) * matter.density * stretching(slopes, &there.guess, i)
                 }
             })
             .collect()

@@ -41,7 +41,7 @@ impl<const D: usize> Liquid<D> {
         effort: &mut Effort,
     ) -> Result<Vec<f64>, Failure> {
         let n = self.position.len();
-        let rows = operators(&self.position, (way.spacing, way.order)).map_err(|e| failed(&e))?;
+        let rows = operators(&self.position, way).map_err(|e| failed(&e))?;
         let surface = &self.position[..phi.len()];
         let patches = patches(surface, &self.normal, way.spacing).map_err(|e| failed(&e))?;
         let images = Images::none(n);

@@ -60,6 +60,15 @@ pub struct Bare {
     pub radius: f64,
 }
 
+/// Points of a surface, with their normals, about.
+#[derive(Debug, Clone, Copy)]
+pub struct Sheet<'a, const D: usize> {
+    /// Places \[m\].
+    pub points: &'a [[f64; D]],
+    /// Unit normals, out of the liquid.
+    pub normals: &'a [[f64; D]],
+}
+
 /// Patches of all surface points, from about known `normals`.
 ///
 /// # Errors
@@ -69,7 +78,7 @@ pub fn patches<const D: usize>(
     normals: &[[f64; D]],
     spacing: f64,
 ) -> Result<Vec<Patch<D>>, Bare> {
-    beside((points, normals), points.len(), spacing)
+    beside(Sheet { points, normals }, points.len(), spacing)
 }
 
 /// Patches of the first `own` surface points; the others are images.
@@ -77,17 +86,18 @@ pub fn patches<const D: usize>(
 /// # Errors
 /// Where too few points are near.
 pub fn beside<const D: usize>(
-    (points, normals): (&[[f64; D]], &[[f64; D]]),
+    sheet: Sheet<'_, D>,
     own: usize,
     spacing: f64,
 ) -> Result<Vec<Patch<D>>, Bare> {
+    let Sheet { points, normals } = sheet;
     let places: Vec<[f64; 3]> = points.iter().map(spatial).collect();
     let tree = Tree::new(&places);
     let exponents = exponents(D - 1);
     (0..own)
         .into_par_iter()
         .map(|i| {
-            let near = support(i, (points, normals), &tree, (spacing, exponents.len()))?;
+            let near = support(i, sheet, &tree, spacing, exponents.len())?;
             Ok(fit(i, points, normals[i], &near, &exponents))
         })
         .collect()
@@ -111,10 +121,12 @@ struct Near {
 
 fn support<const D: usize>(
     i: usize,
-    (points, normals): (&[[f64; D]], &[[f64; D]]),
+    sheet: Sheet<'_, D>,
     tree: &Tree,
-    (spacing, terms): (f64, usize),
+    spacing: f64,
+    terms: usize,
 ) -> Result<Near, Bare> {
+    let Sheet { points, normals } = sheet;
     let wanted = if D == 2 { terms + 2 } else { 2 * terms };
     let mut radius = RADIUS * spacing;
     let mut near = Vec::new();
@@ -175,7 +187,7 @@ fn fit<const D: usize>(
     let mut turn = 0;
     loop {
         let axes = tangents(&normal);
-        let local = Local::new(i, points, (normal, axes), near, exponents);
+        let local = Local::new(i, points, Frame { normal, axes }, near, exponents);
         let bow_now = if bow.abs() * near.radius < CAP {
             bow
         } else {
@@ -205,7 +217,7 @@ fn fit<const D: usize>(
             curvature: -bent / steep.powf(1.5),
             squares: xx * xx + 2.0 * xy * xy + yy * yy,
             offset,
-            area: area(i, points, &near.points, (axes, D)),
+            area: area(i, points, &near.points, axes),
             value: local.weights[0].clone(),
             laplace: (0..near.points.len())
                 .map(|m| local.weights[3][m] + local.weights[5][m])
@@ -214,6 +226,13 @@ fn fit<const D: usize>(
             neighbours: near.points.clone(),
         };
     }
+}
+
+/// The axes of a point: its normal, and those along the surface.
+#[derive(Clone, Copy)]
+struct Frame<const D: usize> {
+    normal: [f64; D],
+    axes: [[f64; D]; 2],
 }
 
 /// Neighbours in the axes of a point.
@@ -230,10 +249,11 @@ impl Local {
     fn new<const D: usize>(
         i: usize,
         points: &[[f64; D]],
-        (normal, axes): ([f64; D], [[f64; D]; 2]),
+        frame: Frame<D>,
         near: &Near,
         exponents: &[[i32; 2]],
     ) -> Self {
+        let Frame { normal, axes } = frame;
         let (many, terms) = (near.points.len(), exponents.len());
         let scale = near.radius.recip();
         let mut basis = DMatrix::<f64>::zeros(terms, many);
@@ -295,12 +315,7 @@ impl Local {
 }
 
 /// The part of the tangent plane that is nearer to the point than to any neighbour.
-fn area<const D: usize>(
-    i: usize,
-    points: &[[f64; D]],
-    near: &[u32],
-    (axes, dimensions): ([[f64; D]; 2], usize),
-) -> f64 {
+fn area<const D: usize>(i: usize, points: &[[f64; D]], near: &[u32], axes: [[f64; D]; 2]) -> f64 {
     let flat = near.iter().filter(|j| **j as usize != i).map(|&j| {
         let d = difference(&points[j as usize], &points[i]);
         let (x, y) = (dot(&d, &axes[0]), dot(&d, &axes[1]));
@@ -313,7 +328,7 @@ fn area<const D: usize>(
         };
         [x * longer, y * longer]
     });
-    if dimensions == 2 {
+    if D == 2 {
         let (mut ahead, mut behind) = (f64::INFINITY, f64::INFINITY);
         for [x, _] in flat {
             if x > 0.0 {

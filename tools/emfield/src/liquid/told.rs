@@ -94,7 +94,8 @@ impl Totals {
 /// carries.
 #[must_use]
 pub fn points<const D: usize>(
-    (liquid, matter): (&Liquid<D>, &Matter<D>),
+    liquid: &Liquid<D>,
+    matter: &Matter<D>,
     magnetic: &[f64],
     precision: Precision,
 ) -> Frame {

@@ -106,14 +106,14 @@ impl<const D: usize> March<D> {
         }
         let mut left = parts as u64;
         loop {
-            let how = (&self.way, length / parts);
+            let (way, dt) = (&self.way, length / parts);
             let ended = session.timed("step", || {
-                liquid.advance(&self.matter, how, &mut self.effort)
+                liquid.advance(&self.matter, way, dt, &mut self.effort)
             })?;
             if liquid.surface() > 0 {
                 liquid.smooth(&ended.patches, &ended.images);
-                let fits = (&ended.rows, &ended.images);
-                liquid.spread(fits, &ended.patches, self.way.spacing);
+                let Ended { rows, images, .. } = &ended;
+                liquid.spread(rows, images, &ended.patches, self.way.spacing);
                 for x in &mut liquid.position {
                     liquid.room.wrap(x);
                 }
@@ -188,7 +188,7 @@ impl<const D: usize> March<D> {
         (time, patches): (f64, &[Patch<D>]),
         session: &mut Session,
     ) -> Result<(), Failure> {
-        let points = told::points((liquid, &self.matter), &[], self.precision);
+        let points = told::points(liquid, &self.matter, &[], self.precision);
         session.frame("/points", time, &points)?;
         if patches.is_empty() {
             return Ok(());
@@ -312,7 +312,7 @@ pub(in crate::assemble) fn estimate<const D: usize>(
     let steps = steps(scene, (of.0, march), &liquid);
     let (way, mut effort) = (way(scene, of.0), Effort::default());
     let began = std::time::Instant::now();
-    liquid.advance(&matter(of.0), (&way, steps.step(0).1), &mut effort)?;
+    liquid.advance(&matter(of.0), &way, steps.step(0).1, &mut effort)?;
     let each = began.elapsed().as_secs_f64();
     Ok(Estimate {
         seconds: each * steps.count() as f64,

@@ -20,7 +20,7 @@ pub(in crate::assemble) fn filled<const D: usize>(
     let mut room = faces.room::<D>(&part.shape);
     let spacing = scene.points.spacing_m;
     few((0..D).map(|k| room.length(k) / spacing).product(), spacing)?;
-    let filled = furnish(&mut room, spacing, (scene.points.jitter, scene.points.seed));
+    let filled = furnish(&mut room, spacing, scene.points.jitter, scene.points.seed);
     let faces = filled.normal.len() + room.held.len();
     if filled.position.len() <= faces {
         let what = format!("{spacing} m: no point fits inside the liquid");

@@ -82,7 +82,8 @@ impl Kept {
     pub(super) fn renew(
         &mut self,
         applied: &Applied,
-        (region, sides): (&Region<3>, &Sides<3>),
+        region: &Region<3>,
+        sides: &Sides<3>,
     ) -> Result<Vec<[f64; 1]>, Failure> {
         let points = region.len();
         let of = |i: usize| {
@@ -100,8 +101,10 @@ impl Kept {
     /// Solves from the last solution; products that it took.
     pub(super) fn solve(
         &mut self,
-        (fitted, right): (&Fitted, &[[f64; 1]]),
-        (x, how): (&mut [f64], Rule<'_>),
+        fitted: &Fitted,
+        right: &[[f64; 1]],
+        x: &mut [f64],
+        how: Rule<'_>,
         effort: &mut Effort,
     ) -> Result<u64, Failure> {
         let mut unknown: Vec<[f64; 1]> = x.iter().map(|v| [*v]).collect();

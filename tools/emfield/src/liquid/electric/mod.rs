@@ -142,11 +142,12 @@ impl Electric {
     /// Where the equations have no solution, and where nothing stands.
     pub fn traction(
         &mut self,
-        (stood, fitted): (&Stood, &Fitted),
+        stood: &Stood,
+        fitted: &Fitted,
         how: Rule<'_>,
         effort: &mut Effort,
     ) -> Result<Vec<f64>, Failure> {
-        let potential = self.potential((stood, fitted), how, effort)?;
+        let potential = self.potential(stood, fitted, how, effort)?;
         let (pulls, drag) = self.pulls(&stood.region, &fitted.sides, &potential);
         self.drag = drag;
         Ok(pulls)
@@ -155,7 +156,8 @@ impl Electric {
     /// The potential by point \[V\].
     fn potential(
         &mut self,
-        (stood, fitted): (&Stood, &Fitted),
+        stood: &Stood,
+        fitted: &Fitted,
         how: Rule<'_>,
         effort: &mut Effort,
     ) -> Result<Vec<f64>, Failure> {
@@ -164,16 +166,16 @@ impl Electric {
             self.kept.as_mut().ok_or_else(unmade)?,
             &mut self.state.potential,
         );
-        let mut right = kept.renew(&self.applied, (region, &fitted.sides))?;
+        let mut right = kept.renew(&self.applied, region, &fitted.sides)?;
         let without = self.applied.potential(region, &kept.air);
         fitted.open.applied(&without, &mut right);
         self.awake = (0..region.len()).filter(|i| awake(region, *i)).count() as u64;
-        let mut products = kept.solve((fitted, &right), (&mut last[0], how), effort)?;
+        let mut products = kept.solve(fitted, &right, &mut last[0], how, effort)?;
         let mut potential = last[0].clone();
         if self.applied.conducts() {
             let on = |kind: &Kind| f64::from(u8::from(matches!(kind, Kind::Wall { wall: 1, .. })));
             let unit: Vec<[f64; 1]> = region.kinds.iter().map(|kind| [on(kind)]).collect();
-            products += kept.solve((fitted, &unit), (&mut last[1], how), effort)?;
+            products += kept.solve(fitted, &unit, &mut last[1], how, effort)?;
             let flux = |v: &[f64]| fitted.open.flux(v);
             let wanted = self.applied.charge / EPS0;
             self.height = (wanted - flux(&last[0]) + flux(&without)) / flux(&last[1]);

@@ -29,7 +29,7 @@ fn pulled(electric: &mut Electric, place: Place<'_>) -> (Vec<f64>, Effort) {
         reduction: 1e-9,
         ..Rule::default()
     };
-    let pull = electric.traction((&stood, &sides), rule, &mut effort);
+    let pull = electric.traction(&stood, &sides, rule, &mut effort);
     assert_eq!(effort.field_unsolved, 0);
     (pull.unwrap(), effort)
 }

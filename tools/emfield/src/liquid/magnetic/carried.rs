@@ -133,7 +133,7 @@ impl Flux<'_> {
                 })
             })
             .collect();
-        let deep = self.deep((&inside, &local), place.inside);
+        let deep = self.deep(&inside, &local, place.inside);
         let both = carried.iter().chain(&deep);
         let terms = self.phi(&all, &skin, &local);
         let phi = |x: &[f64; 3]| -> f64 {
@@ -147,12 +147,12 @@ impl Flux<'_> {
             pull: both.map(|c| [c[1], c[2], c[3]]).collect(),
             heat: self
                 .heat
-                .map_or_else(Vec::new, |heat| self.warms((&all, heat), place)),
+                .map_or_else(Vec::new, |heat| self.warms(&all, heat, place)),
         }
     }
 
     /// Heat at points of the liquid: the mean over the points of the field that are nearest to each, which resolve the skin.
-    fn warms(&self, (all, heat): (&[usize], &[f64]), place: Place<'_>) -> Vec<f64> {
+    fn warms(&self, all: &[usize], heat: &[f64], place: Place<'_>) -> Vec<f64> {
         let points = [place.skin.place, place.inside].concat();
         let tree = Tree::new(&points);
         let (_, weights) = self.force;
@@ -247,7 +247,7 @@ impl Flux<'_> {
     }
 
     /// Pressure and pull at places inside, linear about the nearest point of the field.
-    fn deep(&self, (inside, local): (&[usize], &[Local]), places: &[[f64; 3]]) -> Vec<[f64; 4]> {
+    fn deep(&self, inside: &[usize], local: &[Local], places: &[[f64; 3]]) -> Vec<[f64; 4]> {
         let stand: Vec<[f64; 3]> = inside.iter().map(|i| self.region.places[*i]).collect();
         let tree = Tree::new(&stand);
         let each = places.par_iter().map(|x| {

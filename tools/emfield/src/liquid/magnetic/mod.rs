@@ -61,6 +61,8 @@ pub struct Stood {
     region: Region<3>,
     weights: Vec<f64>,
     outline: Outline,
+    /// The place about which the outline was sought \[m\].
+    sought: [f64; 3],
 }
 
 /// The field, with what it keeps from one place of the liquid to the next.
@@ -127,9 +129,9 @@ impl Magnetic {
         self.totals = self.totals.times(factor * factor);
     }
 
-    /// Points of the field about an outline.
+    /// Points of the field about an outline that was sought from a place within \[m\].
     #[must_use]
-    pub fn stand(&self, outline: &Outline) -> Stood {
+    pub fn stand(&self, outline: &Outline, sought: [f64; 3]) -> Stood {
         let mould = Mould {
             centre: self.ball.centre,
             radius: self.ball.radius,
@@ -140,6 +142,7 @@ impl Magnetic {
             region,
             weights,
             outline: outline.clone(),
+            sought,
         }
     }
 
@@ -152,20 +155,23 @@ impl Magnetic {
         Sides::some(&stood.region, &self.form, &moves).map_err(|e| failed(&e))
     }
 
-    /// What acts on the liquid; `centre` is that about which its outline was sought.
+    /// What acts on the liquid.
     ///
     /// # Errors
     /// Where the equations have no solution.
     pub fn act(
         &mut self,
-        (stood, sides): (&Stood, &Sides<3>),
-        (place, centre): (Place<'_>, [f64; 3]),
-        (how, effort): (Rule<'_>, &mut Effort),
+        stood: &Stood,
+        sides: &Sides<3>,
+        place: Place<'_>,
+        how: Rule<'_>,
+        effort: &mut Effort,
     ) -> Result<Act, Failure> {
         let Stood {
             region,
             weights,
             outline,
+            sought,
         } = stood;
         if let Some([x, y, z]) = self.touched(outline) {
             let what = format!(
@@ -180,13 +186,13 @@ impl Magnetic {
             held: [C::default(); 3],
         };
         if self.state.worn || self.system.is_none() {
-            self.system = Some(self.made((region, sides))?);
-            self.state.begin((place, centre), region.len());
+            self.system = Some(self.made(region, sides)?);
+            self.state.begin(place, *sought, region.len());
         } else if let Some(system) = &mut self.system {
-            let (rows, shift) = rows(&self.conductors, &self.ball, (region, sides), drive.omega);
+            let (rows, shift) = rows(&self.conductors, &self.ball, region, sides, drive.omega);
             system.renew_shifted(rows, &shift).map_err(|e| failed(&e))?;
         }
-        self.solve((region, sides, weights), &drive, (how, effort))?;
+        self.solve(stood, sides, &drive, how, effort)?;
         let flux = self.sources(region, Source::flux);
         let fields = self.fields((region, sides), &drive.source, &flux);
         let acts = Acting {
@@ -250,8 +256,14 @@ impl Magnetic {
     }
 
     /// The equations with factors of their own.
-    fn made(&self, at: (&Region<3>, &Sides<3>)) -> Result<System<f64, C>, Failure> {
-        let (rows, shift) = rows(&self.conductors, &self.ball, at, self.applied.omega);
+    fn made(&self, region: &Region<3>, sides: &Sides<3>) -> Result<System<f64, C>, Failure> {
+        let (rows, shift) = rows(
+            &self.conductors,
+            &self.ball,
+            region,
+            sides,
+            self.applied.omega,
+        );
         let options = Options {
             method: Method::Multigrid(Grids::default()),
             ..Options::default()
@@ -262,10 +274,13 @@ impl Magnetic {
     /// Solves from the last solution.
     fn solve(
         &mut self,
-        (region, sides, weights): (&Region<3>, &Sides<3>, &[f64]),
+        stood: &Stood,
+        sides: &Sides<3>,
         drive: &Drive<3>,
-        (how, effort): (Rule<'_>, &mut Effort),
+        how: Rule<'_>,
+        effort: &mut Effort,
     ) -> Result<(), Failure> {
+        let (region, weights) = (&stood.region, &stood.weights);
         let at = (region, Unknown::Potential);
         let rates = self.conductors.rates(region, sides, Unknown::Potential);
         let mut right = drive.right(&self.conductors, at, &rates);
@@ -328,7 +343,8 @@ pub fn not_round() -> Failure {
 fn rows(
     conductors: &Conductors,
     ball: &Ball,
-    (region, sides): (&Region<3>, &Sides<3>),
+    region: &Region<3>,
+    sides: &Sides<3>,
     omega: f64,
 ) -> (krylov::Rows<f64>, Vec<C>) {
     let of = |i: usize| if ball.stays(i) { ball.still() } else { sides };

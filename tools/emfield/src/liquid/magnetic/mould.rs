@@ -43,8 +43,10 @@ impl Ball {
     /// # Errors
     /// Where fits cannot be made.
     pub fn new(
-        (region, weights): (Region<3>, Vec<f64>),
-        (centre, radius): ([f64; 3], f64),
+        region: Region<3>,
+        weights: Vec<f64>,
+        centre: [f64; 3],
+        radius: f64,
         form: &Form,
     ) -> Result<Self, wls::Error> {
         let stays = |i: usize| {

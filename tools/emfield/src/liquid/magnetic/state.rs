@@ -31,7 +31,7 @@ pub(super) struct State {
 
 impl State {
     /// Begins with new factors; the last solution stays where there is one.
-    pub(super) fn begin(&mut self, (place, centre): (Place<'_>, [f64; 3]), points: usize) {
+    pub(super) fn begin(&mut self, place: Place<'_>, centre: [f64; 3], points: usize) {
         let Skin { place, normal, .. } = place.skin;
         self.origin = [place.to_vec(), normal.to_vec(), vec![centre]];
         self.found.resize(points, [C::default(); 3]);
@@ -89,9 +89,9 @@ impl Magnetic {
             spacing,
         };
         if let Some(centre) = centre.first() {
-            let stood = self.stand(&outline(skin, *centre)?);
+            let stood = self.stand(&outline(skin, *centre)?, *centre);
             let sides = self.fit(&stood)?;
-            self.system = Some(self.made((&stood.region, &sides))?);
+            self.system = Some(self.made(&stood.region, &sides)?);
         }
         Ok(())
     }

@@ -32,7 +32,8 @@ impl<const D: usize> Room<D> {
 pub fn furnish<const D: usize>(
     room: &mut Room<D>,
     spacing: f64,
-    (jitter, seed): (f64, u64),
+    jitter: f64,
+    seed: u64,
 ) -> Filled<D> {
     let mut position = Vec::new();
     let mut shifted = |mut x: [f64; D], fixed: Option<usize>| {
@@ -101,7 +102,7 @@ mod tests {
             sides: [[Side::Mirror; 2], [Side::Wall([0.0, 0.0]), Side::Open]],
             ..Room::default()
         };
-        let filled = furnish(&mut room, 0.1, (0.0, 0));
+        let filled = furnish(&mut room, 0.1, 0.0, 0);
         assert_eq!((filled.normal.len(), room.held.len()), (10, 10));
         assert_eq!(filled.position.len(), 20 + 10 * 4);
         assert!(

@@ -148,7 +148,8 @@ fn next<const D: usize>(choice: &mut [usize; D], turns: &[Vec<Turn>; D]) -> bool
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::liquid::operators::{Fits, derivatives};
+    use crate::liquid::matter::Way;
+    use crate::liquid::operators::{Fits, Points, derivatives};
     use crate::liquid::room::furnish;
 
     /// Periodic along x, mirrors across y.
@@ -182,10 +183,17 @@ mod tests {
     /// The greatest error of `laplace sin(pi x) cos(pi (y - 1))` on points `spacing` apart.
     fn worst(spacing: f64) -> f64 {
         let mut room = room();
-        let filled = furnish(&mut room, spacing, (0.2, 1));
+        let filled = furnish(&mut room, spacing, 0.2, 1);
         let (all, images) = room.images(&filled.position, spacing);
         let own = filled.position.len();
-        let rows = derivatives((&all, own), (spacing, 3), Fits::default()).unwrap();
+        let points = Points { all: &all, own };
+        let way = Way {
+            spacing,
+            order: 3,
+            tolerance: 1e-9,
+            products: 100,
+        };
+        let rows = derivatives(points, &way, Fits::default()).unwrap();
         let pi = std::f64::consts::PI;
         let of = |x: &[f64; 2]| (pi * x[0]).sin() * (pi * (x[1] - 1.0)).cos();
         let f: Vec<f64> = filled.position.iter().map(of).collect();
