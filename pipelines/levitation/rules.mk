@@ -1,7 +1,7 @@
 # levitation: a molten drop held up by four loops, at rest and released 2 % stretched.
 
 .PHONY: levitation
-levitation: build/levitation/report.html ## a molten drop in the field of four loops: current that holds it, shape at rest, first 6 ms of its motion
+levitation: build/levitation/report.html ## a molten drop in the field of four loops: current that holds it, shape at rest, three periods of its motion
 
 build/levitation/rest.mcap: pipelines/levitation/scene.json pipelines/levitation/rest.patch.json $(BIN)/emfield always
 	$(RERUN) $(BIN)/emfield run pipelines/levitation/scene.json --patch pipelines/levitation/rest.patch.json --out $@ $(MACHINE)

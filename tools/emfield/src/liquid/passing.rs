@@ -8,7 +8,7 @@ use super::points::Liquid;
 use super::vector::{difference, length};
 
 /// Cell Reynolds number up to which a flow counts as resolved. Levitated drops (`levitation`) swung for three periods at 5,
-/// and broke up after 44 ms at 40, after 24 ms at 100.
+/// and broke up after 44 ms at 47, after 24 ms at 97 and more.
 pub const RESOLVED: f64 = 20.0;
 
 /// The greatest cell Reynolds number so far.
