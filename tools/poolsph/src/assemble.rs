@@ -27,14 +27,16 @@ use crate::forces::lorentz::Lorentz;
 use crate::forces::marangoni::Marangoni;
 use crate::forces::surface_stress::SurfaceStress;
 use crate::forces::tension::Tension;
-use crate::frames::{Layout, PlateNote};
+use crate::frames::PlateNote;
 use crate::heat::{self, Caloric, Conduction};
 use crate::march::March;
 use crate::motion::{self, Law, Motion};
+use crate::patch::AREA;
 use crate::scene::{Scene, StartState};
 use crate::source::Path;
 use crate::source::arc::ArcSource;
-use crate::state::{Column, State};
+use crate::stage::Stage;
+use crate::state::State;
 use crate::surface::Surface;
 
 /// A run ready to start.
@@ -43,8 +45,6 @@ pub struct Assembled {
     pub march: March,
     /// Particles at time 0.
     pub state: State,
-    /// What the frames hold.
-    pub layout: Layout,
     /// The base metal.
     pub plate: PlateNote,
     /// How the bodies came out, in the order of the scene.
@@ -82,8 +82,8 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     let source = Source::read(scene, inputs)?;
     // The columns come from stages that know nothing of particles; then the particles, some of
     // which the stages keep at a temperature.
-    let columns = columns(&source.stages(Vec::new(), None)?);
-    let mut state = State::new(scene.metal(), columns);
+    let mut state = State::new(scene.metal());
+    source.stages(&mut state, Vec::new(), None)?;
     let filled = metal::fill(
         scene,
         inputs,
@@ -103,7 +103,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         }
         None => (None, Vec::new()),
     };
-    let mut parts = source.stages(held(&bodies, &filled), stages)?;
+    let mut parts = source.stages(&mut state, held(&bodies, &filled), stages)?;
     if scene.grains.is_none() {
         parts.leave_out("grains");
     }
@@ -111,12 +111,6 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     state.source = scene.source.map(|source| source.place(0.0));
     Ok(Assembled {
         march: March::new(parts.groups.into(), scene.step()).adaptive(scene.time.greatest_stride()),
-        layout: Layout {
-            width: scene.output.precision,
-            walls: state.wall.contains(&true),
-            surface: state.has(Column::Surface),
-            uneven: !scene.even(),
-        },
         plate: source.plate(),
         state,
         filled,
@@ -134,14 +128,6 @@ fn held(bodies: &[Body], filled: &[Filled]) -> Held {
         held.extend(body.held.clone().map(|curve| (range, curve)));
     }
     held
-}
-
-/// Optional columns of all stages.
-fn columns(parts: &Parts) -> Vec<Column> {
-    let stages = parts.stages();
-    stages
-        .flat_map(|stage| stage.needs().iter().copied())
-        .collect()
 }
 
 fn checked_bodies(scene: &Scene, faults: &mut Vec<Fault>) -> Vec<Body> {
@@ -177,8 +163,13 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// The stages in the order of a step (Komen 2019, fig. 3.16).
-    fn stages(&self, held: Held, beside: Option<Beside>) -> Result<Parts, Failure> {
+    /// The stages in the order of a step (Komen 2019, fig. 3.16), whose columns `state` is told.
+    fn stages(
+        &self,
+        state: &mut State,
+        held: Held,
+        beside: Option<Beside>,
+    ) -> Result<Parts, Failure> {
         let mut parts = Parts::new();
         let scene = self.scene;
         parts.when(Room::Domain, ("source", scene.source), |source| {
@@ -209,9 +200,10 @@ impl<'a> Source<'a> {
             let law = self.viscosity(flow)?;
             Ok(Box::new(Motion::new(flow.clone(), law, scene.metal())))
         })?;
-        let surface = columns(&parts).contains(&Column::Surface);
-        if surface {
+        parts.stages().for_each(|stage| stage.declare(state));
+        if state.metal.has(&AREA) {
             let surface = Surface::new(scene.metal());
+            surface.declare(state);
             parts.take(Room::Surface, Box::new(surface));
             if let Some(cover) = cover {
                 parts.take(Room::Surface, Box::new(cover));
@@ -249,7 +241,8 @@ impl<'a> Source<'a> {
             Ok(Box::new(stage?))
         })?;
         parts.when(Room::Heat, ("losses", self.scene.losses), |losses| {
-            Ok(Box::new(heat::Losses::new(losses, caloric.clone())))
+            let metal = self.scene.metal();
+            Ok(Box::new(heat::Losses::new(losses, caloric.clone(), metal)))
         })
     }
 

@@ -1,10 +1,11 @@
 //! Mass, momentum and energy of all metal, and whether they close.
 
 use artefact::Record;
+use particles::POSITION;
 
 use crate::domain::bounds::SPATTER;
 use crate::stage::Figure;
-use crate::state::{Phase, State};
+use crate::state::{DROPLET, ENTHALPY, PHASE, State, VELOCITY, WALL, marked, phase};
 
 /// An energy balance that closes to this part is good.
 pub const CLOSES: f64 = 5e-3;
@@ -57,29 +58,32 @@ impl Balance {
     /// The totals of `state`, with the cumulative energies among `figures`.
     #[must_use]
     pub fn of(state: &State, figures: &[(&'static str, Figure)]) -> Self {
-        let mass = state.metal.mass();
-        let metal = || (0..state.len()).filter(|a| !state.wall[*a]);
+        let mass = state.metal.matter.mass();
+        let (places, velocities) = (state.metal.column(&POSITION), state.metal.column(&VELOCITY));
+        let (phases, wall) = (state.metal.column(&PHASE), state.metal.column(&WALL));
+        let metal = || (0..state.len()).filter(|a| !marked(wall, *a));
         let count = metal().count() as f64;
         let mut momentum = [0.0; 3];
         let mut kinetic = 0.0;
         let mut height = 0.0;
         for a in metal() {
-            height += state.position[a][2];
-            if state.phase[a] != Phase::Solid {
-                let u = state.velocity[a];
+            height += places[a][2];
+            if phases[a] != phase::SOLID {
+                let u = velocities[a];
                 (0..3).for_each(|k| momentum[k] += mass * u[k]);
                 kinetic += 0.5 * mass * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
             }
         }
-        let heat = (!state.enthalpy.is_empty()).then(|| Heat {
-            stored: mass * (0..state.len()).map(|a| state.enthalpy[a]).sum::<f64>(),
+        let enthalpies = state.metal.column(&ENTHALPY);
+        let heat = (!enthalpies.is_empty()).then(|| Heat {
+            stored: mass * enthalpies.iter().sum::<f64>(),
             parts: of_unit(figures, "J"),
         });
         Self {
             time: state.time,
             liquid: state.liquid(),
             mass: mass * count,
-            from_wire: mass * state.droplet.iter().filter(|d| **d).count() as f64,
+            from_wire: mass * state.metal.column(&DROPLET).iter().filter(|d| **d).count() as f64,
             momentum,
             kinetic,
             height: if count > 0.0 { height / count } else { 0.0 },
@@ -208,19 +212,21 @@ pub fn unclosed(closure: f64) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::{Column, Metal, Particle};
+    use crate::state::Particle;
+    use particles::Matter;
 
     fn state(enthalpy: f64) -> State {
-        let metal = Metal {
+        let metal = Matter {
             density: 1000.0,
             spacing: 1e-2,
             smoothing_length: 1e-2,
         };
-        let mut state = State::new(metal, vec![Column::Enthalpy]);
+        let mut state = State::new(metal);
+        state.metal.declare(&ENTHALPY);
         for (phase, wall) in [
-            (Phase::Liquid, false),
-            (Phase::Solid, false),
-            (Phase::Solid, true),
+            (phase::LIQUID, false),
+            (phase::SOLID, false),
+            (phase::SOLID, true),
         ] {
             state.push(Particle {
                 position: [0.0, 0.0, 0.5],
@@ -280,7 +286,7 @@ mod tests {
     #[test]
     fn fed_metal_that_is_thrown_off_is_warned_of() {
         let mut fed = state(0.0);
-        fed.droplet[0] = true;
+        fed.metal.set(&DROPLET, 0, true);
         let caught = |value: f64| {
             let figure = Figure {
                 name: SPATTER,
@@ -305,7 +311,8 @@ mod tests {
     fn lost_mass_is_seen() {
         let start = Balance::of(&state(0.0), &[]).start();
         let mut fewer = state(0.0);
-        fewer.wall[1] = true;
+        fewer.metal.declare(&WALL);
+        fewer.metal.set(&WALL, 1, true);
         assert!(Balance::of(&fewer, &[]).mass_error(start) < -0.9);
     }
 }

@@ -2,15 +2,12 @@
 
 use artefact::Frame;
 use columns::Form;
-use particles::Set;
+use particles::{ID, POSITION, Set};
 use run::{Failure, Session};
 use serde::Serialize;
 
 use crate::scene::{FloatWidth, PoolOutput, Scene};
-use crate::state::{Column, Phase, State};
-
-/// A particle that owns this part of d^2 of the surface counts as surface.
-const EXPOSED: f64 = 0.1;
+use crate::state::State;
 
 /// JSON Schema of `/source`.
 const SOURCE_SCHEMA: &str = r#"{"type":"object","title":"Place of the heat source and phase of the droplet period","properties":{"time_s":{"type":"number"},"x_m":{"type":"number"},"y_m":{"type":"number"},"z_m":{"type":"number"},"phase":{"type":"number","minimum":0,"maximum":1},"droplet":{"type":"integer"}}}"#;
@@ -53,102 +50,70 @@ pub struct PlateNote {
     pub direction: [f64; 3],
 }
 
-/// Which columns the frames of a run have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Layout {
-    /// Width of the floats.
-    pub width: FloatWidth,
-    /// Frames have a column `wall`.
-    pub walls: bool,
-    /// Frames have a column `surface`.
-    pub surface: bool,
-    /// Pressures of single particles differ like the contacts of grains: frames show their kernel mean.
-    pub uneven: bool,
+/// Columns of the metal in the order of old; others stand behind them, the number last.
+const ORDER: [&str; 9] = [
+    "position",
+    "velocity",
+    "temperature",
+    "pressure",
+    "molten",
+    "fused",
+    "droplet",
+    "wall",
+    "surface",
+];
+
+/// The `rows` of the metal as a frame.
+#[must_use]
+pub fn metal(state: &State, rows: &[usize], width: FloatWidth) -> Frame {
+    let mut shown: Vec<_> = columns::shown(&state.metal).collect();
+    shown.sort_by_key(|column| {
+        let place = ORDER.iter().position(|name| *name == column.name);
+        (column.name == ID.name, place.unwrap_or(ORDER.len()))
+    });
+    columns::frame(shown, rows.iter().copied(), form(width))
 }
 
-impl Layout {
-    /// The particles `ids` as a frame.
-    #[must_use]
-    pub fn frame(&self, state: &State, ids: &[usize]) -> Frame {
-        let moving = |a: &usize| match state.phase[*a] {
-            Phase::Liquid | Phase::Flying => state.velocity[*a],
-            Phase::Solid => [0.0; 3],
-        };
-        let mut frame = Frame::new(self.width.into())
-            .positions(ids.iter().map(|a| state.position[*a]))
-            .vector("velocity", "m/s", ids.iter().map(moving));
-        if state.has(Column::Temperature) {
-            let temperature = ids.iter().map(|a| state.temperature[*a]);
-            frame = frame.scalar("temperature", "K", temperature);
-        }
-        if state.has(Column::Pressure) {
-            frame = frame.scalar("pressure", "Pa", self.pressure(state, ids));
-        }
-        let liquid = |a: &usize| u8::from(state.phase[*a] != Phase::Solid);
-        frame = frame
-            .flag("molten", ids.iter().map(liquid))
-            .scalar("fused", "1", ids.iter().map(|a| state.fused[*a]))
-            .flag("droplet", ids.iter().map(|a| u8::from(state.droplet[*a])));
-        if self.walls {
-            frame = frame.flag("wall", ids.iter().map(|a| u8::from(state.wall[*a])));
-        }
-        if self.surface {
-            let least = EXPOSED * state.metal.spacing * state.metal.spacing;
-            let exposed = |a: &usize| u8::from(state.surface[*a].area > least);
-            frame = frame.flag("surface", ids.iter().map(exposed));
-        }
-        frame.id("id", ids.iter().map(|a| *a as u32))
-    }
+/// Writes all particles to `/particles`.
+///
+/// # Errors
+/// When the disk refuses or a value is not finite.
+pub fn particles(state: &State, width: FloatWidth, session: &mut Session) -> Result<(), Failure> {
+    let rows: Vec<usize> = (0..state.len()).collect();
+    session.frame("/particles", state.time, &metal(state, &rows, width))
+}
 
-    /// Pressure of the particles `ids` \[Pa\].
-    fn pressure(&self, state: &State, ids: &[usize]) -> impl Iterator<Item = f64> {
-        let means = self.uneven.then(|| state.near.liquid_mean(&state.pressure));
-        let pressure = means.as_ref().unwrap_or(&state.pressure);
-        let shown: Vec<f64> = ids.iter().map(|a| pressure[*a]).collect();
-        shown.into_iter()
-    }
+/// Writes the particles around the source at `centre` \[m\] to `/pool`.
+///
+/// # Errors
+/// As [`particles()`].
+pub fn pool(
+    state: &State,
+    (pool, width): (&PoolOutput, FloatWidth),
+    centre: [f64; 3],
+    session: &mut Session,
+) -> Result<(), Failure> {
+    let inside = |[x, y, _]: [f64; 3]| {
+        let ahead = y - centre[1];
+        (x - centre[0]).abs() <= pool.beside_m && ahead <= pool.ahead_m && ahead >= -pool.behind_m
+    };
+    let places = state.metal.column(&POSITION);
+    let rows: Vec<usize> = (0..places.len()).filter(|a| inside(places[*a])).collect();
+    session.frame("/pool", state.time, &metal(state, &rows, width))
+}
 
-    /// Writes all particles to `/particles`.
-    ///
-    /// # Errors
-    /// When the disk refuses or a value is not finite.
-    pub fn particles(&self, state: &State, session: &mut Session) -> Result<(), Failure> {
-        let ids: Vec<usize> = (0..state.len()).collect();
-        session.frame("/particles", state.time, &self.frame(state, &ids))
-    }
-
-    /// Writes the particles around the source at `centre` \[m\] to `/pool`.
-    ///
-    /// # Errors
-    /// As [`Layout::particles`].
-    pub fn pool(
-        &self,
-        state: &State,
-        pool: &PoolOutput,
-        centre: [f64; 3],
-        session: &mut Session,
-    ) -> Result<(), Failure> {
-        let inside = |a: &usize| {
-            let [x, y, _] = state.position[*a];
-            let ahead = y - centre[1];
-            (x - centre[0]).abs() <= pool.beside_m
-                && ahead <= pool.ahead_m
-                && ahead >= -pool.behind_m
-        };
-        let ids: Vec<usize> = (0..state.len()).filter(inside).collect();
-        session.frame("/pool", state.time, &self.frame(state, &ids))
+fn form(width: FloatWidth) -> Form {
+    Form {
+        precision: width.into(),
+        dimensions: 3,
     }
 }
 
 /// Grains as a frame, by their numbers, in whatever order they are kept.
 #[must_use]
 pub fn grains(set: &Set, width: FloatWidth) -> Frame {
-    let form = Form {
-        precision: width.into(),
-        dimensions: 3,
-    };
     let rows = columns::by_number(set);
-    columns::frame(columns::shown(set), rows.into_iter(), form)
+    columns::frame(columns::shown(set), rows.into_iter(), form(width))
 }
 
 /// Frames that are written every `interval` \[s\], at the start and at the end.
@@ -162,11 +127,7 @@ pub fn count(scene: &Scene, interval: f64) -> u64 {
 
 /// Channels of frames with the number of their messages, and at most their bytes before they are compressed.
 #[must_use]
-pub fn volume(
-    scene: &Scene,
-    state: &State,
-    (layout, plate): (&Layout, &PlateNote),
-) -> Vec<(&'static str, u64, u64)> {
+pub fn volume(scene: &Scene, state: &State, plate: &PlateNote) -> Vec<(&'static str, u64, u64)> {
     let (end, d) = (scene.time.end_s, scene.spacing_m);
     // All droplets are born at the last frame.
     let born = scene.droplets.map_or(0.0, |droplets| {
@@ -174,7 +135,7 @@ pub fn volume(
         let each = (2.0 * droplets.radius_m / d).powi(3) * std::f64::consts::FRAC_PI_6;
         each * (end / period)
     });
-    let row = layout.frame(state, &[]).row_bytes() as f64;
+    let row = metal(state, &[], scene.output.precision).row_bytes() as f64;
     let bytes = |frames: f64, particles: f64| (frames * particles * row) as u64;
     let from_on = |from: f64, interval: f64| {
         let interval = interval.max(scene.step());

@@ -106,6 +106,11 @@ impl March {
             .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 
+    /// Fills the columns that only frames show.
+    pub fn show(&self, state: &mut State) {
+        self.stages().for_each(|stage| stage.show(state));
+    }
+
     /// Takes one step, which does not go beyond `until` steps of the scene's length. `timed` wraps each stage so that a
     /// clock can stand outside: it is given the stage's name and must call the work exactly once.
     ///

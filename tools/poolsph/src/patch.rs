@@ -1,5 +1,7 @@
 //! What the surface is at a particle.
 
+use particles::{Column, Set};
+
 use crate::faces::Turn;
 use crate::vector::plus;
 
@@ -7,18 +9,29 @@ use crate::vector::plus;
 /// normals: half of the patches of an upright wall look down a little.
 const LEAN: f64 = 0.2;
 
+/// Outward unit normal; zero deep inside.
+pub const NORMAL: Column<[f64; 3]> = Column::new("normal", "1", [0.0; 3]).saved();
+/// Area that a particle owns \[m2\]; zero off the surface.
+pub const AREA: Column<f64> = Column::new("area", "m2", 0.0).saved();
+/// Area as seen from above \[m2\].
+pub const SEEN: Column<f64> = Column::new("seen", "m2", 0.0).saved();
+/// Distance to the surface along the normal \[m\].
+pub const DEPTH: Column<f64> = Column::new("depth", "m", 0.0).saved();
+/// grad C \[1/m\].
+const GRADIENT: Column<[f64; 3]> = Column::new("colour_gradient", "1/m", [0.0; 3]).saved();
+
 /// What the surface is at a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Patch {
-    /// Outward unit normal; zero deep inside.
+    /// [`NORMAL`].
     pub normal: [f64; 3],
-    /// Area that the particle owns \[m2\]; zero off the surface.
+    /// [`AREA`].
     pub area: f64,
-    /// Area as seen from above \[m2\].
+    /// [`SEEN`].
     pub seen: f64,
-    /// Distance to the surface along the normal \[m\].
+    /// [`DEPTH`].
     pub depth: f64,
-    /// grad C \[1/m\].
+    /// [`GRADIENT`].
     pub(crate) gradient: [f64; 3],
 }
 
@@ -47,24 +60,70 @@ impl Patch {
     pub fn reached(&self) -> f64 {
         (1.0 + self.normal[2] / LEAN).clamp(0.0, 1.0)
     }
+}
 
-    /// All numbers, for a checkpoint.
+/// The surface at all particles.
+#[derive(Debug, Clone, Copy)]
+pub struct Patches<'a> {
+    /// [`NORMAL`].
+    pub normal: &'a [[f64; 3]],
+    /// [`AREA`].
+    pub area: &'a [f64],
+    /// [`SEEN`].
+    pub seen: &'a [f64],
+    /// [`DEPTH`].
+    pub depth: &'a [f64],
+    gradient: &'a [[f64; 3]],
+}
+
+impl<'a> Patches<'a> {
+    /// The surface of a set.
     #[must_use]
-    pub fn save(&self) -> [f64; 9] {
-        let ([a, b, c], [d, e, f]) = (self.normal, self.gradient);
-        [a, b, c, self.area, self.seen, self.depth, d, e, f]
+    pub fn of(metal: &'a Set) -> Self {
+        Self {
+            normal: metal.column(&NORMAL),
+            area: metal.column(&AREA),
+            seen: metal.column(&SEEN),
+            depth: metal.column(&DEPTH),
+            gradient: metal.column(&GRADIENT),
+        }
     }
 
-    /// The patch of which `saved` are the numbers.
+    /// The surface at each particle.
+    pub fn iter(self) -> impl Iterator<Item = Patch> + 'a {
+        (0..self.area.len()).map(move |a| self.at(a))
+    }
+
+    /// The surface at particle `a`.
     #[must_use]
-    pub fn restored(saved: [f64; 9]) -> Self {
-        let [a, b, c, area, seen, depth, d, e, f] = saved;
-        Self {
-            normal: [a, b, c],
-            area,
-            seen,
-            depth,
-            gradient: [d, e, f],
+    #[inline]
+    pub fn at(&self, a: usize) -> Patch {
+        Patch {
+            normal: self.normal[a],
+            area: self.area[a],
+            seen: self.seen[a],
+            depth: self.depth[a],
+            gradient: self.gradient[a],
         }
+    }
+}
+
+/// Declares the columns of the surface.
+pub fn declare(metal: &mut Set) {
+    metal.declare(&NORMAL);
+    metal.declare(&AREA);
+    metal.declare(&SEEN);
+    metal.declare(&DEPTH);
+    metal.declare(&GRADIENT);
+}
+
+/// Gives particles their patches.
+pub(crate) fn put(metal: &mut Set, patches: impl Iterator<Item = (usize, Patch)>) {
+    let columns = (&NORMAL, &AREA, &SEEN, &DEPTH, &GRADIENT);
+    let (normal, area, seen, depth, gradient) = metal.columns_mut(columns);
+    for (a, patch) in patches {
+        normal[a] = patch.normal;
+        (area[a], seen[a], depth[a]) = (patch.area, patch.seen, patch.depth);
+        gradient[a] = patch.gradient;
     }
 }

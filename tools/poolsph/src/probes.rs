@@ -12,10 +12,11 @@
 
 use artefact::Record;
 use kernels::CubicSpline;
+use particles::POSITION;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::state::{Phase, State};
+use crate::state::{PHASE, State, TEMPERATURE, WALL, marked, phase};
 
 /// Smoothing length over the particle diameter.
 const SMOOTHING: f64 = 1.2;
@@ -63,23 +64,24 @@ pub fn record(probes: &[Probe], state: &State) -> Record {
 /// The temperature at a place, of all metal but what flies and the container.
 #[must_use]
 pub fn read(state: &State, place: [f64; 3]) -> Reading {
-    let kernel = CubicSpline::<3>::new(SMOOTHING * state.metal.spacing);
+    let kernel = CubicSpline::<3>::new(SMOOTHING * state.metal.matter.spacing);
     let mut nearest = (f64::INFINITY, 0.0);
     let (mut matrix, mut right) = ([[0.0; 4]; 4], [0.0; 4]);
-    for a in 0..state.len() {
-        if state.wall[a] || state.phase[a] == Phase::Flying {
+    let (wall, phases) = (state.metal.column(&WALL), state.metal.column(&PHASE));
+    let temperatures = state.metal.column(&TEMPERATURE);
+    for (a, x) in state.metal.column(&POSITION).iter().enumerate() {
+        if marked(wall, a) || phases[a] == phase::FLYING {
             continue;
         }
-        let x = state.position[a];
         let away: [f64; 3] = std::array::from_fn(|k| x[k] - place[k]);
         let r = away.iter().map(|d| d * d).sum::<f64>().sqrt();
-        let t = state.temperature[a];
+        let t = temperatures[a];
         if r < nearest.0 {
             nearest = (r, t);
         }
         let weight = kernel.value(r) / kernel.value(0.0);
         if weight > 0.0 {
-            let [x, y, z] = away.map(|d| d / state.metal.spacing);
+            let [x, y, z] = away.map(|d| d / state.metal.matter.spacing);
             let basis = [1.0, x, y, z];
             for i in 0..4 {
                 right[i] += weight * basis[i] * t;
@@ -121,15 +123,18 @@ fn solved(mut matrix: [[f64; 4]; 4], mut right: [f64; 4]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::{Column, Metal, Particle};
+    use crate::state::{ENTHALPY, Particle};
+    use particles::Matter;
 
     fn metal(field: impl Fn([f64; 3]) -> f64) -> State {
-        let metal = Metal {
+        let metal = Matter {
             density: 1000.0,
             spacing: 0.1,
             smoothing_length: 0.1,
         };
-        let mut state = State::new(metal, vec![Column::Temperature, Column::Enthalpy]);
+        let mut state = State::new(metal);
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
         for i in 0..1000_u32 {
             // Shaken by a fraction that follows from the number.
             let at = [i % 10, i / 10 % 10, i / 100];
@@ -138,7 +143,7 @@ mod tests {
             state.push(Particle {
                 position,
                 velocity: [0.0; 3],
-                phase: Phase::Solid,
+                phase: phase::SOLID,
                 droplet: false,
                 wall: false,
                 temperature: field(position),

@@ -13,8 +13,9 @@
 use std::collections::BTreeMap;
 
 use kernels::CubicSpline;
+use particles::POSITION;
 
-use crate::state::{Phase, State};
+use crate::state::{DROPLET, FUSED, LIQUID, PHASE, State, marked, phase};
 
 /// A plane across an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,13 +102,19 @@ impl Rest {
         self.changed.clear();
         self.rows.resize(state.len(), Vec::new());
         self.part.resize(state.len(), Part::Away);
-        for a in 0..state.len() {
-            let rests = rests(state, a);
+        let (places, droplet) = (state.metal.column(&POSITION), state.metal.column(&DROPLET));
+        let fused = state.metal.column(&FUSED);
+        for (a, phase) in state.metal.column(&PHASE).iter().enumerate() {
+            let rests = rests(*phase, state.flowing);
             if rests && self.part[a] == Part::Away {
-                let moved = state.droplet[a] || (state.was_liquid(a) && state.flowing);
-                self.enter(state, a, if moved { Part::Settled } else { Part::Pristine });
+                let moved = marked(droplet, a) || (fused[a] >= LIQUID && state.flowing);
+                self.enter(
+                    places,
+                    a,
+                    if moved { Part::Settled } else { Part::Pristine },
+                );
             } else if !rests && self.part[a] != Part::Away {
-                self.leave(state, a);
+                self.leave(places, a);
             }
         }
         self.changed.sort_unstable();
@@ -128,20 +135,21 @@ impl Rest {
         self.rows = vec![Vec::new(); saved.len()];
         self.part = vec![Part::Away; saved.len()];
         self.cells.clear();
+        let places = state.metal.column(&POSITION);
         for (a, part) in saved.iter().enumerate() {
             match *part as u8 {
-                1 => self.enter(state, a, Part::Pristine),
-                2 => self.enter(state, a, Part::Settled),
+                1 => self.enter(places, a, Part::Pristine),
+                2 => self.enter(places, a, Part::Settled),
                 _ => {}
             }
         }
         self.changed.clear();
     }
 
-    fn enter(&mut self, state: &State, a: usize, part: Part) {
+    fn enter(&mut self, places: &[[f64; 3]], a: usize, part: Part) {
         let Some(kernel) = self.kernel else { return };
         self.part[a] = part;
-        let cell = cell(state.position[a], kernel.support());
+        let cell = cell(places[a], kernel.support());
         let mut row = Vec::with_capacity(26);
         for k in 0..27 {
             let near = [
@@ -150,7 +158,7 @@ impl Rest {
                 cell[2] + k / 9 - 1,
             ];
             for &b in self.cells.get(&near).map_or(&[][..], Vec::as_slice) {
-                let weight = self.weight(state, (a, b as usize), kernel);
+                let weight = self.weight(places, (a, b as usize), kernel);
                 if weight > 0.0 {
                     row.push(Link { to: b, weight });
                 }
@@ -174,7 +182,7 @@ impl Rest {
         self.cells.entry(cell).or_default().push(a as u32);
     }
 
-    fn leave(&mut self, state: &State, a: usize) {
+    fn leave(&mut self, places: &[[f64; 3]], a: usize) {
         let Some(kernel) = self.kernel else { return };
         let row = std::mem::take(&mut self.rows[a]);
         for link in &row {
@@ -183,17 +191,14 @@ impl Rest {
         }
         self.changed.push(a as u32);
         self.part[a] = Part::Away;
-        if let Some(cell) = self
-            .cells
-            .get_mut(&cell(state.position[a], kernel.support()))
-        {
+        if let Some(cell) = self.cells.get_mut(&cell(places[a], kernel.support())) {
             cell.retain(|b| *b != a as u32);
         }
     }
 
     /// W of the pair, summed over the images of `b` in the mirrors.
-    fn weight(&self, state: &State, (a, b): (usize, usize), kernel: CubicSpline<3>) -> f64 {
-        let (at, to) = (state.position[a], state.position[b]);
+    fn weight(&self, places: &[[f64; 3]], (a, b): (usize, usize), kernel: CubicSpline<3>) -> f64 {
+        let (at, to) = (places[a], places[b]);
         let direct = kernel.value(distance(at, to));
         if direct <= 0.0 || self.part[a] == Part::Settled || self.part[b] == Part::Settled {
             return direct;
@@ -216,13 +221,8 @@ impl Rest {
 }
 
 /// A particle rests while it is solid, or liquid before the flow starts.
-#[must_use]
-pub fn rests(state: &State, a: usize) -> bool {
-    match state.phase[a] {
-        Phase::Solid => true,
-        Phase::Liquid => !state.flowing,
-        Phase::Flying => false,
-    }
+fn rests(phase: u8, flowing: bool) -> bool {
+    phase == phase::SOLID || (phase == phase::LIQUID && !flowing)
 }
 
 /// Cell of a place; a search looks into 27 of them.
@@ -240,22 +240,23 @@ pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::{Metal, Particle};
+    use crate::state::Particle;
+    use particles::Matter;
 
     /// A block of 6^3 cells of 1 m, one corner in the origin.
     fn block() -> State {
-        let metal = Metal {
+        let metal = Matter {
             density: 1.0,
             spacing: 1.0,
             smoothing_length: 1.0,
         };
-        let mut state = State::new(metal, Vec::new());
+        let mut state = State::new(metal);
         for cell in 0..216 {
             let at = [cell % 6, cell / 6 % 6, cell / 36].map(|i| f64::from(i) + 0.5);
             state.push(Particle {
                 position: at,
                 velocity: [0.0; 3],
-                phase: Phase::Solid,
+                phase: phase::SOLID,
                 droplet: false,
                 wall: false,
                 temperature: 0.0,
@@ -276,7 +277,8 @@ mod tests {
         let moment = |a: usize| -> f64 {
             let row = rest.row(a).iter();
             row.map(|link| {
-                let dx = state.position[a][0] - state.position[link.to as usize][0];
+                let dx = state.metal.column(&POSITION)[a][0]
+                    - state.metal.column(&POSITION)[link.to as usize][0];
                 link.weight * dx * dx
             })
             .sum()
@@ -295,7 +297,7 @@ mod tests {
         state.flowing = true;
         let mut rest = Rest::new(1.0, Vec::new());
         rest.update(&state);
-        state.phase[80] = Phase::Liquid;
+        state.metal.column_mut(&PHASE)[80] = phase::LIQUID;
         rest.update(&state);
         assert!(!rest.holds(80) && rest.row(80).is_empty());
         assert!(rest.changed().contains(&80) && rest.changed().len() > 6);

@@ -4,27 +4,14 @@ use artefact::{Checkpoint, Result};
 
 use crate::balance::Start;
 use crate::march::March;
-use crate::patch::Patch;
-use crate::state::{Phase, State};
+use crate::state::State;
 
 /// Puts all that the rest of a run depends on into a checkpoint.
 ///
 /// # Errors
 /// When a value does not serialise.
 pub fn save(checkpoint: &mut Checkpoint, state: &State, march: &March, start: Start) -> Result<()> {
-    let flags = |flags: &[bool]| -> Vec<u8> { flags.iter().map(|f| u8::from(*f)).collect() };
-    let phases: Vec<u8> = state.phase.iter().map(|phase| *phase as u8).collect();
-    checkpoint.put_vectors("position", &state.position);
-    checkpoint.put_vectors("velocity", &state.velocity);
-    checkpoint.put_u8("phase", &phases);
-    checkpoint.put_f64("fused", &state.fused);
-    checkpoint.put_u8("droplet", &flags(&state.droplet));
-    checkpoint.put_u8("wall", &flags(&state.wall));
-    checkpoint.put_f64("temperature", &state.temperature);
-    checkpoint.put_f64("enthalpy", &state.enthalpy);
-    checkpoint.put_f64("pressure", &state.pressure);
-    let patches: Vec<f64> = state.surface.iter().flat_map(Patch::save).collect();
-    checkpoint.put_f64("surface", &patches);
+    columns::save(checkpoint, &state.metal);
     if let Some(grains) = &state.grains {
         columns::save(checkpoint, grains);
     }
@@ -48,22 +35,7 @@ pub fn restore(
     march: &mut March,
     dt: f64,
 ) -> Result<Start> {
-    let flags = |bytes: Vec<u8>| -> Vec<bool> { bytes.into_iter().map(|b| b != 0).collect() };
-    state.position = checkpoint.vectors("position")?;
-    state.velocity = checkpoint.vectors("velocity")?;
-    state.phase = checkpoint.u8("phase")?.into_iter().map(phase).collect();
-    state.fused = checkpoint.f64("fused")?;
-    state.droplet = flags(checkpoint.u8("droplet")?);
-    state.wall = flags(checkpoint.u8("wall")?);
-    state.temperature = checkpoint.f64("temperature")?;
-    state.enthalpy = checkpoint.f64("enthalpy")?;
-    state.pressure = checkpoint.f64("pressure")?;
-    let patches = checkpoint.f64("surface")?;
-    let (patches, _) = patches.as_chunks();
-    state.surface = patches
-        .iter()
-        .map(|saved| Patch::restored(*saved))
-        .collect();
+    columns::restore(checkpoint, &mut state.metal)?;
     if let Some(grains) = &mut state.grains {
         columns::restore(checkpoint, grains)?;
     }
@@ -87,12 +59,4 @@ pub fn restore(
 
 fn stage_name(place: usize, name: &str) -> String {
     format!("stage.{place}.{name}")
-}
-
-fn phase(byte: u8) -> Phase {
-    match byte {
-        1 => Phase::Liquid,
-        2 => Phase::Flying,
-        _ => Phase::Solid,
-    }
 }

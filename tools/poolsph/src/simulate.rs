@@ -8,10 +8,10 @@ use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
 use crate::probes;
 use crate::resume;
-use crate::scene::{Scene, due};
-use crate::stage::{Figure, StageError};
+use crate::scene::{PoolOutput, Scene, due};
+use crate::stage::Figure;
 use crate::state::State;
-use crate::watch::{bounded, endless, place, undivided, watch};
+use crate::watch::{bounded, endless, failure, undivided, watch};
 
 /// All numbers of the state are looked at once in so many steps, and before anything is kept.
 const WATCH_STEPS: u64 = 20;
@@ -59,7 +59,7 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
         }
     }
     if scene.has_metal() {
-        for column in assembled.layout.frame(state, &[]).columns() {
+        for column in frames::metal(state, &[], scene.output.precision).columns() {
             plan = plan.column(&column.name, &column.unit);
         }
     }
@@ -68,9 +68,7 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
         plan = plan.memory(name, bytes as u64);
     }
     if scene.has_metal() {
-        for (channel, messages, bytes) in
-            frames::volume(scene, state, (&assembled.layout, &assembled.plate))
-        {
+        for (channel, messages, bytes) in frames::volume(scene, state, &assembled.plate) {
             plan = plan.output(channel, messages, bytes);
         }
     }
@@ -206,14 +204,10 @@ impl<'a> Simulation<'a> {
 
     /// Writes all that is due at the present step.
     fn write(&mut self, session: &mut Session) -> Result<(), Failure> {
-        let Assembled {
-            march,
-            state,
-            layout,
-            ..
-        } = &self.run;
-        let output = &self.scene.output;
-        let is_due = |interval: f64| due(state.step, self.scene.step(), interval);
+        let Assembled { march, state, .. } = &self.run;
+        let scene = self.scene;
+        let output = &scene.output;
+        let is_due = |interval: f64| due(state.step, scene.step(), interval);
         // The state for which the run was made, whatever the interval.
         let last = self.ended();
         let particles = last || is_due(output.particles_interval_s);
@@ -240,13 +234,9 @@ impl<'a> Simulation<'a> {
         if let Some(note) = centre.filter(|_| particles || grains || pool.is_some()) {
             frames::source(&note, session)?;
         }
-        if particles {
-            layout.particles(state, session)?;
-        }
-        if let (Some(pool), Some(note)) = (pool, centre) {
-            layout.pool(state, pool, [note.x_m, note.y_m, note.z_m], session)?;
-        }
+        self.write_metal(particles, pool.zip(centre), session)?;
         if balance {
+            let Assembled { march, state, .. } = &self.run;
             let figures = march.figures();
             let totals = Balance::of(state, &figures);
             session.record("/balance", state.time, &totals.record(self.start))?;
@@ -257,6 +247,33 @@ impl<'a> Simulation<'a> {
                 let name = format!("{stage}_{}", figure.name);
                 session.history(&name, figure.unit, state.time, figure.value);
             }
+        }
+        Ok(())
+    }
+
+    /// Frames of the metal: of all particles, and of those around the source.
+    fn write_metal(
+        &mut self,
+        particles: bool,
+        pool: Option<(&PoolOutput, SourceNote)>,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        let Assembled { march, state, .. } = &mut self.run;
+        let width = self.scene.output.precision;
+        if particles || pool.is_some() {
+            state.show();
+            march.show(state);
+        }
+        if particles {
+            frames::particles(state, width, session)?;
+        }
+        if let Some((pool, note)) = pool {
+            frames::pool(
+                state,
+                (pool, width),
+                [note.x_m, note.y_m, note.z_m],
+                session,
+            )?;
         }
         Ok(())
     }
@@ -366,26 +383,4 @@ fn status(
     });
     row.extend(shown.map(|(_, figure)| (figure.name, figure.value, figure.unit)));
     row
-}
-
-/// An error of a stage as the failure of the run.
-fn failure(error: StageError, time_s: f64) -> Failure {
-    match error {
-        StageError::Diverged {
-            step,
-            particle,
-            place: at,
-            quantity,
-            value,
-            limit,
-            unit,
-        } => Failure::Diverged {
-            step,
-            time_s,
-            place: place(particle, at),
-            quantity: format!("{quantity} [{unit}]"),
-            what: format!("is {value:.4e} {unit}, beyond {limit:.4e} {unit}"),
-        },
-        StageError::Data(what) => Failure::Other(what),
-    }
 }

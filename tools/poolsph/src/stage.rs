@@ -1,6 +1,6 @@
 //! What a physical effect promises to the march.
 //!
-//! A stage names the columns it needs, advances the state by one step, bounds the step and may
+//! A stage declares the columns it needs, advances the state by one step, bounds the step and may
 //! say a few numbers. The march knows nothing else of it; dispatch is dynamic once per stage and
 //! step, never per pair.
 //!
@@ -21,7 +21,7 @@
 use artefact::Frame;
 use thiserror::Error;
 
-use crate::state::{Column, State};
+use crate::state::State;
 
 /// Why a stage could not go on.
 #[derive(Debug, Error)]
@@ -100,10 +100,8 @@ pub trait Stage: Send {
     /// Name in the status, the record and the plan.
     fn name(&self) -> &'static str;
 
-    /// Optional columns that it reads or writes.
-    fn needs(&self) -> &'static [Column] {
-        &[]
-    }
+    /// Declares the columns that it reads or writes, ahead of the particles.
+    fn declare(&self, _state: &mut State) {}
 
     /// Its bound on the step in the present state, if it has one.
     fn dt_limit(&self, _state: &State) -> Option<Limit> {
@@ -132,6 +130,9 @@ pub trait Stage: Send {
     /// # Errors
     /// When a quantity diverges or a table ends.
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError>;
+
+    /// Fills columns that only frames show.
+    fn show(&self, _state: &mut State) {}
 
     /// Whether what the run is for has come about, ahead of its time.
     fn ends(&self) -> bool {

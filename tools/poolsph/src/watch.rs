@@ -1,8 +1,9 @@
 //! What stops a run: steps that never end, particles too fast for any step, numbers that are none.
 
+use particles::{POSITION, Store};
 use run::Failure;
 
-use crate::stage::{Beyond, Limit};
+use crate::stage::{Beyond, Limit, StageError};
 use crate::state::State;
 use crate::vector::squared;
 
@@ -36,7 +37,7 @@ pub(crate) fn undivided(dt: f64, limit: Limit) -> Option<String> {
 
 /// Stops the run where a particle has become too fast for any step.
 pub(crate) fn bounded(state: &State, dt: f64) -> Result<(), Failure> {
-    let limit = LEAP * state.metal.spacing / dt;
+    let limit = LEAP * state.metal.matter.spacing / dt;
     let near = &state.near;
     if near.fastest_squared() <= limit * limit {
         return Ok(());
@@ -50,7 +51,7 @@ pub(crate) fn bounded(state: &State, dt: f64) -> Result<(), Failure> {
     Err(Failure::Diverged {
         step: state.step,
         time_s: state.time,
-        place: place(a, state.position[a]),
+        place: place(a, state.metal.column(&POSITION)[a]),
         quantity: "speed [m/s]".to_owned(),
         what: format!("is {speed:.4e} m/s, beyond {limit:.4e} m/s"),
     })
@@ -58,27 +59,50 @@ pub(crate) fn bounded(state: &State, dt: f64) -> Result<(), Failure> {
 
 /// Stops the run where a number is none.
 pub(crate) fn watch(state: &State) -> Result<(), Failure> {
-    for a in 0..state.len() {
-        let vector = |x: &[f64; 3]| x[0] + x[1] + x[2];
-        let scalar = |column: &Vec<f64>| column.get(a).copied().unwrap_or(0.0);
-        let found = [
-            ("position", "m", vector(&state.position[a])),
-            ("velocity", "m/s", vector(&state.velocity[a])),
-            ("temperature", "K", scalar(&state.temperature)),
-            ("enthalpy", "J/kg", scalar(&state.enthalpy)),
-            ("pressure", "Pa", scalar(&state.pressure)),
-        ];
-        if let Some((name, unit, value)) = found.iter().find(|(_, _, x)| !x.is_finite()) {
+    for column in state.metal.declared().filter(|column| column.saved) {
+        let sum = |[x, y, z]: &[f64; 3]| x + y + z;
+        let none = |x: &f64| !x.is_finite();
+        let found = match column.values {
+            Store::Scalars(values) => values.iter().copied().enumerate().find(|(_, x)| none(x)),
+            Store::Vectors(values) => {
+                let sums = values.iter().map(sum);
+                sums.enumerate().find(|(_, x)| none(x))
+            }
+            _ => None,
+        };
+        if let Some((a, value)) = found {
             return Err(Failure::Diverged {
                 step: state.step,
                 time_s: state.time,
-                place: place(a, state.position[a]),
-                quantity: format!("{name} [{unit}]"),
+                place: place(a, state.metal.column(&POSITION)[a]),
+                quantity: format!("{} [{}]", column.name, column.unit),
                 what: format!("is {value}"),
             });
         }
     }
     Ok(())
+}
+
+/// An error of a stage as the failure of the run.
+pub(crate) fn failure(error: StageError, time_s: f64) -> Failure {
+    match error {
+        StageError::Diverged {
+            step,
+            particle,
+            place: at,
+            quantity,
+            value,
+            limit,
+            unit,
+        } => Failure::Diverged {
+            step,
+            time_s,
+            place: place(particle, at),
+            quantity: format!("{quantity} [{unit}]"),
+            what: format!("is {value:.4e} {unit}, beyond {limit:.4e} {unit}"),
+        },
+        StageError::Data(what) => Failure::Other(what),
+    }
 }
 
 /// A particle by number and place.

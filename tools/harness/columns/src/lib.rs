@@ -60,6 +60,7 @@ pub fn frame<'a>(
             Store::Vectors(values) => frame.vector(name, unit, of(values, &rows)),
             Store::Scalars(values) => frame.scalar(name, unit, of(values, &rows)),
             Store::Flags(values) => frame.flag(name, of(values, &rows)),
+            Store::Marks(values) => frame.flag(name, of(values, &rows).map(u8::from)),
             Store::Ids(values) => frame.id(name, of(values, &rows)),
             Store::Matrices(values) => {
                 let plane = form.dimensions == 2;
@@ -90,6 +91,10 @@ pub fn save(checkpoint: &mut Checkpoint, set: &Set) {
             Store::Vectors(values) => checkpoint.put_vectors(&name, values),
             Store::Matrices(values) => checkpoint.put_vectors(&name, values.as_flattened()),
             Store::Flags(values) => checkpoint.put_u8(&name, values),
+            Store::Marks(values) => {
+                let bytes: Vec<u8> = values.iter().map(|mark| u8::from(*mark)).collect();
+                checkpoint.put_u8(&name, &bytes);
+            }
             Store::Ids(values) => {
                 let wide: Vec<u64> = values.iter().map(|id| u64::from(*id)).collect();
                 checkpoint.put_u64(&name, &wide);
@@ -113,6 +118,10 @@ pub fn restore(checkpoint: &mut Checkpoint, set: &mut Set) -> Result<()> {
                 Store::Matrices(checkpoint.vectors(&name)?.as_chunks::<3>().0.to_vec())
             }
             Store::Flags(_) => Store::Flags(checkpoint.u8(&name)?),
+            Store::Marks(_) => {
+                let bytes = checkpoint.u8(&name)?;
+                Store::Marks(bytes.iter().map(|byte| *byte != 0).collect())
+            }
             Store::Ids(_) => {
                 let wide = checkpoint.u64(&name)?;
                 Store::Ids(wide.iter().map(|id| *id as u32).collect())

@@ -21,6 +21,7 @@
 //! ```
 
 pub mod column;
+mod held;
 pub mod rows;
 pub mod set;
 pub mod store;

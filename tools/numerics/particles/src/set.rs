@@ -1,6 +1,7 @@
 //! A set of particles of one matter.
 
 use crate::column::Column;
+use crate::held::{Held, Several};
 use crate::store::{Store, Value};
 
 /// x \[m\], held by every set.
@@ -19,6 +20,26 @@ pub struct Matter {
     pub smoothing_length: f64,
 }
 
+impl Matter {
+    /// Volume of a particle, d^3 \[m3\].
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.spacing * self.spacing * self.spacing
+    }
+
+    /// Mass of a particle \[kg\].
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.density * self.volume()
+    }
+
+    /// Radius of the kernel's support, 2h \[m\].
+    #[must_use]
+    pub fn support(&self) -> f64 {
+        2.0 * self.smoothing_length
+    }
+}
+
 /// Gives every particle of a run a number of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Ids {
@@ -31,18 +52,6 @@ impl Ids {
         self.next += 1;
         self.next - 1
     }
-}
-
-/// A column that is held.
-#[derive(Debug, Clone)]
-struct Held {
-    name: &'static str,
-    unit: &'static str,
-    saved: bool,
-    shown: bool,
-    /// One value: that of a new particle.
-    default: Store,
-    values: Store,
 }
 
 /// A column that is held, to be looked at.
@@ -58,6 +67,14 @@ pub struct Declared<'a> {
     pub shown: bool,
     /// Its values.
     pub values: &'a Store,
+}
+
+impl Declared<'_> {
+    /// Its bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.values.len() * self.values.width()
+    }
 }
 
 /// A set of particles: rows of the columns that were declared.
@@ -140,6 +157,19 @@ impl Set {
         let held = self.held.iter_mut().find(|held| held.name == column.name);
         held.and_then(|held| T::of_mut(&mut held.values))
             .map_or(&mut [], Vec::as_mut_slice)
+    }
+
+    /// Values of two to five columns, to be changed side by side; none of one that was not declared.
+    #[must_use]
+    pub fn columns_mut<C: Several>(&mut self, columns: C) -> C::Values<'_> {
+        columns.of(&mut self.held)
+    }
+
+    /// Gives a particle its value of a column; nothing happens where it was not declared.
+    pub fn set<T: Value>(&mut self, column: &Column<T>, row: usize, value: T) {
+        if let Some(own) = self.column_mut(column).get_mut(row) {
+            *own = value;
+        }
     }
 
     /// Takes the values of a column out, to work on them beside others; [`Set::put`] brings them back.
@@ -259,8 +289,7 @@ impl Set {
     /// Bytes of all columns.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let widths = self.held.iter().map(|held| held.values.width());
-        self.rows * widths.sum::<usize>()
+        self.declared().map(|column| column.bytes()).sum()
     }
 }
 
@@ -346,6 +375,18 @@ mod tests {
         assert!(alike(new.column(&SPEED), &[1.5, -2.0, 1.5]));
         assert_eq!(new.column(&STRESS).len(), 3);
         assert_eq!(new.len(), 3);
+    }
+
+    #[test]
+    fn columns_are_changed_side_by_side() {
+        let mut set = set("a", &mut Ids::default(), 2);
+        let (ids, speed, broken) = set.columns_mut((&ID, &SPEED, &BROKEN));
+        (ids[1], speed[0]) = (7, 3.0);
+        assert!(broken.is_empty(), "not declared");
+        set.set(&SPEED, 1, 4.0);
+        set.set(&BROKEN, 1, 1);
+        assert_eq!(set.column(&ID), [0, 7]);
+        assert!(alike(set.column(&SPEED), &[3.0, 4.0]));
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub enum Store {
     Matrices(Vec<[[f64; 3]; 3]>),
     /// Flags or small numbers, `[n]`.
     Flags(Vec<u8>),
+    /// What is or is not, `[n]`.
+    Marks(Vec<bool>),
     /// Numbers of identity, `[n]`.
     Ids(Vec<u32>),
 }
@@ -23,6 +25,7 @@ macro_rules! each {
             Store::Vectors($values) => $done,
             Store::Matrices($values) => $done,
             Store::Flags($values) => $done,
+            Store::Marks($values) => $done,
             Store::Ids($values) => $done,
         }
     };
@@ -48,7 +51,7 @@ impl Store {
             Self::Scalars(_) => 8,
             Self::Vectors(_) => 24,
             Self::Matrices(_) => 72,
-            Self::Flags(_) => 1,
+            Self::Flags(_) | Self::Marks(_) => 1,
             Self::Ids(_) => 4,
         }
     }
@@ -61,6 +64,7 @@ impl Store {
             Self::Vectors(_) => Self::Vectors(Vec::new()),
             Self::Matrices(_) => Self::Matrices(Vec::new()),
             Self::Flags(_) => Self::Flags(Vec::new()),
+            Self::Marks(_) => Self::Marks(Vec::new()),
             Self::Ids(_) => Self::Ids(Vec::new()),
         }
     }
@@ -72,6 +76,7 @@ impl Store {
             (Self::Vectors(to), Self::Vectors(from)) => to.push(from[row]),
             (Self::Matrices(to), Self::Matrices(from)) => to.push(from[row]),
             (Self::Flags(to), Self::Flags(from)) => to.push(from[row]),
+            (Self::Marks(to), Self::Marks(from)) => to.push(from[row]),
             (Self::Ids(to), Self::Ids(from)) => to.push(from[row]),
             (to, from) => unreachable!("one column held as {to:?} and as {from:?}"),
         }
@@ -144,4 +149,5 @@ value!(f64, Scalars);
 value!([f64; 3], Vectors);
 value!([[f64; 3]; 3], Matrices);
 value!(u8, Flags);
+value!(bool, Marks);
 value!(u32, Ids);

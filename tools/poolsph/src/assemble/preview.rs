@@ -45,7 +45,7 @@ fn metal(scene: &Scene, all: &[Body], preview: &mut Preview) -> Result<(), Failu
         Some(heat) => Some(heat.caloric().map_err(|fault| fault.within("/heat"))?),
         None => None,
     };
-    let mut state = State::new(scene.metal(), Vec::new());
+    let mut state = State::new(scene.metal());
     let filled = bodies::fill(&mut state, all, caloric.as_deref())?;
     let mut first = 0;
     for (i, (filled, body)) in filled.iter().zip(&scene.bodies).enumerate() {
@@ -59,7 +59,7 @@ fn metal(scene: &Scene, all: &[Body], preview: &mut Preview) -> Result<(), Failu
             Some(_) => preview.condition("held temperature"),
             None => 0,
         };
-        for place in &state.position[first..first + filled.placed] {
+        for place in &state.metal.column(&POSITION)[first..first + filled.placed] {
             preview.spot(Spot {
                 place: *place,
                 size: [scene.spacing_m; 3],

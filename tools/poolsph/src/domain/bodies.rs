@@ -7,7 +7,7 @@ use run::property::{Arguments, Curve};
 
 use super::shape::Shape;
 use crate::heat::Caloric;
-use crate::state::{Particle, Phase, State};
+use crate::state::{Particle, State, phase};
 
 /// A later body comes no closer to an earlier one than this part of d.
 pub const CLEARANCE: f64 = 0.7;
@@ -31,7 +31,7 @@ pub struct Body {
     /// Planes that cut it.
     pub cuts: Vec<Cut>,
     /// Solid or liquid at the start.
-    pub phase: Phase,
+    pub phase: u8,
     /// Belongs to the container.
     pub wall: bool,
     /// u at the start \[m/s\] over x, y, z, r.
@@ -96,7 +96,7 @@ pub fn fill(
     bodies: &[Body],
     caloric: Option<&Caloric>,
 ) -> Result<Vec<Filled>, Fault> {
-    let d = state.metal.spacing;
+    let d = state.metal.matter.spacing;
     let mut occupied = Occupied {
         edge: CLEARANCE * d,
         cells: HashMap::new(),
@@ -161,7 +161,7 @@ fn warmth(
         ));
     }
     let enthalpy = caloric.enthalpy(temperature);
-    let liquid = body.phase == Phase::Liquid;
+    let liquid = body.phase == phase::LIQUID;
     match caloric.melting_point().filter(|_| !body.wall) {
         Some(point) if liquid != caloric.is_liquid(enthalpy) => Err(format!(
             "{temperature} K does not fit a {} body that melts at {point} K",
@@ -189,21 +189,25 @@ fn body_points(body: &Body, d: f64) -> Vec<[f64; 3]> {
 mod tests {
     use super::*;
     use crate::domain::shape::{BoxShape, Container, Sphere};
-    use crate::state::{Column, Metal};
+    use crate::state::{ENTHALPY, TEMPERATURE, WALL};
+    use particles::{Matter, POSITION};
     use shapes::Face;
 
     const D: f64 = 1e-3;
 
     fn empty() -> State {
-        let metal = Metal {
+        let metal = Matter {
             density: 7850.0,
             spacing: D,
             smoothing_length: D,
         };
-        State::new(metal, vec![Column::Temperature, Column::Enthalpy])
+        let mut state = State::new(metal);
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
+        state
     }
 
-    fn body(shape: Shape, phase: Phase) -> Body {
+    fn body(shape: Shape, phase: u8) -> Body {
         Body {
             shape,
             lattice: None,
@@ -247,15 +251,18 @@ mod tests {
                 centre_m: [10.4 * D, 5.0 * D, 5.0 * D],
                 radius_m: 3.0 * D,
             }),
-            Phase::Liquid,
+            phase::LIQUID,
         );
         ball.lattice = Some([0.17 * D; 3]);
-        let filled = put(&mut state, &[body(cube(10.0 * D), Phase::Solid), ball]);
+        let filled = put(&mut state, &[body(cube(10.0 * D), phase::SOLID), ball]);
         assert_eq!(filled[0].placed, 1000);
         assert!(filled[1].placed > 0 && filled[1].left_out > 0);
         for a in 1000..state.len() {
             for b in 0..1000 {
-                let (p, q) = (state.position[a], state.position[b]);
+                let (p, q) = (
+                    state.metal.column(&POSITION)[a],
+                    state.metal.column(&POSITION)[b],
+                );
                 let square: f64 = (0..3).map(|k| (p[k] - q[k]).powi(2)).sum();
                 assert!(square.sqrt() >= CLEARANCE * D);
             }
@@ -272,9 +279,9 @@ mod tests {
             thickness_m: 2.0 * D,
             open: vec![Face::ZHigh],
         };
-        let mut wall = body(Shape::Container(tank), Phase::Solid);
+        let mut wall = body(Shape::Container(tank), phase::SOLID);
         wall.wall = true;
-        let filled = put(&mut state, &[wall, body(cube(6.0 * D), Phase::Liquid)]);
+        let filled = put(&mut state, &[wall, body(cube(6.0 * D), phase::LIQUID)]);
         assert_eq!(
             filled[1],
             Filled {
@@ -283,13 +290,16 @@ mod tests {
             }
         );
         assert_eq!(state.len(), 10 * 10 * 8);
-        assert_eq!(state.wall.iter().filter(|w| **w).count(), 584);
+        assert_eq!(
+            state.metal.column(&WALL).iter().filter(|w| **w).count(),
+            584
+        );
     }
 
     #[test]
     fn cuts_and_temperatures_follow_the_scene() {
         let mut state = empty();
-        let mut wedge = body(cube(10.0 * D), Phase::Solid);
+        let mut wedge = body(cube(10.0 * D), phase::SOLID);
         wedge.cuts.push(Cut {
             point: [5.0 * D; 3],
             normal: [2.0, 0.0, 2.0],
@@ -299,15 +309,17 @@ mod tests {
         wedge.temperature = warm.compile("", &["x", "y", "z", "r"]).unwrap();
         put(&mut state, &[wedge]);
         assert_eq!(state.len(), 10 * 55);
-        let first = state.enthalpy[0];
-        for (p, (t, h)) in state
-            .position
-            .iter()
-            .zip(state.temperature.iter().zip(&state.enthalpy))
-        {
+        let first = state.metal.column(&ENTHALPY)[0];
+        for (p, (t, h)) in state.metal.column(&POSITION).iter().zip(
+            state
+                .metal
+                .column(&TEMPERATURE)
+                .iter()
+                .zip(state.metal.column(&ENTHALPY)),
+        ) {
             assert!(p[0] + p[2] <= 10.0 * D * (1.0 + 1e-12));
             assert!((t - 300.0 - 1000.0 * p[0]).abs() < 1e-12);
-            assert!((h - first - 500.0 * (t - state.temperature[0])).abs() < 1e-6);
+            assert!((h - first - 500.0 * (t - state.metal.column(&TEMPERATURE)[0])).abs() < 1e-6);
         }
     }
 
@@ -320,8 +332,8 @@ mod tests {
             fill(&mut empty(), &[cold], Some(&steel)).map_err(|fault| fault.path().to_owned())
         };
         let path = "/bodies/0/temperature_k".to_owned();
-        assert_eq!(refused(Phase::Liquid, 1700.0), Err(path.clone()));
-        assert_eq!(refused(Phase::Solid, 1800.0), Err(path));
-        assert!(refused(Phase::Liquid, 1800.0).is_ok() && refused(Phase::Solid, 1700.0).is_ok());
+        assert_eq!(refused(phase::LIQUID, 1700.0), Err(path.clone()));
+        assert_eq!(refused(phase::SOLID, 1800.0), Err(path));
+        assert!(refused(phase::LIQUID, 1800.0).is_ok() && refused(phase::SOLID, 1700.0).is_ok());
     }
 }

@@ -3,12 +3,13 @@
 //! A particle thrown off would fall for ever, and the search for neighbours would follow it. What is
 //! caught meets nobody any more, but keeps its mass and heat in the balances.
 
+use particles::{Matter, POSITION};
 use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{Metal, Phase, State};
+use crate::state::{PHASE, State, VELOCITY, phase};
 
 /// The box in which metal is followed (key `bounds`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,7 +39,7 @@ impl Bounds {
     ///
     /// # Errors
     /// A fault at the corner that is on the wrong side of the other.
-    pub fn new(parameters: Parameters, metal: Metal) -> Result<Self, Fault> {
+    pub fn new(parameters: Parameters, metal: Matter) -> Result<Self, Fault> {
         match (0..3).find(|k| parameters.max_m[*k] <= parameters.min_m[*k]) {
             Some(k) => Err(Fault::at(
                 &format!("/max_m/{k}"),
@@ -63,12 +64,12 @@ impl Stage for Bounds {
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
         let Parameters { min_m, max_m } = self.parameters;
-        for a in 0..state.len() {
-            let x = state.position[a];
+        let (places, phases, velocities) =
+            (state.metal).columns_mut((&POSITION, &PHASE, &VELOCITY));
+        for (x, (phase, u)) in places.iter().zip(phases.iter_mut().zip(velocities)) {
             let outside = (0..3).any(|k| x[k] < min_m[k] || x[k] > max_m[k]);
-            if outside && state.phase[a] == Phase::Liquid {
-                state.phase[a] = Phase::Flying;
-                state.velocity[a] = [0.0; 3];
+            if outside && *phase == phase::LIQUID {
+                (*phase, *u) = (phase::FLYING, [0.0; 3]);
                 self.caught += 1;
             }
         }
@@ -99,17 +100,17 @@ mod tests {
 
     #[test]
     fn only_liquid_that_leaves_is_caught() {
-        let metal = Metal {
+        let metal = Matter {
             density: 1000.0,
             spacing: 1e-3,
             smoothing_length: 1e-3,
         };
-        let mut state = State::new(metal, Vec::new());
+        let mut state = State::new(metal);
         for (x, phase) in [
-            (0.5, Phase::Liquid),
-            (1.5, Phase::Liquid),
-            (1.5, Phase::Solid),
-            (-0.5, Phase::Liquid),
+            (0.5, phase::LIQUID),
+            (1.5, phase::LIQUID),
+            (1.5, phase::SOLID),
+            (-0.5, phase::LIQUID),
         ] {
             state.push(Particle {
                 position: [0.5, x, 0.5],
@@ -129,9 +130,15 @@ mod tests {
         for _ in 0..2 {
             stage.advance(&mut state, 1e-4).unwrap();
         }
-        let phases = [Phase::Liquid, Phase::Flying, Phase::Solid, Phase::Flying];
-        assert_eq!(state.phase, phases);
-        assert_eq!((state.velocity[1], state.velocity[0]), ([0.0; 3], [1.0; 3]));
+        let phases = [phase::LIQUID, phase::FLYING, phase::SOLID, phase::FLYING];
+        assert_eq!(state.metal.column(&PHASE), phases);
+        assert_eq!(
+            (
+                state.metal.column(&VELOCITY)[1],
+                state.metal.column(&VELOCITY)[0]
+            ),
+            ([0.0; 3], [1.0; 3])
+        );
         assert!((stage.figures()[0].value - 2e-6).abs() < 1e-18);
         let wrong = Parameters {
             max_m: [1.0, 0.0, 1.0],

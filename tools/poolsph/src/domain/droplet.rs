@@ -16,6 +16,7 @@
 use std::sync::Arc;
 
 use neighbours::Grid;
+use particles::{Matter, POSITION};
 use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::heat::Caloric;
 use crate::heat::ledger::Sum;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{Metal, Particle, Phase, State};
+use crate::state::{PHASE, Particle, State, VELOCITY, phase};
 
 /// Part of a spacing that a droplet falls in a step when it lands, where steps are adaptive.
 const FALL: f64 = 0.4;
@@ -156,7 +157,7 @@ impl Droplets {
     /// A fault at the key that is wrong.
     pub fn new(
         parameters: Parameters,
-        (metal, mirror): (Metal, Option<Mirror>),
+        (metal, mirror): (Matter, Option<Mirror>),
         caloric: Option<&Arc<Caloric>>,
     ) -> Result<Self, Fault> {
         let Some(period) = parameters.period(metal.spacing, mirror) else {
@@ -215,7 +216,7 @@ impl Droplets {
             state.push(Particle {
                 position: [0, 1, 2].map(|k| centre[k] + offset[k]),
                 velocity: [0.0, 0.0, -self.parameters.speed_m_s],
-                phase: Phase::Flying,
+                phase: phase::FLYING,
                 droplet: true,
                 wall: false,
                 temperature: self.temperature,
@@ -229,9 +230,9 @@ impl Droplets {
     /// Droplets that have come near what does not fly join it; `fall` is the way of the step \[m\].
     fn land(&mut self, state: &mut State, fall: f64) {
         let reach = if state.flowing {
-            state.metal.support()
+            state.metal.matter.support()
         } else {
-            state.metal.spacing
+            state.metal.matter.spacing
         };
         let Some(ground) = Ground::below(state, &self.flying, reach) else {
             return;
@@ -248,11 +249,13 @@ impl Droplets {
             } else {
                 ground.back(state, droplet, fall)
             };
+            let (phases, places, velocities) =
+                (state.metal).columns_mut((&PHASE, &POSITION, &VELOCITY));
             for &a in droplet {
-                state.phase[a] = Phase::Liquid;
-                state.position[a][2] += back;
+                phases[a] = phase::LIQUID;
+                places[a][2] += back;
                 if !state.flowing {
-                    state.velocity[a] = [0.0; 3];
+                    velocities[a] = [0.0; 3];
                 }
             }
         }
@@ -269,14 +272,13 @@ struct Ground {
 impl Ground {
     /// All that does not fly, up to `reach` \[m\] below the lowest of `flying`; `None` without either.
     fn below(state: &State, flying: &[usize], reach: f64) -> Option<Self> {
-        let heights = flying.iter().map(|a| state.position[*a][2]);
+        let (places, phases) = (state.metal.column(&POSITION), state.metal.column(&PHASE));
+        let heights = flying.iter().map(|a| places[*a][2]);
         let lowest = heights.reduce(f64::min)?;
         let high =
-            |a: &usize| state.phase[*a] != Phase::Flying && state.position[*a][2] > lowest - reach;
-        let places: Vec<[f64; 3]> = (0..state.len())
-            .filter(high)
-            .map(|a| state.position[a])
-            .collect();
+            |(x, phase): &(&[f64; 3], &u8)| **phase != phase::FLYING && x[2] > lowest - reach;
+        let places = places.iter().zip(phases).filter(high);
+        let places: Vec<[f64; 3]> = places.map(|(x, _)| *x).collect();
         if places.is_empty() {
             return None;
         }
@@ -287,8 +289,9 @@ impl Ground {
 
     /// Whether the droplet, lifted by `lift` \[m\], is within reach.
     fn touches(&self, state: &State, droplet: &[usize], lift: f64) -> bool {
+        let places = state.metal.column(&POSITION);
         droplet.iter().any(|a| {
-            let [x, y, z] = state.position[*a];
+            let [x, y, z] = places[*a];
             self.grid.any_within([x, y, z + lift], self.reach)
         })
     }
@@ -318,8 +321,9 @@ impl Stage for Droplets {
             return Err(StageError::Data("droplets fall from no source".to_owned()));
         };
         let fall = self.parameters.speed_m_s * dt;
+        let places = state.metal.column_mut(&POSITION);
         for &a in &self.flying {
-            state.position[a][2] -= fall;
+            places[a][2] -= fall;
         }
         self.land(state, fall);
         // The end of the step is what frames show.
@@ -336,15 +340,16 @@ impl Stage for Droplets {
     }
 
     fn follows(&self, state: &State) -> f64 {
-        let height = |a: usize| state.position[a][2];
+        let (places, phases) = (state.metal.column(&POSITION), state.metal.column(&PHASE));
+        let height = |a: usize| places[a][2];
         let Some(lowest) = self.flying.iter().map(|a| height(*a)).reduce(f64::min) else {
             return f64::INFINITY;
         };
         // Down to where it may meet something it falls freely.
-        let rests = (0..state.len()).filter(|a| state.phase[*a] != Phase::Flying);
+        let rests = (0..state.len()).filter(|a| phases[*a] != phase::FLYING);
         let top = rests.map(height).fold(f64::NEG_INFINITY, f64::max);
-        let free = lowest - top - state.metal.support();
-        free.max(FALL * state.metal.spacing) / self.parameters.speed_m_s
+        let free = lowest - top - state.metal.matter.support();
+        free.max(FALL * state.metal.matter.spacing) / self.parameters.speed_m_s
     }
 
     fn next(&self, _: f64) -> Option<f64> {
@@ -385,8 +390,9 @@ impl Stage for Droplets {
 mod tests {
     use super::*;
     use crate::source::Place;
+    use crate::state::DROPLET;
 
-    const METAL: Metal = Metal {
+    const METAL: Matter = Matter {
         density: 7850.0,
         spacing: 5e-4,
         smoothing_length: 5e-4,
@@ -404,7 +410,7 @@ mod tests {
     }
 
     fn start() -> State {
-        let mut state = State::new(METAL, Vec::new());
+        let mut state = State::new(METAL);
         state.flowing = true;
         state.source = Some(Place {
             position: [0.0; 3],
@@ -416,7 +422,7 @@ mod tests {
                 state.push(Particle {
                     position: [f64::from(i) * 5e-4, f64::from(j) * 5e-4, -2.5e-4],
                     velocity: [0.0; 3],
-                    phase: Phase::Solid,
+                    phase: phase::SOLID,
                     droplet: false,
                     wall: false,
                     temperature: 0.0,
@@ -448,15 +454,26 @@ mod tests {
         let mut stage = Droplets::new(parameters(), (METAL, None), None).unwrap();
         march(&mut stage, &mut state, 20);
         let first = 81;
-        assert!(state.phase[first..].iter().all(|p| *p == Phase::Flying));
+        assert!(
+            state.metal.column(&PHASE)[first..]
+                .iter()
+                .all(|p| *p == phase::FLYING)
+        );
         // 5 mm less the half droplet, the support and the half particle, at 1.56 m/s.
         march(&mut stage, &mut state, 10);
-        assert!(state.phase[first..].iter().all(|p| *p == Phase::Liquid));
-        assert!((state.velocity[first][2] + 1.56).abs() < 1e-15);
+        assert!(
+            state.metal.column(&PHASE)[first..]
+                .iter()
+                .all(|p| *p == phase::LIQUID)
+        );
+        assert!((state.metal.column(&VELOCITY)[first][2] + 1.56).abs() < 1e-15);
         march(&mut stage, &mut state, 970);
         // Born at the first of the steps 1, 100, 200, ... of 1000.
         assert_eq!(state.source.unwrap().droplets, 11);
-        assert_eq!(state.droplet.iter().filter(|d| **d).count(), 11 * 19);
+        assert_eq!(
+            state.metal.column(&DROPLET).iter().filter(|d| **d).count(),
+            11 * 19
+        );
         assert!(state.source.unwrap().phase.abs() < 1e-9);
     }
 
@@ -469,7 +486,7 @@ mod tests {
             ..parameters()
         };
         for spacing in [1e-3, 7e-4, 5e-4, 4e-4, 2.5e-4] {
-            let metal = Metal {
+            let metal = Matter {
                 spacing,
                 smoothing_length: spacing,
                 ..METAL
@@ -558,14 +575,22 @@ mod tests {
         state.flowing = false;
         let mut stage = Droplets::new(parameters(), (METAL, None), None).unwrap();
         march(&mut stage, &mut state, 60);
-        let lowest = state.position[81..]
+        let lowest = state.metal.column(&POSITION)[81..]
             .iter()
             .map(|p| p[2])
             .fold(f64::MAX, f64::min);
-        assert!(state.phase[81..].iter().all(|p| *p == Phase::Liquid));
+        assert!(
+            state.metal.column(&PHASE)[81..]
+                .iter()
+                .all(|p| *p == phase::LIQUID)
+        );
         // The bottom layer of five stands over lattice places 2.5e-4 m below the plate's face.
         assert!((lowest - 2.5e-4).abs() < 1e-6, "{lowest}");
-        assert!(state.velocity[81].iter().all(|u| u.abs() < 1e-15));
+        assert!(
+            state.metal.column(&VELOCITY)[81]
+                .iter()
+                .all(|u| u.abs() < 1e-15)
+        );
     }
 
     #[test]
@@ -580,7 +605,7 @@ mod tests {
         let mut copy = state.clone();
         march(&mut stage, &mut state, 200);
         march(&mut again, &mut copy, 200);
-        assert_eq!(state.position, copy.position);
-        assert_eq!(state.phase, copy.phase);
+        assert_eq!(state.metal.column(&POSITION), copy.metal.column(&POSITION));
+        assert_eq!(state.metal.column(&PHASE), copy.metal.column(&PHASE));
     }
 }

@@ -1,5 +1,6 @@
 //! Whether the metal of a scene ends where its faces are.
 
+use particles::POSITION;
 use run::Fault;
 
 use crate::state::State;
@@ -13,13 +14,13 @@ const OFF: f64 = 0.05;
 /// # Errors
 /// A fault that names the face.
 pub fn fitting(state: &State) -> Result<(), Fault> {
-    let (faces, d) = (&state.faces, state.metal.spacing);
+    let (faces, d) = (&state.faces, state.metal.matter.spacing);
     for axis in 0..3 {
         let planes = faces.planes(axis);
         if planes == [None; 2] || state.is_empty() {
             continue;
         }
-        let along = || state.position.iter().map(|x| x[axis]);
+        let along = || state.metal.column(&POSITION).iter().map(|x| x[axis]);
         let ends = [
             along().fold(f64::INFINITY, f64::min),
             along().fold(f64::NEG_INFINITY, f64::max),
@@ -76,21 +77,22 @@ pub fn fitting(state: &State) -> Result<(), Fault> {
 mod tests {
     use super::*;
     use crate::faces::Parameters;
-    use crate::state::{Metal, Particle, Phase};
+    use crate::state::{Particle, phase};
+    use particles::Matter;
 
     /// What is said of a cube of 6 cells between faces.
     fn told(faces: &str) -> Option<String> {
-        let metal = Metal {
+        let metal = Matter {
             density: 1000.0,
             spacing: 1.0,
             smoothing_length: 1.0,
         };
-        let mut state = State::new(metal, Vec::new());
+        let mut state = State::new(metal);
         for n in 0..216 {
             state.push(Particle {
                 position: [n % 6, n / 6 % 6, n / 36].map(|i| f64::from(i) + 0.5),
                 velocity: [0.0; 3],
-                phase: Phase::Liquid,
+                phase: phase::LIQUID,
                 droplet: false,
                 wall: false,
                 temperature: 0.0,

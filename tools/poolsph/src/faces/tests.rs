@@ -1,14 +1,17 @@
+use particles::{Matter, POSITION};
+
 use super::*;
 use crate::heat::{self, Conduction};
 use crate::motion::around::Around;
+use crate::motion::integration::{CARRIED, PRESSURE};
 use crate::motion::noise::Noise;
 use crate::motion::viscosity::Viscosity;
 use crate::motion::{self, Law, Motion};
 use crate::stage::Stage;
-use crate::state::{Column, Metal, Particle, Phase, State};
+use crate::state::{ENTHALPY, Particle, State, TEMPERATURE, VELOCITY, phase};
 use crate::vector::{minus, squared};
 
-const METAL: Metal = Metal {
+const METAL: Matter = Matter {
     density: 1000.0,
     spacing: 1.0,
     smoothing_length: 1.0,
@@ -21,14 +24,16 @@ fn faces(text: &str) -> Faces {
 
 /// Liquid at the places of a box of cells, each moved a little, with velocities of its own.
 fn body(faces: Faces, points: impl IntoIterator<Item = ([f64; 3], [f64; 3])>) -> State {
-    let mut state = State::new(METAL, vec![Column::Pressure]);
+    let mut state = State::new(METAL);
+    state.metal.declare(&PRESSURE);
+    state.metal.declare(&CARRIED);
     state.faces = faces;
     state.flowing = true;
     for (position, velocity) in points {
         state.push(Particle {
             position,
             velocity,
-            phase: Phase::Liquid,
+            phase: phase::LIQUID,
             droplet: false,
             wall: false,
             temperature: 300.0,
@@ -151,13 +156,14 @@ fn half_a_body_beside_a_mirror_moves_as_the_whole() {
                 motion.advance(state, 0.02).unwrap();
             }
         }
+        let [half, whole] = [&half, &whole].map(|state| state.metal.column(&POSITION));
         for a in 0..points.len() {
-            let apart = squared(minus(half.position[a], whole.position[a])).sqrt();
+            let apart = squared(minus(half[a], whole[a])).sqrt();
             assert!(apart < most, "{method}, {a}: {apart}");
-            let turned = whole.position[a + points.len()];
-            let off = (turned[0] + whole.position[a][0]).abs();
+            let turned = whole[a + points.len()];
+            let off = (turned[0] + whole[a][0]).abs();
             assert!(off < most, "{method}, {a}: {off}");
-            assert!(half.position[a][0] >= 0.0);
+            assert!(half[a][0] >= 0.0);
         }
     }
 }
@@ -270,8 +276,8 @@ fn between(text: &str) -> State {
         faces(text),
         (0..150).map(|n| (cell(n), [cell(n)[2], 0.0, 0.0])),
     );
-    for (a, x) in state.position.clone().iter().enumerate() {
-        state.velocity[a] = [2.0 * x[2] / 6.0, 0.0, 0.0];
+    for (a, x) in state.metal.column(&POSITION).to_vec().iter().enumerate() {
+        state.metal.column_mut(&VELOCITY)[a] = [2.0 * x[2] / 6.0, 0.0, 0.0];
     }
     state
 }
@@ -304,14 +310,16 @@ fn between_walls_heat_flows_as_fourier_says() {
     let parameters: heat::Parameters = serde_json::from_str(text).unwrap();
     let caloric = parameters.caloric().unwrap();
     let cells = between(BETWEEN);
-    let mut state = State::new(METAL, vec![Column::Temperature, Column::Enthalpy]);
+    let mut state = State::new(METAL);
+    state.metal.declare(&TEMPERATURE);
+    state.metal.declare(&ENTHALPY);
     (state.faces, state.flowing) = (cells.faces, true);
-    for position in cells.position {
+    for &position in cells.metal.column(&POSITION) {
         let temperature = 300.0 + 10.0 * position[2];
         state.push(Particle {
             position,
             velocity: [0.0; 3],
-            phase: Phase::Liquid,
+            phase: phase::LIQUID,
             droplet: false,
             wall: false,
             temperature,
@@ -325,7 +333,12 @@ fn between_walls_heat_flows_as_fourier_says() {
         state.gather();
         conduction.advance(&mut state, 1.0).unwrap();
     }
-    for (x, kelvin) in state.position.iter().zip(&state.temperature) {
+    for (x, kelvin) in state
+        .metal
+        .column(&POSITION)
+        .iter()
+        .zip(state.metal.column(&TEMPERATURE))
+    {
         assert!(
             (kelvin - 300.0 - 10.0 * x[2]).abs() < 1e-9,
             "{x:?} {kelvin}"

@@ -12,15 +12,17 @@
 //! Komen (2019, section 4.4.1) takes the pressure from the gas speed by Bernoulli's law and finds it
 //! too small; here it is the arc's own, at the same distance from the axis, or that of a formula.
 
+use particles::Matter;
 use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::near::Role;
+use crate::patch::{self, Patches};
 use crate::source::arc::Radial;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{Column, Metal, State};
+use crate::state::State;
 use crate::vector::plus;
 
 /// The pressure of the arc (key `arc_pressure`): of the arc input, or of a formula.
@@ -85,7 +87,7 @@ pub struct ArcPressure {
 impl ArcPressure {
     /// This pressure on `metal`; `bound`: as a condition at the surface, not as a force.
     #[must_use]
-    pub fn new(pressure: Pressure, metal: Metal, bound: bool) -> Self {
+    pub fn new(pressure: Pressure, metal: Matter, bound: bool) -> Self {
         Self {
             pressure,
             volume: metal.volume(),
@@ -100,8 +102,8 @@ impl Stage for ArcPressure {
         "arc_pressure"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Surface]
+    fn declare(&self, state: &mut State) {
+        patch::declare(&mut state.metal);
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
@@ -109,12 +111,12 @@ impl Stage for ArcPressure {
         let Some(axis) = state.source else {
             return Ok(());
         };
-        let (near, surface) = (&mut state.near, &state.surface);
+        let (near, surface) = (&mut state.near, Patches::of(&state.metal));
         if self.bound {
             near.outer.resize(near.len(), 0.0);
         }
         for k in 0..near.len() {
-            let patch = &surface[near.id[k] as usize];
+            let patch = surface.at(near.id[k] as usize);
             let x = near.position[k];
             let pressure = |x| self.pressure.at(axis.around(x).0, (state.time, dt));
             if self.bound && near.role[k] == Role::Liquid {
@@ -155,7 +157,7 @@ impl Stage for ArcPressure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::forces::tests::{on_top, pool};
+    use crate::forces::tests::{change, on_top, pool};
     use crate::patch::Patch;
 
     fn pressed(shape: impl Fn(&mut Patch)) -> ([f64; 3], f64) {
@@ -165,16 +167,16 @@ mod tests {
 
     fn pressed_by(pressure: Pressure, shape: impl Fn(&mut Patch)) -> ([f64; 3], f64) {
         let mut state = pool(|_| 1800.0);
-        let d = state.metal.spacing;
+        let d = state.metal.matter.spacing;
         on_top(&mut state, d * d);
-        state.surface.iter_mut().for_each(shape);
-        let mut stage = ArcPressure::new(pressure, state.metal, false);
+        change(&mut state, shape);
+        let mut stage = ArcPressure::new(pressure, state.metal.matter, false);
         stage.advance(&mut state, 1e-4).unwrap();
-        let volume = state.metal.volume();
+        let volume = state.metal.matter.volume();
         let total = |i: usize| -> f64 { state.near.force.iter().map(|f| f[i] * volume).sum() };
         let force = [total(0), total(1), total(2)];
         assert!((stage.figures()[0].value + force[2]).abs() < 1e-12);
-        let area: f64 = state.surface.iter().map(|p| p.area).sum();
+        let area = Patches::of(&state.metal).area.iter().sum();
         (force, area)
     }
 

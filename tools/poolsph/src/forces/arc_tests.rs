@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use particles::Matter;
 use run::property::Property;
 
 use super::arc_pressure::{ArcPressure, Pressure};
@@ -10,14 +11,15 @@ use super::gas_shear::{Gas, GasShear, Parameters};
 use super::lorentz::Lorentz;
 use crate::motion::Law;
 use crate::near::Role;
+use crate::patch;
 use crate::source::Place;
 use crate::source::arc::{self, Radial};
 use crate::stage::Stage;
-use crate::state::{Column, Metal, Particle, Phase, State};
+use crate::state::{Particle, State, phase};
 use crate::surface::Surface;
 use crate::vector::dot;
 
-const METAL: Metal = Metal {
+const METAL: Matter = Matter {
     density: 1.0,
     spacing: 1.0,
     smoothing_length: 1.0,
@@ -34,7 +36,8 @@ const TILTED: [f64; 3] = [0.5, 0.0, 0.866_025_403_784_438_6];
 
 /// The part of a lattice that is inside, all liquid, with the axis of the arc at x = `axis`.
 fn liquid(half: [i32; 3], axis: f64, inside: impl Fn([f64; 3]) -> bool) -> State {
-    let mut state = State::new(METAL, vec![Column::Surface]);
+    let mut state = State::new(METAL);
+    patch::declare(&mut state.metal);
     for i in -half[0]..half[0] {
         for j in -half[1]..half[1] {
             for k in -half[2]..half[2] {
@@ -43,7 +46,7 @@ fn liquid(half: [i32; 3], axis: f64, inside: impl Fn([f64; 3]) -> bool) -> State
                     state.push(Particle {
                         position,
                         velocity: [0.0; 3],
-                        phase: Phase::Liquid,
+                        phase: phase::LIQUID,
                         droplet: false,
                         wall: false,
                         temperature: 0.0,

@@ -3,12 +3,13 @@
 //! Print takes T_0 = 1/beta, which makes the term the whole weight; here gravity acts by itself and
 //! the term is what the temperature adds to it.
 
+use particles::Matter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::near::Role;
 use crate::stage::{Stage, StageError};
-use crate::state::{Column, Metal, State};
+use crate::state::{State, TEMPERATURE};
 use crate::vector::plus;
 
 /// Expansion of the liquid (key `buoyancy`).
@@ -33,7 +34,7 @@ pub struct Buoyancy {
 impl Buoyancy {
     /// Buoyancy of `metal` under `gravity` \[m/s2\].
     #[must_use]
-    pub fn new(parameters: Parameters, gravity: [f64; 3], metal: Metal) -> Self {
+    pub fn new(parameters: Parameters, gravity: [f64; 3], metal: Matter) -> Self {
         Self {
             parameters,
             weight: gravity.map(|g| metal.density * g),
@@ -46,8 +47,8 @@ impl Stage for Buoyancy {
         "buoyancy"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Temperature]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
@@ -55,7 +56,7 @@ impl Stage for Buoyancy {
             expansion_1_k: expansion,
             reference_k: reference,
         } = self.parameters;
-        let (near, temperature) = (&mut state.near, &state.temperature);
+        let (near, temperature) = (&mut state.near, state.metal.column(&TEMPERATURE));
         let rows = near.force.iter_mut().zip(&near.role).zip(&near.id);
         for ((force, _), &id) in rows.filter(|((_, role), _)| **role == Role::Liquid) {
             let lighter = -(temperature[id as usize] - reference) * expansion;
@@ -77,7 +78,7 @@ mod tests {
             expansion_1_k: 5.54e-5,
             reference_k: 1750.0,
         };
-        let metal = state.metal;
+        let metal = state.metal.matter;
         let mut stage = Buoyancy::new(parameters, [0.0, 0.0, -9.8], metal);
         stage.advance(&mut state, 1e-4).unwrap();
         for (k, force) in state.near.force.iter().enumerate() {

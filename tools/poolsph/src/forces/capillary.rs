@@ -4,9 +4,11 @@
 //! Waves of the surface bound the step: the shortest that particles carry, of two spacings, goes half of its length in
 //! `sqrt(rho d^3/(2 pi gamma))` (Brackbill, Kothe and Zemach 1992). The motion divides longer steps.
 
+use particles::Matter;
+
 use crate::near::{Near, Role};
 use crate::stage::{Limit, Stage, StageError};
-use crate::state::{Metal, State};
+use crate::state::State;
 
 use super::tension::Parameters;
 
@@ -27,13 +29,13 @@ impl Capillary {
 
 /// Longest step for waves of the surface of `near` \[s\]; infinite without tension.
 #[must_use]
-pub fn limit(near: &Near, metal: Metal) -> f64 {
+pub fn limit(near: &Near, metal: Matter) -> f64 {
     let greatest = near.tension.iter().fold(0.0, |most: f64, x| most.max(*x));
     longest(metal, greatest)
 }
 
 /// sqrt(rho d^3/(2 pi gamma)) \[s\].
-fn longest(metal: Metal, tension: f64) -> f64 {
+fn longest(metal: Matter, tension: f64) -> f64 {
     (metal.mass() / (2.0 * std::f64::consts::PI * tension)).sqrt()
 }
 
@@ -45,7 +47,7 @@ impl Stage for Capillary {
     fn dt_limit(&self, state: &State) -> Option<Limit> {
         // The motion divides the step by it.
         let liquid = state.near.liquid_count() > 0;
-        liquid.then(|| Limit::dividing("capillary", longest(state.metal, self.tension)))
+        liquid.then(|| Limit::dividing("capillary", longest(state.metal.matter, self.tension)))
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {

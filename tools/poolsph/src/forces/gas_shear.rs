@@ -11,6 +11,7 @@
 //! surface: what of the direction outwards points along the normal is taken off. r is that of the surface, half a spacing
 //! from the particle; undersides are out of reach.
 
+use particles::Matter;
 use run::Fault;
 use run::property::{Curve, Property};
 use schemars::JsonSchema;
@@ -18,9 +19,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::motion::Law;
 use crate::near::Role;
+use crate::patch::{self, Patches};
 use crate::source::arc::Radial;
 use crate::stage::{Stage, StageError};
-use crate::state::{Column, Metal, State};
+use crate::state::{State, TEMPERATURE};
 use crate::vector::{dot, plus};
 
 /// Shear by the gas (key `gas_shear`).
@@ -48,7 +50,7 @@ pub struct GasShear {
     gas: Gas,
     gas_viscosity: Curve,
     viscosity: Law,
-    metal: Metal,
+    metal: Matter,
 }
 
 impl GasShear {
@@ -60,7 +62,7 @@ impl GasShear {
         parameters: &Parameters,
         gas: Gas,
         viscosity: Law,
-        metal: Metal,
+        metal: Matter,
     ) -> Result<Self, Fault> {
         let gas_viscosity = parameters
             .gas_viscosity_pa_s
@@ -94,23 +96,25 @@ impl Stage for GasShear {
         "gas_shear"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Surface]
+    fn declare(&self, state: &mut State) {
+        patch::declare(&mut state.metal);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
         let Some(axis) = state.source else {
             return Ok(());
         };
-        let (near, surface) = (&mut state.near, &state.surface);
+        let (near, surface) = (&mut state.near, Patches::of(&state.metal));
+        let temperatures = state.metal.column(&TEMPERATURE);
         for k in 0..near.len() {
-            let patch = &surface[near.id[k] as usize];
-            if near.role[k] != Role::Liquid || patch.area <= 0.0 {
+            let a = near.id[k] as usize;
+            if near.role[k] != Role::Liquid || surface.area[a] <= 0.0 {
                 continue;
             }
+            let patch = surface.at(a);
             let (r, [x, y]) = axis.around(patch.foot(near.position[k]));
             let outward = [x, y, 0.0];
-            let own = self.viscosity.at(&state.temperature, near.id[k] as usize);
+            let own = self.viscosity.at(temperatures, a);
             let stress = self.stress(r, own, dot(near.velocity[k], outward))?;
             let along = plus(outward, -dot(outward, patch.normal), patch.normal);
             let per_volume = stress * patch.reached() * patch.area / self.metal.volume();
@@ -125,7 +129,7 @@ mod tests {
     use super::*;
     use crate::forces::tests::{on_top, pool};
 
-    fn stage(metal: Metal, viscosity: f64) -> GasShear {
+    fn stage(metal: Matter, viscosity: f64) -> GasShear {
         let flat = |value| Radial::new(vec![0.0, 1.0], vec![value, value]);
         let gas = Gas {
             speed: flat(50.0),
@@ -141,12 +145,14 @@ mod tests {
     #[test]
     fn stiff_liquid_feels_the_newtonian_stress_of_the_gas() {
         let mut state = pool(|_| 1800.0);
-        let d = state.metal.spacing;
+        let d = state.metal.matter.spacing;
         on_top(&mut state, d * d);
         // mu_gas u/dz' = 333.3 Pa once the liquid layer no longer yields.
-        stage(state.metal, 1e6).advance(&mut state, 1e-4).unwrap();
+        stage(state.metal.matter, 1e6)
+            .advance(&mut state, 1e-4)
+            .unwrap();
         for (k, force) in state.near.force.iter().enumerate() {
-            let patch = state.surface[state.near.id[k] as usize];
+            let patch = Patches::of(&state.metal).at(state.near.id[k] as usize);
             let expected = if state.near.role[k] == Role::Liquid && patch.area > 0.0 {
                 2e-4 * 50.0 / 3e-5
             } else {
@@ -161,7 +167,7 @@ mod tests {
 
     #[test]
     fn one_stress_crosses_both_layers() {
-        let metal = pool(|_| 0.0).metal;
+        let metal = pool(|_| 0.0).metal.matter;
         let stage = stage(metal, 4e-3);
         let tau = stage.stress(1e-3, 4e-3, 0.2).unwrap();
         let wall = 50.0 - tau * 3e-5 / 2e-4;

@@ -5,15 +5,16 @@
 //! wide as the support of the kernel: bilinear by its place on the surface, by as much area as would be seen of it from
 //! above. Between the corners the mean height is bilinear. Of evenly spread particles both keep a plane as it is.
 
+use particles::Matter;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::near::{Near, Role};
-use crate::patch::Patch;
+use crate::patch::{self, Patches};
 use crate::source::{Place, arc};
 use crate::stage::{Stage, StageError};
-use crate::state::{Column, Metal, State};
+use crate::state::State;
 use crate::vector::plus;
 
 /// A patch that looks upwards at least this much is surface seen from above.
@@ -35,7 +36,7 @@ pub struct Lorentz {
 impl Lorentz {
     /// The force of `table` in `metal`.
     #[must_use]
-    pub fn new(table: arc::Lorentz, metal: Metal) -> Self {
+    pub fn new(table: arc::Lorentz, metal: Matter) -> Self {
         Self {
             table,
             heights: Heights {
@@ -63,20 +64,20 @@ type Corner = (usize, f64);
 
 impl Heights {
     /// Sums the surface of the copy within `reach` \[m\] of the axis.
-    fn measure(&mut self, near: &Near, surface: &[Patch], axis: Place, reach: f64) {
+    fn measure(&mut self, near: &Near, surface: Patches<'_>, axis: Place, reach: f64) {
         self.side = (2.0 * reach / self.edge) as usize + 2;
         self.origin = [0, 1].map(|k| axis.position[k] - reach);
         self.corners.clear();
         self.corners.resize(self.side * self.side, (0.0, 0.0));
         for (x, &id) in near.position.iter().zip(&near.id) {
-            let patch = &surface[id as usize];
-            let up = patch.normal[2];
-            if patch.area <= 0.0 || up <= UPWARD {
+            let a = id as usize;
+            let (area, up) = (surface.area[a], surface.normal[a][2]);
+            if area <= 0.0 || up <= UPWARD {
                 continue;
             }
-            let foot = patch.foot(*x);
+            let foot = surface.at(a).foot(*x);
             for (k, weight) in self.around(foot).into_iter().flatten() {
-                let area = weight * up * patch.area;
+                let area = weight * up * area;
                 self.corners[k].0 += area;
                 self.corners[k].1 += area * foot[2];
             }
@@ -118,15 +119,15 @@ impl Stage for Lorentz {
         "lorentz"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Surface]
+    fn declare(&self, state: &mut State) {
+        patch::declare(&mut state.metal);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
         let Some(axis) = state.source else {
             return Ok(());
         };
-        let (near, surface) = (&mut state.near, &state.surface);
+        let (near, surface) = (&mut state.near, Patches::of(&state.metal));
         self.heights
             .measure(near, surface, axis, self.table.radius());
         let (table, heights) = (&self.table, &self.heights);
@@ -158,13 +159,13 @@ mod tests {
     #[test]
     fn depth_counts_from_the_surface_above() {
         let mut state = pool(|_| 1800.0);
-        let d = state.metal.spacing;
+        let d = state.metal.matter.spacing;
         on_top(&mut state, d * d);
         // Radial force -1e6 r, axial force -1e7 depth: both exact between the rows.
         let axes = [vec![1e-4, 1e-2], vec![0.0, 1e-2]];
         let radial = vec![-1e2, -1e2, -1e4, -1e4];
         let axial = vec![0.0, -1e5, 0.0, -1e5];
-        let mut stage = Lorentz::new(arc::Lorentz::new(axes, radial, axial), state.metal);
+        let mut stage = Lorentz::new(arc::Lorentz::new(axes, radial, axial), state.metal.matter);
         stage.advance(&mut state, 1e-4).unwrap();
         let near = &state.near;
         for (k, force) in near.force.iter().enumerate() {

@@ -15,8 +15,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::near::{Near, Role, Row};
+use crate::patch::{self, AREA, Patches};
 use crate::stage::{Stage, StageError};
-use crate::state::{Column, State};
+use crate::state::{State, TEMPERATURE};
 use crate::vector::{dot, minus, plus};
 
 /// Dependence of the surface tension on the temperature (key `marangoni`).
@@ -77,10 +78,9 @@ impl Marangoni {
     /// The slope at each particle of the surface.
     fn read(&mut self, state: &State) -> Result<(), StageError> {
         self.each.clear();
-        let near = &state.near;
+        let (near, area) = (&state.near, state.metal.column(&AREA));
         for a in 0..near.len() {
-            let there =
-                near.role[a] == Role::Liquid && state.surface[near.id[a] as usize].area > 0.0;
+            let there = near.role[a] == Role::Liquid && area[near.id[a] as usize] > 0.0;
             let slope = if there {
                 self.at(self.temperature[a])?
             } else {
@@ -128,30 +128,33 @@ impl Stage for Marangoni {
         "marangoni"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Temperature, Column::Surface]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
+        patch::declare(&mut state.metal);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let volume = state.metal.volume();
+        let volume = state.metal.matter.volume();
         state
             .near
             .temperatures(
                 (&state.faces, state.time),
-                &state.temperature,
+                state.metal.column(&TEMPERATURE),
                 &mut self.temperature,
             )
             .map_err(|fault| StageError::Data(format!("temperature of a wall: {fault}")))?;
         self.read(state)?;
-        let (temperature, surface, each) = (&self.temperature, &state.surface, &self.each);
+        let (temperature, each) = (&self.temperature, &self.each);
+        let surface = Patches::of(&state.metal);
         let mut force = std::mem::take(&mut state.near.force);
         let near = &state.near;
         near.each_row(&mut force, |a, row, force| {
-            let patch = &surface[near.id[a] as usize];
-            if near.role[a] == Role::Liquid && patch.area > 0.0 {
+            let id = near.id[a] as usize;
+            let (area, normal) = (surface.area[id], surface.normal[id]);
+            if near.role[a] == Role::Liquid && area > 0.0 {
                 let gradient = gradient(near, temperature, a, row);
-                let along = plus(gradient, -dot(gradient, patch.normal), patch.normal);
-                *force = plus(*force, each[a] / volume * patch.area, along);
+                let along = plus(gradient, -dot(gradient, normal), normal);
+                *force = plus(*force, each[a] / volume * area, along);
             }
         });
         state.near.force = force;
@@ -172,13 +175,13 @@ mod tests {
     fn a_flat_surface_is_pulled_by_slope_times_gradient() {
         // 2e5 K/m along x, and a drop inwards that must not act.
         let mut state = pool(|x| 1800.0 + 2e5 * x[0] + 3e5 * x[2]);
-        let d = state.metal.spacing;
+        let d = state.metal.matter.spacing;
         on_top(&mut state, d * d);
         let mut stage = made(r#"{"slope_n_m_k": 1e-4}"#).unwrap();
         stage.advance(&mut state, 1e-4).unwrap();
         let mut pulled = 0;
         for (k, force) in state.near.force.iter().enumerate() {
-            let patch = state.surface[state.near.id[k] as usize];
+            let patch = Patches::of(&state.metal).at(state.near.id[k] as usize);
             if state.near.role[k] == Role::Liquid && patch.area > 0.0 {
                 // 20 Pa over a layer of d.
                 assert!((force[0] * d - 20.0).abs() < 1e-9, "{force:?}");
@@ -199,14 +202,14 @@ mod tests {
     fn the_slope_may_turn_with_the_temperature() {
         // 2e5 K/m along x about 2000 K, where the slope of the table turns.
         let mut state = pool(|x| 2000.0 + 2e5 * x[0]);
-        let d = state.metal.spacing;
+        let d = state.metal.matter.spacing;
         on_top(&mut state, d * d);
         let table = r#"{"slope_n_m_k": {"t_k": [1000, 3000], "value": [1e-4, -1e-4]}}"#;
         for text in [table, r#"{"slope_n_m_k": {"expr": "1e-7*(2000 - T)"}}"#] {
             state.near.force.fill([0.0; 3]);
             made(text).unwrap().advance(&mut state, 1e-4).unwrap();
             for (k, force) in state.near.force.iter().enumerate() {
-                if state.surface[state.near.id[k] as usize].area > 0.0 {
+                if state.metal.column(&AREA)[state.near.id[k] as usize] > 0.0 {
                     let stress = -1e-7 * 2e5 * state.near.position[k][0] * 2e5;
                     assert!((force[0] * d - stress).abs() < 1e-9, "{force:?}");
                 }

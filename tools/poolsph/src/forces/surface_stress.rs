@@ -4,14 +4,16 @@
 //! F_a = A_a (tau - (tau . n) n) / V        A_a, n area and normal of the surface at a, tau read there
 //! ```
 
+use particles::Matter;
 use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::near::Role;
+use crate::patch::{self, Patches};
 use crate::stage::{Stage, StageError};
-use crate::state::{Column, Metal, State};
+use crate::state::State;
 use crate::vector::{dot, plus};
 
 /// A given stress on the surface (key `surface_stress`).
@@ -35,7 +37,7 @@ impl SurfaceStress {
     ///
     /// # Errors
     /// A fault at the component that is wrong.
-    pub fn new(parameters: &Parameters, metal: Metal) -> Result<Self, Fault> {
+    pub fn new(parameters: &Parameters, metal: Matter) -> Result<Self, Fault> {
         let compiled = |k: usize| {
             let at = format!("/stress_pa/{k}");
             parameters.stress_pa[k].compile(&at, &["x", "y", "z", "t"])
@@ -63,17 +65,18 @@ impl Stage for SurfaceStress {
         "surface_stress"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Surface]
+    fn declare(&self, state: &mut State) {
+        patch::declare(&mut state.metal);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let (near, surface) = (&mut state.near, &state.surface);
+        let (near, surface) = (&mut state.near, Patches::of(&state.metal));
         for k in 0..near.len() {
-            let patch = &surface[near.id[k] as usize];
-            if near.role[k] != Role::Liquid || patch.area <= 0.0 {
+            let a = near.id[k] as usize;
+            if near.role[k] != Role::Liquid || surface.area[a] <= 0.0 {
                 continue;
             }
+            let patch = surface.at(a);
             let stress = self.at(patch.foot(near.position[k]), state.time)?;
             let along = plus(stress, -dot(stress, patch.normal), patch.normal);
             near.force[k] = plus(near.force[k], patch.area / self.volume, along);
@@ -90,14 +93,14 @@ mod tests {
     #[test]
     fn a_flat_surface_gets_the_stress_along_it_times_its_area() {
         let mut state = pool(|_| 1800.0);
-        let d = state.metal.spacing;
+        let d = state.metal.matter.spacing;
         on_top(&mut state, d * d);
         let text = r#"{"stress_pa": [3, {"expr": "-2 + 0*x + t"}, 5]}"#;
         let parameters: Parameters = serde_json::from_str(text).unwrap();
-        let mut stage = SurfaceStress::new(&parameters, state.metal).unwrap();
+        let mut stage = SurfaceStress::new(&parameters, state.metal.matter).unwrap();
         stage.advance(&mut state, 1e-4).unwrap();
-        let area: f64 = state.surface.iter().map(|patch| patch.area).sum();
-        let volume = state.metal.volume();
+        let area: f64 = Patches::of(&state.metal).area.iter().sum();
+        let volume = state.metal.matter.volume();
         for (k, expected) in [3.0, -2.0, 0.0].into_iter().enumerate() {
             let total: f64 = state.near.force.iter().map(|f| f[k] * volume).sum();
             assert!((total - expected * area).abs() < 1e-12 * area, "{total}");
@@ -108,7 +111,7 @@ mod tests {
     fn a_stress_of_the_temperature_is_refused_by_name() {
         let text = r#"{"stress_pa": [0, {"expr": "T"}, 0]}"#;
         let parameters: Parameters = serde_json::from_str(text).unwrap();
-        let metal = pool(|_| 1800.0).metal;
+        let metal = pool(|_| 1800.0).metal.matter;
         let fault = SurfaceStress::new(&parameters, metal).err().unwrap();
         assert!(fault.path().starts_with("/stress_pa/1"), "{fault}");
     }

@@ -23,6 +23,7 @@
 //! (`GAIN`) while the cohesive pressure stays. c follows from the continuum limit
 //! ([`mean_field`], 1.232 for h = d; print: 1.2) and this factor.
 
+use particles::Matter;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,7 +34,7 @@ use crate::faces::Turn;
 use crate::motion::lattice::Lattice;
 use crate::near::{Near, Role};
 use crate::stage::{Beyond, Limit, Stage, StageError};
-use crate::state::{Metal, State};
+use crate::state::State;
 use crate::vector::{dot, minus, plus, squared};
 
 /// Kernel means of the force (Komen 2019, section 4.2.1).
@@ -73,7 +74,7 @@ pub struct Tension {
 /// c of the continuum without smoothing: gamma = pi n^2/8 int F r^4 dr for a pair force F and
 /// number density n (Kirkwood and Buff 1949, without correlation); 1.232 (d/h)^6.
 #[must_use]
-pub fn mean_field(metal: Metal) -> f64 {
+pub fn mean_field(metal: Matter) -> f64 {
     // int f q^4 dq = 1/6 from 0 to 1, 2 (2^5 - 1)/5 - (2^6 - 1)/6 from 1 to 2.
     let integral = 1.0 / 6.0 + 62.0 / 5.0 - 63.0 / 6.0;
     let ratio = metal.spacing / metal.smoothing_length;
@@ -83,7 +84,7 @@ pub fn mean_field(metal: Metal) -> f64 {
 impl Tension {
     /// The tension of `metal`.
     #[must_use]
-    pub fn new(parameters: Parameters, metal: Metal) -> Self {
+    pub fn new(parameters: Parameters, metal: Matter) -> Self {
         let gamma = parameters.surface_tension_n_m;
         Self {
             strength: mean_field(metal) * gamma / GAIN,
@@ -98,7 +99,7 @@ impl Tension {
 
     /// Pull on each liquid particle \[N\] and its share of the mechanical pressure; what a
     /// particle keeps in an exchange.
-    fn pull(&mut self, near: &mut Near, metal: Metal) {
+    fn pull(&mut self, near: &mut Near, metal: Matter) {
         let (h, strength, exchange) = (metal.smoothing_length, self.strength, self.exchange);
         let share = 1.0 / (6.0 * metal.volume());
         let (position, role) = (&near.position, &near.role);
@@ -160,7 +161,7 @@ impl Tension {
 
     /// Share of the exchanged forces in the mechanical pressure. They are linear in the pull, so
     /// that those of all exchanges are those of the sum of the pulls.
-    fn strain(&self, near: &mut Near, metal: Metal) {
+    fn strain(&self, near: &mut Near, metal: Matter) {
         let share = self.exchange / (6.0 * metal.volume());
         let total = &self.total;
         near.each_virial(|near, a, row, virial| {
@@ -208,7 +209,7 @@ impl Stage for Tension {
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let metal = state.metal;
+        let metal = state.metal.matter;
         let near = &mut state.near;
         self.pull(near, metal);
         self.total.clear();
@@ -239,9 +240,9 @@ impl Stage for Tension {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::{Particle, Phase};
+    use crate::state::{Particle, phase};
 
-    const METAL: Metal = Metal {
+    const METAL: Matter = Matter {
         density: 7850.0,
         spacing: 0.5e-3,
         smoothing_length: 0.5e-3,
@@ -249,7 +250,7 @@ mod tests {
 
     /// Cells of a box of 12 x 12 x 16; solid below `floor` layers. `shake` moves them by parts of d.
     fn pool(floor: i32, shake: f64) -> State {
-        let mut state = State::new(METAL, Vec::new());
+        let mut state = State::new(METAL);
         state.flowing = true;
         let mut seed = 7_u64;
         let mut random = || {
@@ -263,9 +264,9 @@ mod tests {
                 position: at,
                 velocity: [0.0; 3],
                 phase: if k < floor {
-                    Phase::Solid
+                    phase::SOLID
                 } else {
-                    Phase::Liquid
+                    phase::LIQUID
                 },
                 droplet: false,
                 wall: false,

@@ -1,18 +1,23 @@
 //! A small pool for the tests of forces.
 
+use particles::{Matter, POSITION};
+
+use crate::patch::{self, AREA, DEPTH, NORMAL, Patch, Patches};
 use crate::source::Place;
-use crate::state::{Column, Metal, Particle, Phase, State};
+use crate::state::{Particle, State, TEMPERATURE, phase};
 
 /// A pool of 10 x 10 x 5 particles on a solid floor, gathered; its top face is z = 0 and the arc
 /// stands over its middle.
 pub(crate) fn pool(temperature: impl Fn([f64; 3]) -> f64) -> State {
     let d = 5e-4;
-    let metal = Metal {
+    let metal = Matter {
         density: 7850.0,
         spacing: d,
         smoothing_length: d,
     };
-    let mut state = State::new(metal, vec![Column::Temperature, Column::Surface]);
+    let mut state = State::new(metal);
+    state.metal.declare(&TEMPERATURE);
+    patch::declare(&mut state.metal);
     state.flowing = true;
     state.source = Some(Place {
         position: [0.0; 3],
@@ -26,7 +31,7 @@ pub(crate) fn pool(temperature: impl Fn([f64; 3]) -> f64) -> State {
                 state.push(Particle {
                     position,
                     velocity: [0.0; 3],
-                    phase: if k < 3 { Phase::Solid } else { Phase::Liquid },
+                    phase: if k < 3 { phase::SOLID } else { phase::LIQUID },
                     droplet: false,
                     wall: false,
                     temperature: temperature(position),
@@ -41,11 +46,17 @@ pub(crate) fn pool(temperature: impl Fn([f64; 3]) -> f64) -> State {
 
 /// Gives the particles of the top layer the area `each` \[m2\] and a normal upwards, half a spacing below the surface.
 pub(crate) fn on_top(state: &mut State, each: f64) {
-    for a in 0..state.len() {
-        if state.position[a][2] > -state.metal.spacing {
-            state.surface[a].area = each;
-            state.surface[a].normal = [0.0, 0.0, 1.0];
-            state.surface[a].depth = 0.5 * state.metal.spacing;
-        }
+    let d = state.metal.matter.spacing;
+    let columns = (&POSITION, &AREA, &NORMAL, &DEPTH);
+    let (places, areas, normals, depths) = state.metal.columns_mut(columns);
+    for a in (0..places.len()).filter(|a| places[*a][2] > -d) {
+        (areas[a], normals[a], depths[a]) = (each, [0.0, 0.0, 1.0], 0.5 * d);
     }
+}
+
+/// Changes the patches of all particles.
+pub(crate) fn change(state: &mut State, shape: impl Fn(&mut Patch)) {
+    let mut patches: Vec<Patch> = Patches::of(&state.metal).iter().collect();
+    patches.iter_mut().for_each(shape);
+    patch::put(&mut state.metal, patches.into_iter().enumerate());
 }

@@ -2,10 +2,8 @@
 
 use particles::Column;
 
-/// T \[K\].
-pub const TEMPERATURE: Column<f64> = Column::new("temperature", "K", 0.0).saved().shown();
-/// Specific enthalpy \[J/kg\].
-pub const ENTHALPY: Column<f64> = Column::new("enthalpy", "J/kg", 0.0).saved();
+pub use crate::state::{ENTHALPY, TEMPERATURE};
+
 /// [`POWDER`], [`SLAG`] or [`FROZEN`].
 pub const STATE: Column<u8> = Column::new("state", "1", POWDER).saved().shown();
 /// Number of the body that keeps its temperature, plus one; 0 for a free grain.

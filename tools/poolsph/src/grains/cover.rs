@@ -4,6 +4,8 @@
 //! film fits between. What is covered is taken out of the particles with a bare area, which arc and losses go over
 //! (Komen 2019, eq. 5.33: the last term is that of metal in gas; `a in Flux` has the first).
 
+use particles::POSITION;
+
 use super::around::Around;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::State;
@@ -45,13 +47,13 @@ impl Stage for Cover {
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let bare = state.exposed.iter();
-        let bare = bare.map(|a| state.position[*a as usize]);
+        let places = state.metal.column(&POSITION);
+        let bare = state.exposed.iter().map(|a| places[*a as usize]);
         self.around.look(state, bare);
         let mut exposed = std::mem::take(&mut state.exposed);
         let all = exposed.len();
         if !self.around.is_empty() {
-            exposed.retain(|a| !self.covers(state.position[*a as usize]));
+            exposed.retain(|a| !self.covers(places[*a as usize]));
         }
         self.covered = (all - exposed.len()) as f64;
         state.exposed = exposed;

@@ -11,13 +11,14 @@
 //! it is.
 
 use kernels::CubicSpline;
+use particles::Matter;
 use rayon::prelude::*;
 use shapes::rule::gauss;
 
 use super::around::Around;
 use crate::near::Role;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{Metal, State};
+use crate::state::State;
 
 /// Places of the rule of Gauss on each part of the shells.
 const PLACES: usize = 8;
@@ -33,7 +34,7 @@ pub struct Displaced {
 impl Displaced {
     /// The room that grains of at most `widest` \[m\] in radius take of the liquid of a metal.
     #[must_use]
-    pub fn new(metal: Metal, widest: f64) -> Self {
+    pub fn new(metal: Matter, widest: f64) -> Self {
         Self {
             kernel: CubicSpline::new(metal.smoothing_length),
             rule: gauss(PLACES),
@@ -124,7 +125,7 @@ mod tests {
     use super::*;
 
     fn stage() -> Displaced {
-        let metal = Metal {
+        let metal = Matter {
             density: 7850.0,
             spacing: 1e-3,
             smoothing_length: 1e-3,

@@ -182,7 +182,11 @@ impl Heat {
         let temperature = set.column(&TEMPERATURE);
         self.gather(lists, &mut rate, |a, b| temperature[b] - temperature[a]);
         if let Some((exchange, (_, bodies))) = metal.and_then(Metal::exchange) {
-            exchange.flow(bodies, (temperature, &state.temperature), &mut rate);
+            exchange.flow(
+                bodies,
+                (temperature, state.metal.column(&TEMPERATURE)),
+                &mut rate,
+            );
             exchange.take(bodies, state, step);
         }
         if pass.shines() {

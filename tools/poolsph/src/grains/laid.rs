@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use artefact::{Frame, Precision, Reader};
 use contact::History;
 use neighbours::Grid;
+use particles::POSITION;
 use run::Failure;
 use shapes::frame::{Vector, difference, length};
 
@@ -129,10 +130,13 @@ impl Laid {
     /// The contacts of a bed whose first grain has the row `first`, on the metal of `state`.
     #[must_use]
     pub fn of(contacts: &[Touching], first: u32, state: &State) -> Self {
-        let (near, spacing) = (SAME * state.metal.spacing, state.metal.spacing);
-        let mut grid = (!state.position.is_empty()).then(|| Grid::new(spacing));
+        let (near, spacing) = (
+            SAME * state.metal.matter.spacing,
+            state.metal.matter.spacing,
+        );
+        let mut grid = (!state.is_empty()).then(|| Grid::new(spacing));
         if let Some(grid) = &mut grid {
-            grid.bin(&state.position);
+            grid.bin(state.metal.column(&POSITION));
         }
         let index = |place: Vector| {
             let grid = grid.as_ref()?;

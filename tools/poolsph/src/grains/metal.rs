@@ -177,7 +177,7 @@ impl Metal {
 
     /// Gives the flow the impulses of a step of `dt` \[s\].
     pub fn give(&mut self, state: &mut State, dt: f64) {
-        let scale = 1.0 / (dt * state.metal.volume());
+        let scale = 1.0 / (dt * state.metal.matter.volume());
         let still = self.aside.iter().map(|(_, force)| force[2]);
         self.borne = [still.sum(), 0.0];
         for body in &self.bodies {

@@ -16,6 +16,7 @@
 use std::sync::Arc;
 
 use contact::{Grain, Meeting, heat as conductance};
+use particles::POSITION;
 use run::property::OutOfRange;
 use shapes::frame::{along, length};
 
@@ -25,7 +26,7 @@ use super::slow::Pass;
 use crate::heat::Caloric;
 use crate::heat::ledger::Sum;
 use crate::stage::StageError;
-use crate::state::State;
+use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// A contact that conducts.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +92,7 @@ impl Exchange {
             self.sums[link.body as usize] += link.conductance;
         }
         let greatest = self.sums.iter().copied().fold(0.0, f64::max);
-        Ok(greatest / (state.metal.mass() * self.caloric.least_heat()))
+        Ok(greatest / (state.metal.matter.mass() * self.caloric.least_heat()))
     }
 
     /// The contacts of one grain.
@@ -107,6 +108,7 @@ impl Exchange {
             let meeting = bodies[pair.body as usize].meeting(&grain)?;
             (meeting.overlap > 0.0).then_some((pair.body, meeting))
         });
+        let temperatures = state.metal.column(&TEMPERATURE);
         let own = grains.conductivity(a);
         let first = self.links.len();
         let (mut all, mut sum) = ([0.0; 3], 0.0);
@@ -114,7 +116,7 @@ impl Exchange {
             let push = grains.push(&meeting);
             (all, sum) = (along(all, push, meeting.normal), sum + push);
             let id = bodies[body as usize].id as usize;
-            let metal = state.temperature[id];
+            let metal = temperatures[id];
             let pair = [own, self.caloric.conductivity(metal)];
             let gas = grains.gas(0.5 * (grains.temperature[a] + metal))?;
             let conductance = match grains.radius() {
@@ -135,7 +137,7 @@ impl Exchange {
             let r_c = conductance::radius_by_force(length(all), grain.radius, self.modulus);
             for link in &mut self.links[first..] {
                 let id = bodies[link.body as usize].id as usize;
-                let metal = state.temperature[id];
+                let metal = temperatures[id];
                 let gas = grains.gas(0.5 * (grains.temperature[a] + metal))?;
                 let solid = conductance::constriction([own, self.caloric.conductivity(metal)], r_c);
                 let around = gas.map_or(0.0, |k| 2.0 * conductance::gas(k, grain.radius, r_c));
@@ -179,25 +181,33 @@ impl Exchange {
 
     /// Takes from the metal what the grains have got in a step of `step` \[s\].
     pub(super) fn take(&mut self, bodies: &[Body], state: &mut State, step: f64) {
-        let mass = state.metal.mass();
+        let mass = state.metal.matter.mass();
+        let (enthalpies, temperatures) = state.metal.columns_mut((&ENTHALPY, &TEMPERATURE));
         for link in &self.links {
             let id = bodies[link.body as usize].id as usize;
-            state.enthalpy[id] -= step * link.rate / mass;
+            enthalpies[id] -= step * link.rate / mass;
             self.given.add(-step * link.rate);
         }
         for link in &self.links {
             let id = bodies[link.body as usize].id as usize;
-            state.temperature[id] = self.caloric.temperature(state.enthalpy[id]);
+            temperatures[id] = self.caloric.temperature(enthalpies[id]);
         }
     }
 
     /// An error where metal has left what its properties hold for.
     pub(super) fn beyond(&self, bodies: &[Body], state: &State) -> Result<(), StageError> {
         let ids = self.links.iter().map(|link| bodies[link.body as usize].id);
+        let temperatures = state.metal.column(&TEMPERATURE);
         for id in ids.map(|id| id as usize) {
-            let value = state.temperature[id];
+            let value = temperatures[id];
             if !self.caloric.covers(value) {
-                return Err(crate::heat::outside(state, id, value, &self.caloric));
+                let place = state.metal.column(&POSITION)[id];
+                return Err(crate::heat::outside(
+                    state.step,
+                    (id, place),
+                    value,
+                    &self.caloric,
+                ));
             }
         }
         Ok(())

@@ -5,6 +5,7 @@
 
 use contact::Grain;
 use neighbours::{Grid, Halo};
+use particles::POSITION;
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference, dot};
 
@@ -14,7 +15,7 @@ use super::metal::Metal;
 use super::metal_pair::{Body, Pair};
 use super::near::Near;
 use crate::near::Role;
-use crate::state::{Phase, State};
+use crate::state::{PHASE, State, phase};
 
 /// Metal is looked for so many skins, and so many times the way of the fastest within a step, beyond what may touch.
 const AHEAD: f64 = 2.0;
@@ -83,17 +84,17 @@ impl Metal {
             .get_or_insert_with(|| Grid::new(2.0 * (self.widest + self.radius)));
         grid.bin(&self.places);
         let grid = &*grid;
-        let places = state.position.par_iter().zip(&state.phase);
-        places
-            .with_min_len(1024)
-            .map(|(x, phase)| *phase != Phase::Flying && grid.any_within(*x, reach))
+        let (places, phases) = (state.metal.column(&POSITION), state.metal.column(&PHASE));
+        let all = places.par_iter().zip(phases);
+        all.with_min_len(1024)
+            .map(|(x, phase)| *phase != phase::FLYING && grid.any_within(*x, reach))
             .collect_into_vec(&mut self.near);
         for (id, _) in &self.forces {
             self.near[*id as usize] = true;
         }
         self.bodies.clear();
         let near = self.near.iter().enumerate().filter(|(_, near)| **near);
-        let mass = state.metal.mass();
+        let mass = state.metal.matter.mass();
         self.bodies.extend(near.map(|(id, _)| {
             let member = state.near.member(id);
             let moving = member.filter(|m| state.near.role[*m] == Role::Liquid);
@@ -102,7 +103,7 @@ impl Metal {
                 id: id as u32,
                 member: moving.map(|m| m as u32),
                 grain: Grain {
-                    position: state.position[id],
+                    position: places[id],
                     velocity,
                     spin: [0.0; 3],
                     radius: self.radius,

@@ -1,5 +1,6 @@
 //! What a checkpoint keeps of the motion of grains beside their columns: contacts that touch, walls, metal, and sums.
 
+use particles::POSITION;
 use shapes::frame::Vector;
 
 use super::bounds::Doing;
@@ -55,13 +56,13 @@ impl Motion {
         self.lists.memories(&mut between, true);
         self.walls.memories(&mut at_walls);
         let on_metal = self.metal.iter().flat_map(Metal::touching);
-        let grains = &self.moving.grains;
+        let (grains, metal) = (&self.moving.grains, state.metal.column(&POSITION));
         let of = |with: With, memory: Memory| {
             let (row, other) = (memory.row as usize, memory.other as usize);
             let (other, place) = match with {
                 With::Grain => (ids[other], grains[other].position),
                 With::Wall => (memory.other, grains[row].position),
-                With::Metal => (memory.other, state.position[other]),
+                With::Metal => (memory.other, metal[other]),
             };
             let row = ids[row];
             Touching {

@@ -20,6 +20,7 @@
 
 use std::sync::Arc as Shared;
 
+use particles::Matter;
 use run::Fault;
 use run::property::Property;
 use schemars::JsonSchema;
@@ -33,8 +34,10 @@ use super::film::{Film, GasFilm};
 use super::flux::{Flux, Law};
 use super::ledger::Sum;
 use super::radial::column;
+use super::skin::Skin;
+use crate::patch;
 use crate::stage::{Figure, Limit, Stage, StageError};
-use crate::state::{Column, Metal, Phase, State};
+use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Most fluxes at once.
 const PARTS: usize = Part::ALL.len();
@@ -145,7 +148,7 @@ impl ArcParameters {
     fn fluxes(
         &self,
         surface: &artefact::Table,
-        metal: Metal,
+        metal: Matter,
         caloric: &Shared<Caloric>,
     ) -> Result<Vec<Flux>, Fault> {
         let emitter = self.cathode.map(|cathode| Emitter::new(cathode, surface));
@@ -181,7 +184,7 @@ impl ArcParameters {
 /// Heat of the arc as a stage.
 pub struct Arc {
     caloric: Shared<Caloric>,
-    metal: Metal,
+    metal: Matter,
     fluxes: Vec<Flux>,
     /// Distance beyond which there is no heat \[m\].
     reach: f64,
@@ -221,7 +224,7 @@ impl Arc {
     pub fn new(
         parameters: &ArcParameters,
         caloric: Shared<Caloric>,
-        metal: Metal,
+        metal: Matter,
         surface: Option<&artefact::Table>,
     ) -> Result<Self, Fault> {
         parameters.checked()?;
@@ -256,15 +259,14 @@ impl Arc {
     /// Distance from the axis \[m\] and area that the arc falls on \[m2\] of particle `a`; `None`
     /// where it does not reach. What a particle has of the plan lies around it; its whole area lies before it on the
     /// surface.
-    fn lit(&self, state: &State, a: usize) -> Option<(f64, f64)> {
-        let patch = &state.surface[a];
-        if patch.area.max(patch.seen) <= 0.0 || state.wall[a] || state.phase[a] == Phase::Flying {
+    fn lit(&self, skin: &Skin<'_>, axis: [f64; 3], a: usize) -> Option<(f64, f64)> {
+        let patch = skin.surface.at(a);
+        if patch.area.max(patch.seen) <= 0.0 || !skin.takes(a) {
             return None;
         }
-        let axis = state.source.map_or([0.0; 3], |source| source.position);
         let ([x, y, _], area) = match self.onto {
-            Onto::Projected => (state.position[a], patch.seen),
-            Onto::Area if patch.normal[2] > 0.0 => (patch.foot(state.position[a]), patch.area),
+            Onto::Projected => (skin.position[a], patch.seen),
+            Onto::Area if patch.normal[2] > 0.0 => (patch.foot(skin.position[a]), patch.area),
             Onto::Area => return None,
         };
         let (dx, dy) = (x - axis[0], y - axis[1]);
@@ -276,15 +278,14 @@ impl Arc {
     /// Heats particle `a` for `dt` \[s\], in as many parts as it takes.
     fn heat(
         &self,
-        state: &State,
-        a: usize,
+        (skin, a): (&Skin<'_>, usize),
         (r, area): (f64, f64),
-        dt: f64,
+        (step, time, dt): (u64, f64, f64),
     ) -> Result<Heated, StageError> {
         let mut heated = Heated {
             a: a as u32,
-            enthalpy: state.enthalpy[a],
-            temperature: state.temperature[a],
+            enthalpy: skin.enthalpy[a],
+            temperature: skin.temperature[a],
             put: [0.0; PARTS],
             parts: (dt * area / self.whole).ceil().max(1.0),
             found: true,
@@ -293,7 +294,7 @@ impl Arc {
         for _ in 0..parts as u64 {
             let mut gain = 0.0;
             for (put, flux) in heated.put.iter_mut().zip(&self.fluxes) {
-                let (mean, found) = flux.at((r, heated.temperature), (state.time, dt))?;
+                let (mean, found) = flux.at((r, heated.temperature), (time, dt))?;
                 let heat = mean * area * dt / parts;
                 heated.found &= found;
                 *put += heat;
@@ -302,7 +303,8 @@ impl Arc {
             heated.enthalpy += gain / self.metal.mass();
             heated.temperature = self.caloric.temperature(heated.enthalpy);
             if !self.caloric.covers(heated.temperature) {
-                return Err(outside(state, a, heated.temperature, &self.caloric));
+                let particle = (a, skin.position[a]);
+                return Err(outside(step, particle, heated.temperature, &self.caloric));
             }
         }
         Ok(heated)
@@ -314,8 +316,10 @@ impl Stage for Arc {
         "arc"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Temperature, Column::Enthalpy, Column::Surface]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
+        patch::declare(&mut state.metal);
     }
 
     fn dt_limit(&self, _state: &State) -> Option<Limit> {
@@ -331,10 +335,14 @@ impl Stage for Arc {
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let mut heated = std::mem::take(&mut self.heated);
+        let skin = Skin::of(&state.metal);
+        let axis = state.source.map_or([0.0; 3], |source| source.position);
+        let time = (state.step, state.time, dt);
         heated.fill(&state.exposed, |a| {
-            let lit = self.lit(state, a)?;
-            Some(self.heat(state, a, lit, dt))
+            let lit = self.lit(&skin, axis, a)?;
+            Some(self.heat((&skin, a), lit, time))
         });
+        let (enthalpies, temperatures) = state.metal.columns_mut((&ENTHALPY, &TEMPERATURE));
         let mut gain = 0.0;
         self.parts = 1.0;
         for one in heated.drain() {
@@ -342,8 +350,7 @@ impl Stage for Arc {
             self.parts = self.parts.max(one.parts);
             self.missed |= !one.found;
             let a = one.a as usize;
-            state.enthalpy[a] = one.enthalpy;
-            state.temperature[a] = one.temperature;
+            (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
             for (flux, heat) in self.fluxes.iter_mut().zip(one.put) {
                 flux.put.add(heat);
                 gain += heat;

@@ -3,13 +3,15 @@
 use std::f64::consts::PI;
 use std::sync::Arc as Shared;
 
+use particles::POSITION;
 use serde_json::{Value, json};
 
 use super::caloric::tests::plain;
 use super::surface_tests::{METAL, body};
 use super::*;
+use crate::patch::SEEN;
 use crate::stage::Stage;
-use crate::state::State;
+use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Volume of a cone of height 1 over the radius of the table \[m2\].
 const CONE: f64 = PI * 15.0 * 15.0 / 3.0;
@@ -47,16 +49,16 @@ fn cathode() -> Value {
 /// A plate at `t` \[K\].
 fn plate(t: f64) -> State {
     let mut state = body([20, 20, 4], |x| x[2] < 0.0);
-    state.temperature.fill(t);
-    state.enthalpy.fill(t);
+    state.metal.column_mut(&TEMPERATURE).fill(t);
+    state.metal.column_mut(&ENTHALPY).fill(t);
     state
 }
 
 /// Heat of each part within a step of `dt` \[J\]; their sum is the change of the energy.
 fn put(arc: &mut Arc, state: &mut State, dt: f64) -> Vec<(&'static str, f64)> {
-    let before = state.enthalpy.clone();
+    let before = state.metal.column(&ENTHALPY).to_vec();
     arc.advance(state, dt).unwrap();
-    let change: f64 = (state.enthalpy.iter().zip(&before))
+    let change: f64 = (state.metal.column(&ENTHALPY).iter().zip(&before))
         .map(|(after, before)| after - before)
         .sum();
     let parts: Vec<_> = (arc.figures().iter())
@@ -155,9 +157,12 @@ fn a_long_step_ends_at_the_balance_of_electrons_and_ions() {
     };
     let mut near = 0;
     for a in 0..state.len() {
-        let r = state.position[a][0].hypot(state.position[a][1]);
-        if state.surface[a].seen > 0.0 && r < 14.0 {
-            let (found, exact) = (state.temperature[a], balance(CURRENT * (1.0 - r / 15.0)));
+        let r = state.metal.column(&POSITION)[a][0].hypot(state.metal.column(&POSITION)[a][1]);
+        if state.metal.column(&SEEN)[a] > 0.0 && r < 14.0 {
+            let (found, exact) = (
+                state.metal.column(&TEMPERATURE)[a],
+                balance(CURRENT * (1.0 - r / 15.0)),
+            );
             assert!(found <= exact + 1e-6, "passed: {found} {exact}");
             if r < 7.0 {
                 assert!(exact - found < 1e-3, "{found} {exact} at {r}");

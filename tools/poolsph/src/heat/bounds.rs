@@ -1,19 +1,24 @@
 //! Bounds of the step and of the temperature.
 
 use kernels::CubicSpline;
+use particles::Matter;
 
 use super::caloric::Caloric;
 use crate::stage::StageError;
-use crate::state::{Metal, State};
 use crate::vector::squared;
 
-/// The error of a temperature beyond the range of the properties.
-pub(crate) fn outside(state: &State, a: usize, temperature: f64, caloric: &Caloric) -> StageError {
+/// The error of a temperature beyond the range of the properties, of a particle at a place \[m\].
+pub(crate) fn outside(
+    step: u64,
+    (particle, place): (usize, [f64; 3]),
+    temperature: f64,
+    caloric: &Caloric,
+) -> StageError {
     let (low, high) = caloric.range();
     StageError::Diverged {
-        step: state.step,
-        particle: a,
-        place: state.position[a],
+        step,
+        particle,
+        place,
         quantity: "temperature",
         value: temperature,
         limit: if temperature < low { low } else { high },
@@ -22,7 +27,7 @@ pub(crate) fn outside(state: &State, a: usize, temperature: f64, caloric: &Calor
 }
 
 /// sum r^2 W and sum W over the neighbours on the lattice \[1/m, 1/m3\].
-pub(crate) fn moments(metal: Metal) -> (f64, f64) {
+pub(crate) fn moments(metal: Matter) -> (f64, f64) {
     let kernel = CubicSpline::<3>::new(metal.smoothing_length);
     let reach = (metal.support() / metal.spacing).ceil() as i32;
     let (mut second, mut zeroth) = (0.0, 0.0);

@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
+use particles::POSITION;
 use run::property::{Arguments, Curve};
 
 use super::caloric::Caloric;
 use super::ledger::Sum;
 use crate::stage::StageError;
-use crate::state::State;
+use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Consecutive particles with a prescribed temperature.
 #[derive(Debug, Clone)]
@@ -26,15 +27,16 @@ impl Held {
         caloric: &Caloric,
         out: &mut Sum,
     ) -> Result<(), StageError> {
-        let mass = state.metal.mass();
+        let mass = state.metal.matter.mass();
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
+        let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
         for a in self.particles.clone() {
-            let at = Arguments::at(state.position[a], state.time);
+            let at = Arguments::at(places[a], state.time);
             let temperature = (self.temperature.value(&at))
                 .map_err(|fault| StageError::Data(format!("held temperature: {fault}")))?;
             let enthalpy = caloric.enthalpy(temperature);
-            out.add(mass * (state.enthalpy[a] - enthalpy));
-            state.enthalpy[a] = enthalpy;
-            state.temperature[a] = temperature;
+            out.add(mass * (enthalpies[a] - enthalpy));
+            (enthalpies[a], temperatures[a]) = (enthalpy, temperature);
         }
         Ok(())
     }

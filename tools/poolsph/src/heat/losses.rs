@@ -13,6 +13,7 @@
 
 use std::sync::Arc;
 
+use particles::{Matter, POSITION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -20,9 +21,11 @@ use super::bounds::outside;
 use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::ledger::Sum;
+use super::skin::Skin;
 use super::vapour::Evaporation;
+use crate::patch;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{Column, Phase, State};
+use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Stefan-Boltzmann constant \[W/(m2 K4)\].
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
@@ -69,6 +72,8 @@ pub struct Losses {
     caloric: Arc<Caloric>,
     /// Radiated, transferred and evaporated \[J\].
     given: [Sum; 3],
+    /// Mass of a particle \[kg\].
+    mass: f64,
     cooled: Chunks<Cooled>,
 }
 
@@ -87,22 +92,22 @@ struct Cooled {
 impl Losses {
     /// The losses of a scene.
     #[must_use]
-    pub fn new(parameters: LossParameters, caloric: Arc<Caloric>) -> Self {
+    pub fn new(parameters: LossParameters, caloric: Arc<Caloric>, metal: Matter) -> Self {
         Self {
             parameters,
             caloric,
             given: [Sum::default(); 3],
+            mass: metal.mass(),
             cooled: Chunks::default(),
         }
     }
 
     /// Area on which particle `a` gives off heat \[m2\]; `None` where it gives off none.
-    fn bare(&self, state: &State, a: usize) -> Option<f64> {
-        let patch = &state.surface[a];
-        let off = state.wall[a] || state.phase[a] == Phase::Flying;
-        let up = patch.normal[2] > std::f64::consts::FRAC_1_SQRT_2;
+    fn bare(&self, skin: &Skin<'_>, a: usize) -> Option<f64> {
+        let (area, normal) = (skin.surface.area[a], skin.surface.normal[a]);
+        let up = normal[2] > std::f64::consts::FRAC_1_SQRT_2;
         let hidden = self.parameters.on == Where::Top && !up;
-        (!off && patch.area > 0.0 && !hidden).then_some(patch.area)
+        (skin.takes(a) && area > 0.0 && !hidden).then_some(area)
     }
 
     /// Radiation, transfer and vapour at temperature `t` \[K\] \[W/m2\], and the rise of their sum with
@@ -129,15 +134,15 @@ impl Losses {
 
     /// Cools particle `a` for `dt` \[s\], in as many parts as it takes; `None` where nothing is given
     /// off.
-    fn cool(&self, state: &State, a: usize, dt: f64) -> Option<Cooled> {
-        let area = self.bare(state, a)?;
+    fn cool(&self, skin: &Skin<'_>, a: usize, dt: f64) -> Option<Cooled> {
+        let area = self.bare(skin, a)?;
         let mut cooled = Cooled {
             a: a as u32,
-            enthalpy: state.enthalpy[a],
-            temperature: state.temperature[a],
+            enthalpy: skin.enthalpy[a],
+            temperature: skin.temperature[a],
             given: [0.0; 3],
         };
-        let mass = state.metal.mass();
+        let mass = self.mass;
         let (mut flux, mut rise) = self.cooling(cooled.temperature);
         // On the way to the balance the rise is greatest where the metal is hottest.
         if cooled.temperature < self.parameters.surroundings_k {
@@ -170,20 +175,30 @@ impl Stage for Losses {
         "losses"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Temperature, Column::Enthalpy, Column::Surface]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
+        patch::declare(&mut state.metal);
     }
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let mut cooled = std::mem::take(&mut self.cooled);
-        cooled.fill(&state.exposed, |a| self.cool(state, a, dt));
+        let skin = Skin::of(&state.metal);
+        cooled.fill(&state.exposed, |a| self.cool(&skin, a, dt));
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
+        let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
         for one in cooled.drain() {
             let a = one.a as usize;
             if !self.caloric.covers(one.temperature) {
-                return Err(outside(state, a, one.temperature, &self.caloric));
+                let particle = (a, places[a]);
+                return Err(outside(
+                    state.step,
+                    particle,
+                    one.temperature,
+                    &self.caloric,
+                ));
             }
-            state.enthalpy[a] = one.enthalpy;
-            state.temperature[a] = one.temperature;
+            (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
             for (sum, heat) in self.given.iter_mut().zip(one.given) {
                 sum.add(heat);
             }

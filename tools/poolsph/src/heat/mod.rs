@@ -15,6 +15,7 @@ mod open;
 mod parameters;
 mod phase;
 mod radial;
+mod skin;
 mod torches;
 mod vapour;
 

@@ -6,12 +6,15 @@
 
 use std::sync::Arc;
 
+use particles::POSITION;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::caloric::Caloric;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{self, Column, LIQUID, State};
+use crate::state::{
+    DROPLET, ENTHALPY, FUSED, LIQUID, PHASE, State, TEMPERATURE, VELOCITY, WALL, marked, phase,
+};
 
 /// When the flow starts (key `flow_start`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -54,9 +57,10 @@ impl Phase {
 
     /// Keeps when and where particle `a` of the lowest layer melted, if it is the first of all.
     fn melts(&mut self, state: &State, a: usize) {
-        let lowest = |underside: f64| state.position[a][2] < underside + state.metal.spacing;
-        if self.through.is_none() && !state.droplet[a] && self.underside.is_some_and(lowest) {
-            let [x, y, z] = state.position[a];
+        let [x, y, z] = state.metal.column(&POSITION)[a];
+        let lowest = |underside: f64| z < underside + state.metal.matter.spacing;
+        let base = !marked(state.metal.column(&DROPLET), a);
+        if self.through.is_none() && base && self.underside.is_some_and(lowest) {
             self.through = Some([state.time, x, y, z]);
         }
     }
@@ -67,32 +71,39 @@ impl Stage for Phase {
         "phase"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Temperature, Column::Enthalpy]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
         self.liquid = 0;
-        for a in 0..state.len() {
-            if state.wall[a] || state.phase[a] == state::Phase::Flying {
+        let (mut phases, mut fused) = (state.metal.take(&PHASE), state.metal.take(&FUSED));
+        let mut velocities = state.metal.take(&VELOCITY);
+        let (enthalpies, wall) = (state.metal.column(&ENTHALPY), state.metal.column(&WALL));
+        for (a, phase) in phases.iter_mut().enumerate() {
+            if marked(wall, a) || *phase == phase::FLYING {
                 continue;
             }
-            let molten = self.caloric.molten(state.enthalpy[a]);
-            state.fused[a] = state.fused[a].max(molten);
+            let molten = self.caloric.molten(enthalpies[a]);
+            fused[a] = fused[a].max(molten);
             let liquid = molten >= LIQUID;
             self.liquid += usize::from(liquid);
-            match (state.phase[a], liquid) {
-                (state::Phase::Solid, true) => {
-                    state.phase[a] = state::Phase::Liquid;
+            match (*phase, liquid) {
+                (phase::SOLID, true) => {
+                    *phase = phase::LIQUID;
                     self.melts(state, a);
                 }
-                (state::Phase::Liquid, false) => {
-                    state.phase[a] = state::Phase::Solid;
-                    state.velocity[a] = [0.0; 3];
+                (phase::LIQUID, false) => {
+                    *phase = phase::SOLID;
+                    velocities[a] = [0.0; 3];
                 }
                 _ => {}
             }
         }
+        state.metal.put(&PHASE, phases);
+        state.metal.put(&FUSED, fused);
+        state.metal.put(&VELOCITY, velocities);
         if self.start.is_some_and(|start| self.liquid >= start) {
             state.flowing = true;
         }
@@ -129,22 +140,25 @@ impl Stage for Phase {
 mod tests {
     use super::*;
     use crate::heat::caloric::tests::steel;
-    use crate::state::{Metal, Particle};
+    use crate::state::Particle;
+    use particles::Matter;
 
     #[test]
     fn the_first_melt_at_the_underside_is_told_and_kept() {
-        let metal = Metal {
+        let metal = Matter {
             density: 7850.0,
             spacing: 1e-3,
             smoothing_length: 1e-3,
         };
         let caloric = Arc::new(steel());
-        let mut state = State::new(metal, vec![Column::Temperature, Column::Enthalpy]);
+        let mut state = State::new(metal);
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
         for z in [-0.5e-3, -1.5e-3, -2.5e-3] {
             state.push(Particle {
                 position: [2e-3, 0.0, z],
                 velocity: [0.0; 3],
-                phase: state::Phase::Solid,
+                phase: phase::SOLID,
                 droplet: false,
                 wall: false,
                 temperature: 1500.0,
@@ -154,7 +168,7 @@ mod tests {
         let mut phase = Phase::new(caloric.clone(), None).above(Some(-3e-3));
         let mut warned = |state: &mut State, molten: usize, time: f64| {
             state.time = time;
-            state.enthalpy[molten] = caloric.enthalpy(2500.0);
+            state.metal.column_mut(&ENTHALPY)[molten] = caloric.enthalpy(2500.0);
             phase.advance(state, 1e-3).unwrap();
             (phase.warnings(), phase.save())
         };

@@ -3,16 +3,18 @@
 use std::f64::consts::PI;
 use std::sync::Arc as Shared;
 
+use particles::Matter;
 use run::property::{Formula, Property};
 
 use super::caloric::tests::plain;
 use super::*;
+use crate::patch::{self, Patch, Patches};
 use crate::stage::Stage;
-use crate::state::{self, Column, Metal, Particle, State};
+use crate::state::{ENTHALPY, Particle, State, TEMPERATURE, phase};
 use crate::surface::Surface;
 use crate::vector::dot;
 
-pub(super) const METAL: Metal = Metal {
+pub(super) const METAL: Matter = Matter {
     density: 1.0,
     spacing: 1.0,
     smoothing_length: 1.0,
@@ -20,8 +22,10 @@ pub(super) const METAL: Metal = Metal {
 
 /// The part of a lattice that is inside, at 500 K, c = 1 J/(kg K).
 pub(super) fn body(half: [i32; 3], inside: impl Fn([f64; 3]) -> bool) -> State {
-    let columns = vec![Column::Surface, Column::Temperature, Column::Enthalpy];
-    let mut state = State::new(METAL, columns);
+    let mut state = State::new(METAL);
+    state.metal.declare(&TEMPERATURE);
+    state.metal.declare(&ENTHALPY);
+    patch::declare(&mut state.metal);
     for i in -half[0]..half[0] {
         for j in -half[1]..half[1] {
             for k in -half[2]..half[2] {
@@ -30,7 +34,7 @@ pub(super) fn body(half: [i32; 3], inside: impl Fn([f64; 3]) -> bool) -> State {
                     state.push(Particle {
                         position,
                         velocity: [0.0; 3],
-                        phase: state::Phase::Solid,
+                        phase: phase::SOLID,
                         droplet: false,
                         wall: false,
                         temperature: 500.0,
@@ -60,10 +64,10 @@ fn gaussian(onto: Onto) -> Arc {
 
 /// Heat put in within a second \[J\], and the change of the energy.
 fn put(mut state: State, onto: Onto) -> f64 {
-    let before: f64 = state.enthalpy.iter().sum();
+    let before: f64 = state.metal.column(&ENTHALPY).iter().sum();
     let mut arc = gaussian(onto);
     arc.advance(&mut state, 1.0).unwrap();
-    let change = state.enthalpy.iter().sum::<f64>() - before;
+    let change = state.metal.column(&ENTHALPY).iter().sum::<f64>() - before;
     let figures = arc.figures();
     let told = figures
         .iter()
@@ -167,20 +171,20 @@ fn a_ball_cools_by_newtons_law() {
         on: Where::All,
     };
     let caloric = Shared::new(plain(1e4, 1.0, None));
-    let mut losses = Losses::new(parameters, Shared::clone(&caloric));
+    let mut losses = Losses::new(parameters, Shared::clone(&caloric), METAL);
     for _ in 0..100 {
         losses.advance(&mut state, 1.0).unwrap();
         // Well stirred: the exact law is that of a body of one temperature.
-        let mean = state.enthalpy.iter().sum::<f64>() / mass;
-        state.enthalpy.fill(mean);
-        state.temperature.fill(mean);
+        let mean = state.metal.column(&ENTHALPY).iter().sum::<f64>() / mass;
+        state.metal.column_mut(&ENTHALPY).fill(mean);
+        state.metal.column_mut(&TEMPERATURE).fill(mean);
     }
     let area = 4.0 * PI * (mass * 0.75 / PI).powf(2.0 / 3.0);
     let exact = 200.0 * (-0.01 * area / mass * 100.0).exp();
-    let ratio = (state.temperature[0] - 300.0) / exact;
+    let ratio = (state.metal.column(&TEMPERATURE)[0] - 300.0) / exact;
     assert!((ratio - 1.0).abs() < 0.005, "{ratio}");
     let out = losses.figures()[0].value;
-    assert!((out / (mass * (500.0 - state.temperature[0])) - 1.0).abs() < 1e-9);
+    assert!((out / (mass * (500.0 - state.metal.column(&TEMPERATURE)[0])) - 1.0).abs() < 1e-9);
 }
 
 #[test]
@@ -202,16 +206,16 @@ fn radiation_and_vapour_have_their_size() {
         evaporation: None,
         on: Where::Top,
     };
-    let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)));
+    let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)), METAL);
     losses.advance(&mut state, 1e-3).unwrap();
-    let up = |p: &crate::patch::Patch| {
+    let up = |p: Patch| {
         if p.normal[2] > 0.5_f64.sqrt() {
             p.area
         } else {
             0.0
         }
     };
-    let area: f64 = state.surface.iter().map(up).sum();
+    let area: f64 = Patches::of(&state.metal).iter().map(up).sum();
     let exact = 0.5 * 5.670_374_419e-8 * (500.0_f64.powi(4) - 300.0_f64.powi(4)) * area * 1e-3;
     assert!((losses.figures()[0].value / exact - 1.0).abs() < 1e-12);
 }
@@ -233,19 +237,20 @@ fn a_step_too_long_for_the_losses_comes_to_the_balance_and_not_below() {
     };
     let cooled = |steps: u32| {
         let mut state = body([3, 3, 3], |_| true);
-        state.temperature.fill(3400.0);
-        state.enthalpy.fill(3400.0);
-        let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)));
+        state.metal.column_mut(&TEMPERATURE).fill(3400.0);
+        state.metal.column_mut(&ENTHALPY).fill(3400.0);
+        let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)), METAL);
         for _ in 0..steps {
             losses.advance(&mut state, 1e-3 / f64::from(steps)).unwrap();
         }
         let exposed = &state.exposed;
         let mean = exposed
             .iter()
-            .map(|a| state.temperature[*a as usize])
+            .map(|a| state.metal.column(&TEMPERATURE)[*a as usize])
             .sum::<f64>();
         let least = state
-            .temperature
+            .metal
+            .column(&TEMPERATURE)
             .iter()
             .copied()
             .fold(f64::INFINITY, f64::min);

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use particles::{Matter, POSITION};
 use run::property::{Curve, Property};
 use shapes::Face;
 
@@ -10,11 +11,14 @@ use super::caloric::Melting;
 use super::caloric::tests::{plain, steel};
 use super::*;
 use crate::stage::Stage;
-use crate::state::{self, Column, Metal, Particle, State};
+use crate::state::{ENTHALPY, FUSED, PHASE, Particle, State, TEMPERATURE, phase};
 
 /// A box of nx x ny x nz particles with its lower corner at the origin.
-fn lattice(metal: Metal, n: [usize; 3], caloric: &Caloric, t: impl Fn([f64; 3]) -> f64) -> State {
-    let mut state = State::new(metal, vec![Column::Temperature, Column::Enthalpy]);
+fn lattice(metal: Matter, n: [usize; 3], caloric: &Caloric, t: impl Fn([f64; 3]) -> f64) -> State {
+    let mut state = State::new(metal);
+    state.metal.declare(&TEMPERATURE);
+    state.metal.declare(&ENTHALPY);
+    state.metal.declare(&FUSED);
     for i in 0..n[0] * n[1] * n[2] {
         let index = [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])];
         let position = index.map(|k| (k as f64 + 0.5) * metal.spacing);
@@ -22,7 +26,7 @@ fn lattice(metal: Metal, n: [usize; 3], caloric: &Caloric, t: impl Fn([f64; 3]) 
         state.push(Particle {
             position,
             velocity: [0.0; 3],
-            phase: state::Phase::Solid,
+            phase: phase::SOLID,
             droplet: false,
             wall: false,
             temperature,
@@ -32,8 +36,8 @@ fn lattice(metal: Metal, n: [usize; 3], caloric: &Caloric, t: impl Fn([f64; 3]) 
     state
 }
 
-fn metal(density: f64, spacing: f64) -> Metal {
-    Metal {
+fn metal(density: f64, spacing: f64) -> Matter {
+    Matter {
         density,
         spacing,
         smoothing_length: spacing,
@@ -41,7 +45,7 @@ fn metal(density: f64, spacing: f64) -> Metal {
 }
 
 /// Mirrors all faces of the box but those in `open`.
-fn parameters(metal: Metal, n: [usize; 3], open: Vec<Face>) -> Parameters {
+fn parameters(metal: Matter, n: [usize; 3], open: Vec<Face>) -> Parameters {
     let all = [
         Face::XLow,
         Face::XHigh,
@@ -88,7 +92,7 @@ fn cosine_error(n: usize) -> f64 {
     march(&mut state, &mut stage, end / steps as f64, steps);
     let decay = (-PI * PI * 0.05).exp();
     let exact = |x: [f64; 3]| 10.0 + decay * (PI * x[0]).cos();
-    let errors = (state.position.iter()).zip(&state.temperature);
+    let errors = (state.metal.column(&POSITION).iter()).zip(state.metal.column(&TEMPERATURE));
     errors
         .map(|(x, t)| (t - exact(*x)).abs())
         .fold(0.0, f64::max)
@@ -110,7 +114,7 @@ fn noise(i: usize) -> f64 {
 }
 
 fn stored(state: &State) -> f64 {
-    state.enthalpy.iter().sum::<f64>() * state.metal.mass()
+    state.metal.column(&ENTHALPY).iter().sum::<f64>() * state.metal.matter.mass()
 }
 
 #[test]
@@ -119,8 +123,9 @@ fn energy_is_kept_to_round_off_in_a_moving_melt() {
     let caloric = Arc::new(steel());
     let mut state = lattice(metal, [9, 9, 9], &caloric, |_| 300.0);
     for a in 0..state.len() {
-        state.enthalpy[a] = 2.3e6 * noise(a);
-        state.temperature[a] = caloric.temperature(state.enthalpy[a]);
+        state.metal.column_mut(&ENTHALPY)[a] = 2.3e6 * noise(a);
+        state.metal.column_mut(&TEMPERATURE)[a] =
+            caloric.temperature(state.metal.column(&ENTHALPY)[a]);
     }
     state.flowing = true;
     let before = stored(&state);
@@ -131,9 +136,10 @@ fn energy_is_kept_to_round_off_in_a_moving_melt() {
         march(&mut state, &mut phase, 1e-4, 1);
         march(&mut state, &mut conduction, 1e-4, 1);
         for a in 0..state.len() {
-            if state.phase[a] == state::Phase::Liquid {
+            if state.metal.column(&PHASE)[a] == phase::LIQUID {
                 for k in 0..3 {
-                    state.position[a][k] += 2e-5 * (noise(3 * a + k + step) - 0.5);
+                    state.metal.column_mut(&POSITION)[a][k] +=
+                        2e-5 * (noise(3 * a + k + step) - 0.5);
                 }
             }
         }
@@ -174,13 +180,14 @@ fn the_parts_that_have_molten_tell_the_front_to_a_part_of_a_particle() {
     let mut conduction = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
     let mut phase = Phase::new(Arc::clone(&caloric), None);
     let held: Vec<usize> = (0..state.len())
-        .filter(|a| state.position[*a][0] < metal.spacing)
+        .filter(|a| state.metal.column(&POSITION)[*a][0] < metal.spacing)
         .collect();
     let dt = 0.5 * conduction.limit();
     let (mut worst, mut whole, mut passed) = (0.0_f64, 0.0_f64, 0);
     loop {
         for a in &held {
-            (state.enthalpy[*a], state.temperature[*a]) = (wall, 10.0 + rise);
+            state.metal.set(&ENTHALPY, *a, wall);
+            state.metal.set(&TEMPERATURE, *a, 10.0 + rise);
         }
         march(&mut state, &mut conduction, dt, 1);
         march(&mut state, &mut phase, dt, 1);
@@ -189,7 +196,16 @@ fn the_parts_that_have_molten_tell_the_front_to_a_part_of_a_particle() {
         // In spacings from the middle of the particle that is held.
         let exact =
             2.0 * part * (conductivity / (metal.density * heat) * time).sqrt() / metal.spacing;
-        let sum = |f: fn(f64) -> f64| state.fused.iter().map(|v| f(*v)).sum::<f64>() / 9.0 - 0.5;
+        let sum = |f: fn(f64) -> f64| {
+            state
+                .metal
+                .column(&FUSED)
+                .iter()
+                .map(|v| f(*v))
+                .sum::<f64>()
+                / 9.0
+                - 0.5
+        };
         if exact > 12.0 {
             break;
         }
@@ -217,7 +233,7 @@ fn heat_does_not_leave_the_range_of_temperatures() {
     let dt = 10.0 * stage.limit();
     march(&mut state, &mut stage, dt, 20);
     let inside = |t: &f64| (400.0 - 1e-9..1500.0 + 1e-9).contains(t);
-    assert!(state.temperature.iter().all(inside));
+    assert!(state.metal.column(&TEMPERATURE).iter().all(inside));
     assert!(
         stage
             .figures()
@@ -261,9 +277,10 @@ fn passing_over_the_cold_changes_no_bit_and_a_tolerance_little() {
     // A restored stage starts with every particle awake.
     let (eager, all) = spot(1e-4, true);
     assert!(part < 0.7 && all > 0.999, "visited {part} {all}");
-    assert!(lazy.enthalpy == eager.enthalpy);
+    assert!(lazy.metal.column(&ENTHALPY) == eager.metal.column(&ENTHALPY));
     let (exact, _) = spot(0.0, false);
-    let errors = lazy.temperature.iter().zip(&exact.temperature);
+    let [lazy, exact] = [&lazy, &exact].map(|state| state.metal.column(&TEMPERATURE));
+    let errors = lazy.iter().zip(exact);
     let worst = errors.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(worst < 2e-4, "tolerance costs {worst} K");
 }
@@ -278,10 +295,17 @@ fn an_open_face_lets_a_steady_gradient_through() {
     let given = parameters(metal, size, vec![Face::XHigh]);
     let mut stage = Conduction::new(&given, caloric.clone(), metal).unwrap();
     for a in (0..state.len()).filter(|a| a % size[0] < 2) {
-        stage.hold(a..a + 1, Curve::Constant(slope(state.position[a])));
+        stage.hold(
+            a..a + 1,
+            Curve::Constant(slope(state.metal.column(&POSITION)[a])),
+        );
     }
     march(&mut state, &mut stage, 1e-4, 100);
-    let errors = state.position.iter().zip(&state.temperature);
+    let errors = state
+        .metal
+        .column(&POSITION)
+        .iter()
+        .zip(state.metal.column(&TEMPERATURE));
     let free = errors.enumerate().filter(|(a, _)| a % size[0] >= 2);
     let worst = free
         .map(|(_, pair)| pair)
@@ -309,11 +333,19 @@ fn an_open_face_never_falls_below_the_surroundings() {
     let mut stage = Conduction::new(&given, caloric, metal).unwrap();
     for _ in 0..4000 {
         march(&mut state, &mut stage, 2e-3, 1);
-        let coldest = state.temperature.iter().fold(f64::MAX, |m, t| m.min(*t));
+        let coldest = state
+            .metal
+            .column(&TEMPERATURE)
+            .iter()
+            .fold(f64::MAX, |m, t| m.min(*t));
         assert!(coldest > 300.0 - 1e-9, "{coldest}");
     }
     // Heat leaves while there is a gradient, and the ledger knows how much.
-    let warmest = state.temperature.iter().fold(0.0_f64, |m, t| m.max(*t));
+    let warmest = state
+        .metal
+        .column(&TEMPERATURE)
+        .iter()
+        .fold(0.0_f64, |m, t| m.max(*t));
     assert!(warmest < 320.0, "{warmest}");
     let figures = stage.figures();
     let out = figures
@@ -352,7 +384,7 @@ fn stefan_error(n: usize) -> f64 {
                 (0.5 + (j / 6) as f64) * metal.spacing,
             ],
             velocity: [0.0; 3],
-            phase: state::Phase::Solid,
+            phase: phase::SOLID,
             droplet: false,
             wall: true,
             temperature: 6.0,
@@ -367,8 +399,8 @@ fn stefan_error(n: usize) -> f64 {
     march(&mut state, &mut stage, end / steps as f64, steps);
     // The boundary value sits half a spacing outside of the first particle.
     let start = -0.5 * metal.spacing;
-    let latent: f64 = (state.enthalpy[..plate].iter())
-        .zip(&state.temperature)
+    let latent: f64 = (state.metal.column(&ENTHALPY)[..plate].iter())
+        .zip(state.metal.column(&TEMPERATURE))
         .map(|(h, t)| h - (t - 5.0) - caloric.enthalpy(5.0))
         .sum::<f64>()
         * metal.spacing
@@ -397,7 +429,7 @@ fn the_flow_starts_with_120_liquid_particles_and_not_with_119() {
     let caloric = Arc::new(plain(1.0, 1.0, Some(melting)));
     for (liquid, flows) in [(0, false), (119, false), (120, true), (130, true)] {
         let mut state = lattice(metal, [13, 10, 1], &caloric, |_| 999.0);
-        for enthalpy in &mut state.enthalpy[..liquid] {
+        for enthalpy in &mut state.metal.column_mut(&ENTHALPY)[..liquid] {
             // Half of the latent heat and a little.
             *enthalpy = caloric.enthalpy(1000.0) + 100.0 + 1e-6;
         }
@@ -409,7 +441,7 @@ fn the_flow_starts_with_120_liquid_particles_and_not_with_119() {
         assert_eq!(state.flowing, flows, "{liquid} particles are liquid");
         assert_eq!(state.liquid(), liquid);
         // What flows goes on to flow when some of it freezes.
-        state.enthalpy.fill(0.0);
+        state.metal.column_mut(&ENTHALPY).fill(0.0);
         stage.advance(&mut state, 1e-4).unwrap();
         assert_eq!((state.flowing, state.liquid()), (flows, 0));
     }

@@ -10,6 +10,7 @@
 
 use std::sync::Arc as Shared;
 
+use particles::{Matter, POSITION};
 use run::Fault;
 use torch::{Beyond, Stand, Torch};
 
@@ -17,8 +18,10 @@ use super::bounds::outside;
 use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::ledger::Sum;
+use super::skin::Skin;
+use crate::patch;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{Column, Metal, Phase, State};
+use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Part of the least half axis by which a torch moves between two looks.
 const PART: f64 = 0.25;
@@ -42,7 +45,7 @@ struct Lit {
 /// Torches as a stage.
 pub struct Torches {
     caloric: Shared<Caloric>,
-    metal: Metal,
+    metal: Matter,
     torches: Vec<Lit>,
     /// All particles, of which a torch in the volume may heat any.
     all: Vec<u32>,
@@ -60,7 +63,7 @@ impl Torches {
     pub fn new(
         torches: &[Torch],
         caloric: Shared<Caloric>,
-        metal: Metal,
+        metal: Matter,
     ) -> Result<Self, Vec<Fault>> {
         let misfits = torches.iter().enumerate().flat_map(|(number, torch)| {
             let at =
@@ -93,22 +96,23 @@ impl Torches {
     fn weigh(&mut self, state: &State, torch: &Torch, stand: &Stand) -> f64 {
         let (d, volume) = (self.metal.spacing, self.metal.volume());
         self.own.clear();
+        let skin = Skin::of(&state.metal);
+        let surface = skin.surface;
         if torch.is_deep() {
             self.weighed.fill(&self.all, |a| {
-                let x = state.position[a];
-                let takes = takes(state, a) && torch.reaches(stand, x, d);
+                let x = skin.position[a];
+                let takes = skin.takes(a) && torch.reaches(stand, x, d);
                 takes.then(|| (a as u32, torch.density(stand, x, d) * volume))
             });
         } else {
             let above = stand.axes[2][2] < DOWN;
             self.weighed.fill(&state.exposed, |a| {
-                let patch = &state.surface[a];
-                let x = state.position[a];
+                let x = skin.position[a];
                 let area = match above {
-                    true => patch.seen,
-                    false => torch.faced(stand, patch.normal, patch.area),
+                    true => surface.seen[a],
+                    false => torch.faced(stand, surface.normal[a], surface.area[a]),
                 };
-                let takes = area > 0.0 && takes(state, a) && torch.reaches(stand, x, d);
+                let takes = area > 0.0 && skin.takes(a) && torch.reaches(stand, x, d);
                 takes.then(|| (a as u32, torch.density(stand, x, d) * area))
             });
         }
@@ -118,21 +122,19 @@ impl Torches {
 
     /// Gives an energy \[J\] to the particles that were weighed, a part of it for each unit of weight.
     fn give(&self, state: &mut State, energy: f64) -> Result<(), StageError> {
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
+        let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
         for (a, weight) in &self.own {
             let a = *a as usize;
-            state.enthalpy[a] += energy * weight / self.metal.mass();
-            state.temperature[a] = self.caloric.temperature(state.enthalpy[a]);
-            if !self.caloric.covers(state.temperature[a]) {
-                return Err(outside(state, a, state.temperature[a], &self.caloric));
+            enthalpies[a] += energy * weight / self.metal.mass();
+            let kelvin = self.caloric.temperature(enthalpies[a]);
+            temperatures[a] = kelvin;
+            if !self.caloric.covers(kelvin) {
+                return Err(outside(state.step, (a, places[a]), kelvin, &self.caloric));
             }
         }
         Ok(())
     }
-}
-
-/// Whether a particle is metal that can be heated.
-fn takes(state: &State, a: usize) -> bool {
-    !state.wall[a] && state.phase[a] != Phase::Flying
 }
 
 impl Stage for Torches {
@@ -140,11 +142,11 @@ impl Stage for Torches {
         "torches"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        if self.torches.iter().all(|lit| lit.torch.is_deep()) {
-            &[Column::Temperature, Column::Enthalpy]
-        } else {
-            &[Column::Temperature, Column::Enthalpy, Column::Surface]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
+        if !self.torches.iter().all(|lit| lit.torch.is_deep()) {
+            patch::declare(&mut state.metal);
         }
     }
 

@@ -25,6 +25,7 @@
 //!
 //! Slower than [`super::projection`]; it is here because the published results are made with it.
 
+use particles::Matter;
 use rayon::prelude::*;
 
 use neighbours::ROWS;
@@ -32,7 +33,6 @@ use neighbours::ROWS;
 use super::lattice::Lattice;
 use super::step::{Solved, Step, Tolerance};
 use crate::near::{Near, Role};
-use crate::state::Metal;
 use crate::vector::{minus, plus, squared};
 
 /// s: half of what the stiffest mode of the lattice would stand.
@@ -53,7 +53,7 @@ pub struct Homogenising {
 impl Homogenising {
     /// The method for particles of `metal`.
     #[must_use]
-    pub fn new(metal: Metal) -> Self {
+    pub fn new(metal: Matter) -> Self {
         Self {
             lattice: Lattice::of(metal),
             start: Vec::new(),

@@ -1,6 +1,7 @@
 //! A step of the motion (Komen 2019, fig. 3.16): prediction by inertia, viscosity and forces,
 //! correction by the pressure, new positions.
 
+use particles::{Column, Matter, POSITION};
 use rayon::prelude::*;
 use run::property::Property;
 use schemars::JsonSchema;
@@ -17,7 +18,7 @@ use super::viscosity::Viscosity;
 use crate::forces::capillary;
 use crate::near::{Near, Role};
 use crate::stage::{Figure, Limit, Stage, StageError};
-use crate::state::{Column, Metal, Phase, State};
+use crate::state::{PHASE, State, TEMPERATURE, VELOCITY, phase};
 use crate::sweep::GRAIN;
 use crate::vector::{plus, squared};
 
@@ -28,6 +29,13 @@ const COURANT: f64 = 0.4;
 const PRESSURE_TIME: f64 = 5e-3;
 /// More substeps than this are no longer a flow.
 const SUBSTEPS_MAX: u32 = 32;
+
+/// p \[Pa\] as frames show it.
+pub(crate) const PRESSURE: Column<f64> = Column::new("pressure", "Pa", 0.0).shown();
+/// p \[Pa\] that the metal carries, from all pair forces, as the mean over some milliseconds. Single particles differ like
+/// the contacts of grains, so that frames show [`Near::liquid_mean`]. That of the last step is even where the flow is
+/// without divergence, and shown as it is.
+pub(crate) const CARRIED: Column<f64> = Column::new("pressure_carried", "Pa", 0.0).saved();
 
 /// How the liquid is kept incompressible.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -106,7 +114,7 @@ pub struct Motion {
 impl Motion {
     /// The motion of `metal` with a viscosity by `law`, that of the parameters.
     #[must_use]
-    pub fn new(parameters: Parameters, law: Law, metal: Metal) -> Self {
+    pub fn new(parameters: Parameters, law: Law, metal: Matter) -> Self {
         let gravity = parameters.gravity_m_s2.unwrap_or_default();
         Self {
             viscosity: Viscosity::new(law, metal),
@@ -127,7 +135,7 @@ impl Motion {
     }
 
     /// u* = u + dt (g + f/rho + viscous acceleration); solid particles rest.
-    fn predict(&mut self, near: &Near, metal: Metal, dt: f64) {
+    fn predict(&mut self, near: &Near, metal: Matter, dt: f64) {
         let gravity = self.parameters.gravity_m_s2.unwrap_or_default();
         let points = near.role.par_iter().zip(&near.velocity).zip(&near.force);
         points
@@ -186,7 +194,7 @@ impl Motion {
         let near = &state.near;
         let fastest = near.fastest_squared();
         let speed = fastest.sqrt();
-        let limit = f64::from(SUBSTEPS_MAX) * COURANT * state.metal.spacing / dt;
+        let limit = f64::from(SUBSTEPS_MAX) * COURANT * state.metal.matter.spacing / dt;
         if speed.is_nan() || speed > limit {
             let is_it =
                 |u: &[f64; 3]| squared(*u).total_cmp(&fastest).is_eq() || squared(*u).is_nan();
@@ -195,25 +203,33 @@ impl Motion {
             return Err(StageError::Diverged {
                 step: state.step,
                 particle,
-                place: state.position[particle],
+                place: state.metal.column(&POSITION)[particle],
                 quantity: "speed",
                 value: speed,
                 limit,
                 unit: "m/s",
             });
         }
-        let courant = (speed * dt / (COURANT * state.metal.spacing))
+        let courant = (speed * dt / (COURANT * state.metal.matter.spacing))
             .ceil()
             .max(1.0);
         let viscous = (dt / self.viscosity.limit()).ceil().max(1.0);
         let falling = (dt / self.fall).ceil();
-        let capillary = (dt / capillary::limit(near, state.metal)).ceil();
+        let capillary = (dt / capillary::limit(near, state.metal.matter)).ceil();
         let mut substeps = courant.max(viscous).max(falling).max(capillary);
         if self.parameters.method == Method::DivergenceFree {
-            let closing = dt / self.closing.limit(near, state.metal.spacing);
+            let closing = dt / self.closing.limit(near, state.metal.matter.spacing);
             substeps = substeps.max(closing.ceil());
         }
         Ok(substeps as u32)
+    }
+
+    /// The pressure that particles carry.
+    fn carried(&self) -> Column<f64> {
+        match self.parameters.method {
+            Method::DivergenceFree => PRESSURE.saved(),
+            Method::Projection | Method::Homogenising => CARRIED,
+        }
     }
 
     /// Takes the results of the copy back to the particles.
@@ -231,9 +247,11 @@ impl Motion {
             &self.projection.pressure
         };
         let near = &state.near;
-        let places = state.position.par_iter_mut().zip(&mut state.velocity);
-        let pressures = state.pressure.par_iter_mut().zip(&mut self.multiplier);
-        let members = state.phase.par_iter().zip(near.members());
+        let columns = (&POSITION, &VELOCITY, &self.carried(), &PHASE);
+        let (places, velocities, pressures, phases) = state.metal.columns_mut(columns);
+        let places = places.par_iter_mut().zip(velocities);
+        let pressures = pressures.par_iter_mut().zip(&mut self.multiplier);
+        let members = phases.par_iter().zip(near.members());
         let particles = places.zip(pressures).zip(members);
         particles.with_min_len(GRAIN).for_each(
             |(((x, u), (pressure, multiplier)), (phase, member))| {
@@ -243,7 +261,7 @@ impl Motion {
                 };
                 *pressure += weight * (near.virial[a] - *pressure);
                 *multiplier = f64::from(found[a]);
-                if near.role[a] == Role::Liquid && *phase == Phase::Liquid {
+                if near.role[a] == Role::Liquid && *phase == phase::LIQUID {
                     (*x, *u) = (near.position[a], near.velocity[a]);
                 }
             },
@@ -256,12 +274,21 @@ impl Stage for Motion {
         "motion"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Pressure]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&self.carried());
+        state.metal.declare(&PRESSURE);
+    }
+
+    fn show(&self, state: &mut State) {
+        if self.parameters.method != Method::DivergenceFree {
+            let carried = state.metal.column(&CARRIED);
+            let mean = state.near.liquid_mean(carried);
+            state.metal.put(&PRESSURE, mean);
+        }
     }
 
     fn dt_limit(&self, state: &State) -> Option<Limit> {
-        let courant = COURANT * state.metal.spacing / self.speed;
+        let courant = COURANT * state.metal.matter.spacing / self.speed;
         let viscous = self.viscosity.limit();
         Some(if self.fall < courant.min(viscous) {
             Limit::dividing("fall", self.fall)
@@ -281,7 +308,8 @@ impl Stage for Motion {
         if state.near.is_empty() {
             return Ok(());
         }
-        self.viscosity.take(&state.near, &state.temperature)?;
+        self.viscosity
+            .take(&state.near, state.metal.column(&TEMPERATURE))?;
         self.substeps = self.divide(state, dt)?;
         self.projection.pressure.clear();
         let start = |&id: &u32| self.multiplier.get(id as usize).copied().unwrap_or(0.0) as f32;
@@ -292,7 +320,7 @@ impl Stage for Motion {
             .pressure
             .clone_from(&self.projection.pressure);
         let step = Step {
-            metal: state.metal,
+            metal: state.metal.matter,
             dt: dt / f64::from(self.substeps),
             share: 1.0 / f64::from(self.substeps),
         };

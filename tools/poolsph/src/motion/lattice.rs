@@ -5,8 +5,8 @@
 //! a lattice at rest exactly dense and its pressure gradient exact.
 
 use kernels::CubicSpline;
+use particles::Matter;
 
-use crate::state::Metal;
 use crate::vector::{plus, squared};
 
 /// Waves per axis that the search for the stiffest mode tries.
@@ -31,7 +31,7 @@ pub struct Lattice {
 impl Lattice {
     /// The lattice of `metal`.
     #[must_use]
-    pub fn of(metal: Metal) -> Self {
+    pub fn of(metal: Matter) -> Self {
         let kernel = CubicSpline::<3>::new(metal.smoothing_length);
         let d = metal.spacing;
         let reach = (kernel.support() / d).ceil() as i32;
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn sums_tend_to_the_integrals() {
         let with = |ratio: f64| {
-            Lattice::of(Metal {
+            Lattice::of(Matter {
                 density: 1.0,
                 spacing: 1.0,
                 smoothing_length: ratio,

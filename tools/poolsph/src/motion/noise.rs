@@ -15,13 +15,13 @@
 //! symmetric: momentum is kept, and energy can only fall. Without gravity nothing is packed and nothing
 //! damped. What viscosity takes back ([`Viscosity::spared`]) is of the same form and goes the same way.
 
+use particles::Matter;
 use rayon::prelude::*;
 
 use super::around::Around;
 use super::lattice::Lattice;
 use super::viscosity::Viscosity;
 use crate::near::Near;
-use crate::state::Metal;
 use crate::sweep::GRAIN;
 use crate::vector::plus;
 
@@ -41,7 +41,7 @@ pub struct Noise {
 impl Noise {
     /// The damping for particles of `metal` under `gravity` \[m/s2\].
     #[must_use]
-    pub fn new(gravity: f64, metal: Metal) -> Self {
+    pub fn new(gravity: f64, metal: Matter) -> Self {
         Self {
             rate: (gravity / metal.spacing).sqrt(),
             volume: 1.0 / Lattice::of(metal).number,
@@ -97,9 +97,9 @@ fn difference(own: &[f64; 3], sum: &[f64; 4], scale: f64) -> [f64; 3] {
 mod tests {
     use super::*;
     use crate::motion::Law;
-    use crate::state::{Particle, Phase, State};
+    use crate::state::{Particle, State, phase};
 
-    const METAL: Metal = Metal {
+    const METAL: Matter = Matter {
         density: 7850.0,
         spacing: 0.5e-3,
         smoothing_length: 0.5e-3,
@@ -107,14 +107,14 @@ mod tests {
 
     /// What a block of 10 cells along each edge that moves as `velocity` says loses in 1 s.
     fn lost(velocity: impl Fn([i32; 3]) -> f64) -> (Near, Vec<[f64; 3]>) {
-        let mut state = State::new(METAL, Vec::new());
+        let mut state = State::new(METAL);
         state.flowing = true;
         for cell in 0..1000 {
             let index = [cell % 10, cell / 10 % 10, cell / 100];
             state.push(Particle {
                 position: index.map(|i| METAL.spacing * (f64::from(i) + 0.5)),
                 velocity: [velocity(index), 0.0, 0.0],
-                phase: Phase::Liquid,
+                phase: phase::LIQUID,
                 droplet: false,
                 wall: false,
                 temperature: 0.0,

@@ -25,6 +25,7 @@
 //! h. The error in C, 1e-7 (L/h) times the share dt^2 J acc, stays far below the tolerance; the
 //! part by u* is summed in the same way in double precision.
 
+use particles::Matter;
 use rayon::prelude::*;
 
 use neighbours::ROWS;
@@ -33,7 +34,6 @@ use super::lattice::Lattice;
 use super::push::Push;
 use super::step::{Solved, Step, Tolerance};
 use crate::near::{Near, Role};
-use crate::state::Metal;
 use crate::sweep::{GRAIN, carried, middle, summed, summed_double};
 use crate::vector::{dot, minus, squared};
 
@@ -110,7 +110,7 @@ struct Scales {
 impl Projection {
     /// A solver for particles of `metal`.
     #[must_use]
-    pub fn new(metal: Metal) -> Self {
+    pub fn new(metal: Matter) -> Self {
         let lattice = Lattice::of(metal);
         let volume = 1.0 / lattice.number;
         Self {

@@ -1,6 +1,6 @@
 //! What the ways to keep the density share: the step that is asked for, and how its solution ended.
 
-use crate::state::Metal;
+use particles::Matter;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
@@ -17,7 +17,7 @@ pub struct Tolerance {
 #[derive(Debug, Clone, Copy)]
 pub struct Step {
     /// The metal.
-    pub metal: Metal,
+    pub metal: Matter,
     /// \[s\].
     pub dt: f64,
     /// Part of the whole step that this one is: weight of its pressure in the virial.

@@ -1,13 +1,16 @@
 //! Exact and limiting cases of the motion.
 
+use particles::{Matter, POSITION};
+
+use super::integration::{CARRIED, PRESSURE};
 use super::*;
 use crate::forces::tension::{self, Tension};
 use crate::march::{Group, March};
 use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
-use crate::state::{Column, Metal, Particle, Phase, State};
+use crate::state::{PHASE, Particle, State, TEMPERATURE, VELOCITY, phase};
 
-pub(super) const METAL: Metal = Metal {
+pub(super) const METAL: Matter = Matter {
     density: 7850.0,
     spacing: 0.5e-3,
     smoothing_length: 0.5e-3,
@@ -24,10 +27,12 @@ fn parameters(method: Method) -> Parameters {
 /// The cells of a box, each as `phase` says, with velocities as `velocity` says.
 pub(super) fn block(
     cells: [i32; 3],
-    phase: impl Fn([i32; 3]) -> Phase,
+    phase: impl Fn([i32; 3]) -> u8,
     velocity: impl Fn([f64; 3]) -> [f64; 3],
 ) -> State {
-    let mut state = State::new(METAL, vec![Column::Pressure]);
+    let mut state = State::new(METAL);
+    state.metal.declare(&PRESSURE);
+    state.metal.declare(&CARRIED);
     state.flowing = true;
     for cell in 0..cells.iter().product() {
         let index = [
@@ -39,14 +44,14 @@ pub(super) fn block(
         let phase = phase(index);
         state.push(Particle {
             position,
-            velocity: if phase == Phase::Liquid {
+            velocity: if phase == phase::LIQUID {
                 velocity(position)
             } else {
                 [0.0; 3]
             },
             phase,
             droplet: false,
-            wall: phase == Phase::Solid,
+            wall: phase == phase::SOLID,
             temperature: 0.0,
             enthalpy: 0.0,
         });
@@ -60,11 +65,11 @@ pub(super) fn tank() -> State {
         [10, 10, 12],
         |[i, j, k]| {
             if k < 2 || [i, j].iter().any(|i| !(2..8).contains(i)) {
-                Phase::Solid
+                phase::SOLID
             } else if k < 10 {
-                Phase::Liquid
+                phase::LIQUID
             } else {
-                Phase::Flying
+                phase::FLYING
             }
         },
         |_| [0.0; 3],
@@ -105,14 +110,19 @@ fn liquid_at_rest_carries_its_weight() {
     steps(&mut march, &mut state, 100).unwrap();
     let (surface, mut error, mut count) = (10.0 * METAL.spacing, 0.0, 0.0);
     let bottom = METAL.density * 9.8 * 8.0 * METAL.spacing;
-    let pressure = state.near.liquid_mean(&state.pressure);
-    for a in (0..state.len()).filter(|a| state.phase[*a] == Phase::Liquid) {
-        let speed = state.velocity[a].iter().map(|u| u * u).sum::<f64>().sqrt();
+    let pressure = state.near.liquid_mean(state.metal.column(&CARRIED));
+    for a in (0..state.len()).filter(|a| state.metal.column(&PHASE)[*a] == phase::LIQUID) {
+        let speed = state.metal.column(&VELOCITY)[a]
+            .iter()
+            .map(|u| u * u)
+            .sum::<f64>()
+            .sqrt();
         assert!(
             speed < 0.005 * (9.8 * 8.0 * METAL.spacing).sqrt(),
             "{speed}"
         );
-        error += pressure[a] - METAL.density * 9.8 * (surface - state.position[a][2]);
+        error +=
+            pressure[a] - METAL.density * 9.8 * (surface - state.metal.column(&POSITION)[a][2]);
         count += 1.0;
     }
     // The mean has all but e^-2 of its end after 10 ms.
@@ -125,7 +135,7 @@ fn liquid_at_rest_carries_its_weight() {
 fn a_mean_over_liquid_keeps_what_is_even_and_leaves_solid_alone() {
     let mut state = tank();
     steps(&mut march(Method::Projection, true, false), &mut state, 1).unwrap();
-    let liquid = |a: usize| state.phase[a] == Phase::Liquid;
+    let liquid = |a: usize| state.metal.column(&PHASE)[a] == phase::LIQUID;
     let own = |a: usize| if liquid(a) { 3.0 } else { a as f64 };
     let column: Vec<f64> = (0..state.len()).map(own).collect();
     for (a, mean) in state.near.liquid_mean(&column).into_iter().enumerate() {
@@ -149,15 +159,21 @@ fn a_mean_over_liquid_keeps_what_is_even_and_leaves_solid_alone() {
 fn free_flight_keeps_momentum() {
     for method in [Method::Projection, Method::Homogenising] {
         let whirl = |x: [f64; 3]| [0.3 + 40.0 * x[1], -90.0 * x[0], 0.2 - 60.0 * x[2]];
-        let mut state = block([7, 6, 5], |_| Phase::Liquid, whirl);
+        let mut state = block([7, 6, 5], |_| phase::LIQUID, whirl);
         let sum = |state: &State| {
             let add = |sum: [f64; 3], u: &[f64; 3]| [sum[0] + u[0], sum[1] + u[1], sum[2] + u[2]];
-            state.velocity.iter().fold([0.0; 3], add)
+            state.metal.column(&VELOCITY).iter().fold([0.0; 3], add)
         };
         let before = sum(&state);
         steps(&mut march(method, false, true), &mut state, 30).unwrap();
         let after = sum(&state);
-        let size: f64 = state.velocity.iter().flatten().map(|u| u.abs()).sum();
+        let size: f64 = state
+            .metal
+            .column(&VELOCITY)
+            .iter()
+            .flatten()
+            .map(|u| u.abs())
+            .sum();
         for axis in 0..3 {
             let change = (after[axis] - before[axis]).abs() / size;
             assert!(change < 1e-12, "{method:?}, axis {axis}: {change:e}");
@@ -171,7 +187,7 @@ fn a_parabola_feels_its_curvature() {
     let slope = 1e4;
     let mut state = block(
         [8, 8, 8],
-        |_| Phase::Liquid,
+        |_| phase::LIQUID,
         |x| [slope * x[2] * x[2], 30.0 * x[2], 0.0],
     );
     state.gather();
@@ -213,7 +229,7 @@ fn viscosity_spares_single_particles() {
     };
     let mut state = block(
         [12, 12, 12],
-        |_| Phase::Liquid,
+        |_| phase::LIQUID,
         |x| [sign(x[0]), sign(x[0]) * sign(x[1]), 0.0],
     );
     state.gather();
@@ -248,7 +264,7 @@ fn shear_between_walls_feels_viscosity_whole() {
     let mut state = block(
         [8, 8, 12],
         |[_, _, k]| {
-            if wall(k) { Phase::Solid } else { Phase::Liquid }
+            if wall(k) { phase::SOLID } else { phase::LIQUID }
         },
         |x| [x[2], 0.0, 0.0],
     );
@@ -279,8 +295,16 @@ fn same_bytes_on_one_thread_and_on_two() {
                 let mut state = tank();
                 steps(&mut march(method, true, true), &mut state, 20).unwrap();
                 let bits = |x: &f64| x.to_bits();
-                let all = state.position.iter().chain(&state.velocity).flatten();
-                all.chain(&state.pressure).map(bits).collect::<Vec<_>>()
+                let all = state
+                    .metal
+                    .column(&POSITION)
+                    .iter()
+                    .chain(state.metal.column(&VELOCITY))
+                    .flatten();
+                all.chain(state.metal.column(&PRESSURE))
+                    .chain(state.metal.column(&CARRIED))
+                    .map(bits)
+                    .collect::<Vec<_>>()
             })
         };
         assert!(run(1) == run(2), "{method:?}");
@@ -299,7 +323,10 @@ fn a_resumed_march_takes_the_same_steps() {
     }
     steps(&mut first, &mut state, 5).unwrap();
     steps(&mut second, &mut resumed, 5).unwrap();
-    assert!(state.position == resumed.position && state.pressure == resumed.pressure);
+    for column in [&CARRIED, &PRESSURE] {
+        assert!(state.metal.column(column) == resumed.metal.column(column));
+    }
+    assert!(state.metal.column(&POSITION) == resumed.metal.column(&POSITION));
 }
 
 #[test]
@@ -307,11 +334,12 @@ fn divergence_is_named() {
     for speed in [1e4, f64::NAN] {
         let mut state = tank();
         let wild = state
-            .phase
+            .metal
+            .column(&PHASE)
             .iter()
-            .position(|p| *p == Phase::Liquid)
+            .position(|p| *p == phase::LIQUID)
             .unwrap();
-        state.velocity[wild] = [0.0, 0.0, speed];
+        state.metal.column_mut(&VELOCITY)[wild] = [0.0, 0.0, speed];
         let mut march = march(Method::Projection, true, false);
         let Err(StageError::Diverged {
             step,
@@ -328,7 +356,7 @@ fn divergence_is_named() {
 
 #[test]
 fn the_fastest_particle_divides_the_step() {
-    let mut state = block([5, 5, 5], |_| Phase::Liquid, |_| [0.0, 0.0, 3.0]);
+    let mut state = block([5, 5, 5], |_| phase::LIQUID, |_| [0.0, 0.0, 3.0]);
     let mut march = march(Method::Projection, false, false);
     steps(&mut march, &mut state, 1).unwrap();
     let figures = march.figures();
@@ -346,16 +374,16 @@ fn the_fastest_particle_divides_the_step() {
 fn what_has_frozen_too_densely_does_not_burst() {
     // Liquid beside a wall that is twice as dense as it should be, and liquid that is so itself.
     let mut state = tank();
-    let places = state.position.clone();
+    let places = state.metal.column(&POSITION).to_vec();
     for (a, place) in places.into_iter().enumerate() {
-        let phase = state.phase[a];
-        if phase == Phase::Solid || (phase == Phase::Liquid && a % 9 == 0) {
+        let phase = state.metal.column(&PHASE)[a];
+        if phase == phase::SOLID || (phase == phase::LIQUID && a % 9 == 0) {
             state.push(Particle {
                 position: place.map(|x| x + 0.3 * METAL.spacing),
                 velocity: [0.0; 3],
                 phase,
                 droplet: false,
-                wall: phase == Phase::Solid,
+                wall: phase == phase::SOLID,
                 temperature: 0.0,
                 enthalpy: 0.0,
             });
@@ -364,7 +392,11 @@ fn what_has_frozen_too_densely_does_not_burst() {
     let mut march = march(Method::Projection, true, false);
     for _ in 0..50 {
         steps(&mut march, &mut state, 1).unwrap();
-        let speeds = state.velocity.iter().map(|u| u.iter().map(|u| u * u).sum());
+        let speeds = state
+            .metal
+            .column(&VELOCITY)
+            .iter()
+            .map(|u| u.iter().map(|u| u * u).sum());
         let fastest = speeds.fold(0.0, f64::max).sqrt();
         // No particle crosses more of its diameter than one step may.
         assert!(fastest < 0.4 * METAL.spacing / 1e-4, "{fastest} m/s");
@@ -388,17 +420,18 @@ fn layers(mu: impl Fn(i32) -> f64) -> Law {
 /// Velocity across the gap, by layer, where the stress in liquid of the viscosity `mu` by layer has become steady; the two
 /// layers at either end keep `exact`.
 fn sheared(mu: impl Fn(i32) -> f64, exact: impl Fn(i32) -> f64) -> Vec<f64> {
-    let mut state = block([6, 6, GAP], |_| Phase::Liquid, |_| [0.0; 3]);
+    let mut state = block([6, 6, GAP], |_| phase::LIQUID, |_| [0.0; 3]);
     let layer = |x: [f64; 3]| (x[2] / METAL.spacing - 0.5).round() as i32;
-    state.temperature = state
-        .position
-        .iter()
-        .map(|x| f64::from(layer(*x)))
-        .collect();
+    let layers_of = state.metal.column(&POSITION).iter();
+    let kelvin = layers_of.map(|x| f64::from(layer(*x))).collect();
+    state.metal.declare(&TEMPERATURE);
+    state.metal.put(&TEMPERATURE, kelvin);
     state.gather();
     let near = &mut state.near;
     let mut viscosity = viscosity::Viscosity::new(layers(mu), METAL);
-    viscosity.take(near, &state.temperature).unwrap();
+    viscosity
+        .take(near, state.metal.column(&TEMPERATURE))
+        .unwrap();
     let around = around::Around::default();
     let layers: Vec<i32> = near.position.iter().map(|x| layer(*x)).collect();
     let hold = |u: &mut [[f64; 3]]| {

@@ -33,6 +33,7 @@
 //! momentum. What a particle of the surface lacks counts as the lattice has it: nothing pulls there.
 
 use kernels::CubicSpline;
+use particles::Matter;
 use rayon::prelude::*;
 
 use super::around::Around;
@@ -40,7 +41,6 @@ use super::lattice::Lattice;
 use super::law::Law;
 use crate::near::{Near, Role};
 use crate::stage::StageError;
-use crate::state::Metal;
 use crate::sweep::GRAIN;
 use crate::vector::{minus, plus, squared};
 
@@ -70,7 +70,7 @@ const LACKS: f64 = 0.10;
 impl Viscosity {
     /// The viscosity of a `law` in `metal`.
     #[must_use]
-    pub fn new(law: Law, metal: Metal) -> Self {
+    pub fn new(law: Law, metal: Matter) -> Self {
         let kernel = CubicSpline::<3>::new(metal.smoothing_length);
         let reach = (kernel.support() / metal.spacing).ceil() as i32;
         let (mut moment, mut number) = (0.0, 0.0);
@@ -184,7 +184,7 @@ impl Viscosity {
     pub fn apply_between_faces(
         &mut self,
         near: &Near,
-        (metal, dt): (Metal, f64),
+        (metal, dt): (Matter, f64),
         predicted: &mut [[f64; 3]],
     ) {
         if !self.acts() {

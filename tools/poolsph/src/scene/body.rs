@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::domain::bodies::{Body, Cut};
 use crate::domain::shape::Shape;
-use crate::state::Phase;
+use crate::state::phase;
 
 /// What a body is at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -99,8 +99,8 @@ impl BodyScene {
             lattice: self.lattice_m,
             cuts: self.cuts.iter().map(cut).collect(),
             phase: match self.state {
-                StartState::Liquid => Phase::Liquid,
-                StartState::Solid | StartState::Wall => Phase::Solid,
+                StartState::Liquid => phase::LIQUID,
+                StartState::Solid | StartState::Wall => phase::SOLID,
             },
             wall: self.state == StartState::Wall,
             velocity: self.velocity(at)?,

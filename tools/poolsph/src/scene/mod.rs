@@ -7,6 +7,7 @@ mod output;
 mod size;
 mod time;
 
+use particles::Matter;
 use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,7 +23,6 @@ use crate::domain::{bounds, droplet};
 use crate::forces::{
     arc_pressure, buoyancy, gas_shear, lorentz, marangoni, surface_stress, tension,
 };
-use crate::state::Metal;
 use crate::{faces, grains, heat, motion, source};
 
 /// Kind and version of the scenes that this tool reads.
@@ -123,14 +123,14 @@ impl Scene {
 
     /// The metal with its lattice.
     #[must_use]
-    pub fn metal(&self) -> Metal {
+    pub fn metal(&self) -> Matter {
         // Where there is no metal, its lattice is of no account.
         let spacing = if self.bodies.is_empty() {
             1.0
         } else {
             self.spacing_m
         };
-        Metal {
+        Matter {
             density: self.density_kg_m3,
             spacing,
             smoothing_length: self.smoothing_length_m.unwrap_or(spacing),

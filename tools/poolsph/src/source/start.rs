@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::heat::Caloric;
-use crate::state::{LIQUID, Particle, Phase, State};
+use crate::state::{FUSED, LIQUID, Particle, State, phase};
 
 /// The particles of an earlier run begin this one, in place of those of the bodies: the last ones of the input `start`. Of the bodies
 /// the first solid one is still the base metal, whose corners pictures and averages go by.
@@ -70,7 +70,7 @@ impl Earlier {
         scene: Parameters,
         caloric: Option<&Caloric>,
     ) -> Result<(), Failure> {
-        let (own, d) = (state.metal.spacing, self.spacing);
+        let (own, d) = (state.metal.matter.spacing, self.spacing);
         if (own / d - 1.0).abs() > 1e-9 {
             let what = format!("{own} m is not the spacing of the input 'start', {d} m");
             return Err(Fault::at("/spacing_m", what).into());
@@ -97,15 +97,13 @@ impl Earlier {
             state.push(Particle {
                 position,
                 velocity: if flows { velocities[a] } else { [0.0; 3] },
-                phase: if flows { Phase::Liquid } else { Phase::Solid },
+                phase: if flows { phase::LIQUID } else { phase::SOLID },
                 droplet: droplet[a] == 1,
                 wall,
                 temperature,
                 enthalpy: caloric.map_or(0.0, enthalpy),
             });
-            if let Some(last) = state.fused.last_mut() {
-                *last = fused[a];
-            }
+            state.metal.set(&FUSED, a, fused[a]);
         }
         Ok(())
     }

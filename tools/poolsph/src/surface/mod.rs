@@ -22,20 +22,26 @@ mod depth;
 
 use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
+use particles::{Column, Matter, POSITION};
 use rayon::prelude::*;
 
 use self::band::Band;
 use self::depth::Depth;
 use crate::faces::Images;
 use crate::near::Role;
-use crate::patch::Patch;
+use crate::patch::{self, AREA, Patch, Patches};
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{Column, Metal, Phase, State};
+use crate::state::{PHASE, State, phase};
 use crate::vector::{minus, plus, squared};
+
+/// A particle that owns this part of d^2 of the surface counts as surface.
+const EXPOSED: f64 = 0.1;
+/// Whether a particle counts as surface.
+const SURFACE: Column<bool> = Column::new("surface", "1", false).shown();
 
 /// The surface as a stage.
 pub struct Surface {
-    metal: Metal,
+    metal: Matter,
     kernel: CubicSpline<3>,
     depth: Depth,
     band: Band,
@@ -63,7 +69,7 @@ impl Cloud<'_> {
 impl Surface {
     /// The surface of the metal of a scene.
     #[must_use]
-    pub fn new(metal: Metal) -> Self {
+    pub fn new(metal: Matter) -> Self {
         let kernel = CubicSpline::new(metal.smoothing_length);
         Self {
             metal,
@@ -79,9 +85,10 @@ impl Surface {
 
     /// Measures all particles.
     fn whole(&mut self, state: &mut State) {
-        let grounded = |a: &usize| state.phase[*a] != Phase::Flying;
-        let ids: Vec<usize> = (0..state.len()).filter(grounded).collect();
-        let mut places: Vec<[f64; 3]> = ids.iter().map(|a| state.position[*a]).collect();
+        let (all, phases) = (state.metal.column(&POSITION), state.metal.column(&PHASE));
+        let grounded = |a: &usize| phases[*a] != phase::FLYING;
+        let ids: Vec<usize> = (0..all.len()).filter(grounded).collect();
+        let mut places: Vec<[f64; 3]> = ids.iter().map(|a| all[*a]).collect();
         let (mut grid, mut lists) = (Grid::new(self.metal.support()), Lists::new());
         let (support, mut images) = (self.metal.support(), Images::default());
         images.place(&state.faces, support, &mut places);
@@ -100,10 +107,9 @@ impl Surface {
             .collect();
         self.band
             .complete(&cloud, self.kernel, self.metal.spacing, &mut coloured);
-        state.surface.fill(Patch::default());
-        for (a, patch) in ids.into_iter().zip(coloured) {
-            state.surface[a] = patch;
-        }
+        let none = (0..state.len()).map(|a| (a, Patch::default()));
+        patch::put(&mut state.metal, none);
+        patch::put(&mut state.metal, ids.into_iter().zip(coloured));
         self.exposed.clear();
     }
 
@@ -115,25 +121,25 @@ impl Surface {
             images: near.images(),
             lists: &near.lists,
         };
-        let own = self.kernel.value(0.0);
+        let (own, before) = (self.kernel.value(0.0), Patches::of(&state.metal));
         let mut coloured = std::mem::take(&mut self.coloured);
         (0..near.len())
             .into_par_iter()
             .with_min_len(ROWS)
             .map(|k| match near.role[k] {
                 // Nothing around it has moved.
-                Role::Backing => state.surface[near.id[k] as usize],
+                Role::Backing => before.at(near.id[k] as usize),
                 _ => self.patch(near.number[k].max(own), near.gradient[k]),
             })
             .collect_into_vec(&mut coloured);
         self.band
             .complete(&cloud, self.kernel, self.metal.spacing, &mut coloured);
-        for ((&id, role), patch) in near.id.iter().zip(&near.role).zip(&coloured) {
-            if *role != Role::Backing {
-                state.surface[id as usize] = *patch;
-                self.exposed[id as usize] = patch.area > 0.0;
-            }
-        }
+        let members = near.id.iter().zip(&near.role).zip(&coloured);
+        let moved = members.filter(|((_, role), _)| **role != Role::Backing);
+        let moved = moved.map(|((id, _), patch)| (*id as usize, *patch));
+        let exposed = &mut self.exposed;
+        let told = moved.inspect(|(a, patch)| exposed[*a] = patch.area > 0.0);
+        patch::put(&mut state.metal, told);
         self.coloured = coloured;
     }
 
@@ -194,20 +200,22 @@ impl Stage for Surface {
         "surface"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Surface]
+    fn declare(&self, state: &mut State) {
+        patch::declare(&mut state.metal);
+        state.metal.declare(&SURFACE);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let resting = state.phase.iter().filter(|p| **p != Phase::Flying).count();
+        let phases = state.metal.column(&PHASE).iter();
+        let resting = phases.filter(|p| **p != phase::FLYING).count();
         // Before the flow starts, only particles that arrive change the surface.
         if self.resting == 0 || (!state.flowing && resting != self.resting) {
             self.whole(state);
         }
         self.resting = resting;
         if self.exposed.is_empty() {
-            let exposed = state.surface.iter().map(|patch| patch.area > 0.0);
-            self.exposed.extend(exposed);
+            let areas = state.metal.column(&AREA).iter();
+            self.exposed.extend(areas.map(|area| *area > 0.0));
         }
         self.exposed.resize(state.len(), false);
         if !state.near.is_empty() {
@@ -216,12 +224,18 @@ impl Stage for Surface {
         state.exposed.clear();
         let exposed = self.exposed.iter().enumerate().filter(|(_, is)| **is);
         state.exposed.extend(exposed.map(|(a, _)| a as u32));
-        let areas = state
-            .exposed
-            .iter()
-            .map(|a| state.surface[*a as usize].area);
-        self.total = areas.sum();
+        let areas = state.metal.column(&AREA);
+        let exposed = state.exposed.iter();
+        self.total = exposed.map(|a| areas[*a as usize]).sum();
         Ok(())
+    }
+
+    fn show(&self, state: &mut State) {
+        let least = EXPOSED * self.metal.spacing * self.metal.spacing;
+        let (shown, areas) = state.metal.columns_mut((&SURFACE, &AREA));
+        for (shown, area) in shown.iter_mut().zip(areas) {
+            *shown = *area > least;
+        }
     }
 
     fn figures(&self) -> Vec<Figure> {

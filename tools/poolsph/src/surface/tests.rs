@@ -1,14 +1,18 @@
 //! Areas of a plane, a tilted plane and a sphere, for aligned, turned and jittered lattices.
 
 use super::*;
-use crate::state::Particle;
+use crate::state::{PHASE, Particle, phase};
 use crate::vector::dot;
 
-const METAL: Metal = Metal {
+const METAL: Matter = Matter {
     density: 7850.0,
     spacing: 1.0,
     smoothing_length: 1.0,
 };
+
+fn patches(state: &State) -> impl Iterator<Item = Patch> {
+    Patches::of(&state.metal).iter()
+}
 
 fn noise(i: usize) -> f64 {
     ((i as f64 * 12.9898).sin() * 43_758.545_3).fract().abs() - 0.5
@@ -30,7 +34,8 @@ fn cloud(
     (axis, turn, jitter): ([f64; 3], f64, f64),
     inside: impl Fn([f64; 3]) -> bool,
 ) -> State {
-    let mut state = State::new(METAL, vec![Column::Surface]);
+    let mut state = State::new(METAL);
+    patch::declare(&mut state.metal);
     let mut count = 0;
     for i in -half..half {
         for j in -half..half {
@@ -45,7 +50,7 @@ fn cloud(
                     state.push(Particle {
                         position,
                         velocity: [0.0; 3],
-                        phase: Phase::Solid,
+                        phase: phase::SOLID,
                         droplet: false,
                         wall: false,
                         temperature: 0.0,
@@ -81,7 +86,7 @@ fn plane(state: &State, normal: [f64; 3], level: f64) -> f64 {
         0.5 * (1.0 + (std::f64::consts::PI * x).cos())
     };
     let mut sum = 0.0;
-    for (x, patch) in state.position.iter().zip(&state.surface) {
+    for (x, patch) in state.metal.column(&POSITION).iter().zip(patches(state)) {
         if dot(*x, normal) > level - 3.0 {
             sum += patch.area * window(dot(*x, u)) * window(dot(*x, v));
         }
@@ -112,7 +117,7 @@ fn planes_keep_their_area_when_their_layers_draw_together() {
     let flat = [0.0, 0.0, 1.0];
     for (turn, jitter) in [(0.0, 0.0), (0.0, 0.3), (0.7, 0.0), (1.9, 0.2)] {
         let mut state = slab(([1.0, 2.0, 3.0], turn, jitter), flat, 0.0);
-        for x in &mut state.position {
+        for x in state.metal.column_mut(&POSITION) {
             x[2] -= 0.9 * (x[2] / 1.2).exp();
         }
         Surface::new(METAL).advance(&mut state, 0.0).unwrap();
@@ -129,11 +134,11 @@ fn sphere(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
     let state = cloud(20, lattice, |x| squared(x).sqrt() < radius);
     let real = (state.len() as f64 * 0.75 / std::f64::consts::PI).cbrt();
     let disc = std::f64::consts::PI * real * real;
-    let area: f64 = state.surface.iter().map(|patch| patch.area).sum();
-    let up = |p: &Patch| p.seen;
+    let area: f64 = state.metal.column(&AREA).iter().sum();
+    let up = |p: Patch| p.seen;
     [
         area / (4.0 * disc),
-        state.surface.iter().map(up).sum::<f64>() / disc,
+        patches(&state).map(up).sum::<f64>() / disc,
     ]
 }
 
@@ -155,7 +160,7 @@ fn normals_of_a_sphere_point_outwards() {
     let state = cloud(12, ([3.0, 1.0, 2.0], 0.4, 0.1), |x| {
         squared(x).sqrt() < 10.0
     });
-    for (x, patch) in state.position.iter().zip(&state.surface) {
+    for (x, patch) in state.metal.column(&POSITION).iter().zip(patches(&state)) {
         if patch.area > 0.5 {
             let cosine = dot(*x, patch.normal) / squared(*x).sqrt();
             assert!(cosine > 0.98, "{cosine}");
@@ -168,10 +173,12 @@ fn the_flowing_part_is_measured_as_the_whole_is() {
     let mut state = cloud(8, ([1.0, 2.0, 3.0], 0.3, 0.1), |x| {
         x[2] < 3.0 && x[2] > -5.0
     });
-    let whole = state.surface.clone();
+    let whole = state.metal.column(&AREA).to_vec();
     for a in 0..state.len() {
-        if state.position[a][2] > 0.0 && state.position[a][0].abs() < 4.0 {
-            state.phase[a] = Phase::Liquid;
+        if state.metal.column(&POSITION)[a][2] > 0.0
+            && state.metal.column(&POSITION)[a][0].abs() < 4.0
+        {
+            state.metal.column_mut(&PHASE)[a] = phase::LIQUID;
         }
     }
     state.flowing = true;
@@ -179,14 +186,14 @@ fn the_flowing_part_is_measured_as_the_whole_is() {
     let mut stage = Surface::new(METAL);
     stage.advance(&mut state, 0.0).unwrap();
     let liquid = |a: &usize| {
-        state.phase[*a] == Phase::Liquid
-            && state.position[*a][0].abs() < 1.0
-            && state.position[*a][1].abs() < 4.0
+        state.metal.column(&PHASE)[*a] == phase::LIQUID
+            && state.metal.column(&POSITION)[*a][0].abs() < 1.0
+            && state.metal.column(&POSITION)[*a][1].abs() < 4.0
     };
     let inner: Vec<usize> = (0..state.len()).filter(liquid).collect();
     assert!(inner.len() > 40);
     for a in inner {
-        let off = (state.surface[a].area - whole[a].area).abs();
+        let off = (state.metal.column(&AREA)[a] - whole[a]).abs();
         assert!(off < 1e-3, "{off}");
     }
 }
@@ -195,18 +202,18 @@ fn the_flowing_part_is_measured_as_the_whole_is() {
 fn the_unit_of_length_does_not_matter() {
     let state = cloud(6, ([1.0, 2.0, 3.0], 0.7, 0.3), |x| squared(x).sqrt() < 5.0);
     let unit = 5e-4;
-    let metal = Metal {
+    let metal = Matter {
         spacing: unit,
         smoothing_length: unit,
         ..METAL
     };
     let mut small = state.clone();
-    small.metal = metal;
-    for x in small.position.iter_mut().flatten() {
+    small.metal.matter = metal;
+    for x in small.metal.column_mut(&POSITION).as_flattened_mut() {
         *x *= unit;
     }
     Surface::new(metal).advance(&mut small, 0.0).unwrap();
-    for (large, small) in state.surface.iter().zip(&small.surface) {
+    for (large, small) in patches(&state).zip(patches(&small)) {
         assert!((small.depth / unit - large.depth).abs() < 1e-6);
         assert!((small.area / (unit * unit) - large.area).abs() < 1e-6);
     }
@@ -224,7 +231,7 @@ fn hollow(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
     let exact = std::f64::consts::PI * a * a / 3.0;
     let (mut seen, mut up) = (0.0, 0.0);
     let floor = -radius - 3.0;
-    for (x, patch) in state.position.iter().zip(&state.surface) {
+    for (x, patch) in state.metal.column(&POSITION).iter().zip(patches(&state)) {
         if x[2] > floor {
             seen += patch.seen * window(*x);
             up += patch.area * patch.normal[2] * window(patch.foot(*x));

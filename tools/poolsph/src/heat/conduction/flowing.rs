@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::{Conduction, Exchanged};
 use crate::faces::Turn;
-use crate::near::Role;
+use crate::near::{Near, Role};
 use crate::stage::StageError;
-use crate::state::State;
+use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 impl Conduction {
     /// Exchanges heat of pairs with a moving particle over `dt`.
@@ -18,19 +18,26 @@ impl Conduction {
         dt: f64,
     ) -> Result<(), StageError> {
         let near = &state.near;
+        let enthalpies = state.metal.column(&ENTHALPY);
+        let temperatures = state.metal.column(&TEMPERATURE);
         self.beside.clear();
         if self.walls {
             let time = (&state.faces, state.time);
-            let found = near.temperatures(time, &state.temperature, &mut self.beside);
+            let found = near.temperatures(time, temperatures, &mut self.beside);
             found.map_err(|fault| StageError::Data(format!("temperature of a wall: {fault}")))?;
         }
         let mut exchanged = std::mem::take(&mut self.exchanged);
         (0..near.len())
             .into_par_iter()
             .with_min_len(ROWS)
-            .map(|k| match near.role[k] {
-                Role::Backing => Exchanged::unchanged(state, near.id[k]),
-                _ => self.in_flow(state, k, dt),
+            .map(|k| {
+                let id = near.id[k] as usize;
+                match near.role[k] {
+                    Role::Backing => {
+                        Exchanged::unchanged(near.id[k], enthalpies[id], temperatures[id])
+                    }
+                    _ => self.in_flow(near, k, (enthalpies[id], dt)),
+                }
             })
             .collect_into_vec(&mut exchanged);
         if !self.beside.is_empty() {
@@ -41,8 +48,7 @@ impl Conduction {
         stored
     }
 
-    fn in_flow(&self, state: &State, k: usize, dt: f64) -> Exchanged {
-        let near = &state.near;
+    fn in_flow(&self, near: &Near, k: usize, (enthalpy, dt): (f64, f64)) -> Exchanged {
         let (chunk, pairs) = (&near.lists.chunks()[k / ROWS], &near.pairs[k / ROWS]);
         let row = chunk.row(k % ROWS).iter();
         let weights = &pairs.value[chunk.range(k % ROWS)];
@@ -60,11 +66,11 @@ impl Conduction {
         let mut out = 0.0;
         if !self.beside.is_empty() {
             // An image at its own temperature is counted above; what the wall adds to that is given here.
-            let (entering, more) = self.through_walls(state, k);
+            let (entering, more) = self.through_walls(near, k);
             gain += more;
             out = -self.scale * dt * entering;
         }
-        let enthalpy = state.enthalpy[a] + self.scale * dt * gain / self.metal.mass();
+        let enthalpy = enthalpy + self.scale * dt * gain / self.metal.mass();
         Exchanged {
             a: a as u32,
             enthalpy,
@@ -77,8 +83,7 @@ impl Conduction {
 
     /// What walls of held temperature give to the `k`-th particle of the copy, and how much more that is than what their
     /// images would give at the temperatures of their originals.
-    fn through_walls(&self, state: &State, k: usize) -> (f64, f64) {
-        let near = &state.near;
+    fn through_walls(&self, near: &Near, k: usize) -> (f64, f64) {
         let (chunk, pairs) = (&near.lists.chunks()[k / ROWS], &near.pairs[k / ROWS]);
         let weights = &pairs.value[chunk.range(k % ROWS)];
         let [temperature, resistivity] = self.thermal[near.id[k] as usize];

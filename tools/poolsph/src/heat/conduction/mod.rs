@@ -28,6 +28,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use neighbours::ROWS;
+use particles::{Matter, POSITION};
 use rayon::prelude::*;
 use run::Fault;
 use run::property::Curve;
@@ -40,7 +41,7 @@ use crate::heat::open::Open;
 use crate::heat::parameters::Parameters;
 use crate::rest::{Plane, Rest};
 use crate::stage::{Figure, Limit, Stage, StageError};
-use crate::state::{Column, Metal, State};
+use crate::state::{ENTHALPY, State, TEMPERATURE, WALL, marked};
 
 /// Crowding of a liquid over the lattice that the step limit allows for.
 const CROWDING: f64 = 1.1;
@@ -60,12 +61,12 @@ struct Exchanged {
 }
 
 impl Exchanged {
-    /// The particle `id` as it is.
-    fn unchanged(state: &State, id: u32) -> Self {
+    /// A particle of an enthalpy \[J/kg\] and temperature \[K\] as it is.
+    fn unchanged(a: u32, enthalpy: f64, temperature: f64) -> Self {
         Self {
-            a: id,
-            enthalpy: state.enthalpy[id as usize],
-            temperature: state.temperature[id as usize],
+            a,
+            enthalpy,
+            temperature,
             out: 0.0,
             busy: false,
             wakes: false,
@@ -76,7 +77,7 @@ impl Exchanged {
 /// Heat conduction as a stage.
 pub struct Conduction {
     caloric: Arc<Caloric>,
-    metal: Metal,
+    metal: Matter,
     /// 6 V / sum r^2 W of the lattice \[m3 m/m2\].
     scale: f64,
     limit: f64,
@@ -111,7 +112,7 @@ impl Conduction {
     pub fn new(
         parameters: &Parameters,
         caloric: Arc<Caloric>,
-        metal: Metal,
+        metal: Matter,
     ) -> Result<Self, Fault> {
         let (mirrors, open) = parameters.planes();
         let both = |plane: &&Plane| mirrors.contains(plane);
@@ -178,19 +179,20 @@ impl Conduction {
         for &a in self.rest.changed() {
             self.awake[a as usize] = true;
         }
-        for (a, (&now, seen)) in state.temperature.iter().zip(&mut self.thermal).enumerate() {
+        let (temperatures, wall) = (state.metal.column(&TEMPERATURE), state.metal.column(&WALL));
+        for (a, (&now, seen)) in temperatures.iter().zip(&mut self.thermal).enumerate() {
             // NaN, a particle not seen before, differs as well.
             if seen[0].to_bits() != now.to_bits() {
                 seen[0] = now;
                 self.awake[a] = true;
-                if !state.wall[a] {
+                if !marked(wall, a) {
                     seen[1] = 1.0 / self.caloric.conductivity(now);
                 }
             }
         }
         for held in &self.held {
             for a in held.particles.clone() {
-                self.thermal[a][1] = 1.0 / self.caloric.conductivity(state.temperature[a]);
+                self.thermal[a][1] = 1.0 / self.caloric.conductivity(temperatures[a]);
             }
         }
     }
@@ -202,16 +204,14 @@ impl Conduction {
             (self.awake.iter().enumerate()).filter(|(a, awake)| **awake && self.rest.holds(*a));
         self.visited.extend(awake.map(|(a, _)| a as u32));
         let mut exchanged = std::mem::take(&mut self.exchanged);
+        let columns = (state.metal.column(&POSITION), state.metal.column(&ENTHALPY));
         let visited = self.visited.par_iter().with_min_len(ROWS);
         visited
-            .map(|&a| self.at_rest(state, a as usize, dt))
+            .map(|&a| self.at_rest(columns, a as usize, dt))
             .collect_into_vec(&mut exchanged);
         let sleepers = self.sleepers(&exchanged);
-        exchanged.extend(
-            sleepers
-                .iter()
-                .map(|&a| self.at_rest(state, a as usize, dt)),
-        );
+        let asleep = sleepers.iter();
+        exchanged.extend(asleep.map(|&a| self.at_rest(columns, a as usize, dt)));
         self.visited.extend(sleepers);
         for one in &exchanged {
             self.awake[one.a as usize] = one.busy;
@@ -239,7 +239,7 @@ impl Conduction {
         sleepers
     }
 
-    fn at_rest(&self, state: &State, a: usize, dt: f64) -> Exchanged {
+    fn at_rest(&self, (places, enthalpies): (&[[f64; 3]], &[f64]), a: usize, dt: f64) -> Exchanged {
         let [temperature, resistivity] = self.thermal[a];
         let (mut gain, mut busy, mut wakes) = (0.0, false, false);
         for link in self.rest.row(a) {
@@ -254,12 +254,11 @@ impl Conduction {
         }
         let lost = if busy {
             let row = self.rest.row(a);
-            self.open
-                .lost(&state.position, &self.thermal, row, a, &self.caloric)
+            self.open.lost(places, &self.thermal, row, a, &self.caloric)
         } else {
             0.0
         };
-        let enthalpy = state.enthalpy[a] + self.scale * dt * (gain - lost) / self.metal.mass();
+        let enthalpy = enthalpies[a] + self.scale * dt * (gain - lost) / self.metal.mass();
         Exchanged {
             a: a as u32,
             enthalpy,
@@ -271,13 +270,21 @@ impl Conduction {
     }
 
     fn store(&self, state: &mut State, exchanged: &[Exchanged]) -> Result<(), StageError> {
+        let beyond = |one: &&Exchanged| !self.caloric.covers(one.temperature);
+        if let Some(one) = exchanged.iter().find(beyond) {
+            let a = one.a as usize;
+            let place = state.metal.column(&POSITION)[a];
+            return Err(outside(
+                state.step,
+                (a, place),
+                one.temperature,
+                &self.caloric,
+            ));
+        }
+        let (enthalpies, temperatures) = state.metal.columns_mut((&ENTHALPY, &TEMPERATURE));
         for one in exchanged {
             let a = one.a as usize;
-            if !self.caloric.covers(one.temperature) {
-                return Err(outside(state, a, one.temperature, &self.caloric));
-            }
-            state.enthalpy[a] = one.enthalpy;
-            state.temperature[a] = one.temperature;
+            (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
         }
         Ok(())
     }
@@ -288,8 +295,9 @@ impl Stage for Conduction {
         "conduction"
     }
 
-    fn needs(&self) -> &'static [Column] {
-        &[Column::Temperature, Column::Enthalpy]
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
     }
 
     fn dt_limit(&self, _state: &State) -> Option<Limit> {

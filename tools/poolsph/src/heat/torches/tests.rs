@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::heat::caloric::tests::plain;
-use crate::state::Particle;
+use crate::state::{ENTHALPY, Particle, phase};
 use crate::surface::Surface;
 
 const DEEP: &str = r#"{"double_ellipsoid": {"half_width_m": 0.003, "depth_m": 0.002, "front_m": 0.002, "rear_m": 0.004}}"#;
@@ -18,20 +18,22 @@ fn torch(shape: &str, more: &str) -> Torch {
 
 /// A block of 20 x 20 x 10 mm with its top at z = 10 mm, at rest.
 fn block(spacing: f64, caloric: &Caloric) -> State {
-    let metal = Metal {
+    let metal = Matter {
         density: 1000.0,
         spacing,
         smoothing_length: spacing,
     };
-    let columns = vec![Column::Temperature, Column::Enthalpy, Column::Surface];
-    let mut state = State::new(metal, columns);
+    let mut state = State::new(metal);
+    state.metal.declare(&TEMPERATURE);
+    state.metal.declare(&ENTHALPY);
+    patch::declare(&mut state.metal);
     let n = [0.02, 0.02, 0.01].map(|edge: f64| (edge / spacing).round() as usize);
     for i in 0..n[0] * n[1] * n[2] {
         let index = [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])];
         state.push(Particle {
             position: index.map(|k| (k as f64 + 0.5) * spacing),
             velocity: [0.0; 3],
-            phase: Phase::Solid,
+            phase: phase::SOLID,
             droplet: false,
             wall: false,
             temperature: 300.0,
@@ -46,14 +48,14 @@ fn block(spacing: f64, caloric: &Caloric) -> State {
 fn heated(torch: Torch, spacing: f64, times: &[f64]) -> (f64, Torches) {
     let caloric = Shared::new(plain(30.0, 500.0, None));
     let mut state = block(spacing, &caloric);
-    let before: f64 = state.enthalpy.iter().sum();
-    let mut stage = Torches::new(&[torch], caloric, state.metal).unwrap();
+    let before: f64 = state.metal.column(&ENTHALPY).iter().sum();
+    let mut stage = Torches::new(&[torch], caloric, state.metal.matter).unwrap();
     for time in times {
         state.time = *time;
         stage.advance(&mut state, 0.01).unwrap();
     }
-    let gained = state.enthalpy.iter().sum::<f64>() - before;
-    (gained * state.metal.mass(), stage)
+    let gained = state.metal.column(&ENTHALPY).iter().sum::<f64>() - before;
+    (gained * state.metal.matter.mass(), stage)
 }
 
 #[test]

@@ -44,12 +44,12 @@ impl Closing {
 mod tests {
     use super::*;
     use crate::motion::tests::{METAL, block};
-    use crate::state::Phase;
+    use crate::state::phase;
 
     #[test]
     fn what_flies_as_a_whole_has_no_limit_and_layers_that_slide_have_that_of_their_difference() {
         let limit = |velocity: fn([f64; 3]) -> [f64; 3]| {
-            let mut state = block([4, 4, 6], |_| Phase::Liquid, velocity);
+            let mut state = block([4, 4, 6], |_| phase::LIQUID, velocity);
             state.gather();
             Closing::default().limit(&state.near, METAL.spacing)
         };

@@ -16,11 +16,12 @@
 //! Where a pair is too close, in a crowd as well, what it still approaches is damped alike, and its particles are moved
 //! apart. Forces act along the line of a pair: momentum and angular momentum are kept.
 
+use particles::Matter;
+
 use super::filled::{Filled, within};
 use super::openness::lack;
 use crate::forces::tension::mean_field;
 use crate::near::{Near, Role};
-use crate::state::Metal;
 use crate::vector::{dot, minus, plus, squared};
 
 /// Lack of neighbours, in parts of the lattice's, from which on pairs pull, and at which they do so wholly. A plane surface lacks 0.22,
@@ -58,7 +59,7 @@ pub(super) struct Cohesion {
 
 impl Cohesion {
     /// That of particles of `metal`.
-    pub(super) fn new(metal: Metal) -> Self {
+    pub(super) fn new(metal: Matter) -> Self {
         Self {
             strength: mean_field(metal),
             mass: metal.mass(),
@@ -155,8 +156,9 @@ fn pull(q: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::motion::tests::{METAL, block};
-    use crate::state::{Phase, State};
+    use crate::state::{State, VELOCITY, phase};
     use crate::surface::cross;
+    use particles::POSITION;
 
     /// gamma [N/m] of a pool, and the step [s].
     const GAMMA: f64 = 1.3;
@@ -177,13 +179,14 @@ mod tests {
         };
         let phase = |cell| {
             if liquid(cell) {
-                Phase::Liquid
+                phase::LIQUID
             } else {
-                Phase::Flying
+                phase::FLYING
             }
         };
         let mut state = block(cells, phase, |_| [0.0; 3]);
-        for (x, u) in state.position.iter_mut().zip(&mut state.velocity) {
+        let (places, velocities) = state.metal.columns_mut((&POSITION, &VELOCITY));
+        for (x, u) in places.iter_mut().zip(velocities) {
             *x = plus(*x, METAL.spacing, random(shaken));
             *u = random(driven);
         }

@@ -1,14 +1,17 @@
 //! Exact cases of what a free surface does: tension, viscosity at the surface, and damping of single particles.
 
+use particles::POSITION;
+
 use super::*;
 use crate::forces::capillary::Capillary;
 use crate::forces::tension;
 use crate::march::{Group, March};
+use crate::motion::integration::PRESSURE;
 use crate::motion::tests::{METAL, block, steps};
 use crate::motion::viscosity::Viscosity;
 use crate::motion::{Law, Motion, Parameters};
 use crate::stage::Stage;
-use crate::state::{Phase, State};
+use crate::state::{PHASE, State, VELOCITY, phase};
 use crate::surface::cross;
 
 /// Viscosity \[Pa s\].
@@ -26,13 +29,13 @@ fn ball(cells: i32, velocity: impl Fn([f64; 3]) -> [f64; 3]) -> State {
     };
     let phase = |cell| {
         if inner(cell) {
-            Phase::Liquid
+            phase::LIQUID
         } else {
-            Phase::Flying
+            phase::FLYING
         }
     };
     let mut state = block([2 * cells; 3], phase, |x| velocity(x.map(|x| x - half)));
-    for x in state.position.iter_mut().flatten() {
+    for x in state.metal.column_mut(&POSITION).iter_mut().flatten() {
         *x -= half;
     }
     state.gather();
@@ -162,27 +165,33 @@ fn a_drop_at_rest_stays_under_its_pressure() {
         })
     };
     let state = bits(1);
-    assert!(state.position == bits(2).position, "on two threads");
+    assert!(
+        state.metal.column(&POSITION) == bits(2).metal.column(&POSITION),
+        "on two threads"
+    );
     let liquid: Vec<usize> = (0..state.len())
-        .filter(|a| state.phase[*a] == Phase::Liquid)
+        .filter(|a| state.metal.column(&PHASE)[*a] == phase::LIQUID)
         .collect();
     let count = liquid.len() as f64;
     let radius = METAL.spacing * (0.75 * count / std::f64::consts::PI).cbrt();
     let inside = liquid
         .iter()
-        .filter(|a| squared(state.position[**a]) < 0.25 * radius * radius);
+        .filter(|a| squared(state.metal.column(&POSITION)[**a]) < 0.25 * radius * radius);
     let (sum, inner) = inside.fold((0.0, 0.0), |(sum, n), a| {
-        (sum + state.pressure[*a], n + 1.0)
+        (sum + state.metal.column(&PRESSURE)[*a], n + 1.0)
     });
     let pressure = sum / inner * radius / 2.0;
-    let energy: f64 = liquid.iter().map(|a| squared(state.velocity[*a])).sum();
+    let energy: f64 = liquid
+        .iter()
+        .map(|a| squared(state.metal.column(&VELOCITY)[*a]))
+        .sum();
     // Over gamma/mu: the capillary number.
     let capillary = f64::sqrt(energy / count) * 0.06;
     assert!((pressure - 1.0).abs() < 0.02, "{pressure}");
     assert!(capillary < 2e-4, "{capillary}");
     // Momentum within what tension would give in that time if it pulled to one side, gamma R t.
     let momentum = liquid.iter().fold([0.0; 3], |sum, a| {
-        plus(sum, METAL.mass(), state.velocity[*a])
+        plus(sum, METAL.mass(), state.metal.column(&VELOCITY)[*a])
     });
     let given = radius * state.time;
     assert!(
@@ -212,5 +221,11 @@ fn waves_of_the_surface_divide_the_step() {
 fn a_drop_without_viscosity_needs_no_normals() {
     let mut state = ball(4, |_| [0.0; 3]);
     steps(&mut march_of(1.0, 0.0, 1e-4), &mut state, 3).unwrap();
-    assert!(state.velocity.iter().any(|u| squared(*u) > 0.0));
+    assert!(
+        state
+            .metal
+            .column(&VELOCITY)
+            .iter()
+            .any(|u| squared(*u) > 0.0)
+    );
 }

@@ -2,7 +2,7 @@
 
 use kernels::CubicSpline;
 
-use crate::state::Metal;
+use particles::Matter;
 
 /// Determinant of the moments, over that of the lattice's, up to which they span no space, and from which on they do.
 const SPANNED: [f64; 2] = [0.05, 0.20];
@@ -38,7 +38,7 @@ impl Filled {
     }
 
     /// The lattice of `metal`.
-    pub(super) fn of(metal: Metal) -> Self {
+    pub(super) fn of(metal: Matter) -> Self {
         let kernel = CubicSpline::<3>::new(metal.smoothing_length);
         let d = metal.spacing;
         let reach = (kernel.support() / d).ceil() as i32;

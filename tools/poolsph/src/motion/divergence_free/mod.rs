@@ -41,13 +41,13 @@ mod shift;
 mod traction;
 mod weight;
 
+use particles::Matter;
 use rayon::prelude::*;
 
 use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::forces::capillary;
 use crate::near::{Near, Role};
-use crate::state::Metal;
 use crate::sweep::GRAIN;
 use crate::vector::{dot, minus, plus, squared};
 
@@ -109,7 +109,7 @@ pub struct DivergenceFree {
 impl DivergenceFree {
     /// A solver for particles of `metal`.
     #[must_use]
-    pub fn new(metal: Metal) -> Self {
+    pub fn new(metal: Matter) -> Self {
         Self {
             pressure: Vec::new(),
             cohesion: Cohesion::new(metal),

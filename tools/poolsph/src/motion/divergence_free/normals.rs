@@ -6,10 +6,10 @@
 //! up within some ten turns of its shear.
 
 use kernels::CubicSpline;
+use particles::Matter;
 
 use crate::motion::lattice::Lattice;
 use crate::near::{Near, Role, Row};
-use crate::state::Metal;
 use crate::surface::tangents;
 use crate::vector::{dot, minus, plus, squared};
 
@@ -34,7 +34,7 @@ pub(super) struct Normals {
 
 impl Normals {
     /// Those of surfaces of `metal`.
-    pub(super) fn new(metal: Metal) -> Self {
+    pub(super) fn new(metal: Matter) -> Self {
         let own = CubicSpline::<3>::new(metal.smoothing_length).value(0.0);
         Self {
             volume: metal.volume(),

@@ -8,9 +8,10 @@
 //! lacks neighbours where there is no surface to be seen, in a crack or beside a void, has the mean of the pressures around it, or
 //! that of the whole surface. Over a closed surface gamma kappa n adds up to nothing: tension moves no body as a whole.
 
+use particles::Matter;
+
 use super::operators::Sums;
 use crate::near::{Near, Role};
-use crate::state::Metal;
 use crate::surface::curvature::Curvature;
 
 /// gamma kappa with its scratch.
@@ -26,7 +27,7 @@ pub(super) struct Pull {
 
 impl Pull {
     /// None yet upon the surface of `metal`.
-    pub(super) fn new(metal: Metal) -> Self {
+    pub(super) fn new(metal: Matter) -> Self {
         Self {
             pressure: Vec::new(),
             gas: Vec::new(),

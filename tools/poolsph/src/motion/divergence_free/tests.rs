@@ -1,22 +1,25 @@
 //! Exact cases of the operators and of a step.
 
+use particles::POSITION;
+
 use super::*;
 use crate::march::{Group, March};
+use crate::motion::integration::PRESSURE;
 use crate::motion::tests::{METAL, block, march, steps, tank};
 use crate::motion::{Method, Motion, Parameters};
 use crate::stage::Stage;
-use crate::state::{Phase, State};
+use crate::state::{PHASE, State, VELOCITY, phase};
 
 /// A shaken block: places are moved by up to a tenth of a spacing.
-fn shaken(cells: [i32; 3], phase: impl Fn([i32; 3]) -> Phase) -> State {
+fn shaken(cells: [i32; 3], phase: impl Fn([i32; 3]) -> u8) -> State {
     shaken_by(0.1, cells, phase)
 }
 
 /// Places are moved by up to a part of a spacing along each axis.
-fn shaken_by(part: f64, cells: [i32; 3], phase: impl Fn([i32; 3]) -> Phase) -> State {
+fn shaken_by(part: f64, cells: [i32; 3], phase: impl Fn([i32; 3]) -> u8) -> State {
     let mut state = block(cells, phase, |_| [0.0; 3]);
     let mut seed = 11_u64;
-    for x in state.position.iter_mut().flatten() {
+    for x in state.metal.column_mut(&POSITION).iter_mut().flatten() {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         *x += METAL.spacing * 2.0 * part * ((seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5);
     }
@@ -31,7 +34,7 @@ fn inner(near: &Near, a: usize, cells: f64) -> bool {
 
 #[test]
 fn slopes_are_exact_in_a_cloud_in_disorder() {
-    let state = shaken([10; 3], |_| Phase::Liquid);
+    let state = shaken([10; 3], |_| phase::LIQUID);
     let near = &state.near;
     let turn = [[1.0, 2.0, -3.0], [0.5, -4.0, 2.0], [7.0, 1.0, 3.5]];
     let u: Vec<[f64; 3]> = near
@@ -64,7 +67,7 @@ fn slopes_are_exact_in_a_cloud_in_disorder() {
 #[test]
 fn pressure_below_a_plane_surface_is_exact_on_the_lattice() {
     let state = {
-        let mut state = block([10; 3], |_| Phase::Liquid, |_| [0.0; 3]);
+        let mut state = block([10; 3], |_| phase::LIQUID, |_| [0.0; 3]);
         state.gather();
         state
     };
@@ -99,11 +102,15 @@ fn liquid_at_rest_carries_its_weight_and_stays() {
     let top = 10.0 * METAL.spacing;
     let (mut energy, mut count) = (0.0, 0.0);
     let bottom = METAL.density * 9.8 * 8.0 * METAL.spacing;
-    for a in (0..state.len()).filter(|a| state.phase[*a] == Phase::Liquid) {
-        let asked = METAL.density * 9.8 * (top - state.position[a][2]);
-        let error = (state.pressure[a] - asked).abs() / bottom;
-        assert!(error < 0.01, "{error} at {:?}", state.position[a]);
-        energy += squared(state.velocity[a]);
+    for a in (0..state.len()).filter(|a| state.metal.column(&PHASE)[*a] == phase::LIQUID) {
+        let asked = METAL.density * 9.8 * (top - state.metal.column(&POSITION)[a][2]);
+        let error = (state.metal.column(&PRESSURE)[a] - asked).abs() / bottom;
+        assert!(
+            error < 0.01,
+            "{error} at {:?}",
+            state.metal.column(&POSITION)[a]
+        );
+        energy += squared(state.metal.column(&VELOCITY)[a]);
         count += 1.0;
     }
     let speed = f64::sqrt(energy / count / (9.8 * 8.0 * METAL.spacing));
@@ -112,19 +119,25 @@ fn liquid_at_rest_carries_its_weight_and_stays() {
 
 #[test]
 fn a_body_that_touches_nothing_keeps_its_momentum() {
-    let mut state = shaken([7; 3], |_| Phase::Liquid);
-    for (k, u) in state.velocity.iter_mut().enumerate() {
+    let mut state = shaken([7; 3], |_| phase::LIQUID);
+    for (k, u) in state.metal.column_mut(&VELOCITY).iter_mut().enumerate() {
         *u = [0, 1, 2].map(|i| 0.3 * ((k * (7 + 5 * i)) as f64).sin());
     }
     state.gather();
     let momentum = |state: &State| {
         state
-            .velocity
+            .metal
+            .column(&VELOCITY)
             .iter()
             .fold([0.0; 3], |sum, u| plus(sum, 1.0, *u))
     };
     let before = momentum(&state);
-    let size: f64 = state.velocity.iter().map(|u| squared(*u).sqrt()).sum();
+    let size: f64 = state
+        .metal
+        .column(&VELOCITY)
+        .iter()
+        .map(|u| squared(*u).sqrt())
+        .sum();
     let text = r#"{"viscosity_pa_s": 0.004, "method": "divergence_free"}"#;
     let parameters: Parameters = serde_json::from_str(text).unwrap();
     let mut motion = Motion::new(parameters, crate::motion::Law::Uniform(0.004), METAL);
@@ -134,7 +147,12 @@ fn a_body_that_touches_nothing_keeps_its_momentum() {
         squared(change).sqrt() < 1e-12 * size,
         "{change:?} of {size}"
     );
-    let after: f64 = state.velocity.iter().map(|u| squared(*u).sqrt()).sum();
+    let after: f64 = state
+        .metal
+        .column(&VELOCITY)
+        .iter()
+        .map(|u| squared(*u).sqrt())
+        .sum();
     assert!(after < 0.98 * size, "nothing happened: {after} of {size}");
 }
 
@@ -158,7 +176,7 @@ fn a_pressure_upon_the_whole_surface_moves_nothing() {
     let after = |pressure: f64| {
         let mut state = shaken([10, 10, 8], |[i, j, k]| {
             let wall = k < 2 || [i, j].iter().any(|i| !(2..8).contains(i));
-            if wall { Phase::Solid } else { Phase::Liquid }
+            if wall { phase::SOLID } else { phase::LIQUID }
         });
         let text = r#"{"viscosity_pa_s": 0.004, "gravity_m_s2": [0, 0, -9.8], "method": "divergence_free"}"#;
         let parameters: Parameters = serde_json::from_str(text).unwrap();
@@ -171,18 +189,15 @@ fn a_pressure_upon_the_whole_surface_moves_nothing() {
         state
     };
     let (without, with) = (after(0.0), after(2e4));
-    let fastest = without
-        .velocity
-        .iter()
-        .map(|u| squared(*u))
-        .fold(0.0, f64::max)
-        .sqrt();
+    let [still, fast] = [&without, &with].map(|state| state.metal.column(&VELOCITY));
+    let [less, more] = [&without, &with].map(|state| state.metal.column(&PRESSURE));
+    let fastest = still.iter().map(|u| squared(*u)).fold(0.0, f64::max).sqrt();
     assert!(fastest > 1e-3, "{fastest}");
     for a in 0..without.len() {
-        let change = squared(minus(with.velocity[a], without.velocity[a])).sqrt();
+        let change = squared(minus(fast[a], still[a])).sqrt();
         assert!(change < 1e-6 * fastest, "{change} of {fastest}");
-        if without.phase[a] == Phase::Liquid {
-            let more = with.pressure[a] - without.pressure[a];
+        if without.metal.column(&PHASE)[a] == phase::LIQUID {
+            let more = more[a] - less[a];
             assert!((more / 2e4 - 1.0).abs() < 1e-6, "{more}");
         }
     }
@@ -193,9 +208,9 @@ fn a_weight_that_walls_bear_moves_nothing_in_a_closed_box() {
     let after = |gravity: f64| {
         let mut state = shaken([9; 3], |cell| {
             let wall = cell.iter().any(|i| !(2..7).contains(i));
-            if wall { Phase::Solid } else { Phase::Liquid }
+            if wall { phase::SOLID } else { phase::LIQUID }
         });
-        for (k, u) in state.velocity.iter_mut().enumerate() {
+        for (k, u) in state.metal.column_mut(&VELOCITY).iter_mut().enumerate() {
             *u = [0, 1, 2].map(|i| 0.1 * ((k * (7 + 5 * i)) as f64).sin());
         }
         state.gather();
@@ -211,14 +226,22 @@ fn a_weight_that_walls_bear_moves_nothing_in_a_closed_box() {
         state
     };
     let (without, with) = (after(0.0), after(-980.0));
-    for a in (0..without.len()).filter(|a| without.phase[*a] == Phase::Liquid) {
-        let change = squared(minus(with.velocity[a], without.velocity[a])).sqrt();
+    let [still, fast] = [&without, &with].map(|state| state.metal.column(&VELOCITY));
+    let [here, there] = [&without, &with].map(|state| state.metal.column(&POSITION));
+    let phases = without.metal.column(&PHASE);
+    for a in (0..without.len()).filter(|a| phases[*a] == phase::LIQUID) {
+        let change = squared(minus(fast[a], still[a])).sqrt();
         assert!(change < 1e-8, "{change} m/s");
-        let [_, y, z] = minus(with.position[a], with.position[0]);
-        let [_, v, w] = minus(without.position[a], without.position[0]);
+        let [_, y, z] = minus(there[a], there[0]);
+        let [_, v, w] = minus(here[a], here[0]);
         assert!((y - v).abs() + (z - w).abs() < 1e-12);
     }
-    let deepest = with.pressure.iter().copied().fold(0.0, f64::max);
+    let deepest = with
+        .metal
+        .column(&PRESSURE)
+        .iter()
+        .copied()
+        .fold(0.0, f64::max);
     assert!(
         deepest > 2.0 * METAL.density * 980.0 * METAL.spacing,
         "{deepest}"
@@ -229,7 +252,7 @@ fn a_weight_that_walls_bear_moves_nothing_in_a_closed_box() {
 fn a_box_without_a_surface_has_none_however_its_particles_lie() {
     let state = shaken_by(0.2, [14; 3], |cell| {
         let wall = cell.iter().any(|i| !(2..12).contains(i));
-        if wall { Phase::Solid } else { Phase::Liquid }
+        if wall { phase::SOLID } else { phase::LIQUID }
     });
     let near = &state.near;
     let mut solver = DivergenceFree::new(METAL);
@@ -263,8 +286,8 @@ fn a_plane_surface_is_one_and_its_particles_are_shifted_along_it() {
     };
     state.gather();
     let id = state.near.id[top(&state)] as usize;
-    state.position[id][0] += 0.2 * METAL.spacing;
-    state.velocity[id] = [0.1, 0.0, 0.0];
+    state.metal.column_mut(&POSITION)[id][0] += 0.2 * METAL.spacing;
+    state.metal.column_mut(&VELOCITY)[id] = [0.1, 0.0, 0.0];
     state.gather();
     let a = top(&state);
     let near = &mut state.near;
@@ -292,9 +315,9 @@ fn a_cube_that_collapses_is_nowhere_faster_than_its_fall() {
         |[i, j, k]| {
             let inside = [i, j].iter().all(|i| (12..12 + wide).contains(i));
             match k {
-                0..2 => Phase::Solid,
-                _ if inside => Phase::Liquid,
-                _ => Phase::Flying,
+                0..2 => phase::SOLID,
+                _ if inside => phase::LIQUID,
+                _ => phase::FLYING,
             }
         },
         |_| [0.0; 3],

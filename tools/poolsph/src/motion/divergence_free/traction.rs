@@ -11,13 +11,13 @@
 //! the metal. Inside the transposed part is the gradient of the divergence, which is zero, so that over a closed surface it adds up to nothing. Without it a drop that stretches pays half
 //! of what it should, and one that turns as a whole is slowed. A shear along a plane surface has none of it.
 
+use particles::Matter;
 use rayon::prelude::*;
 
 use super::islands::Islands;
 use super::normals::Normals;
 use crate::motion::viscosity::Viscosity;
 use crate::near::{Near, Row};
-use crate::state::Metal;
 use crate::sweep::GRAIN;
 use crate::vector::{dot, minus, plus, squared};
 
@@ -34,7 +34,7 @@ pub(super) struct Traction {
 
 impl Traction {
     /// That of `metal`.
-    pub(super) fn new(metal: Metal) -> Self {
+    pub(super) fn new(metal: Matter) -> Self {
         Self {
             density: metal.density,
             pull: Vec::new(),

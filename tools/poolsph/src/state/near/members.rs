@@ -1,16 +1,18 @@
 //! Who belongs to the compact copy.
 
+use particles::POSITION;
 use rayon::prelude::*;
 
 use super::{GRAIN, MARGIN, NONE, Near, Role};
-use crate::state::{Phase, State};
+use crate::state::{PHASE, State, phase};
 
 impl Near {
     /// Liquid particles, and solid ones within two reaches of a liquid one.
     pub(super) fn collect(&mut self, state: &State) {
-        for (id, phase) in state.phase.iter().enumerate() {
-            if *phase == Phase::Liquid {
-                self.enter(state, id, Role::Liquid);
+        let (places, phases) = (state.metal.column(&POSITION), state.metal.column(&PHASE));
+        for (id, phase) in phases.iter().enumerate() {
+            if *phase == phase::LIQUID {
+                self.enter(places[id], id, Role::Liquid);
             }
         }
         let [wet, backing] = [1.0, 2.0].map(|reaches| self.kernel.support() * (reaches + MARGIN));
@@ -24,20 +26,20 @@ impl Near {
         solid.resize(state.len(), None);
         solid
             .par_iter_mut()
-            .zip(&state.phase)
-            .zip(&state.position)
+            .zip(phases)
+            .zip(places)
             .with_min_len(GRAIN)
             .for_each(|((role, phase), &place)| {
-                *role = match phase {
-                    Phase::Solid if !halo.may_touch(place) => None,
-                    Phase::Solid if grid.any_within(place, wet) => Some(Role::Wet),
-                    Phase::Solid if grid.any_within(place, backing) => Some(Role::Backing),
+                *role = match *phase {
+                    phase::SOLID if !halo.may_touch(place) => None,
+                    phase::SOLID if grid.any_within(place, wet) => Some(Role::Wet),
+                    phase::SOLID if grid.any_within(place, backing) => Some(Role::Backing),
                     _ => None,
                 };
             });
         for (id, role) in solid.iter().enumerate() {
             if let Some(role) = role {
-                self.enter(state, id, *role);
+                self.enter(places[id], id, *role);
             }
         }
         self.solid = solid;
@@ -51,9 +53,9 @@ impl Near {
     }
 
     /// Takes a particle in.
-    fn enter(&mut self, state: &State, id: usize, role: Role) {
+    fn enter(&mut self, place: [f64; 3], id: usize, role: Role) {
         self.candidates.push(id as u32);
-        self.places.push(state.position[id]);
+        self.places.push(place);
         self.roles.push(role);
     }
 }

@@ -14,13 +14,14 @@ mod pairs;
 
 use kernels::CubicSpline;
 use neighbours::{Grid, Halo, Lists};
+use particles::Matter;
 use rayon::prelude::*;
 
 use self::pairs::rows;
 pub use self::pairs::{PairChunk, Row};
 
 use crate::faces::{Faces, Images, Turn};
-use crate::state::{Metal, State};
+use crate::state::{State, VELOCITY};
 use crate::vector::squared;
 
 /// Solid particles are gathered this far beyond the support, in supports: the way that a liquid
@@ -114,7 +115,7 @@ pub struct Near {
 impl Near {
     /// Empty.
     #[must_use]
-    pub fn new(metal: Metal) -> Self {
+    pub fn new(metal: Matter) -> Self {
         let support = metal.support();
         Self {
             kernel: CubicSpline::new(metal.smoothing_length),
@@ -204,9 +205,10 @@ impl Near {
             .iter()
             .filter(|role| **role == Role::Liquid)
             .count();
+        let velocities = state.metal.column(&VELOCITY);
         let moving = |(&id, &role)| {
             if role == Role::Liquid {
-                state.velocity[id as usize]
+                velocities[id as usize]
             } else {
                 [0.0; 3]
             }

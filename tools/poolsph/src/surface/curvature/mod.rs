@@ -16,13 +16,13 @@ mod quadric;
 
 use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
+use particles::Matter;
 use rayon::prelude::*;
 
 pub use self::quadric::{Sample, Shape, shape};
 use super::depth::Depth;
 use crate::faces::Images;
 use crate::near::{Near, Role};
-use crate::state::Metal;
 use crate::vector::{plus, squared};
 
 /// Distance up to which places are fitted, in smoothing lengths.
@@ -72,7 +72,7 @@ pub struct Curvature {
 impl Curvature {
     /// The curvature of surfaces of `metal`.
     #[must_use]
-    pub fn new(metal: Metal) -> Self {
+    pub fn new(metal: Matter) -> Self {
         Self {
             mean: Vec::new(),
             bounded: 0,

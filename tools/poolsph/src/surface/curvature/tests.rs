@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::faces::Faces;
-use crate::state::{Particle, Phase, State};
+use crate::state::{Particle, State, phase};
 
 type Cloud = Vec<[f64; 3]>;
 
@@ -14,19 +14,19 @@ fn measured(cloud: &[[f64; 3]], spacing: f64) -> Curvature {
 }
 
 fn measured_beside(cloud: &[[f64; 3]], spacing: f64, faces: Faces) -> Curvature {
-    let metal = Metal {
+    let metal = Matter {
         density: 7850.0,
         spacing,
         smoothing_length: spacing,
     };
-    let mut state = State::new(metal, Vec::new());
+    let mut state = State::new(metal);
     state.flowing = true;
     state.faces = faces;
     for x in cloud {
         state.push(Particle {
             position: x.map(|x| spacing * x),
             velocity: [0.0; 3],
-            phase: Phase::Liquid,
+            phase: phase::LIQUID,
             droplet: false,
             wall: false,
             temperature: 0.0,
