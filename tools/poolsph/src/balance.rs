@@ -286,6 +286,7 @@ mod tests {
     #[test]
     fn fed_metal_that_is_thrown_off_is_warned_of() {
         let mut fed = state(0.0);
+        fed.metal.declare(&DROPLET);
         fed.metal.set(&DROPLET, 0, true);
         let caught = |value: f64| {
             let figure = Figure {

@@ -104,10 +104,11 @@ impl Rest {
         self.part.resize(state.len(), Part::Away);
         let (places, droplet) = (state.metal.column(&POSITION), state.metal.column(&DROPLET));
         let fused = state.metal.column(&FUSED);
+        let melted = |a: usize| fused.get(a).is_some_and(|part| *part >= LIQUID);
         for (a, phase) in state.metal.column(&PHASE).iter().enumerate() {
             let rests = rests(*phase, state.flowing);
             if rests && self.part[a] == Part::Away {
-                let moved = marked(droplet, a) || (fused[a] >= LIQUID && state.flowing);
+                let moved = marked(droplet, a) || (melted(a) && state.flowing);
                 self.enter(
                     places,
                     a,

@@ -250,8 +250,6 @@ fn absent_physics_has_no_column() {
         "velocity_z",
         "pressure",
         "molten",
-        "fused",
-        "droplet",
         "wall",
         "id",
     ];

@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::heat::Caloric;
 use crate::heat::ledger::Sum;
 use crate::stage::{Figure, Stage, StageError};
-use crate::state::{PHASE, Particle, State, VELOCITY, phase};
+use crate::state::{DROPLET, PHASE, Particle, State, VELOCITY, phase};
 
 /// Part of a spacing that a droplet falls in a step when it lands, where steps are adaptive.
 const FALL: f64 = 0.4;
@@ -316,6 +316,10 @@ impl Stage for Droplets {
         "droplets"
     }
 
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&DROPLET);
+    }
+
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let Some(mut place) = state.source else {
             return Err(StageError::Data("droplets fall from no source".to_owned()));
@@ -390,7 +394,6 @@ impl Stage for Droplets {
 mod tests {
     use super::*;
     use crate::source::Place;
-    use crate::state::DROPLET;
 
     const METAL: Matter = Matter {
         density: 7850.0,
@@ -411,6 +414,7 @@ mod tests {
 
     fn start() -> State {
         let mut state = State::new(METAL);
+        state.metal.declare(&DROPLET);
         state.flowing = true;
         state.source = Some(Place {
             position: [0.0; 3],

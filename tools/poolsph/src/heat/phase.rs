@@ -74,6 +74,7 @@ impl Stage for Phase {
     fn declare(&self, state: &mut State) {
         state.metal.declare(&TEMPERATURE);
         state.metal.declare(&ENTHALPY);
+        state.metal.declare(&FUSED);
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
@@ -154,6 +155,7 @@ mod tests {
         let mut state = State::new(metal);
         state.metal.declare(&TEMPERATURE);
         state.metal.declare(&ENTHALPY);
+        state.metal.declare(&FUSED);
         for z in [-0.5e-3, -1.5e-3, -2.5e-3] {
             state.push(Particle {
                 position: [2e-3, 0.0, z],

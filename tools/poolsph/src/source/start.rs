@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::heat::Caloric;
-use crate::state::{FUSED, LIQUID, Particle, State, phase};
+use crate::state::{DROPLET, FUSED, LIQUID, Particle, State, phase};
 
 /// The particles of an earlier run begin this one, in place of those of the bodies: the last ones of the input `start`. Of the bodies
 /// the first solid one is still the base metal, whose corners pictures and averages go by.
@@ -77,9 +77,18 @@ impl Earlier {
         }
         let frame = &self.frame;
         let (positions, velocities) = (frame.position_vectors()?, frame.vectors("velocity")?);
-        let (fused, molten) = (frame.f64("fused")?, frame.u8("molten")?);
-        let droplet = frame.u8("droplet")?;
-        let wall = frame.has("wall").then(|| frame.u8("wall")).transpose()?;
+        let molten = frame.u8("molten")?;
+        let marks = |name| frame.has(name).then(|| frame.u8(name)).transpose();
+        let (droplet, wall) = (marks("droplet")?, marks("wall")?);
+        // Where nothing has melted, what is liquid has always been.
+        let known = frame.has("fused");
+        let fused = frame.f64(if known { "fused" } else { "molten" })?;
+        if known {
+            state.metal.declare(&FUSED);
+        }
+        if droplet.is_some() {
+            state.metal.declare(&DROPLET);
+        }
         let warm = self.temperatures(scene, caloric)?;
         for (a, position) in positions.into_iter().enumerate() {
             let wall = wall.is_some_and(|wall| wall[a] == 1);
@@ -98,7 +107,7 @@ impl Earlier {
                 position,
                 velocity: if flows { velocities[a] } else { [0.0; 3] },
                 phase: if flows { phase::LIQUID } else { phase::SOLID },
-                droplet: droplet[a] == 1,
+                droplet: droplet.is_some_and(|droplet| droplet[a] == 1),
                 wall,
                 temperature,
                 enthalpy: caloric.map_or(0.0, enthalpy),

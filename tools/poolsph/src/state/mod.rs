@@ -18,7 +18,8 @@ pub const VELOCITY: Column<[f64; 3]> = Column::new("velocity", "m/s", [0.0; 3]).
 pub const PHASE: Column<u8> = Column::new("phase", "1", phase::SOLID).saved();
 /// Moves or flies; frames show it.
 const MOLTEN: Column<bool> = Column::new("molten", "1", false).shown();
-/// Greatest part of its latent heat that a particle has ever held: 1 from the start on for what enters liquid.
+/// Greatest part of its latent heat that a particle has ever held, where metal melts: 1 from the start on for what enters
+/// liquid.
 pub const FUSED: Column<f64> = Column::new("fused", "1", 0.0).saved().shown();
 /// Came from the wire.
 pub const DROPLET: Column<bool> = Column::new("droplet", "1", false).saved().shown();
@@ -101,8 +102,6 @@ impl State {
         metal.declare(&VELOCITY);
         metal.declare(&PHASE);
         metal.declare(&MOLTEN);
-        metal.declare(&FUSED);
-        metal.declare(&DROPLET);
         Self {
             time: 0.0,
             step: 0,
