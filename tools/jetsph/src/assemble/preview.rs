@@ -25,7 +25,7 @@ pub fn preview(scene: &Scene) -> Result<Preview, Vec<Fault>> {
         let own = scene.solids.iter().find(|solid| solid.name == set.name());
         let mut conditions = vec![0; set.len()];
         if let Some(own) = own {
-            held(own, scene.dimensions, (&mut preview, &mut conditions))?;
+            held(own, scene.dimensions, &mut preview, &mut conditions)?;
         }
         let size = extent(set.matter.spacing, scene.dimensions);
         for (place, condition) in set.column(&POSITION).iter().zip(conditions) {
@@ -53,7 +53,8 @@ fn extent(spacing: f64, dimensions: usize) -> [f64; 3] {
 fn held(
     of: &Solid,
     dimensions: usize,
-    (preview, conditions): (&mut Preview, &mut [u32]),
+    preview: &mut Preview,
+    conditions: &mut [u32],
 ) -> Result<(), Vec<Fault>> {
     let (shape, lattice) = solid::filled(of, dimensions).map_err(|fault| vec![fault])?;
     let clamps = of.clamps.iter().map(|clamp| {
@@ -67,7 +68,7 @@ fn held(
         .map(|load| ("loaded", &load.on, &load.within));
     for (how, on, within) in clamps.chain(loads) {
         let within = within.as_ref().map(|shape| Body::new(shape, dimensions));
-        let next = next_to(&shape, &lattice, on, (within.as_ref(), dimensions));
+        let next = next_to(&shape, &lattice, on, within.as_ref(), dimensions);
         let next = next.map_err(|what| vec![Fault::at("/solids", what)])?;
         let condition = preview.condition(&format!("{} {}: {how}", of.name, on.join(" ")));
         for (particle, _) in next {

@@ -89,13 +89,13 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
     }
     let (stage, loose) = if let Some(form) = solid.updated_form {
         (
-            updated((solid, form), &lattice, (state.sets.len(), dimensions)),
+            updated(solid, form, &lattice, state.sets.len(), dimensions),
             Vec::new(),
         )
     } else if dimensions == 2 {
-        staged::<2, 5>(body, &set, (solid, axes(&lattice)))
+        staged::<2, 5>(body, &set, solid, axes(&lattice))
     } else {
-        staged::<4, 9>(body, &set, (solid, axes(&lattice)))
+        staged::<4, 9>(body, &set, solid, axes(&lattice))
     };
     if let Some(a) = loose.first() {
         let what = format!(
@@ -149,7 +149,8 @@ pub(super) fn filled(solid: &Solid, dimensions: usize) -> Result<(shapes::Body, 
 fn staged<const L: usize, const T: usize>(
     body: Body,
     set: &Set,
-    (solid, axes): (&Solid, Matrix),
+    solid: &Solid,
+    axes: Matrix,
 ) -> (Box<dyn Stage>, Vec<usize>) {
     let (stage, loose) = Elastic::<L, T>::new(body, set);
     let stage = match solid.plasticity {
@@ -165,9 +166,11 @@ fn staged<const L: usize, const T: usize>(
 
 /// The stage of an elastic solid in the updated form.
 fn updated(
-    (solid, form): (&Solid, UpdatedForm),
+    solid: &Solid,
+    form: UpdatedForm,
     lattice: &Lattice,
-    (set, dimensions): (usize, usize),
+    set: usize,
+    dimensions: usize,
 ) -> Box<dyn Stage> {
     let (bulk, shear) = solid.elastic.moduli();
     let spacing = spacing(lattice.cell, dimensions);
@@ -290,7 +293,7 @@ fn bounds(
     let (mut anchors, mut loads) = (Vec::new(), Vec::new());
     let next_to = |on: &[String], within: Option<&shapes::Shape>, at: &str| {
         let within = within.map(|shape| shapes::Body::new(shape, dimensions));
-        let found = bound::next_to(shape, lattice, on, (within.as_ref(), dimensions));
+        let found = bound::next_to(shape, lattice, on, within.as_ref(), dimensions);
         let found = found.map_err(|what| Fault::at(&format!("{at}/on"), what))?;
         if found.is_empty() {
             return Err(Fault::at(
@@ -314,8 +317,8 @@ fn bounds(
             Some(p) => normal.map(|n| -p * n),
             None => along,
         };
-        let rising = (traction, load.rise_s.unwrap_or(0.0));
-        loads.extend(bound::loads(&pieces, lattice, rising));
+        let rise = load.rise_s.unwrap_or(0.0);
+        loads.extend(bound::loads(&pieces, lattice, traction, rise));
     }
     Ok((anchors, loads))
 }

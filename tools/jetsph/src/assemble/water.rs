@@ -77,7 +77,7 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
         set.column_mut(&MASS)[row] *= density;
     }
     state.sets.push(set);
-    let last = ways(of, nozzles, (law, place), state)?;
+    let last = ways(of, nozzles, law, place, state)?;
     let h = of.smoothing * of.spacing_m;
     if of.method == Method::DivergenceFree {
         let liquid = Liquid {
@@ -147,12 +147,7 @@ pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) 
     } else {
         of.spacing_m
     };
-    let skin = Skin::new(
-        solid.set,
-        (solid.size, solid.cells.clone()),
-        part,
-        dimensions,
-    );
+    let skin = Skin::new(solid.set, solid.size, solid.cells.clone(), part, dimensions);
     let h = 0.5 * of.smoothing * (of.spacing_m + skin.spacing);
     let none = ArtificialViscosity {
         linear: 0.0,
@@ -161,21 +156,33 @@ pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) 
     };
     let artificial = of.artificial_viscosity.unwrap_or(none);
     let friction = Artificial::new(&artificial, law.density, law.sound_speed, h);
-    let between = (law, friction, (water, skin), h);
     match (dimensions, of.kernel) {
-        (2, KernelScene::Spline) => wet(between, CubicSpline::<2>::new),
-        (2, KernelScene::Wendland) => wet(between, Wendland::<2>::new),
-        (_, KernelScene::Spline) => wet(between, CubicSpline::<3>::new),
-        (_, KernelScene::Wendland) => wet(between, Wendland::<3>::new),
+        (2, KernelScene::Spline) => wet(
+            law,
+            friction,
+            Sight::new(water, skin, CubicSpline::<2>::new(h)),
+        ),
+        (2, KernelScene::Wendland) => wet(
+            law,
+            friction,
+            Sight::new(water, skin, Wendland::<2>::new(h)),
+        ),
+        (_, KernelScene::Spline) => wet(
+            law,
+            friction,
+            Sight::new(water, skin, CubicSpline::<3>::new(h)),
+        ),
+        (_, KernelScene::Wendland) => wet(
+            law,
+            friction,
+            Sight::new(water, skin, Wendland::<3>::new(h)),
+        ),
     }
 }
 
 /// The stage of a solid and the water with a kernel.
-fn wet<K: Kernel + 'static>(
-    (law, friction, (water, skin), h): (Tait, Artificial, (usize, Skin), f64),
-    kernel: impl Fn(f64) -> K,
-) -> Box<dyn Stage> {
-    Box::new(Wet::new(law, friction, Sight::new(water, skin, kernel(h))))
+fn wet<K: Kernel + 'static>(law: Tait, friction: Artificial, sight: Sight<K>) -> Box<dyn Stage> {
+    Box::new(Wet::new(law, friction, sight))
 }
 
 /// The set without particles.
@@ -201,7 +208,7 @@ fn empty_set(of: &WaterScene) -> Set {
 fn nozzles(scene: &Scene, of: &WaterScene, set: usize) -> Result<Vec<Nozzle>, Fault> {
     let each = of.nozzles.iter().enumerate();
     each.map(|(k, nozzle)| {
-        let made = self::nozzle(nozzle, of, (scene.dimensions, set, k));
+        let made = self::nozzle(nozzle, of, scene.dimensions, set, k);
         let mut made = made.map_err(|fault| fault.within(&format!("/nozzles/{k}")))?;
         made.fastest = fastest_of(&made, scene.time.end_s);
         Ok(made)
@@ -221,7 +228,8 @@ fn fastest_of(nozzle: &Nozzle, end: f64) -> f64 {
 fn ways(
     of: &WaterScene,
     nozzles: Vec<Nozzle>,
-    (law, set): (Tait, usize),
+    law: Tait,
+    set: usize,
     state: &mut State,
 ) -> Result<Vec<Box<dyn Stage>>, Fault> {
     let mut last: Vec<Box<dyn Stage>> = Vec::new();
@@ -233,7 +241,7 @@ fn ways(
         last.push(Box::new(feed));
     }
     for outlet in &of.outlets {
-        if let Some(outlet) = self::outlet(outlet, law, (set, state.dimensions)) {
+        if let Some(outlet) = self::outlet(outlet, law, set, state.dimensions) {
             last.push(Box::new(outlet));
         }
     }
@@ -308,7 +316,9 @@ fn fill(
 fn nozzle(
     of: &NozzleScene,
     water: &WaterScene,
-    (dimensions, set, number): (usize, usize, usize),
+    dimensions: usize,
+    set: usize,
+    number: usize,
 ) -> Result<Nozzle, Fault> {
     let given = vector(Some(&of.direction));
     let length = given[0].hypot(given[1]).hypot(given[2]);
@@ -357,9 +367,9 @@ fn nozzle(
 }
 
 /// None without a shape, which a scene is refused for.
-fn outlet(of: &OutletScene, law: Tait, (set, dimensions): (usize, usize)) -> Option<Outlet> {
+fn outlet(of: &OutletScene, law: Tait, set: usize, dimensions: usize) -> Option<Outlet> {
     let shape = of.within.as_ref().or(of.beyond.as_ref())?;
-    let body = (Body::new(shape, dimensions), of.within.is_none());
+    let (body, beyond) = (Body::new(shape, dimensions), of.within.is_none());
     let moving = of.moving_m_s.as_deref().map(|u| vector(Some(u)));
-    Some(Outlet::new((of.name.clone(), set), body, moving, law))
+    Some(Outlet::new(of.name.clone(), set, body, beyond, moving, law))
 }

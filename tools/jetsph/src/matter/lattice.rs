@@ -77,7 +77,7 @@ impl Lattice {
             places: Vec::new(),
             cells: Vec::new(),
         };
-        lattice.place(body, filling, (counts, half, boxed.is_some()));
+        lattice.place(body, filling, counts, half, boxed.is_some());
         Ok(lattice)
     }
 
@@ -85,7 +85,9 @@ impl Lattice {
         &mut self,
         body: &Body,
         filling: &Filling,
-        (counts, half, boxed): ([usize; 3], [f64; 3], bool),
+        counts: [usize; 3],
+        half: [f64; 3],
+        boxed: bool,
     ) {
         for k in 0..counts[2] {
             for j in 0..counts[1] {

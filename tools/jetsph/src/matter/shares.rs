@@ -64,8 +64,10 @@ pub fn shares(body: &Body, lattice: &Lattice, dimensions: usize) -> Vec<f64> {
             measure(
                 body,
                 lattice,
-                (&grid, taken.get(at).copied()),
-                (*at, dimensions),
+                &grid,
+                taken.get(at).copied(),
+                *at,
+                dimensions,
             )
         })
         .collect();
@@ -108,8 +110,10 @@ fn around(at: Index, dimensions: usize) -> impl Iterator<Item = Index> {
 fn measure(
     body: &Body,
     lattice: &Lattice,
-    (grid, own): (&Grid, Option<u32>),
-    (at, dimensions): (Index, usize),
+    grid: &Grid,
+    own: Option<u32>,
+    at: Index,
+    dimensions: usize,
 ) -> BTreeMap<u32, f64> {
     let points = POINTS[dimensions - 2];
     let depth = if dimensions == 3 { points } else { 1 };

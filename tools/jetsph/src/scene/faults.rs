@@ -45,8 +45,8 @@ impl Scene {
                 let what = "\"water\" is the channel of the water";
                 faults.push(Fault::at(&format!("/solids/{i}/name"), what));
             }
-            let scene = (self.dimensions, self.plane);
-            solid.faults(&format!("/solids/{i}"), scene, &mut faults);
+            let (dimensions, plane) = (self.dimensions, self.plane);
+            solid.faults(&format!("/solids/{i}"), dimensions, plane, &mut faults);
             if let Some(k) = self.solids[..i]
                 .iter()
                 .position(|other| other.name == solid.name)
@@ -90,7 +90,7 @@ impl Scene {
             if water.method == Method::DivergenceFree {
                 water.soundless_faults(!self.solids.is_empty(), faults);
             }
-            water.faults(self.dimensions, (&mut vectors, &mut misfits), faults);
+            water.faults(self.dimensions, &mut vectors, &mut misfits, faults);
         }
         for (at, vector) in vectors {
             if let Some(found) = vector.filter(|found| found.len() != self.dimensions) {
@@ -110,7 +110,8 @@ impl super::WaterScene {
     fn faults<'a>(
         &'a self,
         dimensions: usize,
-        (vectors, misfits): (&mut Vectors<'a>, &mut Vec<Misfit>),
+        vectors: &mut Vectors<'a>,
+        misfits: &mut Vec<Misfit>,
         faults: &mut Vec<Fault>,
     ) {
         for (k, nozzle) in self.nozzles.iter().enumerate() {
@@ -225,12 +226,7 @@ impl Solid {
         }
     }
 
-    fn faults(
-        &self,
-        at: &str,
-        (dimensions, plane): (usize, Option<Plane>),
-        faults: &mut Vec<Fault>,
-    ) {
+    fn faults(&self, at: &str, dimensions: usize, plane: Option<Plane>, faults: &mut Vec<Fault>) {
         let mut misfits = Vec::new();
         check(&self.body, &format!("{at}/body"), dimensions, &mut misfits);
         for (k, load) in self.loads.iter().enumerate() {

@@ -117,7 +117,7 @@ impl Contact {
     }
 
     /// Force \[N\] along the normal, energy stored \[J\] and power lost \[W\] at an overlap \[m\] and a speed apart \[m/s\].
-    fn push(&self, (stiffness, mass): (f64, f64), overlap: f64, apart: f64) -> [f64; 3] {
+    fn push(&self, stiffness: f64, mass: f64, overlap: f64, apart: f64) -> [f64; 3] {
         let spring = stiffness * overlap;
         let damper = 2.0 * self.damping * (stiffness * mass).sqrt();
         let force = (spring - damper * apart).max(0.0);
@@ -142,7 +142,7 @@ impl Contact {
             let stiffness =
                 2.0 * party.stiffness * theirs.stiffness / (party.stiffness + theirs.stiffness);
             let mass = own.mass * other.mass / (own.mass + other.mass);
-            let [force, stored, lost] = self.push((stiffness, mass), overlap, apart);
+            let [force, stored, lost] = self.push(stiffness, mass, overlap, apart);
             (0..3).for_each(|k| sum[k] += force * dx[k] / r);
             sum[3] += 0.5 * stored;
             sum[4] += 0.5 * lost;
@@ -207,7 +207,7 @@ impl Contact {
         }
         let normal = body.normal(own.x, 1e-3 * party.spacing);
         let apart: f64 = (0..3).map(|k| own.u[k] * normal[k]).sum();
-        let [force, stored, lost] = self.push((2.0 * party.stiffness, own.mass), overlap, apart);
+        let [force, stored, lost] = self.push(2.0 * party.stiffness, own.mass, overlap, apart);
         let [x, y, z] = normal.map(|n| force * n);
         [x, y, z, stored, lost]
     }

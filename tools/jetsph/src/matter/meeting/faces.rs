@@ -123,12 +123,7 @@ impl Cells {
     /// Where a line leaves the solid that begins in the cell of particle `a` at an offset \[m\] and goes a way \[m\], both along
     /// the axes of the lattice at rest; none from a broken cell or too deep inside.
     #[must_use]
-    pub fn leave(
-        &self,
-        broken: &[u8],
-        (a, offset): (usize, [f64; 3]),
-        way: [f64; 3],
-    ) -> Option<Place> {
+    pub fn leave(&self, broken: &[u8], a: usize, offset: [f64; 3], way: [f64; 3]) -> Option<Place> {
         let mut at = self.cell[a].map(i64::from);
         let mut own = self.at(at, broken)?;
         let scaled = |x: [f64; 3], k: usize| x[k] / self.size[k];
@@ -262,25 +257,19 @@ mod tests {
         // Two columns of three rows; the upper right cell is missing.
         let cell = vec![[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 2, 0]];
         let cells = Cells::new([0.1, 0.2, 1.0], cell, 2);
-        let up = cells.leave(&[], (0, [0.01, -0.05, 0.0]), [0.0, 1.0, 0.0]);
+        let up = cells.leave(&[], 0, [0.01, -0.05, 0.0], [0.0, 1.0, 0.0]);
         let up = up.unwrap();
         assert_eq!(up.cell, 4);
         assert!((up.offset[0] - 0.01).abs() + (up.offset[1] - 0.1).abs() < 1e-15);
         assert!((up.depth[1] - 0.1).abs() + up.depth[0].abs() < 1e-15);
         // To the right and up, from the middle of the lower left cell: out of the cell beside it.
-        let aside = cells.leave(&[], (0, [0.0; 3]), [0.2, 0.1, 0.0]).unwrap();
+        let aside = cells.leave(&[], 0, [0.0; 3], [0.2, 0.1, 0.0]).unwrap();
         assert_eq!(aside.cell, 1);
         assert!((aside.offset[1] - 0.075).abs() < 1e-15, "{aside:?}");
         // What is broken is not there, and has no faces.
         let broken = [0, 0, 1, 0, 0];
-        let up = cells
-            .leave(&broken, (0, [0.0; 3]), [0.0, 1.0, 0.0])
-            .unwrap();
+        let up = cells.leave(&broken, 0, [0.0; 3], [0.0, 1.0, 0.0]).unwrap();
         assert_eq!(up.cell, 0);
-        assert!(
-            cells
-                .leave(&broken, (2, [0.0; 3]), [0.0, 1.0, 0.0])
-                .is_none()
-        );
+        assert!(cells.leave(&broken, 2, [0.0; 3], [0.0, 1.0, 0.0]).is_none());
     }
 }

@@ -66,7 +66,8 @@ impl Skin {
     #[must_use]
     pub fn new(
         set: usize,
-        (size, cells): ([f64; 3], Option<Cells>),
+        size: [f64; 3],
+        cells: Option<Cells>,
         water: f64,
         dimensions: usize,
     ) -> Self {
@@ -116,7 +117,7 @@ impl Skin {
         let cell = point.cell as usize;
         let left = self.cells.as_ref().and_then(|cells| {
             let way = [0, 1, 2].map(|k| (0..3).map(|i| point.back[i][k] * dx[i]).sum());
-            cells.leave(moving.broken, (cell, point.offset), way)
+            cells.leave(moving.broken, cell, point.offset, way)
         });
         left.unwrap_or(Place {
             cell,
@@ -157,7 +158,7 @@ mod tests {
 
     #[test]
     fn parts_fill_the_cell() {
-        let skin = Skin::new(0, ([2e-3, 3e-3, 1.0], None), 1e-3, 2);
+        let skin = Skin::new(0, [2e-3, 3e-3, 1.0], None, 1e-3, 2);
         assert_eq!(skin.offsets.len(), 6);
         assert!((skin.volume * 6.0 - 6e-6).abs() < 1e-18);
         let middle: f64 = skin.offsets.iter().map(|o| o[0] + o[1]).sum();

@@ -85,7 +85,8 @@ pub fn next_to(
     body: &shapes::Body,
     lattice: &Lattice,
     faces: &[String],
-    (within, dimensions): (Option<&shapes::Body>, usize),
+    within: Option<&shapes::Body>,
+    dimensions: usize,
 ) -> Result<Vec<(usize, Piece)>, String> {
     let known = names(body, dimensions);
     if let Some(name) = faces.iter().find(|name| !known.contains(name)) {
@@ -146,7 +147,8 @@ pub fn anchors(pieces: &[(usize, Piece)], velocity: [f64; 3]) -> Vec<Anchor> {
 pub fn loads(
     pieces: &[(usize, Piece)],
     lattice: &Lattice,
-    (traction, rise): (impl Fn([f64; 3]) -> [f64; 3], f64),
+    traction: impl Fn([f64; 3]) -> [f64; 3],
+    rise: f64,
 ) -> Vec<Load> {
     let load = |(particle, piece): &(usize, Piece)| {
         let (own, rest) = (

@@ -168,7 +168,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         breaking.list = (0..broken.len()).filter(|a| broken[*a]).collect();
         let touched = breaking.cracks.touched(fresh, broken);
         let (cracks, size) = (&breaking.cracks, self.body.size);
-        let loose = self.links.cut(cracks, size, broken, (fresh, &touched));
+        let loose = self.links.cut(cracks, size, broken, fresh, &touched);
         self.body.loads.retain(|load| !broken[load.particle]);
         let moment = self.body.cell.moment;
         for a in fresh.iter().chain(&touched) {
@@ -197,10 +197,11 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let (trials, rest) = rest.split_at(3 * *count as usize);
         if let Some(mut breaking) = self.breaking.take() {
             for of in trials.as_chunks::<3>().0 {
-                let around = (of[0] as usize, breaking.broken.as_slice());
-                let mut trial = Trial::new(&self.links, &breaking.cracks, around, self.body.size);
+                let (a, size) = (of[0] as usize, self.body.size);
+                let (cracks, broken) = (&breaking.cracks, &breaking.broken);
+                let mut trial = Trial::new(&self.links, cracks, a, broken, size);
                 (trial.ratio, trial.asked) = (of[1], of[2]);
-                breaking.trials.insert(of[0] as usize, trial);
+                breaking.trials.insert(a, trial);
             }
             self.breaking = Some(breaking);
         }

@@ -35,7 +35,8 @@ impl<const T: usize> Breaking<T> {
     pub fn new(
         criterion: Criterion,
         cracks: Cracks,
-        (size, stiffness): (f64, Vec<f64>),
+        size: f64,
+        stiffness: Vec<f64>,
         axes: Matrix,
     ) -> Self {
         let particles = stiffness.len();

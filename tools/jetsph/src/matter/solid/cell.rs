@@ -135,7 +135,7 @@ impl Cell {
                 [[0.0; 3]; 3]
             }
         });
-        let out = self.slopes(derivatives, (&f, &answer.stress), &varying);
+        let out = self.slopes(derivatives, &f, &answer.stress, &varying);
         (out, answer.stiffer)
     }
 
@@ -144,7 +144,8 @@ impl Cell {
     pub(super) fn slopes<const L: usize, const T: usize>(
         &self,
         derivatives: &Derivatives<L, T>,
-        (f, middle): (&Matrix, &Matrix),
+        f: &Matrix,
+        middle: &Matrix,
         varying: &[Matrix; 3],
     ) -> Derivatives<L, T> {
         let d = dimensions(T);

@@ -101,7 +101,7 @@ impl Cracks {
     /// Weights in cells of the neighbours `row` that are left to particle `a`, and whether they hold it.
     pub(super) fn refit<const T: usize>(&self, a: usize, row: &[u32]) -> (Vec<[f64; T]>, bool) {
         let fewest = if T == 5 { 4 } else { 7 };
-        let (weights, held) = fit::<T>(&self.places, self.rows.len(), (a, row));
+        let (weights, held) = fit::<T>(&self.places, self.rows.len(), a, row);
         (weights, held && row.len() >= fewest)
     }
 
@@ -121,7 +121,8 @@ impl<const T: usize> Links<T> {
         cracks: &Cracks,
         cell: [f64; 3],
         broken: &[bool],
-        (fresh, touched): (&[usize], &[usize]),
+        fresh: &[usize],
+        touched: &[usize],
     ) -> Vec<usize> {
         let refit = |a: &usize| {
             let row = cracks.left(*a, broken);
@@ -159,7 +160,7 @@ mod tests {
         let fresh: Vec<usize> = (0..9).map(|j| 9 * j + 4).collect();
         let broken: Vec<bool> = (0..81).map(|a| fresh.contains(&a)).collect();
         let touched = cracks.touched(&fresh, &broken);
-        let loose = links.cut(&cracks, [1.0; 3], &broken, (&fresh, &touched));
+        let loose = links.cut(&cracks, [1.0; 3], &broken, &fresh, &touched);
         assert!(loose.is_empty());
         for a in (0..81).filter(|a| !broken[*a]) {
             let row = links.row(a);

@@ -98,7 +98,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let moment = self.body.cell.moment;
         let stiffness = (0..n).map(|a| stiffness(&self.links.row(a), moment));
         let stiffness = stiffness.collect();
-        self.breaking = Some(Breaking::new(criterion, cracks, (size, stiffness), axes));
+        self.breaking = Some(Breaking::new(criterion, cracks, size, stiffness, axes));
         self
     }
 

@@ -31,7 +31,7 @@ pub(super) fn answer<const L: usize, const T: usize>(
     let back = inverse(&f);
     let mut varying = [[[0.0; 3]; 3]; 3];
     for (k, stress) in varying.iter_mut().enumerate().take(d) {
-        let strain = elastic(&f, &slope(derivatives, k), (d, &history.bent[k]));
+        let strain = elastic(&f, &slope(derivatives, k), d, &history.bent[k]);
         let away = deviator(&strain, d);
         let flown = away.map(|row| row.map(|e| (1.0 - kept) * e));
         if kept < 1.0 {
@@ -43,7 +43,7 @@ pub(super) fn answer<const L: usize, const T: usize>(
     }
     let middle = times_transposed(&kirchhoff, &back);
     let stiffer = (inner(&back, &back) - 2.0).max(1.0);
-    (cell.slopes(derivatives, (&f, &middle), &varying), stiffer)
+    (cell.slopes(derivatives, &f, &middle, &varying), stiffer)
 }
 
 /// Energy of a cell with its history \[J\].
@@ -57,14 +57,14 @@ pub(super) fn energy<const L: usize, const T: usize>(
     let f = gradient(derivatives);
     let mut energy = law.flow(&cell.law, &f, &mut history.clone()).energy;
     for k in 0..d {
-        let strain = elastic(&f, &slope(derivatives, k), (d, &history.bent[k]));
+        let strain = elastic(&f, &slope(derivatives, k), d, &history.bent[k]);
         energy += 0.5 * cell.moment[k] * inner(&strain, &cell.bent(&strain, d));
     }
     cell.volume * energy
 }
 
 /// The elastic part of the strain that varies along an axis.
-fn elastic(f: &Matrix, slope: &Matrix, (d, bent): (usize, &Matrix)) -> Matrix {
+fn elastic(f: &Matrix, slope: &Matrix, d: usize, bent: &Matrix) -> Matrix {
     sum(&Cell::bending(f, slope, d), bent, -1.0)
 }
 

@@ -89,7 +89,7 @@ impl<const T: usize> Links<T> {
         rows.within(&scaled[..particles], &grid, SUPPORT);
         let fitted: Vec<(Vec<[f64; T]>, bool)> = (0..particles)
             .into_par_iter()
-            .map(|a| fit(&scaled, particles, (a, rows.row(a))))
+            .map(|a| fit(&scaled, particles, a, rows.row(a)))
             .collect();
         let mut links = Self {
             start: vec![0],
@@ -220,7 +220,8 @@ fn share(distance: f64) -> f64 {
 pub(super) fn fit<const T: usize>(
     places: &[[f64; 3]],
     particles: usize,
-    (a, row): (usize, &[u32]),
+    a: usize,
+    row: &[u32],
 ) -> (Vec<[f64; T]>, bool) {
     let x = places[a];
     let root = |r: [f64; 3]| {

@@ -81,11 +81,9 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let all = (0..breaking.broken.len()).into_par_iter().with_min_len(32);
         let near: Vec<usize> = all.filter(is_near).collect();
         let of = |a: &usize| {
-            let around = (*a, breaking.broken.as_slice());
-            (
-                *a,
-                Trial::new(&self.links, &breaking.cracks, around, self.body.size),
-            )
+            let (cracks, broken) = (&breaking.cracks, &breaking.broken);
+            let trial = Trial::new(&self.links, cracks, *a, broken, self.body.size);
+            (*a, trial)
         };
         let is_new = |a: &&usize| !breaking.trials.contains_key(a);
         let fresh: Vec<_> = near.par_iter().filter(is_new).map(of).collect();
@@ -189,8 +187,7 @@ mod tests {
         let breaking = stage.breaking.as_ref().unwrap();
         let broken = vec![false; 81];
         let trial = |stage: &Elastic<2, 5>, broken: &[bool]| {
-            let around = (40, broken);
-            let trial = Trial::new(&stage.links, &breaking.cracks, around, stage.body.size);
+            let trial = Trial::new(&stage.links, &breaking.cracks, 40, broken, stage.body.size);
             stage.own(40).1 * stage.links_alone(&trial)
         };
         let alone = trial(&stage, &broken);
@@ -211,8 +208,8 @@ mod tests {
         }
         let mut breaking = stage.breaking.take().unwrap();
         let told = stage.released(&mut breaking, 0.0);
-        let (around, cell) = ((40, breaking.broken.as_slice()), stage.body.size);
-        let trial = Trial::new(&stage.links, &breaking.cracks, around, cell);
+        let (cracks, broken) = (&breaking.cracks, &breaking.broken);
+        let trial = Trial::new(&stage.links, cracks, 40, broken, stage.body.size);
         stage.breaking = Some(breaking);
         assert!(!told.is_empty());
         let (release, before) = (stage.links_alone(&trial), stage.stored());

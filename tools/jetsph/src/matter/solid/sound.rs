@@ -15,7 +15,8 @@ const BEYOND: f64 = 1.03;
 /// accelerations of displacements from rest \[m\], `step` is a small length \[m\].
 fn fastest(
     n: usize,
-    (step, dimensions): (f64, usize),
+    step: f64,
+    dimensions: usize,
     mut accelerate: impl FnMut(&[[f64; 3]]) -> Vec<[f64; 3]>,
 ) -> f64 {
     let part = |number: usize| {
@@ -65,7 +66,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let step = 1e-6 * self.body.size[0];
         let dimensions = if T == 5 { 2 } else { 3 };
         let mut acceleration = vec![[0.0; 3]; rest.len()];
-        let found = fastest(rest.len(), (step, dimensions), |motion| {
+        let found = fastest(rest.len(), step, dimensions, |motion| {
             let moved = rest.iter().zip(motion);
             let moved = moved.map(|(x, u)| std::array::from_fn(|k| x[k] + u[k]));
             let all: Vec<[f64; 3]> = moved.chain(anchors.iter().copied()).collect();

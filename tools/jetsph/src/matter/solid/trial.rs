@@ -27,7 +27,8 @@ impl<const T: usize> Trial<T> {
     pub(super) fn new(
         links: &Links<T>,
         cracks: &Cracks,
-        (a, broken): (usize, &[bool]),
+        a: usize,
+        broken: &[bool],
         cell: [f64; 3],
     ) -> Self {
         let mut all = broken.to_vec();

@@ -107,7 +107,7 @@ impl<K: Kernel> Around<K> {
         let own = &self.seen[a];
         let reach = self.kernel.support();
         let mut each = |mirror: &[Plane], b: usize, other: &Seen| {
-            let Some((x, u)) = image(mirror, own.x, (other.x, other.u)) else {
+            let Some((x, u)) = image(mirror, own.x, other.x, other.u) else {
                 return;
             };
             let dx = [0, 1, 2].map(|k| own.x[k] - x[k]);

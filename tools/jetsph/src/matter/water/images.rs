@@ -82,7 +82,8 @@ pub fn mirrors(walls: &[Body], place: [f64; 3], reach: f64) -> Vec<Mirror> {
 pub fn image(
     mirror: &[Plane],
     own: [f64; 3],
-    (place, velocity): ([f64; 3], [f64; 3]),
+    place: [f64; 3],
+    velocity: [f64; 3],
 ) -> Option<([f64; 3], [f64; 3])> {
     let (mut x, mut u) = (place, velocity);
     for plane in mirror {
@@ -115,7 +116,7 @@ mod tests {
         let found = mirrors(&walls, own, 0.5);
         let places: Vec<[f64; 3]> = found
             .iter()
-            .filter_map(|m| image(m, own, (own, [1.0, 2.0, 0.0])))
+            .filter_map(|m| image(m, own, own, [1.0, 2.0, 0.0]))
             .map(|(x, _)| x)
             .collect();
         for (found, exact) in places.iter().zip([[0.1, -0.2], [-0.1, 0.2], [-0.1, -0.2]]) {

@@ -169,7 +169,7 @@ impl Feed {
     }
 
     /// A new particle of a lane.
-    fn emit(&mut self, state: &mut State, lane: usize, (along, exit, speed): (f64, [f64; 3], f64)) {
+    fn emit(&mut self, state: &mut State, lane: usize, along: f64, exit: [f64; 3], speed: f64) {
         let State { sets, ids, .. } = state;
         let set = &mut sets[self.nozzle.set];
         let row = set.push(ids);
@@ -199,7 +199,7 @@ impl Feed {
         for row in (0..rows).rev() {
             for lane in 0..self.lanes.len() {
                 let along = (row as f64 + 0.5) * spacing - self.length;
-                self.emit(state, lane, (along, self.nozzle.exit, speed));
+                self.emit(state, lane, along, self.nozzle.exit, speed);
             }
         }
         // What stands there at the start has not come in.
@@ -303,7 +303,7 @@ impl Stage for Feed {
             self.lanes[lane].last += share * gone;
             let next = self.lanes[lane].last - spacing;
             if next >= -self.length - 0.5 * spacing && speed > 0.0 {
-                self.emit(state, lane, (next, exit, speed));
+                self.emit(state, lane, next, exit, speed);
             }
         }
         Ok(())

@@ -34,8 +34,10 @@ impl Outlet {
     /// An outlet from which nothing has left yet.
     #[must_use]
     pub fn new(
-        (name, set): (String, usize),
-        (body, beyond): (Body, bool),
+        name: String,
+        set: usize,
+        body: Body,
+        beyond: bool,
         moving: Option<[f64; 3]>,
         law: Tait,
     ) -> Self {

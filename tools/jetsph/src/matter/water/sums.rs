@@ -114,7 +114,7 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
 
     /// Forces over the own volume: of pressure and friction \[N/m3\], and the power that friction takes \[W/m3\].
     #[inline(always)]
-    fn pull(own: &Seen, other: &Seen, dx: [f64; 3], (slope, q): (f64, f64)) -> [f64; 4] {
+    fn pull(own: &Seen, other: &Seen, dx: [f64; 3], slope: f64, q: f64) -> [f64; 4] {
         let scale = -other.volume * slope * (own.value + other.value + q);
         let du = [0, 1, 2].map(|k| own.u[k] - other.u[k]);
         let approach = du[0] * dx[0] + du[1] * dx[1] + du[2] * dx[2];
@@ -137,8 +137,7 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
                     let mut sum = [0.0; 4];
                     self.around
                         .each(chunk * GRAIN + k, |_, other, dx, square, slope| {
-                            let part =
-                                Self::pull(own, other, dx, (slope, q(own, other, dx, square)));
+                            let part = Self::pull(own, other, dx, slope, q(own, other, dx, square));
                             (0..4).for_each(|i| sum[i] += part[i]);
                         });
                     *force = sum.map(|x| own.volume * x);
@@ -151,7 +150,7 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
             let mut sums = vec![[0.0; 4]; walls];
             self.around
                 .mirrored(*a as usize, |(wall, _), other, dx, square, slope| {
-                    let part = Self::pull(own, other, dx, (slope, q(own, other, dx, square)));
+                    let part = Self::pull(own, other, dx, slope, q(own, other, dx, square));
                     (0..4).for_each(|i| sums[wall][i] += own.volume * part[i]);
                 });
             sums

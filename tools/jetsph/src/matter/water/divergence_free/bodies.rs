@@ -53,7 +53,8 @@ impl Bodies {
     pub(super) fn balance<K: Kernel>(
         &mut self,
         around: &Around<K>,
-        (density, accelerations): (f64, &mut [[f64; 3]]),
+        density: f64,
+        accelerations: &mut [[f64; 3]],
         across: &[(u32, Forces)],
     ) -> Forces {
         self.find(around);

@@ -32,7 +32,7 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
                 let a = chunk * ROWS + k;
                 *row = Sums::default();
                 if !is_led(&around.seen[a]) {
-                    *row = Sums::of::<D, K>(around, (a, is_beside[a]), filled, &mut couplings.with);
+                    *row = Sums::of::<D, K>(around, a, is_beside[a], filled, &mut couplings.with);
                 }
                 couplings.ends.push(couplings.with.len() as u32);
             }

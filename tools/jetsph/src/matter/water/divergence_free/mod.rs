@@ -282,8 +282,9 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
         self.reach_led(&mut p);
         let mut accelerations = self.accelerations(&p);
         let across = self.across(&p);
-        let with = (self.liquid.density, &mut accelerations[..]);
-        let mut forces = self.bodies.balance(&self.around, with, &across);
+        let density = self.liquid.density;
+        let bodies = &mut self.bodies;
+        let mut forces = bodies.balance(&self.around, density, &mut accelerations, &across);
         self.strike(state, &accelerations, dt);
         state.sets[self.liquid.set].put(&PRESSURE, p);
         let nozzles = forces.pop().unwrap_or_default();
@@ -297,7 +298,7 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
     fn exchange(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let set = &mut state.sets[self.liquid.set];
         let d = self.liquid.spacing;
-        let shifts = shift::shifts(&self.around, &self.rows, (self.closing * dt / d, d));
+        let shifts = shift::shifts(&self.around, &self.rows, self.closing * dt / d, d);
         let (mut position, mut velocity) = (set.take(&POSITION), set.take(&VELOCITY));
         let mass = set.column(&MASS);
         let [gained] = sweep::sum(mass.len(), |a| {

@@ -100,7 +100,7 @@ struct Gathered {
 
 impl Gathered {
     #[inline(always)]
-    fn add(&mut self, own: &Seen, other: &Seen, x: [f64; 3], (w, value): (f64, f64)) {
+    fn add(&mut self, own: &Seen, other: &Seen, x: [f64; 3], w: f64, value: f64) {
         self.all += w;
         self.sums.number += other.volume * value;
         let twice = if is_led(other) { 2.0 } else { 1.0 };
@@ -122,7 +122,8 @@ impl Sums {
     /// Those of particle `a`; its couplings are added to `with`.
     pub(super) fn of<const D: usize, K: Kernel>(
         around: &Around<K>,
-        (a, is_beside): (usize, bool),
+        a: usize,
+        is_beside: bool,
         filled: &Filled,
         with: &mut Vec<(u32, f64)>,
     ) -> Self {
@@ -139,7 +140,7 @@ impl Sums {
             };
             let w = -other.volume * slope;
             let value = around.kernel.value(square.sqrt());
-            gathered.add(own, other, x, (w, value));
+            gathered.add(own, other, x, w, value);
             if !is_led(other) && b != a {
                 coupled += w;
                 with.push((b as u32, w));

@@ -27,7 +27,8 @@ const RIM: f64 = 0.97;
 pub(super) fn shifts<K: Kernel>(
     around: &Around<K>,
     rows: &[Sums],
-    (way, d): (f64, f64),
+    way: f64,
+    d: f64,
 ) -> Vec<([f64; 3], [f64; 3])> {
     let [gain, most] = STRENGTH;
     let reach = d * d * (gain * way).min(most);
