@@ -79,14 +79,14 @@ fn listen<P, E>(told: &Receiver<Told<P, E>>, bound: Duration) -> Result<Known<P,
             Err(RecvTimeoutError::Disconnected) => return Ok(known),
             Err(RecvTimeoutError::Timeout) => {}
         }
-        if begun.is_some_and(|begun| passed(begun, bound)) {
+        if begun.is_some_and(|(since, before)| passed(since, before, bound)) {
             return Ok(known);
         }
     }
 }
 
 /// Whether the bound has passed since then, when so much work had been done.
-fn passed((since, before): (Instant, Option<f64>), bound: Duration) -> bool {
+fn passed(since: Instant, before: Option<f64>, bound: Duration) -> bool {
     let clock = since.elapsed();
     let work = before.zip(machine::work_s()).map(|(then, now)| now - then);
     let worked = work.is_none_or(|work| work >= bound.as_secs_f64());

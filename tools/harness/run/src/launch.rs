@@ -119,7 +119,7 @@ fn run_scene<T: Tool>(mut run: Run) -> Result<ExitCode, Failure> {
     run.out = owned.out().to_owned();
     set_threads(run.threads)?;
     let ready = prepare::<T>(&run.study, read::<T>(&run.study)?)?;
-    let opened = open::<T>(&run, &ready.header, (began, ready.read));
+    let opened = open::<T>(&run, &ready.header, began, ready.read);
     let (mut session, told) = opened.map_err(|failure| advised(failure, &run.out))?;
     if run.level() > Level::Quiet {
         head::<T>(&run, &ready);
@@ -158,7 +158,8 @@ fn run_scene<T: Tool>(mut run: Run) -> Result<ExitCode, Failure> {
 fn open<T: Tool>(
     run: &Run,
     header: &Header,
-    (began, read): (Instant, Duration),
+    began: Instant,
+    read: Duration,
 ) -> Result<(Session, Option<String>), Failure> {
     let checkpoint = beside(&run.out, ".checkpoint");
     if run.resume && !checkpoint.exists() {

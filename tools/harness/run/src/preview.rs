@@ -153,7 +153,8 @@ impl Preview {
     pub fn wall(
         &mut self,
         name: &str,
-        (within, spacing): ([[f64; 3]; 2], f64),
+        within: [[f64; 3]; 2],
+        spacing: f64,
         distance: impl Fn([f64; 3]) -> f64,
     ) {
         let [low, high] = within;
@@ -242,7 +243,7 @@ pub fn edges([low, high]: [[f64; 3]; 2]) -> Vec<Vec<[f64; 3]>> {
 
 /// The outline of a face of an upright box: across an axis, the upper one or the lower.
 #[must_use]
-pub fn face([low, high]: [[f64; 3]; 2], (axis, upper): (usize, bool)) -> Vec<Vec<[f64; 3]>> {
+pub fn face([low, high]: [[f64; 3]; 2], axis: usize, upper: bool) -> Vec<Vec<[f64; 3]>> {
     let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
     let corner = |first: f64, second: f64| {
         let mut place = low;
@@ -296,7 +297,7 @@ mod tests {
     fn a_wall_shows_the_layer_that_faces_the_box() {
         let mut preview = Preview::new(Coordinates::Plane);
         let within = [[0.0; 3], [1.0, 1.0, 0.0]];
-        preview.wall("floor", (within, 0.1), |place| place[1] - 0.25);
+        preview.wall("floor", within, 0.1, |place| place[1] - 0.25);
         let heights: Vec<f64> = preview.spots().iter().map(|spot| spot.place[1]).collect();
         assert_eq!(heights.len(), 20);
         assert!(heights.iter().all(|y| (0.05..0.25).contains(y)));
@@ -309,7 +310,7 @@ mod tests {
         assert_eq!(edges([[0.0; 3], [1.0, 2.0, 0.0]]).len(), 1);
         for axis in 0..3 {
             for upper in [false, true] {
-                let lines = face(around, (axis, upper));
+                let lines = face(around, axis, upper);
                 let at = if upper { around[1][axis] } else { 0.0 };
                 let off = lines[0].iter().map(|place| (place[axis] - at).abs());
                 assert!(off.fold(0.0, f64::max) < 1e-15);

@@ -118,7 +118,7 @@ fn walls(scene: &Scene, preview: &mut Preview) {
     for wall in &scene.walls {
         let body = Body::new(&wall.body, scene.dimensions);
         let name = format!("wall {}", wall.name);
-        preview.wall(&name, ([low, high], spacing), |x| body.distance(x));
+        preview.wall(&name, [low, high], spacing, |x| body.distance(x));
     }
 }
 

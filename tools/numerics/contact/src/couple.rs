@@ -58,7 +58,8 @@ impl<N: Normal> Contact<N> {
         &self,
         meeting: &Meeting,
         rolling: Rolling,
-        (history, rolled): (&mut History, &mut Vector),
+        history: &mut History,
+        rolled: &mut Vector,
         step: f64,
     ) -> Reply {
         let reply = self.act(meeting, history, step);

@@ -54,7 +54,7 @@ impl Meeting {
         if squared >= reach * reach || squared <= f64::MIN_POSITIVE {
             return None;
         }
-        Some(Self::at(a, b, (apart, squared)))
+        Some(Self::at(a, b, apart, squared))
     }
 
     /// The contact of two grains that are known to overlap.
@@ -62,7 +62,7 @@ impl Meeting {
     #[must_use]
     pub fn overlapping(a: &Grain, b: &Grain) -> Self {
         let apart = difference(a.position, b.position);
-        Self::at(a, b, (apart, dot(apart, apart)))
+        Self::at(a, b, apart, dot(apart, apart))
     }
 
     /// Two grains that have just parted: the overlap is what is between them, below zero.
@@ -70,11 +70,11 @@ impl Meeting {
     pub fn parted(a: &Grain, b: &Grain) -> Option<Self> {
         let apart = difference(a.position, b.position);
         let squared = dot(apart, apart);
-        (squared > f64::MIN_POSITIVE).then(|| Self::at(a, b, (apart, squared)))
+        (squared > f64::MIN_POSITIVE).then(|| Self::at(a, b, apart, squared))
     }
 
     #[inline(always)]
-    fn at(a: &Grain, b: &Grain, (apart, squared): (Vector, f64)) -> Self {
+    fn at(a: &Grain, b: &Grain, apart: Vector, squared: f64) -> Self {
         let reach = a.radius + b.radius;
         let distance = squared.sqrt();
         let inverse = 1.0 / distance;

@@ -56,7 +56,7 @@ impl Rolling {
             let pull = along(scaled(stiffness, whole), damping, velocity);
             let part = let_through(length(pull), most);
             let force = scaled(-part, pull);
-            let stays = left(whole, part, force, (stiffness, scaled(damping, velocity)));
+            let stays = left(whole, part, force, stiffness, scaled(damping, velocity));
             turning = along(turning, 1.0, stays);
             moment = along(moment, meeting.radius, force);
         }

@@ -55,7 +55,8 @@ pub(crate) fn left(
     whole: Vector,
     part: f64,
     force: Vector,
-    (stiffness, damped): (f64, Vector),
+    stiffness: f64,
+    damped: Vector,
 ) -> Vector {
     let slides = part < 1.0 && stiffness > 0.0;
     let sprung = scaled(-1.0 / stiffness, along(force, 1.0, damped));
@@ -91,7 +92,8 @@ impl Friction {
             whole,
             part,
             force,
-            (stiffness, scaled(damping, meeting.slide)),
+            stiffness,
+            scaled(damping, meeting.slide),
         );
         *history = History { stretch, stiffness };
         force

@@ -144,7 +144,8 @@ impl Chunk {
     #[inline(always)]
     fn search(
         &mut self,
-        (grid, reach): (&Grid, &Reach),
+        grid: &Grid,
+        reach: &Reach,
         centre: Centre,
         used: usize,
         sieve: impl Sieve,
@@ -224,7 +225,7 @@ impl<W: Fn(usize) -> bool> Sifting for Fill<'_, W> {
             if (self.wanted)(a) {
                 let (radius, own) = (self.radius, a as u32);
                 let centre = Centre { point, radius, own };
-                used = chunk.search((grid, reach), centre, used, sieve);
+                used = chunk.search(grid, reach, centre, used, sieve);
             }
             chunk.offsets.push(used as u32);
         }

@@ -112,7 +112,7 @@ impl Tree {
     /// Calls `visit` with each run of sorted points that may lie in the box from `low` to `high`.
     pub fn runs(&self, low: [f64; 3], high: [f64; 3], mut visit: impl FnMut(Range<usize>)) {
         let mut pending = 0..0;
-        self.descend(self.root(), (low, high), &mut |run| {
+        self.descend(self.root(), low, high, &mut |run| {
             if run.start == pending.end {
                 pending.end = run.end;
             } else {
@@ -189,7 +189,8 @@ impl Tree {
     fn descend(
         &self,
         node: Node,
-        (low, high): ([f64; 3], [f64; 3]),
+        low: [f64; 3],
+        high: [f64; 3],
         visit: &mut impl FnMut(Range<usize>),
     ) {
         let [start, end] = self.boxes[node.number];
@@ -202,7 +203,7 @@ impl Tree {
             return;
         }
         for half in node.halves() {
-            self.descend(half, (low, high), visit);
+            self.descend(half, low, high, visit);
         }
     }
 

@@ -102,7 +102,7 @@ impl Body {
                 *end = dot(*normal, y) - signed(*part, y);
             }
             let before = y;
-            y = push(x, (&normals[..list.len()], &ends), &mut pushes);
+            y = push(x, &normals[..list.len()], &ends, &mut pushes);
             if length(difference(y, before)) <= CLOSE * length(difference(y, x)) {
                 let pushing = pushes.iter().filter(|push| **push > 0.0).count();
                 return (!parts.full && pushing > 1).then_some(y);
@@ -162,7 +162,7 @@ fn slope(primitive: &Primitive, y: Vector, step: f64) -> Vector {
 }
 
 /// The place nearest to `x` behind all planes `n y <= end`: x less multiples of the normals, none below zero.
-fn push(x: Vector, (normals, ends): (&[Vector], &[f64]), pushes: &mut [f64]) -> Vector {
+fn push(x: Vector, normals: &[Vector], ends: &[f64], pushes: &mut [f64]) -> Vector {
     let pushed = |pushes: &[f64]| {
         let each = normals.iter().zip(pushes);
         each.fold(x, |y, (n, push)| along(y, -push, *n))

@@ -185,7 +185,8 @@ impl Face {
     /// Place, outward normal of the primitive, and area over that of the parameters.
     pub(crate) fn at(
         &self,
-        (kind, frame): (&Kind, &Frame),
+        kind: &Kind,
+        frame: &Frame,
         parameters: [f64; 2],
         dimensions: usize,
     ) -> (Vector, Vector, f64) {
@@ -205,19 +206,20 @@ impl Face {
     /// Middle, outward normal of the primitive, and area of the part between two corners.
     pub(crate) fn part(
         &self,
-        (kind, frame): (&Kind, &Frame),
+        kind: &Kind,
+        frame: &Frame,
         [u, v]: [[f64; 2]; 2],
         dimensions: usize,
     ) -> (Vector, Vector, f64) {
         let middle = [0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1])];
-        let (_, normal, density) = self.at((kind, frame), middle, dimensions);
+        let (_, normal, density) = self.at(kind, frame, middle, dimensions);
         let area = density * (u[1] - u[0]) * (v[1] - v[0]);
         let mut heavy = middle;
         if let Sheet::End(_) | Sheet::Facet(_) = self.sheet {
             // Radius of the middle of a ring's sector, or of a strip that narrows towards a corner.
             heavy[0] = 2.0 / 3.0 * (u[0] * u[0] + u[0] * u[1] + u[1] * u[1]) / (u[0] + u[1]);
         }
-        let (place, ..) = self.at((kind, frame), heavy, dimensions);
+        let (place, ..) = self.at(kind, frame, heavy, dimensions);
         (place, normal, area)
     }
 }

@@ -35,7 +35,7 @@ fn ends(primitive: &Primitive) -> bool {
 /// The rule of a primitive in space.
 fn smooth(primitive: &Primitive, spacing: f64) -> Vec<Piece> {
     let mut found = Vec::new();
-    let own = (&primitive.kind, &primitive.frame);
+    let Primitive { kind, frame, .. } = primitive;
     for (number, face) in faces(primitive, 3, f64::INFINITY).iter().enumerate() {
         let [u, v] = [0, 1].map(|k| {
             let count = ((face.lengths[k] / spacing).ceil() as usize).max(LEAST);
@@ -51,7 +51,7 @@ fn smooth(primitive: &Primitive, spacing: f64) -> Vec<Piece> {
         });
         for (x, along) in &u {
             for (y, across) in &v {
-                let (place, normal, density) = face.at(own, [*x, *y], 3);
+                let (place, normal, density) = face.at(kind, frame, [*x, *y], 3);
                 found.push(Piece {
                     face: number,
                     place,

@@ -97,13 +97,13 @@ impl Surface<'_> {
         let (nu, nv) = (parts(0), if self.dimensions == 3 { parts(1) } else { 1 });
         for i in 0..nu {
             for j in 0..nv {
-                self.refine([self.cut(0, (i, nu)), self.cut(1, (j, nv))], 0, found);
+                self.refine([self.cut(0, i, nu), self.cut(1, j, nv)], 0, found);
             }
         }
     }
 
     /// Part `i` of `n` of the range of a parameter, all as long on the surface: heights of a ball lie at even angles.
-    fn cut(&self, parameter: usize, (i, n): (usize, usize)) -> [f64; 2] {
+    fn cut(&self, parameter: usize, i: usize, n: usize) -> [f64; 2] {
         let [a, b] = self.face.range[parameter];
         let globe = self.face.sheet == Sheet::Globe && parameter == 1;
         let at = |i: usize| {
@@ -155,7 +155,7 @@ impl Surface<'_> {
         let primitive = &self.body.primitives[self.number];
         let (place, normal, area) =
             self.face
-                .part((&primitive.kind, &primitive.frame), part, self.dimensions);
+                .part(&primitive.kind, &primitive.frame, part, self.dimensions);
         Piece {
             face: self.id,
             place,
@@ -211,7 +211,7 @@ mod tests {
         (pieces(&body, dimensions, spacing), names(&body, dimensions))
     }
 
-    fn checked(text: &str, dimensions: usize, (area, volume, within): (f64, f64, f64)) {
+    fn checked(text: &str, dimensions: usize, area: f64, volume: f64, within: f64) {
         let (found, _) = surface(text, dimensions, 0.1);
         let total: f64 = found.iter().map(|p| p.area).sum();
         assert!(
@@ -235,35 +235,41 @@ mod tests {
         checked(
             r#"{"box": {"min_m": [1, 2], "max_m": [2, 4]}}"#,
             2,
-            (6.0, 2.0, 1e-12),
+            6.0,
+            2.0,
+            1e-12,
         );
         checked(
             r#"{"box": {"min_m": [1, 2, 0], "max_m": [2, 4, 3]}}"#,
             3,
-            (22.0, 6.0, 1e-12),
+            22.0,
+            6.0,
+            1e-12,
         );
         checked(
             r#"{"disc": {"centre_m": [3, 1], "radius_m": 1}}"#,
             2,
-            (2.0 * PI, PI, 1e-4),
+            2.0 * PI,
+            PI,
+            1e-4,
         );
         let bar =
             r#"{"cylinder": {"centre_m": [1, 0, 2], "axis": "y", "radius_m": 1, "length_m": 2}}"#;
-        checked(bar, 3, (6.0 * PI, 2.0 * PI, 1e-3));
+        checked(bar, 3, 6.0 * PI, 2.0 * PI, 1e-3);
         let ball = r#"{"sphere": {"centre_m": [1, 0, 2], "radius_m": 1}}"#;
-        checked(ball, 3, (4.0 * PI, 4.0 / 3.0 * PI, 1e-3));
+        checked(ball, 3, 4.0 * PI, 4.0 / 3.0 * PI, 1e-3);
     }
 
     #[test]
     fn ellipsoids_are_closed() {
         let ellipse = r#"{"turned": {"angle_deg": 20, "shape":
             {"ellipsoid": {"centre_m": [3, 1], "semi_axes_m": [2, 1]}}}}"#;
-        checked(ellipse, 2, (9.688_448_220_547_675, 2.0 * PI, 1e-4));
+        checked(ellipse, 2, 9.688_448_220_547_675, 2.0 * PI, 1e-4);
         // Of a spheroid `2 pi a^2 (1 + c/(a e) asin e)`, `e^2 = 1 - a^2/c^2`.
         let needle = r#"{"ellipsoid": {"centre_m": [1, 0, 2], "semi_axes_m": [1, 1, 4]}}"#;
         let e = (15.0_f64 / 16.0).sqrt();
         let area = 2.0 * PI * (1.0 + 4.0 / e * e.asin());
-        checked(needle, 3, (area, 16.0 / 3.0 * PI, 1e-3));
+        checked(needle, 3, area, 16.0 / 3.0 * PI, 1e-3);
     }
 
     #[test]
@@ -283,17 +289,17 @@ mod tests {
     fn compositions_are_closed() {
         let holed = r#"{"difference": [{"box": {"min_m": [0, 0], "max_m": [2, 2]}},
             {"disc": {"name": "hole", "centre_m": [1, 1], "radius_m": 0.5}}]}"#;
-        checked(holed, 2, (8.0 + PI, 4.0 - 0.25 * PI, 1e-3));
+        checked(holed, 2, 8.0 + PI, 4.0 - 0.25 * PI, 1e-3);
         // Two boxes that share a face and a plane.
         let two = r#"{"union": [{"box": {"min_m": [0, 0], "max_m": [1, 1]}},
             {"box": {"min_m": [0.5, 0], "max_m": [2, 1]}}]}"#;
-        checked(two, 2, (6.0, 2.0, 1e-5));
+        checked(two, 2, 6.0, 2.0, 1e-5);
         let quarter = r#"{"intersection": [{"disc": {"centre_m": [0, 0], "radius_m": 1}},
             {"box": {"min_m": [0, 0], "max_m": [2, 2]}}]}"#;
-        checked(quarter, 2, (2.0 + 0.5 * PI, 0.25 * PI, 1e-4));
+        checked(quarter, 2, 2.0 + 0.5 * PI, 0.25 * PI, 1e-4);
         let lens = r#"{"intersection": [{"sphere": {"centre_m": [0, 0, 0], "radius_m": 1}},
             {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}]}"#;
-        checked(lens, 3, (3.0 * PI, 2.0 / 3.0 * PI, 2e-3));
+        checked(lens, 3, 3.0 * PI, 2.0 / 3.0 * PI, 2e-3);
     }
 
     #[test]

@@ -31,6 +31,16 @@ pub(crate) enum Way {
     Spectrum,
 }
 
+/// Points of a support.
+pub(crate) struct Offsets<'a, const D: usize> {
+    /// From the point, in the unit of `radius`.
+    pub(crate) s: &'a [[f64; D]],
+    /// What the weight of each is multiplied by; nothing where it is nothing.
+    pub(crate) rooms: &'a [f64],
+    /// Of the support.
+    pub(crate) radius: f64,
+}
+
 /// Weighted least squares at one point,
 ///
 /// min_a sum_j w_j (p(s_j)^T a - u_j)^2   subject to   C a = g,
@@ -85,16 +95,16 @@ impl<const D: usize> Fit<D> {
         }
     }
 
-    /// Takes offsets `s` and `radius` in the same unit, what the weight of each point is multiplied by, if there is
-    /// something, the rows of the conditions, and which polynomials are fitted.
+    /// Takes offsets, the rows of the conditions, and which polynomials are fitted.
     pub(crate) fn load(
         &mut self,
         basis: &Basis<D>,
-        (s, rooms, radius): (&[[f64; D]], &[f64], f64),
-        (conditions, over): (&[Coefficients], Over<'_, D>),
+        offsets: Offsets<'_, D>,
+        conditions: &[Coefficients],
+        over: Over<'_, D>,
     ) {
-        self.points.load(s, radius);
-        self.points.weigh(rooms);
+        self.points.load(offsets.s, offsets.radius);
+        self.points.weigh(offsets.rooms);
         self.reduction.choose(basis, over);
         self.assemble(basis, conditions);
     }

@@ -106,7 +106,7 @@ impl<const D: usize> Rows<'_, D> {
     }
 
     /// Row of the derivative along a vector, at the offset `dx` with its coordinates `s`.
-    fn first(&self, along: [f64; D], (dx, s): (&[f64; D], [f64; D])) -> Coefficients {
+    fn first(&self, along: [f64; D], dx: &[f64; D], s: [f64; D]) -> Coefficients {
         let scaled = self.metric.turned(along, dx).map(|x| x / self.radius);
         self.sum(|k| {
             (0..D)
@@ -116,7 +116,7 @@ impl<const D: usize> Rows<'_, D> {
     }
 
     /// sum over (a, b) of `pairs` of d2/dx_a dx_b.
-    fn second(&self, pairs: &[(usize, usize)], (dx, s): (&[f64; D], [f64; D])) -> Coefficients {
+    fn second(&self, pairs: &[(usize, usize)], dx: &[f64; D], s: [f64; D]) -> Coefficients {
         let mut product = [[0.0; D]; D];
         let mut bend = [0.0; D];
         let axis = |a: usize| std::array::from_fn(|c| f64::from(u8::from(a == c)));
@@ -143,9 +143,9 @@ impl<const D: usize> Rows<'_, D> {
         })
     }
 
-    fn laplacian(&self, at: (&[f64; D], [f64; D])) -> Coefficients {
+    fn laplacian(&self, dx: &[f64; D], s: [f64; D]) -> Coefficients {
         let pairs: [(usize, usize); D] = std::array::from_fn(|a| (a, a));
-        self.second(&pairs, at)
+        self.second(&pairs, dx, s)
     }
 
     fn sum(&self, value: impl Fn(usize) -> f64) -> Coefficients {
@@ -158,26 +158,26 @@ impl<const D: usize> Rows<'_, D> {
 
     /// Rows of all wanted operators at the point itself.
     pub(crate) fn functionals(&self, columns: &Columns, rows: &mut Vec<Coefficients>) {
-        let own = (&[0.0; D], [0.0; D]);
+        let (dx, s) = (&[0.0; D], [0.0; D]);
         rows.clear();
         if columns.value.is_some() {
-            rows.push(self.value(own.1));
+            rows.push(self.value(s));
         }
         if columns.gradient.is_some() {
             for a in 0..D {
                 let along = std::array::from_fn(|b| f64::from(u8::from(a == b)));
-                rows.push(self.first(along, own));
+                rows.push(self.first(along, dx, s));
             }
         }
         if columns.hessian.is_some() {
             for a in 0..D {
                 for b in a..D {
-                    rows.push(self.second(&[(a, b)], own));
+                    rows.push(self.second(&[(a, b)], dx, s));
                 }
             }
         }
         if columns.laplacian.is_some() {
-            rows.push(self.laplacian(own));
+            rows.push(self.laplacian(dx, s));
         }
     }
 
@@ -195,18 +195,18 @@ impl<const D: usize> Rows<'_, D> {
             Condition::Value { at } => push(self.value(coordinates(offset(at))), Some(0)),
             Condition::Flux { at, normal } => {
                 let dx = offset(at);
-                push(self.first(normal, (&dx, coordinates(dx))), Some(1));
+                push(self.first(normal, &dx, coordinates(dx)), Some(1));
             }
             Condition::Laplacian { at } => {
                 let dx = offset(at);
-                push(self.laplacian((&dx, coordinates(dx))), Some(2));
+                push(self.laplacian(&dx, coordinates(dx)), Some(2));
             }
             Condition::Drift { at, drift } => {
                 let dx = offset(at);
                 let s = coordinates(dx);
                 let along = drift.map(|part| part * self.metric.spacing());
-                let mut row = self.laplacian((&dx, s));
-                for (sum, first) in row.iter_mut().zip(self.first(along, (&dx, s))) {
+                let mut row = self.laplacian(&dx, s);
+                for (sum, first) in row.iter_mut().zip(self.first(along, &dx, s)) {
                     *sum += first;
                 }
                 push(row, Some(2));

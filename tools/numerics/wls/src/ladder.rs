@@ -45,6 +45,14 @@ struct Trial {
     by_room: bool,
 }
 
+/// Where a climb begins: the order, how often the support is enlarged, and whether it stands already.
+#[derive(Debug, Clone, Copy)]
+struct First {
+    order: u8,
+    times: u32,
+    ready: bool,
+}
+
 /// What an order has come to where no support serves.
 struct Tried {
     /// Least condition number, and how often that support was enlarged.
@@ -85,12 +93,16 @@ impl<const D: usize> Bench<'_, D> {
         let (mut ready, mut worst) = (true, f64::INFINITY);
         for order in (self.plan.lowest()..=self.plan.order).rev() {
             let mut tried = Tried::new(from);
-            let first = (order, from, std::mem::take(&mut ready));
+            let first = First {
+                order,
+                times: from,
+                ready: std::mem::take(&mut ready),
+            };
             if let Some(made) = self.climb(target, first, &mut tried, work)? {
                 return Ok(made);
             }
-            if let Some(lean) = tried.leanest {
-                if let Some(made) = self.leaning_least(target, lean, work)? {
+            if let Some((lean, trial)) = tried.leanest {
+                if let Some(made) = self.leaning_least(target, lean, trial, work)? {
                     return Ok(made);
                 }
                 continue;
@@ -104,7 +116,7 @@ impl<const D: usize> Bench<'_, D> {
             let rest = (tried.best.0 <= FAIR).then_some(fair);
             let trial = tried.evenest.map(|e| e.1).or(rest);
             worst = tried.best.0;
-            if let Some(made) = self.last(target, (order, from), trial, work)? {
+            if let Some(made) = self.last(target, order, from, trial, work)? {
                 return Ok(made);
             }
         }
@@ -115,10 +127,15 @@ impl<const D: usize> Bench<'_, D> {
     fn climb(
         &self,
         target: &Target<D>,
-        (order, from, mut ready): (u8, u32, bool),
+        first: First,
         tried: &mut Tried,
         work: &mut Work<D>,
     ) -> Result<Option<Made>, Error> {
+        let First {
+            order,
+            times: from,
+            mut ready,
+        } = first;
         let mut size = 0;
         for times in from..=ENLARGEMENTS {
             if !std::mem::take(&mut ready) {
@@ -172,7 +189,8 @@ impl<const D: usize> Bench<'_, D> {
     fn leaning_least(
         &self,
         target: &Target<D>,
-        (lean, trial): (f64, Trial),
+        lean: f64,
+        trial: Trial,
         work: &mut Work<D>,
     ) -> Result<Option<Made>, Error> {
         if trial.order == 2 || lean.is_infinite() {
@@ -186,7 +204,8 @@ impl<const D: usize> Bench<'_, D> {
     fn last(
         &self,
         target: &Target<D>,
-        (order, from): (u8, u32),
+        order: u8,
+        from: u32,
         trial: Option<Trial>,
         work: &mut Work<D>,
     ) -> Result<Option<Made>, Error> {
@@ -199,7 +218,7 @@ impl<const D: usize> Bench<'_, D> {
             }
         }
         self.enlarge(target, from, &mut work.support)?;
-        let made = self.by_spectrum(target, (order, from), work);
+        let made = self.by_spectrum(target, order, from, work);
         Ok(made.filter(|_| !self.leans(target, order, work)))
     }
 
@@ -244,7 +263,7 @@ impl<const D: usize> Bench<'_, D> {
             by_room,
         } = trial;
         let basis = self.basis(order, work);
-        self.prepare((target, by_room), order, work);
+        self.prepare(target, by_room, order, work);
         let known = work.support.offsets.len() + work.condition_rows.len();
         if known < work.fit.many(basis) {
             work.fit.condition = f64::INFINITY;
@@ -260,7 +279,7 @@ impl<const D: usize> Bench<'_, D> {
         let positive = self.make_positive(target, basis, work);
         let made = Made {
             by_room,
-            ..self.made(target, (order, times), positive, work)
+            ..self.made(target, order, times, positive, work)
         };
         Some((made, self.uneven(work)))
     }
@@ -268,18 +287,19 @@ impl<const D: usize> Bench<'_, D> {
     fn by_spectrum(
         &self,
         target: &Target<D>,
-        (order, times): (u8, u32),
+        order: u8,
+        times: u32,
         work: &mut Work<D>,
     ) -> Option<Made> {
         let basis = self.basis(order, work);
         if work.support.offsets.len() <= D {
             return None;
         }
-        self.prepare((target, false), order, work);
+        self.prepare(target, false, order, work);
         if !work.fit.factor_spectrum(basis) || !work.fit.solve(basis, &work.functionals) {
             return None;
         }
-        tame(target, work).then(|| self.made(target, (order, times), None, work))
+        tame(target, work).then(|| self.made(target, order, times, None, work))
     }
 
     fn make_positive(
@@ -296,7 +316,7 @@ impl<const D: usize> Bench<'_, D> {
         if work.conditions.len() > usize::from(self.plan.interpolating && target.own) {
             return None;
         }
-        positive::improve(&mut work.fit, basis, &work.functionals[row], (row, own))
+        positive::improve(&mut work.fit, basis, &work.functionals[row], row, own)
     }
 
     /// Gives the own point what an interpolating fit takes from its condition, and the data of the
@@ -304,7 +324,8 @@ impl<const D: usize> Bench<'_, D> {
     fn made(
         &self,
         target: &Target<D>,
-        (order, times): (u8, u32),
+        order: u8,
+        times: u32,
         positive: Option<bool>,
         work: &mut Work<D>,
     ) -> Made {

@@ -2,6 +2,7 @@
 
 use crate::basis::Basis;
 use crate::bench::{Bench, Work};
+use crate::fit::Offsets;
 use crate::functional::{Condition, Rows};
 use crate::harmonic::Over;
 use crate::metric::Metric;
@@ -18,12 +19,7 @@ impl<const D: usize> Bench<'_, D> {
     }
 
     /// Loads the fit with the support, the conditions and the functionals.
-    pub(crate) fn prepare(
-        &self,
-        (target, by_room): (&Target<D>, bool),
-        order: u8,
-        work: &mut Work<D>,
-    ) {
+    pub(crate) fn prepare(&self, target: &Target<D>, by_room: bool, order: u8, work: &mut Work<D>) {
         let basis = self.basis(order, work);
         let rows = Rows {
             basis,
@@ -44,9 +40,12 @@ impl<const D: usize> Bench<'_, D> {
                 }
             });
         }
-        self.weigh((target, by_room), basis.order(), work);
-        let offsets = work.support.offsets.as_slice();
-        let support = (offsets, work.rooms.as_slice(), work.support.radius);
+        self.weigh(target, by_room, basis.order(), work);
+        let offsets = Offsets {
+            s: &work.support.offsets,
+            rooms: &work.rooms,
+            radius: work.support.radius,
+        };
         let over = if !work.harmonic.is_empty() {
             Over::Harmonic(&work.harmonic)
         } else if basis.order() > order {
@@ -55,11 +54,11 @@ impl<const D: usize> Bench<'_, D> {
         } else {
             Over::All
         };
-        work.fit.load(basis, support, (&work.condition_rows, over));
+        work.fit.load(basis, offsets, &work.condition_rows, over);
     }
 
     /// What the weights of points are multiplied by beside that of their distance; nothing where it is nothing.
-    fn weigh(&self, (target, by_room): (&Target<D>, bool), order: u8, work: &mut Work<D>) {
+    fn weigh(&self, target: &Target<D>, by_room: bool, order: u8, work: &mut Work<D>) {
         work.rooms.clear();
         let metrics = self.search.cloud().metrics;
         let level = |metric: &Metric<D>| metric.normal().is_none();

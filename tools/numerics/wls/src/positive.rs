@@ -30,7 +30,8 @@ pub(crate) fn improve<const D: usize>(
     fit: &mut Fit<D>,
     basis: &Basis<D>,
     e: &Coefficients,
-    (row, own): (usize, usize),
+    row: usize,
+    own: usize,
 ) -> Option<bool> {
     let points = fit.points.len();
     let count = fit.shares.len() * points / fit.weights.len();
@@ -46,7 +47,7 @@ pub(crate) fn improve<const D: usize>(
     };
     let (kept, whole) = (fit.weights.clone(), fit.shares.clone());
     let (condition, way) = (fit.condition, fit.way);
-    let found = exact(fit, basis, e, (&program, own));
+    let found = exact(fit, basis, e, &program, own);
     let weights = std::mem::replace(&mut fit.weights, kept);
     fit.shares = whole;
     (fit.condition, fit.way) = (condition, way);
@@ -96,7 +97,7 @@ fn program<const D: usize>(
         right[k] = e[k] * scale[k] / size;
     }
     let conditions = CscMatrix::new(bound, points, starts, rows, values);
-    nearest(&conditions, &right, (points, many))
+    nearest(&conditions, &right, points, many)
 }
 
 /// The shortest vector of `points` entries with `conditions` of which the first `many` are met
@@ -104,7 +105,8 @@ fn program<const D: usize>(
 fn nearest(
     conditions: &CscMatrix<f64>,
     right: &[f64],
-    (points, many): (usize, usize),
+    points: usize,
+    many: usize,
 ) -> Option<Vec<f64>> {
     let settings = DefaultSettings {
         verbose: false,
@@ -134,7 +136,8 @@ fn exact<const D: usize>(
     fit: &mut Fit<D>,
     basis: &Basis<D>,
     e: &Coefficients,
-    (program, own): (&[f64], usize),
+    program: &[f64],
+    own: usize,
 ) -> bool {
     let most = program
         .iter()

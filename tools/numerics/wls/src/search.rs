@@ -260,7 +260,7 @@ impl<'a, const D: usize> Search<'a, D> {
         support: &mut Support<D>,
     ) -> Result<(), Error> {
         let mut radius = reach.guess::<D>();
-        self.collect((target, radius), candidates, &allowed, support);
+        self.collect(target, radius, candidates, &allowed, support);
         support.radius = radius;
         if let Reach::Nearest(count) = reach {
             let mut growths = 0;
@@ -270,7 +270,7 @@ impl<'a, const D: usize> Search<'a, D> {
                 }
                 growths += 1;
                 radius *= GROWTH;
-                self.gather((target, radius), &allowed, support);
+                self.gather(target, radius, &allowed, support);
             }
         }
         if support.found.len() > MOST {
@@ -317,7 +317,8 @@ impl<'a, const D: usize> Search<'a, D> {
 
     fn gather(
         &self,
-        (target, radius): (&Target<D>, f64),
+        target: &Target<D>,
+        radius: f64,
         allowed: &impl Fn(usize) -> bool,
         support: &mut Support<D>,
     ) {
@@ -327,14 +328,15 @@ impl<'a, const D: usize> Search<'a, D> {
             Reach::Radius(radius),
             &mut candidates,
         );
-        self.collect((target, radius), &candidates, allowed, support);
+        self.collect(target, radius, &candidates, allowed, support);
         support.radius = radius;
     }
 
     /// Puts the candidates nearer than `radius` spacings into `support.found`.
     fn collect(
         &self,
-        (target, radius): (&Target<D>, f64),
+        target: &Target<D>,
+        radius: f64,
         candidates: &[std::ops::Range<usize>],
         allowed: &impl Fn(usize) -> bool,
         support: &mut Support<D>,

@@ -137,6 +137,12 @@ impl Strays {
     }
 }
 
+/// Where the weights of some groups go: the number of the first, and their room.
+struct Room<'a> {
+    start: usize,
+    weights: &'a mut [f64],
+}
+
 /// What one parcel of solutions has found out.
 #[derive(Default)]
 struct Parcel {
@@ -163,10 +169,10 @@ impl<const D: usize> Bench<'_, D> {
         while !batches.is_empty() {
             let mut supports = self.supports(&batches, target)?;
             let groups = memo::groups(&supports, target, self.search.cloud().points);
-            let strays = self.place(&supports, &groups, target, (&mut stencils, &mut changed))?;
+            let strays = self.place(&supports, &groups, target, &mut stencils, &mut changed)?;
             let alone = strays.alone.into_iter().map(Group::alone);
             let alone = alone.collect::<Vec<_>>();
-            self.place(&supports, &alone, target, (&mut stencils, &mut changed))?;
+            self.place(&supports, &alone, target, &mut stencils, &mut changed)?;
             stencils.neighbours.append(&mut supports.neighbours);
             let again = strays.alike.into_iter().map(|(row, times)| Batch {
                 rows: vec![row],
@@ -250,7 +256,8 @@ impl<const D: usize> Bench<'_, D> {
         supports: &Supports,
         groups: &[Group],
         target: &Aim<'_, D>,
-        (stencils, changed): (&mut Stencils<D>, &mut Vec<(usize, Vec<u32>)>),
+        stencils: &mut Stencils<D>,
+        changed: &mut Vec<(usize, Vec<u32>)>,
     ) -> Result<Strays, Error> {
         let solutions = self.solutions(supports, groups, target, &mut stencils.weights)?;
         let base = stencils.neighbours.len();
@@ -305,13 +312,19 @@ impl<const D: usize> Bench<'_, D> {
         let mut parcels = Vec::with_capacity(sizes.len());
         for (chunk, size) in groups.chunks(SOLUTIONS).zip(sizes) {
             let (own, others) = std::mem::take(&mut rest).split_at_mut(size);
-            parcels.push((chunk, start, own));
+            parcels.push((
+                chunk,
+                Room {
+                    start,
+                    weights: own,
+                },
+            ));
             (rest, start) = (others, start + size);
         }
         let done = parcels
             .into_par_iter()
-            .map_init(Work::<D>::new, |work, (chunk, start, room)| {
-                self.parcel((supports, chunk), target, (start, room), work)
+            .map_init(Work::<D>::new, |work, (chunk, room)| {
+                self.parcel(supports, chunk, target, room, work)
             })
             .collect::<Vec<Result<Parcel, Error>>>();
         if first == 0 {
@@ -335,11 +348,16 @@ impl<const D: usize> Bench<'_, D> {
 
     fn parcel(
         &self,
-        (supports, groups): (&Supports, &[Group]),
+        supports: &Supports,
+        groups: &[Group],
         target: &Aim<'_, D>,
-        (mut start, mut room): (usize, &mut [f64]),
+        room: Room<'_>,
         work: &mut Work<D>,
     ) -> Result<Parcel, Error> {
+        let Room {
+            mut start,
+            weights: mut room,
+        } = room;
         let mut parcel = Parcel::default();
         for group in groups {
             let found = &supports.found[group.first];

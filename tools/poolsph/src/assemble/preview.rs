@@ -102,7 +102,7 @@ fn beside(scene: &Scene, inputs: &Inputs, preview: &mut Preview) -> Result<(), F
         let body = shapes::Body::new(&wall.shape, 3);
         let side = if wall.hollow { -1.0 } else { 1.0 };
         let name = format!("wall {i} of the grains");
-        preview.wall(&name, (within, 2.0 * least), |x| side * body.distance(x));
+        preview.wall(&name, within, 2.0 * least, |x| side * body.distance(x));
     }
     Ok(())
 }
@@ -145,7 +145,9 @@ fn source(scene: &Scene, preview: &mut Preview) {
 fn conditions(scene: &Scene, preview: &mut Preview) {
     let mut told = |name: &str, corners: [[f64; 3]; 2], faces: &[(usize, bool)]| {
         if !faces.is_empty() {
-            let outlines = faces.iter().flat_map(|side| face(corners, *side));
+            let outlines = faces
+                .iter()
+                .flat_map(|(axis, upper)| face(corners, *axis, *upper));
             preview.mark(Marked::Condition, name, outlines.collect());
         }
     };

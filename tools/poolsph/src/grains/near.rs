@@ -66,7 +66,7 @@ impl Near {
         self.reply = Some(match rolling {
             None => contact.act(&meeting, history, step),
             Some(rolling) => {
-                contact.act_rolling(&meeting, rolling, (history, &mut self.rolled), step)
+                contact.act_rolling(&meeting, rolling, history, &mut self.rolled, step)
             }
         });
     }

@@ -26,6 +26,7 @@ impl<N: Normal> Resistance for Sliding<'_, N> {
 impl<N: Normal> Resistance for SlidingAndRolling<'_, N> {
     #[inline(always)]
     fn reply(&self, meeting: &Meeting, memory: (&mut History, &mut Vector), step: f64) -> Reply {
-        self.0.act_rolling(meeting, self.1, memory, step)
+        let (history, rolled) = memory;
+        self.0.act_rolling(meeting, self.1, history, rolled, step)
     }
 }

@@ -333,7 +333,7 @@ mod tests {
         preview.look.marks.push(Mark {
             name: "mirror".to_owned(),
             kind: Marked::Condition,
-            lines_m: run::preview::face([[0.0; 3], [4e-3, 2e-3, 2e-3]], (2, false)),
+            lines_m: run::preview::face([[0.0; 3], [4e-3, 2e-3, 2e-3]], 2, false),
         });
         preview
     }

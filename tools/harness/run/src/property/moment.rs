@@ -48,7 +48,7 @@ impl Curve {
         if !self.depends_on("t") {
             return Ok((self.value(at)?, true));
         }
-        let mut parts = vec![self.part((at, length), (0.0, 1.0))?];
+        let mut parts = vec![self.part(at, length, 0.0, 1.0)?];
         let ends = [0.0, 1.0].map(|s| moved(at, s * length));
         let most = self.bounds(&ends[0], &ends[1]).most();
         let nothing = if most.is_finite() {
@@ -73,8 +73,8 @@ impl Curve {
                     continue;
                 }
                 let half = 0.5 * part.length;
-                next.push(self.part((at, length), (part.begin, half))?);
-                next.push(self.part((at, length), (part.begin + half, half))?);
+                next.push(self.part(at, length, part.begin, half)?);
+                next.push(self.part(at, length, part.begin + half, half)?);
             }
             parts = next;
         }
@@ -83,8 +83,10 @@ impl Curve {
 
     fn part(
         &self,
-        (at, whole): (&Arguments, f64),
-        (begin, length): (f64, f64),
+        at: &Arguments,
+        whole: f64,
+        begin: f64,
+        length: f64,
     ) -> Result<Part, OutOfRange> {
         let value = |s: f64| self.value(&moved(at, whole * (begin + s * length)));
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -136,7 +136,7 @@ pub(super) fn fill(merged: &mut Merged, schema: &Value) -> Result<Vec<Fault>, Fa
         };
         let found = known.iter().find(|one| one.name == text);
         match found {
-            Some(one) => faults.extend(take(merged, schema, (&pointer, &place), one)),
+            Some(one) => faults.extend(take(merged, schema, &pointer, &place, one)),
             None => faults.push(Fault::at(&pointer, unknown(&text, &known))),
         }
     }
@@ -204,7 +204,8 @@ fn collect(value: &Value, at: &str, found: &mut Vec<(String, String)>) {
 fn take(
     merged: &mut Merged,
     schema: &Value,
-    (pointer, place): (&str, &str),
+    pointer: &str,
+    place: &str,
     one: &Known,
 ) -> Option<Fault> {
     if !is_part(place) {
@@ -231,7 +232,7 @@ fn take(
         if one.at(&place).is_some() && merged.value().pointer(&inner).is_none() {
             any = true;
             merged.put(&inner, Value::Null, None, pointer);
-            take(merged, schema, (&inner, &place), one);
+            take(merged, schema, &inner, &place, one);
         }
     }
     (!any).then(|| Fault::at(pointer, lacking(place, one)))

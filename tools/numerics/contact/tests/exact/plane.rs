@@ -59,7 +59,8 @@ impl Plane {
                 Some(rolling) => self.contact.act_rolling(
                     &meeting,
                     rolling,
-                    (&mut self.history, &mut self.rolled),
+                    &mut self.history,
+                    &mut self.rolled,
                     step,
                 ),
                 None => self.contact.act(&meeting, &mut self.history, step),

@@ -38,8 +38,8 @@ proptest! {
         if let (Some(one), Some(other)) = (Meeting::of(&a, &b), Meeting::of(&b, &a)) {
             let mut seen = [History { stretch, stiffness: 60.0 }, History { stretch: stretch.map(|x| -x), stiffness: 60.0 }];
             let mut rolled = [stretch, stretch.map(|x| -x)];
-            let on_a = contact.act_rolling(&one, rolling, (&mut seen[0], &mut rolled[0]), 1e-5);
-            let on_b = contact.act_rolling(&other, rolling, (&mut seen[1], &mut rolled[1]), 1e-5);
+            let on_a = contact.act_rolling(&one, rolling, &mut seen[0], &mut rolled[0], 1e-5);
+            let on_b = contact.act_rolling(&other, rolling, &mut seen[1], &mut rolled[1], 1e-5);
             // `+ 0.0` turns -0 into 0, which alone differs in its bits.
             let bits = |v: [f64; 3]| v.map(|x| (x + 0.0).to_bits());
             prop_assert_eq!(bits(on_a.force), bits(on_b.force.map(|f| -f)));
