@@ -67,7 +67,8 @@ impl Channel {
 /// Mean height and mean value of each of `n` layers between 0 and `high` \[m\], of those that hold something.
 pub(crate) fn layers(
     points: impl Iterator<Item = (f64, f64)>,
-    (high, n): (f64, usize),
+    high: f64,
+    n: usize,
 ) -> Vec<[f64; 2]> {
     let mut sums = vec![[0.0; 3]; n];
     for (z, value) in points {
@@ -81,7 +82,7 @@ pub(crate) fn layers(
 }
 
 /// Greatest difference of two profiles, over the layers that hold something in both.
-pub(crate) fn apart(one: &[[f64; 2]], other: &[[f64; 2]], (high, n): (f64, usize)) -> f64 {
+pub(crate) fn apart(one: &[[f64; 2]], other: &[[f64; 2]], high: f64, n: usize) -> f64 {
     let layer = |z: f64| ((z / high * n as f64).max(0.0) as usize).min(n - 1);
     let of = |at: usize| other.iter().find(|[z, _]| layer(*z) == at);
     let differences = one

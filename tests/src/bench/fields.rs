@@ -135,7 +135,7 @@ impl Problem {
                     what,
                     run.and_then(|run| {
                         scene.get_or_insert_with(|| run.scene.clone());
-                        self.ours(lab, (ours, *spacing), run)
+                        self.ours(lab, ours, *spacing, run)
                     }),
                 );
             }
@@ -145,7 +145,7 @@ impl Problem {
         };
         for [order, size] in &self.theirs {
             let what = format!("{}, elements of order {order} and size {size}", self.name);
-            let found = self.theirs(lab, python, (&scene, *order, *size));
+            let found = self.theirs(lab, python, &scene, *order, *size);
             all.extend(Missing::or_found(missing, what, found));
         }
         all
@@ -166,7 +166,7 @@ impl Problem {
         lab.run(TOOL, &self.case, &label, &patch)
     }
 
-    fn ours(&self, lab: &Lab, (ours, _): (&Ours, f64), run: Finished) -> Result<Judged, LabError> {
+    fn ours(&self, lab: &Lab, ours: &Ours, _: f64, run: Finished) -> Result<Judged, LabError> {
         let known = Known::of(&run.scene).map_err(|e| wrong(&run.artefact, e))?;
         let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
         let points = reader.frame("/points", 0)?.len() as u64;
@@ -186,7 +186,7 @@ impl Problem {
             .iter()
             .map(|e| (e.name.clone(), e.value))
             .collect();
-        let errors = self.judge(&run.scene, (&known, &found), &run.artefact)?;
+        let errors = self.judge(&run.scene, &known, &found, &run.artefact)?;
         let version = run.record["tool_version"].as_str().unwrap_or_default();
         let version = version.to_owned();
         let mut batch = [Repeated::first(vec![run])?];
@@ -215,7 +215,9 @@ impl Problem {
         &self,
         lab: &Lab,
         python: &Path,
-        (scene, order, size): (&Value, f64, f64),
+        scene: &Value,
+        order: f64,
+        size: f64,
     ) -> Result<Judged, LabError> {
         let script = Path::new(FOLDER).join(&self.script);
         let file = lab.out.join(format!("{}.scene.json", self.name));
@@ -230,7 +232,7 @@ impl Problem {
             .map_err(|e| wrong(&script, format!("it printed no JSON: {e}")))?;
         let known = Known::of(scene).map_err(|e| wrong(&script, e))?;
         let found = read(&told["values"]).ok_or_else(|| wrong(&script, "no values".to_owned()))?;
-        let errors = self.judge(scene, (&known, &found), &script)?;
+        let errors = self.judge(scene, &known, &found, &script)?;
         let mut row = told;
         row["problem"] = json!(self.name);
         row["error"] = json!(0.0);
@@ -242,7 +244,8 @@ impl Problem {
     fn judge(
         &self,
         scene: &Value,
-        (known, found): (&Known, &Found),
+        known: &Known,
+        found: &Found,
         path: &Path,
     ) -> Result<Vec<f64>, LabError> {
         let places = lines(scene).map_err(|e| wrong(path, e))?;
@@ -251,7 +254,7 @@ impl Problem {
                 let total = found.totals.iter().find(|t| t.0 == *name);
                 total.map(|t| (t.1 / wanted - 1.0).abs())
             }
-            None => along(name, &places, (known, found)),
+            None => along(name, &places, known, found),
         };
         let all = self
             .measures
@@ -266,7 +269,8 @@ impl Problem {
 fn along(
     stem: &str,
     places: &[(String, Vec<[f64; 3]>)],
-    (known, found): (&Known, &Found),
+    known: &Known,
+    found: &Found,
 ) -> Option<f64> {
     let own = |entries: &[Entry]| -> Vec<(String, f64)> {
         let all = entries.iter().filter(|e| e.0.starts_with(stem));
@@ -356,11 +360,11 @@ mod tests {
                 .collect(),
             totals: Vec::new(),
         };
-        assert!(along("potential", &places, (&known, &found(0.0))).unwrap() < 1e-15);
-        let shifted = along("potential", &places, (&known, &found(1.0))).unwrap();
+        assert!(along("potential", &places, &known, &found(0.0)).unwrap() < 1e-15);
+        let shifted = along("potential", &places, &known, &found(1.0)).unwrap();
         // 2e-4 m along z: 5 MV/m times that, less the part of the dipole.
         assert!((shifted * 1e3 - 1.0).abs() < 0.02, "{shifted}");
-        assert!(along("nothing", &places, (&known, &found(0.0))).is_none());
+        assert!(along("nothing", &places, &known, &found(0.0)).is_none());
     }
 
     #[test]

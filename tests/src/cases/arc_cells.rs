@@ -119,8 +119,10 @@ impl Study {
     fn run(
         &self,
         lab: &Lab,
-        (times, start): (f64, Option<&Value>),
-        (method, label): (&str, &str),
+        times: f64,
+        start: Option<&Value>,
+        method: &str,
+        label: &str,
     ) -> Result<Finished, LabError> {
         let table = Path::new(self.gas);
         let name = table.file_stem().unwrap_or_default().to_string_lossy();
@@ -228,11 +230,13 @@ impl Case for ArcCells {
             Some(_) => (times / study.finer, times / study.finer),
             None => (times, times / study.finer),
         };
-        let own = study.run(lab, (times, None), (method, &format!("grid{level}")))?;
+        let own = study.run(lab, times, None, method, &format!("grid{level}"))?;
         let finer = study.run(
             lab,
-            (beside, study.start.as_ref()),
-            (method, &format!("beside{level}")),
+            beside,
+            study.start.as_ref(),
+            method,
+            &format!("beside{level}"),
         )?;
         let open = |run: &Finished| Reader::open_kind(&run.artefact, "arc-source", 1);
         let (coarse, fine) = (open(&own)?, open(&finer)?);

@@ -150,7 +150,7 @@ impl Balls {
         let mut slips: Vec<f64> = touches.iter().map(|t| self.slip(t)).collect();
         let start = (self.velocity.clone(), self.spin.clone());
         for _ in 0..ITERATIONS {
-            let found = self.solve(&touches, &slips, (&start.0, &start.1), step)?;
+            let found = self.solve(&touches, &slips, &start.0, &start.1, step)?;
             for (a, v) in found.chunks(6).enumerate() {
                 self.velocity[a] = [v[0], v[1], v[2]];
                 self.spin[a] = [v[3], v[4], v[5]];
@@ -215,7 +215,8 @@ impl Balls {
         &self,
         touches: &[Touch],
         slips: &[f64],
-        (velocity, spin): (&[Vector], &[Vector]),
+        velocity: &[Vector],
+        spin: &[Vector],
         step: f64,
     ) -> Option<Vec<f64>> {
         let n = 6 * self.place.len();

@@ -161,7 +161,7 @@ impl Outflow {
             diameter,
             gravity: -at("gravity_m_s2/2")?,
             flow: -slope,
-            bulk: bulk(run, (radius, diameter), measured[0].0)?,
+            bulk: bulk(run, radius, diameter, measured[0].0)?,
             grains: frames(&run.artefact)?
                 .first()
                 .map_or(0, artefact::Frame::len) as u64,
@@ -176,7 +176,7 @@ impl Outflow {
 }
 
 /// Mass over volume of what lies in the middle of the height at the first frame after `time` \[s\].
-fn bulk(run: &Finished, (radius, diameter): (f64, f64), time: f64) -> Result<f64, LabError> {
+fn bulk(run: &Finished, radius: f64, diameter: f64, time: f64) -> Result<f64, LabError> {
     let frames = frames(&run.artefact)?;
     let frame = frames.iter().find(|frame| frame.time_s >= time);
     let frame = frame.ok_or_else(|| fault(run, "has no frame of the flow"))?;

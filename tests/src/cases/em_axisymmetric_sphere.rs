@@ -140,7 +140,8 @@ impl Case for EmAxisymmetricSphere {
         measured(
             lab,
             self,
-            (level, method),
+            level,
+            method,
             (&patch, spacing),
             |run, points| errors(run, points, coaxial(&scene, run)?),
         )

@@ -64,7 +64,7 @@ impl Case for EmBar {
         let spacing = 0.01 / [10.0, 14.0, 20.0][level.clamp(1, 3) as usize - 1];
         let points = json!({"spacing_m": spacing, "layers": {"first_m": 0.5 * spacing}});
         let patch = over(json!({"points": points}), &method_patch(method));
-        measured(lab, self, (level, method), (&patch, spacing), errors)
+        measured(lab, self, level, method, (&patch, spacing), errors)
     }
 }
 

@@ -118,7 +118,8 @@ impl Case for EmEllipsoid {
         measured(
             lab,
             self,
-            (level, method),
+            level,
+            method,
             (&patch, spacing),
             |run, points| errors(run, points, &known(&run.scene)?),
         )

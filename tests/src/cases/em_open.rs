@@ -83,7 +83,7 @@ impl Case for EmOpen {
         let spacing = 1e-3 / parts;
         let points = json!({"spacing_m": spacing});
         let patch = over(json!({"points": points}), &method_patch(method));
-        measured(lab, self, (level, method), (&patch, spacing), errors)
+        measured(lab, self, level, method, (&patch, spacing), errors)
     }
 }
 

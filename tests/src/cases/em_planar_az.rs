@@ -84,7 +84,7 @@ impl Case for EmPlanarAz {
         if method == "quartic-aside" {
             patch = over(patch, &aside(lab)?);
         }
-        measured(lab, self, (level, method), (&patch, spacing), errors)
+        measured(lab, self, level, method, (&patch, spacing), errors)
     }
 }
 

@@ -66,7 +66,8 @@ impl Case for EmRingCoil {
         measured(
             lab,
             self,
-            (level as u32 + 1, method),
+            level as u32 + 1,
+            method,
             (&patch, spacing),
             errors,
         )

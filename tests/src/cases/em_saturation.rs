@@ -67,7 +67,7 @@ impl Case for EmSaturation {
             "method": {"order": order}
         });
         let patch = over(patch, &shape(method));
-        measured(lab, self, (level, method), (&patch, spacing), errors)
+        measured(lab, self, level, method, (&patch, spacing), errors)
     }
 }
 
@@ -110,7 +110,7 @@ fn marched(lab: &Lab, case: &dyn Case, level: u32) -> Result<Measurement, LabErr
         &json!({"bodies": bodies, "eddy_currents": {"static": null, "transient": {"end_s": 5e-3,
             "step_s": step, "wave": {"expr": "sin(100*pi*t)"}}}}),
     );
-    measured(lab, case, (level, "tube-march"), (&patch, spacing), in_time)
+    measured(lab, case, level, "tube-march", (&patch, spacing), in_time)
 }
 
 fn in_time(run: &Finished, points: &Points) -> Result<Errors, LabError> {
@@ -194,7 +194,7 @@ fn exact(run: &Finished) -> Result<Flux, LabError> {
         _ => (3, "sphere", [flux(0)?, flux(1)?, flux(2)?]),
     };
     let radius = number(run, &format!("/bodies/0/shape/{shape}/radius_m"))?;
-    let round = Round::new(&law, dimensions, (radius, applied));
+    let round = Round::new(&law, dimensions, radius, applied);
     Ok(Box::new(move |x| round.field(x)))
 }
 

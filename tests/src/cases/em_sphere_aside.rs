@@ -54,7 +54,7 @@ impl Case for EmSphereAside {
             "points": {"spacing_m": spacing, "layers": {"first_m": 0.3 * spacing}},
             "method": {"order": order}
         });
-        measured(lab, self, (level, method), (&patch, spacing), errors)
+        measured(lab, self, level, method, (&patch, spacing), errors)
     }
 }
 

@@ -79,7 +79,7 @@ impl Case for EmSphereGauge {
             "method": {"order": order}
         });
         let size = if method == THIN { first } else { spacing };
-        measured(lab, self, (level, method), (&patch, size), errors)
+        measured(lab, self, level, method, (&patch, size), errors)
     }
 }
 

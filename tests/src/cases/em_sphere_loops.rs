@@ -70,7 +70,8 @@ impl Case for EmSphereLoops {
         let found = measured(
             lab,
             self,
-            (level, method),
+            level,
+            method,
             (&patch, spacing),
             |run, points| errors(run, points, coaxial(&run.scene, run)?),
         )?;

@@ -86,7 +86,7 @@ impl Case for EmSpherePair {
         }
         let patch = over(patch, &given(&pair, method));
         let patch = over(patch, &json!({"points": points, "bodies": bodies}));
-        measured(lab, self, (level, method), (&patch, spacing), errors)
+        measured(lab, self, level, method, (&patch, spacing), errors)
     }
 }
 

@@ -71,7 +71,7 @@ impl Case for EmSpherePull {
             over(json!({"points": points}), &patch),
             &sphere.walls(method),
         );
-        measured(lab, self, (level, method), (&patch, spacing), |run, _| {
+        measured(lab, self, level, method, (&patch, spacing), |run, _| {
             errors(run)
         })
     }

@@ -69,7 +69,7 @@ impl Case for EmTransientGauge {
         // Where the order is that in time, the step takes the place of the spacing.
         let size = if method == POINTS { spacing } else { step };
         let errors = |run: &Finished, points: &Points| errors(run, points, rise);
-        measured(lab, self, (level, method), (&patch, size), errors)
+        measured(lab, self, level, method, (&patch, size), errors)
     }
 }
 

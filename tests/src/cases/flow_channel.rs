@@ -88,7 +88,7 @@ fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
         for (z, u) in points.clone() {
             single = single.max((u - exact(z)).abs() / greatest);
         }
-        for [z, u] in layers(points, (high, n)) {
+        for [z, u] in layers(points, high, n) {
             profile = profile.max((u - exact(z)).abs() / greatest);
         }
     }

@@ -58,8 +58,8 @@ impl Case for FlowInvariance {
             "scaled" => ([0, 2], SCALE, 0.0),
             _ => ([0, 2], 1.0, 0.0),
         };
-        let base = profiles(&run, [0, 2], (1.0, 0.0), (high, n))?;
-        let seen = profiles(&other, axes, (scale, floor), (high, n))?;
+        let base = profiles(&run, [0, 2], 1.0, 0.0, (high, n))?;
+        let seen = profiles(&other, axes, scale, floor, (high, n))?;
         let points = Frames::read(&run.artefact, "pressure")?.liquid.len() as u64;
         let errors = errors(&base, &seen, (high, n));
         Ok(Measurement::over(vec![run, other], points, spacing, errors))
@@ -149,7 +149,8 @@ fn turn(value: &mut Value) {
 fn profiles(
     run: &Finished,
     axes: [usize; 2],
-    (scale, floor): (f64, f64),
+    scale: f64,
+    floor: f64,
     across: (f64, usize),
 ) -> Result<Vec<Vec<[f64; 2]>>, LabError> {
     let frames = Frames::read(&run.artefact, "pressure")?;
@@ -157,7 +158,7 @@ fn profiles(
     let profile = |(places, speeds): (&Vec<[f64; 3]>, &Vec<[f64; 3]>)| {
         let points = places.iter().zip(speeds);
         let points = points.map(|(x, u)| ((x[axes[1]] - floor) / scale, u[axes[0]]));
-        layers(points, across)
+        layers(points, across.0, across.1)
     };
     Ok(all.map(profile).collect())
 }
@@ -169,7 +170,7 @@ fn errors(base: &[Vec<[f64; 2]>], other: &[Vec<[f64; 2]>], across: (f64, usize))
         (low.min(u), high.max(u))
     });
     let pairs = base.iter().zip(other);
-    let worst = pairs.map(|(one, other)| apart(one, other, across));
+    let worst = pairs.map(|(one, other)| apart(one, other, across.0, across.1));
     // What ended early is another flow.
     let worst = if base.len() == other.len() {
         worst.fold(0.0, f64::max)

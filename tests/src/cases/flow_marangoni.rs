@@ -125,12 +125,12 @@ fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
         if *time > 0.75 * end {
             late.extend(points.clone());
         }
-        for [z, u] in layers(points, (high, n)) {
+        for [z, u] in layers(points, high, n) {
             let exact = flow.speed((z / high).min(1.0), nu * time / (high * high));
             started = started.max((u - exact).abs() / scale);
         }
     }
-    let seen = layers(late.into_iter(), (high, n));
+    let seen = layers(late.into_iter(), high, n);
     let tau = if closed {
         f64::INFINITY
     } else {

@@ -133,7 +133,7 @@ fn errors(without: &Finished, with: &Finished) -> Result<Errors, LabError> {
     let (one, other) = (one?, other?);
     let speeds = |frames: &Frames, k: usize| {
         let points = frames.position[k].iter().zip(&frames.velocity[k]);
-        layers(points.map(|(x, u)| (x[2], u[0])), (high, n))
+        layers(points.map(|(x, u)| (x[2], u[0])), high, n)
     };
     let top = |frames: &Frames, k: usize| {
         let mut heights: Vec<f64> = frames.position[k].iter().map(|x| x[2]).collect();
@@ -149,7 +149,7 @@ fn errors(without: &Finished, with: &Finished) -> Result<Errors, LabError> {
         for [_, u] in &a {
             (least, greatest) = (least.min(*u), greatest.max(*u));
         }
-        profile = profile.max(apart(&a, &b, (high, n)));
+        profile = profile.max(apart(&a, &b, high, n));
         surface = surface.max((top(&one, k) - top(&other, k)).abs() / high);
     }
     let errors = [

@@ -149,7 +149,7 @@ fn pair_errors(
         }
         for side in 0..2 {
             // What a parabola makes of the exact profile is not the solver's error.
-            let misses = misses(frames, found, (&exact, time), side, NEAR * spacing);
+            let misses = misses(frames, found, &exact, time, side, NEAR * spacing);
             let Some([value, slope]) = parabola(&misses) else {
                 return Err(fault(run, "too few points beside the interface".to_owned()));
             };
@@ -206,7 +206,8 @@ fn exact(run: &Finished) -> Result<Slabs, LabError> {
 fn misses(
     frames: &Frames,
     found: &[f64],
-    (exact, time): (&Slabs, f64),
+    exact: &Slabs,
+    time: f64,
     side: usize,
     reach: f64,
 ) -> Vec<[f64; 2]> {

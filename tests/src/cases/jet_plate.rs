@@ -111,7 +111,7 @@ impl Case for JetPlate {
         } else {
             width
         };
-        let force = -force(&reader, (if space { 'z' } else { 'y' }, end))?;
+        let force = -force(&reader, if space { 'z' } else { 'y' }, end)?;
         let mut errors = Errors::from([("force".to_owned(), (force / (head * area) - 1.0).abs())]);
         let mut points = 0;
         let mut seen = Vec::new();
@@ -122,7 +122,7 @@ impl Case for JetPlate {
                 seen.push(frame);
             }
         }
-        let stagnation = mean_pressure(&seen, space, (0.0, 0.1 * width, 1.5 * spacing))?;
+        let stagnation = mean_pressure(&seen, space, 0.0, 0.1 * width, 1.5 * spacing)?;
         errors.insert(
             "stagnation_pressure".to_owned(),
             (stagnation / (0.5 * head) - 1.0).abs(),
@@ -131,7 +131,7 @@ impl Case for JetPlate {
             let mut worst = 0.0_f64;
             for band in 0..BANDS {
                 let [low, high] = [band, band + 1].map(|b| 0.2 * width * b as f64);
-                let found = mean_pressure(&seen, false, (low, high, 1.5 * spacing))?;
+                let found = mean_pressure(&seen, false, low, high, 1.5 * spacing)?;
                 let exact = free_jet(0.5 * (low + high) / width);
                 worst = worst.max((found / (0.5 * head) - exact).abs());
             }
@@ -157,7 +157,7 @@ fn in_space(patch: &mut Value) {
 }
 
 /// Mean force on the plate in the second half of the run, by what it was given \[N\].
-fn force(reader: &Reader, (axis, end): (char, f64)) -> Result<f64, LabError> {
+fn force(reader: &Reader, axis: char, end: f64) -> Result<f64, LabError> {
     let name = format!("water_impulse_on_plate_{axis}");
     let mut course = Vec::new();
     for (time, record) in reader.records("/balance")? {
@@ -175,7 +175,9 @@ fn force(reader: &Reader, (axis, end): (char, f64)) -> Result<f64, LabError> {
 fn mean_pressure(
     frames: &[Frame],
     space: bool,
-    (low, high, height): (f64, f64, f64),
+    low: f64,
+    high: f64,
+    height: f64,
 ) -> Result<f64, LabError> {
     let (mut sum, mut count) = (0.0, 0.0);
     for frame in frames {

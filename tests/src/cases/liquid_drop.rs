@@ -61,7 +61,7 @@ impl Case for LiquidDrop {
         } else {
             2
         };
-        let run = swung(lab, (self.name(), method), level, (mode, None))?;
+        let run = swung(lab, self.name(), method, level, mode, None)?;
         let unit = Unit::new(&run.scene);
         let period = 2.0 * PI / rayleigh(mode) * unit.time;
         let series = Series::read(&run, &format!("mode_{mode}"))?;
@@ -115,7 +115,7 @@ impl Case for LiquidDropViscous {
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let oh: f64 = method.trim_start_matches("oh-").parse().unwrap_or(0.02);
-        let run = swung(lab, (self.name(), method), level, (2, Some(oh)))?;
+        let run = swung(lab, self.name(), method, level, 2, Some(oh))?;
         let unit = Unit::new(&run.scene);
         let oh = unit.ohnesorge(&run.scene);
         let (decay, frequency) = rates(2, oh);
@@ -173,9 +173,11 @@ impl Unit {
 /// Runs a drop that leaves the sphere at the speed of a swing of mode `l`: `u = A grad (r^l P_l)`.
 fn swung(
     lab: &Lab,
-    (case, method): (&str, &str),
+    case: &str,
+    method: &str,
     level: u32,
-    (l, oh): (u32, Option<f64>),
+    l: u32,
+    oh: Option<f64>,
 ) -> Result<Finished, LabError> {
     let parts = PARTS[level.clamp(1, 3) as usize - 1];
     let scene = planned(lab, case, &json!({}))?;

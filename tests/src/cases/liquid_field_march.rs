@@ -66,7 +66,7 @@ impl Case for LiquidFieldMarch {
         let field = (capillary * tension / (EPS0 * radius)).sqrt();
         let wanted = match permittivity {
             Some(s) if method == TAYLOR => 9.0 / 16.0 * capillary * ((s - 1.0) / (s + 2.0)).powi(2),
-            _ => self.rest(lab, method, (radius, field, permittivity))?,
+            _ => self.rest(lab, method, radius, field, permittivity)?,
         };
         let viscosity = OHNESORGE * (sphere.density * tension * radius).sqrt();
         let patch = json!({
@@ -100,7 +100,9 @@ impl LiquidFieldMarch {
         &self,
         lab: &Lab,
         method: &str,
-        (radius, field, permittivity): (f64, f64, Option<f64>),
+        radius: f64,
+        field: f64,
+        permittivity: Option<f64>,
     ) -> Result<f64, LabError> {
         let patch = json!({
             "points": {"spacing_m": radius / 8.0},

@@ -84,9 +84,9 @@ impl Case for LiquidHeat {
         let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
         let rows = reader.records("/liquid")?;
         let errors = if method == "melting" {
-            melting(&run, &reader, (&rows, radius))?
+            melting(&run, &reader, &rows, radius)?
         } else {
-            currents(&run, &reader, (&rows, radius))?
+            currents(&run, &reader, &rows, radius)?
         };
         let count = reader.frame("/points", 0)?.len() as u64;
         Ok(Measurement::of(run, count, spacing, errors))
@@ -121,7 +121,8 @@ fn ends(reader: &Reader) -> Result<[f64; 2], LabError> {
 fn currents(
     run: &Finished,
     reader: &Reader,
-    (rows, radius): (&[(f64, Record)], f64),
+    rows: &[(f64, Record)],
+    radius: f64,
 ) -> Result<Errors, LabError> {
     let liquid = &run.scene["liquid"];
     let alone = json!({
@@ -191,7 +192,8 @@ fn currents(
 fn melting(
     run: &Finished,
     reader: &Reader,
-    (rows, radius): (&[(f64, Record)], f64),
+    rows: &[(f64, Record)],
+    radius: f64,
 ) -> Result<Errors, LabError> {
     let ball = Ball {
         radius,

@@ -89,9 +89,9 @@ impl Case for LiquidLevitation {
         let reader = Reader::open_kind(&run.artefact, "point-fields", 1)?;
         let rows = reader.records("/liquid")?;
         let errors = match method {
-            "rest" => rest(&run, (&scene, &rows[0].1))?,
+            "rest" => rest(&run, &scene, &rows[0].1)?,
             "released" => released(&rows, radius)?,
-            _ => start(&run, &reader, (&scene, &rows[0].1))?,
+            _ => start(&run, &reader, &scene, &rows[0].1)?,
         };
         let count = reader.frame("/points", 0)?.len() as u64;
         Ok(Measurement::of(run, count, spacing, errors))
@@ -123,11 +123,7 @@ fn exact(scene: &Value, run: &Finished) -> Result<Solution, LabError> {
 ///
 /// What the force does to an even liquid is that of a pressure psi on its surface, `- int psi dh/dn dS = int f . grad h dV` for every
 /// harmonic h: `psi_l = - (2 l + 1)/(4 pi l R^(l + 1)) int f . grad(r^l P_l) dV`.
-fn start(
-    run: &Finished,
-    reader: &Reader,
-    (scene, row): (&Value, &Record),
-) -> Result<Errors, LabError> {
+fn start(run: &Finished, reader: &Reader, scene: &Value, row: &Record) -> Result<Errors, LabError> {
     let exact = exact(scene, run)?;
     let surface = reader.frame("/surface", 0)?;
     let middle = number(&scene["liquid"]["shape"]["sphere"]["centre_m"][2]);
@@ -171,7 +167,7 @@ fn solid(l: i32, z: f64) -> f64 {
 /// `a = f/rho - grad p/rho` has no sources and p is even on the sphere, so that with `h = r^l P_l` the accelerations of the surface
 /// are `int a_n h dS = (1/rho) int f . grad h dV`, and the harmonic that brings them to rest is
 /// `c_l = (2 l + 1)/(4 pi) R^(1 - l)/(gamma l (l-1)(l+2)) int f . grad h dV`.
-fn rest(run: &Finished, (scene, row): (&Value, &Record)) -> Result<Errors, LabError> {
+fn rest(run: &Finished, scene: &Value, row: &Record) -> Result<Errors, LabError> {
     let exact = exact(scene, run)?;
     let liquid = &scene["liquid"];
     let radius = exact.radius();

@@ -66,7 +66,7 @@ impl Case for LiquidSessile {
         let heavy = -number(&liquid["density_kg_m3"]) * gravity;
         let angle = degrees.to_radians();
         let volume = 4.0 / 3.0 * PI * radius.powi(3);
-        let exact = Drop::of(volume, (angle, heavy / tension), radius / FINE);
+        let exact = Drop::of(volume, angle, heavy / tension, radius / FINE);
         let (height, base) = (row.get("height")?, row.get("radius_base")?);
         // The outline as it is written: volume, and what the wall bears.
         let table = reader.table("/outline")?;
@@ -106,22 +106,22 @@ struct Drop {
 
 impl Drop {
     /// The drop of this volume, with the contact angle and rho g/gamma, by steps of `step`.
-    fn of(volume: f64, wall: (f64, f64), step: f64) -> Self {
+    fn of(volume: f64, angle: f64, bond: f64, step: f64) -> Self {
         let ball = (0.75 * volume / PI).cbrt();
         let (mut low, mut high) = (0.05 * ball, 50.0 * ball);
         for _ in 0..60 {
             let middle = (low * high).sqrt();
-            if Self::topped(middle, wall, step).volume < volume {
+            if Self::topped(middle, angle, bond, step).volume < volume {
                 low = middle;
             } else {
                 high = middle;
             }
         }
-        Self::topped(low, wall, step)
+        Self::topped(low, angle, bond, step)
     }
 
     /// The drop with the radius `top` at its top: dr = cos(phi) ds, dz = sin(phi) ds, dphi = (2/top + bond z - sin(phi)/r) ds.
-    fn topped(top: f64, (angle, bond): (f64, f64), step: f64) -> Self {
+    fn topped(top: f64, angle: f64, bond: f64, step: f64) -> Self {
         let slopes = |[phi, r, z, _]: [f64; 4]| {
             let round = if r > 0.0 { phi.sin() / r } else { 1.0 / top };
             let dz = phi.sin();
@@ -165,7 +165,7 @@ mod tests {
     fn without_weight_it_is_a_cap() {
         let angle = 2.0_f64;
         let volume = PI / 3.0 * (2.0 + angle.cos()) * (1.0 - angle.cos()).powi(2);
-        let drop = Drop::of(volume, (angle, 0.0), 1e-3);
+        let drop = Drop::of(volume, angle, 0.0, 1e-3);
         assert!((drop.height - (1.0 - angle.cos())).abs() < 1e-5, "{drop:?}");
         assert!((drop.base - angle.sin()).abs() < 1e-5, "{drop:?}");
     }

@@ -43,8 +43,8 @@ impl Case for PoolSimilar {
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         let times = if method == "twentieth" { 0.05 } else { 100.0 };
         let label = format!("{method}-level{level}");
-        let one = drop(lab, self.name(), (level, 1.0), &format!("{label}-base"))?;
-        let other = drop(lab, self.name(), (level, times), &label)?;
+        let one = drop(lab, self.name(), level, 1.0, &format!("{label}-base"))?;
+        let other = drop(lab, self.name(), level, times, &label)?;
         let [first, second] = [&one, &other].map(|run| Frames::read(&run.artefact, "pressure"));
         let (first, second) = (first?, second?);
         let errors = errors(&first, &second, times);
@@ -54,12 +54,7 @@ impl Case for PoolSimilar {
 }
 
 /// A third of a swing of a drop `size` times that of 5 mm, at Oh 0.02.
-fn drop(
-    lab: &Lab,
-    case: &str,
-    (level, size): (u32, f64),
-    label: &str,
-) -> Result<Finished, LabError> {
+fn drop(lab: &Lab, case: &str, level: u32, size: f64, label: &str) -> Result<Finished, LabError> {
     let (radius, density, tension) = (5e-3_f64 * size, 7850.0, 1.0);
     let period = 2.0 * PI / (8.0 * tension / (density * radius.powi(3))).sqrt();
     let patch = json!({

@@ -310,7 +310,9 @@ impl Side {
     fn read(
         reader: &Reader,
         channel: &str,
-        (sign, column, value): (f64, &str, u8),
+        sign: f64,
+        column: &str,
+        value: u8,
     ) -> Result<Self, LabError> {
         let mut side = Self {
             away: Vec::new(),
@@ -346,8 +348,8 @@ impl Side {
 
 fn errors(run: &Finished, bed: &Bed, exact: &Exact) -> Result<Errors, LabError> {
     let reader = Reader::open_kind(&run.artefact, "particle-frames", 1)?;
-    let metal = Side::read(&reader, "/particles", (-1.0, "molten", 0))?;
-    let grains = Side::read(&reader, "/grains", (1.0, "state", 1))?;
+    let metal = Side::read(&reader, "/particles", -1.0, "molten", 0)?;
+    let grains = Side::read(&reader, "/grains", 1.0, "state", 1)?;
     let mut found = Vec::new();
     let mut wanted = Vec::new();
     for (x, t) in metal.away.iter().zip(&metal.temperature) {

@@ -71,7 +71,7 @@ impl Case for SolidCook {
         let scale = number(&solid["loads"][0]["traction_pa"][1])
             / number(&solid["elastic"]["youngs_modulus_pa"]);
         let exact = scale * if method == "membrane" { MEMBRANE } else { BEAM };
-        let found = deflection(start, last, (face, middle, spacing))?;
+        let found = deflection(start, last, face, middle, spacing)?;
         let errors = Errors::from([("deflection".to_owned(), (found / exact - 1.0).abs())]);
         Ok(Measurement::of(run, start.len() as u64, spacing, errors))
     }
@@ -81,7 +81,9 @@ impl Case for SolidCook {
 fn deflection(
     start: &Frame,
     last: &Frame,
-    (face, middle, spacing): (f64, f64, f64),
+    face: f64,
+    middle: f64,
+    spacing: f64,
 ) -> Result<f64, LabError> {
     let (from, to) = (start.position_vectors()?, last.position_vectors()?);
     let column = |number: f64| {

@@ -68,7 +68,7 @@ impl Case for SolidPlastic {
         );
         let shear = number(&solid["plasticity"]["yield_stress_pa"]) / 3.0_f64.sqrt();
         let pressure = number(&solid["loads"][0]["pressure_pa"]);
-        let front = front(pressure / shear, (inner, outer));
+        let front = front(pressure / shear, inner, outer);
         let all = frames(&run.artefact, "cylinder")?;
         let (Some(start), Some(last)) = (all.first(), all.last()) else {
             return Err(fault(&run, "has no frame"));
@@ -162,7 +162,7 @@ fn pulled(lab: &Lab, level: u32) -> Result<Measurement, LabError> {
 }
 
 /// Radius c to which the metal flows at a pressure over the yield stress in shear.
-fn front(pressure: f64, (inner, outer): (f64, f64)) -> f64 {
+fn front(pressure: f64, inner: f64, outer: f64) -> f64 {
     let (mut low, mut high) = (inner, outer);
     for _ in 0..200 {
         let c = 0.5 * (low + high);
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn flow_begins_inside_and_ends_outside() {
         // First yield at 1 - (a/b)^2, collapse at 2 ln(b/a).
-        assert!((front(0.75, (1.0, 2.0)) - 1.0).abs() < 1e-12);
-        assert!((front(2.0 * 2.0_f64.ln(), (1.0, 2.0)) - 2.0).abs() < 1e-6);
+        assert!((front(0.75, 1.0, 2.0) - 1.0).abs() < 1e-12);
+        assert!((front(2.0 * 2.0_f64.ln(), 1.0, 2.0) - 2.0).abs() < 1e-6);
     }
 }

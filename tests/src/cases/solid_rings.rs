@@ -85,7 +85,7 @@ impl Case for SolidRings {
             patch["time"] = json!({"end_s": end});
             patch["output"] = json!({"frames_interval_s": end / 20.0});
             let run = lab.run("jetsph", self.name(), &format!("{name}-{level}"), &patch)?;
-            let found = bounce(&run, (speed, 0.0025 / by))?;
+            let found = bounce(&run, speed, 0.0025 / by)?;
             Ok((run, found))
         };
         let (run, found) = at(level)?;
@@ -120,7 +120,7 @@ struct Bounce {
     turned: f64,
 }
 
-fn bounce(run: &Finished, (speed, spacing): (f64, f64)) -> Result<Bounce, LabError> {
+fn bounce(run: &Finished, speed: f64, spacing: f64) -> Result<Bounce, LabError> {
     let mut middle = [[0.0; 2]; 2];
     let mut largest = 1.0_f64;
     for (middle, name) in middle.iter_mut().zip(["left", "right"]) {

@@ -73,13 +73,13 @@ impl Case for SolidWave {
         let face = side(target, "min_m");
         let middle = second.iter().find(|frame| frame.time_s >= 0.5 * duration);
         let middle = middle.ok_or_else(|| fault(&run, "ends before the front has passed"))?;
-        let stress = -behind(start, middle, (face, 0.5 * sound * duration))?;
+        let stress = -behind(start, middle, face, 0.5 * sound * duration)?;
         // The momentum of the target rises at the rate of the force while they touch.
         let mut course = Vec::new();
         for frame in &second {
             course.push((frame.time_s, mean(frame, "velocity")?));
         }
-        let rate = rate(&course, (0.25 * duration, 0.75 * duration))
+        let rate = rate(&course, 0.25 * duration, 0.75 * duration)
             .ok_or_else(|| fault(&run, "has too few frames"))?;
         let touched = mean(b, "velocity")? / rate;
         let errors = Errors::from([
@@ -97,7 +97,7 @@ impl Case for SolidWave {
 }
 
 /// Mean stress along the bars behind the front, which has gone a way from the face \[Pa\].
-fn behind(start: &Frame, middle: &Frame, (face, way): (f64, f64)) -> Result<f64, LabError> {
+fn behind(start: &Frame, middle: &Frame, face: f64, way: f64) -> Result<f64, LabError> {
     let places = start.position_vectors()?;
     let all = places.iter().zip(middle.f64("stress_xx")?);
     let within = all.filter(|(x, _)| (0.2..0.6).contains(&((x[0] - face) / way)));
@@ -112,7 +112,7 @@ fn mean(frame: &Frame, name: &str) -> Result<f64, LabError> {
 }
 
 /// Mean rate of a course between two times.
-fn rate(course: &[(f64, f64)], (from, to): (f64, f64)) -> Option<f64> {
+fn rate(course: &[(f64, f64)], from: f64, to: f64) -> Option<f64> {
     let at = |time: f64| course.iter().find(|(t, _)| *t >= time);
     let ((t, value), (later, next)) = (at(from)?, at(to)?);
     Some((next - value) / (later - t))

@@ -104,7 +104,7 @@ impl Problem {
 }
 
 /// A plan of one stage, its figures, and its knobs of second order by default.
-fn plan(study: String, (tool, case): (&str, &str), figures: Value, knobs: Value) -> Value {
+fn plan(study: String, tool: &str, case: &str, figures: Value, knobs: Value) -> Value {
     json!({
         "kind": "certify", "version": "1.0", "study": study, "figures": figures, "knobs": knobs,
         "stages": [{"name": "run", "tool": tool, "scene": format!("pipelines/verify/{case}/scene.json")}]
@@ -170,7 +170,8 @@ fn graded(b: f64) -> Problem {
     Problem {
         plan: plan(
             format!("proof-graded-{b}"),
-            ("heatsph", "heat-exp-x"),
+            "heatsph",
+            "heat-exp-x",
             json!([temperature([0.5, 0.5, 0.0]), heat_rate("x+")]),
             json!([spacings(0.0125, 2.0)]),
         ),
@@ -190,7 +191,8 @@ fn warmed(a: f64, case: &str, at: [f64; 3], spacing: f64) -> Problem {
     Problem {
         plan: plan(
             format!("proof-{case}-{a}"),
-            ("heatsph", case),
+            "heatsph",
+            case,
             json!([temperature(at)]),
             json!([spacings(spacing, 2.0)]),
         ),
@@ -216,7 +218,8 @@ fn slab(end: f64) -> Problem {
     Problem {
         plan: plan(
             format!("proof-slab-{end}"),
-            ("heatsph", "heat-exp-x-transient"),
+            "heatsph",
+            "heat-exp-x-transient",
             json!([temperature([0.5, 0.5, 0.0]), heat_rate("x+")]),
             json!([spacings(0.025, 2.0), steps(step)]),
         ),
@@ -236,7 +239,8 @@ fn cylinder(end: f64) -> Problem {
     Problem {
         plan: plan(
             format!("proof-cylinder-{end}"),
-            ("heatsph", "heat-cylinder-flux"),
+            "heatsph",
+            "heat-cylinder-flux",
             json!([temperature([0.0, 0.0, 0.0])]),
             json!([spacings(0.05, 2.0), steps(step)]),
         ),
@@ -258,7 +262,8 @@ fn sphere(ratio: f64) -> Problem {
     Problem {
         plan: plan(
             format!("proof-sphere-{ratio}"),
-            ("emfield", "em-dielectric-sphere"),
+            "emfield",
+            "em-dielectric-sphere",
             json!([value("inside", "inside"), value("outside", "outside")]),
             json!([spacings(5e-6, 4.0)]),
         ),

@@ -227,7 +227,7 @@ fn one(
     let (mut time, mut memory) = (0.0, None);
     for stage in plan.stages.iter().filter(|s| point.reaches(plan, s)) {
         let left = limit.map(|l| l.saturating_sub(begin.elapsed()));
-        let record = make(lab, plan, (point, stage), left)?;
+        let record = make(lab, plan, point, stage, left)?;
         time += record["wall_s"].as_f64().unwrap_or(0.0);
         memory = memory.max(record["peak_memory_bytes"].as_u64());
         found.points = record["points"].as_u64().or(record["particles"].as_u64());
@@ -247,7 +247,8 @@ fn one(
 fn make(
     lab: &Lab,
     plan: &Plan,
-    (point, stage): (&Wanted<'_>, &Stage),
+    point: &Wanted<'_>,
+    stage: &Stage,
     left: Option<Duration>,
 ) -> Result<Value, LabError> {
     let out = place(lab, plan, point, stage);

@@ -206,7 +206,7 @@ fn least(plan: &Plan, points: &[Point], figure: &Certified, tolerance: &Toleranc
         let Some(time) = point.run_time_s else {
             continue;
         };
-        let Some(error) = error_of(plan, points, figure, (point, &tolerance.figure)) else {
+        let Some(error) = error_of(plan, points, figure, point, &tolerance.figure) else {
             continue;
         };
         let quicker = best.run_time_s.is_none_or(|t| time < t);
@@ -225,7 +225,8 @@ fn error_of(
     plan: &Plan,
     points: &[Point],
     figure: &Certified,
-    (point, name): (&Point, &str),
+    point: &Point,
+    name: &str,
 ) -> Option<f64> {
     if !figure.not_judged.is_empty() || figure.knobs.is_empty() {
         return None;

@@ -65,7 +65,7 @@ impl Ball {
             let steps = ((time - now) / longest).ceil().max(1.0);
             let dt = (time - now) / steps;
             for _ in 0..steps as u64 {
-                self.step(&mut enthalpy, (&volume, &heat, thick), dt);
+                self.step(&mut enthalpy, &volume, &heat, thick, dt);
             }
             now = *time;
             found.push(self.told(&enthalpy, &volume));
@@ -79,7 +79,7 @@ impl Ball {
         a * (t.powi(4) - far.powi(4))
     }
 
-    fn step(&self, enthalpy: &mut [f64], (volume, heat, thick): (&[f64], &[f64], f64), dt: f64) {
+    fn step(&self, enthalpy: &mut [f64], volume: &[f64], heat: &[f64], thick: f64, dt: f64) {
         let t: Vec<f64> = enthalpy.iter().map(|h| self.temperature(*h)).collect();
         let mut inward = 0.0;
         for k in 0..SHELLS {

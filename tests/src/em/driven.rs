@@ -50,8 +50,10 @@ impl Driven {
             let past: Vec<f64> = past.map(|(a, b)| (share + kept) * a - kept * b).collect();
             before.clone_from(&now);
             self.step(
-                (&mut now, &past),
-                (share / step, 1.0 / step),
+                &mut now,
+                &past,
+                share / step,
+                1.0 / step,
                 wave(n as f64 * step),
             );
         }
@@ -67,7 +69,7 @@ impl Driven {
     }
 
     /// Newton's method for one step: `r H` beyond each ring less that before it, and `sigma dA/dt` times its area.
-    fn step(&self, (a, past): (&mut [f64], &[f64]), (rate, last): (f64, f64), current: f64) {
+    fn step(&self, a: &mut [f64], past: &[f64], rate: f64, last: f64, current: f64) {
         let wide = self.wide();
         let middle = |k: usize| self.radii[0] + (k as f64 + 0.5) * wide;
         let away = (self.wall / self.radii[1]).ln() * MU0;

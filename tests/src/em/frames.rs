@@ -17,7 +17,8 @@ use crate::lab::{Finished, Lab, LabError, read_json};
 pub fn measured(
     lab: &Lab,
     case: &dyn Case,
-    (level, method): (u32, &str),
+    level: u32,
+    method: &str,
     (patch, spacing): (&Value, f64),
     errors: impl Fn(&Finished, &Points) -> Result<Errors, LabError>,
 ) -> Result<Measurement, LabError> {

@@ -142,7 +142,7 @@ pub struct Round {
 impl Round {
     /// A cylinder (2) or a sphere (3).
     #[must_use]
-    pub fn new(law: &Law, dimensions: i32, (radius, applied): (f64, [f64; 3])) -> Self {
+    pub fn new(law: &Law, dimensions: i32, radius: f64, applied: [f64; 3]) -> Self {
         let size = applied.iter().map(|b| b * b).sum::<f64>().sqrt();
         Self {
             radius,
@@ -204,7 +204,7 @@ mod tests {
         let law = Law::read(&json!(50.0)).unwrap();
         let wanted = [(2, 100.0 / 51.0), (3, 150.0 / 52.0)];
         for (dimensions, ratio) in wanted {
-            let round = Round::new(&law, dimensions, (2.0, [0.3, 0.0, 0.0]));
+            let round = Round::new(&law, dimensions, 2.0, [0.3, 0.0, 0.0]);
             assert!((round.ratio / ratio - 1.0).abs() < 1e-12);
             let [a, b] = [2.0, 2.0001].map(|r| round.field([r, 0.0, 0.0])[0]);
             assert!((a - b).abs() < 1e-3);
