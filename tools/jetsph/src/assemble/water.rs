@@ -50,14 +50,7 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
         fastest = fastest.max(u[0].hypot(u[1]).hypot(u[2]));
     }
     let nozzles = nozzles(scene, of, place)?;
-    for Nozzle {
-        fastest: own,
-        traverse: [x, y, z],
-        ..
-    } in &nozzles
-    {
-        fastest = fastest.max(own + x.hypot(*y).hypot(*z));
-    }
+    fastest = nozzles.iter().map(Nozzle::most).fold(fastest, f64::max);
     let law = Tait {
         density: of.density_kg_m3,
         sound_speed: if of.method == Method::DivergenceFree {

@@ -53,6 +53,15 @@ pub struct Nozzle {
     pub has_sound: bool,
 }
 
+impl Nozzle {
+    /// The greatest speed of its water on average until the end, with its own \[m/s\].
+    #[must_use]
+    pub fn most(&self) -> f64 {
+        let [x, y, z] = self.traverse;
+        self.fastest + x.hypot(y).hypot(z)
+    }
+}
+
 /// A column of particles.
 #[derive(Debug, Clone, Copy)]
 struct Lane {
