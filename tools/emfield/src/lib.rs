@@ -10,12 +10,13 @@
 pub mod assemble;
 pub mod cloud;
 pub mod electric;
+pub mod geometry;
 pub mod liquid;
 pub mod magnetic;
 pub mod march;
 pub mod output;
 pub mod scene;
-mod solution;
+pub mod solve;
 pub mod stage;
 pub mod stencils;
 pub mod surface;

@@ -10,9 +10,9 @@ use crate::assemble;
 use crate::cloud::Cloud;
 use crate::magnetic::unknown::Unknown;
 use crate::scene::{EddyCurrents, Geometry, Scene};
-use crate::solution;
 use crate::surface::enclosing::Enclosing;
 use crate::trial::{self, Planned};
+use crate::{electric, magnetic, surface};
 
 /// Electric and magnetic fields on points.
 #[derive(Debug)]
@@ -55,7 +55,7 @@ impl Tool for EmField {
         // What drives currents has its form once nothing is wrong with the scene itself.
         if faults.is_empty() {
             let currents = scene.eddy_currents.iter();
-            faults.extend(currents.flat_map(|e| assemble::drive::faults(scene, e)));
+            faults.extend(currents.flat_map(|e| magnetic::setup::faults(scene, e)));
         }
         if !faults.is_empty() {
             return Err(faults.into());
@@ -66,14 +66,14 @@ impl Tool for EmField {
         let planned = planned(scene)?;
         let cloud = &planned.cloud;
         if let Some(currents) = &scene.eddy_currents {
-            assemble::windings(scene, currents, cloud)?;
-            assemble::magnets(scene, currents)?;
+            magnetic::driven::setup::windings(scene, currents, cloud)?;
+            magnetic::medium::setup::magnets(scene, currents)?;
         }
         if let Some(electrostatics) = &scene.electrostatics {
-            assemble::shorts(scene, electrostatics, cloud)?;
-            assemble::room(scene, electrostatics, cloud)?;
+            electric::setup::shorts(scene, electrostatics, cloud)?;
+            electric::setup::room(electrostatics, cloud)?;
         }
-        let enclosing = assemble::enclosing(scene, cloud)?;
+        let enclosing = surface::setup::enclosing(scene, cloud)?;
         let plan = shown(scene, cloud, &enclosing);
         if let Ok(mut ready) = READY.lock() {
             *ready = Some((scene.clone(), planned));
@@ -112,7 +112,7 @@ impl Tool for EmField {
             };
         }
         let planned = session.timed("points", || ready(scene))?;
-        solution::solve(scene, &planned.cloud, session)
+        assemble::solve(scene, &planned.cloud, session)
     }
 }
 
@@ -149,7 +149,7 @@ fn shown(scene: &Scene, cloud: &Cloud, enclosing: &[Enclosing]) -> Plan {
 }
 
 fn shown_currents(scene: &Scene, currents: &EddyCurrents, plan: Plan) -> Plan {
-    let plan = match assemble::drive::unknown(scene, currents) {
+    let plan = match magnetic::setup::unknown(scene, currents) {
         Unknown::Axial => plan.stage("eddy currents").column("magnetic_field", "A/m"),
         Unknown::Potential | Unknown::Around => plan
             .stage("eddy currents")

@@ -7,11 +7,11 @@
 use artefact::{Header, Version};
 use run::{Estimate, Failure, Taken, duration, trial};
 
-use crate::assemble::Steps;
+use crate::assemble;
 use crate::cloud::Cloud;
+use crate::march::steps::Steps;
 use crate::scene::method::Way;
 use crate::scene::{Geometry, Scene};
-use crate::solution;
 
 /// Points of a trial, about: more than are solved directly unless a scene asks for it.
 const FEW: f64 = 5000.0;
@@ -66,7 +66,7 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
         scene: serde_json::Value::Null,
         inputs: std::collections::BTreeMap::new(),
     };
-    let taken = trial(header, |session| solution::solve(&own, small, session))?;
+    let taken = trial(header, |session| assemble::solve(&own, small, session))?;
     let (taken_steps, taken_frames) = march(&own);
     let more = More {
         ratio,
@@ -74,7 +74,7 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
         space: scene.geometry == Geometry::Space,
         steps: steps as f64 / taken_steps.max(1) as f64,
         frames: frames as f64 / taken_frames as f64,
-        judged: solution::far::judged(scene),
+        judged: assemble::far::judged(scene),
     };
     Ok(told(&taken, &more, (planned, small.len(), steps)))
 }

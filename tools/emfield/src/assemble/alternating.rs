@@ -2,16 +2,17 @@
 
 use run::Failure;
 
-use super::drive::source;
-use super::region;
 use crate::cloud::Cloud;
 use crate::liquid::air::Place;
 use crate::liquid::magnetic::{Applied, Ball, Magnetic, outline};
 use crate::liquid::step::{Liquid, Matter};
 use crate::liquid::vector::{dot, length};
+use crate::magnetic::setup::source;
 use crate::scene::{MagneticField, Scene};
+use crate::solve::setup::numerics;
 use crate::stencils::quadrature::{self, Moments};
 use crate::stencils::region::Region;
+use crate::stencils::setup::region;
 use crate::stencils::sides::Form;
 
 /// The field of a scene on points about a ball as large as the liquid is.
@@ -29,7 +30,7 @@ pub(super) fn alternating(
     let own = given.about(scene, (middle, radius));
     let cloud = Cloud::new(&own)?;
     let region: Region<3> = region(&own, &cloud, &|_| false);
-    let form: Form = super::form(&own);
+    let form: Form = numerics(&own).form;
     let cells: Vec<Moments<3>> = (cloud.cells.iter())
         .map(|cell| Moments {
             volume: cell.volume,

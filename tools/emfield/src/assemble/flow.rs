@@ -8,7 +8,7 @@ use super::between::between;
 use super::heated::Heated;
 use super::liquid::{fastest, filled, start, steps};
 use super::matter::{matter, way};
-use super::steps::Steps;
+use crate::geometry::Geometry;
 use crate::liquid::effort::{Effort, failed};
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
@@ -17,7 +17,8 @@ use crate::liquid::step::{Ended, Liquid, Matter, Way};
 use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference};
-use crate::scene::{Geometry, Liquid as Part, LiquidMarch, Scene};
+use crate::march::steps::Steps;
+use crate::scene::{Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that a point may move in a step; longer ones are divided.
 const FARTHEST: f64 = 0.5;

@@ -8,7 +8,7 @@ use super::acting::electric;
 use super::alternating::alternating;
 use super::between;
 use super::matter::{PASSED, RIPPLE, few, lacks, matter, way};
-use super::steps::Steps;
+use crate::geometry::Geometry;
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::electric::Electric;
@@ -18,8 +18,9 @@ use crate::liquid::room::Room;
 use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
+use crate::march::steps::Steps;
 use crate::scene::currents::Transient;
-use crate::scene::{Geometry, Liquid as Part, LiquidHeat, LiquidMarch, Scene};
+use crate::scene::{Liquid as Part, LiquidHeat, LiquidMarch, Scene};
 
 /// Bytes that a step holds for each point, about: weights, rows and factors.
 const BYTES: u64 = 6_000;

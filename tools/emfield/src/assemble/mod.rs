@@ -1,173 +1,154 @@
-//! From a scene and its points to equations, and from their solution to columns.
+//! What a scene contains, and the parts of it in the order in which they need each other.
 
-mod about;
 mod acting;
-mod agree;
 mod alternating;
-mod bars;
 mod between;
-mod broken;
-mod charge;
-mod currents;
-pub mod drive;
-mod enclosed;
-mod enclosing;
+pub(crate) mod far;
 mod flow;
-mod forces;
-mod given;
-mod growth;
 mod heated;
 mod levitated;
 mod liquid;
-mod magnetic;
-mod magnets;
-mod march;
 mod matter;
 mod meridian;
-mod open;
-mod potential;
 mod preview;
-mod region;
 mod rest;
-mod saturated;
 mod sessile;
-mod setting;
-mod shorts;
-mod skin;
-mod standing;
-mod steps;
-mod unfit;
-mod walls;
-mod winding;
 
-use std::sync::atomic::AtomicBool;
-
-use krylov::{Ending, Grids, Keep, Method, Options, Rule, Solved};
 use run::{Failure, Session};
 
 use crate::cloud::Cloud;
-use crate::scene::Scene;
-use crate::scene::method::Way;
-use crate::stencils::sides::Form;
+use crate::magnetic::parameters::Parameters;
+use crate::magnetic::problem::Problem;
+use crate::output::{self, Doubt, Found, Samples};
+use crate::scene::{Geometry, Scene};
+use crate::solve::setup::numerics;
+use crate::surface::setup::enclosing;
+use crate::{electric, magnetic, march, stencils};
 
-pub use currents::eddy_currents;
-pub use enclosing::enclosing;
 pub use flow::flow;
 pub use liquid::{estimate as estimate_flow, plan as plan_flow};
-pub use magnets::magnets;
-pub use march::march;
-pub use open::room;
-pub use potential::electrostatics;
 pub use preview::preview;
-pub(crate) use region::region;
 pub use rest::rest;
-pub use shorts::shorts;
-pub use standing::standing;
-pub(crate) use steps::Steps;
-pub use winding::windings;
 
-/// What incomplete factors by size have.
-const LARGE: Keep = Keep::Threshold {
-    drop: 1e-2,
-    fill: 2.0,
-};
-
-/// How the systems of a scene are solved.
-fn options(scene: &Scene) -> Options {
-    Options {
-        method: match scene.solver.way {
-            Way::Auto => Method::Chosen,
-            Way::Direct => Method::Direct,
-            Way::Iterative => Method::Multigrid(Grids::default()),
-            Way::Ilu0 => Method::Incomplete(Keep::PATTERN),
-            Way::Ilut => Method::Incomplete(LARGE),
-        },
-        ..Options::default()
+/// Finds the fields of a scene and writes them.
+///
+/// # Errors
+/// Where equations cannot be made or solved, the user interrupts, or the disk refuses.
+pub(crate) fn solve(scene: &Scene, cloud: &Cloud, session: &mut Session) -> Result<(), Failure> {
+    match scene.geometry {
+        Geometry::Space => fields::<3, 3>(scene, cloud, session),
+        Geometry::Plane | Geometry::Axisymmetric => fields::<2, 1>(scene, cloud, session),
     }
 }
 
-/// When the solves of a scene stop; at once where `stop` is set.
-fn rule<'a>(scene: &Scene, stop: impl Into<Option<&'a AtomicBool>>) -> Rule<'a> {
-    Rule {
-        reduction: scene.solver.tolerance,
-        products: 2 * scene.solver.iterations,
-        stop: stop.into(),
-        ..Rule::default()
+fn fields<const D: usize, const K: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    session: &mut Session,
+) -> Result<(), Failure> {
+    // Until a march has begun nothing is worth a checkpoint.
+    let expendable = session.expendable();
+    for what in Cloud::grains(scene) {
+        session.warn(what);
     }
+    for what in Cloud::bends(scene) {
+        session.note(what);
+    }
+    let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;
+    let march = scene.eddy_currents.as_ref().and_then(|currents| {
+        let transient = currents.transient.as_ref()?;
+        Some((currents, transient))
+    });
+    if let Some((currents, transient)) = march {
+        let still = electric::<D>(scene, cloud, session)?;
+        session.stopped()?;
+        drop(expendable);
+        let mut doubts = Vec::new();
+        let parameters = magnetic::setup::parameters((scene, currents), cloud, numerics(scene))?;
+        let problem = problem::<D>((scene, &parameters), cloud, session)?;
+        let with = (transient, &scene.output);
+        march::currents::march::<D, K>(&problem, with, session, |time, fields, session| {
+            let mut all = still.clone();
+            all.join(fields);
+            doubts.append(&mut all.doubts);
+            output::write(scene, cloud, &samples, (time, &all), session)
+        })?;
+        tell(doubts, session);
+        return Ok(());
+    }
+    let mut found = steady::<D, K>(scene, cloud, session)?;
+    session.stopped()?;
+    far::tell::<D, K>((scene, cloud), &found, session)?;
+    session.stopped()?;
+    tell(std::mem::take(&mut found.doubts), session);
+    output::write(scene, cloud, &samples, (0.0, &found), session)
 }
 
-/// How the stencils of a scene are made.
-pub(crate) fn form(scene: &Scene) -> Form {
-    Form {
-        order: scene.method.order as u8,
-        support: scene.method.support,
-        positive: scene.method.positive,
-        ..Form::default()
-    }
-}
-
-/// The stencils of low order that precondition those of high order, whose own factors are unstable; none where the order
-/// is low, or `unknowns` equations are solved directly.
-fn low_order(scene: &Scene, unknowns: usize) -> Option<Form> {
-    let direct = match scene.solver.way {
-        Way::Auto => unknowns <= Options::default().direct,
-        Way::Direct => true,
-        Way::Iterative | Way::Ilu0 | Way::Ilut => false,
-    };
-    (scene.method.order > 2 && !direct).then_some(Form {
-        order: 2,
-        ..Form::default()
+/// The fields of charges and electrodes, if there are some.
+fn electric<const D: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
+    session: &mut Session,
+) -> Result<Found, Failure> {
+    let electrostatics = scene.electrostatics.as_ref();
+    electrostatics.map_or(Ok(Found::default()), |electrostatics| {
+        let with = (numerics(scene), enclosing(scene, cloud)?);
+        electric::setup::electrostatics::<D>((scene, electrostatics), cloud, with, session)
     })
 }
 
-/// Keeps what had to be done for stencils beyond the usual, row by row as they were solved for.
-fn supports(name: &str, report: &wls::Report, session: &mut Session) {
-    for (what, count) in [
-        ("supports_enlarged", report.enlarged),
-        ("supports_by_room", report.by_room),
-        ("supports_by_singular_values", report.by_svd),
-        ("orders_lowered", report.lowered),
-        ("positive_made", report.positive_made),
-        ("positive_failed", report.positive_failed),
-    ] {
-        if count > 0 {
-            session.closing(&format!("{what}_{name}"), "1", count as f64);
-        }
-    }
-    let worst = report.worst_condition;
-    session.closing(&format!("worst_condition_{name}"), "1", worst);
+/// What the eddy currents of a scene are computed with.
+fn problem<'a, const D: usize>(
+    (scene, parameters): (&Scene, &'a Parameters),
+    cloud: &'a Cloud,
+    session: &mut Session,
+) -> Result<Problem<'a, D>, Failure> {
+    let region = stencils::setup::region(scene, cloud, &|_| false);
+    Problem::new(
+        parameters,
+        (cloud, region),
+        enclosing(scene, cloud)?,
+        session,
+    )
 }
 
-/// Keeps what a solve says of itself; `size` of the solution at a point tells where it broke down.
-///
-/// # Errors
-/// Where it broke down, or was stopped.
-fn report(
-    (name, unit): (&str, &str),
-    solved: &Solved,
-    (cloud, size): (&Cloud, impl Fn(usize) -> f64),
+/// All fields of a scene that has no march.
+fn steady<const D: usize, const K: usize>(
+    scene: &Scene,
+    cloud: &Cloud,
     session: &mut Session,
-) -> Result<(), Failure> {
-    for (k, value) in solved.history.iter().enumerate() {
-        session.history(&format!("residual_{name}"), "1", k as f64, *value);
+) -> Result<Found, Failure> {
+    let mut found = electric::<D>(scene, cloud, session)?;
+    session.stopped()?;
+    if let Some(currents) = &scene.eddy_currents {
+        let parameters = magnetic::setup::parameters((scene, currents), cloud, numerics(scene))?;
+        let problem = problem::<D>((scene, &parameters), cloud, session)?;
+        found.join(match currents.standing {
+            Some(_) => problem.standing::<K>(session)?,
+            None => problem.harmonic::<K>(session)?,
+        });
     }
-    session.closing(&format!("products_{name}"), "1", solved.products as f64);
-    let residual = solved.residuals.iter().copied().fold(0.0, f64::max);
-    session.closing(&format!("residual_{name}"), "1", residual);
-    match &solved.ending {
-        Ending::Converged => Ok(()),
-        Ending::Stopped => session.stopped(),
-        Ending::BrokenDown(why) => Err(broken::broken_down(
-            (name, unit),
-            (solved, *why),
-            cloud,
-            size,
-        )),
-        other => {
-            session.warn(format!(
-                "not converged: {name}: {other}; residual {residual:.2e}"
-            ));
-            Ok(())
+    Ok(found)
+}
+
+/// Difference of the ways of a force over its size from which it is a warning that matters; less is a note.
+const MATTERS: f64 = 0.2;
+
+/// Says which forces are in doubt: of each the largest of all instants.
+fn tell(doubts: Vec<Doubt>, session: &mut Session) {
+    let mut worst: Vec<Doubt> = Vec::new();
+    for doubt in doubts {
+        match worst.iter_mut().find(|w| w.of == doubt.of) {
+            Some(w) if w.share < doubt.share => *w = doubt,
+            Some(_) => {}
+            None => worst.push(doubt),
+        }
+    }
+    for doubt in worst {
+        if doubt.share > MATTERS {
+            session.warn(doubt.what);
+        } else {
+            session.note(doubt.what);
         }
     }
 }

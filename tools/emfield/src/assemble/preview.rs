@@ -8,9 +8,10 @@ use shapes::frame::{Frame, Vector};
 
 use super::liquid::filled;
 use crate::cloud::{Class, Cloud};
+use crate::geometry::Geometry;
 use crate::liquid::vector::spatial;
 use crate::scene::currents::Loop;
-use crate::scene::{Coil, Faces, Geometry, Liquid, Scene};
+use crate::scene::{Coil, Faces, Liquid, Scene};
 
 /// Sides of the polygon that a loop is drawn as.
 const SIDES: usize = 48;

@@ -11,7 +11,8 @@ use super::occupied::Occupied;
 use super::region::{Region, Wall};
 use super::surface::{self, Seed};
 use super::{Class, Cloud, Counts, Metric, cells, count};
-use crate::scene::{Geometry, Layers, Scene};
+use crate::geometry::Geometry;
+use crate::scene::{Layers, Scene};
 
 /// Least width of a body over its spacing: the points of a smaller one hang together with each other alone.
 const NARROW: f64 = 0.5;
@@ -154,7 +155,13 @@ impl Builder {
             widest: 0.0,
             cloud: Cloud {
                 geometry: scene.geometry,
-                media: scene.bodies.len() + 1,
+                media: (0..=scene.bodies.len())
+                    .map(|m| scene.medium_name(m).to_owned())
+                    .collect(),
+                wall: region.wall.clone(),
+                faces: scene.domain.walls(scene.geometry),
+                pitch: scene.points.spacing_m,
+                further: scene.points.extra_m.len(),
                 position: Vec::new(),
                 spacing: Vec::new(),
                 class: Vec::new(),

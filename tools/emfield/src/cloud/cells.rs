@@ -24,7 +24,7 @@ pub(super) fn fill(scene: &Scene, region: &Region, columns: &[Column], cloud: &m
         return;
     }
     let mut cells = vec![Cell::default(); cloud.len()];
-    for medium in 0..cloud.media {
+    for medium in 0..cloud.media.len() {
         if scene.medium(medium).conductivity_s_m > 0.0
             || scene.magnetic(medium)
             || scene.carries(medium)

@@ -21,7 +21,8 @@ mod surface;
 pub use surface::Curvature;
 pub(crate) use surface::seeds;
 
-use crate::scene::{Geometry, Scene};
+use crate::geometry::Geometry;
+use crate::scene::Scene;
 use run::Fault;
 use shapes::frame::{Vector, difference, dot};
 
@@ -142,8 +143,16 @@ pub struct Counts {
 pub struct Cloud {
     /// Geometry of the scene.
     pub geometry: Geometry,
-    /// Number of media, the surroundings among them.
-    pub media: usize,
+    /// Names of media, the surroundings first.
+    pub media: Vec<String>,
+    /// The wall of the domain, in coordinates of the scene.
+    pub wall: region::Wall,
+    /// Names of its faces.
+    pub faces: Vec<&'static str>,
+    /// The spacing where nothing asks for another \[m\].
+    pub pitch: f64,
+    /// How many points the scene names one by one: the last ones.
+    pub further: usize,
     /// Places \[m\].
     pub position: Vec<Vector>,
     /// Distance to the neighbours, along the surface where points are layered \[m\].

@@ -132,7 +132,7 @@ impl Region {
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let dimensions = scene.geometry.dimensions();
-        let axisymmetric = scene.geometry == crate::scene::Geometry::Axisymmetric;
+        let axisymmetric = scene.geometry == crate::geometry::Geometry::Axisymmetric;
         let points = &scene.points;
         let (wall, size) = wall(&scene.domain, (dimensions, axisymmetric));
         let outward = |body: &Body, spacing: f64| {

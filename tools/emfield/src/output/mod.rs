@@ -190,7 +190,7 @@ fn points(scene: &Scene, cloud: &Cloud, found: &Found) -> Frame {
 /// Units of area and volume: per metre of depth in a plane.
 fn units(scene: &Scene) -> (&'static str, &'static str) {
     match scene.geometry {
-        crate::scene::Geometry::Plane => ("m", "m2"),
+        crate::geometry::Geometry::Plane => ("m", "m2"),
         _ => ("m2", "m3"),
     }
 }

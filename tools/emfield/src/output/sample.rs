@@ -7,8 +7,11 @@ use wls::{Condition, Plan, Reach, Rules, Search, Stencils, Wants};
 use super::Column;
 use crate::cloud::region::{Region as Ground, vector};
 use crate::cloud::{Class, Cloud};
-use crate::scene::{Geometry, Interfaces, Scene};
+use crate::geometry::Geometry;
+use crate::scene::{Interfaces, Scene};
+use crate::solve::setup::numerics;
 use crate::stencils::region::Region;
+use crate::stencils::setup::region;
 use crate::stencils::sides::Form;
 
 /// A point and its weight; a point of an interface counts with its outer side where it is marked.
@@ -53,7 +56,7 @@ impl<const D: usize> Rules<D> for Within<'_, D> {
 fn harmonic_form<const D: usize>(scene: &Scene) -> Option<Form> {
     let one_sided = matches!(scene.method.interfaces, Interfaces::OneSided(_));
     let straight = scene.geometry != Geometry::Axisymmetric;
-    let form = crate::assemble::form(scene).for_harmonics(D);
+    let form = numerics(scene).form.for_harmonics(D);
     (scene.electrostatics.is_some() && one_sided && straight && form.compares()).then_some(form)
 }
 
@@ -94,7 +97,7 @@ impl Samples {
             faults.dedup_by(|a, b| a.path() == b.path());
             return Err(faults.into());
         }
-        let region = crate::assemble::region::<D>(scene, cloud, &|_| false);
+        let region = region::<D>(scene, cloud, &|_| false);
         let media: Vec<u8> = own.iter().map(|x| ground.medium(*x)).collect();
         let flat: Vec<[f64; D]> = own.iter().map(|x| std::array::from_fn(|k| x[k])).collect();
         let about = wls::Cloud {

@@ -5,56 +5,7 @@ use serde::Deserialize;
 use shapes::Shape;
 
 use super::permeability::Permeability;
-
-/// Kinds of geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Geometry {
-    /// Nothing changes along z; places have x and y.
-    Plane,
-    /// Nothing changes about the z axis; places have r and z, shapes are their sections with r >= 0.
-    Axisymmetric,
-    /// Places have x, y and z.
-    Space,
-}
-
-impl Geometry {
-    /// Coordinates of a place: 2 or 3.
-    #[must_use]
-    pub fn dimensions(self) -> usize {
-        match self {
-            Self::Plane | Self::Axisymmetric => 2,
-            Self::Space => 3,
-        }
-    }
-
-    /// The two coordinates of a place of a plane (x, y) or axisymmetric (r, z) cloud \[m\].
-    #[must_use]
-    pub fn flat(self, x: [f64; 3]) -> [f64; 2] {
-        match self {
-            Self::Axisymmetric => [x[0], x[2]],
-            Self::Plane | Self::Space => [x[0], x[1]],
-        }
-    }
-
-    /// The place in space of coordinates of the scene: (r, z) stands in the half plane y = 0 \[m\].
-    #[must_use]
-    pub fn place(self, x: [f64; 3]) -> [f64; 3] {
-        match self {
-            Self::Axisymmetric => [x[0], 0.0, x[1]],
-            Self::Plane | Self::Space => x,
-        }
-    }
-
-    /// Coordinates of the scene of a place in space; the inverse of [`Geometry::place`] \[m\].
-    #[must_use]
-    pub fn coordinates(self, x: [f64; 3]) -> [f64; 3] {
-        match self {
-            Self::Axisymmetric => [x[0], x[2], 0.0],
-            Self::Plane | Self::Space => x,
-        }
-    }
-}
+pub use crate::geometry::Geometry;
 
 /// A box along the axes.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

@@ -6,13 +6,16 @@
 
 use num_complex::Complex;
 use rayon::prelude::*;
+use run::{Failure, Session};
 use wls::{Condition, Error, Plan, Rules, Search, Stencils, Wants};
 
+use crate::cloud::Cloud;
 use crate::magnetic::unknown::{Unknown, along, local};
 use crate::stencils::mirror::Mirror;
 use crate::stencils::region::Region;
 use crate::stencils::sides::Form;
 use crate::surface::enclosing::Enclosing;
+use crate::surface::halfway::about;
 
 /// A complex number.
 type C = Complex<f64>;
@@ -26,6 +29,47 @@ pub struct Enclosed<const D: usize> {
     fits: Stencils<D>,
     /// The point that each point or image beyond an axis stands for.
     origin: Vec<u32>,
+}
+
+/// Fits of the points about surfaces.
+///
+/// # Errors
+/// Where too few points lie about one.
+pub(crate) fn all<const D: usize>(
+    surfaces: Vec<Enclosing>,
+    (region, form): (&Region<D>, &Form),
+    session: &mut Session,
+) -> Result<Vec<Enclosed<D>>, Failure> {
+    if surfaces.is_empty() {
+        return Ok(Vec::new());
+    }
+    session.timed("enclosures", || {
+        let each = surfaces.into_iter().map(|surface| {
+            let name = surface.name.clone();
+            let failed = |error: Error| Failure::Other(format!("enclosure {name}: {error}"));
+            Enclosed::new(region, form, surface).map_err(failed)
+        });
+        each.collect()
+    })
+}
+
+/// A surface about all bodies with fits of the points about it, where one has room and no other holds all bodies.
+pub(crate) fn about_all<const D: usize>(
+    cloud: &Cloud,
+    (region, form): (&Region<D>, &Form),
+    others: &[Enclosed<D>],
+    session: &mut Session,
+) -> Option<Enclosed<D>> {
+    let all = |one: &Enclosed<D>| {
+        let mut points = cloud.surface.iter().map(|s| s.point as usize);
+        points.all(|i| one.surface.within[i])
+    };
+    if others.iter().any(all) {
+        return None;
+    }
+    let surface = about(cloud)?;
+    // Where no fit can be made nothing can be checked.
+    session.timed("enclosures", || Enclosed::new(region, form, surface).ok())
 }
 
 /// What was found, at a place.

@@ -9,13 +9,13 @@ use run::{Estimate, Failure, Plan, Session};
 
 use self::start::{fastest, start, steps};
 use crate::assemble::matter::{lacks, matter, way};
-use crate::assemble::steps::Steps;
 use crate::liquid::effort::Effort;
 use crate::liquid::room::level::Level;
 use crate::liquid::step::{Ended, Liquid, Matter, Way};
 use crate::liquid::surface::Patch;
 use crate::liquid::told;
 use crate::liquid::vector::{along, dot};
+use crate::march::steps::Steps;
 use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that the liquid may pass in a step; longer ones are divided.

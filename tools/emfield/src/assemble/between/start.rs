@@ -4,11 +4,11 @@ use run::property::Arguments;
 use run::{Failure, Fault};
 
 use crate::assemble::matter::{PASSED, RIPPLE, few, matter};
-use crate::assemble::steps::Steps;
 use crate::liquid::fill::Filled;
 use crate::liquid::room::{Room, furnish};
 use crate::liquid::step::{Liquid, Matter};
 use crate::liquid::vector::{length, spatial};
+use crate::march::steps::Steps;
 use crate::scene::currents::Transient;
 use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 

@@ -4,7 +4,7 @@ use krylov::{Ending, Grids, Method, Options, Pair, Rule, System};
 use run::Failure;
 
 use super::applied::Applied;
-use crate::electric::open::Open;
+use crate::electric::open::rows::Open;
 use crate::liquid::air::{ASLEEP, Air, Place};
 use crate::liquid::effort::{Effort, failed};
 use crate::stencils::region::{Kind, Region};

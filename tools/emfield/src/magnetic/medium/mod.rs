@@ -1,4 +1,4 @@
-//! Media of different permeability.
+//! Media of different permeability. `setup` looks whether coils of a scene lie where their field is known.
 //!
 //! 1. [`law`]: how the field follows the flux density, `H(B)`, and what pulls at a face between two media;
 //! 2. [`interface`]: rows of interfaces in a plane and about an axis, and what sources and walls put there;
@@ -7,3 +7,4 @@
 pub mod interface;
 pub mod law;
 pub mod mixing;
+pub(crate) mod setup;

@@ -1,13 +1,13 @@
 use krylov::{Options, Rule, System};
 use nalgebra::DMatrix;
 
-use crate::assemble::region;
 use crate::cloud::Cloud;
 use crate::electric::equations::{Held, Problem};
 use crate::magnetic::diffusion::Conductors;
 use crate::magnetic::unknown::Unknown;
 use crate::scene::Scene;
 use crate::stencils::region::Kind;
+use crate::stencils::setup::region;
 use crate::stencils::sides::{Form, Sides};
 
 /// Rates at which fields in conductors with `mu sigma` of 1 fall, slowest first; the rows that hold at each instant are
@@ -23,7 +23,7 @@ fn rates(scene: &str, order: u8) -> Vec<f64> {
     };
     let sides = Sides::new(&region, &form).unwrap();
     let conductors = Conductors {
-        mu_sigma: (0..cloud.media)
+        mu_sigma: (0..cloud.media.len())
             .map(|m| scene.medium(m).conductivity_s_m)
             .collect(),
         axial: None,

@@ -1,9 +1,9 @@
-use crate::assemble::region;
 use crate::cloud::Cloud;
 use crate::magnetic::saturation::equations::Saturation;
 use crate::magnetic::unknown::Unknown;
 use crate::scene::Scene;
 use crate::stencils::region::{Kind, Region};
+use crate::stencils::setup::region;
 use crate::stencils::sides::{Form, Sides};
 use crate::stencils::tests::{rings, shells};
 
