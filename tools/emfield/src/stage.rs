@@ -12,7 +12,7 @@ use crate::magnetic::unknown::Unknown;
 use crate::scene::{EddyCurrents, Geometry, Scene};
 use crate::surface::enclosing::Enclosing;
 use crate::trial::{self, Planned};
-use crate::{electric, magnetic, surface};
+use crate::{electric, magnetic, march, surface};
 
 /// Electric and magnetic fields on points.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ impl Tool for EmField {
             return Err(faults.into());
         }
         if let Some(liquid) = &scene.liquid {
-            return assemble::plan_flow(scene, liquid);
+            return assemble::liquid::plan(scene, liquid);
         }
         let planned = planned(scene)?;
         let cloud = &planned.cloud;
@@ -94,7 +94,7 @@ impl Tool for EmField {
 
     fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
         if let Some(liquid) = &scene.liquid {
-            return assemble::estimate_flow(scene, liquid);
+            return assemble::liquid::estimate(scene, liquid);
         }
         trial::estimate(scene, &ready(scene)?).map(Some)
     }
@@ -106,8 +106,8 @@ impl Tool for EmField {
     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
         if let Some(liquid) = &scene.liquid {
             return match (&liquid.march, &liquid.equilibrium) {
-                (Some(march), _) => assemble::flow(scene, (liquid, march), session),
-                (None, Some(rest)) => assemble::rest(scene, (liquid, rest), session),
+                (Some(march), _) => march::liquid::flow(scene, (liquid, march), session),
+                (None, Some(rest)) => assemble::liquid::rest::rest(scene, (liquid, rest), session),
                 (None, None) => Ok(()),
             };
         }

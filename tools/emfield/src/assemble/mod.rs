@@ -1,18 +1,8 @@
 //! What a scene contains, and the parts of it in the order in which they need each other.
 
-mod acting;
-mod alternating;
-mod between;
 pub(crate) mod far;
-mod flow;
-mod heated;
-mod levitated;
-mod liquid;
-mod matter;
-mod meridian;
+pub(crate) mod liquid;
 mod preview;
-mod rest;
-mod sessile;
 
 use run::{Failure, Session};
 
@@ -25,10 +15,7 @@ use crate::solve::setup::numerics;
 use crate::surface::setup::enclosing;
 use crate::{electric, magnetic, march, stencils};
 
-pub use flow::flow;
-pub use liquid::{estimate as estimate_flow, plan as plan_flow};
-pub use preview::preview;
-pub use rest::rest;
+pub(crate) use preview::preview;
 
 /// Finds the fields of a scene and writes them.
 ///

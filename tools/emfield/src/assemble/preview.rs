@@ -20,7 +20,7 @@ const SIDES: usize = 48;
 ///
 /// # Errors
 /// Faults of the scene.
-pub fn preview(scene: &Scene) -> Result<Preview, Failure> {
+pub(crate) fn preview(scene: &Scene) -> Result<Preview, Failure> {
     let faults = scene.faults();
     if !faults.is_empty() {
         return Err(faults.into());
@@ -90,7 +90,7 @@ fn liquid(scene: &Scene, part: &Liquid) -> Result<Preview, Failure> {
 
 /// The points of a liquid between faces at its start.
 fn between<const D: usize>(scene: &Scene, of: (&Liquid, &Faces)) -> Result<Preview, Failure> {
-    let (room, filled) = super::between::filled::<D>(scene, of)?;
+    let (room, filled) = super::liquid::between::filled::<D>(scene, of)?;
     let mut preview = Preview::new(match scene.geometry {
         Geometry::Space => Coordinates::Space,
         _ => Coordinates::Plane,

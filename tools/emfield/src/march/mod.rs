@@ -1,10 +1,12 @@
-//! Steps in time: the loops over them, and nothing of what is stepped.
+//! Steps in time: the loops over them, what they keep and what is written.
 //!
 //! - `steps`: even ones between the instants that are asked for;
 //! - [`scheme`]: two stages of an implicit Runge-Kutta method;
-//! - `currents`: eddy currents from rest to the end; `growth`: what of them grows though nothing drives it.
+//! - `currents`: eddy currents from rest to the end; `growth`: what of them grows though nothing drives it;
+//! - `liquid`: a liquid in a room or between faces, with the fields that act on it and its heat.
 
 pub(crate) mod currents;
 mod growth;
+pub(crate) mod liquid;
 pub mod scheme;
 pub(crate) mod steps;

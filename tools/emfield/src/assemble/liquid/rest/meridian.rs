@@ -6,14 +6,14 @@ use run::{Failure, Session};
 use crate::scene::Scene;
 
 /// What places of an outline carry: name, unit and a value for each.
-pub(super) type Carried = (&'static str, &'static str, Vec<f64>);
+pub(crate) type Carried = (&'static str, &'static str, Vec<f64>);
 
 /// Writes places `(r, z)` \[m\] from a `centre` \[m\] as a table, and as a frame with the places across a plane beside them,
 /// to which `turned` takes r and z.
 ///
 /// # Errors
 /// When the disk refuses.
-pub(super) fn write(
+pub(crate) fn write(
     scene: &Scene,
     centre: &[f64],
     (places, turned): (&[[f64; 2]], [f64; 2]),

@@ -1,13 +1,16 @@
 //! A drop at rest in a uniform field: from a scene to its shape.
 
+mod levitated;
+mod meridian;
+mod sessile;
+
 use artefact::Record;
 use run::{Failure, Session};
 use shapes::Shape;
 use shapes::shape::Sphere;
 
-use super::levitated::levitated;
-use super::meridian;
-use super::sessile::sessile;
+use self::levitated::levitated;
+use self::sessile::sessile;
 use crate::electric::traction::EPS0;
 use crate::liquid::equilibrium::{self, FEWEST, Found, Kind, MOST, Sought};
 use crate::scene::{Equilibrium, Liquid as Part, Scene};
@@ -16,7 +19,7 @@ use crate::scene::{Equilibrium, Liquid as Part, Scene};
 ///
 /// # Errors
 /// Where no drop is at rest, or the disk refuses.
-pub fn rest(
+pub(crate) fn rest(
     scene: &Scene,
     (part, rest): (&Part, &Equilibrium),
     session: &mut Session,

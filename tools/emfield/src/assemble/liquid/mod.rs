@@ -1,13 +1,16 @@
 //! From a scene to a liquid at its start, the plan of its motion and its steps.
 
+pub(crate) mod alternating;
+pub(crate) mod between;
+pub(crate) mod matter;
+pub(crate) mod rest;
+
 use run::property::Arguments;
 use run::{Estimate, Failure, Fault, Plan};
 use shapes::Body;
 
-use super::acting::electric;
-use super::alternating::alternating;
-use super::between;
-use super::matter::{PASSED, RIPPLE, few, lacks, matter, way};
+use self::alternating::alternating;
+use self::matter::{PASSED, RIPPLE, few, lacks, matter, way};
 use crate::geometry::Geometry;
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
@@ -18,6 +21,7 @@ use crate::liquid::room::Room;
 use crate::liquid::step::{Liquid, Matter, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
+use crate::march::liquid::acting::electric;
 use crate::march::steps::Steps;
 use crate::scene::currents::Transient;
 use crate::scene::{Liquid as Part, LiquidHeat, LiquidMarch, Scene};
@@ -29,7 +33,7 @@ const BYTES: u64 = 6_000;
 ///
 /// # Errors
 /// Where the spacing suits the shape ill.
-pub(super) fn filled(scene: &Scene, liquid: &Part) -> Result<Filled<3>, Failure> {
+pub(crate) fn filled(scene: &Scene, liquid: &Part) -> Result<Filled<3>, Failure> {
     let body = Body::new(&liquid.shape, 3);
     let spacing = scene.points.spacing_m;
     let [low, high] = body.bounds();
@@ -49,7 +53,7 @@ pub(super) fn filled(scene: &Scene, liquid: &Part) -> Result<Filled<3>, Failure>
 }
 
 /// The liquid at its start.
-pub(super) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure> {
+pub(crate) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure> {
     let n = filled.position.len();
     let mut velocity = vec![[0.0; 3]; n];
     for (k, v) in part.velocity_m_s.iter().flatten().enumerate() {
@@ -105,11 +109,11 @@ fn longest(scene: &Scene, (part, march): (&Part, &LiquidMarch), liquid: &Liquid<
     step
 }
 
-pub(super) fn fastest(liquid: &Liquid<3>) -> f64 {
+pub(crate) fn fastest(liquid: &Liquid<3>) -> f64 {
     liquid.velocity.iter().map(length).fold(0.0, f64::max)
 }
 
-pub(super) fn steps(scene: &Scene, part: (&Part, &LiquidMarch), liquid: &Liquid<3>) -> Steps {
+pub(crate) fn steps(scene: &Scene, part: (&Part, &LiquidMarch), liquid: &Liquid<3>) -> Steps {
     let transient = Transient {
         end_s: part.1.end_s,
         step_s: longest(scene, part, liquid),
@@ -122,7 +126,7 @@ pub(super) fn steps(scene: &Scene, part: (&Part, &LiquidMarch), liquid: &Liquid<
 ///
 /// # Errors
 /// Those of `filled`, and of formulas.
-pub fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
+pub(crate) fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
     let faults = scene.faults();
     if !faults.is_empty() {
         return Err(faults.into());
@@ -198,7 +202,7 @@ fn warmed(plan: Plan, heat: Option<&LiquidHeat>) -> Plan {
 ///
 /// # Errors
 /// Those of a step.
-pub fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure> {
+pub(crate) fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, Failure> {
     let Some(march) = &part.march else {
         return Ok(None);
     };

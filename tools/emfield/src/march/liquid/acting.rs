@@ -3,7 +3,7 @@
 use artefact::{Checkpoint, Record};
 use run::{Failure, Session};
 
-use super::alternating::{alternating, hold};
+use crate::assemble::liquid::alternating::{alternating, hold};
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::electric::{Applied, Electric};
@@ -16,15 +16,15 @@ use crate::scene::{Liquid as Part, Scene};
 const THROUGH: f64 = 0.02;
 
 /// The fields of a scene that act on its liquid, and what they took.
-pub(super) struct Acting {
+pub(crate) struct Acting {
     electric: Option<Electric>,
     magnetic: Option<Magnetic>,
     /// By what the currents of coils were multiplied.
     factor: f64,
     /// What the field adds to the pressure that the liquid carries, by point \[Pa\].
-    pub(super) pressure: Vec<f64>,
+    pub(crate) pressure: Vec<f64>,
     /// Heat of currents, by point \[W/m3\]; nothing where the scene has no heat.
-    pub(super) heat: Vec<f64>,
+    pub(crate) heat: Vec<f64>,
     /// Greatest current through the surface so far, over that along it.
     through: f64,
 }
@@ -34,7 +34,7 @@ impl Acting {
     ///
     /// # Errors
     /// Where the points of a field cannot be made.
-    pub(super) fn new(
+    pub(crate) fn new(
         (scene, part): (&Scene, &Part),
         liquid: &Liquid<3>,
         session: &mut Session,
@@ -63,7 +63,7 @@ impl Acting {
     ///
     /// # Errors
     /// Where the field is to hold the liquid and does not lift it, and those of the field.
-    pub(super) fn begin(
+    pub(crate) fn begin(
         &mut self,
         (part, matter): (&Part, &Matter<3>),
         (liquid, way, centre): (&mut Liquid<3>, &Way, [f64; 3]),
@@ -90,7 +90,7 @@ impl Acting {
     ///
     /// # Errors
     /// Where the fields cannot be found.
-    pub(super) fn pull(
+    pub(crate) fn pull(
         &mut self,
         (liquid, way, centre): (&mut Liquid<3>, &Way, [f64; 3]),
         passed: f64,
@@ -153,19 +153,19 @@ impl Acting {
     }
 
     /// Force of an alternating field on the liquid \[N\].
-    pub(super) fn force(&self) -> [f64; 3] {
+    pub(crate) fn force(&self) -> [f64; 3] {
         let magnetic = self.magnetic.as_ref();
         magnetic.map_or([0.0; 3], Magnetic::force)
     }
 
     /// Heat of the currents \[W\].
-    pub(super) fn power(&self) -> f64 {
+    pub(crate) fn power(&self) -> f64 {
         let magnetic = self.magnetic.as_ref();
         magnetic.map_or(0.0, |m| m.totals.heat_volume)
     }
 
     /// Adds what fields do to a row.
-    pub(super) fn row(&self, record: Record) -> Record {
+    pub(crate) fn row(&self, record: Record) -> Record {
         let Some(magnetic) = &self.magnetic else {
             return record;
         };
@@ -182,7 +182,7 @@ impl Acting {
             .with("current_out", "1", magnetic.out)
     }
 
-    pub(super) fn save(
+    pub(crate) fn save(
         &self,
         (liquid, effort): (&Liquid<3>, &Effort),
         checkpoint: &mut Checkpoint,
@@ -209,7 +209,7 @@ impl Acting {
         checkpoint.put_f64("field_residual", &[effort.field_residual]);
     }
 
-    pub(super) fn restore(
+    pub(crate) fn restore(
         &mut self,
         (liquid, effort): (&mut Liquid<3>, &mut Effort),
         spacing: f64,
@@ -242,7 +242,7 @@ impl Acting {
         Ok(())
     }
 
-    pub(super) fn close(&self, effort: &Effort, session: &mut Session) {
+    pub(crate) fn close(&self, effort: &Effort, session: &mut Session) {
         let name = if let Some(electric) = &self.electric {
             session.closing("points_field", "1", electric.awake as f64);
             session.closing("air_renewed", "1", electric.renewed() as f64);
@@ -274,7 +274,7 @@ impl Acting {
 }
 
 /// The electric field of a scene.
-pub(super) fn electric(part: &Part) -> Option<Electric> {
+pub(crate) fn electric(part: &Part) -> Option<Electric> {
     let given = part.electric.as_ref()?;
     let applied = Applied {
         field: std::array::from_fn(|k| given.field_v_m.get(k).copied().unwrap_or(0.0)),

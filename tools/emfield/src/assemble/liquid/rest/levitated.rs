@@ -8,9 +8,8 @@
 
 use run::{Failure, Session};
 
-use super::acting::Acting;
-use super::liquid::{filled, start};
-use super::matter::{matter, way};
+use crate::assemble::liquid::matter::{matter, way};
+use crate::assemble::liquid::{filled, start};
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::magnetic::{Mould, not_round, outline};
@@ -18,6 +17,7 @@ use crate::liquid::outline::Outline;
 use crate::liquid::step::Liquid;
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{difference, direction, dot};
+use crate::march::liquid::acting::Acting;
 use crate::scene::{Liquid as Part, Scene};
 
 /// Rounds at most.
@@ -29,7 +29,7 @@ const SETTLED: f64 = 1e-6;
 ///
 /// # Errors
 /// Where the field does not hold the drop, no shape is found, or the disk refuses.
-pub(super) fn levitated(scene: &Scene, part: &Part, session: &mut Session) -> Result<(), Failure> {
+pub(crate) fn levitated(scene: &Scene, part: &Part, session: &mut Session) -> Result<(), Failure> {
     let mut liquid = start(part, filled(scene, part)?)?;
     let (matter, way, mut effort) = (matter(part), way(scene, part), Effort::default());
     let ball = liquid.clone();

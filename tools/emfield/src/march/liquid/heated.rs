@@ -22,10 +22,10 @@ const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 const PUT_BACK: f64 = 1e-2;
 
 /// Heat of a liquid.
-pub(super) struct Heated {
+pub(crate) struct Heated {
     warmth: Warmth,
     /// Whether heat alone marches.
-    pub(super) still: bool,
+    pub(crate) still: bool,
     /// By point \[J/kg\].
     enthalpy: Vec<f64>,
     /// Rows of a drop that stands still.
@@ -51,7 +51,7 @@ impl Heated {
     ///
     /// # Errors
     /// Where a temperature is none, or a drop that is not molten is to flow.
-    pub(super) fn new(part: &Part, liquid: &Liquid<3>) -> Result<Option<Self>, Failure> {
+    pub(crate) fn new(part: &Part, liquid: &Liquid<3>) -> Result<Option<Self>, Failure> {
         let Some(given) = &part.heat else {
             return Ok(None);
         };
@@ -106,7 +106,7 @@ impl Heated {
     ///
     /// # Errors
     /// Where fits or equations cannot be made.
-    pub(super) fn rest(
+    pub(crate) fn rest(
         &mut self,
         (liquid, patches): (&Liquid<3>, &[Patch<3>]),
         acting: &Acting,
@@ -136,7 +136,7 @@ impl Heated {
     ///
     /// # Errors
     /// Where fits or equations cannot be made.
-    pub(super) fn flow(
+    pub(crate) fn flow(
         &mut self,
         liquid: &Liquid<3>,
         ended: &Ended<3>,
@@ -201,7 +201,7 @@ impl Heated {
     }
 
     /// Points that were moved from where they were take the enthalpy of their new places.
-    pub(super) fn carry(&mut self, rows: &Stencils<3>, from: &[[f64; 3]], to: &[[f64; 3]]) {
+    pub(crate) fn carry(&mut self, rows: &Stencils<3>, from: &[[f64; 3]], to: &[[f64; 3]]) {
         let old = self.enthalpy.clone();
         for (i, (a, b)) in from.iter().zip(to).enumerate() {
             let way = difference(b, a);
@@ -212,7 +212,7 @@ impl Heated {
     }
 
     /// Counts the heat, and puts back evenly what fits have lost of it.
-    pub(super) fn keep(&mut self, totals: &Totals, patches: &[Patch<3>]) {
+    pub(crate) fn keep(&mut self, totals: &Totals, patches: &[Patch<3>]) {
         self.volumes = (totals.volumes.clone(), totals.volume);
         let each = self.enthalpy.iter().zip(&totals.volumes);
         let there = self.warmth.density * each.map(|(h, v)| h * v).sum::<f64>();
@@ -239,7 +239,7 @@ impl Heated {
     }
 
     /// Adds what heat does to a row.
-    pub(super) fn row(&self, record: Record) -> Record {
+    pub(crate) fn row(&self, record: Record) -> Record {
         let t = |h: &f64| self.warmth.temperature(*h);
         let (volumes, volume) = &self.volumes;
         let mean = |of: &dyn Fn(&f64) -> f64| {
@@ -269,7 +269,7 @@ impl Heated {
     }
 
     /// Adds temperatures to a frame of the points, and the share that is molten where something melts.
-    pub(super) fn frame(&self, frame: Frame) -> Frame {
+    pub(crate) fn frame(&self, frame: Frame) -> Frame {
         let t = self.enthalpy.iter().map(|h| self.warmth.temperature(*h));
         let frame = frame.scalar("temperature", "K", t);
         if self.warmth.melting.is_none() {
@@ -283,7 +283,7 @@ impl Heated {
         )
     }
 
-    pub(super) fn save(&self, checkpoint: &mut Checkpoint) {
+    pub(crate) fn save(&self, checkpoint: &mut Checkpoint) {
         checkpoint.put_f64("enthalpy", &self.enthalpy);
         checkpoint.put_f64("heat_volumes", &self.volumes.0);
         let heat: Vec<f64> = self.heat.into_iter().collect();
@@ -301,7 +301,7 @@ impl Heated {
         checkpoint.put_f64("heat_counts", &all);
     }
 
-    pub(super) fn restore(&mut self, checkpoint: &mut Checkpoint) -> Result<(), Failure> {
+    pub(crate) fn restore(&mut self, checkpoint: &mut Checkpoint) -> Result<(), Failure> {
         self.enthalpy = checkpoint.f64("enthalpy")?;
         self.volumes.0 = checkpoint.f64("heat_volumes")?;
         self.heat = checkpoint.f64("heat")?.first().copied();
@@ -315,7 +315,7 @@ impl Heated {
         Ok(())
     }
 
-    pub(super) fn close(&self, session: &mut Session) {
+    pub(crate) fn close(&self, session: &mut Session) {
         session.closing("heat", "J", self.heat.unwrap_or(0.0));
         session.closing("heat_passed", "J", self.passed);
         session.closing("heat_put_back", "J", self.put_back);

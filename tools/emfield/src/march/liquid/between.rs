@@ -1,14 +1,10 @@
 //! The march of a liquid between faces: in a plane or in space.
 
-mod start;
-
-pub(super) use start::filled;
-
 use artefact::{Checkpoint, Precision, Record};
-use run::{Estimate, Failure, Plan, Session};
+use run::{Failure, Session};
 
-use self::start::{fastest, start, steps};
-use crate::assemble::matter::{lacks, matter, way};
+use crate::assemble::liquid::between::{fastest, start, steps};
+use crate::assemble::liquid::matter::{matter, way};
 use crate::liquid::effort::Effort;
 use crate::liquid::room::level::Level;
 use crate::liquid::step::{Ended, Liquid, Matter, Way};
@@ -20,8 +16,6 @@ use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that the liquid may pass in a step; longer ones are divided.
 const FARTHEST: f64 = 0.5;
-/// Bytes that a step holds for each point, about.
-const BYTES: u64 = 4_000;
 /// Names of axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -42,7 +36,7 @@ struct March<const D: usize> {
 ///
 /// # Errors
 /// Where fits or equations fail, the user interrupts, or the disk refuses.
-pub(in crate::assemble) fn between<const D: usize>(
+pub(crate) fn between<const D: usize>(
     scene: &Scene,
     ((part, faces), marched): ((&Part, &Faces), &LiquidMarch),
     session: &mut Session,
@@ -269,54 +263,4 @@ impl<const D: usize> March<D> {
             session.warn(doubt);
         }
     }
-}
-
-/// What a run would do.
-///
-/// # Errors
-/// Where the spacing suits the box ill, and of formulas.
-pub(in crate::assemble) fn plan<const D: usize>(
-    scene: &Scene,
-    (of, march): ((&Part, &Faces), &LiquidMarch),
-) -> Result<Plan, Failure> {
-    let liquid = start::<D>(scene, of)?;
-    let steps = steps(scene, (of.0, march), &liquid);
-    let points = liquid.position.len() as u64;
-    let mut plan = Plan::new()
-        .stage("liquid")
-        .count("points", points)
-        .count("on walls", liquid.room.held.len() as u64)
-        .count("steps", steps.count())
-        .column("velocity", "m/s")
-        .column("pressure", "Pa")
-        .limit("step", steps.longest(), "s")
-        .memory("equations", BYTES * points);
-    plan = match liquid.surface() {
-        0 => plan.left_out("free surface", "all faces are named"),
-        surface => plan
-            .stage("free surface")
-            .count("on the surface", surface as u64),
-    };
-    Ok(lacks(plan, of.0))
-}
-
-/// Time of a run, from a step at its start.
-///
-/// # Errors
-/// Those of a step.
-pub(in crate::assemble) fn estimate<const D: usize>(
-    scene: &Scene,
-    (of, march): ((&Part, &Faces), &LiquidMarch),
-) -> Result<Estimate, Failure> {
-    let mut liquid = start::<D>(scene, of)?;
-    let steps = steps(scene, (of.0, march), &liquid);
-    let (way, mut effort) = (way(scene, of.0), Effort::default());
-    let began = std::time::Instant::now();
-    liquid.advance(&matter(of.0), &way, steps.step(0).1, &mut effort)?;
-    let each = began.elapsed().as_secs_f64();
-    Ok(Estimate {
-        seconds: each * steps.count() as f64,
-        basis: format!("{each:.3} s a step, as at the start"),
-        memory: Vec::new(),
-    })
 }

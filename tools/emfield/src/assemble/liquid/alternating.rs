@@ -19,7 +19,7 @@ use crate::stencils::sides::Form;
 ///
 /// # Errors
 /// Where the liquid has no outline, or the points cannot be made.
-pub(super) fn alternating(
+pub(crate) fn alternating(
     (scene, given): (&Scene, &MagneticField),
     liquid: &Liquid<3>,
 ) -> Result<Magnetic, Failure> {
@@ -56,7 +56,7 @@ pub(super) fn alternating(
 ///
 /// # Errors
 /// Where the field does not lift.
-pub(super) fn hold(magnetic: &Magnetic, matter: &Matter<3>, volume: f64) -> Result<f64, Failure> {
+pub(crate) fn hold(magnetic: &Magnetic, matter: &Matter<3>, volume: f64) -> Result<f64, Failure> {
     let gravity = length(&matter.gravity);
     let lift = -dot(&magnetic.force(), &matter.gravity) / gravity;
     let weight = matter.density * volume * gravity;
@@ -71,8 +71,8 @@ pub(super) fn hold(magnetic: &Magnetic, matter: &Matter<3>, volume: f64) -> Resu
 
 #[cfg(test)]
 mod tests {
-    use super::super::liquid::{filled, start};
     use super::super::matter::way;
+    use super::super::{filled, start};
     use super::*;
     use crate::liquid::effort::Effort;
     use crate::liquid::vector::along;

@@ -12,7 +12,7 @@ use crate::scene::{Liquid as Part, Scene};
 ///
 /// # Errors
 /// Where no drop is at rest, or the disk refuses.
-pub(super) fn sessile(
+pub(crate) fn sessile(
     scene: &Scene,
     (part, sphere, angle): (&Part, &Sphere, f64),
     session: &mut Session,

@@ -1,9 +1,10 @@
 //! A liquid between faces as it starts, and the steps that it allows.
 
 use run::property::Arguments;
-use run::{Failure, Fault};
+use run::{Estimate, Failure, Fault, Plan};
 
-use crate::assemble::matter::{PASSED, RIPPLE, few, matter};
+use crate::assemble::liquid::matter::{PASSED, RIPPLE, few, lacks, matter, way};
+use crate::liquid::effort::Effort;
 use crate::liquid::fill::Filled;
 use crate::liquid::room::{Room, furnish};
 use crate::liquid::step::{Liquid, Matter};
@@ -12,8 +13,11 @@ use crate::march::steps::Steps;
 use crate::scene::currents::Transient;
 use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 
+/// Bytes that a step holds for each point, about.
+const BYTES: u64 = 4_000;
+
 /// The room of a scene and its points.
-pub(in crate::assemble) fn filled<const D: usize>(
+pub(crate) fn filled<const D: usize>(
     scene: &Scene,
     (part, faces): (&Part, &Faces),
 ) -> Result<(Room<D>, Filled<D>), Failure> {
@@ -30,7 +34,7 @@ pub(in crate::assemble) fn filled<const D: usize>(
 }
 
 /// The liquid at its start.
-pub(super) fn start<const D: usize>(
+pub(crate) fn start<const D: usize>(
     scene: &Scene,
     of: (&Part, &Faces),
 ) -> Result<Liquid<D>, Failure> {
@@ -65,12 +69,12 @@ pub(super) fn start<const D: usize>(
 }
 
 /// The greatest speed \[m/s\].
-pub(super) fn fastest<const D: usize>(liquid: &Liquid<D>) -> f64 {
+pub(crate) fn fastest<const D: usize>(liquid: &Liquid<D>) -> f64 {
     liquid.velocity.iter().map(length).fold(0.0, f64::max)
 }
 
 /// Steps, the longest of which waves, gravity and the liquid allow.
-pub(super) fn steps<const D: usize>(
+pub(crate) fn steps<const D: usize>(
     scene: &Scene,
     (part, march): (&Part, &LiquidMarch),
     liquid: &Liquid<D>,
@@ -98,4 +102,54 @@ pub(super) fn steps<const D: usize>(
         wave: None,
     };
     Steps::new(&transient, &scene.output)
+}
+
+/// What a run would do.
+///
+/// # Errors
+/// Where the spacing suits the box ill, and of formulas.
+pub(crate) fn plan<const D: usize>(
+    scene: &Scene,
+    (of, march): ((&Part, &Faces), &LiquidMarch),
+) -> Result<Plan, Failure> {
+    let liquid = start::<D>(scene, of)?;
+    let steps = steps(scene, (of.0, march), &liquid);
+    let points = liquid.position.len() as u64;
+    let mut plan = Plan::new()
+        .stage("liquid")
+        .count("points", points)
+        .count("on walls", liquid.room.held.len() as u64)
+        .count("steps", steps.count())
+        .column("velocity", "m/s")
+        .column("pressure", "Pa")
+        .limit("step", steps.longest(), "s")
+        .memory("equations", BYTES * points);
+    plan = match liquid.surface() {
+        0 => plan.left_out("free surface", "all faces are named"),
+        surface => plan
+            .stage("free surface")
+            .count("on the surface", surface as u64),
+    };
+    Ok(lacks(plan, of.0))
+}
+
+/// Time of a run, from a step at its start.
+///
+/// # Errors
+/// Those of a step.
+pub(crate) fn estimate<const D: usize>(
+    scene: &Scene,
+    (of, march): ((&Part, &Faces), &LiquidMarch),
+) -> Result<Estimate, Failure> {
+    let mut liquid = start::<D>(scene, of)?;
+    let steps = steps(scene, (of.0, march), &liquid);
+    let (way, mut effort) = (way(scene, of.0), Effort::default());
+    let began = std::time::Instant::now();
+    liquid.advance(&matter(of.0), &way, steps.step(0).1, &mut effort)?;
+    let each = began.elapsed().as_secs_f64();
+    Ok(Estimate {
+        seconds: each * steps.count() as f64,
+        basis: format!("{each:.3} s a step, as at the start"),
+        memory: Vec::new(),
+    })
 }

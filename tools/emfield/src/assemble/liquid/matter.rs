@@ -6,9 +6,9 @@ use crate::liquid::step::{Matter, Way};
 use crate::scene::{Liquid as Part, Scene};
 
 /// Part of the time of a ripple of the drop that a step takes, over h/R.
-pub(super) const RIPPLE: f64 = 0.3;
+pub(crate) const RIPPLE: f64 = 0.3;
 /// Part of the time in which a spacing is fallen or passed.
-pub(super) const PASSED: f64 = 0.25;
+pub(crate) const PASSED: f64 = 0.25;
 /// Most points of a liquid.
 const MOST: f64 = 5e6;
 
@@ -16,7 +16,7 @@ const MOST: f64 = 5e6;
 ///
 /// # Errors
 /// Where there would be too many.
-pub(super) fn few(many: f64, spacing: f64) -> Result<(), Failure> {
+pub(crate) fn few(many: f64, spacing: f64) -> Result<(), Failure> {
     if many <= MOST {
         return Ok(());
     }
@@ -26,7 +26,7 @@ pub(super) fn few(many: f64, spacing: f64) -> Result<(), Failure> {
 }
 
 /// What it is made of, and what bears on it.
-pub(super) fn matter<const D: usize>(liquid: &Part) -> Matter<D> {
+pub(crate) fn matter<const D: usize>(liquid: &Part) -> Matter<D> {
     let gravity = liquid.gravity_m_s2.as_deref().unwrap_or(&[]);
     Matter {
         density: liquid.density_kg_m3,
@@ -38,7 +38,7 @@ pub(super) fn matter<const D: usize>(liquid: &Part) -> Matter<D> {
 }
 
 /// How its equations are fitted and solved.
-pub(super) fn way(scene: &Scene, liquid: &Part) -> Way {
+pub(crate) fn way(scene: &Scene, liquid: &Part) -> Way {
     Way {
         spacing: scene.points.spacing_m,
         order: liquid.order,
@@ -48,7 +48,7 @@ pub(super) fn way(scene: &Scene, liquid: &Part) -> Way {
 }
 
 /// Adds what a liquid does without to a plan.
-pub(super) fn lacks(mut plan: Plan, part: &Part) -> Plan {
+pub(crate) fn lacks(mut plan: Plan, part: &Part) -> Plan {
     for (absent, name, key) in [
         (part.viscosity_pa_s.is_none(), "viscosity", "viscosity_pa_s"),
         (

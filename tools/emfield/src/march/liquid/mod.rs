@@ -1,13 +1,17 @@
 //! The march of a liquid: its steps, what they keep, and what is written.
 
+pub(crate) mod acting;
+pub(crate) mod between;
+pub(crate) mod heated;
+
 use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
 
-use super::acting::Acting;
-use super::between::between;
-use super::heated::Heated;
-use super::liquid::{fastest, filled, start, steps};
-use super::matter::{matter, way};
+use self::acting::Acting;
+use self::between::between;
+use self::heated::Heated;
+use crate::assemble::liquid::matter::{matter, way};
+use crate::assemble::liquid::{fastest, filled, start, steps};
 use crate::geometry::Geometry;
 use crate::liquid::effort::{Effort, failed};
 use crate::liquid::operators::{divergence, operators};
@@ -52,7 +56,7 @@ struct March {
 ///
 /// # Errors
 /// Where fits or equations fail, the user interrupts, or the disk refuses.
-pub fn flow(
+pub(crate) fn flow(
     scene: &Scene,
     (part, marched): (&Part, &LiquidMarch),
     session: &mut Session,
