@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 use shapes::frame::{Vector, difference, length};
 
-use super::region::{Region, Wall};
+use super::layout::{Layout, Wall};
 
 /// A node of a lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,9 +29,9 @@ struct Frame {
 }
 
 impl Frame {
-    fn new(region: &Region) -> Self {
-        let h = region.spacing;
-        let doublings = (region.largest / h).log2().max(0.0).floor() as u32;
+    fn new(layout: &Layout) -> Self {
+        let h = layout.spacing;
+        let doublings = (layout.largest / h).log2().max(0.0).floor() as u32;
         let block = (1_i64 << doublings) as f64;
         let mut frame = Self {
             origin: [0.0; 3],
@@ -39,8 +39,8 @@ impl Frame {
             last: [0; 3],
             doublings,
         };
-        for k in 0..region.dimensions {
-            match &region.wall {
+        for k in 0..layout.dimensions {
+            match &layout.wall {
                 Wall::Box { low, high, .. } => {
                     let size = high[k] - low[k];
                     let blocks = (size / (h * block)).round().max(1.0);
@@ -50,7 +50,7 @@ impl Frame {
                 }
                 Wall::Ball { centre, radius } => {
                     let blocks = (radius / (h * block)).ceil();
-                    let half = if region.axisymmetric && k == 0 {
+                    let half = if layout.axisymmetric && k == 0 {
                         0.0
                     } else {
                         blocks
@@ -63,11 +63,11 @@ impl Frame {
         frame
     }
 
-    fn place(&self, n: [i64; 3], region: &Region) -> Vector {
+    fn place(&self, n: [i64; 3], layout: &Layout) -> Vector {
         let mut x: Vector = std::array::from_fn(|k| self.origin[k] + n[k] as f64 * self.step[k]);
         // Walls exactly where the scene has them.
-        if let Wall::Box { high, .. } = &region.wall {
-            for k in 0..region.dimensions {
+        if let Wall::Box { high, .. } = &layout.wall {
+            for k in 0..layout.dimensions {
                 if n[k] == self.last[k] {
                     x[k] = high[k];
                 }
@@ -92,7 +92,7 @@ fn rank(n: [i64; 3]) -> u32 {
 pub(crate) type Wanted<'a> = &'a (dyn Fn(Vector, f64) -> f64 + Sync);
 
 struct Descent<'a> {
-    region: &'a Region,
+    layout: &'a Layout,
     wanted: Wanted<'a>,
     frame: Frame,
 }
@@ -100,10 +100,10 @@ struct Descent<'a> {
 impl Descent<'_> {
     /// Rank of the lattice of a wanted spacing.
     fn rank_of(&self, spacing: f64) -> u32 {
-        let least = (0..self.region.dimensions).map(|k| self.frame.step[k]);
+        let least = (0..self.layout.dimensions).map(|k| self.frame.step[k]);
         let h = least.fold(f64::INFINITY, f64::min);
         let steps = (2.0 * (spacing / h).log2() + 0.02).floor().max(0.0) as u32;
-        let steps = if self.region.smooth {
+        let steps = if self.layout.smooth {
             steps
         } else {
             steps & !1
@@ -118,21 +118,21 @@ impl Descent<'_> {
         for (half, step) in half
             .iter_mut()
             .zip(self.frame.step)
-            .take(self.region.dimensions)
+            .take(self.layout.dimensions)
         {
             *half = 0.5 * edge as f64 * step;
         }
-        let corner = self.frame.place(n, self.region);
+        let corner = self.frame.place(n, self.layout);
         let middle = std::array::from_fn(|k| corner[k] + half[k]);
         let reach = length(half);
-        if self.region.depth(middle) < -reach * 1.001 {
+        if self.layout.depth(middle) < -reach * 1.001 {
             return;
         }
         if level == 0 || self.rank_of((self.wanted)(middle, reach)) >= 2 * level {
             found.extend(self.node(n));
             return;
         }
-        let children = 1 << self.region.dimensions;
+        let children = 1 << self.layout.dimensions;
         for child in 0..children {
             let part = std::array::from_fn(|k| n[k] + (child >> k & 1) * (edge / 2));
             if (0..3).all(|k| part[k] <= self.frame.last[k]) {
@@ -142,14 +142,14 @@ impl Descent<'_> {
     }
 
     fn node(&self, n: [i64; 3]) -> Option<Node> {
-        let place = self.frame.place(n, self.region);
+        let place = self.frame.place(n, self.layout);
         let wanted = self.rank_of((self.wanted)(place, 0.0));
         if rank(n) < wanted {
             return None;
         }
         let spacing = self.spacing(wanted);
-        let face = match &self.region.wall {
-            Wall::Box { axis, .. } => (0..2 * self.region.dimensions)
+        let face = match &self.layout.wall {
+            Wall::Box { axis, .. } => (0..2 * self.layout.dimensions)
                 .find(|f| {
                     let end = if f % 2 == 0 {
                         0
@@ -175,7 +175,7 @@ impl Descent<'_> {
     }
 
     fn spacing(&self, rank: u32) -> f64 {
-        let d = self.region.dimensions;
+        let d = self.layout.dimensions;
         let volume: f64 = self.frame.step[..d].iter().product();
         let whole = f64::from(rank / 2) + f64::from(rank % 2) / d as f64;
         volume.powf(1.0 / d as f64) * whole.exp2()
@@ -183,15 +183,15 @@ impl Descent<'_> {
 }
 
 /// All nodes, from the coarse cells in order.
-pub(crate) fn nodes(region: &Region) -> Vec<Node> {
-    graded(region, &|x, nearer| region.wanted(x, nearer))
+pub(crate) fn nodes(layout: &Layout) -> Vec<Node> {
+    graded(layout, &|x, nearer| layout.wanted(x, nearer))
 }
 
-/// The same where the spacing is another one than bodies of the region want.
-pub(crate) fn graded(region: &Region, wanted: Wanted<'_>) -> Vec<Node> {
-    let frame = Frame::new(region);
+/// The same where the spacing is another one than bodies want.
+pub(crate) fn graded(layout: &Layout, wanted: Wanted<'_>) -> Vec<Node> {
+    let frame = Frame::new(layout);
     let descent = Descent {
-        region,
+        layout,
         wanted,
         frame,
     };

@@ -2,24 +2,18 @@
 //!
 //! A cloud is all that the equations know of geometry: where points are, how far apart, to which medium they belong or
 //! which media they part, how much of a conductor each stands for. See [`Cloud`].
+//!
+//! - [`layout`]: which medium is where and how fine points should be; `build`: from a scene to its points, step by step;
+//! - `lattice`: nested lattices; `occupied`: points already placed; `jitter`: random shifts.
 
-mod areas;
 mod build;
-mod cells;
-mod count;
-mod faces;
-mod gaps;
-mod inner;
 pub(crate) mod jitter;
 pub(crate) mod lattice;
-mod layers;
+pub mod layout;
 pub(crate) mod occupied;
-pub mod region;
-mod seed;
-mod surface;
 
-pub use surface::Curvature;
-pub(crate) use surface::seeds;
+pub use build::surface::Curvature;
+pub(crate) use build::surface::seeds;
 
 use crate::geometry::Geometry;
 use crate::scene::Scene;
@@ -146,7 +140,7 @@ pub struct Cloud {
     /// Names of media, the surroundings first.
     pub media: Vec<String>,
     /// The wall of the domain, in coordinates of the scene.
-    pub wall: region::Wall,
+    pub wall: layout::Wall,
     /// Names of its faces.
     pub faces: Vec<&'static str>,
     /// The spacing where nothing asks for another \[m\].
@@ -192,7 +186,7 @@ impl Cloud {
     /// The fastest rise of the spacing of lattices per distance outward.
     #[must_use]
     pub fn steepest(scene: &Scene) -> f64 {
-        region::Region::new(scene).steepest()
+        layout::Layout::new(scene).steepest()
     }
 
     /// Bodies of a scene that have too few points across: what to say of each.
@@ -216,7 +210,7 @@ impl Cloud {
     /// How many points a scene without faults has at least, and the memory of these and of their stencils \[byte\].
     #[must_use]
     pub fn least(scene: &Scene) -> [f64; 2] {
-        let least = count::least(scene, &region::Region::new(scene));
+        let least = build::count::least(scene, &layout::Layout::new(scene));
         [least.points, least.bytes]
     }
 

@@ -8,7 +8,7 @@ use shapes::frame::{Vector, dot};
 use super::equations::{Held, Problem};
 use super::open::walls::AT;
 use super::solution::{self, Given};
-use crate::cloud::region::vector;
+use crate::cloud::layout::vector;
 use crate::cloud::{Class, Cloud};
 use crate::output::Found;
 use crate::scene::faults::PLACE;

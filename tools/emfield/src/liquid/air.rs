@@ -8,8 +8,8 @@ use neighbours::Tree;
 
 use super::vector::{along, difference, dot, length};
 use crate::cloud::lattice::{Node, graded};
+use crate::cloud::layout::Layout;
 use crate::cloud::occupied::Occupied;
-use crate::cloud::region::Region;
 use crate::cloud::seeds;
 use crate::stencils::region::{Face, Kind, Region as Points};
 use crate::surface::enclosing::Enclosing;
@@ -148,7 +148,7 @@ impl Air {
             spacing + growth * (away - nearer - fine).max(0.0)
         };
         let largest = spacing + growth * (radius - fine);
-        let region = Region::ball((centre, radius), [spacing, largest]);
+        let region = Layout::ball((centre, radius), [spacing, largest]);
         let lattice = graded(&region, &wanted);
         let edge = (0..6)
             .map(|k| {

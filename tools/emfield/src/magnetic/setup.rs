@@ -8,7 +8,7 @@ use super::driven::setup::{bars, windings};
 use super::medium::law::{Curve, Law};
 use super::parameters::Parameters;
 use crate::cloud::Cloud;
-use crate::cloud::region::{Region as Ground, vector};
+use crate::cloud::layout::{Layout, vector};
 use crate::geometry::Geometry;
 use crate::magnetic::source::{Loop, MU0, Origin, Segment, Source, Uniform, Wire};
 use crate::magnetic::unknown::Unknown;
@@ -53,7 +53,7 @@ pub(crate) fn parameters(
 
 /// Media through which wires run.
 fn run(scene: &Scene, currents: &EddyCurrents) -> Vec<u8> {
-    let place = Ground::new(scene);
+    let place = Layout::new(scene);
     let wire = |coil: &Coil| match coil {
         Coil::Wire(wire) => Some(place.medium(vector(&wire.place_m))),
         _ => None,

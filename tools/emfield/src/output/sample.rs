@@ -5,7 +5,7 @@ use shapes::frame::Vector;
 use wls::{Condition, Plan, Reach, Rules, Search, Stencils, Wants};
 
 use super::Column;
-use crate::cloud::region::{Region as Ground, vector};
+use crate::cloud::layout::{Layout, vector};
 use crate::cloud::{Class, Cloud};
 use crate::geometry::Geometry;
 use crate::scene::{Interfaces, Scene};
@@ -81,14 +81,14 @@ impl Samples {
     /// # Errors
     /// Where one lies outside the domain, or too few points lie about it.
     pub fn new<const D: usize>(scene: &Scene, cloud: &Cloud) -> Result<Self, Failure> {
-        let ground = Ground::new(scene);
+        let layout = Layout::new(scene);
         let (own, paths) = places(scene);
         if own.is_empty() {
             return Ok(Self::default());
         }
         let mut faults: Vec<Fault> = Vec::new();
         for (x, path) in own.iter().zip(&paths) {
-            if ground.depth(*x) < -1e-9 * ground.spacing {
+            if layout.depth(*x) < -1e-9 * layout.spacing {
                 let what = format!("({}, {}, {}) m lies outside the domain", x[0], x[1], x[2]);
                 faults.push(Fault::at(path, what));
             }
@@ -98,7 +98,7 @@ impl Samples {
             return Err(faults.into());
         }
         let region = region::<D>(scene, cloud, &|_| false);
-        let media: Vec<u8> = own.iter().map(|x| ground.medium(*x)).collect();
+        let media: Vec<u8> = own.iter().map(|x| layout.medium(*x)).collect();
         let flat: Vec<[f64; D]> = own.iter().map(|x| std::array::from_fn(|k| x[k])).collect();
         let about = wls::Cloud {
             points: &region.places,

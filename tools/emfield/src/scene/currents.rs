@@ -124,7 +124,8 @@ pub struct Axis {
 /// computed with everything else. The body does not conduct by itself. A loop or wire costs less, and errs less.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Region {
+#[schemars(rename = "Region")]
+pub struct RegionCoil {
     /// Name of the body.
     pub body: String,
     /// Axis around which the current flows, in space; that of the scene where it is axisymmetric. In a plane it flows
@@ -161,13 +162,13 @@ pub enum Coil {
     /// An endless wire along z.
     Wire(Wire),
     /// A body of the scene, by its points.
-    Region(Region),
+    Region(RegionCoil),
 }
 
 impl Coil {
     /// The region of points that it is, if it is one.
     #[must_use]
-    pub fn region(&self) -> Option<&Region> {
+    pub fn region(&self) -> Option<&RegionCoil> {
         match self {
             Self::Region(region) => Some(region),
             Self::Loop(_) | Self::Segments(_) | Self::Wire(_) => None,

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use run::Fault;
 use shapes::check::{self, Misfit};
 
-use super::currents::Region;
+use super::currents::RegionCoil;
 use super::method::{Interfaces, Way};
 use super::output::Closed;
 use super::{BodyScene, Coil, Domain, EddyCurrents, Geometry, Scene};
@@ -333,7 +333,7 @@ impl Coil {
     }
 }
 
-impl Region {
+impl RegionCoil {
     fn check(&self, at: &str, scene: &Scene, misfits: &mut Vec<Misfit>) {
         match scene.bodies.iter().find(|b| b.name == self.body) {
             None => {

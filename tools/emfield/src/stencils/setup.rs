@@ -3,7 +3,7 @@
 use shapes::frame::Vector;
 use wls::Metric;
 
-use crate::cloud::region::Wall;
+use crate::cloud::layout::Wall;
 use crate::cloud::{self, Class, Cloud};
 use crate::geometry::Geometry;
 use crate::scene::Scene;

@@ -5,7 +5,7 @@ use shapes::frame::{Vector, difference, length};
 use shapes::rule::rule;
 use shapes::shape::{BoxShape, Disc, Shape, Sphere};
 
-use crate::cloud::region::Wall;
+use crate::cloud::layout::Wall;
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::geometry::Geometry;
 use crate::surface::enclosing::Enclosing;

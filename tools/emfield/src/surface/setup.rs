@@ -6,7 +6,7 @@ use shapes::frame::Vector;
 use shapes::rule::rule;
 use shapes::surface::Piece;
 
-use crate::cloud::region::Region as Ground;
+use crate::cloud::layout::Layout;
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::geometry::Geometry;
 use crate::magnetic::setup::{source, unknown};
@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-9;
 struct Finder<'a> {
     scene: &'a Scene,
     cloud: &'a Cloud,
-    ground: Ground,
+    layout: Layout,
     /// Places of coils with the radius of their wire, in coordinates of the scene \[m\].
     wires: Vec<(Vector, f64)>,
 }
@@ -44,7 +44,7 @@ pub(crate) fn enclosing(scene: &Scene, cloud: &Cloud) -> Result<Vec<Enclosing>, 
     let finder = Finder {
         scene,
         cloud,
-        ground: Ground::new(scene),
+        layout: Layout::new(scene),
         wires: wires(scene),
     };
     let (mut found, mut faults) = (Vec::new(), Vec::new());
@@ -150,12 +150,12 @@ impl Finder<'_> {
             Geometry::Space => format!("({:.4e}, {:.4e}, {:.4e}) m", x[0], x[1], x[2]),
             _ => format!("({:.4e}, {:.4e}) m", x[0], x[1]),
         };
-        let outside = |p: &&Piece| self.ground.depth(p.place) < -ROUNDING * spacing;
+        let outside = |p: &&Piece| self.layout.depth(p.place) < -ROUNDING * spacing;
         if let Some(piece) = pieces.iter().find(outside) {
             let at = told(piece.place);
             return Err(format!("the surface leaves the domain at {at}"));
         }
-        let media: Vec<u8> = pieces.iter().map(|p| self.ground.medium(p.place)).collect();
+        let media: Vec<u8> = pieces.iter().map(|p| self.layout.medium(p.place)).collect();
         let first = media[0];
         let name = |m: u8| self.scene.medium_name(m as usize);
         if let Some(n) = media.iter().position(|m| *m != first) {

@@ -8,10 +8,10 @@ use shapes::rule::rule;
 use shapes::surface::{Piece, enclosed};
 
 use crate::cloud::Cloud;
-use crate::cloud::region::Region as Ground;
+use crate::cloud::layout::Layout;
 use crate::geometry::Geometry;
 use crate::magnetic::driven::winding::{Flow, Winding};
-use crate::scene::currents::Region;
+use crate::scene::currents::RegionCoil;
 use crate::scene::{EddyCurrents, Scene};
 
 type C = Complex<f64>;
@@ -26,7 +26,7 @@ struct Finder<'a> {
     scene: &'a Scene,
     currents: &'a EddyCurrents,
     cloud: &'a Cloud,
-    ground: Ground,
+    layout: Layout,
 }
 
 /// The coils of a scene that are regions of points.
@@ -45,7 +45,7 @@ pub(crate) fn windings(
         scene,
         currents,
         cloud,
-        ground: Ground::new(scene),
+        layout: Layout::new(scene),
     };
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     for (number, coil) in currents.coils.iter().enumerate() {
@@ -66,7 +66,7 @@ pub(crate) fn windings(
 }
 
 impl Finder<'_> {
-    fn winding(&self, coil: &Region) -> Result<Winding, String> {
+    fn winding(&self, coil: &RegionCoil) -> Result<Winding, String> {
         let name = &coil.body;
         let bodies = &self.scene.bodies;
         let number = bodies.iter().position(|b| b.name == *name);
@@ -102,10 +102,10 @@ impl Finder<'_> {
         let own = number as u8 + 1;
         for piece in pieces {
             let inside = along(piece.place, -BESIDE * spacing, piece.normal);
-            if self.ground.depth(inside) < 0.0 {
+            if self.layout.depth(inside) < 0.0 {
                 return Err(format!("{name} leaves the domain: its current has no way"));
             }
-            let medium = self.ground.medium(inside);
+            let medium = self.layout.medium(inside);
             if medium != own {
                 let other = self.scene.medium_name(medium as usize);
                 return Err(format!("{other} cuts {name}: its current has no way"));

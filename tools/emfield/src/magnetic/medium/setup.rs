@@ -2,7 +2,7 @@
 
 use run::Fault;
 
-use crate::cloud::region::Region as Ground;
+use crate::cloud::layout::Layout;
 use crate::geometry::Geometry;
 use crate::magnetic::setup::source;
 use crate::magnetic::source::Source;
@@ -33,7 +33,7 @@ pub(crate) fn magnets(scene: &Scene, currents: &EddyCurrents) -> Result<(), Vec<
             faults.push(Fault::at(&at, what));
         }
     }
-    let ground = Ground::new(scene);
+    let layout = Layout::new(scene);
     for (k, coil) in currents.coils.iter().enumerate() {
         let one = EddyCurrents {
             coils: vec![coil.clone()],
@@ -48,7 +48,7 @@ pub(crate) fn magnets(scene: &Scene, currents: &EddyCurrents) -> Result<(), Vec<
         };
         let within = places(scene.geometry, &source(scene, &one))
             .into_iter()
-            .map(|x| ground.medium(scene.geometry.coordinates(x)) as usize)
+            .map(|x| layout.medium(scene.geometry.coordinates(x)) as usize)
             .find(|m| magnetic(*m));
         if let Some(m) = within {
             let what = format!(

@@ -65,7 +65,7 @@ fn proportional(body: &Body, spacing: f64, dimensions: usize) -> f64 {
 
 /// Domain, bodies and wanted spacing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Region {
+pub struct Layout {
     /// 2 or 3.
     pub dimensions: usize,
     /// The wall.
@@ -111,7 +111,7 @@ fn wall(domain: &Domain, (dimensions, axisymmetric): (usize, bool)) -> (Wall, f6
     }
 }
 
-impl Region {
+impl Layout {
     /// A ball in space without bodies, with lattices from one spacing to a greater one \[m\].
     pub(crate) fn ball((centre, radius): (Vector, f64), [spacing, largest]: [f64; 2]) -> Self {
         Self {
@@ -128,7 +128,7 @@ impl Region {
         }
     }
 
-    /// The region of a scene without faults.
+    /// The layout of a scene without faults.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let dimensions = scene.geometry.dimensions();

@@ -55,7 +55,7 @@ impl Curvature {
 }
 
 /// A direction across another.
-pub(super) fn aside(normal: Vector) -> Vector {
+pub(crate) fn aside(normal: Vector) -> Vector {
     let least = (0..3).fold(0, |m, k| {
         if normal[k].abs() < normal[m].abs() {
             k

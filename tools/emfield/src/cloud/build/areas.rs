@@ -10,9 +10,9 @@
 use nalgebra::{SMatrix, SVector};
 use shapes::frame::{Vector, cross, difference, dot};
 
-use super::Cell;
-use super::occupied::Occupied;
 use super::seed::{Seed, aside};
+use crate::cloud::Cell;
+use crate::cloud::occupied::Occupied;
 
 /// Points of a fit, and how few will do.
 const POINTS: usize = 14;
@@ -28,7 +28,7 @@ type Terms = SVector<f64, TERMS>;
 type Square = SMatrix<f64, TERMS, TERMS>;
 
 /// Weights instead of areas, from the parts of the surface that are nearest to each point, about it.
-pub(super) fn weigh(seeds: &mut [Seed], parts: &[Cell], set: &Occupied, spacing: f64) {
+pub(crate) fn weigh(seeds: &mut [Seed], parts: &[Cell], set: &Occupied, spacing: f64) {
     let mut weights: Vec<f64> = seeds.iter().map(|s| s.area).collect();
     for (i, part) in parts.iter().enumerate().filter(|(_, p)| p.volume > 0.0) {
         let around = around(seeds, i, set, spacing);

@@ -12,7 +12,7 @@ use run::Fault;
 use shapes::frame::{Vector, length};
 use shapes::surface::{Piece, pieces};
 
-use super::region::{Region, Wall};
+use crate::cloud::layout::{Layout, Wall};
 use crate::scene::{Arrangement, Scene};
 
 /// Most points of a cloud: their numbers have 32 bits.
@@ -75,19 +75,19 @@ impl Ord for Part {
 }
 
 /// Refuses what cannot be counted, or takes more memory than there is.
-pub(super) fn check(scene: &Scene, region: &Region) -> Result<(), Vec<Fault>> {
-    if region.across() > ACROSS {
+pub(crate) fn check(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
+    if layout.across() > ACROSS {
         let what = format!(
             "the domain is {:.1e} spacings of {} m wide; at most {ACROSS:.0e}, beyond which places are not told apart",
-            region.across(),
-            region.spacing
+            layout.across(),
+            layout.spacing
         );
         return Err(vec![Fault::at("/domain", what)]);
     }
-    let least = least(scene, region);
+    let least = least(scene, layout);
     let what = format!(
         "spacing {} m in this domain gives at least {:.1e} points",
-        region.spacing, least.points
+        layout.spacing, least.points
     );
     let at = "/points/spacing_m";
     let change = "take larger spacings, a smaller domain, or let \"outward\" and \"largest_m\" widen the points far away";
@@ -101,11 +101,11 @@ pub(super) fn check(scene: &Scene, region: &Region) -> Result<(), Vec<Fault>> {
 }
 
 /// What a scene has at least.
-pub(crate) fn least(scene: &Scene, region: &Region) -> Least {
-    let dimensions = region.dimensions;
+pub(crate) fn least(scene: &Scene, layout: &Layout) -> Least {
+    let dimensions = layout.dimensions;
     let layers = &scene.points.layers;
-    let (mut points, mut choice) = (lattice(region), 0.0);
-    for (k, solid) in region.solids.iter().enumerate() {
+    let (mut points, mut choice) = (lattice(layout), 0.0);
+    for (k, solid) in layout.solids.iter().enumerate() {
         let [low, high] = solid.body.bounds();
         let widths = (0..dimensions).map(|a| high[a] - low[a]);
         let widest = widths.clone().fold(0.0, f64::max);
@@ -118,9 +118,9 @@ pub(crate) fn least(scene: &Scene, region: &Region) -> Least {
         for piece in &found {
             let (reach, area) = (coarse, piece.area);
             whole += area;
-            finest = finest.min(region.beside_near(piece.place, k, reach));
-            if region.depth(piece.place) > 0.0 {
-                let spacing = region.beside(piece.place, k) + region.steepest() * reach;
+            finest = finest.min(layout.beside_near(piece.place, k, reach));
+            if layout.depth(piece.place) > 0.0 {
+                let spacing = layout.beside(piece.place, k) + layout.steepest() * reach;
                 within += area / spacing.min(solid.spacing).powi(dimensions as i32 - 1);
             }
         }
@@ -157,11 +157,11 @@ pub(crate) fn least(scene: &Scene, region: &Region) -> Least {
 }
 
 /// Points of the lattices and of the wall at least.
-fn lattice(region: &Region) -> f64 {
-    let dimensions = region.dimensions;
+fn lattice(layout: &Layout) -> f64 {
+    let dimensions = layout.dimensions;
     let (mut middle, mut half) = ([0.0; 3], [0.0; 3]);
     let mut wall = 0.0;
-    match &region.wall {
+    match &layout.wall {
         Wall::Box { low, high, .. } => {
             for k in 0..dimensions {
                 middle[k] = 0.5 * (low[k] + high[k]);
@@ -171,19 +171,19 @@ fn lattice(region: &Region) -> f64 {
         Wall::Ball { centre, radius } => {
             middle = *centre;
             half[..dimensions].fill(*radius);
-            if region.axisymmetric {
+            if layout.axisymmetric {
                 (middle[0], half[0]) = (0.5 * radius, 0.5 * radius);
             }
-            let turn = if region.axisymmetric { PI } else { 2.0 * PI };
+            let turn = if layout.axisymmetric { PI } else { 2.0 * PI };
             let area = if dimensions == 3 {
                 4.0 * PI * radius * radius
             } else {
                 turn * radius
             };
-            wall = area / region.largest.powi(dimensions as i32 - 1);
+            wall = area / layout.largest.powi(dimensions as i32 - 1);
         }
     }
-    let mut parts = BinaryHeap::from([part(region, middle, half)]);
+    let mut parts = BinaryHeap::from([part(layout, middle, half)]);
     for _ in 0..PARTS {
         let Some(whole) = parts.pop() else { break };
         if whole.points[1] <= 0.0 {
@@ -197,24 +197,24 @@ fn lattice(region: &Region) -> f64 {
         for side in [-1.0, 1.0] {
             let mut middle = whole.middle;
             middle[axis] += side * half[axis];
-            parts.push(part(region, middle, half));
+            parts.push(part(layout, middle, half));
         }
     }
     wall + parts.iter().map(|part| part.points[0]).sum::<f64>()
 }
 
-fn part(region: &Region, middle: Vector, half: Vector) -> Part {
-    let dimensions = region.dimensions;
+fn part(layout: &Layout, middle: Vector, half: Vector) -> Part {
+    let dimensions = layout.dimensions;
     let reach = length(half);
     let volume: f64 = half[..dimensions].iter().map(|h| 2.0 * h).product();
     let fits = |spacing: f64| volume / spacing.powi(dimensions as i32);
-    let widest = (region.wanted(middle, 0.0) + region.steepest() * reach).min(region.widest());
-    let depth = region.depth(middle);
-    let points = match &region.wall {
+    let widest = (layout.wanted(middle, 0.0) + layout.steepest() * reach).min(layout.widest());
+    let depth = layout.depth(middle);
+    let points = match &layout.wall {
         Wall::Ball { .. } if depth < -reach => [0.0; 2],
         // Of what the wall cuts nothing is certain.
-        Wall::Ball { .. } if depth < reach => [0.0, fits(region.wanted(middle, reach))],
-        _ => [fits(widest), fits(region.wanted(middle, reach))],
+        Wall::Ball { .. } if depth < reach => [0.0, fits(layout.wanted(middle, reach))],
+        _ => [fits(widest), fits(layout.wanted(middle, reach))],
     };
     Part {
         middle,
@@ -268,7 +268,7 @@ mod tests {
                 r#"{{"geometry": "{geometry}", "domain": {domain}, {bodies}, "points": {{"spacing_m": {points}}},
                 "electrostatics": {{"outer": [{{"potential_v": 0}}]}}}}"#
             ));
-            let least = least(&scene, &Region::new(&scene)).points;
+            let least = least(&scene, &Layout::new(&scene)).points;
             let there = Cloud::new(&scene).unwrap().len() as f64;
             assert!(
                 least < 1.1 * there && least > 0.25 * there,

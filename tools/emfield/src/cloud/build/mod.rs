@@ -1,16 +1,31 @@
 //! From a scene to its points, step by step.
+//!
+//! 1. `count`: whether there is room for them;
+//! 2. `surface`: a [`seed`] for each point of a surface, of the `areas` that they stand for; `faces`: where bodies touch;
+//! 3. `layers` along normals, and points across `gaps`; `inner`: these and lattices between them;
+//! 4. `cells`: what each point of a conductor stands for.
+
+mod areas;
+mod cells;
+pub(crate) mod count;
+mod faces;
+mod gaps;
+mod inner;
+mod layers;
+pub(crate) mod seed;
+pub(crate) mod surface;
 
 use run::Fault;
 use shapes::frame::{Vector, along, difference, direction};
 use shapes::shape::{Disc, Shape, Sphere};
 use shapes::{Body, Kind};
 
-use super::lattice::{self, Node};
-use super::layers::{Column, thicknesses};
-use super::occupied::Occupied;
-use super::region::{Region, Wall};
-use super::surface::{self, Seed};
-use super::{Class, Cloud, Counts, Metric, cells, count};
+use self::layers::{Column, thicknesses};
+use self::surface::Seed;
+use crate::cloud::lattice::{self, Node};
+use crate::cloud::layout::{Layout, Wall};
+use crate::cloud::occupied::Occupied;
+use crate::cloud::{Class, Cloud, Counts, Metric};
 use crate::geometry::Geometry;
 use crate::scene::{Layers, Scene};
 
@@ -23,16 +38,16 @@ const GRAIN: f64 = 4.0;
 const BEND: f64 = 3.0;
 
 /// The points of a scene, those of lattices far from bodies so many times as far apart as it says; see [`Cloud::new`].
-pub(super) fn cloud(scene: &Scene, wider: f64) -> Result<Cloud, Vec<Fault>> {
+pub(crate) fn cloud(scene: &Scene, wider: f64) -> Result<Cloud, Vec<Fault>> {
     let faults = scene.faults();
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut region = Region::new(scene).wider(wider);
-    check_sizes(scene, &region)?;
-    let plans = plans(scene, &mut region);
-    let mut builder = Builder::new(scene, region);
-    let nodes = lattice::nodes(&builder.region);
+    let mut layout = Layout::new(scene).wider(wider);
+    check_sizes(scene, &layout)?;
+    let plans = plans(scene, &mut layout);
+    let mut builder = Builder::new(scene, layout);
+    let nodes = lattice::nodes(&builder.layout);
     let mut columns = builder.surfaces()?;
     let wall = builder.wall(&nodes, scene.points.wall_layers.as_ref());
     columns.extend(wall);
@@ -41,16 +56,16 @@ pub(super) fn cloud(scene: &Scene, wider: f64) -> Result<Cloud, Vec<Fault>> {
     builder.shake(scene);
     builder.extra(&scene.points.extra_m)?;
     let mut cloud = builder.cloud;
-    cells::fill(scene, &builder.region, &columns, &mut cloud);
+    cells::fill(scene, &builder.layout, &columns, &mut cloud);
     finish(&mut cloud);
     Ok(cloud)
 }
 
 /// Refuses bodies that points cannot follow, and more points than there is room for.
-fn check_sizes(scene: &Scene, region: &Region) -> Result<(), Vec<Fault>> {
+fn check_sizes(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
     let mut faults = Vec::new();
-    for (k, solid) in region.solids.iter().enumerate() {
-        let size = width(solid, region.dimensions);
+    for (k, solid) in layout.solids.iter().enumerate() {
+        let size = width(solid, layout.dimensions);
         let widest = size.fold(0.0, f64::max);
         if !widest.is_finite() {
             faults.push(Fault::at(
@@ -66,17 +81,17 @@ fn check_sizes(scene: &Scene, region: &Region) -> Result<(), Vec<Fault>> {
         }
     }
     if faults.is_empty() {
-        count::check(scene, region)
+        count::check(scene, layout)
     } else {
         Err(faults)
     }
 }
 
 /// Bodies with too few points across for the field in them: what to say of each.
-pub(super) fn grains(scene: &Scene) -> Vec<String> {
-    let region = Region::new(scene);
-    let told = |(solid, body): (&super::region::Solid, &crate::scene::BodyScene)| {
-        let widest = width(solid, region.dimensions).fold(0.0, f64::max);
+pub(crate) fn grains(scene: &Scene) -> Vec<String> {
+    let layout = Layout::new(scene);
+    let told = |(solid, body): (&crate::cloud::layout::Solid, &crate::scene::BodyScene)| {
+        let widest = width(solid, layout.dimensions).fold(0.0, f64::max);
         (widest < GRAIN).then(|| {
             format!(
                 "unresolved: {} is {widest:.1} spacings of {} m wide; fields in it take at least {GRAIN}",
@@ -84,29 +99,29 @@ pub(super) fn grains(scene: &Scene) -> Vec<String> {
             )
         })
     };
-    let all = region.solids.iter().zip(&scene.bodies);
+    let all = layout.solids.iter().zip(&scene.bodies);
     all.filter_map(told).collect()
 }
 
 /// The least number of spacings that a body is wide; of the domain where there is none.
-pub(super) fn narrowest(scene: &Scene) -> f64 {
-    let region = Region::new(scene);
-    let widest = |solid| width(solid, region.dimensions).fold(0.0, f64::max);
-    let bodies = region.solids.iter().map(widest);
-    bodies.fold(f64::INFINITY, f64::min).min(region.across())
+pub(crate) fn narrowest(scene: &Scene) -> f64 {
+    let layout = Layout::new(scene);
+    let widest = |solid| width(solid, layout.dimensions).fold(0.0, f64::max);
+    let bodies = layout.solids.iter().map(widest);
+    bodies.fold(f64::INFINITY, f64::min).min(layout.across())
 }
 
 /// Ellipsoids whose ends bend more sharply than points along them can follow: what to say of each.
-pub(super) fn bends(scene: &Scene) -> Vec<String> {
-    let region = Region::new(scene);
+pub(crate) fn bends(scene: &Scene) -> Vec<String> {
+    let layout = Layout::new(scene);
     let told = |k: usize| {
-        let primitive = region.solids[k].body.single()?;
+        let primitive = layout.solids[k].body.single()?;
         let Kind::Ellipsoid(ellipsoid) = primitive.kind else {
             return None;
         };
         let end = primitive.frame.place(ellipsoid.end());
         let radius = ellipsoid.sharpest();
-        let spacing = region.beside(end, k);
+        let spacing = layout.beside(end, k);
         (radius < BEND * spacing).then(|| {
             format!(
                 "{} bends with a radius of {radius:.2e} m at its ends, {:.2} spacings: fields there take at least {BEND}; refine them",
@@ -115,42 +130,45 @@ pub(super) fn bends(scene: &Scene) -> Vec<String> {
             )
         })
     };
-    (0..region.solids.len()).filter_map(told).collect()
+    (0..layout.solids.len()).filter_map(told).collect()
 }
 
 /// Extents of a body over its spacing.
-fn width(solid: &super::region::Solid, dimensions: usize) -> impl Iterator<Item = f64> + Clone {
+fn width(
+    solid: &crate::cloud::layout::Solid,
+    dimensions: usize,
+) -> impl Iterator<Item = f64> + Clone {
     let [low, high] = solid.body.bounds();
     let spacing = solid.spacing;
     (0..dimensions).map(move |a| (high[a] - low[a]) / spacing)
 }
 
-/// Thickness of the layers of each body, inside and outside; the region learns how far they reach.
-fn plans(scene: &Scene, region: &mut Region) -> Vec<[Vec<f64>; 2]> {
+/// Thickness of the layers of each body, inside and outside; the layout learns how far they reach.
+fn plans(scene: &Scene, layout: &mut Layout) -> Vec<[Vec<f64>; 2]> {
     let layers = &scene.points.layers;
-    let plan = |solid: &mut super::region::Solid| {
+    let plan = |solid: &mut crate::cloud::layout::Solid| {
         let sides = [layers.inside, layers.outside].map(|n| thicknesses(layers, solid.spacing, n));
         solid.reach = [0, 1].map(|side| sides[side].iter().sum());
         sides
     };
-    region.solids.iter_mut().map(plan).collect()
+    layout.solids.iter_mut().map(plan).collect()
 }
 
 /// A cloud in the making.
-pub(super) struct Builder {
-    pub(super) region: Region,
+pub(crate) struct Builder {
+    pub(crate) layout: Layout,
     /// Points on surfaces and in layers, with the spacing of each: lattices keep clear of them.
-    pub(super) occupied: Occupied,
-    pub(super) sizes: Vec<f64>,
+    pub(crate) occupied: Occupied,
+    pub(crate) sizes: Vec<f64>,
     /// Greatest spacing of points on surfaces and in layers \[m\].
-    pub(super) widest: f64,
-    pub(super) cloud: Cloud,
+    pub(crate) widest: f64,
+    pub(crate) cloud: Cloud,
 }
 
 impl Builder {
-    fn new(scene: &Scene, region: Region) -> Self {
+    fn new(scene: &Scene, layout: Layout) -> Self {
         Self {
-            occupied: Occupied::new(region.spacing),
+            occupied: Occupied::new(layout.spacing),
             sizes: Vec::new(),
             widest: 0.0,
             cloud: Cloud {
@@ -158,7 +176,7 @@ impl Builder {
                 media: (0..=scene.bodies.len())
                     .map(|m| scene.medium_name(m).to_owned())
                     .collect(),
-                wall: region.wall.clone(),
+                wall: layout.wall.clone(),
                 faces: scene.domain.walls(scene.geometry),
                 pitch: scene.points.spacing_m,
                 further: scene.points.extra_m.len(),
@@ -171,11 +189,11 @@ impl Builder {
                 cells: Vec::new(),
                 counts: Counts::default(),
             },
-            region,
+            layout,
         }
     }
 
-    pub(super) fn push(&mut self, x: Vector, spacing: f64, class: Class, metric: Metric) -> u32 {
+    pub(crate) fn push(&mut self, x: Vector, spacing: f64, class: Class, metric: Metric) -> u32 {
         self.cloud.position.push(x);
         self.cloud.spacing.push(spacing);
         self.cloud.class.push(class);
@@ -187,7 +205,7 @@ impl Builder {
     fn wall(&mut self, nodes: &[Node], layers: Option<&Layers>) -> Vec<Column> {
         let before = self.cloud.len();
         let mut columns = Vec::new();
-        match self.region.wall.clone() {
+        match self.layout.wall.clone() {
             Wall::Box { .. } => {
                 for node in nodes {
                     if let Some(face) = node.face {
@@ -197,7 +215,7 @@ impl Builder {
             }
             Wall::Ball { centre, radius } => {
                 for seed in self.ball(centre, radius, layers.is_some()) {
-                    if self.region.axisymmetric && seed.place[0] < 0.0 {
+                    if self.layout.axisymmetric && seed.place[0] < 0.0 {
                         continue;
                     }
                     if let Some(point) = self.outer(seed.place, seed.spacing, 0) {
@@ -215,14 +233,14 @@ impl Builder {
     fn extra(&mut self, places: &[Vec<f64>]) -> Result<(), Vec<Fault>> {
         let mut faults = Vec::new();
         for (number, place) in places.iter().enumerate() {
-            let x = super::region::vector(place);
-            if self.region.depth(x) <= 0.0 {
+            let x = crate::cloud::layout::vector(place);
+            if self.layout.depth(x) <= 0.0 {
                 let at = format!("/points/extra_m/{number}");
                 faults.push(Fault::at(&at, "the point does not lie within the domain"));
                 continue;
             }
-            let spacing = self.region.wanted(x, 0.0);
-            let class = Class::Inside(self.region.medium(x));
+            let spacing = self.layout.wanted(x, 0.0);
+            let class = Class::Inside(self.layout.medium(x));
             self.push(x, spacing, class, Metric::Round);
             self.cloud.counts.lattice += 1;
         }
@@ -234,13 +252,13 @@ impl Builder {
     }
 
     fn medium_at_wall(&self, seed: &Seed) -> u8 {
-        self.region
+        self.layout
             .medium(along(seed.place, -1e-4 * seed.spacing, seed.normal))
     }
 
     fn ball(&self, centre: Vector, radius: f64, layered: bool) -> Vec<Seed> {
         let name = None;
-        let shape = if self.region.dimensions == 3 {
+        let shape = if self.layout.dimensions == 3 {
             let centre_m = centre.to_vec();
             Shape::Sphere(Sphere {
                 name,
@@ -255,20 +273,20 @@ impl Builder {
                 radius_m: radius,
             })
         };
-        let body = Body::new(&shape, self.region.dimensions);
-        let mut spacing = self.region.largest;
-        for k in 0..2 * self.region.dimensions {
+        let body = Body::new(&shape, self.layout.dimensions);
+        let mut spacing = self.layout.largest;
+        for k in 0..2 * self.layout.dimensions {
             let mut x = centre;
             x[k / 2] += if k % 2 == 0 { -radius } else { radius };
-            spacing = spacing.min(self.region.wanted(x, 0.0));
+            spacing = spacing.min(self.layout.wanted(x, 0.0));
         }
         if layered {
-            spacing = spacing.min(self.region.spacing);
+            spacing = spacing.min(self.layout.spacing);
         }
         let limits = (spacing, spacing);
         self.on_axis(surface::seeds(
             &body,
-            self.region.dimensions,
+            self.layout.dimensions,
             limits,
             &|_| spacing,
         ))
@@ -278,17 +296,17 @@ impl Builder {
         if self.occupied.any(x, 0.3 * spacing, |_, _, _| true) {
             return None;
         }
-        let inward = match &self.region.wall {
+        let inward = match &self.layout.wall {
             Wall::Ball { centre, .. } => direction(difference(*centre, x)),
             Wall::Box { low, high, .. } => std::array::from_fn(|k| {
-                if k < self.region.dimensions {
+                if k < self.layout.dimensions {
                     (0.5 * (low[k] + high[k]) - x[k]).signum()
                 } else {
                     0.0
                 }
             }),
         };
-        let medium = self.region.medium(along(x, 1e-6 * spacing, inward));
+        let medium = self.layout.medium(along(x, 1e-6 * spacing, inward));
         Some(self.push(x, spacing, Class::Outer { medium, face }, Metric::Round))
     }
 }

@@ -2,13 +2,13 @@
 
 use shapes::frame::{Vector, along, difference, dot};
 
-use super::occupied::Occupied;
-use super::region::Region;
 use super::surface::Seed;
+use crate::cloud::layout::Layout;
+use crate::cloud::occupied::Occupied;
 use crate::scene::Layers;
 
 /// Points nearer than this part of the local spacing, across and along the surface, are too close.
-pub(super) const TOO_CLOSE: f64 = 0.6;
+pub(crate) const TOO_CLOSE: f64 = 0.6;
 /// Reach of the patch of a surface point over its spacing.
 const PATCH: f64 = 0.9;
 /// Part of a gap's width from its side that belongs to the points across it: both sides overlap.
@@ -114,7 +114,7 @@ pub(crate) struct Layered {
 
 /// What layers grow in.
 pub(crate) struct Ground<'a> {
-    pub(crate) region: &'a Region,
+    pub(crate) layout: &'a Layout,
     /// Points placed so far, with their metric: normal, spacing across and along.
     pub(crate) occupied: &'a mut Occupied,
     pub(crate) dimensions: usize,
@@ -164,18 +164,18 @@ impl Ground<'_> {
         let signed = if side == 0 { -away } else { away };
         let place = along(column.seed.place, signed, normal);
         let medium = column.media[side];
-        let room = self.region.depth(place);
+        let room = self.layout.depth(place);
         let limit = match column.solid {
             Some(_) => 0.5 * thickness,
             None => 0.9 * away,
         };
-        if room < limit || self.region.medium(place) != medium {
+        if room < limit || self.layout.medium(place) != medium {
             return None;
         }
-        if self.region.axisymmetric && place[0] < 0.3 * column.seed.spacing {
+        if self.layout.axisymmetric && place[0] < 0.3 * column.seed.spacing {
             return None;
         }
-        let (nearest, _) = self.region.nearest(place);
+        let (nearest, _) = self.layout.nearest(place);
         let free = if column.solid.is_some() {
             0.9 * away
         } else {

@@ -6,11 +6,12 @@ use shapes::frame::{Vector, along, cross, difference, direction, dot, length};
 use shapes::surface::{Piece, pieces};
 use shapes::{Body, Kind};
 
-use super::occupied::Occupied;
+use super::areas;
 pub use super::seed::Curvature;
 pub(crate) use super::seed::Seed;
 use super::seed::aside;
-use super::{Cell, areas};
+use crate::cloud::Cell;
+use crate::cloud::occupied::Occupied;
 
 /// Pieces per spacing from which points are chosen, over those that shapes make by themselves.
 const FINER: f64 = 2.0;
@@ -133,11 +134,11 @@ fn spread(
     // Where points stand far apart, a few of the pieces are choice enough.
     let enough = |k: usize| {
         let part = CHOICE * (least / wanted[k]).powi(2);
-        (super::jitter::mix(!(k as u64)) >> 11) as f64 <= part * (1_u64 << 53) as f64
+        (crate::cloud::jitter::mix(!(k as u64)) >> 11) as f64 <= part * (1_u64 << 53) as f64
     };
     let mut order: Vec<(u64, usize)> = (0..pieces.len())
         .filter(|k| enough(*k))
-        .map(|k| (super::jitter::mix(k as u64), k))
+        .map(|k| (crate::cloud::jitter::mix(k as u64), k))
         .collect();
     order.sort_unstable();
     let mut set = Occupied::new(spacing);

@@ -4,10 +4,10 @@
 use run::Fault;
 use shapes::frame::{Vector, along, dot};
 
-use super::build::Builder;
+use super::Builder;
 use super::layers::Column;
 use super::surface::{self, Seed};
-use super::{Class, Metric, SurfacePoint};
+use crate::cloud::{Class, Metric, SurfacePoint};
 
 /// Least spacing of points on a surface over that of the scene, where another body is near.
 const LEAST: f64 = 1.0 / 8.0;
@@ -26,10 +26,10 @@ const SEAM: f64 = 0.65;
 
 impl Builder {
     /// Points on the surfaces of bodies.
-    pub(super) fn surfaces(&mut self) -> Result<Vec<Column>, Vec<Fault>> {
+    pub(crate) fn surfaces(&mut self) -> Result<Vec<Column>, Vec<Fault>> {
         let mut columns: Vec<Column> = Vec::new();
         let mut faults = Vec::new();
-        for k in 0..self.region.solids.len() {
+        for k in 0..self.layout.solids.len() {
             let before = columns.len();
             let mut crowded = Vec::new();
             for seed in self.seeds(k) {
@@ -44,7 +44,7 @@ impl Builder {
                 columns.push(Column::bare(seed, point, Some(k), media));
             }
             self.give(&crowded, &mut columns[before..]);
-            if columns.len() == before && self.region.leaves_out(k) {
+            if columns.len() == before && self.layout.leaves_out(k) {
                 let what = "no part of the body's surface lies in the domain";
                 faults.push(Fault::at(&format!("/bodies/{k}/shape"), what));
             }
@@ -60,11 +60,11 @@ impl Builder {
     /// Points on the surface of a body, nearer to each other where the surface of another body faces it, or one with finer
     /// points is beside it.
     fn seeds(&self, k: usize) -> Vec<Seed> {
-        let solid = &self.region.solids[k];
+        let solid = &self.layout.solids[k];
         let step = SAME * solid.spacing;
         let local = |x: Vector| {
             let mut gap = f64::INFINITY;
-            for (number, other) in self.region.solids.iter().enumerate() {
+            for (number, other) in self.layout.solids.iter().enumerate() {
                 let away = other.body.distance(x).abs();
                 // A body that touches is no gap: its surface is the same.
                 if number == k
@@ -80,11 +80,11 @@ impl Builder {
                 }
             }
             let across = (0.5 * gap).clamp(LEAST * solid.spacing, solid.spacing);
-            across.min(self.region.beside(x, k))
+            across.min(self.layout.beside(x, k))
         };
         let coarse = surface::seeds(
             &solid.body,
-            self.region.dimensions,
+            self.layout.dimensions,
             (solid.spacing, solid.spacing),
             &|_| solid.spacing,
         );
@@ -93,7 +93,7 @@ impl Builder {
             .fold(solid.spacing, |least, seed| least.min(local(seed.place)));
         if least < 0.999 * solid.spacing {
             let limits = (solid.spacing, least.min(LEAST * solid.spacing));
-            let fine = surface::seeds(&solid.body, self.region.dimensions, limits, &local);
+            let fine = surface::seeds(&solid.body, self.layout.dimensions, limits, &local);
             self.on_axis(fine)
         } else {
             self.on_axis(coarse)
@@ -101,8 +101,8 @@ impl Builder {
     }
 
     /// Points that lie on an axis but for rounding lie on it.
-    pub(super) fn on_axis(&self, mut seeds: Vec<Seed>) -> Vec<Seed> {
-        for seed in seeds.iter_mut().filter(|_| self.region.axisymmetric) {
+    pub(crate) fn on_axis(&self, mut seeds: Vec<Seed>) -> Vec<Seed> {
+        for seed in seeds.iter_mut().filter(|_| self.layout.axisymmetric) {
             if seed.place[0].abs() < 1e-6 * seed.spacing {
                 seed.place[0] = 0.0;
             }
@@ -113,11 +113,11 @@ impl Builder {
     /// The media that a surface point parts, if it parts any, lies in the domain and is its body's to place.
     fn parts(&self, seed: &Seed, k: usize) -> Option<[u8; 2]> {
         let step = SAME * seed.spacing;
-        let sides = [-step, step].map(|s| self.region.medium(along(seed.place, s, seed.normal)));
+        let sides = [-step, step].map(|s| self.layout.medium(along(seed.place, s, seed.normal)));
         let own = k as u8 + 1;
         let shared = sides[0] == sides[1] || sides[0] != own;
-        let outside = self.region.depth(seed.place) < 0.3 * seed.spacing
-            || self.region.axisymmetric && seed.place[0] < 0.0;
+        let outside = self.layout.depth(seed.place) < 0.3 * seed.spacing
+            || self.layout.axisymmetric && seed.place[0] < 0.0;
         let near = 0.1 * seed.spacing;
         let taken = self.occupied.any(seed.place, near, |_, _, _| true);
         (!shared && !outside && !taken && !self.others_face(seed, (k, sides[1]))).then_some(sides)
@@ -129,9 +129,9 @@ impl Builder {
         let Some(other) = (around as usize).checked_sub(1) else {
             return false;
         };
-        let [own, others] = [k, other].map(|k| self.region.solids[k].spacing);
+        let [own, others] = [k, other].map(|k| self.layout.solids[k].spacing);
         let step = SAME * seed.spacing;
-        let same = self.region.solids[other].body.distance(seed.place).abs() < step;
+        let same = self.layout.solids[other].body.distance(seed.place).abs() < step;
         same && (others, other) < (own, k)
     }
 
@@ -153,9 +153,9 @@ impl Builder {
 
     /// Whether the surface of another body passes through that of body `k` near a place on it: Newton's method along the
     /// surface finds the crossing, while the least distance of a gap stays.
-    pub(super) fn cross(&self, mut x: Vector, k: usize, other: usize) -> bool {
-        let [own, other] = [k, other].map(|k| &self.region.solids[k].body);
-        let spacing = self.region.solids[k].spacing;
+    pub(crate) fn cross(&self, mut x: Vector, k: usize, other: usize) -> bool {
+        let [own, other] = [k, other].map(|k| &self.layout.solids[k].body);
+        let spacing = self.layout.solids[k].spacing;
         let step = SAME * spacing;
         for _ in 0..NEWTON {
             let away = other.distance(x);

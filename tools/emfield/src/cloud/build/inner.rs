@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference, direction, length};
 
-use super::build::Builder;
-use super::lattice::{self, Node};
+use super::Builder;
 use super::layers::{Column, Ground, Layered, Standing, thicknesses};
-use super::region::Wall;
-use super::{Class, Foot, Metric, jitter};
+use crate::cloud::lattice::{self, Node};
+use crate::cloud::layout::Wall;
+use crate::cloud::{Class, Foot, Metric, jitter};
 use crate::scene::{Arrangement, Scene};
 
 /// Spacing across over spacing along the surface from which a layer counts as round.
@@ -20,7 +20,7 @@ const APART: f64 = 0.65;
 
 impl Builder {
     /// Layers along all surfaces.
-    pub(super) fn layers(
+    pub(crate) fn layers(
         &mut self,
         scene: &Scene,
         columns: &mut [Column],
@@ -38,7 +38,7 @@ impl Builder {
         self.find_gaps(columns, plans);
         for group in columns.chunk_by_mut(|a, b| a.solid == b.solid) {
             let (spacing, plan) = match group[0].solid {
-                Some(k) => (self.region.solids[k].spacing, plans[k].clone()),
+                Some(k) => (self.layout.solids[k].spacing, plans[k].clone()),
                 None => {
                     let spacing = group[0].seed.spacing;
                     let walls = scene.points.wall_layers.as_ref();
@@ -48,8 +48,8 @@ impl Builder {
             };
             for (side, thicknesses) in plan.iter().enumerate() {
                 let mut ground = Ground {
-                    region: &self.region,
-                    dimensions: self.region.dimensions,
+                    layout: &self.layout,
+                    dimensions: self.layout.dimensions,
                     occupied: &mut self.occupied,
                     first: self.cloud.len() as u32,
                 };
@@ -76,7 +76,7 @@ impl Builder {
         self.widest = self.sizes.iter().copied().fold(0.0, f64::max);
     }
 
-    pub(super) fn layered(&mut self, point: &Layered) {
+    pub(crate) fn layered(&mut self, point: &Layered) {
         let metric = metric(point.normal, [point.across, point.along], point.foot);
         let spacing = if metric == Metric::Round {
             (point.across * point.along).sqrt()
@@ -88,7 +88,7 @@ impl Builder {
     }
 
     /// Nodes of the lattices where there is room for them.
-    pub(super) fn lattices(
+    pub(crate) fn lattices(
         &mut self,
         nodes: &[Node],
         columns: &[Column],
@@ -108,13 +108,13 @@ impl Builder {
             .filter_map(|node| Some((*node, self.room(node, &standing)?)))
             .filter(|(_, medium)| !packed || *medium == 0)
             .collect();
-        for (k, solid) in self.region.solids.iter().enumerate().filter(|_| packed) {
+        for (k, solid) in self.layout.solids.iter().enumerate().filter(|_| packed) {
             let inside =
-                lattice::packed(solid.body.bounds(), self.region.dimensions, solid.spacing);
+                lattice::packed(solid.body.bounds(), self.layout.dimensions, solid.spacing);
             kept.par_extend(inside.par_iter().filter_map(|node| {
-                let within = self.region.depth(node.place) > 0.5 * node.spacing
+                let within = self.layout.depth(node.place) > 0.5 * node.spacing
                     && solid.body.distance(node.place) < 0.0
-                    && !(self.region.axisymmetric && node.place[0] < 0.3 * node.spacing);
+                    && !(self.layout.axisymmetric && node.place[0] < 0.3 * node.spacing);
                 let medium = within.then(|| self.room(node, &standing)).flatten()?;
                 (medium == k as u8 + 1).then_some((*node, medium))
             }));
@@ -134,9 +134,9 @@ impl Builder {
     fn room(&self, node: &Node, standing: &[(Option<usize>, Standing<'_>)]) -> Option<u8> {
         let x = node.place;
         for (solid, columns) in standing {
-            let (d, normal) = match (solid, &self.region.wall) {
+            let (d, normal) = match (solid, &self.layout.wall) {
                 (Some(k), _) => {
-                    let solid = &self.region.solids[*k];
+                    let solid = &self.layout.solids[*k];
                     let d = solid.body.distance(x);
                     let reach = solid.reach[usize::from(d > 0.0)];
                     if d.abs() > reach + 2.0 * solid.spacing {
@@ -153,7 +153,7 @@ impl Builder {
                 }
                 (None, Wall::Box { .. }) => continue,
             };
-            if columns.holds(x, d, normal, self.region.dimensions) {
+            if columns.holds(x, d, normal, self.layout.dimensions) {
                 return None;
             }
         }
@@ -162,11 +162,11 @@ impl Builder {
             let own = APART * self.sizes[other as usize].min(node.spacing);
             square < own * own
         });
-        (!crowded).then(|| self.region.medium(x))
+        (!crowded).then(|| self.layout.medium(x))
     }
 
     /// Shifts points that lie neither on interfaces nor on walls at random.
-    pub(super) fn shake(&mut self, scene: &Scene) {
+    pub(crate) fn shake(&mut self, scene: &Scene) {
         let jitter = scene.points.jitter;
         if jitter == 0.0 {
             return;
@@ -177,7 +177,7 @@ impl Builder {
             };
             let draw = |k: u64| jitter * jitter::signed(scene.points.seed, i as u64, k);
             let mut moved = x;
-            for (k, c) in moved.iter_mut().enumerate().take(self.region.dimensions) {
+            for (k, c) in moved.iter_mut().enumerate().take(self.layout.dimensions) {
                 *c += self.cloud.spacing[i] * draw(k as u64);
             }
             if let Metric::Layered {
@@ -191,13 +191,13 @@ impl Builder {
                 let up = shapes::frame::dot(shift, normal);
                 moved = along(moved, up * (across / flat - 1.0), normal);
             }
-            let on_axis = self.region.axisymmetric && x[0] == 0.0;
+            let on_axis = self.layout.axisymmetric && x[0] == 0.0;
             if on_axis {
                 moved[0] = 0.0;
             }
-            let far = |x: Vector| self.region.nearest(x).0.abs().min(self.region.depth(x));
-            let kept = self.region.medium(moved) == medium && far(moved) > 0.5 * far(x);
-            if kept && !(self.region.axisymmetric && moved[0] < 0.5 * x[0]) {
+            let far = |x: Vector| self.layout.nearest(x).0.abs().min(self.layout.depth(x));
+            let kept = self.layout.medium(moved) == medium && far(moved) > 0.5 * far(x);
+            if kept && !(self.layout.axisymmetric && moved[0] < 0.5 * x[0]) {
                 self.cloud.position[i] = moved;
             }
         }

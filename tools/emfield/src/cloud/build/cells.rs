@@ -10,16 +10,16 @@ use shapes::Kind;
 use shapes::frame::{Vector, along, difference, direction, length};
 
 use super::layers::{Column, Standing};
-use super::occupied::Occupied;
-use super::region::{Region, Wall};
-use super::{Cell, Class, Cloud};
+use crate::cloud::layout::{Layout, Wall};
+use crate::cloud::occupied::Occupied;
+use crate::cloud::{Cell, Class, Cloud};
 use crate::scene::Scene;
 
 /// Samples per spacing along an axis, in two and three dimensions.
 const SAMPLES: [f64; 2] = [8.0, 4.0];
 
 /// Fills the cells of conductors, magnets and coils of a scene with eddy currents.
-pub(super) fn fill(scene: &Scene, region: &Region, columns: &[Column], cloud: &mut Cloud) {
+pub(crate) fn fill(scene: &Scene, layout: &Layout, columns: &[Column], cloud: &mut Cloud) {
     if scene.eddy_currents.is_none() {
         return;
     }
@@ -29,7 +29,7 @@ pub(super) fn fill(scene: &Scene, region: &Region, columns: &[Column], cloud: &m
             || scene.magnetic(medium)
             || scene.carries(medium)
         {
-            Conductor::new(region, columns, medium as u8).share_out(cloud, &mut cells);
+            Conductor::new(layout, columns, medium as u8).share_out(cloud, &mut cells);
         }
     }
     cloud.cells = cells;
@@ -40,14 +40,14 @@ type Row = (f64, Vec<(u32, f64, Vector)>);
 
 /// A medium that conducts.
 struct Conductor<'a> {
-    region: &'a Region,
+    layout: &'a Layout,
     medium: u8,
     columns: &'a [Column],
     standing: Vec<(Option<usize>, Standing<'a>)>,
 }
 
 impl<'a> Conductor<'a> {
-    fn new(region: &'a Region, columns: &'a [Column], medium: u8) -> Self {
+    fn new(layout: &'a Layout, columns: &'a [Column], medium: u8) -> Self {
         let standing = columns
             .chunk_by(|a, b| a.solid == b.solid)
             .map(|group| {
@@ -56,7 +56,7 @@ impl<'a> Conductor<'a> {
             })
             .collect();
         Self {
-            region,
+            layout,
             medium,
             columns,
             standing,
@@ -110,7 +110,7 @@ impl<'a> Conductor<'a> {
                 let place = |i: usize| -> Vector {
                     let n = [i, j, k];
                     std::array::from_fn(|a| {
-                        if a < self.region.dimensions {
+                        if a < self.layout.dimensions {
                             origin[a] + (n[a] as f64 + 0.5) * step
                         } else {
                             0.0
@@ -143,7 +143,7 @@ impl<'a> Conductor<'a> {
 
     /// Whether columns fit together: the surface has neither edges nor crossings.
     fn smooth(&self) -> bool {
-        let bodies = self.region.solids.iter().map(|s| &s.body);
+        let bodies = self.layout.solids.iter().map(|s| &s.body);
         let own = (self.medium as usize).checked_sub(1);
         let single = |body: &shapes::Body| match body.single().map(|p| &p.kind) {
             Some(Kind::Ball(_)) => true,
@@ -151,8 +151,8 @@ impl<'a> Conductor<'a> {
             _ => false,
         };
         match own {
-            Some(own) => single(&self.region.solids[own].body),
-            None => bodies.into_iter().all(single) && matches!(self.region.wall, Wall::Ball { .. }),
+            Some(own) => single(&self.layout.solids[own].body),
+            None => bodies.into_iter().all(single) && matches!(self.layout.wall, Wall::Ball { .. }),
         }
     }
 
@@ -208,7 +208,7 @@ impl<'a> Conductor<'a> {
     ) {
         const WEIGHTS: [f64; 5] = [1.0 / 12.0, 4.0 / 12.0, 2.0 / 12.0, 4.0 / 12.0, 1.0 / 12.0];
         let seed = &column.seed;
-        let d = self.region.dimensions;
+        let d = self.layout.dimensions;
         // The middle of a curved patch lies below its surface point.
         let sag = if d == 3 {
             0.5 * seed.curvature.sum() * seed.area / (4.0 * PI)
@@ -222,7 +222,7 @@ impl<'a> Conductor<'a> {
             let place = along(seed.place, signed - sag * flat, seed.normal);
             let area = seed.area * column.widening(side, away);
             let mut volume = weight * (high - low) * area;
-            if self.region.axisymmetric {
+            if self.layout.axisymmetric {
                 volume *= TAU * place[0].max(0.0);
             }
             // Mean square of the distance from the middle, along the surface.
@@ -238,7 +238,7 @@ impl<'a> Conductor<'a> {
 
     /// The middle of the volume of a piece: a full turn holds more of it outside than inside.
     fn middle(&self, mut place: Vector, own: &[Vector; 3]) -> Vector {
-        if self.region.axisymmetric && place[0] > 0.0 {
+        if self.layout.axisymmetric && place[0] > 0.0 {
             place[0] += own[0][0] / place[0];
         }
         place
@@ -248,7 +248,7 @@ impl<'a> Conductor<'a> {
     fn square(&self, step: f64) -> [Vector; 3] {
         std::array::from_fn(|a| {
             std::array::from_fn(|b| {
-                if a == b && a < self.region.dimensions {
+                if a == b && a < self.layout.dimensions {
                     step * step / 12.0
                 } else {
                     0.0
@@ -261,7 +261,7 @@ impl<'a> Conductor<'a> {
     fn flat(&self, normal: Vector, square: f64) -> [Vector; 3] {
         std::array::from_fn(|a| {
             std::array::from_fn(|b| {
-                let one = f64::from(u8::from(a == b && a < self.region.dimensions));
+                let one = f64::from(u8::from(a == b && a < self.layout.dimensions));
                 square * (one - normal[a] * normal[b])
             })
         })
@@ -269,26 +269,26 @@ impl<'a> Conductor<'a> {
 
     fn step(&self) -> f64 {
         let spacing = match self.medium {
-            0 => self.region.spacing,
-            m => self.region.solids[m as usize - 1].spacing,
+            0 => self.layout.spacing,
+            m => self.layout.solids[m as usize - 1].spacing,
         };
-        spacing / SAMPLES[self.region.dimensions - 2]
+        spacing / SAMPLES[self.layout.dimensions - 2]
     }
 
     /// First corner and numbers of the samples.
     fn samples(&self, step: f64) -> (Vector, [usize; 3]) {
-        let d = self.region.dimensions;
-        let (mut low, mut high) = match &self.region.wall {
+        let d = self.layout.dimensions;
+        let (mut low, mut high) = match &self.layout.wall {
             Wall::Box { low, high, .. } => (*low, *high),
             Wall::Ball { centre, radius } => {
                 (centre.map(|c| c - radius), centre.map(|c| c + radius))
             }
         };
-        if self.region.axisymmetric {
+        if self.layout.axisymmetric {
             low[0] = low[0].max(0.0);
         }
         if self.medium > 0 {
-            let bounds = self.region.solids[self.medium as usize - 1].body.bounds();
+            let bounds = self.layout.solids[self.medium as usize - 1].body.bounds();
             for k in 0..d {
                 low[k] = low[k].max(bounds[0][k]);
                 high[k] = high[k].min(bounds[1][k]);
@@ -319,7 +319,7 @@ impl<'a> Conductor<'a> {
     fn weight(&self, x: Vector, step: f64) -> f64 {
         let mut part = match self.medium {
             0 => (0.5 + self.edge(x) / step).min(1.0),
-            _ => (0.5 + self.region.depth(x) / step).min(1.0),
+            _ => (0.5 + self.layout.depth(x) / step).min(1.0),
         };
         if part <= 0.0 {
             return 0.0;
@@ -327,14 +327,14 @@ impl<'a> Conductor<'a> {
         // A sample that the surface cuts is judged by the distance of the surface.
         let own = self.medium as usize;
         if own > 0 {
-            part *= (0.5 - self.region.solids[own - 1].body.distance(x) / step).clamp(0.0, 1.0);
-            let earlier = self.region.solids[..own - 1].iter();
+            part *= (0.5 - self.layout.solids[own - 1].body.distance(x) / step).clamp(0.0, 1.0);
+            let earlier = self.layout.solids[..own - 1].iter();
             for solid in earlier {
                 part *= (0.5 + solid.body.distance(x) / step).clamp(0.0, 1.0);
             }
         }
-        let mut volume = part * step.powi(self.region.dimensions as i32);
-        if self.region.axisymmetric {
+        let mut volume = part * step.powi(self.layout.dimensions as i32);
+        if self.layout.axisymmetric {
             volume *= TAU * x[0];
         }
         volume
@@ -342,15 +342,15 @@ impl<'a> Conductor<'a> {
 
     /// Distance to the wall and to all bodies, positive in the surroundings \[m\].
     fn edge(&self, x: Vector) -> f64 {
-        let solids = self.region.solids.iter().map(|s| s.body.distance(x));
-        solids.fold(self.region.depth(x), f64::min)
+        let solids = self.layout.solids.iter().map(|s| s.body.distance(x));
+        solids.fold(self.layout.depth(x), f64::min)
     }
 
     /// The part of a sample that is not within the columns of a surface.
     fn above(&self, x: Vector, solid: Option<usize>, standing: &Standing<'_>, step: f64) -> f64 {
-        let (d, normal) = match (solid, &self.region.wall) {
+        let (d, normal) = match (solid, &self.layout.wall) {
             (Some(k), _) => {
-                let solid = &self.region.solids[k];
+                let solid = &self.layout.solids[k];
                 let d = solid.body.distance(x);
                 if d.abs() > solid.reach[usize::from(d > 0.0)] + step {
                     return 1.0;

@@ -7,7 +7,7 @@
 
 use shapes::frame::{Vector, along, direction, dot};
 
-use super::build::Builder;
+use super::Builder;
 use super::layers::{Column, Gap, Layered, TOO_CLOSE};
 
 /// Parts of a gap, between whose levels points stand.
@@ -37,10 +37,10 @@ struct Strand {
 
 impl Builder {
     /// Finds the narrow gaps before columns, where layers are to stand.
-    pub(super) fn find_gaps(&self, columns: &mut [Column], plans: &[[Vec<f64>; 2]]) {
+    pub(crate) fn find_gaps(&self, columns: &mut [Column], plans: &[[Vec<f64>; 2]]) {
         for column in columns {
             let Some(own) = column.solid else { continue };
-            let solid = &self.region.solids[own];
+            let solid = &self.layout.solids[own];
             let scale = (column.seed.spacing / solid.spacing).min(1.0);
             for (side, plan) in plans[own].iter().enumerate() {
                 let gap = |first: &f64| {
@@ -65,11 +65,11 @@ impl Builder {
         if width < LEAST * column.seed.spacing || self.cross(from, own, other) {
             return None;
         }
-        let beyond = &self.region.solids[other].body;
+        let beyond = &self.layout.solids[other].body;
         let normal = beyond.normal(along(from, width, way), 1e-4 * column.seed.spacing);
         let facing = dot(normal, way);
         let middle = along(from, 0.5 * width, way);
-        let open = self.region.medium(middle) == column.media[side];
+        let open = self.layout.medium(middle) == column.media[side];
         (open && facing.abs() > FACING).then(|| Gap {
             width,
             back: normal.map(|n| -facing.signum() * n),
@@ -79,9 +79,9 @@ impl Builder {
     /// How far the surface of another body than `own` is along a way from a place, at most `most`, and its number: no step is longer
     /// than the way to it is anywhere.
     fn beyond(&self, own: usize, (from, way): (Vector, Vector), most: f64) -> Option<(f64, usize)> {
-        let others = (0..self.region.solids.len()).filter(|k| *k != own);
+        let others = (0..self.layout.solids.len()).filter(|k| *k != own);
         let reach = |k: usize| {
-            let body = &self.region.solids[k].body;
+            let body = &self.layout.solids[k].body;
             let mut width = 0.0;
             for _ in 0..STEPS {
                 let step = body.distance(along(from, width, way)).abs();
@@ -99,7 +99,7 @@ impl Builder {
     }
 
     /// Points across the narrow gaps, from the sides to the middle.
-    pub(super) fn gaps(&mut self, columns: &[Column]) {
+    pub(crate) fn gaps(&mut self, columns: &[Column]) {
         let mut strands = Vec::new();
         for column in columns {
             for (side, gap) in column.gap.iter().enumerate() {
@@ -127,10 +127,10 @@ impl Builder {
     fn on_the_axis(&self, (column, side): (&Column, usize), gap: &Gap) -> Option<Strand> {
         let seed = &column.seed;
         let crosses = seed.normal[1].abs() > FACING;
-        if !self.region.axisymmetric || !crosses || seed.place[0] > BESIDE * seed.spacing {
+        if !self.layout.axisymmetric || !crosses || seed.place[0] > BESIDE * seed.spacing {
             return None;
         }
-        let body = &self.region.solids[column.solid?].body;
+        let body = &self.layout.solids[column.solid?].body;
         let sign = seed.normal[1].signum();
         let axis = [0.0, sign, 0.0];
         let near = [0.0, seed.place[1], 0.0];
@@ -162,7 +162,7 @@ impl Builder {
                 (up / across).powi(2) + level / (flat * flat) < TOO_CLOSE * TOO_CLOSE
             });
         let beside = place[0] > 0.0 && place[0] < 0.3 * flat;
-        if crowded || self.region.axisymmetric && beside {
+        if crowded || self.layout.axisymmetric && beside {
             return;
         }
         self.occupied.push(place);
