@@ -23,10 +23,9 @@ const ROOMS: [(&str, &[&str]); 5] = [
 ];
 
 /// Rooms that a stage lacks, or has under another name.
-const LACKING: [(&str, &str); 9] = [
+const LACKING: [(&str, &str); 8] = [
     ("avg", "march or iterate"),
     ("emfield", "frames"),
-    ("emfield", "program"),
     ("gasprop", "frames"),
     ("gasprop", "march or iterate"),
     ("heatsph", "frames"),

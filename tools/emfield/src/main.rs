@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    run::main::<emfield::stage::EmField>()
+    run::main::<emfield::program::EmField>()
 }
