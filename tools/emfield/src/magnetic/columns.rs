@@ -1,6 +1,5 @@
 //! What is written of eddy currents: fields of points, forces and heat.
 
-use num_complex::Complex;
 use shapes::frame::Vector;
 
 use super::charge::fields::Charged;
@@ -9,13 +8,11 @@ use crate::geometry::Geometry;
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, Media, Solution};
 use crate::magnetic::medium::law::traction;
-use crate::magnetic::source::Source;
+use crate::magnetic::source::{C, Source};
 use crate::magnetic::totals::{Acting, Totals};
 use crate::magnetic::unknown::Unknown;
 use crate::output::{Column, Found};
 use crate::stencils::region::Face;
-
-type C = Complex<f64>;
 
 /// Ending of a column and what it holds of a phasor.
 type Part = (&'static str, fn(&C) -> f64);

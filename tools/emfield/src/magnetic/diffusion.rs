@@ -8,17 +8,14 @@
 //! different permeability see [`crate::magnetic::medium::interface`].
 
 use krylov::Rows;
-use num_complex::Complex;
 
+use super::source::C;
 use crate::electric::equations::around;
 use crate::magnetic::holes::{Hole, Holes, Media};
 use crate::magnetic::medium::interface::Permeable;
 use crate::magnetic::unknown::Unknown;
 use crate::stencils::region::{Kind, Region};
 use crate::stencils::sides::{Sides, along_normal, share_along};
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Conductors by medium.
 #[derive(Debug, Clone, Default)]

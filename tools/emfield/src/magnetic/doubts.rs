@@ -1,10 +1,10 @@
 //! Forces and heats of currents that are known in several ways, and what to say where these disagree.
 
-use num_complex::Complex;
 use shapes::frame::{Vector, length};
 
 use super::fields::{Beyond, Fields};
 use super::problem::Problem;
+use super::source::C;
 use super::totals::{Acting, Totals};
 use super::unknown::Unknown;
 use crate::cloud::{Class, SurfacePoint};
@@ -137,9 +137,6 @@ impl<const D: usize> Problem<'_, D> {
         outer.map(square).sum()
     }
 }
-
-/// A complex number.
-type C = Complex<f64>;
 
 #[cfg(test)]
 mod tests {

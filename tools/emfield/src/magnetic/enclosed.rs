@@ -1,18 +1,15 @@
 //! Force and heat of what closed surfaces enclose.
 
-use num_complex::Complex;
 use shapes::frame::Vector;
 
 use super::fields::{Fields, Solution, cross_mean};
 use super::problem::Problem;
-use super::source::{Source, minus};
+use super::source::{C, Source, minus};
 use super::totals::{Acting, Totals};
 use crate::geometry::Geometry;
 use crate::output::Found;
 use crate::surface::fits::Enclosed;
 use crate::surface::ways::push;
-
-type C = Complex<f64>;
 
 impl<const D: usize> Problem<'_, D> {
     /// Adds the forces and the heat of eddy currents; `totals` are those of all conductors.

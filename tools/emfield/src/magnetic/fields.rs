@@ -7,15 +7,13 @@
 use num_complex::Complex;
 use rayon::prelude::*;
 
+use super::source::C;
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::medium::law::{Law, beyond};
 use crate::magnetic::unknown::{Unknown, along, component, local};
 use crate::magnetic::waves::weights::Waves;
 use crate::stencils::region::{Face, Region};
 use crate::stencils::sides::Sides;
-
-/// A complex number.
-type C = Complex<f64>;
 
 const NONE: [C; 3] = [Complex::new(0.0, 0.0); 3];
 

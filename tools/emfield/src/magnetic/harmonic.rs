@@ -1,7 +1,6 @@
 //! The sinusoidal steady state: its equations, their solution and the fields of it.
 
 use krylov::{Rows, Scalar, System};
-use num_complex::Complex;
 use run::{Failure, Session};
 
 use super::charge::fields::Charges;
@@ -12,12 +11,11 @@ use super::driven::right::Drive;
 use super::fields::{Solution, steady_change};
 use super::open::multipoles::Multipoles;
 use super::problem::Problem;
+use super::source::C;
 use super::waves::rows::{Ground, Waving};
 use crate::output::Found;
 use crate::solve::broken::unsolvable;
 use crate::solve::report;
-
-type C = Complex<f64>;
 
 impl<const D: usize> Problem<'_, D> {
     /// Solves the eddy currents of a sinusoidal steady state, with `K` unknowns a point: 3 in space, else 1.

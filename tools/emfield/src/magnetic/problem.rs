@@ -1,6 +1,5 @@
 //! What eddy currents are computed with: points, stencils, conductors, and what drives them.
 
-use num_complex::Complex;
 use run::{Failure, Session};
 
 use super::diffusion::{Axial, Conductors};
@@ -11,7 +10,7 @@ use super::medium::interface::Permeable;
 use super::medium::law::Law;
 use super::parameters::Parameters;
 use super::saturation::places::level;
-use super::source::{Origin, Source};
+use super::source::{C, Origin, Source};
 use super::unknown::Unknown;
 use super::waves::weights::Waves;
 use crate::cloud::{Cell, Cloud};
@@ -22,8 +21,6 @@ use crate::stencils::sides::{Form, Sides};
 use crate::stencils::unfit::no_stencil;
 use crate::surface::enclosing::Enclosing;
 use crate::surface::fits::{self, Enclosed};
-
-type C = Complex<f64>;
 
 /// What eddy currents are computed with, in `D` coordinates.
 pub(crate) struct Problem<'a, const D: usize> {

@@ -1,6 +1,5 @@
 //! From a scene to what is sought and given of its eddy currents, and what is wrong with these.
 
-use num_complex::Complex;
 use run::{Failure, Fault};
 use shapes::frame::direction;
 
@@ -10,13 +9,11 @@ use super::parameters::Parameters;
 use crate::cloud::Cloud;
 use crate::cloud::layout::{Layout, vector};
 use crate::geometry::Geometry;
-use crate::magnetic::source::{Loop, MU0, Origin, Segment, Source, Uniform, Wire};
+use crate::magnetic::source::{C, Loop, MU0, Origin, Segment, Source, Uniform, Wire};
 use crate::magnetic::unknown::Unknown;
 use crate::scene::currents::OuterReaction;
 use crate::scene::{Coil, EddyCurrents, ElectricPotential, Magnet, Scene};
 use crate::solve::Numerics;
-
-type C = Complex<f64>;
 
 /// Radius of a wire that the scene calls thin, over the size of its coil.
 const THIN: f64 = 1e-3;

@@ -1,17 +1,12 @@
 //! Total force and heat, each in ways that share little: their difference is an estimate of the error.
 
-use num_complex::Complex;
-
 use crate::magnetic::driven::force;
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, cross_mean};
 use crate::magnetic::medium::interface::Permeable;
 use crate::magnetic::medium::law::{Law, jumps, traction};
-use crate::magnetic::source::{Source, minus};
+use crate::magnetic::source::{C, Source, minus};
 use crate::stencils::region::Region;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Media on which magnetic fields act.
 #[derive(Debug, Clone, Copy)]

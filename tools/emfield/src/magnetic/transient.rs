@@ -1,6 +1,5 @@
 //! A stage of a march, and the fields of its state at an instant.
 
-use num_complex::Complex;
 use run::{Failure, Session};
 
 use super::charge::fields::{Charges, Lack, spread};
@@ -10,13 +9,12 @@ use super::driven::right::{Drive, pairs};
 use super::fields::Solution;
 use super::open::multipoles::Multipoles;
 use super::problem::Problem;
+use super::source::C;
 use super::stage::{Alone, Equations};
 use crate::march::scheme::{Stage, State, slope};
 use crate::output::Found;
 use crate::stencils::sides::{Form, Sides};
 use crate::stencils::unfit::no_stencil;
-
-type C = Complex<f64>;
 
 /// Rates that solves leave, over their tolerance times potentials over a stage.
 const NOISE: f64 = 1e3;

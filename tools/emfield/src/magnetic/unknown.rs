@@ -1,9 +1,6 @@
 //! What the unknown of eddy currents is, and the vectors that it stands for.
 
-use num_complex::Complex;
-
-/// A complex number.
-type C = Complex<f64>;
+use super::source::C;
 
 /// What the unknown is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

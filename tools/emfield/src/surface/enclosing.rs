@@ -5,11 +5,9 @@
 //! - `T n = Re(B (B*.n) - |B|^2 n / 2) / mu` of eddy currents: the mean of a period, or the value at an instant;
 //! - heat `-Re((E x B*).n) / mu` by Poynting's vector.
 
-use num_complex::Complex;
 use shapes::frame::{Vector, dot};
 
-/// A complex number.
-type C = Complex<f64>;
+use crate::magnetic::source::C;
 
 /// A closed surface, ready to be integrated over.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -4,21 +4,18 @@
 //! of the medium there alone, which obeys its equation: `lap u = 0`, about an axis with its first derivatives at the
 //! place. What sources give is added exactly, by the caller.
 
-use num_complex::Complex;
 use rayon::prelude::*;
 use run::{Failure, Session};
 use wls::{Condition, Error, Plan, Rules, Search, Stencils, Wants};
 
 use crate::cloud::Cloud;
+use crate::magnetic::source::C;
 use crate::magnetic::unknown::{Unknown, along, local};
 use crate::stencils::mirror::Mirror;
 use crate::stencils::region::Region;
 use crate::stencils::sides::Form;
 use crate::surface::enclosing::Enclosing;
 use crate::surface::halfway::about;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// A closed surface with the fits of points about its places.
 #[derive(Debug, Clone)]

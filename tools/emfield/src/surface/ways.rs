@@ -5,15 +5,12 @@
 //! apart by more than they may be where the difference exceeds a share of the force, or, where stresses cancel, of a tenth
 //! of what they come to without their directions.
 
-use num_complex::Complex;
 use shapes::frame::{Vector, length};
 
 use crate::geometry::Geometry;
+use crate::magnetic::source::C;
 use crate::magnetic::totals::spread;
 use crate::output::{Doubt, Found};
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Difference of two ways over the size of the force from which it is told.
 pub(crate) const APART: f64 = 0.05;

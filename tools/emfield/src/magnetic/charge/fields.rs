@@ -1,6 +1,5 @@
 //! A and the potential of charges together: equations, their solution, and fields with it.
 
-use num_complex::Complex;
 use run::{Failure, Session};
 
 use crate::magnetic::charge::equations::Coupled;
@@ -10,11 +9,10 @@ use crate::magnetic::charge::solution::AtRate;
 use crate::magnetic::driven::right::Drive;
 use crate::magnetic::open::multipoles::Multipoles;
 use crate::magnetic::problem::Problem;
+use crate::magnetic::source::C;
 use crate::solve::report;
 use crate::stencils::region::Kind;
 use crate::stencils::unfit::no_stencil;
-
-type C = Complex<f64>;
 
 /// The part of the electric field that may point out of a conductor, over the largest field on its
 /// surface, before it is said that charges are missing.

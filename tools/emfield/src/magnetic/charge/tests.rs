@@ -1,5 +1,3 @@
-use num_complex::Complex;
-
 use krylov::{Options, Rule};
 
 use crate::magnetic::charge::equations::Coupled;
@@ -8,13 +6,11 @@ use crate::magnetic::charge::potential::{Charge, Side};
 use crate::magnetic::charge::solution::AtRate;
 use crate::magnetic::charge::stage::Charged;
 use crate::magnetic::diffusion::Conductors;
-use crate::magnetic::source::{MU0, Origin, Source, Uniform};
+use crate::magnetic::source::{C, MU0, Origin, Source, Uniform};
 use crate::march::scheme::{March, slope};
 use crate::stencils::region::Region;
 use crate::stencils::sides::{Form, Sides};
 use crate::stencils::tests::shells;
-
-type C = Complex<f64>;
 
 const FORM: Form = Form {
     order: 2,

@@ -9,17 +9,14 @@
 //! `g = 0`.
 
 use krylov::{Pair, Rows, Scalar};
-use num_complex::Complex;
 
 use crate::magnetic::diffusion::Conductors;
 use crate::magnetic::driven::right;
 use crate::magnetic::open::multipoles::Multipoles;
+use crate::magnetic::source::C;
 use crate::magnetic::unknown::Unknown;
 use crate::stencils::region::{Kind, Region};
 use crate::stencils::sides::Sides;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// A bar.
 #[derive(Debug, Clone)]

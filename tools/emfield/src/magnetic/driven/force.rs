@@ -3,18 +3,14 @@
 
 use std::f64::consts::TAU;
 
-use num_complex::Complex;
 use rayon::prelude::*;
 
 use crate::magnetic::driven::winding::{self, Windings};
 use crate::magnetic::fields::{Fields, cross_mean};
 use crate::magnetic::medium::interface::Permeable;
 use crate::magnetic::medium::law::Law;
-use crate::magnetic::source::{Loop, Source, Wire, cross, minus};
+use crate::magnetic::source::{C, Loop, Source, Wire, cross, minus};
 use crate::stencils::region::Region;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Pieces of which a loop is made where its force is summed.
 const PIECES: usize = 48;

@@ -1,16 +1,13 @@
 //! What sources give at the points: of the unknowns, and in the rows.
 
-use num_complex::Complex;
 use shapes::frame::Vector;
 
 use crate::magnetic::driven::right::Drive;
 use crate::magnetic::medium::interface::Bound;
 use crate::magnetic::open::multipoles::Multipoles;
 use crate::magnetic::problem::Problem;
-use crate::magnetic::source::{MU0, Source};
+use crate::magnetic::source::{C, MU0, Source};
 use crate::magnetic::unknown::Unknown;
-
-type C = Complex<f64>;
 
 impl<const D: usize> Problem<'_, D> {
     /// What sources give of the unknowns, by point.

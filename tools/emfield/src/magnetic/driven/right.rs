@@ -1,16 +1,13 @@
 //! What drives eddy currents in a sinusoidal steady state: right sides, and what walls know of the currents.
 
 use krylov::Pair;
-use num_complex::Complex;
 
 use crate::magnetic::diffusion::Conductors;
 use crate::magnetic::medium::interface::Bound;
 use crate::magnetic::open::multipoles::Multipoles;
+use crate::magnetic::source::C;
 use crate::magnetic::unknown::Unknown;
 use crate::stencils::region::Region;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// What drives currents in a sinusoidal steady state.
 #[derive(Debug, Clone)]

@@ -1,6 +1,5 @@
 //! Bars and coils of a scene that are regions of points: whether their current can flow, and how dense it is.
 
-use num_complex::Complex;
 use run::Fault;
 use shapes::Body;
 use shapes::frame::{Vector, along, difference, direction, dot, length};
@@ -11,10 +10,9 @@ use crate::cloud::Cloud;
 use crate::cloud::layout::Layout;
 use crate::geometry::Geometry;
 use crate::magnetic::driven::winding::{Flow, Winding};
+use crate::magnetic::source::C;
 use crate::scene::currents::RegionCoil;
 use crate::scene::{EddyCurrents, Scene};
-
-type C = Complex<f64>;
 
 /// Pieces of the surface of a coil per spacing, over those that shapes make by themselves.
 const FINER: f64 = 4.0;

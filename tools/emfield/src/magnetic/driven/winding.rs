@@ -14,13 +14,10 @@ use std::f64::consts::{PI, TAU};
 use num_complex::Complex;
 use rayon::prelude::*;
 
-use crate::magnetic::source::{Loop, MU0, Wire, cross, dot, minus};
+use crate::magnetic::source::{C, Loop, MU0, Wire, cross, dot, minus};
 use crate::magnetic::unknown::{Unknown, component};
 use crate::stencils::region::{Kind, Region};
 use crate::stencils::sides::{Sides, share_along};
-
-/// A complex number.
-type C = Complex<f64>;
 
 const ZERO: C = Complex::new(0.0, 0.0);
 

@@ -13,18 +13,14 @@
 //! Seen from afar a body has, beside its currents, the bound ones of its magnetisation, `mu_0 J_b = curl((1 - nu) B)`:
 //! their multipole with the harmonic h is `int (1 - nu) B . curl(h e) dV`, e along the component.
 
-use num_complex::Complex;
 use rayon::prelude::*;
 
 use crate::magnetic::medium::law::Law;
 use crate::magnetic::open::multipoles::Multipoles;
-use crate::magnetic::source::{Source, cross, dot};
+use crate::magnetic::source::{C, Source, cross, dot};
 use crate::magnetic::unknown::{Unknown, component, local};
 use crate::stencils::region::{Face, Kind, Region};
 use crate::stencils::sides::Sides;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Permeabilities closer than this are one.
 const ALIKE: f64 = 1e-12;

@@ -3,14 +3,10 @@
 //! Of a curve are wanted the reluctivity `nu = H/B`, that of small changes along B, `dH/dB`, and the energy `int H dB`. Media
 //! of one permeability answer with numbers that do not depend on B.
 
-use num_complex::Complex;
 use props::Odd;
 
-use crate::magnetic::source::MU0;
+use crate::magnetic::source::{C, MU0};
 use crate::stencils::region::Face;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Part of the first interval of a curve below which its reluctivity is that of an odd cubic to rounding.
 const SMALL: f64 = 1e-4;

@@ -1,19 +1,14 @@
 //! Bound currents of magnetised bodies in space, seen from afar: with the harmonic h their moments are
 //! `int (1 - nu) B x grad h dV`.
 
-use num_complex::Complex;
-
 use crate::magnetic::charge::parts::{Parts, add};
 use crate::magnetic::charge::potential::Side;
 use crate::magnetic::charge::rate::Rate;
 use crate::magnetic::medium::interface::Permeable;
 use crate::magnetic::medium::mixing::{Mix, mixed};
 use crate::magnetic::open::multipoles::Multipoles;
-use crate::magnetic::source::{Source, cross};
+use crate::magnetic::source::{C, Source, cross};
 use crate::stencils::region::Region;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// The moment of bound currents with one harmonic.
 #[derive(Debug, Clone, Default)]

@@ -19,18 +19,14 @@
 //!
 //! All derivatives are those of the rows, so that `nu_0` and `nu_1` cancel in the solution.
 
-use num_complex::Complex;
 use rayon::prelude::*;
 use wls::{Row, Stencils};
 
 use crate::magnetic::medium::law::Curve;
-use crate::magnetic::source::{cross, dot};
+use crate::magnetic::source::{C, cross, dot};
 use crate::magnetic::unknown::{Unknown, component, local};
 use crate::stencils::region::Region;
 use crate::stencils::sides::Sides;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Distance from an axis, in spacings, at which what is proportional to it is taken.
 const BESIDE: f64 = 1e-2;

@@ -5,17 +5,14 @@
 //! of the equation, so that no rate is left of it there. All other rows stay.
 
 use krylov::Rows;
-use num_complex::Complex;
 use rayon::prelude::*;
 
 use crate::magnetic::diffusion::Conductors;
+use crate::magnetic::source::C;
 use crate::magnetic::unknown::Unknown;
 use crate::magnetic::waves::weights::{Target, Waves};
 use crate::stencils::region::{Face, Kind, Region};
 use crate::stencils::sides::{Sides, along_normal};
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Rows with waves, and what belongs to them.
 pub struct Waving<const K: usize> {

@@ -20,14 +20,11 @@
 //! components of a direction of `m = 1` for the derivative along it, and else 0. Potentials of sources and of the reaction obey
 //! the equation together: weights apply to both.
 
-use num_complex::Complex;
 use wls::Stencils;
 
 use crate::magnetic::diffusion::Conductors;
+use crate::magnetic::source::C;
 use crate::stencils::region::Region;
-
-/// A complex number.
-type C = Complex<f64>;
 
 /// Highest m.
 const HIGHEST: usize = 6;
