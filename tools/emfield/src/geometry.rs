@@ -61,15 +61,30 @@ impl Geometry {
         }
     }
 
+    /// The unit of a power.
+    #[must_use]
+    pub fn unit_of_power(self) -> &'static str {
+        match self {
+            Self::Plane => "W/m",
+            Self::Axisymmetric | Self::Space => "W",
+        }
+    }
+
     /// The components of a force that there are: nothing pulls along an endless bar, and those across an axis cancel.
     #[must_use]
-    pub fn seen(self, force: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = force;
+    pub fn pulled(self) -> &'static [usize] {
         match self {
-            Self::Plane => [x, y, 0.0],
-            Self::Axisymmetric => [0.0, 0.0, z],
-            Self::Space => force,
+            Self::Plane => &[0, 1],
+            Self::Axisymmetric => &[2],
+            Self::Space => &[0, 1, 2],
         }
+    }
+
+    /// A force by these alone.
+    #[must_use]
+    pub fn seen(self, force: [f64; 3]) -> [f64; 3] {
+        let has = |k| self.pulled().contains(&k);
+        std::array::from_fn(|k| if has(k) { force[k] } else { 0.0 })
     }
 }
 

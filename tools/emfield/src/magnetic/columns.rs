@@ -4,7 +4,6 @@ use shapes::frame::Vector;
 
 use super::charge::fields::Charged;
 use super::problem::Problem;
-use crate::geometry::Geometry;
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, Media, Solution};
 use crate::magnetic::medium::law::traction;
@@ -13,6 +12,7 @@ use crate::magnetic::totals::{Acting, Totals};
 use crate::magnetic::unknown::Unknown;
 use crate::output::{Column, Found};
 use crate::stencils::region::Face;
+use crate::surface::ways::push_force;
 
 /// Ending of a column and what it holds of a phasor.
 type Part = (&'static str, fn(&C) -> f64);
@@ -179,18 +179,9 @@ impl<const D: usize> Problem<'_, D> {
         (driven, acting): (Driven<'_>, Acting<'_>),
         all: &mut Found,
     ) -> Totals {
-        let plane = self.cloud.geometry == Geometry::Plane;
-        let (newton, watt) = if plane { ("N/m", "W/m") } else { ("N", "W") };
-        let axisymmetric = self.cloud.geometry == Geometry::Axisymmetric;
-        let mut force = |name: &str, value: [f64; 3]| {
-            for (k, axis) in ['x', 'y', 'z'].iter().enumerate() {
-                // Radial forces of a full turn cancel; nothing pulls along an endless bar.
-                if !(axisymmetric && k < 2 || plane && k == 2) {
-                    all.totals
-                        .push((format!("{name}_{axis}"), newton, value[k]));
-                }
-            }
-        };
+        let geometry = self.cloud.geometry;
+        let (newton, watt) = (geometry.unit_of_force(), geometry.unit_of_power());
+        let mut force = |name: &str, value| push_force((geometry, name), value, all);
         if self.parameters.unknown == Unknown::Axial {
             // A field along z pulls at no coil, and what flows in through a wall is not told apart.
             let all_points = |_: usize| true;

@@ -8,7 +8,6 @@ use super::source::C;
 use super::totals::{Acting, Totals};
 use super::unknown::Unknown;
 use crate::cloud::{Class, SurfacePoint};
-use crate::geometry::Geometry;
 use crate::output::Doubt;
 use crate::surface::ways::{APART, HELP, Ways, told};
 
@@ -106,11 +105,10 @@ impl<const D: usize> Problem<'_, D> {
         }
         let heat = |i: &usize| (self.weights[*i] * fields.heat[*i]).abs();
         let hottest = (0..self.weights.len()).max_by(|a, b| heat(a).total_cmp(&heat(b)))?;
-        let unit = match self.cloud.geometry {
-            Geometry::Plane => "W/m",
-            _ => "W",
-        };
-        let at = (unit, self.cloud.position[hottest]);
+        let at = (
+            self.cloud.geometry.unit_of_power(),
+            self.cloud.position[hottest],
+        );
         heats(
             [totals.heat_volume, totals.heat_surface],
             totals.heat_gross,

@@ -6,7 +6,6 @@ use super::fields::{Fields, Solution, cross_mean};
 use super::problem::Problem;
 use super::source::{C, Source, minus};
 use super::totals::{Acting, Totals};
-use crate::geometry::Geometry;
 use crate::output::Found;
 use crate::surface::fits::Enclosed;
 use crate::surface::ways::push;
@@ -42,10 +41,7 @@ impl<const D: usize> Problem<'_, D> {
                 all,
             );
             if let Some(heat) = heat {
-                let unit = match self.cloud.geometry {
-                    Geometry::Plane => "W/m",
-                    Geometry::Axisymmetric | Geometry::Space => "W",
-                };
+                let unit = self.cloud.geometry.unit_of_power();
                 let name = format!("{}.power", surface.name);
                 all.totals.push((name, unit, heat / mu));
             }

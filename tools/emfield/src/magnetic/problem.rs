@@ -13,7 +13,7 @@ use super::saturation::places::level;
 use super::source::{C, Origin, Source};
 use super::unknown::Unknown;
 use super::waves::weights::Waves;
-use crate::cloud::{Cell, Cloud};
+use crate::cloud::Cloud;
 use crate::solve::supports;
 use crate::stencils::quadrature::{self, Moments};
 use crate::stencils::region::Region;
@@ -43,15 +43,6 @@ pub(crate) struct Problem<'a, const D: usize> {
     pub(crate) enclosed: Vec<Enclosed<D>>,
 }
 
-/// A cell in as many coordinates as the equations have.
-fn moments<const D: usize>(cell: &Cell) -> Moments<D> {
-    Moments {
-        volume: cell.volume,
-        first: std::array::from_fn(|a| cell.first[a]),
-        second: std::array::from_fn(|a| std::array::from_fn(|b| cell.second[a][b])),
-    }
-}
-
 impl<'a, const D: usize> Problem<'a, D> {
     /// Stencils and weights of points; `around` are surfaces through which forces are wanted.
     ///
@@ -69,7 +60,7 @@ impl<'a, const D: usize> Problem<'a, D> {
             ..parameters.numerics.form
         };
         let made = session.timed("weights", || {
-            let cells: Vec<Moments<D>> = cloud.cells.iter().map(moments).collect();
+            let cells: Vec<Moments<D>> = cloud.cells.iter().map(Moments::of).collect();
             let weights = quadrature::weights(&region, &cells, &form)?;
             Ok((Sides::new(&region, &form)?, weights))
         });

@@ -8,6 +8,7 @@
 
 use wls::{Error, Plan, Rules, Search, Wants};
 
+use crate::cloud::Cell;
 use crate::stencils::mirror::Mirror;
 use crate::stencils::region::Region;
 use crate::stencils::sides::Form;
@@ -21,6 +22,18 @@ pub struct Moments<const D: usize> {
     pub first: [f64; D],
     /// Second moments \[m5\].
     pub second: [[f64; D]; D],
+}
+
+impl<const D: usize> Moments<D> {
+    /// Those of a cell, in as many coordinates as the equations have.
+    #[must_use]
+    pub fn of(cell: &Cell) -> Self {
+        Self {
+            volume: cell.volume,
+            first: std::array::from_fn(|a| cell.first[a]),
+            second: std::array::from_fn(|a| std::array::from_fn(|b| cell.second[a][b])),
+        }
+    }
 }
 
 /// Fits to points counted in the own medium, where a point stands for a volume: on an interface densities are those of

@@ -6,6 +6,9 @@
 //! - heat `-Re((E x B*).n) / mu` by Poynting's vector.
 
 use shapes::frame::{Vector, dot};
+use shapes::surface::Piece;
+
+use crate::geometry::Geometry;
 
 use crate::magnetic::source::C;
 
@@ -27,6 +30,21 @@ pub struct Enclosing {
 }
 
 impl Enclosing {
+    /// A surface of pieces in coordinates of the scene, in the surroundings.
+    pub(crate) fn of(name: &str, geometry: Geometry, pieces: &[Piece]) -> Self {
+        let turn = |p: &Piece| match geometry {
+            Geometry::Axisymmetric => std::f64::consts::TAU * p.place[0] * p.area,
+            Geometry::Plane | Geometry::Space => p.area,
+        };
+        Self {
+            name: name.to_owned(),
+            places: pieces.iter().map(|p| geometry.place(p.place)).collect(),
+            normals: pieces.iter().map(|p| geometry.place(p.normal)).collect(),
+            areas: pieces.iter().map(turn).collect(),
+            ..Self::default()
+        }
+    }
+
     /// Sum of `Re(F (F*.n)) - |F|^2 n / 2` over the places: the force of a field F where eps, or 1 / mu, is one.
     #[must_use]
     pub fn stress(&self, field: &[[C; 3]]) -> Vector {

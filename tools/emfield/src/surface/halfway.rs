@@ -52,29 +52,12 @@ pub(crate) fn surface(geometry: Geometry, shape: &Shape, spacing: f64) -> Enclos
     if geometry == Geometry::Axisymmetric {
         pieces.retain(|p| p.place[0] > 1e-9 * spacing);
     }
-    let turn = |radius: f64| match geometry {
-        Geometry::Axisymmetric => std::f64::consts::TAU * radius,
-        Geometry::Plane | Geometry::Space => 1.0,
-    };
-    Enclosing {
-        name: "a surface about all bodies".to_owned(),
-        places: pieces.iter().map(|p| geometry.place(p.place)).collect(),
-        normals: pieces.iter().map(|p| geometry.place(p.normal)).collect(),
-        areas: pieces.iter().map(|p| turn(p.place[0]) * p.area).collect(),
-        medium: 0,
-        within: Vec::new(),
-    }
+    Enclosing::of("a surface about all bodies", geometry, &pieces)
 }
 
 /// The middle of all bodies between their ends along each coordinate of the scene, on the axis where there is one.
 pub(crate) fn middle(cloud: &Cloud) -> Vector {
-    let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    for x in surfaces(cloud) {
-        for k in 0..3 {
-            reach[0][k] = reach[0][k].min(x[k]);
-            reach[1][k] = reach[1][k].max(x[k]);
-        }
-    }
+    let reach = reach(cloud);
     let mut middle: Vector = std::array::from_fn(|k| 0.5 * (reach[0][k] + reach[1][k]));
     if cloud.geometry == Geometry::Axisymmetric {
         middle[0] = 0.0;
@@ -86,6 +69,17 @@ pub(crate) fn middle(cloud: &Cloud) -> Vector {
 fn surfaces(cloud: &Cloud) -> impl Iterator<Item = Vector> + '_ {
     let place = |s: &SurfacePoint| cloud.geometry.coordinates(cloud.position[s.point as usize]);
     cloud.surface.iter().map(place)
+}
+
+/// The least and greatest coordinates of surfaces of bodies.
+fn reach(cloud: &Cloud) -> [Vector; 2] {
+    let none = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    surfaces(cloud).fold(none, |[low, high], x| {
+        [
+            std::array::from_fn(|k| low[k].min(x[k])),
+            std::array::from_fn(|k| high[k].max(x[k])),
+        ]
+    })
 }
 
 /// The ball halfway between bodies and walls, and its distance from both.
@@ -112,13 +106,7 @@ fn within_ball((centre, radius): (Vector, f64), cloud: &Cloud) -> (Shape, f64) {
 /// The box halfway between bodies and walls, and its least distance from both.
 fn within_box(mut sides: [Vector; 2], cloud: &Cloud) -> (Shape, f64) {
     let dimensions = cloud.geometry.dimensions();
-    let mut reach = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    for x in surfaces(cloud) {
-        for k in 0..dimensions {
-            reach[0][k] = reach[0][k].min(x[k]);
-            reach[1][k] = reach[1][k].max(x[k]);
-        }
-    }
+    let reach = reach(cloud);
     let mut room = f64::INFINITY;
     for (end, side) in sides.iter_mut().enumerate() {
         for k in 0..dimensions {

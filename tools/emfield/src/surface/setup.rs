@@ -86,17 +86,10 @@ impl Finder<'_> {
         if let Some(s) = self.cloud.surface.iter().find(carries) {
             return Err(told_coil(self.cloud.position[s.point as usize]));
         }
-        let turn = |p: &Piece| match geometry {
-            Geometry::Axisymmetric => std::f64::consts::TAU * p.place[0] * p.area,
-            Geometry::Plane | Geometry::Space => p.area,
-        };
         Ok(Enclosing {
-            name: enclosure.name.clone(),
-            places: pieces.iter().map(|p| geometry.place(p.place)).collect(),
-            normals: pieces.iter().map(|p| geometry.place(p.normal)).collect(),
-            areas: pieces.iter().map(turn).collect(),
             medium,
             within,
+            ..Enclosing::of(&enclosure.name, geometry, &pieces)
         })
     }
 

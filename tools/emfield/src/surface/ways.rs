@@ -75,24 +75,24 @@ impl Ways<'_> {
     }
 }
 
-/// Adds the components of a force that a scene has, and the largest difference between the ways of finding it.
-pub(crate) fn push(geometry: Geometry, name: &str, ways: &[Vector], all: &mut Found) {
-    let unit = geometry.unit_of_force();
-    let had: &[usize] = match geometry {
-        Geometry::Plane => &[0, 1],
-        // The radial forces of a full turn cancel.
-        Geometry::Axisymmetric => &[2],
-        Geometry::Space => &[0, 1, 2],
-    };
-    for k in had {
-        let axis = ['x', 'y', 'z'][*k];
-        all.totals
-            .push((format!("{name}_{axis}"), unit, ways[0][*k]));
+/// Adds the components of a force that there are.
+pub(crate) fn push_force((geometry, name): (Geometry, &str), force: Vector, all: &mut Found) {
+    for k in geometry.pulled() {
+        let name = format!("{name}_{}", ['x', 'y', 'z'][*k]);
+        all.totals.push((name, geometry.unit_of_force(), force[*k]));
     }
+}
+
+/// Adds a force, and the largest difference between the ways of finding it.
+pub(crate) fn push(geometry: Geometry, name: &str, ways: &[Vector], all: &mut Found) {
+    push_force((geometry, name), ways[0], all);
     let part = |force: &Vector| geometry.seen(*force);
     let ways: Vec<Vector> = ways.iter().map(part).collect();
-    all.totals
-        .push((format!("{name}_spread"), unit, spread(&ways)));
+    all.totals.push((
+        format!("{name}_spread"),
+        geometry.unit_of_force(),
+        spread(&ways),
+    ));
 }
 
 /// The root of the mean square of fields over areas.

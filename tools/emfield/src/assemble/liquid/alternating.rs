@@ -31,13 +31,7 @@ pub(crate) fn alternating(
     let cloud = Cloud::new(&own)?;
     let region: Region<3> = region(&own, &cloud, &|_| false);
     let form: Form = numerics(&own).form;
-    let cells: Vec<Moments<3>> = (cloud.cells.iter())
-        .map(|cell| Moments {
-            volume: cell.volume,
-            first: cell.first,
-            second: cell.second,
-        })
-        .collect();
+    let cells: Vec<Moments<3>> = cloud.cells.iter().map(Moments::of).collect();
     let failed = |e: wls::Error| Failure::Other(format!("magnetic field: {e}"));
     let weights = quadrature::weights(&region, &cells, &form).map_err(failed)?;
     let Some(currents) = &own.eddy_currents else {
