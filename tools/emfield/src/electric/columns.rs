@@ -1,13 +1,12 @@
 //! What is written of a potential: fields of points, tractions, forces on bodies and on what surfaces enclose.
 
-use shapes::frame::Vector;
-
 use run::{Failure, Session};
+use shapes::frame::Vector;
 
 use super::doubts::doubts;
 use super::enclosed::{all_within, through};
 use super::equations::Problem;
-use super::open::walls::Opened;
+use super::open::walls::OpenWalls;
 use super::traction::{dielectric, electrode};
 use crate::cloud::{Cloud, SurfacePoint};
 use crate::geometry::Geometry;
@@ -23,7 +22,7 @@ pub(crate) fn told<const D: usize>(
     (cloud, problem): (&Cloud, &Problem),
     at: (&Region<D>, &Form),
     (value, fields): (Vec<f64>, [Vec<[f64; D]>; 2]),
-    (open, around): (Option<&Opened>, Vec<Enclosing>),
+    (open, around): (Option<&OpenWalls>, Vec<Enclosing>),
     session: &mut Session,
 ) -> Result<Found, Failure> {
     let region = at.0;

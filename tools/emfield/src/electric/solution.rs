@@ -5,7 +5,7 @@ use run::{Failure, Session};
 
 use super::columns::told;
 use super::equations::{Equations, Held, Problem, Smeared};
-use super::open::walls::{Applied, Opened};
+use super::open::walls::{Applied, OpenWalls};
 use crate::cloud::Cloud;
 use crate::output::Found;
 use crate::solve::broken::unsolvable;
@@ -40,7 +40,7 @@ pub(crate) fn found<const D: usize>(
     } = given;
     let form = numerics.form;
     let low = numerics.low_order(region.len());
-    let open = Opened::new(cloud, (problem, given.applied), (region, &form), session)?;
+    let open = OpenWalls::new(cloud, (problem, given.applied), (region, &form), session)?;
     let open = open.as_ref();
     let stencil = |error: wls::Error| no_stencil("electrostatics", &error, cloud);
     let (value, inner, beyond) = if given.smeared {
@@ -124,7 +124,7 @@ fn beyond_given((cloud, open): (&Cloud, bool), problem: &Problem, value: &[f64])
 fn solve(
     at: (&Cloud, &Numerics),
     (rows, mut right): Equations,
-    (low, open): (Option<Rows<f64>>, Option<&Opened>),
+    (low, open): (Option<Rows<f64>>, Option<&OpenWalls>),
     session: &mut Session,
 ) -> Result<Vec<f64>, Failure> {
     let (cloud, numerics) = at;

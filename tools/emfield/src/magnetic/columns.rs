@@ -2,7 +2,7 @@
 
 use shapes::frame::Vector;
 
-use super::charge::fields::Charged;
+use super::charge::fields::Voltage;
 use super::problem::Problem;
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, Media, Solution};
@@ -33,7 +33,7 @@ impl<const D: usize> Problem<'_, D> {
     pub(crate) fn found<const K: usize>(
         &self,
         solution: Solution<'_, K>,
-        charged: Option<&Charged>,
+        charged: Option<&Voltage>,
         driven: Driven<'_>,
     ) -> Found {
         let conductivity = &self.parameters.conductivity;

@@ -3,7 +3,7 @@
 use krylov::{Rows, Scalar, System};
 use run::{Failure, Session};
 
-use super::charge::fields::Charges;
+use super::charge::fields::Coupling;
 use super::columns::Driven;
 use super::diffusion;
 use super::driven::bar::Bar;
@@ -12,7 +12,7 @@ use super::fields::{Solution, steady_change};
 use super::open::multipoles::Multipoles;
 use super::problem::Problem;
 use super::source::C;
-use super::waves::rows::{Ground, Waving};
+use super::waves::rows::{Ground, WaveRows};
 use crate::output::Found;
 use crate::solve::broken::unsolvable;
 use crate::solve::report;
@@ -33,7 +33,7 @@ impl<const D: usize> Problem<'_, D> {
         let mut change = steady_change(drive.omega, &found, &drive.source);
         let mut carried = drive.source.clone();
         let along = self.applied((drive.omega, &found), &mut change, &mut carried);
-        let charged = charges.filter(Charges::charged).map(|charges| {
+        let charged = charges.filter(Coupling::charged).map(|charges| {
             let rate = C::new(0.0, drive.omega);
             let voltage: Vec<C> = phi.iter().map(|phi| rate * phi).collect();
             self.charged(&charges.stencils, (&voltage, &voltage), &mut change)
@@ -65,33 +65,29 @@ impl<const D: usize> Problem<'_, D> {
         session: &mut Session,
     ) -> Result<Vec<[C; K]>, Failure> {
         let (region, sides) = (&self.region, &self.sides);
+        let (conductors, unknown) = (&self.conductors, self.parameters.unknown);
         let (rates, rows) = session.timed("assemble", || {
-            let rates = self
-                .conductors
-                .rates(region, sides, self.parameters.unknown);
-            (
-                rates,
-                self.conductors.rows(region, sides, self.parameters.unknown),
-            )
+            let rates = conductors.rates(region, sides, unknown);
+            (rates, conductors.rows(region, sides, unknown))
         });
         let Some(waves) = &self.waves else {
-            let right = drive.right(&self.conductors, (region, self.parameters.unknown), &rates);
+            let right = drive.right(conductors, (region, unknown), &rates);
             let bars = self.columns(drive, &rows);
             return self.solved(drive, (rows, &rates), (right, bars), session);
         };
         let ground = Ground {
-            conductors: &self.conductors,
+            conductors,
             region,
             sides,
-            unknown: self.parameters.unknown,
+            unknown,
         };
         let made = || ground.rows(waves, (&rows, rates), &drive.source);
-        let Waving {
+        let WaveRows {
             rows,
             rates,
             source,
         } = session.timed("assemble", made);
-        let mut right = drive.right(&self.conductors, (region, self.parameters.unknown), &rates);
+        let mut right = drive.right(conductors, (region, unknown), &rates);
         for (right, source) in right.iter_mut().zip(source) {
             *right = std::array::from_fn(|k| right[k] - source[k]);
         }

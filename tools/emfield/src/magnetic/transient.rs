@@ -2,7 +2,7 @@
 
 use run::{Failure, Session};
 
-use super::charge::fields::{Charges, Lack, spread};
+use super::charge::fields::{Coupling, Lack, spread};
 use super::charge::stage::Charged;
 use super::columns::Driven;
 use super::driven::right::{Drive, pairs};
@@ -26,7 +26,7 @@ const NOISE: f64 = 1e3;
 pub(crate) fn stage<'a, const D: usize, const K: usize>(
     problem: &'a Problem<'_, D>,
     drive: &Drive<K>,
-    (charges, slope): (Option<&'a Charges>, f64),
+    (charges, slope): (Option<&'a Coupling>, f64),
     session: &mut Session,
 ) -> Result<Box<dyn Stage + 'a>, Failure> {
     let Some(charges) = charges else {
@@ -104,7 +104,7 @@ pub(crate) struct View<'a, const D: usize, const K: usize> {
     pub(crate) drive: &'a Drive<K>,
     /// Flux density of the sources where their wave is 1 \[T\].
     pub(crate) flux: &'a [[C; 3]],
-    pub(crate) charges: Option<&'a Charges>,
+    pub(crate) charges: Option<&'a Coupling>,
 }
 
 impl<const D: usize, const K: usize> View<'_, D, K> {

@@ -26,7 +26,7 @@ const SOURCES: f64 = 0.02;
 pub(crate) type Applied<'a> = &'a dyn Fn(Vector) -> Result<f64, Failure>;
 
 /// Open walls of a scene.
-pub(crate) struct Opened {
+pub(crate) struct OpenWalls {
     /// Their multipoles.
     pub(crate) far: Open,
     /// Potential that is applied, by point, where it counts; zero elsewhere \[V\].
@@ -37,7 +37,7 @@ pub(crate) struct Opened {
     pub(crate) floats: bool,
 }
 
-impl Opened {
+impl OpenWalls {
     /// Those to which a potential is applied; none where walls are not open, or where there is no body.
     ///
     /// # Errors

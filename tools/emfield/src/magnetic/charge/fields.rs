@@ -19,7 +19,7 @@ use crate::stencils::unfit::no_stencil;
 const LACK: f64 = 0.02;
 
 /// What charges make.
-pub(crate) struct Charged {
+pub(crate) struct Voltage {
     /// Potential V by point \[V\]; zero where nothing conducts.
     pub(crate) voltage: Vec<C>,
     /// `d(A + A_s)/dt + grad V` on the outer side of interfaces, by face \[V/m\].
@@ -27,7 +27,7 @@ pub(crate) struct Charged {
 }
 
 /// What equations in which components mix are made of: those of charges, and of bodies of another permeability in space.
-pub(crate) struct Charges {
+pub(crate) struct Coupling {
     /// Stencils of phi; of no point where charges are not computed.
     pub(crate) stencils: Charge,
     pub(crate) equations: Coupled,
@@ -35,7 +35,7 @@ pub(crate) struct Charges {
     pub(crate) given: Vec<[C; 3]>,
 }
 
-impl Charges {
+impl Coupling {
     /// Whether any charges are sought.
     pub(crate) fn charged(&self) -> bool {
         !self.stencils.is_empty()
@@ -67,7 +67,7 @@ impl<const D: usize> Problem<'_, D> {
     ///
     /// # Errors
     /// Where a stencil cannot be made.
-    pub(crate) fn charges(&self, session: &mut Session) -> Result<Option<Charges>, Failure> {
+    pub(crate) fn charges(&self, session: &mut Session) -> Result<Option<Coupling>, Failure> {
         let (Some(region), Some(sides)) = (self.in_space(), self.sides_in_space()) else {
             return Ok(None);
         };
@@ -103,7 +103,7 @@ impl<const D: usize> Problem<'_, D> {
                 *given = std::array::from_fn(|k| given[k] + far[k]);
             }
         }
-        Ok(Some(Charges {
+        Ok(Some(Coupling {
             stencils,
             equations,
             given,
@@ -116,7 +116,7 @@ impl<const D: usize> Problem<'_, D> {
     /// Where the solve breaks down.
     pub(crate) fn coupled<const K: usize>(
         &self,
-        charges: &Charges,
+        charges: &Coupling,
         drive: &Drive<K>,
         session: &mut Session,
     ) -> Result<(Vec<[C; K]>, Vec<C>), Failure> {
@@ -150,7 +150,7 @@ impl<const D: usize> Problem<'_, D> {
         charge: &Charge,
         (phi, voltage): (&[C], &[C]),
         change: &mut [[C; K]],
-    ) -> Charged {
+    ) -> Voltage {
         let mut written = vec![C::default(); change.len()];
         let mut beyond: Vec<[C; 3]> = Vec::with_capacity(self.region.faces.len());
         let pull = |i: usize, side: Side| {
@@ -175,7 +175,7 @@ impl<const D: usize> Problem<'_, D> {
                 *change += push;
             }
         }
-        Charged {
+        Voltage {
             voltage: written,
             beyond,
         }

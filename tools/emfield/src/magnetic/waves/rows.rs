@@ -15,7 +15,7 @@ use crate::stencils::region::{Face, Kind, Region};
 use crate::stencils::sides::{Sides, along_normal};
 
 /// Rows with waves, and what belongs to them.
-pub struct Waving<const K: usize> {
+pub struct WaveRows<const K: usize> {
     /// The rows.
     pub rows: Rows<C>,
     /// What stands before the rate of each, as in [`Conductors::at`].
@@ -47,7 +47,7 @@ impl<const D: usize> Ground<'_, D> {
         waves: &Waves,
         (plain, mut rates): (&Rows<f64>, Vec<f64>),
         source: &[[C; K]],
-    ) -> Waving<K> {
+    ) -> WaveRows<K> {
         let all: Vec<Option<Waved>> = (0..plain.len())
             .into_par_iter()
             .map(|i| self.row(waves, i, plain))
@@ -67,7 +67,7 @@ impl<const D: usize> Ground<'_, D> {
             Some((own, _)) => row.extend_from_slice(own),
             None => row.extend(plain.pairs(i).map(|(j, w)| (j as u32, C::from(w)))),
         });
-        Waving {
+        WaveRows {
             rows,
             rates,
             source,
