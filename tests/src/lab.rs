@@ -152,6 +152,25 @@ impl Finished {
     }
 }
 
+/// What is run.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// The program.
+    pub tool: &'a str,
+    /// The case that it is run for.
+    pub case: &'a str,
+    /// Its scene, in the repository.
+    pub scene: &'a Path,
+}
+
+impl<'a> Subject<'a> {
+    /// A program on a scene, for a case.
+    #[must_use]
+    pub fn new(tool: &'a str, case: &'a str, scene: &'a Path) -> Self {
+        Self { tool, case, scene }
+    }
+}
+
 impl Lab {
     /// Runs `tool` on `pipelines/verify/<case>/<scene>` with `patch` applied; `label` names the
     /// artefact `<out>/<case>/<label>.mcap`.
@@ -181,7 +200,7 @@ impl Lab {
         inputs: &[(&str, &Path)],
     ) -> Result<Finished, LabError> {
         let scene = Path::new("pipelines/verify").join(case).join("scene.json");
-        self.run_scene(tool, (&scene, case), label, patch, inputs)
+        self.run_scene(Subject::new(tool, case, &scene), label, patch, inputs)
     }
 
     /// As [`Lab::run_with`], of another scene in the repository, for `case`.
@@ -190,12 +209,12 @@ impl Lab {
     /// When the tool cannot be started, fails or does not converge.
     pub fn run_scene(
         &self,
-        tool: &str,
-        (scene, case): (&Path, &str),
+        of: Subject<'_>,
         label: &str,
         patch: &Value,
         inputs: &[(&str, &Path)],
     ) -> Result<Finished, LabError> {
+        let Subject { tool, case, scene } = of;
         let folder = self.out.join(case);
         std::fs::create_dir_all(&folder).map_err(|source| LabError::Io {
             path: folder.clone(),

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+mod arguments;
 mod house;
 mod skeleton;
 mod texts;

@@ -6,7 +6,7 @@ use artefact::{Reader, Table};
 use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::lab::{Finished, Lab, LabError};
+use crate::lab::{Finished, Lab, LabError, Subject};
 use crate::plasma::Plasma;
 
 /// The case.
@@ -126,20 +126,15 @@ impl Study {
     ) -> Result<Finished, LabError> {
         let table = Path::new(self.gas);
         let name = table.file_stem().unwrap_or_default().to_string_lossy();
-        let gas = lab.run_scene("gasprop", (table, ArcCells.name()), &name, &json!({}), &[])?;
+        let of = Subject::new("gasprop", ArcCells.name(), table);
+        let gas = lab.run_scene(of, &name, &json!({}), &[])?;
         let mut patch = json!({"grid": (self.grid)(times), "heat": {"electrode_at": "surface"}});
         if let Some(start) = start {
             patch["start"] = start.clone();
         }
-        let scene = (Path::new(self.scene), ArcCells.name());
+        let of = Subject::new("arcfvm", ArcCells.name(), Path::new(self.scene));
         let inputs: [(&str, &Path); 1] = [("gas", &gas.artefact)];
-        lab.run_scene(
-            "arcfvm",
-            scene,
-            &format!("{method}-{label}"),
-            &patch,
-            &inputs,
-        )
+        lab.run_scene(of, &format!("{method}-{label}"), &patch, &inputs)
     }
 }
 

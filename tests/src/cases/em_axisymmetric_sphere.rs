@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::em_sphere_loops::{coaxial, errors};
 use crate::case::{Case, Measurement, Target};
-use crate::em::frames::{measured, planned};
+use crate::em::frames::{Level, measured, planned};
 use crate::lab::{Lab, LabError};
 
 /// The case.
@@ -140,9 +140,12 @@ impl Case for EmAxisymmetricSphere {
         measured(
             lab,
             self,
-            level,
-            method,
-            (&patch, spacing),
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
             |run, points| errors(run, points, coaxial(&scene, run)?),
         )
     }

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::C;
 use crate::em::bar::{Bar, weak_heat};
-use crate::em::frames::{Points, measured, number, number_or, totals};
+use crate::em::frames::{Level, Points, measured, number, number_or, totals};
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
 use crate::lab::{Finished, Lab, LabError};
@@ -64,7 +64,17 @@ impl Case for EmBar {
         let spacing = 0.01 / [10.0, 14.0, 20.0][level.clamp(1, 3) as usize - 1];
         let points = json!({"spacing_m": spacing, "layers": {"first_m": 0.5 * spacing}});
         let patch = over(json!({"points": points}), &method_patch(method));
-        measured(lab, self, level, method, (&patch, spacing), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::ellipsoid::Ellipsoid;
-use crate::em::frames::{Points, measured, planned};
+use crate::em::frames::{Level, Points, measured, planned};
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
 use crate::lab::{Finished, Lab, LabError};
@@ -118,9 +118,12 @@ impl Case for EmEllipsoid {
         measured(
             lab,
             self,
-            level,
-            method,
-            (&patch, spacing),
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
             |run, points| errors(run, points, &known(&run.scene)?),
         )
     }

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, measured, totals};
+use crate::em::frames::{Level, Points, measured, totals};
 use crate::em::open::Open;
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
@@ -83,7 +83,17 @@ impl Case for EmOpen {
         let spacing = 1e-3 / parts;
         let points = json!({"spacing_m": spacing});
         let patch = over(json!({"points": points}), &method_patch(method));
-        measured(lab, self, level, method, (&patch, spacing), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 

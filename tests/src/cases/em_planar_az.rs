@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::C;
-use crate::em::frames::{Points, measured, number, totals};
+use crate::em::frames::{Level, Points, measured, number, totals};
 use crate::em::transverse::Transverse;
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
@@ -84,7 +84,17 @@ impl Case for EmPlanarAz {
         if method == "quartic-aside" {
             patch = over(patch, &aside(lab)?);
         }
-        measured(lab, self, level, method, (&patch, spacing), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 

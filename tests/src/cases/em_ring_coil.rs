@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::coil::{Section, parts, ring};
-use crate::em::frames::{Points, measured, number};
+use crate::em::frames::{Level, Points, measured, number};
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
 use crate::lab::{Finished, Lab, LabError};
@@ -66,9 +66,12 @@ impl Case for EmRingCoil {
         measured(
             lab,
             self,
-            level as u32 + 1,
-            method,
-            (&patch, spacing),
+            Level {
+                level: level as u32 + 1,
+                method,
+                spacing,
+            },
+            &patch,
             errors,
         )
     }

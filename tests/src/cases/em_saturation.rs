@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::driven::Driven;
-use crate::em::frames::{Points, measured, number};
+use crate::em::frames::{Level, Points, measured, number};
 use crate::em::saturation::{Law, Round, Tube};
 use crate::heat::formula::{At, Formula};
 use crate::heat::frames::greater;
@@ -67,7 +67,17 @@ impl Case for EmSaturation {
             "method": {"order": order}
         });
         let patch = over(patch, &shape(method));
-        measured(lab, self, level, method, (&patch, spacing), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 
@@ -110,7 +120,17 @@ fn marched(lab: &Lab, case: &dyn Case, level: u32) -> Result<Measurement, LabErr
         &json!({"bodies": bodies, "eddy_currents": {"static": null, "transient": {"end_s": 5e-3,
             "step_s": step, "wave": {"expr": "sin(100*pi*t)"}}}}),
     );
-    measured(lab, case, level, "tube-march", (&patch, spacing), in_time)
+    measured(
+        lab,
+        case,
+        Level {
+            level,
+            method: "tube-march",
+            spacing,
+        },
+        &patch,
+        in_time,
+    )
 }
 
 fn in_time(run: &Finished, points: &Points) -> Result<Errors, LabError> {

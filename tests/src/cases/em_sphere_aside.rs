@@ -5,7 +5,7 @@ use serde_json::json;
 use super::em_sphere_loops::body;
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::axes::{Axes, vector};
-use crate::em::frames::{Points, measured, number, number_or, totals};
+use crate::em::frames::{Level, Points, measured, number, number_or, totals};
 use crate::em::sphere::anywhere::{Anywhere, Coil};
 use crate::heat::frames::greater;
 use crate::heat::property::at;
@@ -54,7 +54,17 @@ impl Case for EmSphereAside {
             "points": {"spacing_m": spacing, "layers": {"first_m": 0.3 * spacing}},
             "method": {"order": order}
         });
-        measured(lab, self, level, method, (&patch, spacing), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 

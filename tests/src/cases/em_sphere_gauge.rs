@@ -6,7 +6,7 @@ use super::em_sphere_loops::{body, flux_error};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::C;
 use crate::em::axes::Axes;
-use crate::em::frames::{Points, measured, totals};
+use crate::em::frames::{Level, Points, measured, totals};
 use crate::em::sphere::{Solution, Sources};
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -79,7 +79,17 @@ impl Case for EmSphereGauge {
             "method": {"order": order}
         });
         let size = if method == THIN { first } else { spacing };
-        measured(lab, self, level, method, (&patch, size), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing: size,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 

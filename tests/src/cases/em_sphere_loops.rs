@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::coaxial::{self, Coaxial};
-use crate::em::frames::{Points, measured, totals};
+use crate::em::frames::{Level, Points, measured, totals};
 use crate::em::sphere::{Body, Solution};
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -70,9 +70,12 @@ impl Case for EmSphereLoops {
         let found = measured(
             lab,
             self,
-            level,
-            method,
-            (&patch, spacing),
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
             |run, points| errors(run, points, coaxial(&run.scene, run)?),
         )?;
         let run = &found.runs[0];

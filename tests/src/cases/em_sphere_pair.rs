@@ -4,7 +4,7 @@ use artefact::Reader;
 use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::em::frames::{Points, measured, planned, totals};
+use crate::em::frames::{Level, Points, measured, planned, totals};
 use crate::em::pair::{Pair, Sphere};
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
@@ -86,7 +86,17 @@ impl Case for EmSpherePair {
         }
         let patch = over(patch, &given(&pair, method));
         let patch = over(patch, &json!({"points": points, "bodies": bodies}));
-        measured(lab, self, level, method, (&patch, spacing), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 

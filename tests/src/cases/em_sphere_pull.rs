@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::EPS0;
-use crate::em::frames::{measured, planned, totals};
+use crate::em::frames::{Level, measured, planned, totals};
 use crate::em::walls::amounts;
 use crate::heat::frames::greater;
 use crate::heat::methods::over;
@@ -71,9 +71,17 @@ impl Case for EmSpherePull {
             over(json!({"points": points}), &patch),
             &sphere.walls(method),
         );
-        measured(lab, self, level, method, (&patch, spacing), |run, _| {
-            errors(run)
-        })
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing,
+            },
+            &patch,
+            |run, _| errors(run),
+        )
     }
 }
 

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::axes::Axes;
-use crate::em::frames::{Points, measured, number};
+use crate::em::frames::{Level, Points, measured, number};
 use crate::em::switched::Switched;
 use crate::heat::frames::greater;
 use crate::lab::{Finished, Lab, LabError};
@@ -69,7 +69,17 @@ impl Case for EmTransientGauge {
         // Where the order is that in time, the step takes the place of the spacing.
         let size = if method == POINTS { spacing } else { step };
         let errors = |run: &Finished, points: &Points| errors(run, points, rise);
-        measured(lab, self, level, method, (&patch, size), errors)
+        measured(
+            lab,
+            self,
+            Level {
+                level,
+                method,
+                spacing: size,
+            },
+            &patch,
+            errors,
+        )
     }
 }
 

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::flow::{apart, layers};
-use crate::lab::{Finished, Lab, LabError};
+use crate::lab::{Finished, Lab, LabError, Subject};
 use crate::particles::{Frames, number};
 
 /// The case.
@@ -46,8 +46,8 @@ impl Case for FlowInvariance {
         let scene = std::path::Path::new("pipelines/verify/flow-poiseuille/scene.json");
         let label = format!("{method}-level{level}");
         let patch = json!({"spacing_m": spacing});
-        let of = (scene, self.name());
-        let run = lab.run_scene("poolsph", of, &format!("{label}-base"), &patch, &[])?;
+        let of = Subject::new("poolsph", self.name(), scene);
+        let run = lab.run_scene(of, &format!("{label}-base"), &patch, &[])?;
         let other = lab.varied(&run, &label, &changed(&run.scene, method))?;
         let high = number(&run, "/faces/max_m/2")?;
         let n = (high / spacing).round() as usize;

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::flow::{Driven, layers, zeros};
-use crate::lab::{Finished, Lab, LabError};
+use crate::lab::{Finished, Lab, LabError, Subject};
 use crate::particles::{Frames, measurement, number};
 
 /// The case.
@@ -67,7 +67,12 @@ impl Case for FlowMarangoni {
             None => {
                 let scene = std::path::Path::new("pipelines/verify/flow-marangoni/closed.json");
                 let patch = serde_json::json!({"spacing_m": spacing});
-                lab.run_scene("poolsph", (scene, self.name()), &label, &patch, &[])?
+                lab.run_scene(
+                    Subject::new("poolsph", self.name(), scene),
+                    &label,
+                    &patch,
+                    &[],
+                )?
             }
         };
         let frames = Frames::read(&run.artefact, "pressure")?;

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::flow::{apart, layers};
-use crate::lab::{Finished, Lab, LabError};
+use crate::lab::{Finished, Lab, LabError, Subject};
 use crate::particles::{Frames, number};
 
 /// The case.
@@ -85,7 +85,8 @@ impl Case for FlowPressure {
         }
         let scene = Path::new("pipelines/verify").join(case).join("scene.json");
         let label = format!("{method}-level{level}-without");
-        let without = lab.run_scene("poolsph", (&scene, self.name()), &label, &base, &[])?;
+        let of = Subject::new("poolsph", self.name(), &scene);
+        let without = lab.run_scene(of, &label, &base, &[])?;
         let with = lab.varied(
             &without,
             &format!("{method}-level{level}"),

@@ -10,7 +10,7 @@ use crate::case::{Case, Errors, Measurement, Target};
 use crate::drop::swing::zeros;
 use crate::drop::{Series, points};
 use crate::em::frames::number;
-use crate::lab::{Finished, Lab, LabError};
+use crate::lab::{Finished, Lab, LabError, Subject};
 
 /// The case.
 pub(super) struct LiquidFlow;
@@ -68,8 +68,8 @@ impl Case for LiquidFlow {
         let spacing = long.unwrap_or(f64::NAN) / parts;
         let patch = json!({"points": {"spacing_m": spacing}});
         let label = format!("level{level}-{method}");
-        let of = (Path::new(&scene), self.name());
-        let run = lab.run_scene(self.tool(), of, &label, &patch, &[])?;
+        let of = Subject::new(self.tool(), self.name(), Path::new(&scene));
+        let run = lab.run_scene(of, &label, &patch, &[])?;
         let errors = match method {
             "taylor-green" => vortices(&run)?,
             "hydrostatic" => rest(&run)?,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::lab::{Finished, Lab, LabError};
+use crate::lab::{Finished, Lab, LabError, Subject};
 use crate::particles::{Frames, number};
 
 /// The case.
@@ -69,7 +69,7 @@ fn drop(lab: &Lab, case: &str, level: u32, size: f64, label: &str) -> Result<Fin
         "output": {"particles_interval_s": period / 30.0}
     });
     let scene = std::path::Path::new("pipelines/verify/flow-drop/scene.json");
-    lab.run_scene("poolsph", (scene, case), label, &patch, &[])
+    lab.run_scene(Subject::new("poolsph", case, scene), label, &patch, &[])
 }
 
 /// Root mean squares of the differences of all columns in their own units over those of the columns, the worst of all times.

@@ -10,6 +10,17 @@ use crate::heat::methods::over;
 use crate::heat::property::at;
 use crate::lab::{Finished, Lab, LabError, read_json};
 
+/// A resolution of a method of a case.
+#[derive(Debug, Clone, Copy)]
+pub struct Level<'a> {
+    /// 1 is the coarsest.
+    pub level: u32,
+    /// Name of the method.
+    pub method: &'a str,
+    /// What the resolution is counted by.
+    pub spacing: f64,
+}
+
 /// Runs a case on a scene with a patch, and finds its errors from the points at its end.
 ///
 /// # Errors
@@ -17,16 +28,15 @@ use crate::lab::{Finished, Lab, LabError, read_json};
 pub fn measured(
     lab: &Lab,
     case: &dyn Case,
-    level: u32,
-    method: &str,
-    (patch, spacing): (&Value, f64),
+    of: Level<'_>,
+    patch: &Value,
     errors: impl Fn(&Finished, &Points) -> Result<Errors, LabError>,
 ) -> Result<Measurement, LabError> {
-    let label = format!("level{level}-{method}");
+    let label = format!("level{}-{}", of.level, of.method);
     let run = lab.run(case.tool(), case.name(), &label, patch)?;
     let points = Points::read(&run)?;
     let errors = errors(&run, &points)?;
-    Ok(Measurement::of(run, points.count(), spacing, errors))
+    Ok(Measurement::of(run, points.count(), of.spacing, errors))
 }
 
 /// The points of a run at its end.

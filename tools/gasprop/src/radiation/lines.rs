@@ -121,7 +121,8 @@ pub fn spectrum(
             resonance: damping.resonance(line),
             ..line_of(
                 &core,
-                (line.lower, line.upper),
+                line.lower,
+                line.upper,
                 line.wavelength,
                 line.weight * line.rate,
             )
@@ -146,7 +147,7 @@ fn listed(rows: &Value) -> Option<Vec<Listed>> {
 }
 
 /// A line between energies in eV, without the damping that depends on other lines.
-fn line_of(core: &Core, (lower, upper): (f64, f64), wavelength: f64, rate: f64) -> Line {
+fn line_of(core: &Core, lower: f64, upper: f64, wavelength: f64, rate: f64) -> Line {
     let (lower, upper) = (lower * ELECTRON_VOLT, upper * ELECTRON_VOLT);
     Line {
         wavelength,
@@ -260,7 +261,8 @@ fn remainders(
             let count = (count - known.lines).max(1.0);
             let line = line_of(
                 core,
-                (energy - photon / ELECTRON_VOLT, energy),
+                energy - photon / ELECTRON_VOLT,
+                energy,
                 PLANCK * LIGHT_SPEED / photon,
                 left / count / photon,
             );

@@ -160,7 +160,7 @@ fn disturbance(species: &[Species], t: f64, number: &[f64], mass: f64) -> Distur
     let mut around = Disturbance::default();
     for (one, n) in species.iter().zip(number) {
         match (one.charge, one.polarisability) {
-            (0, Some(alpha)) => around.neutral((t, mass), one.mass, alpha, *n),
+            (0, Some(alpha)) => around.neutral(t, mass, one.mass, alpha, *n),
             (0, None) => {}
             _ => around.charged(t, mass, one.mass, *n),
         }

@@ -103,7 +103,7 @@ impl Disturbance {
     }
 
     /// Adds neutrals of polarisability `alpha` m3.
-    pub fn neutral(&mut self, (t, emitter): (f64, f64), mass: f64, alpha: f64, number: f64) {
+    pub fn neutral(&mut self, t: f64, emitter: f64, mass: f64, alpha: f64, number: f64) {
         self.neutrals += number * alpha.powf(0.4) * speed(t, emitter, mass).powf(0.6);
     }
 }
