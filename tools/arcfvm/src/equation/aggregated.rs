@@ -11,7 +11,7 @@
 use std::sync::Arc;
 
 use krylov::{
-    Aggregation, Krylov, Linear, Outcome, Pattern, Sparse, Workspace, conjugate_gradient, gmres,
+    Aggregation, Krylov, Operator, Outcome, Pattern, Sparse, Workspace, conjugate_gradient, gmres,
 };
 use relax::FivePoint;
 

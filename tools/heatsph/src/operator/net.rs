@@ -1,6 +1,6 @@
 //! The net of springs that weights are, and the matrix of a Newton step for its multipliers.
 
-use krylov::{Linear, Pattern, Precondition};
+use krylov::{Inverse, Operator, Pattern};
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
@@ -174,15 +174,15 @@ pub(super) struct Springs<'a, const D: usize, const K: usize> {
     pub(super) weight: &'a [f64],
 }
 
-impl<const D: usize, const K: usize> Linear for Springs<'_, D, K> {
+impl<const D: usize, const K: usize> Operator<f64> for Springs<'_, D, K> {
     fn len(&self) -> usize {
         self.net.len()
     }
 
-    fn apply(&self, x: &[f64], out: &mut [f64]) {
+    fn apply(&self, x: &[[f64; 1]], out: &mut [[f64; 1]]) {
         let net = self.net;
-        let (each, _) = x.as_chunks::<K>();
-        let (out, _) = out.as_chunks_mut::<K>();
+        let (each, _) = x.as_flattened().as_chunks::<K>();
+        let (out, _) = out.as_flattened_mut().as_chunks_mut::<K>();
         out.par_iter_mut()
             .enumerate()
             .with_min_len(POINTS)
@@ -237,10 +237,10 @@ impl<const K: usize> Blocks<K> {
     }
 }
 
-impl<const K: usize> Precondition for Blocks<K> {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
-        let (rhs, _) = rhs.as_chunks::<K>();
-        let (out, _) = out.as_chunks_mut::<K>();
+impl<const K: usize> Inverse<f64> for Blocks<K> {
+    fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        let (rhs, _) = rhs.as_flattened().as_chunks::<K>();
+        let (out, _) = out.as_flattened_mut().as_chunks_mut::<K>();
         out.par_iter_mut()
             .zip(rhs)
             .zip(&self.inverse)

@@ -1,6 +1,6 @@
 //! What is near the inverse of the matrix: the preconditioner in use.
 
-use krylov::{Aggregation, Jacobi, Precondition};
+use krylov::{Aggregation, Inverse, Jacobi};
 
 /// The preconditioner in use.
 #[derive(Debug)]
@@ -10,12 +10,12 @@ pub(super) enum Near {
     Grid(Box<Aggregation>),
 }
 
-impl Precondition for Near {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
+impl Inverse<f64> for Near {
+    fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
         match self {
             Self::Nothing => out.copy_from_slice(rhs),
-            Self::Diagonal(jacobi) => jacobi.precondition(rhs, out),
-            Self::Grid(grid) => grid.precondition(rhs, out),
+            Self::Diagonal(jacobi) => jacobi.invert(rhs, out),
+            Self::Grid(grid) => grid.invert(rhs, out),
         }
     }
 }

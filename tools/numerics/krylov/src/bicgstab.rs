@@ -1,7 +1,8 @@
 //! Stabilised bi-conjugate gradients.
 
+use crate::operator::{column, column_mut};
 use crate::sums::{add, add_norm, dot};
-use crate::{Error, Krylov, Linear, Outcome, Precondition, Workspace, finite, residual, sizes};
+use crate::{Error, Inverse, Krylov, Operator, Outcome, Workspace, finite, residual, sizes};
 
 /// Stabilised bi-conjugate gradients for a matrix that need not be symmetric, preconditioned from the right (van der Vorst
 /// 1992, SIAM J. Sci. Stat. Comput. 13, 631); `x` is the first guess and becomes the solution. For solves of a few
@@ -10,10 +11,10 @@ use crate::{Error, Krylov, Linear, Outcome, Precondition, Workspace, finite, res
 /// # Errors
 /// When values leave the numbers or lengths differ. To run out of iterations is no error: see [`Outcome::last`].
 pub fn bicgstab(
-    a: &impl Linear,
+    a: &impl Operator<f64>,
     rhs: &[f64],
     x: &mut [f64],
-    precondition: &mut impl Precondition,
+    inverse: &mut impl Inverse<f64>,
     rule: Krylov,
     work: &mut Workspace,
 ) -> Result<Outcome, Error> {
@@ -40,8 +41,8 @@ pub fn bicgstab(
         for ((p, r), v) in p.iter_mut().zip(&*r).zip(&*v) {
             *p = r + beta * (*p - omega * v);
         }
-        precondition.precondition(p, y);
-        a.apply(y, v);
+        inverse.invert(column(p), column_mut(y));
+        a.apply(column(y), column_mut(v));
         let along = dot(shadow, v);
         if along == 0.0 {
             break;
@@ -49,8 +50,8 @@ pub fn bicgstab(
         alpha = rho / along;
         s.copy_from_slice(r);
         add(s, -alpha, v);
-        precondition.precondition(s, z);
-        a.apply(z, t);
+        inverse.invert(column(s), column_mut(z));
+        a.apply(column(z), column_mut(t));
         let size = dot(t, t);
         omega = if size > 0.0 { dot(t, s) / size } else { 0.0 };
         add(x, alpha, y);
@@ -64,6 +65,6 @@ pub fn bicgstab(
         iterations,
         first,
         last,
-        rounding: a.rounding(x),
+        rounding: a.rounding(column(x)),
     })
 }

@@ -1,7 +1,8 @@
 //! Conjugate gradients.
 
+use crate::operator::{column, column_mut};
 use crate::sums::{add, add_norm, dot, turn};
-use crate::{Error, Krylov, Linear, Outcome, Precondition, Workspace, residual, sizes};
+use crate::{Error, Inverse, Krylov, Operator, Outcome, Workspace, residual, sizes};
 
 /// Conjugate gradients for a symmetric positive definite matrix; `x` is the first guess and
 /// becomes the solution. Flexible (Polak and Ribiere; Notay 2000, SIAM J. Sci. Comput. 22, 1444):
@@ -12,10 +13,10 @@ use crate::{Error, Krylov, Linear, Outcome, Precondition, Workspace, residual, s
 /// When the matrix or the preconditioner is not positive definite, values leave the numbers or
 /// lengths differ. To run out of iterations is no error: see [`Outcome::last`].
 pub fn conjugate_gradient(
-    a: &impl Linear,
+    a: &impl Operator<f64>,
     rhs: &[f64],
     x: &mut [f64],
-    precondition: &mut impl Precondition,
+    inverse: &mut impl Inverse<f64>,
     rule: Krylov,
     work: &mut Workspace,
 ) -> Result<Outcome, Error> {
@@ -27,10 +28,10 @@ pub fn conjugate_gradient(
         });
     };
     let first = residual(a, rhs, x, r)?;
-    let mut goal = Goal::new(rule.target(first), a.rounding(x));
+    let mut goal = Goal::new(rule.target(first), a.rounding(column(x)));
     let (mut last, mut iterations, mut curvature) = (first, 0, 0.0);
     while !goal.reached(last) && iterations < rule.iterations {
-        precondition.precondition(r, z);
+        inverse.invert(column(r), column_mut(z));
         // A z . p = z . q makes the new direction conjugate to the old one.
         let beta = if curvature > 0.0 {
             -dot(z, q) / curvature
@@ -42,7 +43,7 @@ pub fn conjugate_gradient(
         } else {
             p.copy_from_slice(z);
         }
-        a.apply(p, q);
+        a.apply(column(p), column_mut(q));
         curvature = dot(p, q);
         let along = dot(r, p);
         for value in [curvature, along] {
@@ -58,7 +59,7 @@ pub fn conjugate_gradient(
             // What counts is the true residual; after a drift, go on from there.
             last = residual(a, rhs, x, r)?;
             curvature = 0.0;
-            if goal.renewed(last, a.rounding(x)) {
+            if goal.renewed(last, a.rounding(column(x))) {
                 break;
             }
         }
@@ -70,7 +71,7 @@ pub fn conjugate_gradient(
         iterations,
         first,
         last,
-        rounding: a.rounding(x),
+        rounding: a.rounding(column(x)),
     })
 }
 

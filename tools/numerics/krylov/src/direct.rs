@@ -65,8 +65,8 @@ impl<S: Scalar> Direct<S> {
     }
 }
 
-impl<S: Scalar> Inverse<S> for Direct<S> {
-    fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
+impl<S: Scalar, const C: usize> Inverse<S, C> for Direct<S> {
+    fn invert(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
         for c in 0..C {
             for (column, rhs) in self.column.iter_mut().zip(rhs) {
                 *column = rhs[c];

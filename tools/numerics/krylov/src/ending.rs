@@ -179,7 +179,7 @@ mod tests {
             self.rows.len()
         }
 
-        fn apply<const C: usize>(&self, x: &[[f64; C]], out: &mut [[f64; C]]) {
+        fn apply(&self, x: &[[f64; 1]], out: &mut [[f64; 1]]) {
             self.rows.apply(x, out);
             let done = self.products.fetch_add(1, Ordering::Relaxed) + 1;
             self.stop.fetch_or(done == self.most, Ordering::Relaxed);

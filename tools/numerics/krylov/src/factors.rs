@@ -60,7 +60,7 @@ where
     /// Solves with `a`, of which these are the factors, or nearly so.
     pub(crate) fn solve<const C: usize>(
         &mut self,
-        a: &impl Operator<S>,
+        a: &impl Operator<S, C>,
         b: &[[S; C]],
         y: &mut [[S; C]],
         rule: Rule,
@@ -78,7 +78,7 @@ where
     /// where minimal residuals do not.
     pub(crate) fn minimal<const C: usize>(
         &mut self,
-        a: &impl Operator<S>,
+        a: &impl Operator<S, C>,
         b: &[[S; C]],
         (y, solved): (&mut [[S; C]], Solved),
         rule: Rule,
@@ -108,7 +108,7 @@ where
     /// Short recurrences.
     pub(crate) fn stabilised<const C: usize>(
         &mut self,
-        a: &impl Operator<S>,
+        a: &impl Operator<S, C>,
         b: &[[S; C]],
         y: &mut [[S; C]],
         rule: Rule,
@@ -131,11 +131,11 @@ where
 }
 
 // One inverse for all kinds, so that each solver is compiled once for each kind of number.
-impl<T: Coefficient<S> + Scalar, S: Scalar> Inverse<S> for Factors<T, S>
+impl<T: Coefficient<S> + Scalar, S: Scalar, const C: usize> Inverse<S, C> for Factors<T, S>
 where
     f32: Coefficient<S>,
 {
-    fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
+    fn invert(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
         match self {
             Self::Multigrid(grids) => grids.invert(rhs, out),
             Self::Direct(factors) => factors.invert(rhs, out),
@@ -164,7 +164,11 @@ pub(crate) fn joined(first: Solved, mut second: Solved) -> Solved {
 }
 
 /// Why sparse factors do not solve a system: what they make is no solution.
-fn refused<S: Scalar, const C: usize>(a: &impl Operator<S>, b: &[[S; C]], y: &[[S; C]]) -> Ending {
+fn refused<S: Scalar, const C: usize>(
+    a: &impl Operator<S, C>,
+    b: &[[S; C]],
+    y: &[[S; C]],
+) -> Ending {
     let mut r = b.to_vec();
     let left = residual(a, b, y, &mut r);
     if left.iter().any(|r| !r.is_finite()) {

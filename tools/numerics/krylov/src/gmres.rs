@@ -1,8 +1,9 @@
 //! Generalised minimal residuals.
 
 use crate::conjugate::Goal;
+use crate::operator::{column, column_mut};
 use crate::sums::{add, dot};
-use crate::{Error, Krylov, Linear, Outcome, Precondition, Workspace, residual, sizes};
+use crate::{Error, Inverse, Krylov, Operator, Outcome, Workspace, residual, sizes};
 
 /// Restarted, flexible, right-preconditioned GMRES for a matrix that need not be symmetric
 /// (Saad 1993, SIAM J. Sci. Comput. 14, 461); `x` is the first guess and becomes the solution.
@@ -12,27 +13,27 @@ use crate::{Error, Krylov, Linear, Outcome, Precondition, Workspace, residual, s
 /// When the matrix is singular on the way, values leave the numbers or lengths differ. To run out
 /// of iterations is no error: see [`Outcome::last`].
 pub fn gmres(
-    a: &impl Linear,
+    a: &impl Operator<f64>,
     rhs: &[f64],
     x: &mut [f64],
-    precondition: &mut impl Precondition,
+    inverse: &mut impl Inverse<f64>,
     (rule, restart): (Krylov, usize),
     work: &mut Workspace,
 ) -> Result<Outcome, Error> {
     sizes(a, rhs, x)?;
     let restart = restart.max(1);
     let first = residual(a, rhs, x, &mut work.fit(1, x.len())[0])?;
-    let mut goal = Goal::new(rule.target(first), a.rounding(x));
+    let mut goal = Goal::new(rule.target(first), a.rounding(column(x)));
     let (mut last, mut iterations) = (first, 0);
     while !goal.reached(last) && iterations < rule.iterations {
         let most = restart.min(rule.iterations - iterations);
-        let cycle = cycle(a, x, precondition, (last, goal.target, most), work)?;
+        let cycle = cycle(a, x, inverse, (last, goal.target, most), work)?;
         iterations += cycle.steps;
         let before = last;
         last = residual(a, rhs, x, &mut work.columns[0])?;
         // A cycle that gains nothing, or a minimised residual that is not the true one.
         let met = cycle.residual <= goal.target;
-        if last > 0.999_999 * before || (met && goal.renewed(last, a.rounding(x))) {
+        if last > 0.999_999 * before || (met && goal.renewed(last, a.rounding(column(x)))) {
             break;
         }
     }
@@ -40,7 +41,7 @@ pub fn gmres(
         iterations,
         first,
         last,
-        rounding: a.rounding(x),
+        rounding: a.rounding(column(x)),
     })
 }
 
@@ -106,9 +107,9 @@ impl Small<'_> {
 
 /// One cycle from the residual in column 0, of norm `norm`.
 fn cycle(
-    a: &impl Linear,
+    a: &impl Operator<f64>,
     x: &mut [f64],
-    precondition: &mut impl Precondition,
+    inverse: &mut impl Inverse<f64>,
     (norm, target, most): (f64, f64, usize),
     work: &mut Workspace,
 ) -> Result<Cycle, Error> {
@@ -134,8 +135,8 @@ fn cycle(
         let columns = work.fit(2 * m + 3, n);
         let (old, new) = columns.split_at_mut(2 * m + 1);
         let [z, v, ..] = new else { break };
-        precondition.precondition(&old[2 * m], z);
-        a.apply(z, v);
+        inverse.invert(column(&old[2 * m]), column_mut(z));
+        a.apply(column(z), column_mut(v));
         let size = dot(v, v).sqrt();
         if !size.is_finite() {
             crate::finite("the value", x)?;

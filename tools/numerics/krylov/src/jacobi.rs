@@ -1,6 +1,6 @@
 //! The simplest preconditioners.
 
-use crate::{Error, Precondition, Sparse};
+use crate::{Error, Inverse, Sparse};
 
 /// The diagonal.
 #[derive(Debug, Clone, Default)]
@@ -31,9 +31,9 @@ impl Jacobi {
     }
 }
 
-impl Precondition for Jacobi {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
-        for ((out, r), inverse) in out.iter_mut().zip(rhs).zip(&self.inverse) {
+impl Inverse<f64> for Jacobi {
+    fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        for (([out], [r]), inverse) in out.iter_mut().zip(rhs).zip(&self.inverse) {
             *out = r * inverse;
         }
     }
@@ -65,10 +65,10 @@ pub struct Scaled<'a, P> {
     pub columns: &'a [f64],
 }
 
-impl<P: Precondition> Precondition for Scaled<'_, P> {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
-        self.inner.precondition(rhs, out);
-        for (out, k) in out.iter_mut().zip(self.columns) {
+impl<P: Inverse<f64>> Inverse<f64> for Scaled<'_, P> {
+    fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        self.inner.invert(rhs, out);
+        for ([out], k) in out.iter_mut().zip(self.columns) {
             *out /= k;
         }
     }

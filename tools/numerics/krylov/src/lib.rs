@@ -75,33 +75,8 @@ pub use stabilised::{Scratch, bicgstab2};
 pub use system::{Method, Options, System};
 pub use unknown::{Sides, Unknown};
 
+use operator::{column, column_mut};
 use thiserror::Error;
-
-/// A square linear operator.
-pub trait Linear: Sync {
-    /// Number of unknowns.
-    fn len(&self) -> usize;
-
-    /// No unknowns at all.
-    fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// `out = A x`.
-    fn apply(&self, x: &[f64], out: &mut [f64]);
-
-    /// Euclidean norm of the rounding errors of [`Self::apply`], about: no residual can be made
-    /// smaller. Zero where it is not known.
-    fn rounding(&self, _x: &[f64]) -> f64 {
-        0.0
-    }
-}
-
-/// An approximate inverse.
-pub trait Precondition {
-    /// `out` becomes an approximate solution with `rhs` as the right side.
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]);
-}
 
 /// Stopping rule: `|r|_2 <= max(reduction * |r0|_2, floor)`, or `iterations` are spent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,7 +111,7 @@ pub struct Outcome {
     pub first: f64,
     /// Euclidean norm of the residual after, `b - A x` evaluated anew (but for [`bicgstab`]), in the same unit.
     pub last: f64,
-    /// What rounding leaves of a residual, about ([`Linear::rounding`]), in the same unit.
+    /// What rounding leaves of a residual, about ([`Operator::rounding`]), in the same unit.
     pub rounding: f64,
 }
 
@@ -210,7 +185,7 @@ pub enum Error {
 }
 
 /// Refuses columns of the wrong length.
-fn sizes(a: &impl Linear, rhs: &[f64], x: &[f64]) -> Result<(), Error> {
+fn sizes(a: &impl Operator<f64>, rhs: &[f64], x: &[f64]) -> Result<(), Error> {
     let expected = a.len();
     for found in [rhs.len(), x.len()] {
         if found != expected {
@@ -229,8 +204,8 @@ fn finite(what: &'static str, values: &[f64]) -> Result<(), Error> {
 }
 
 /// `r = b - A x` and its norm.
-fn residual(a: &impl Linear, rhs: &[f64], x: &[f64], r: &mut [f64]) -> Result<f64, Error> {
-    a.apply(x, r);
+fn residual(a: &impl Operator<f64>, rhs: &[f64], x: &[f64], r: &mut [f64]) -> Result<f64, Error> {
+    a.apply(column(x), column_mut(r));
     let norm = sums::subtract_from(rhs, r).sqrt();
     if !norm.is_finite() {
         finite("the right side", rhs)?;

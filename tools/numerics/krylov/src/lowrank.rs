@@ -123,12 +123,12 @@ pub(crate) struct LowRank<'a, A, S> {
     pub(crate) ties: &'a Ties<S>,
 }
 
-impl<S: Scalar, A: Operator<S>> Operator<S> for LowRank<'_, A, S> {
+impl<S: Scalar, A: Operator<S, C>, const C: usize> Operator<S, C> for LowRank<'_, A, S> {
     fn len(&self) -> usize {
         self.sparse.len()
     }
 
-    fn apply<const C: usize>(&self, x: &[[S; C]], out: &mut [[S; C]]) {
+    fn apply(&self, x: &[[S; C]], out: &mut [[S; C]]) {
         self.sparse.apply(x, out);
         for (u, v) in &self.ties.groups {
             let factors: [[S; C]; TOGETHER] = sum(x.len(), |rows| {

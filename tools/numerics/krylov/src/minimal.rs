@@ -97,10 +97,10 @@ impl<S: Scalar> Small<S> {
 /// # Panics
 /// When lengths differ.
 pub fn minimal_residual<S: Scalar, const C: usize>(
-    a: &impl Operator<S>,
+    a: &impl Operator<S, C>,
     rhs: &[[S; C]],
     x: &mut [[S; C]],
-    inverse: &mut impl Inverse<S>,
+    inverse: &mut impl Inverse<S, C>,
     (rule, restart): (Rule, usize),
     scratch: &mut Scratch<S>,
 ) -> Solved {
@@ -169,7 +169,7 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
 /// Builds the basis from the residual in the first vector; the number of the vector after the last
 /// of the basis.
 fn cycle<S: Scalar, const C: usize>(
-    (a, inverse): (&impl Operator<S>, &mut impl Inverse<S>),
+    (a, inverse): (&impl Operator<S, C>, &mut impl Inverse<S, C>),
     (vectors, z): (&mut [&mut [[S; C]]], &mut [[S; C]]),
     small: &mut [Small<S>],
     (rule, watch): (&Rule, &mut Watch<C>),

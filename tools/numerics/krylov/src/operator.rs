@@ -1,10 +1,10 @@
-//! Operators on several columns at once: rows, rows with a diagonal of their own.
+//! Operators and approximate inverses, for all methods: rows, rows with a diagonal of their own.
 
 use crate::columns::dot;
 use crate::{Coefficient, Rows, Scalar};
 
-/// A square linear operator on columns of numbers `S`.
-pub trait Operator<S: Scalar>: Sync {
+/// A square linear operator on `C` columns of numbers `S`; one that knows a single column alone is an `Operator<S>`.
+pub trait Operator<S: Scalar, const C: usize = 1>: Sync {
     /// Number of unknowns.
     fn len(&self) -> usize;
 
@@ -14,15 +14,31 @@ pub trait Operator<S: Scalar>: Sync {
     }
 
     /// `out = A x`, each column alone.
-    fn apply<const C: usize>(&self, x: &[[S; C]], out: &mut [[S; C]]);
+    fn apply(&self, x: &[[S; C]], out: &mut [[S; C]]);
+
+    /// Euclidean norm of the rounding errors of [`Self::apply`], about: no residual can be made
+    /// smaller. Zero where it is not known.
+    fn rounding(&self, _x: &[[S; C]]) -> f64 {
+        0.0
+    }
 }
 
-impl<S: Scalar, T: Coefficient<S>> Operator<S> for Rows<T> {
+/// Numbers as one column.
+pub(crate) fn column(x: &[f64]) -> &[[f64; 1]] {
+    x.as_chunks().0
+}
+
+/// Numbers as one column.
+pub(crate) fn column_mut(x: &mut [f64]) -> &mut [[f64; 1]] {
+    x.as_chunks_mut().0
+}
+
+impl<S: Scalar, T: Coefficient<S>, const C: usize> Operator<S, C> for Rows<T> {
     fn len(&self) -> usize {
         Rows::len(self)
     }
 
-    fn apply<const C: usize>(&self, x: &[[S; C]], out: &mut [[S; C]]) {
+    fn apply(&self, x: &[[S; C]], out: &mut [[S; C]]) {
         self.product(x, out, |_, sum, out| *out = sum);
     }
 }
@@ -36,12 +52,12 @@ pub struct Shifted<'a, T, S> {
     pub shift: &'a [S],
 }
 
-impl<S: Scalar, T: Coefficient<S>> Operator<S> for Shifted<'_, T, S> {
+impl<S: Scalar, T: Coefficient<S>, const C: usize> Operator<S, C> for Shifted<'_, T, S> {
     fn len(&self) -> usize {
         self.rows.len()
     }
 
-    fn apply<const C: usize>(&self, x: &[[S; C]], out: &mut [[S; C]]) {
+    fn apply(&self, x: &[[S; C]], out: &mut [[S; C]]) {
         self.rows.product(x, out, |i, sum, out| {
             for c in 0..C {
                 out[c] = sum[c] + self.shift[i] * x[i][c];
@@ -50,25 +66,25 @@ impl<S: Scalar, T: Coefficient<S>> Operator<S> for Shifted<'_, T, S> {
     }
 }
 
-/// An approximate inverse of an operator on several columns at once; linear, the same in each call.
-pub trait Inverse<S: Scalar> {
+/// An approximate inverse of an operator on `C` columns; linear and the same in each call, but where a method is flexible.
+pub trait Inverse<S: Scalar, const C: usize = 1> {
     /// `out` becomes an approximate solution with `rhs` as the right side.
-    fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]);
+    fn invert(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]);
 }
 
 /// No preconditioner.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Identity;
 
-impl<S: Scalar> Inverse<S> for Identity {
-    fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
+impl<S: Scalar, const C: usize> Inverse<S, C> for Identity {
+    fn invert(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
         out.copy_from_slice(rhs);
     }
 }
 
 /// `r = b - A x`; the norm of each column.
 pub(crate) fn residual<S: Scalar, const C: usize>(
-    a: &impl Operator<S>,
+    a: &impl Operator<S, C>,
     rhs: &[[S; C]],
     x: &[[S; C]],
     r: &mut [[S; C]],

@@ -1,6 +1,6 @@
 //! A sparse matrix: rows over a shared pattern, the diagonal apart.
 
-use crate::Linear;
+use crate::Operator;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -132,6 +132,24 @@ impl Sparse {
         fill(pattern, 0, &mut self.diagonal, &mut self.values, &each);
     }
 
+    /// `out = A x`.
+    pub fn apply(&self, x: &[f64], out: &mut [f64]) {
+        let product = |(block, out): (usize, &mut [f64])| {
+            for (i, out) in (block * ROWS..).zip(out) {
+                let mut sum = self.diagonal[i] * x[i];
+                for (&j, v) in self.entries(i) {
+                    sum += v * x[j as usize];
+                }
+                *out = sum;
+            }
+        };
+        if self.values.len() < WORTH {
+            out.chunks_mut(ROWS).enumerate().for_each(product);
+        } else {
+            out.par_chunks_mut(ROWS).enumerate().for_each(product);
+        }
+    }
+
     /// Columns and values of row `i`.
     fn entries(&self, i: usize) -> impl Iterator<Item = (&u32, &f64)> {
         let row = self.pattern.row(i);
@@ -167,34 +185,21 @@ fn fill(
     }
 }
 
-impl Linear for Sparse {
+impl Operator<f64> for Sparse {
     fn len(&self) -> usize {
         self.diagonal.len()
     }
 
-    fn apply(&self, x: &[f64], out: &mut [f64]) {
-        let product = |(block, out): (usize, &mut [f64])| {
-            for (i, out) in (block * ROWS..).zip(out) {
-                let mut sum = self.diagonal[i] * x[i];
-                for (&j, v) in self.entries(i) {
-                    sum += v * x[j as usize];
-                }
-                *out = sum;
-            }
-        };
-        if self.values.len() < WORTH {
-            out.chunks_mut(ROWS).enumerate().for_each(product);
-        } else {
-            out.par_chunks_mut(ROWS).enumerate().for_each(product);
-        }
+    fn apply(&self, x: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        Sparse::apply(self, x.as_flattened(), out.as_flattened_mut());
     }
 
-    fn rounding(&self, x: &[f64]) -> f64 {
+    fn rounding(&self, x: &[[f64; 1]]) -> f64 {
         // Each of the terms of a row rounds; about as large as the diagonal one, they add up like
         // a random walk.
         let terms = 1 + self.values.len() / self.diagonal.len().max(1);
         let rounding = f64::EPSILON * (terms as f64).sqrt();
-        rounding * crate::sums::products(&self.diagonal, x).sqrt()
+        rounding * crate::sums::products(&self.diagonal, x.as_flattened()).sqrt()
     }
 }
 

@@ -149,10 +149,10 @@ impl<S: Scalar, const C: usize> State<S, C> {
 /// # Panics
 /// When lengths differ.
 pub fn bicgstab2<S: Scalar, const C: usize>(
-    a: &impl Operator<S>,
+    a: &impl Operator<S, C>,
     rhs: &[[S; C]],
     x: &mut [[S; C]],
-    inverse: &mut impl Inverse<S>,
+    inverse: &mut impl Inverse<S, C>,
     rule: Rule,
     scratch: &mut Scratch<S>,
 ) -> Solved {
@@ -231,8 +231,8 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
     /// something ends them; their sum is left in `y`.
     fn run(
         &mut self,
-        a: &impl Operator<S>,
-        inverse: &mut impl Inverse<S>,
+        a: &impl Operator<S, C>,
+        inverse: &mut impl Inverse<S, C>,
         (rule, watch): (&Rule, &mut Watch<C>),
         products: &mut usize,
     ) -> Option<Ending> {
@@ -281,7 +281,7 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
         &mut self,
         j: usize,
         state: &mut State<S, C>,
-        (a, inverse): (&impl Operator<S>, &mut impl Inverse<S>),
+        (a, inverse): (&impl Operator<S, C>, &mut impl Inverse<S, C>),
         (watch, shadow): (&Watch<C>, &[f64; C]),
     ) -> bool {
         let large: [f64; C] = std::array::from_fn(|c| shadow[c] * watch.now[c]);

@@ -5,7 +5,7 @@
 //! has beside them is subtracted from D in the part `MODIFIED` (Gustafsson 1978), which keeps row
 //! sums and lowers the number of iterations from order n to order n^1/2 on n cells per side.
 
-use krylov::{Error, Precondition};
+use krylov::{Error, Inverse};
 
 use crate::FivePoint;
 
@@ -55,8 +55,9 @@ impl StencilFactors {
     }
 }
 
-impl Precondition for StencilFactors {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
+impl Inverse<f64> for StencilFactors {
+    fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        let (rhs, out) = (rhs.as_flattened(), out.as_flattened_mut());
         let n = self.columns;
         for k in 0..out.len() {
             let mut sum = rhs[k];
@@ -100,7 +101,7 @@ mod tests {
         a.product(&x, &mut b);
         let mut factors = StencilFactors::default();
         factors.rebuild(&a).unwrap();
-        factors.precondition(&b, &mut found);
+        factors.invert(b.as_chunks().0, found.as_chunks_mut().0);
         assert!(
             x.iter().zip(&found).all(|(x, f)| (x - f).abs() < 1e-13),
             "{found:?}"

@@ -1,6 +1,6 @@
 //! The five-point equation of every cell, as columns.
 
-use krylov::{Error, Linear};
+use krylov::{Error, Operator};
 use rayon::prelude::*;
 
 /// Cells below which a loop stays on one thread.
@@ -261,18 +261,18 @@ impl FivePoint {
     }
 }
 
-impl Linear for FivePoint {
+impl Operator<f64> for FivePoint {
     fn len(&self) -> usize {
         self.centre.len()
     }
 
-    fn apply(&self, x: &[f64], out: &mut [f64]) {
-        self.product(x, out);
+    fn apply(&self, x: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        self.product(x.as_flattened(), out.as_flattened_mut());
     }
 
-    fn rounding(&self, x: &[f64]) -> f64 {
+    fn rounding(&self, x: &[[f64; 1]]) -> f64 {
         // Each of the five terms of a cell rounds, about as large as the central one.
-        let squares = self.centre.iter().zip(x).map(|(c, x)| (c * x) * (c * x));
+        let squares = self.centre.iter().zip(x).map(|(c, [x])| (c * x) * (c * x));
         f64::EPSILON * (5.0 * squares.sum::<f64>()).sqrt()
     }
 }

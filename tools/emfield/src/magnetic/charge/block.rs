@@ -66,12 +66,12 @@ where
     }
 }
 
-impl<S: Scalar> Inverse<S> for Block<S>
+impl<S: Scalar, const K: usize> Inverse<S, K> for Block<S>
 where
     f64: Coefficient<S>,
     f32: Coefficient<S>,
 {
-    fn invert<const K: usize>(&mut self, given: &[[S; K]], found: &mut [[S; K]]) {
+    fn invert(&mut self, given: &[[S; K]], found: &mut [[S; K]]) {
         self.given.resize(K * given.len(), S::ZERO);
         self.found.resize(K * given.len(), S::ZERO);
         let own = self.given.as_chunks_mut::<K>().0;

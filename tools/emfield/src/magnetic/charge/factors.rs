@@ -139,8 +139,8 @@ pub(crate) struct Approximate<'a, S: Rate> {
     pub(crate) factors: &'a mut Factors<S>,
 }
 
-impl<S: Rate> Inverse<S> for Approximate<'_, S> {
-    fn invert<const K: usize>(&mut self, given: &[[S; K]], found: &mut [[S; K]]) {
+impl<S: Rate, const K: usize> Inverse<S, K> for Approximate<'_, S> {
+    fn invert(&mut self, given: &[[S; K]], found: &mut [[S; K]]) {
         let Whole {
             coupled, balance, ..
         } = self.whole;

@@ -16,12 +16,12 @@ pub(crate) struct Whole<'a, S> {
     pub(crate) balance: &'a Balance<S>,
 }
 
-impl<S: Rate> Operator<S> for Whole<'_, S> {
+impl<S: Rate, const K: usize> Operator<S, K> for Whole<'_, S> {
     fn len(&self) -> usize {
         self.coupled.len()
     }
 
-    fn apply<const K: usize>(&self, x: &[[S; K]], out: &mut [[S; K]]) {
+    fn apply(&self, x: &[[S; K]], out: &mut [[S; K]]) {
         let Self { coupled, rate, .. } = *self;
         let (a, phi) = x.split_at(3 * coupled.points());
         let (out_a, out_phi) = out.split_at_mut(3 * coupled.points());

@@ -8,7 +8,7 @@ use crate::magnetic::charge::block::Block;
 /// A rate of change: `j w` in a sinusoidal steady state, `1 / (gamma h)` in a stage of a march.
 pub trait Rate: Scalar {
     /// Factors of real rows with a diagonal of such numbers beside them.
-    type Block: Inverse<Self>;
+    type Block: Inverse<Self, 3>;
 
     /// The square root whose real part is not negative.
     #[must_use]

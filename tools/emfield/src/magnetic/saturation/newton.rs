@@ -13,7 +13,7 @@
 
 use std::sync::Mutex;
 
-use krylov::{Krylov, Linear, Precondition, Rule, Solved, Workspace, gmres};
+use krylov::{Identity, Krylov, Operator, Rule, Solved, Workspace, gmres};
 
 use crate::magnetic::saturation::equations::{Saturation, Seen};
 use crate::march::scheme::Stage;
@@ -81,21 +81,13 @@ struct Tangent<'n, 'a, 'b, const D: usize, const K: usize> {
     at: &'n Place,
 }
 
-/// The stage has been applied already.
-struct Plain;
-
-impl Precondition for Plain {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
-        out.copy_from_slice(rhs);
-    }
-}
-
-impl<const D: usize, const K: usize> Linear for Tangent<'_, '_, '_, D, K> {
+impl<const D: usize, const K: usize> Operator<f64> for Tangent<'_, '_, '_, D, K> {
     fn len(&self) -> usize {
         self.at.unknown.len()
     }
 
-    fn apply(&self, x: &[f64], out: &mut [f64]) {
+    fn apply(&self, x: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        let (x, out) = (x.as_flattened(), out.as_flattened_mut());
         out.copy_from_slice(x);
         let Ok(mut newton) = self.newton.lock() else {
             return;
@@ -211,7 +203,7 @@ impl<const D: usize> Newton<'_, '_, D> {
             &tangent,
             &here.way,
             &mut way,
-            &mut Plain,
+            &mut Identity, // the stage has been applied already
             (rule, LINEAR.0),
             work,
         )

@@ -15,7 +15,7 @@ mod view;
 
 use crate::jacobi::positive;
 use crate::sums::{add_norm, dot, update};
-use crate::{Error, Linear, Precondition, Sparse};
+use crate::{Error, Inverse, Operator, Sparse};
 use coarse::Groups;
 use dense::Dense;
 use rows::{Balance, Rows};
@@ -173,9 +173,10 @@ impl Aggregation {
     }
 }
 
-impl Precondition for Aggregation {
+impl Inverse<f64> for Aggregation {
     /// One cycle.
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
+    fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        let (rhs, out) = (rhs.as_flattened(), out.as_flattened_mut());
         let cycle = Cycle {
             symmetric: self.symmetric,
             bottom: &self.bottom,

@@ -10,7 +10,7 @@
 //! the rows are ordered (Baker, Falgout, Kolev and Yang 2011, SIAM J. Sci. Comput. 33, 2864).
 
 use crate::sums::{WORTH, update};
-use crate::{Error, Linear, Sparse};
+use crate::{Error, Operator, Sparse};
 use rayon::prelude::*;
 
 /// Rows swept in sequence.

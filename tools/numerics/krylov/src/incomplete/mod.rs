@@ -184,8 +184,8 @@ fn each<F: Copy + Send + Sync, S: Scalar, const C: usize>(
     halve(pieces, out, rhs, &work);
 }
 
-impl<S: Scalar, F: Coefficient<S>> Inverse<S> for Incomplete<F> {
-    fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
+impl<S: Scalar, F: Coefficient<S>, const C: usize> Inverse<S, C> for Incomplete<F> {
+    fn invert(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
         self.solve(rhs, out);
     }
 }

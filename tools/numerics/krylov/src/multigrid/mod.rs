@@ -257,11 +257,11 @@ where
     }
 }
 
-impl<S: Scalar, T: Coefficient<S> + Scalar> Inverse<S> for Multigrid<T, S>
+impl<S: Scalar, T: Coefficient<S> + Scalar, const C: usize> Inverse<S, C> for Multigrid<T, S>
 where
     f32: Coefficient<S>,
 {
-    fn invert<const C: usize>(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
+    fn invert(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
         let bottom = (&mut self.bottom, self.visits);
         if self.weights.is_empty() {
             cycle(&mut self.levels, bottom, rhs, out);

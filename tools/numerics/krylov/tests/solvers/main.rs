@@ -6,7 +6,7 @@ mod clouds;
 
 use clouds::{Cloud, dense, random};
 use krylov::{
-    Aggregation, Error, Jacobi, Krylov, Linear, Outcome, Pattern, Precondition, Scaled, Sparse,
+    Aggregation, Error, Inverse, Jacobi, Krylov, Operator, Outcome, Pattern, Scaled, Sparse,
     Workspace, conjugate_gradient, gmres,
 };
 use nalgebra::DVector;
@@ -298,10 +298,10 @@ fn renewed_is_as_good_as_new() {
     let ((a, rhs), (b, _)) = (build(1.0), build(50.0));
     let mut grid = Aggregation::new(&a, true).unwrap();
     let (mut x, mut y) = (vec![0.0; rhs.len()], vec![0.0; rhs.len()]);
-    grid.precondition(&rhs, &mut x);
+    grid.invert(rhs.as_chunks().0, x.as_chunks_mut().0);
     // The same values: the same bits.
     grid.renew(&a).unwrap();
-    grid.precondition(&rhs, &mut y);
+    grid.invert(rhs.as_chunks().0, y.as_chunks_mut().0);
     assert_eq!(x, y);
     // Other values: still a solver.
     grid.renew(&b).unwrap();

@@ -6,7 +6,7 @@
 //!
 //! Since w_ab holds V_b the rows are symmetric. Rows of water that a nozzle leads are p = 0.
 
-use krylov::{Krylov, Linear, Precondition, Workspace, conjugate_gradient};
+use krylov::{Inverse, Krylov, Operator, Workspace, conjugate_gradient};
 use particles::sweep;
 use rayon::prelude::*;
 
@@ -29,12 +29,13 @@ pub(super) struct Poisson {
     work: Workspace,
 }
 
-impl Linear for Poisson {
+impl Operator<f64> for Poisson {
     fn len(&self) -> usize {
         self.diagonal.len()
     }
 
-    fn apply(&self, p: &[f64], out: &mut [f64]) {
+    fn apply(&self, p: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        let (p, out) = (p.as_flattened(), out.as_flattened_mut());
         let chunks = out.par_chunks_mut(ROWS).zip(&self.chunks);
         chunks.enumerate().for_each(|(chunk, (out, rows))| {
             let mut from = 0;
@@ -54,8 +55,9 @@ impl Linear for Poisson {
 /// The inverse of the diagonal.
 struct Diagonal<'a>(&'a [[f64; 2]]);
 
-impl Precondition for Diagonal<'_> {
-    fn precondition(&mut self, rhs: &[f64], out: &mut [f64]) {
+impl Inverse<f64> for Diagonal<'_> {
+    fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
+        let (rhs, out) = (rhs.as_flattened(), out.as_flattened_mut());
         sweep::fill(out, |a| rhs[a] / (self.0[a][0] * self.0[a][1]));
     }
 }
