@@ -194,6 +194,18 @@ impl Grid {
         j * self.nr + i
     }
 
+    /// Cells that share a face with cell `k`.
+    pub(crate) fn beside(&self, k: usize) -> impl Iterator<Item = usize> {
+        let (i, j) = (k % self.nr, k / self.nr);
+        let sides = [
+            (i + 1 < self.nr).then(|| k + 1),
+            (i > 0).then(|| k - 1),
+            (j + 1 < self.nz).then(|| k + self.nr),
+            (j > 0).then(|| k - self.nr),
+        ];
+        sides.into_iter().flatten()
+    }
+
     /// Index of radial face `i` of row `j`.
     #[must_use]
     #[inline]

@@ -121,14 +121,7 @@ fn reach(grid: &Grid, passes: impl Fn(usize) -> bool, start: impl Fn(usize) -> b
     let mut next: Vec<usize> = (0..grid.len()).filter(|k| start(*k)).collect();
     next.iter().for_each(|k| open[*k] = true);
     while let Some(k) = next.pop() {
-        let (i, j) = (k % grid.nr, k / grid.nr);
-        let sides = [
-            (i + 1 < grid.nr).then(|| k + 1),
-            (i > 0).then(|| k - 1),
-            (j + 1 < grid.nz).then(|| k + grid.nr),
-            (j > 0).then(|| k - grid.nr),
-        ];
-        for n in sides.into_iter().flatten() {
+        for n in grid.beside(k) {
             if !open[n] && passes(n) {
                 open[n] = true;
                 next.push(n);

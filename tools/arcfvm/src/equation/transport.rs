@@ -46,18 +46,6 @@ pub fn kept(c: &mut Coefficients, outflow: f64, own: f64) {
     }
 }
 
-/// Harmonic mean of two values with distances to the face between them.
-#[must_use]
-#[inline]
-pub fn harmonic(value_p: f64, distance_p: f64, value_e: f64, distance_e: f64) -> f64 {
-    let sum = distance_p * value_e + distance_e * value_p;
-    if sum > 0.0 {
-        (distance_p + distance_e) * value_p * value_e / sum
-    } else {
-        0.0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,12 +144,5 @@ mod tests {
         for peclet in [50.0, 500.0, -500.0] {
             assert!(profile(peclet, 10) < 1.0);
         }
-    }
-
-    #[test]
-    fn harmonic_mean_is_the_series_of_two_layers() {
-        assert!((harmonic(1.0, 0.5, 3.0, 0.5) - 1.5).abs() < 1e-15);
-        assert!((harmonic(1e6, 0.1, 1e-3, 0.1) - 2e-3).abs() < 1e-11);
-        assert!(harmonic(0.0, 1.0, 0.0, 1.0).abs() < 1e-15);
     }
 }

@@ -77,15 +77,7 @@ impl Flow {
 
     /// Mean pressure of the cells next to `k` that were gas before.
     fn around(&self, case: &Case, k: usize, was_gas: impl Fn(usize) -> bool) -> f64 {
-        let grid = &case.grid;
-        let (i, j) = (k % grid.nr, k / grid.nr);
-        let sides = [
-            (i + 1 < grid.nr).then(|| k + 1),
-            (i > 0).then(|| k - 1),
-            (j + 1 < grid.nz).then(|| k + grid.nr),
-            (j > 0).then(|| k - grid.nr),
-        ];
-        let known = sides.into_iter().flatten().filter(|n| was_gas(*n));
+        let known = case.grid.beside(k).filter(|n| was_gas(*n));
         let (sum, count) = known.fold((0.0, 0.0), |(s, c), n| (s + self.pressure[n], c + 1.0));
         if count > 0.0 { sum / count } else { 0.0 }
     }

@@ -22,7 +22,7 @@ use crate::flow::field::Flow;
 use crate::heat::{Contact, Skin};
 use crate::material::GAS;
 use crate::properties::Properties;
-use crate::vapour::evaporation::{Evaporated, Evaporating, Film};
+use crate::vapour::evaporation::{Evaporated, Film};
 
 /// Iron vapour and what its equation is made of.
 #[derive(Debug, Clone)]
@@ -287,10 +287,4 @@ fn film(
         vents: setup.vents,
         returning: setup.returns_hot.then_some(beside),
     }
-}
-
-/// How a metal evaporates, by contact.
-#[must_use]
-pub fn metal_of<'a>(setup: &'a VapourCase, contact: &Contact) -> Option<&'a Evaporating> {
-    setup.metals[contact.electrode].as_ref()
 }

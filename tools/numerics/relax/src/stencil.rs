@@ -105,21 +105,6 @@ impl FivePoint {
         self.centre.is_empty()
     }
 
-    /// Sets every coefficient to zero.
-    pub fn clear(&mut self) {
-        let columns = [
-            &mut self.centre,
-            &mut self.east,
-            &mut self.west,
-            &mut self.north,
-            &mut self.south,
-            &mut self.source,
-        ];
-        for column in columns {
-            column.fill(0.0);
-        }
-    }
-
     /// Sets the equation of every cell `(i, j)`.
     pub fn fill<F>(&mut self, equation: F)
     where
