@@ -88,12 +88,13 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         scene,
         inputs,
         &bodies,
-        (&mut state, source.caloric.as_deref()),
+        &mut state,
+        source.caloric.as_deref(),
     )?;
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
     let grains = match &scene.grains {
-        Some(grains) => Some(source.grains(grains, (inputs, &state))?),
+        Some(grains) => Some(source.grains(grains, inputs, &state)?),
         None => None,
     };
     let (stages, grain_counts) = match grains {
@@ -172,16 +173,16 @@ impl<'a> Source<'a> {
     ) -> Result<Parts, Failure> {
         let mut parts = Parts::new();
         let scene = self.scene;
-        parts.when(Room::Domain, ("source", scene.source), |source| {
+        parts.when(Room::Domain, "source", scene.source, |source| {
             Ok(Box::new(Path(source)))
         })?;
-        parts.when(Room::Domain, ("droplets", scene.droplets), |droplets| {
+        parts.when(Room::Domain, "droplets", scene.droplets, |droplets| {
             let metal = (scene.metal(), scene.halving()?);
             let stage = Droplets::new(droplets, metal, self.caloric.as_ref())
                 .map_err(|fault| fault.within("/droplets"))?;
             Ok(Box::new(stage))
         })?;
-        parts.when(Room::Domain, ("bounds", scene.bounds), |bounds| {
+        parts.when(Room::Domain, "bounds", scene.bounds, |bounds| {
             let stage = Bounds::new(bounds, scene.metal());
             Ok(Box::new(stage.map_err(|fault| fault.within("/bounds"))?))
         })?;
@@ -196,7 +197,7 @@ impl<'a> Source<'a> {
         }
         self.melting(&mut parts)?;
         self.forces(&mut parts)?;
-        parts.when(Room::Flow, ("flow", scene.flow.as_ref()), |flow| {
+        parts.when(Room::Flow, "flow", scene.flow.as_ref(), |flow| {
             let law = self.viscosity(flow)?;
             Ok(Box::new(Motion::new(flow.clone(), law, scene.metal())))
         })?;
@@ -229,18 +230,18 @@ impl<'a> Source<'a> {
             conduction.hold(particles, curve);
         }
         parts.take(Room::Heat, Box::new(conduction));
-        parts.when(Room::Heat, ("arc", self.scene.arc.as_ref()), |arc| {
+        parts.when(Room::Heat, "arc", self.scene.arc.as_ref(), |arc| {
             let surface = self.arc.as_ref().map(ArcSource::surface);
             let stage = heat::Arc::new(arc, caloric.clone(), self.scene.metal(), surface)
                 .map_err(|fault| fault.within("/arc"))?;
             Ok(Box::new(stage))
         })?;
         let torches = Some(&self.scene.torches).filter(|torches| !torches.is_empty());
-        parts.when(Room::Heat, ("torches", torches), |torches| {
+        parts.when(Room::Heat, "torches", torches, |torches| {
             let stage = heat::Torches::new(torches, caloric.clone(), self.scene.metal());
             Ok(Box::new(stage?))
         })?;
-        parts.when(Room::Heat, ("losses", self.scene.losses), |losses| {
+        parts.when(Room::Heat, "losses", self.scene.losses, |losses| {
             let metal = self.scene.metal();
             Ok(Box::new(heat::Losses::new(losses, caloric.clone(), metal)))
         })
@@ -251,7 +252,7 @@ impl<'a> Source<'a> {
         let (Some(heat), Some(caloric)) = (&self.scene.heat, &self.caloric) else {
             return Ok(());
         };
-        parts.when(Room::Melting, ("melting", heat.melting), |_| {
+        parts.when(Room::Melting, "melting", heat.melting, |_| {
             let start = self.scene.flow_start;
             let bodies = &self.scene.bodies;
             // Metal on a wall is backed by it.
@@ -268,58 +269,46 @@ impl<'a> Source<'a> {
     fn forces(&self, parts: &mut Parts) -> Result<(), Failure> {
         let (scene, metal) = (self.scene, self.scene.metal());
         let flow = scene.flow.as_ref();
-        parts.when(
-            Room::Forces,
-            ("marangoni", scene.marangoni.as_ref()),
-            |marangoni| {
-                let stage = Marangoni::new(marangoni);
-                Ok(Box::new(stage.map_err(|fault| fault.within("/marangoni"))?))
-            },
-        )?;
-        parts.when(
-            Room::Forces,
-            ("surface_stress", scene.surface_stress.as_ref()),
-            |given| {
-                let stage = SurfaceStress::new(given, metal);
-                Ok(Box::new(
-                    stage.map_err(|fault| fault.within("/surface_stress"))?,
-                ))
-            },
-        )?;
-        parts.when(
-            Room::Forces,
-            ("gas_shear", scene.gas_shear.as_ref()),
-            |shear| {
-                let viscosity = flow.map_or(Ok(Law::Uniform(0.0)), |flow| self.viscosity(flow))?;
-                let stage = GasShear::new(shear, self.gas()?, viscosity, metal)
-                    .map_err(|fault| fault.within("/gas_shear"))?;
-                Ok(Box::new(stage))
-            },
-        )?;
-        parts.when(Room::Forces, ("lorentz", scene.lorentz), |_| {
+        let marangoni = scene.marangoni.as_ref();
+        parts.when(Room::Forces, "marangoni", marangoni, |marangoni| {
+            let stage = Marangoni::new(marangoni);
+            Ok(Box::new(stage.map_err(|fault| fault.within("/marangoni"))?))
+        })?;
+        let given = scene.surface_stress.as_ref();
+        parts.when(Room::Forces, "surface_stress", given, |given| {
+            let stage = SurfaceStress::new(given, metal);
+            Ok(Box::new(
+                stage.map_err(|fault| fault.within("/surface_stress"))?,
+            ))
+        })?;
+        let shear = scene.gas_shear.as_ref();
+        parts.when(Room::Forces, "gas_shear", shear, |shear| {
+            let viscosity = flow.map_or(Ok(Law::Uniform(0.0)), |flow| self.viscosity(flow))?;
+            let stage = GasShear::new(shear, self.gas()?, viscosity, metal)
+                .map_err(|fault| fault.within("/gas_shear"))?;
+            Ok(Box::new(stage))
+        })?;
+        parts.when(Room::Forces, "lorentz", scene.lorentz, |_| {
             let table = self
                 .arc()?
                 .lorentz()?
                 .ok_or_else(|| Fault::at("/lorentz", "the input 'arc' holds no Lorentz force"))?;
             Ok(Box::new(Lorentz::new(table, metal)))
         })?;
-        parts.when(
-            Room::Forces,
-            ("arc_pressure", scene.arc_pressure.as_ref()),
-            |pressed| {
-                let formula = pressed.formula();
-                let pressure = match formula.map_err(|fault| fault.within("/arc_pressure"))? {
-                    Some(formula) => formula,
-                    None => Pressure::Table(self.arc()?.radial("arc_pressure_pa")?),
-                };
-                Ok(Box::new(ArcPressure::new(pressure, metal, scene.even())))
-            },
-        )?;
-        parts.when(Room::Forces, ("buoyancy", scene.buoyancy), |buoyancy| {
+        let pressed = scene.arc_pressure.as_ref();
+        parts.when(Room::Forces, "arc_pressure", pressed, |pressed| {
+            let formula = pressed.formula();
+            let pressure = match formula.map_err(|fault| fault.within("/arc_pressure"))? {
+                Some(formula) => formula,
+                None => Pressure::Table(self.arc()?.radial("arc_pressure_pa")?),
+            };
+            Ok(Box::new(ArcPressure::new(pressure, metal, scene.even())))
+        })?;
+        parts.when(Room::Forces, "buoyancy", scene.buoyancy, |buoyancy| {
             let gravity = flow.and_then(|flow| flow.gravity_m_s2).unwrap_or_default();
             Ok(Box::new(Buoyancy::new(buoyancy, gravity, metal)))
         })?;
-        parts.when(Room::Forces, ("tension", scene.tension), |tension| {
+        parts.when(Room::Forces, "tension", scene.tension, |tension| {
             if scene.even() {
                 return Ok(Box::new(Capillary::new(tension)));
             }

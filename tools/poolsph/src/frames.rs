@@ -89,7 +89,8 @@ pub fn particles(state: &State, width: FloatWidth, session: &mut Session) -> Res
 /// As [`particles()`].
 pub fn pool(
     state: &State,
-    (pool, width): (&PoolOutput, FloatWidth),
+    pool: &PoolOutput,
+    width: FloatWidth,
     centre: [f64; 3],
     session: &mut Session,
 ) -> Result<(), Failure> {

@@ -133,7 +133,7 @@ impl March {
             let longest = longest.fold(f64::INFINITY, f64::min);
             let marks = self.stages().filter_map(|stage| stage.next(state.time));
             let mark = marks.fold(f64::INFINITY, f64::min);
-            self.pace.choose(state.step, (until, mark), longest);
+            self.pace.choose(state.step, until, mark, longest);
         }
         state.stride = self.pace.stride;
         let dt = self.pace.step();

@@ -42,7 +42,7 @@ impl Pace {
 
     /// Chooses the step from number `step` on: not beyond number `until` nor, by more than one of the scene's, the instant `mark` \[s\],
     /// no longer than `longest` \[s\], and at most twice the last one.
-    pub fn choose(&mut self, step: u64, (until, mark): (u64, f64), longest: f64) {
+    pub fn choose(&mut self, step: u64, until: u64, mark: f64, longest: f64) {
         // The end of the first step that does not lie before the mark.
         let marked = (mark / self.base * (1.0 - 1e-12)).ceil();
         let marked = if marked.is_finite() {
@@ -71,7 +71,7 @@ mod tests {
         while step < 60 {
             let mark = if step < 21 { 2.05e-3 } else { f64::INFINITY };
             let longest = if step < 40 { 1.0 } else { 3.9e-4 };
-            pace.choose(step, (60, mark), longest);
+            pace.choose(step, 60, mark, longest);
             step += pace.stride;
             taken.push(pace.stride);
         }
@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn steps_that_are_all_alike_stay_so() {
         let mut pace = Pace::even(1e-4);
-        pace.choose(3, (100, f64::INFINITY), 1.0);
+        pace.choose(3, 100, f64::INFINITY, 1.0);
         assert_eq!((pace.stride, pace.grows()), (1, false));
     }
 }

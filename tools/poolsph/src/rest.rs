@@ -159,7 +159,7 @@ impl Rest {
                 cell[2] + k / 9 - 1,
             ];
             for &b in self.cells.get(&near).map_or(&[][..], Vec::as_slice) {
-                let weight = self.weight(places, (a, b as usize), kernel);
+                let weight = self.weight(places, a, b as usize, kernel);
                 if weight > 0.0 {
                     row.push(Link { to: b, weight });
                 }
@@ -198,7 +198,7 @@ impl Rest {
     }
 
     /// W of the pair, summed over the images of `b` in the mirrors.
-    fn weight(&self, places: &[[f64; 3]], (a, b): (usize, usize), kernel: CubicSpline<3>) -> f64 {
+    fn weight(&self, places: &[[f64; 3]], a: usize, b: usize, kernel: CubicSpline<3>) -> f64 {
         let (at, to) = (places[a], places[b]);
         let direct = kernel.value(distance(at, to));
         if direct <= 0.0 || self.part[a] == Part::Settled || self.part[b] == Part::Settled {

@@ -221,7 +221,7 @@ impl<'a> Simulation<'a> {
             session.record(probes::CHANNEL, state.time, &readings)?;
         }
         let grains = state.grains.is_some() && (last || is_due(output.grains_interval()));
-        self.write_grains((grains, balance), session)?;
+        self.write_grains(grains, balance, session)?;
         if last {
             for (channel, frame) in march.stages().filter_map(|stage| stage.leaves(state)) {
                 session.frame(channel, state.time, &frame)?;
@@ -268,12 +268,7 @@ impl<'a> Simulation<'a> {
             frames::particles(state, width, session)?;
         }
         if let Some((pool, note)) = pool {
-            frames::pool(
-                state,
-                (pool, width),
-                [note.x_m, note.y_m, note.z_m],
-                session,
-            )?;
+            frames::pool(state, pool, width, [note.x_m, note.y_m, note.z_m], session)?;
         }
         Ok(())
     }
@@ -281,7 +276,8 @@ impl<'a> Simulation<'a> {
     /// Grains and their totals, if there are any.
     fn write_grains(
         &self,
-        (frame, balance): (bool, bool),
+        frame: bool,
+        balance: bool,
         session: &mut Session,
     ) -> Result<(), Failure> {
         let state = &self.run.state;

@@ -24,7 +24,8 @@ impl Source<'_> {
     pub(super) fn grains(
         &self,
         scene: &grains::Parameters,
-        (inputs, state): (&Inputs, &State),
+        inputs: &Inputs,
+        state: &State,
     ) -> Result<(Beside, Set, Vec<usize>), Failure> {
         let within = |fault: Fault| fault.within("/grains");
         let bed = bed(scene, inputs)?;
@@ -57,7 +58,7 @@ impl Source<'_> {
         let motion = grains::Motion::new(scene, &set, warmed).map_err(within)?;
         let motion = motion
             .beside(metal)
-            .lying(laid(scene, (&bed, &counts), state), &set);
+            .lying(laid(scene, &bed, &counts, state), &set);
         let beside = Beside {
             motion,
             cover,
@@ -68,11 +69,7 @@ impl Source<'_> {
 }
 
 /// What the contacts of the bed remember, if the scene begins with one.
-fn laid(
-    scene: &grains::Parameters,
-    (bed, counts): (&Bed, &[usize]),
-    state: &State,
-) -> Option<Laid> {
+fn laid(scene: &grains::Parameters, bed: &Bed, counts: &[usize], state: &State) -> Option<Laid> {
     let body = scene.bodies.iter().position(|body| body.bed)?;
     let first: usize = counts[..body].iter().sum();
     let whole = scene.bodies.len() == 1;

@@ -13,7 +13,8 @@ pub(super) fn fill(
     scene: &Scene,
     inputs: &Inputs,
     bodies: &[Body],
-    (state, caloric): (&mut State, Option<&Caloric>),
+    state: &mut State,
+    caloric: Option<&Caloric>,
 ) -> Result<Vec<Filled>, Failure> {
     match (scene.start, inputs.get("start")) {
         (None, None) => Ok(bodies::fill(state, bodies, caloric)?),

@@ -58,7 +58,8 @@ impl Parts {
     pub(super) fn when<P>(
         &mut self,
         room: Room,
-        (key, part): (&'static str, Option<P>),
+        key: &'static str,
+        part: Option<P>,
         make: impl FnOnce(P) -> Result<Box<dyn Stage>, Failure>,
     ) -> Result<(), Failure> {
         match part {

@@ -78,7 +78,8 @@ impl Parameters {
     /// A mirror that a droplet would reach through, and more than one that halves it.
     pub fn mirror(
         &self,
-        (start, velocity): ([f64; 3], [f64; 3]),
+        start: [f64; 3],
+        velocity: [f64; 3],
         mirrors: &[(Mirror, f64)],
     ) -> Result<Option<Mirror>, Fault> {
         let mut halves = None;
@@ -548,7 +549,7 @@ mod tests {
             below: false,
         };
         let of = |start: [f64; 3], velocity: [f64; 3]| {
-            parameters().mirror((start, velocity), &[(mirror, 0.0)])
+            parameters().mirror(start, velocity, &[(mirror, 0.0)])
         };
         let along = [0.0, 5e-3, 0.0];
         assert_eq!(of([0.0; 3], along).unwrap(), Some(mirror));

@@ -174,14 +174,14 @@ impl Faces {
                 Some(mirror) => {
                     turn.sign[axis] = -1.0;
                     turn.shift[axis] = 2.0 * [self.min, self.max][side][axis];
-                    self.stick(&mut turn, mirror, (axis, side));
+                    self.stick(&mut turn, mirror, axis, side);
                 }
             }
         }
         turn
     }
 
-    fn stick(&self, turn: &mut Turn, side: &Side, (axis, upper): (usize, usize)) {
+    fn stick(&self, turn: &mut Turn, side: &Side, axis: usize, upper: usize) {
         let Side::Wall {
             velocity,
             temperature,
@@ -205,7 +205,8 @@ impl Faces {
     pub fn temperature(
         &self,
         turn: &Turn,
-        (x, time): ([f64; 3], f64),
+        x: [f64; 3],
+        time: f64,
         temperature: f64,
     ) -> Result<f64, OutOfRange> {
         let mut image = temperature;

@@ -194,7 +194,7 @@ fn walls_hold_speed_and_temperature_in_their_planes() {
         let of = images.list()[k - 3].of as usize;
         let turn = images.turn(k).unwrap();
         let image = faces
-            .temperature(turn, (places[of], 0.0), kelvin[of])
+            .temperature(turn, places[of], 0.0, kelvin[of])
             .unwrap();
         assert!((image - 300.0 - 100.0 * profile(z)).abs() < 1e-12);
     }
@@ -296,9 +296,9 @@ fn a_linear_profile_between_walls_feels_no_viscosity() {
     let mut viscosity = Viscosity::new(Law::Uniform(3.0), METAL);
     viscosity.apply(near, &around, 1.0, &mut change);
     let mut noise = Noise::new(9.8, METAL);
-    noise.damp(near, &mut around, (&viscosity, 1.0), &mut change);
+    noise.damp(near, &mut around, &viscosity, 1.0, &mut change);
     let mut between_faces = vec![[0.0; 3]; near.len()];
-    viscosity.apply_between_faces(near, (METAL, 1.0), &mut between_faces);
+    viscosity.apply_between_faces(near, METAL, 1.0, &mut between_faces);
     for (a, change) in change.iter().chain(&between_faces).enumerate() {
         assert!(squared(*change).sqrt() < 1e-13, "{a}: {change:?}");
     }

@@ -59,7 +59,7 @@ pub enum Pressure {
 
 impl Pressure {
     /// The pressure at the distance `r` \[m\] \[Pa\].
-    fn at(&self, r: f64, (time, dt): (f64, f64)) -> Result<f64, StageError> {
+    fn at(&self, r: f64, time: f64, dt: f64) -> Result<f64, StageError> {
         match self {
             Self::Table(table) => Ok(table.at(r)),
             Self::Formula(curve) => {
@@ -118,7 +118,7 @@ impl Stage for ArcPressure {
         for k in 0..near.len() {
             let patch = surface.at(near.id[k] as usize);
             let x = near.position[k];
-            let pressure = |x| self.pressure.at(axis.around(x).0, (state.time, dt));
+            let pressure = |x| self.pressure.at(axis.around(x).0, state.time, dt);
             if self.bound && near.role[k] == Role::Liquid {
                 // What lies hidden is reached as far as its surface is; hollows inside have no surface.
                 let hidden = patch.area > 0.0 && patch.seen <= 0.0;

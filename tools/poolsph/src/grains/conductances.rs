@@ -33,7 +33,8 @@ impl Heat {
     /// Conductances of all contacts \[W/K\] and the longest step \[s\].
     pub(super) fn conduct(
         &mut self,
-        (set, state): (&Set, &State),
+        set: &Set,
+        state: &State,
         lists: &Lists,
         metal: Option<&mut Metal>,
         pass: Pass<'_>,

@@ -184,7 +184,8 @@ impl Heat {
         if let Some((exchange, (_, bodies))) = metal.and_then(Metal::exchange) {
             exchange.flow(
                 bodies,
-                (temperature, state.metal.column(&TEMPERATURE)),
+                temperature,
+                state.metal.column(&TEMPERATURE),
                 &mut rate,
             );
             exchange.take(bodies, state, step);
@@ -304,7 +305,7 @@ impl Heat {
         (lists, mut metal): (&Lists, Option<&mut Metal>),
         (pass, dt): (Pass<'_>, f64),
     ) -> Result<(), OutOfRange> {
-        self.conduct((set, state), lists, metal.as_deref_mut(), pass)?;
+        self.conduct(set, state, lists, metal.as_deref_mut(), pass)?;
         let parts = (dt / self.limit - 1e-9).ceil().max(1.0);
         let step = dt / parts;
         for part in 1..=parts as u64 {
@@ -325,7 +326,7 @@ impl Heat {
     }
 
     /// Whether heat of what sleeps goes in the step of `stride` of the scene's after `step` others, so that all contacts are wanted.
-    pub(super) fn wants_all(&self, (step, stride): (u64, u64)) -> bool {
+    pub(super) fn wants_all(&self, step: u64, stride: u64) -> bool {
         self.slow.as_ref().is_none_or(|slow| slow.due(step, stride))
     }
 

@@ -141,7 +141,7 @@ impl Metal {
             }
             let (grain, body) = (&grains[pair.near.row as usize], &bodies[pair.body as usize]);
             if let Some(meeting) = body.meeting(grain) {
-                pair.near.meet(meeting, (&own, rolling), step);
+                pair.near.meet(meeting, &own, rolling, step);
             }
         });
         for body in &mut self.bodies {

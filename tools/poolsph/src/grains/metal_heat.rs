@@ -83,7 +83,7 @@ impl Exchange {
         self.links.clear();
         let rows = pairs.chunk_by(|a, b| a.near.row == b.near.row);
         for row in rows.filter(|row| pass.takes_alone(row[0].near.row as usize)) {
-            self.of_grain((row, bodies), grains, state)?;
+            self.of_grain(row, bodies, grains, state)?;
         }
         self.sums.clear();
         self.sums.resize(bodies.len(), 0.0);
@@ -98,7 +98,8 @@ impl Exchange {
     /// The contacts of one grain.
     fn of_grain(
         &mut self,
-        (row, bodies): (&[Pair], &[Body]),
+        row: &[Pair],
+        bodies: &[Body],
         grains: &Conducting<'_>,
         state: &State,
     ) -> Result<(), OutOfRange> {
@@ -123,7 +124,7 @@ impl Exchange {
                 // For now the push alone: the width follows from that of all together.
                 Radius::Force(_) => push,
                 Radius::Overlap { printed } => {
-                    self.by_overlap(&grain, &meeting, (pair, gas), printed)
+                    self.by_overlap(&grain, &meeting, pair, gas, printed)
                 }
             };
             self.links.push(Link {
@@ -152,7 +153,8 @@ impl Exchange {
         &self,
         grain: &Grain,
         meeting: &Meeting,
-        (pair, gas): ([f64; 2], Option<f64>),
+        pair: [f64; 2],
+        gas: Option<f64>,
         printed: bool,
     ) -> f64 {
         let (r, arm) = (grain.radius, meeting.arms[0]);
@@ -169,7 +171,8 @@ impl Exchange {
     pub(super) fn flow(
         &mut self,
         bodies: &[Body],
-        (grains, metal): (&[f64], &[f64]),
+        grains: &[f64],
+        metal: &[f64],
         rates: &mut [f64],
     ) {
         for link in &mut self.links {

@@ -23,7 +23,7 @@ const AHEAD: f64 = 2.0;
 impl Metal {
     /// Chooses the grains that are looked at: all, or those whose forces do not stay as they are by `depth` and those
     /// that metal may flow against.
-    pub fn see(&mut self, state: &State, (grains, depth): (&[Grain], &[u8]), all: bool) {
+    pub fn see(&mut self, state: &State, grains: &[Grain], depth: &[u8], all: bool) {
         self.seen.clear();
         self.seen.resize(grains.len(), true);
         if !(all || depth.is_empty()) {

@@ -286,8 +286,8 @@ impl Stage for Motion {
         if let Some(metal) = &mut self.metal {
             let grains = &self.moving.grains;
             let all =
-                (self.heat.as_ref()).is_some_and(|heat| heat.wants_all((state.step, state.stride)));
-            metal.see(state, (grains, depth(&self.sleep)), all);
+                (self.heat.as_ref()).is_some_and(|heat| heat.wants_all(state.step, state.stride));
+            metal.see(state, grains, depth(&self.sleep), all);
             metal.take(state, grains, self.doing.fastest, dt);
         }
         let mut march = || -> Result<(), OutOfRange> {

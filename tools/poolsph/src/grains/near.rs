@@ -48,7 +48,8 @@ impl Near {
     pub(super) fn meet<N: Normal>(
         &mut self,
         meeting: Meeting,
-        (contact, rolling): (&Contact<N>, Option<Rolling>),
+        contact: &Contact<N>,
+        rolling: Option<Rolling>,
         step: f64,
     ) {
         self.overlap = meeting.overlap;

@@ -221,7 +221,7 @@ impl Walls {
                 let grain = &grains[near.row as usize];
                 let (distance, normal) = face.at(difference(grain.position, moved), grain.radius);
                 let meeting = Meeting::beside_wall(grain, distance, normal, velocity);
-                near.meet(meeting, (&own, rolling), step);
+                near.meet(meeting, &own, rolling, step);
             });
             let overlaps = wall.near.iter().map(|near| near.overlap);
             deepest = overlaps.fold(deepest, f64::max);

@@ -294,7 +294,7 @@ impl Arc {
         for _ in 0..parts as u64 {
             let mut gain = 0.0;
             for (put, flux) in heated.put.iter_mut().zip(&self.fluxes) {
-                let (mean, found) = flux.at((r, heated.temperature), (time, dt))?;
+                let (mean, found) = flux.at(r, heated.temperature, time, dt)?;
                 let heat = mean * area * dt / parts;
                 heated.found &= found;
                 *put += heat;

@@ -38,11 +38,7 @@ impl Flux {
 
     /// The flux at the distance `r` \[m\] into metal of `t` \[K\] \[W/m2\], that of a formula as its mean from `time`
     /// over `dt` \[s\]; and whether all of it was found.
-    pub(super) fn at(
-        &self,
-        (r, t): (f64, f64),
-        (time, dt): (f64, f64),
-    ) -> Result<(f64, bool), StageError> {
+    pub(super) fn at(&self, r: f64, t: f64, time: f64, dt: f64) -> Result<(f64, bool), StageError> {
         if r > self.reach() {
             return Ok((0.0, true));
         }

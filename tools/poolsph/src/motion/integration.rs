@@ -148,7 +148,7 @@ impl Motion {
         let (around, predicted) = (&mut self.around, &mut self.predicted);
         if self.parameters.method == Method::DivergenceFree {
             self.viscosity
-                .apply_between_faces(near, (metal, dt), predicted);
+                .apply_between_faces(near, metal, dt, predicted);
             let viscosity = &self.viscosity;
             self.divergence_free.begin(near, viscosity);
             (self.divergence_free).slacken(near, viscosity, dt, predicted);
@@ -156,7 +156,7 @@ impl Motion {
             around.sum(near, &near.velocity);
             self.viscosity.apply(near, around, dt, predicted);
             self.noise
-                .damp(near, around, (&self.viscosity, dt), predicted);
+                .damp(near, around, &self.viscosity, dt, predicted);
         }
     }
 
@@ -172,10 +172,9 @@ impl Motion {
         let solved = match self.parameters.method {
             Method::Projection => self.projection.solve(near, predicted, step, tolerance),
             Method::Homogenising => self.homogenising.solve(near, predicted, step, tolerance),
-            Method::DivergenceFree => {
-                self.divergence_free
-                    .solve(near, predicted, borne, (step, tolerance))
-            }
+            Method::DivergenceFree => self
+                .divergence_free
+                .solve(near, predicted, borne, step, tolerance),
         };
         self.solved.sweeps += solved.sweeps;
         self.solved.density_error = self.solved.density_error.max(solved.density_error);

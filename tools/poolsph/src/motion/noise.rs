@@ -61,7 +61,8 @@ impl Noise {
         &mut self,
         near: &Near,
         around: &mut Around,
-        (viscosity, dt): (&Viscosity, f64),
+        viscosity: &Viscosity,
+        dt: f64,
         predicted: &mut [[f64; 3]],
     ) {
         let (lost, volume) = ((self.rate * dt).min(PART), self.volume);
@@ -128,7 +129,7 @@ mod tests {
         let mut around = Around::default();
         around.sum(&state.near, &state.near.velocity);
         let none = Viscosity::new(Law::Uniform(0.0), METAL);
-        noise.damp(&state.near, &mut around, (&none, 1.0), &mut change);
+        noise.damp(&state.near, &mut around, &none, 1.0, &mut change);
         for x in change.iter_mut().flatten() {
             *x *= 1e6;
         }

@@ -214,7 +214,7 @@ fn viscous(near: &Near, change: &mut [[f64; 3]]) {
     around.sum(near, &near.velocity);
     let mut viscosity = viscosity::Viscosity::new(Law::Uniform(0.004), METAL);
     viscosity.apply(near, &around, 1.0, change);
-    noise::Noise::new(0.0, METAL).damp(near, &mut around, (&viscosity, 1.0), change);
+    noise::Noise::new(0.0, METAL).damp(near, &mut around, &viscosity, 1.0, change);
 }
 
 #[test]

@@ -184,7 +184,8 @@ impl Viscosity {
     pub fn apply_between_faces(
         &mut self,
         near: &Near,
-        (metal, dt): (Matter, f64),
+        metal: Matter,
+        dt: f64,
         predicted: &mut [[f64; 3]],
     ) {
         if !self.acts() {

@@ -178,7 +178,7 @@ impl Scene {
             (droplet::Mirror { axis, below }, corner[axis])
         });
         let mirrors: Vec<_> = mirrors.collect();
-        droplets.mirror((source.start_m, source.velocity_m_s), &mirrors)
+        droplets.mirror(source.start_m, source.velocity_m_s, &mirrors)
     }
 
     /// Time between two droplets \[s\], if there are any.

@@ -36,7 +36,7 @@ impl Conduction {
                     Role::Backing => {
                         Exchanged::unchanged(near.id[k], enthalpies[id], temperatures[id])
                     }
-                    _ => self.in_flow(near, k, (enthalpies[id], dt)),
+                    _ => self.in_flow(near, k, enthalpies[id], dt),
                 }
             })
             .collect_into_vec(&mut exchanged);
@@ -48,7 +48,7 @@ impl Conduction {
         stored
     }
 
-    fn in_flow(&self, near: &Near, k: usize, (enthalpy, dt): (f64, f64)) -> Exchanged {
+    fn in_flow(&self, near: &Near, k: usize, enthalpy: f64, dt: f64) -> Exchanged {
         let (chunk, pairs) = (&near.lists.chunks()[k / ROWS], &near.pairs[k / ROWS]);
         let row = chunk.row(k % ROWS).iter();
         let weights = &pairs.value[chunk.range(k % ROWS)];

@@ -72,7 +72,8 @@ impl Cohesion {
     pub(super) fn pull(
         &mut self,
         near: &Near,
-        (filled, dt): (Filled, f64),
+        filled: Filled,
+        dt: f64,
         predicted: &mut [[f64; 3]],
     ) {
         self.count(near, filled);
@@ -168,7 +169,8 @@ mod tests {
     fn changed(
         cells: [i32; 3],
         liquid: impl Fn([i32; 3]) -> bool,
-        (shaken, driven): (f64, f64),
+        shaken: f64,
+        driven: f64,
     ) -> (State, Vec<[f64; 3]>, Cohesion) {
         let mut seed = 3_u64;
         let mut random = |size: f64| {
@@ -194,7 +196,7 @@ mod tests {
         state.near.tension = vec![GAMMA; state.near.len()];
         let mut cohesion = Cohesion::new(METAL);
         let mut change = vec![[0.0; 3]; state.near.len()];
-        cohesion.pull(&state.near, (Filled::of(METAL), DT), &mut change);
+        cohesion.pull(&state.near, Filled::of(METAL), DT, &mut change);
         (state, change, cohesion)
     }
 
@@ -202,7 +204,7 @@ mod tests {
     fn what_shows_a_surface_is_left_as_it_is() {
         for cells in [[6, 6, 6], [8, 8, 2], [12, 12, 1]] {
             // But for the edges of films.
-            let (state, change, _) = changed(cells, |_| true, (0.0, 0.0));
+            let (state, change, _) = changed(cells, |_| true, 0.0, 0.0);
             let inner = |a: &usize| {
                 let x = state.near.position[*a].map(|x| x / METAL.spacing);
                 (0..2).all(|i| x[i] > 2.6 && x[i] < f64::from(cells[i]) - 2.6)
@@ -218,7 +220,8 @@ mod tests {
         let (state, change, mut cohesion) = changed(
             [5, 5, 5],
             |[i, j, k]| (i + 2 * j + 3 * k) % 5 == 0,
-            (0.9, 1.0),
+            0.9,
+            1.0,
         );
         let near = &state.near;
         let size: f64 = change.iter().map(|u| squared(*u).sqrt()).sum();
@@ -246,7 +249,7 @@ mod tests {
         };
         cohesion.strength = 0.0;
         let mut damped = vec![[0.0; 3]; near.len()];
-        cohesion.pull(near, (Filled::of(METAL), DT), &mut damped);
+        cohesion.pull(near, Filled::of(METAL), DT, &mut damped);
         assert!(work(&damped) < 0.0);
     }
 

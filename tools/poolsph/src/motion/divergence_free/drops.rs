@@ -51,7 +51,7 @@ fn sum(near: &Near, of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
 fn viscous(near: &Near, surface: bool) -> Vec<[f64; 3]> {
     let mut change = vec![[0.0; 3]; near.len()];
     let mut viscosity = Viscosity::new(Law::Uniform(MU), METAL);
-    viscosity.apply_between_faces(near, (METAL, 1.0), &mut change);
+    viscosity.apply_between_faces(near, METAL, 1.0, &mut change);
     if surface {
         let mut solver = DivergenceFree::new(METAL);
         solver.begin(near, &viscosity);

@@ -160,18 +160,19 @@ impl DivergenceFree {
         near: &mut Near,
         predicted: &mut [[f64; 3]],
         borne: [f64; 3],
-        (step, tolerance): (Step, Tolerance),
+        step: Step,
+        tolerance: Tolerance,
     ) -> Solved {
         if near.is_empty() {
             return Solved::default();
         }
         self.weight
-            .lift(near, &self.islands, predicted, (borne, step));
+            .lift(near, &self.islands, predicted, borne, step);
         self.sum(near, predicted);
         if !near.tension.is_empty() {
             let part = step.dt / capillary::limit(near, step.metal);
             self.ripples.damp(near, &self.rows, part, predicted);
-            self.cohesion.pull(near, (self.filled, step.dt), predicted);
+            self.cohesion.pull(near, self.filled, step.dt, predicted);
             self.sum(near, predicted);
         }
         let gas = self.weight.settle(near, &self.islands, &self.rows);
@@ -231,7 +232,7 @@ impl DivergenceFree {
             #[inline(always)]
             |a, row, out| {
                 *out = match near.role[a] {
-                    Role::Liquid => Sums::of(near, moved, (a, row), filled),
+                    Role::Liquid => Sums::of(near, moved, a, row, filled),
                     _ => Sums::default(),
                 };
             },
@@ -336,7 +337,7 @@ impl DivergenceFree {
             }
             let surface = plus(near.position[a], 1.0, rows[a].outwards());
             let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a));
-            let pressure = pressure - weight.above(gas, islands, (a, surface));
+            let pressure = pressure - weight.above(gas, islands, a, surface);
             rows[a].open.map(|x| -2.0 * pressure * x / moment)
         };
         self.islands.balance(&mut self.slope, upon);

@@ -61,7 +61,7 @@ impl Normals {
                 let size = squared(side).sqrt();
                 if size > 0.0 {
                     let first = side.map(|x| -x / size);
-                    let [x, y, z] = levelled(near, (a, row), sides, first);
+                    let [x, y, z] = levelled(near, a, row, sides, first);
                     let steep = (volume * part * -dot(near.gradient[a], first)).max(0.0);
                     let [p, q, r] = first.map(|x| steep * x);
                     *found = [x, y, z, p, q, r];
@@ -113,12 +113,7 @@ impl Normals {
 }
 
 /// The normal of the plane through the places of the surface around `a`, by least squares about a first `normal`.
-fn levelled(
-    near: &Near,
-    (a, row): (usize, Row<'_>),
-    sides: &[[f64; 4]],
-    normal: [f64; 3],
-) -> [f64; 3] {
+fn levelled(near: &Near, a: usize, row: Row<'_>, sides: &[[f64; 4]], normal: [f64; 3]) -> [f64; 3] {
     let (p, q) = tangents(normal);
     let own = near.kernel.value(0.0) * sides[a][3];
     // Sums of weight, x, y, z, and of xx, xy, yy, xz, yz.

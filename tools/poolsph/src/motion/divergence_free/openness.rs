@@ -26,7 +26,7 @@ const NEAR: [f64; 2] = [1.6, 2.0];
 
 /// How far the particle `a` lies at the surface, 0 to 1.
 #[inline]
-pub(super) fn open(near: &Near, filled: Filled, (a, row): (usize, Row<'_>)) -> f64 {
+pub(super) fn open(near: &Near, filled: Filled, a: usize, row: Row<'_>) -> f64 {
     let lack = lack(near, filled, a);
     if lack <= LACKS[0] {
         return 0.0;

@@ -89,12 +89,7 @@ fn multiplied([a, b, c, d, e, f]: [f64; 6], [x, y, z]: [[f64; 3]; 3]) -> [[f64; 
 impl Sums {
     /// Those of particle `a` with the velocities `u`.
     #[inline(always)]
-    pub(super) fn of(
-        near: &Near,
-        u: &[[f64; 3]],
-        (a, row): (usize, Row<'_>),
-        filled: Filled,
-    ) -> Self {
+    pub(super) fn of(near: &Near, u: &[[f64; 3]], a: usize, row: Row<'_>, filled: Filled) -> Self {
         let (mut all, mut liquid) = (0.0, 0.0);
         let (mut moments, mut change) = ([0.0; 6], [[0.0; 3]; 3]);
         for (b, slope) in row.slopes() {
@@ -134,9 +129,9 @@ impl Sums {
         if missing > 0.0 {
             let inwards = near.gradient[a];
             sums.open = inwards.map(|x| part * x);
-            sums.sure = open(near, filled, (a, row));
+            sums.sure = open(near, filled, a, row);
             if !tense {
-                sums.layer = beneath(near, (a, row), inwards, filled.spacing);
+                sums.layer = beneath(near, a, row, inwards, filled.spacing);
             }
             beyond(&mut moments, sums.open, missing, sums.layer);
         }
@@ -148,7 +143,7 @@ impl Sums {
 }
 
 /// Mean depth \[m\] of the neighbours beneath a particle of the surface.
-fn beneath(near: &Near, (a, row): (usize, Row<'_>), inwards: [f64; 3], d: f64) -> f64 {
+fn beneath(near: &Near, a: usize, row: Row<'_>, inwards: [f64; 3], d: f64) -> f64 {
     let size = squared(inwards).sqrt();
     if size <= 0.0 {
         return d;

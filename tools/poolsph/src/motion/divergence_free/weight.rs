@@ -41,7 +41,8 @@ impl Weight {
         near: &Near,
         islands: &Islands,
         predicted: &mut [[f64; 3]],
-        (borne, step): ([f64; 3], Step),
+        borne: [f64; 3],
+        step: Step,
     ) {
         self.slope = borne.map(|a| step.metal.density * a);
         self.middle = [0.0; 3];
@@ -100,17 +101,12 @@ impl Weight {
     /// p - p' at the place `x` of the particle `a` \[Pa\].
     #[inline]
     pub(super) fn known(&self, islands: &Islands, a: usize, x: [f64; 3]) -> f64 {
-        self.above(self.level, islands, (a, x))
+        self.above(self.level, islands, a, x)
     }
 
     /// The same above other levels \[Pa\], of what walls bear and of what falls.
     #[inline]
-    pub(super) fn above(
-        &self,
-        level: [f64; 2],
-        islands: &Islands,
-        (a, x): (usize, [f64; 3]),
-    ) -> f64 {
+    pub(super) fn above(&self, level: [f64; 2], islands: &Islands, a: usize, x: [f64; 3]) -> f64 {
         if islands.free(a) {
             level[1]
         } else {

@@ -58,7 +58,7 @@ impl Near {
             let turn = self.images.turn(self.len + k).filter(|turn| turn.is_held());
             if let Some(turn) = turn {
                 let x = self.position[image.of as usize];
-                *kelvin = faces.temperature(turn, (x, time), *kelvin)?;
+                *kelvin = faces.temperature(turn, x, time, *kelvin)?;
             }
         }
         Ok(())

@@ -277,7 +277,7 @@ impl Near {
 
     /// Calls `each` with every particle, its row and its item of `out`.
     pub fn each_row<T: Send>(&self, out: &mut [T], each: impl Fn(usize, Row<'_>, &mut T) + Sync) {
-        pairs::each_row((&self.lists, &self.pairs), &mut out[..self.len], each);
+        pairs::each_row(&self.lists, &self.pairs, &mut out[..self.len], each);
     }
 
     /// As [`Near::each_row`], with the virials as `out`.

@@ -46,7 +46,8 @@ impl Row<'_> {
 
 /// Calls `each` with every particle, its row and its item of `out`, chunks side by side.
 pub(super) fn each_row<T: Send>(
-    (lists, pairs): (&Lists, &[PairChunk]),
+    lists: &Lists,
+    pairs: &[PairChunk],
     out: &mut [T],
     each: impl Fn(usize, Row<'_>, &mut T) + Sync,
 ) {
