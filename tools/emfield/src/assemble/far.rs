@@ -58,7 +58,7 @@ pub(super) fn tell<const D: usize, const K: usize>(
     }
     let [now, then] = [found, &other].map(|found| fields(found, cloud));
     let pairs = now.iter().zip(&then);
-    let changes = pairs.map(|((name, now), (_, then))| (name, change(&cloud.surface, (now, then))));
+    let changes = pairs.map(|((name, now), (_, then))| (name, change(&cloud.surface, now, then)));
     let Some((name, change)) = changes.max_by(|a, b| a.1.total_cmp(&b.1)) else {
         return Ok(());
     };
@@ -121,7 +121,7 @@ fn fields(found: &Found, cloud: &Cloud) -> Vec<(&'static str, Sides)> {
 }
 
 /// Change of a field over its size, in the mean over surfaces.
-fn change(surface: &[SurfacePoint], (now, then): (&Sides, &Sides)) -> f64 {
+fn change(surface: &[SurfacePoint], now: &Sides, then: &Sides) -> f64 {
     let (mut apart, mut size) = (0.0, 0.0);
     for (now, then) in now.iter().flatten().zip(then.iter().flatten()) {
         for ((s, now), then) in surface.iter().zip(now).zip(then) {

@@ -51,7 +51,7 @@ fn fields<const D: usize, const K: usize>(
         session.stopped()?;
         drop(expendable);
         let mut doubts = Vec::new();
-        let parameters = magnetic::setup::parameters((scene, currents), cloud, numerics(scene))?;
+        let parameters = magnetic::setup::parameters(scene, currents, cloud, numerics(scene))?;
         let problem = problem::<D>((scene, &parameters), cloud, session)?;
         let with = (transient, &scene.output);
         march::currents::march::<D, K>(&problem, with, session, |time, fields, session| {
@@ -108,7 +108,7 @@ fn steady<const D: usize, const K: usize>(
     let mut found = electric::<D>(scene, cloud, session)?;
     session.stopped()?;
     if let Some(currents) = &scene.eddy_currents {
-        let parameters = magnetic::setup::parameters((scene, currents), cloud, numerics(scene))?;
+        let parameters = magnetic::setup::parameters(scene, currents, cloud, numerics(scene))?;
         let problem = problem::<D>((scene, &parameters), cloud, session)?;
         found.join(match currents.standing {
             Some(_) => problem.standing::<K>(session)?,

@@ -95,7 +95,7 @@ pub fn vector(coordinates: &[f64]) -> Vector {
 }
 
 /// The wall of a domain, and the least extent of it \[m\].
-fn wall(domain: &Domain, (dimensions, axisymmetric): (usize, bool)) -> (Wall, f64) {
+fn wall(domain: &Domain, dimensions: usize, axisymmetric: bool) -> (Wall, f64) {
     match domain {
         Domain::Box(b) => {
             let (low, high) = (vector(&b.min_m), vector(&b.max_m));
@@ -134,7 +134,7 @@ impl Layout {
         let dimensions = scene.geometry.dimensions();
         let axisymmetric = scene.geometry == crate::geometry::Geometry::Axisymmetric;
         let points = &scene.points;
-        let (wall, size) = wall(&scene.domain, (dimensions, axisymmetric));
+        let (wall, size) = wall(&scene.domain, dimensions, axisymmetric);
         let outward = |body: &Body, spacing: f64| {
             let own = || proportional(body, spacing, dimensions);
             points.outward.unwrap_or_else(own)

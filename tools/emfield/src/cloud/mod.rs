@@ -237,7 +237,7 @@ impl Cloud {
 
     /// How the level of a layered point bends where layers are thin, `foot` and `normal` being those of its metric.
     #[must_use]
-    pub fn curvature(&self, point: usize, (foot, normal): (u32, Vector)) -> Option<Curvature> {
+    pub fn curvature(&self, point: usize, foot: u32, normal: Vector) -> Option<Curvature> {
         let foot = &self.feet[foot as usize];
         let away = dot(difference(self.position[point], foot.place), normal);
         foot.thin.then(|| foot.curvature.beside(away))

@@ -29,7 +29,7 @@ pub(crate) fn told<const D: usize>(
     let enclosed = fits::all(around, at, session)?;
     let up = |e| raise(cloud.geometry, e);
     let [inner, beyond] = fields.map(|field| field.into_iter().map(up).collect::<Vec<Vector>>());
-    let (mut found, pulls) = columns((cloud, problem), value, &inner, &beyond);
+    let (mut found, pulls) = columns(cloud, problem, value, &inner, &beyond);
     if let Some(open) = open {
         let potential = std::mem::take(&mut found.columns[0].values);
         open.totals(
@@ -73,7 +73,8 @@ fn on_surface(cloud: &Cloud, field: &[Vector]) -> Vec<Vector> {
 
 /// Potential and field of all points, traction and fields of both sides on interfaces; the tractions.
 fn columns(
-    (cloud, problem): (&Cloud, &Problem),
+    cloud: &Cloud,
+    problem: &Problem,
     value: Vec<f64>,
     inner: &[Vector],
     beyond: &[Vector],

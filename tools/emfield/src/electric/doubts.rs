@@ -127,7 +127,7 @@ fn charged(
     }
     let pull = (one.charge * one.field).abs();
     let forces = [all.force, one.force].map(|f| cloud.geometry.seen(f));
-    let share = pull / size(forces.into_iter(), (ways.gross, ways.largest));
+    let share = pull / size(forces.into_iter(), ways.gross, ways.largest);
     (share > APART).then(|| Doubt {
         of: ways.of.to_owned(),
         share,

@@ -42,7 +42,7 @@ pub(crate) fn electrostatics<const D: usize>(
         numerics,
         applied: walls.open.then_some(&applied),
     };
-    solution::found((cloud, &region), &given, around, session)
+    solution::found(cloud, &region, &given, around, session)
 }
 
 /// What is given where.
@@ -206,7 +206,7 @@ pub(crate) fn shorts(
         };
         for (k, v, _) in touching {
             if (v - given).abs() > SAME * v.abs().max(given.abs()) {
-                faults[*k].get_or_insert_with(|| short(*k, (*v, given), &name, *x));
+                faults[*k].get_or_insert_with(|| short(*k, *v, given, &name, *x));
             }
         }
     }
@@ -224,7 +224,7 @@ fn electrode(scene: &Scene, medium: u8) -> Option<(f64, &str)> {
     Some((body.potential_v?, &body.name))
 }
 
-fn short(k: usize, (own, other): (f64, f64), name: &str, [x, y, z]: Vector) -> Fault {
+fn short(k: usize, own: f64, other: f64, name: &str, [x, y, z]: Vector) -> Fault {
     let what = format!(
         "{own} V touches {name} at {other} V at ({x:.3e}, {y:.3e}, {z:.3e}) m, a short circuit: give both one potential, or leave a gap of more than {TOUCH} spacings"
     );

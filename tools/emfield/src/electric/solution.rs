@@ -30,7 +30,8 @@ pub(crate) struct Given<'a> {
 /// # Errors
 /// Where a stencil cannot be made, a formula has no value, or the solve breaks down.
 pub(crate) fn found<const D: usize>(
-    (cloud, region): (&Cloud, &Region<D>),
+    cloud: &Cloud,
+    region: &Region<D>,
     given: &Given<'_>,
     around: Vec<Enclosing>,
     session: &mut Session,
@@ -78,7 +79,7 @@ pub(crate) fn found<const D: usize>(
         let (a, b) = session.timed("fields", || (field(true), field(false)));
         (v, a, b)
     };
-    if let Some(what) = beyond_given((cloud, given.applied.is_some()), problem, &value) {
+    if let Some(what) = beyond_given(cloud, given.applied.is_some(), problem, &value) {
         session.warn(what);
     }
     let fields = (value, [inner, beyond]);
@@ -96,7 +97,7 @@ const BEYOND: f64 = 0.01;
 
 /// Says where a potential lies outside what walls and electrodes give: between them no permittivity has a maximum or a
 /// minimum, so that the points do not resolve what is there.
-fn beyond_given((cloud, open): (&Cloud, bool), problem: &Problem, value: &[f64]) -> Option<String> {
+fn beyond_given(cloud: &Cloud, open: bool, problem: &Problem, value: &[f64]) -> Option<String> {
     let each = problem.held.iter().zip(value);
     let walls = each.filter_map(|(held, value)| match held.as_ref()? {
         Held::Potential(_) if open => Some(*value),

@@ -92,9 +92,8 @@ impl<const D: usize> Problem<'_, D> {
             (driven.source, acting),
             &mut all,
         );
-        all.doubts.extend(self.doubt(&fields, (&totals, acting)));
-        all.doubts
-            .extend(self.heat_doubt(&fields, (&totals, acting)));
+        all.doubts.extend(self.doubt(&fields, &totals, acting));
+        all.doubts.extend(self.heat_doubt(&fields, &totals, acting));
         all
     }
 
@@ -123,7 +122,7 @@ impl<const D: usize> Problem<'_, D> {
         let pull = |face: &Face<D>| {
             let normal = self.region.raise(face.normal);
             let flux = fields.flux[face.point as usize];
-            traction((&self.parameters.laws, face), flux, normal)
+            traction(&self.parameters.laws, face, flux, normal)
         };
         let pulls: Vec<Vector> = self.region.faces.iter().map(pull).collect();
         Column::vector("magnetic_traction", "Pa", &pulls, &[])
@@ -181,11 +180,11 @@ impl<const D: usize> Problem<'_, D> {
     ) -> Totals {
         let geometry = self.cloud.geometry;
         let (newton, watt) = (geometry.unit_of_force(), geometry.unit_of_power());
-        let mut force = |name: &str, value| push_force((geometry, name), value, all);
+        let mut force = |name: &str, value| push_force(geometry, name, value, all);
         if self.parameters.unknown == Unknown::Axial {
             // A field along z pulls at no coil, and what flows in through a wall is not told apart.
             let all_points = |_: usize| true;
-            let found = Totals::bodies(&self.region, fields, &self.weights, (acting, all_points));
+            let found = Totals::bodies(&self.region, fields, &self.weights, acting, all_points);
             force("force_volume", found.force_volume);
             all.totals
                 .push(("power_volume".to_owned(), watt, found.heat_volume));

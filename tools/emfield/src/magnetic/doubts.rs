@@ -42,7 +42,8 @@ impl<const D: usize> Problem<'_, D> {
     pub(crate) fn doubt(
         &self,
         fields: &Fields,
-        (totals, acting): (&Totals, Acting<'_>),
+        totals: &Totals,
+        acting: Acting<'_>,
     ) -> Option<Doubt> {
         if self.parameters.unknown == Unknown::Axial || self.walled(acting) {
             return None;
@@ -95,7 +96,8 @@ impl<const D: usize> Problem<'_, D> {
     pub(crate) fn heat_doubt(
         &self,
         fields: &Fields,
-        (totals, acting): (&Totals, Acting<'_>),
+        totals: &Totals,
+        acting: Acting<'_>,
     ) -> Option<Doubt> {
         if self.parameters.omega.is_none()
             || self.parameters.unknown == Unknown::Axial

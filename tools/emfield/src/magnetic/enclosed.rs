@@ -24,7 +24,7 @@ impl<const D: usize> Problem<'_, D> {
             let mu = self.parameters.laws[surface.medium as usize].permeability(0.0);
             let (stress, heat) = self.stress(one, solution.found, source);
             let kept = |i: usize| surface.within[i];
-            let bodies = Totals::bodies(&self.region, fields, &self.weights, (acting, kept));
+            let bodies = Totals::bodies(&self.region, fields, &self.weights, acting, kept);
             let mut ways = vec![
                 stress.map(|f| f / mu),
                 bodies.force_volume,

@@ -166,7 +166,7 @@ impl Fields {
             let mu = media.laws[medium].constant().unwrap_or(0.0);
             let mu_sigma = mu * sigma;
             let slopes = solution.slopes((region, sides), unknown, i, (media, mu_sigma));
-            let (potential, reaction) = local(unknown, &place, (&total, &found[i]), &slopes);
+            let (potential, reaction) = local(unknown, &place, &total, &found[i], &slopes);
             let electric = along(unknown, &place, &change[i]).map(|rate| -rate);
             let mut flux = reaction;
             for (b, s) in flux.iter_mut().zip(&media.flux[i]) {
@@ -261,7 +261,7 @@ impl Fields {
                 };
                 let slopes: [[C; D]; K] =
                     std::array::from_fn(|k| std::array::from_fn(|axis| bend[k] * share(axis)));
-                let (_, curl) = local(unknown, &place, (&none, &none), &slopes);
+                let (_, curl) = local(unknown, &place, &none, &none, &slopes);
                 for (k, b) in curl.iter().enumerate() {
                     self.flux[i][k] += b;
                     self.reaction[i][k] += b;

@@ -32,7 +32,7 @@ impl<const D: usize> Problem<'_, D> {
         };
         let mut change = steady_change(drive.omega, &found, &drive.source);
         let mut carried = drive.source.clone();
-        let along = self.applied((drive.omega, &found), &mut change, &mut carried);
+        let along = self.applied(drive.omega, &found, &mut change, &mut carried);
         let charged = charges.filter(Coupling::charged).map(|charges| {
             let rate = C::new(0.0, drive.omega);
             let voltage: Vec<C> = phi.iter().map(|phi| rate * phi).collect();
@@ -156,7 +156,8 @@ impl<const D: usize> Problem<'_, D> {
     /// Takes what is applied along bars from the rates of their points, and what of sources waves know there; the totals.
     fn applied<const K: usize>(
         &self,
-        (omega, found): (f64, &[[C; K]]),
+        omega: f64,
+        found: &[[C; K]],
         change: &mut [[C; K]],
         source: &mut [[C; K]],
     ) -> Found {

@@ -67,7 +67,7 @@ impl<'a, const D: usize> Problem<'a, D> {
         let failed = |error: wls::Error| no_stencil("eddy currents", &error, cloud);
         let (sides, mut weights) = made.map_err(failed)?;
         supports("vector_potential", &sides.report(), session);
-        let conductors = conductors(parameters, (&region, &sides));
+        let conductors = conductors(parameters, &region, &sides);
         let mut source = parameters.source.clone();
         if D == 2 && unknown == Unknown::Potential {
             centre(&mut source, &region, &weights, &conductors);
@@ -153,7 +153,8 @@ fn waves<const D: usize>(
 /// The conductors.
 fn conductors<const D: usize>(
     parameters: &Parameters,
-    (region, sides): (&Region<D>, &Sides<D>),
+    region: &Region<D>,
+    sides: &Sides<D>,
 ) -> Conductors {
     let Parameters {
         conductivity,

@@ -23,7 +23,8 @@ const THIN: f64 = 1e-3;
 /// # Errors
 /// Where a curve of magnetisation is none, or coils and bars are not whole.
 pub(crate) fn parameters(
-    (scene, currents): (&Scene, &EddyCurrents),
+    scene: &Scene,
+    currents: &EddyCurrents,
     cloud: &Cloud,
     numerics: Numerics,
 ) -> Result<Parameters, Failure> {
@@ -42,7 +43,7 @@ pub(crate) fn parameters(
         magnetic: media.map(|m| scene.magnetic(m)).collect(),
         source: source(scene, currents),
         coils: windings(scene, currents, cloud)?,
-        bars: bars((scene, currents), cloud)?,
+        bars: bars(scene, currents, cloud)?,
         run: run(scene, currents),
         numerics,
     })
@@ -108,8 +109,8 @@ pub(crate) fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
             }
         }
     }
-    faults.extend(saturating((scene, currents), unknown));
-    faults.extend(barred((scene, currents), unknown));
+    faults.extend(saturating(scene, currents, unknown));
+    faults.extend(barred(scene, currents, unknown));
     let left_out = currents.potential == Some(ElectricPotential::Conductors)
         && !currents.charged(scene.geometry);
     if left_out {
@@ -140,7 +141,7 @@ pub(crate) fn faults(scene: &Scene, currents: &EddyCurrents) -> Vec<Fault> {
 }
 
 /// Curves of magnetisation where fields are sinusoids, or where H is sought.
-fn saturating((scene, currents): (&Scene, &EddyCurrents), unknown: Unknown) -> Vec<Fault> {
+fn saturating(scene: &Scene, currents: &EddyCurrents, unknown: Unknown) -> Vec<Fault> {
     let why = if currents.harmonic.is_some() {
         "a curve of magnetisation has no sinusoidal steady state, as the field of a sinusoidal current is no sinusoid: give a number, march with \"transient\", or take \"static\" where nothing changes"
     } else if unknown == Unknown::Axial {
@@ -250,7 +251,7 @@ pub(crate) fn source(scene: &Scene, currents: &EddyCurrents) -> Source {
 }
 
 /// What net currents a scene cannot have.
-fn barred((scene, currents): (&Scene, &EddyCurrents), unknown: Unknown) -> Vec<Fault> {
+fn barred(scene: &Scene, currents: &EddyCurrents, unknown: Unknown) -> Vec<Fault> {
     let mut faults = Vec::new();
     let magnetic = (1..=scene.bodies.len()).any(|m| scene.magnetic(m));
     for (k, body) in scene.bodies.iter().enumerate() {

@@ -18,7 +18,7 @@ impl<const D: usize> Problem<'_, D> {
         let drive = session.timed("source", || self.drive::<K>());
         let flux = self.source.flux(&self.cloud.position);
         let charges = self.charges(session)?;
-        let mut stage = stage(self, &drive, (charges.as_ref(), 0.0), session)?;
+        let mut stage = stage(self, &drive, charges.as_ref(), 0.0, session)?;
         let source: Vec<f64> = drive.source.as_flattened().iter().map(|a| a.re).collect();
         let unknowns = source.len() + charges.as_ref().map_or(0, |c| c.stencils.len());
         let none = vec![0.0; unknowns];
@@ -52,7 +52,7 @@ impl<const D: usize> Problem<'_, D> {
             total,
             change: none,
         };
-        let (found, _) = session.timed("fields", || view.fields(&state, (1.0, f64::INFINITY)));
+        let (found, _) = session.timed("fields", || view.fields(&state, 1.0, f64::INFINITY));
         Ok(found)
     }
 }

@@ -52,7 +52,7 @@ impl Totals {
         let permeable = acting.permeable;
         Self {
             force_coil: force::force((region, weights), fields, coils, (permeable, acting.laws)),
-            ..Self::bodies(region, fields, weights, (acting, |_| true))
+            ..Self::bodies(region, fields, weights, acting, |_| true)
         }
     }
 
@@ -76,7 +76,8 @@ impl Totals {
         region: &Region<D>,
         fields: &Fields,
         weights: &[f64],
-        (acting, kept): (Acting<'_>, impl Fn(usize) -> bool),
+        acting: Acting<'_>,
+        kept: impl Fn(usize) -> bool,
     ) -> Self {
         let (force_volume, heat_volume) = volume(fields, weights, &kept);
         let mut found = Self {
@@ -93,7 +94,7 @@ impl Totals {
             }
             let n = region.raise(face.normal);
             if jumps(acting.laws, face) {
-                let pull = traction((acting.laws, face), fields.flux[i], n);
+                let pull = traction(acting.laws, face, fields.flux[i], n);
                 for (sum, pull) in found.force_volume.iter_mut().zip(pull) {
                     *sum += face.area * pull;
                 }

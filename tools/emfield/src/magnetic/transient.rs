@@ -26,7 +26,8 @@ const NOISE: f64 = 1e3;
 pub(crate) fn stage<'a, const D: usize, const K: usize>(
     problem: &'a Problem<'_, D>,
     drive: &Drive<K>,
-    (charges, slope): (Option<&'a Coupling>, f64),
+    charges: Option<&'a Coupling>,
+    slope: f64,
     session: &mut Session,
 ) -> Result<Box<dyn Stage + 'a>, Failure> {
     let Some(charges) = charges else {
@@ -110,7 +111,7 @@ pub(crate) struct View<'a, const D: usize, const K: usize> {
 impl<const D: usize, const K: usize> View<'_, D, K> {
     /// Columns and totals of a state, with the wave then and the step before it \[s\]; and how far fields point out of
     /// conductors.
-    pub(crate) fn fields(&self, state: &State, (wave, step): (f64, f64)) -> (Found, Lack) {
+    pub(crate) fn fields(&self, state: &State, wave: f64, step: f64) -> (Found, Lack) {
         let Self { problem, drive, .. } = *self;
         let real = |values: &[f64]| -> Vec<[C; K]> {
             let points = values.as_chunks::<K>().0.iter();

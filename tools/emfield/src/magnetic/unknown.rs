@@ -59,7 +59,8 @@ pub(crate) fn along<const D: usize, const K: usize>(
 pub(crate) fn local<const D: usize, const K: usize>(
     unknown: Unknown,
     place: &[f64; D],
-    (total, reaction): (&[C; K], &[C; K]),
+    total: &[C; K],
+    reaction: &[C; K],
     slopes: &[[C; D]; K],
 ) -> ([C; 3], [C; 3]) {
     let zero = C::new(0.0, 0.0);

@@ -69,7 +69,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
     let flux = problem.source.flux(&problem.cloud.position);
     let charges = problem.charges(session)?;
     let mut length = steps.step(0).1;
-    let stage = stage(problem, &drive, (charges.as_ref(), slope(length)), session)?;
+    let stage = stage(problem, &drive, charges.as_ref(), slope(length), session)?;
     let source: Vec<f64> = drive.source.as_flattened().iter().map(|a| a.re).collect();
     let unknowns = source.len() + charges.as_ref().map_or(0, |c| c.stencils.len());
     let mut march = March::new(stage, source, unknowns, length);
@@ -84,7 +84,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
     if let Some(mut checkpoint) = session.restored() {
         (taken, length, effort) = restore((&mut march, &mut growth), &steps, &mut checkpoint)?;
     } else {
-        write(0.0, view.fields(march.state(), (0.0, length)).0, session)?;
+        write(0.0, view.fields(march.state(), 0.0, length).0, session)?;
     }
     let rule = problem.parameters.numerics.rule(None);
     while taken < steps.count() {
@@ -110,8 +110,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
         });
         if written {
             let wave = wave.at(time)?;
-            let (found, out) =
-                session.timed("fields", || view.fields(march.state(), (wave, length)));
+            let (found, out) = session.timed("fields", || view.fields(march.state(), wave, length));
             effort.lack.join(out);
             write(time, found, session)?;
         }

@@ -67,7 +67,7 @@ impl MagneticField {
 
     /// The scene of the field about a ball in place of the drop, all else left as it is.
     #[must_use]
-    pub fn about(&self, scene: &Scene, (centre, radius): ([f64; 3], f64)) -> Scene {
+    pub fn about(&self, scene: &Scene, centre: [f64; 3], radius: f64) -> Scene {
         let spacing = self.spacing_m.unwrap_or(scene.points.spacing_m);
         let first = (FIRST * spacing).min(THIN * self.skin());
         let edge = |side: f64| centre.iter().map(|c| c + side * WALL * radius).collect();

@@ -89,7 +89,7 @@ pub(crate) fn region<const D: usize>(
                 foot,
             } => {
                 let straight = Metric::layered(reduce(geometry, normal), across, along);
-                match cloud.curvature(i, (foot, normal)) {
+                match cloud.curvature(i, foot, normal) {
                     Some(c) => straight.bent(reduce(geometry, c.along), c.principal),
                     None => straight,
                 }

@@ -67,7 +67,7 @@ fn radii(across: f64, along: f64) -> Vec<(f64, f64)> {
 }
 
 /// A round patch of a shell, about a point at the distance `r` along `n`.
-fn patch((r, n): (f64, [f64; 3]), [low, high]: [f64; 2], volume: f64) -> Moments<3> {
+fn patch(r: f64, n: [f64; 3], [low, high]: [f64; 2], volume: f64) -> Moments<3> {
     let (middle, thick) = (0.5 * (low + high), high - low);
     let square = volume / (thick * 4.0 * std::f64::consts::PI);
     // Curved patches lie below their points; a shell holds more outside than inside.
@@ -116,7 +116,7 @@ pub(crate) fn shells(across: f64, along: f64) -> (Region<3>, Vec<Moments<3>>) {
             } else {
                 0.0
             };
-            cells.push(patch((r, n), [low, high], volume));
+            cells.push(patch(r, n, [low, high], volume));
             region.kinds.push(if (r - 1.0).abs() < 1e-12 {
                 region.faces.push(Face {
                     point,

@@ -201,7 +201,7 @@ impl<const D: usize> Enclosed<D> {
             let own: [C; K] = std::array::from_fn(value);
             let slopes: [[C; D]; K] =
                 std::array::from_fn(|k| std::array::from_fn(|axis| slope(k, axis)));
-            let (potential, flux) = local(unknown, &self.places[n], (&own, &own), &slopes);
+            let (potential, flux) = local(unknown, &self.places[n], &own, &own, &slopes);
             Reaction { potential, flux }
         };
         (0..self.places.len()).into_par_iter().map(fields).collect()

@@ -40,7 +40,7 @@ pub(crate) fn about(cloud: &Cloud) -> Option<Enclosing> {
 /// The surface halfway between all bodies and the walls, and its least distance from both \[m\].
 pub(crate) fn halfway(cloud: &Cloud) -> (Shape, f64) {
     match &cloud.wall {
-        Wall::Ball { centre, radius } => within_ball((*centre, *radius), cloud),
+        Wall::Ball { centre, radius } => within_ball(*centre, *radius, cloud),
         Wall::Box { low, high, .. } => within_box([*low, *high], cloud),
     }
 }
@@ -83,7 +83,7 @@ fn reach(cloud: &Cloud) -> [Vector; 2] {
 }
 
 /// The ball halfway between bodies and walls, and its distance from both.
-fn within_ball((centre, radius): (Vector, f64), cloud: &Cloud) -> (Shape, f64) {
+fn within_ball(centre: Vector, radius: f64, cloud: &Cloud) -> (Shape, f64) {
     let away = surfaces(cloud).map(|x| length(difference(x, centre)));
     let radius_m = 0.5 * (away.fold(0.0, f64::max) + radius);
     let (centre_m, name) = (centre[..cloud.geometry.dimensions()].to_vec(), None);

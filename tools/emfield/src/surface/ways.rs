@@ -31,7 +31,7 @@ pub(crate) struct Ways<'a> {
 }
 
 /// The size with which differences of a force are compared.
-pub(crate) fn size(ways: impl Iterator<Item = Vector>, (gross, largest): (f64, f64)) -> f64 {
+pub(crate) fn size(ways: impl Iterator<Item = Vector>, gross: f64, largest: f64) -> f64 {
     ways.map(length)
         .fold(largest.max(CANCELLED * gross), f64::max)
 }
@@ -49,7 +49,7 @@ impl Ways<'_> {
     pub(crate) fn doubt(&self, geometry: Geometry) -> Option<Doubt> {
         let forces: Vec<Vector> = self.ways.iter().map(|(_, f)| geometry.seen(*f)).collect();
         let apart = spread(&forces);
-        let size = size(forces.iter().copied(), (self.gross, self.largest));
+        let size = size(forces.iter().copied(), self.gross, self.largest);
         let share = apart / size;
         // Nothing over nothing is no doubt.
         if share.is_nan() || share <= APART {
@@ -76,7 +76,7 @@ impl Ways<'_> {
 }
 
 /// Adds the components of a force that there are.
-pub(crate) fn push_force((geometry, name): (Geometry, &str), force: Vector, all: &mut Found) {
+pub(crate) fn push_force(geometry: Geometry, name: &str, force: Vector, all: &mut Found) {
     for k in geometry.pulled() {
         let name = format!("{name}_{}", ['x', 'y', 'z'][*k]);
         all.totals.push((name, geometry.unit_of_force(), force[*k]));
@@ -85,7 +85,7 @@ pub(crate) fn push_force((geometry, name): (Geometry, &str), force: Vector, all:
 
 /// Adds a force, and the largest difference between the ways of finding it.
 pub(crate) fn push(geometry: Geometry, name: &str, ways: &[Vector], all: &mut Found) {
-    push_force((geometry, name), ways[0], all);
+    push_force(geometry, name, ways[0], all);
     let part = |force: &Vector| geometry.seen(*force);
     let ways: Vec<Vector> = ways.iter().map(part).collect();
     all.totals.push((

@@ -20,14 +20,15 @@ use crate::stencils::sides::Form;
 /// # Errors
 /// Where the liquid has no outline, or the points cannot be made.
 pub(crate) fn alternating(
-    (scene, given): (&Scene, &MagneticField),
+    scene: &Scene,
+    given: &MagneticField,
     liquid: &Liquid<3>,
 ) -> Result<Magnetic, Failure> {
     let skin = Place::of(&liquid.position, &liquid.normal, scene.points.spacing_m).skin;
     let about = outline(skin, liquid.middle())?;
     let (volume, middle) = about.volume();
     let radius = (0.75 * volume / std::f64::consts::PI).cbrt();
-    let own = given.about(scene, (middle, radius));
+    let own = given.about(scene, middle, radius);
     let cloud = Cloud::new(&own)?;
     let region: Region<3> = region(&own, &cloud, &|_| false);
     let form: Form = numerics(&own).form;
@@ -89,7 +90,7 @@ mod tests {
         let scene = scene(stretched);
         let part = scene.liquid.as_ref().unwrap();
         let liquid = start(part, filled(&scene, part).unwrap()).unwrap();
-        let mut magnetic = alternating((&scene, part.magnetic.as_ref().unwrap()), &liquid).unwrap();
+        let mut magnetic = alternating(&scene, part.magnetic.as_ref().unwrap(), &liquid).unwrap();
         let skin = Place::of(&liquid.position, &liquid.normal, 5e-4).skin;
         let about = outline(skin, liquid.middle()).unwrap();
         let stood = magnetic.stand(&about, about.origin);

@@ -169,7 +169,7 @@ pub(crate) fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
     };
     plan = match &part.magnetic {
         Some(given) => {
-            let count = alternating((scene, given), &liquid)?.count();
+            let count = alternating(scene, given, &liquid)?.count();
             plan.stage("magnetic field")
                 .count("points of the field", count)
                 .column("traction", "Pa")
@@ -224,7 +224,7 @@ pub(crate) fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, F
         liquid.pull[1] = vec![0.0; liquid.surface()];
     }
     let mut magnetic = match &part.magnetic {
-        Some(given) => Some(alternating((scene, given), &liquid)?),
+        Some(given) => Some(alternating(scene, given, &liquid)?),
         None => None,
     };
     if let Some(field) = &mut magnetic {

@@ -173,7 +173,8 @@ impl<'a> Conductor<'a> {
         let mut add = |owner: u32, between: [f64; 2]| {
             let owner = owner as usize;
             self.slab(
-                (column, side),
+                column,
+                side,
                 between,
                 cloud.position[owner],
                 &mut cells[owner],
@@ -201,7 +202,8 @@ impl<'a> Conductor<'a> {
     /// The part of a column between two distances from the surface, by Simpson's rule: round patches in space.
     fn slab(
         &self,
-        (column, side): (&Column, usize),
+        column: &Column,
+        side: usize,
         [low, high]: [f64; 2],
         point: Vector,
         cell: &mut Cell,

@@ -120,12 +120,12 @@ impl Builder {
             || self.layout.axisymmetric && seed.place[0] < 0.0;
         let near = 0.1 * seed.spacing;
         let taken = self.occupied.any(seed.place, near, |_, _, _| true);
-        (!shared && !outside && !taken && !self.others_face(seed, (k, sides[1]))).then_some(sides)
+        (!shared && !outside && !taken && !self.others_face(seed, k, sides[1])).then_some(sides)
     }
 
     /// Whether the point lies on a face that the body around it places: of two the one with the finer points, or the
     /// first.
-    fn others_face(&self, seed: &Seed, (k, around): (usize, u8)) -> bool {
+    fn others_face(&self, seed: &Seed, k: usize, around: u8) -> bool {
         let Some(other) = (around as usize).checked_sub(1) else {
             return false;
         };

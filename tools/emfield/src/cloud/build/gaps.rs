@@ -112,7 +112,7 @@ impl Builder {
                         spacing: column.seed.spacing,
                         foot: column.foot,
                     });
-                    strands.extend(self.on_the_axis((column, side), gap));
+                    strands.extend(self.on_the_axis(column, side, gap));
                 }
             }
         }
@@ -124,7 +124,7 @@ impl Builder {
     }
 
     /// The line across a gap on an axis of symmetry beside a column, where surfaces have no point.
-    fn on_the_axis(&self, (column, side): (&Column, usize), gap: &Gap) -> Option<Strand> {
+    fn on_the_axis(&self, column: &Column, side: usize, gap: &Gap) -> Option<Strand> {
         let seed = &column.seed;
         let crosses = seed.normal[1].abs() > FACING;
         if !self.layout.axisymmetric || !crosses || seed.place[0] > BESIDE * seed.spacing {

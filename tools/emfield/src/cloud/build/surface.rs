@@ -44,7 +44,7 @@ pub(crate) fn seeds(
         _ if dimensions == 2 => along_curves(&pieces(body, 2, least / CURVES), local),
         _ => {
             let finer = if even { FINER } else { 1.0 };
-            spread(&pieces(body, 3, least / finer), (spacing, least), local)
+            spread(&pieces(body, 3, least / finer), spacing, least, local)
         }
     };
     for seed in &mut found {
@@ -125,11 +125,7 @@ fn seed(piece: &Piece, area: f64, spacing: f64) -> Seed {
 
 /// Points chosen among pieces in a scattered order, none nearer to another than the packing allows; each takes the
 /// area of the pieces nearest to it; where points stand closer here than there, its weight in sums.
-fn spread(
-    pieces: &[Piece],
-    (spacing, least): (f64, f64),
-    local: &dyn Fn(Vector) -> f64,
-) -> Vec<Seed> {
+fn spread(pieces: &[Piece], spacing: f64, least: f64, local: &dyn Fn(Vector) -> f64) -> Vec<Seed> {
     let wanted: Vec<f64> = pieces.iter().map(|p| local(p.place)).collect();
     // Where points stand far apart, a few of the pieces are choice enough.
     let enough = |k: usize| {

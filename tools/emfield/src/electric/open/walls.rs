@@ -51,7 +51,7 @@ impl OpenWalls {
         let Some(potential) = potential.filter(|_| !cloud.surface.is_empty()) else {
             return Ok(None);
         };
-        let enclosed = session.timed("multipoles", || about(cloud, (region, form)))?;
+        let enclosed = session.timed("multipoles", || about(cloud, region, form))?;
         let far = session.timed("multipoles", || {
             Open::new(region, &enclosed, region_centre(cloud))
         });
@@ -114,7 +114,8 @@ fn region_centre<const D: usize>(cloud: &Cloud) -> [f64; D] {
 /// The surface over which moments are counted, with fits of the points about it.
 fn about<const D: usize>(
     cloud: &Cloud,
-    (region, form): (&Region<D>, &Form),
+    region: &Region<D>,
+    form: &Form,
 ) -> Result<Enclosed<D>, Fault> {
     let (shape, room) = halfway(cloud);
     let part = if D == 3 { PART[0] } else { PART[1] };

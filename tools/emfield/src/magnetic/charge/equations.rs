@@ -117,7 +117,7 @@ impl Coupled {
     fn dragged(&mut self, parts: &Parts<'_>, i: usize) {
         let scale = self.even[i] * self.length;
         let mut add = |side: Side, rate: f64| {
-            let mixed = Magnetised::dragged(parts, (i, side == Side::Inner), scale);
+            let mixed = Magnetised::dragged(parts, i, side == Side::Inner, scale);
             for (q, w) in parts.charge.gradient(i, side) {
                 let own = w.map(|w| -rate * scale * w);
                 let beside = mixed.as_ref().map_or([0.0; 3], |mixed| mixed(w));
@@ -216,7 +216,8 @@ impl Coupled {
     pub(crate) fn rows_of_a<S: Rate, const K: usize>(
         &self,
         rate: S,
-        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
+        a: &[[[S; K]; 3]],
+        phi: &[[S; K]],
         out: &mut [[[S; K]; 3]],
     ) {
         let row = |(i, out): (usize, &mut [[S; K]; 3])| {
@@ -236,7 +237,7 @@ impl Coupled {
         let rows = out.par_iter_mut().with_min_len(ROWS);
         rows.enumerate().for_each(row);
         if let Some(magnetised) = &self.magnetised {
-            magnetised.apply((a, rate), out);
+            magnetised.apply(a, rate, out);
         }
     }
 
@@ -288,7 +289,7 @@ impl Coupled {
     }
 
     /// What the rates of unknowns, `rate` times them and what is driven, put into the rows of A, by unknown.
-    pub(crate) fn rated(&self, rate: f64, (unknown, driven): (&[f64], &[f64])) -> Vec<f64> {
+    pub(crate) fn rated(&self, rate: f64, unknown: &[f64], driven: &[f64]) -> Vec<f64> {
         let both = unknown.iter().zip(driven);
         let rates: Vec<f64> = both.map(|(u, driven)| rate * u + driven).collect();
         let (a, phi) = rates.split_at(3 * self.points());

@@ -62,7 +62,7 @@ impl<S: Rate> Potential<S> {
     }
 
     /// Solves with continuous slopes, and for what that leaves along interfaces with those of reluctivities.
-    fn invert(&mut self, (coupled, rate): (&Coupled, S), given: &[[S; 3]], found: &mut [[S; 3]]) {
+    fn invert(&mut self, coupled: &Coupled, rate: S, given: &[[S; 3]], found: &mut [[S; 3]]) {
         self.smooth.invert(given, found);
         let (Some(along), Some(magnetised)) = (&mut self.along, &coupled.magnetised) else {
             return;
@@ -70,7 +70,7 @@ impl<S: Rate> Potential<S> {
         let values = ones(found.as_flattened()).as_chunks::<3>().0;
         let rest = along.rest.as_flattened_mut();
         let rest = rest.as_chunks_mut::<1>().0.as_chunks_mut::<3>().0;
-        coupled.rows_of_a(rate, (values, &along.uncharged), rest);
+        coupled.rows_of_a(rate, values, &along.uncharged, rest);
         for (rest, given) in along.rest.iter_mut().zip(given) {
             *rest = std::array::from_fn(|k| given[k] - rest[k]);
         }
@@ -158,7 +158,7 @@ impl<S: Rate, const K: usize> Inverse<S, K> for Approximate<'_, S> {
                 *a = given.map(|g| g[c]);
             }
             balance.back(coupled, (a, |p| given[start + p][c]));
-            potential.invert((coupled, self.whole.rate), a, b);
+            potential.invert(coupled, self.whole.rate, a, b);
             for (p, rest) in rest.iter_mut().enumerate() {
                 *rest = [given[start + p][c] - coupled.pull(p, b)];
             }

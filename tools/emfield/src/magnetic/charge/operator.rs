@@ -27,7 +27,7 @@ impl<S: Rate, const K: usize> Operator<S, K> for Whole<'_, S> {
         let (out_a, out_phi) = out.split_at_mut(3 * coupled.points());
         let a = a.as_chunks::<3>().0;
         let out_a = out_a.as_chunks_mut::<3>().0;
-        coupled.rows_of_a(rate, (a, phi), out_a);
+        coupled.rows_of_a(rate, a, phi, out_a);
         for pair in &coupled.pairs {
             let mut moment = pair.moment((a, phi)).map(|m| m.map(|m| rate * m));
             if let Some(still) = pair.still(a) {
@@ -41,14 +41,14 @@ impl<S: Rate, const K: usize> Operator<S, K> for Whole<'_, S> {
                 }
             }
         }
-        self.charges((a, phi), out_phi);
+        self.charges(a, phi, out_phi);
         self.balance.forth(coupled, (out_a, out_phi));
     }
 }
 
 impl<S: Rate> Whole<'_, S> {
     /// The rows of phi.
-    fn charges<const K: usize>(&self, (a, phi): (&[[[S; K]; 3]], &[[S; K]]), out: &mut [[S; K]]) {
+    fn charges<const K: usize>(&self, a: &[[[S; K]; 3]], phi: &[[S; K]], out: &mut [[S; K]]) {
         let coupled = self.coupled;
         let row = |(p, out): (usize, &mut [S; K])| {
             let mut sum = [S::ZERO; K];

@@ -54,7 +54,7 @@ impl Stage for Charged<'_> {
     }
 
     fn moved(&self, driven: &[f64], unknown: &[f64]) -> Vec<f64> {
-        self.coupled.rated(self.slope, (unknown, driven))
+        self.coupled.rated(self.slope, unknown, driven)
     }
 
     fn solve(

@@ -31,7 +31,7 @@ pub(crate) fn force<const D: usize>(
     (source, windings): (&Source, Option<&Windings>),
     (permeable, laws): (Option<&Permeable>, &[Law]),
 ) -> [f64; 3] {
-    let currents = on_coils((region, weights), fields, (source, windings));
+    let currents = on_coils(region, weights, fields, source, windings);
     let Some(permeable) = permeable else {
         return currents;
     };
@@ -49,9 +49,11 @@ pub(crate) fn force<const D: usize>(
 
 /// That of the currents found.
 fn on_coils<const D: usize>(
-    (region, weights): (&Region<D>, &[f64]),
+    region: &Region<D>,
+    weights: &[f64],
     fields: &Fields,
-    (source, windings): (&Source, Option<&Windings>),
+    source: &Source,
+    windings: Option<&Windings>,
 ) -> [f64; 3] {
     let conducts = |i: &usize| weights[*i] != 0.0 && fields.heat[*i] > 0.0;
     let parts: Vec<Part<D>> = (0..region.len())

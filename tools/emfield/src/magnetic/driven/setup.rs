@@ -74,14 +74,14 @@ impl Finder<'_> {
         let body = Body::new(&own.shape, dimensions);
         let spacing = own.spacing_m.unwrap_or(self.scene.points.spacing_m);
         let pieces = rule(&body, dimensions, spacing / FINER);
-        self.whole((&body, number, spacing), &pieces)?;
+        self.whole(&body, number, spacing, &pieces)?;
         let flow = match (self.scene.geometry, &coil.axis) {
             (Geometry::Plane, _) => Flow::Along,
             (Geometry::Axisymmetric, _) => Flow::Turn,
             (Geometry::Space, Some(axis)) => Flow::Ring(axis.centre_m, direction(axis.normal)),
             (Geometry::Space, None) => return Err("in space an axis is wanted".to_owned()),
         };
-        let section = section((&body, BESIDE * spacing), flow, &pieces)?;
+        let section = section(&body, BESIDE * spacing, flow, &pieces)?;
         let current = self.currents.rms(coil.current_a * coil.turns);
         Ok(Winding {
             medium: number as u8 + 1,
@@ -93,7 +93,9 @@ impl Finder<'_> {
     /// Whether nothing cuts a coil: all of its surface lies within the domain and no earlier body reaches in.
     fn whole(
         &self,
-        (body, number, spacing): (&Body, usize, f64),
+        body: &Body,
+        number: usize,
+        spacing: f64,
         pieces: &[Piece],
     ) -> Result<(), String> {
         let name = &self.scene.bodies[number].name;
@@ -128,7 +130,7 @@ impl Finder<'_> {
 
 /// Area of the section of a coil across its current \[m2\]: around an axis
 /// `int dV / (2 pi r)`, which is that of the distance's gradient through its surface over `2 pi`.
-fn section((body, rounding): (&Body, f64), flow: Flow, pieces: &[Piece]) -> Result<f64, String> {
+fn section(body: &Body, rounding: f64, flow: Flow, pieces: &[Piece]) -> Result<f64, String> {
     let through = "the axis goes through the coil: its current has no way there";
     match flow {
         Flow::Along => Ok(enclosed(pieces, 2)),
@@ -161,7 +163,8 @@ fn section((body, rounding): (&Body, f64), flow: Flow, pieces: &[Piece]) -> Resu
 /// # Errors
 /// Where one touches another conductor.
 pub(crate) fn bars(
-    (scene, currents): (&Scene, &EddyCurrents),
+    scene: &Scene,
+    currents: &EddyCurrents,
     cloud: &Cloud,
 ) -> Result<Vec<(u8, C)>, Fault> {
     let given = |m: u8| {

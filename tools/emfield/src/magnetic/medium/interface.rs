@@ -158,8 +158,7 @@ impl Permeable {
                 let slope = |axis: usize| C::from(if along == Some(axis) { 1.0 } else { 0.0 });
                 let value = [C::from(value)];
                 let slopes = [std::array::from_fn(slope)];
-                let (_, flux) =
-                    local::<D, 1>(unknown, &region.places[i], (&value, &value), &slopes);
+                let (_, flux) = local::<D, 1>(unknown, &region.places[i], &value, &value, &slopes);
                 flux.map(|b| weight * b.re)
             };
             for (bound, harmonic) in found.iter_mut().zip(multipoles.regular(region, i)) {
@@ -230,7 +229,7 @@ impl Permeable {
             }
             force
         };
-        let magnets = self.magnetised((region, weights), (flux, laws));
+        let magnets = self.magnetised(region, weights, flux, laws);
         let forces: Vec<[f64; 3]> = magnets.par_iter().map(on).collect();
         let add = |sum: [f64; 3], f: &[f64; 3]| std::array::from_fn(|k| sum[k] + f[k]);
         forces.iter().fold([0.0; 3], add)
@@ -239,8 +238,10 @@ impl Permeable {
     /// [`Self::magnets`] with the reluctivity that media have at a flux density.
     fn magnetised<const D: usize>(
         &self,
-        (region, weights): (&Region<D>, &[f64]),
-        (flux, laws): (&[[C; 3]], &[Law]),
+        region: &Region<D>,
+        weights: &[f64],
+        flux: &[[C; 3]],
+        laws: &[Law],
     ) -> Vec<(usize, f64)> {
         let own = |(i, size): (usize, f64)| match &laws[region.medium(i) as usize] {
             Law::Constant(_) => (i, size),

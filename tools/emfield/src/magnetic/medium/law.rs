@@ -200,7 +200,8 @@ fn parts(flux: [C; 3], normal: [f64; 3]) -> (C, [C; 3]) {
 /// the coenergy density `w = int B dH`.
 #[must_use]
 pub fn traction<const D: usize>(
-    (laws, face): (&[Law], &Face<D>),
+    laws: &[Law],
+    face: &Face<D>,
     flux: [C; 3],
     normal: [f64; 3],
 ) -> [f64; 3] {
@@ -312,8 +313,8 @@ mod tests {
         let n = [0.6, 0.0, 0.8];
         let laws = [Law::Constant(MU0), Law::Curve(line)];
         let numbers = [Law::Constant(MU0), Law::Constant(mu)];
-        let curved = traction((&laws, &face()), flux, n);
-        let plain = traction((&numbers, &face()), flux, n);
+        let curved = traction(&laws, &face(), flux, n);
+        let plain = traction(&numbers, &face(), flux, n);
         for k in 0..3 {
             assert!((curved[k] - plain[k]).abs() < 1e-9 * plain[0].abs());
         }

@@ -200,7 +200,8 @@ impl Magnetised {
     /// What a gradient that the rate of A has beside it adds to the row of point `i`, on one side.
     pub(crate) fn dragged(
         parts: &Parts<'_>,
-        (i, inner): (usize, bool),
+        i: usize,
+        inner: bool,
         even: f64,
     ) -> Option<impl Fn([f64; 3]) -> [f64; 3] + use<>> {
         let permeable = parts.conductors.permeable.as_ref()?;
@@ -220,7 +221,8 @@ impl Magnetised {
     /// Adds the rows of values, and of the rates of them.
     pub(crate) fn apply<S: Rate, const K: usize>(
         &self,
-        (a, rate): (&[[[S; K]; 3]], S),
+        a: &[[[S; K]; 3]],
+        rate: S,
         out: &mut [[[S; K]; 3]],
     ) {
         use rayon::prelude::*;

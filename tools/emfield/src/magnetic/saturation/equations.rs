@@ -161,7 +161,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
     ) -> Seen<K> {
         let inside = self.points.par_iter().map(|point| {
             let moved = moved.get(point.number).copied().unwrap_or([0.0; K]);
-            self.inside(point, a, (wave, moved))
+            self.inside(point, a, wave, moved)
         });
         let (rows, inside): (Vec<[f64; K]>, Vec<[f64; 3]>) = inside.unzip();
         let on = self.faces.par_iter().map(|face| self.on(face, a, wave));
@@ -253,7 +253,8 @@ impl<'a, const D: usize> Saturation<'a, D> {
         &self,
         point: &Point<D>,
         a: &[[f64; K]],
-        (wave, moved): (f64, [f64; K]),
+        wave: f64,
+        moved: [f64; K],
     ) -> ([f64; K], [f64; 3]) {
         let i = point.number;
         let Some(medium) = &self.media[point.medium as usize] else {
@@ -326,7 +327,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
         let value = value.map(C::from);
         let slopes: [[C; D]; K] =
             std::array::from_fn(|k| std::array::from_fn(|axis| C::from(slopes[axis][k])));
-        let (_, flux) = local(self.unknown, place, (&value, &value), &slopes);
+        let (_, flux) = local(self.unknown, place, &value, &value, &slopes);
         flux.map(|b| b.re)
     }
 

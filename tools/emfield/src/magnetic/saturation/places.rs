@@ -51,7 +51,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
         };
         let curved = |m: u8| made.media[m as usize].is_some();
         let point = |number: usize| match region.kinds[number] {
-            Kind::Inside(m) if curved(m) => Some(made.point((number, m), source, multipoles)),
+            Kind::Inside(m) if curved(m) => Some(made.point(number, m, source, multipoles)),
             _ => None,
         };
         let points = (0..region.len()).into_par_iter().filter_map(point);
@@ -60,7 +60,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
             let [a, b] = [region.faces[number].inner, region.faces[number].outer].map(curved);
             // A point on an interface stands for a volume of the inner medium.
             let seen = multipoles.filter(|_| a);
-            (a || b).then(|| made.face(number, (permeable, source), seen))
+            (a || b).then(|| made.face(number, permeable, source, seen))
         };
         let faces = (0..region.faces.len()).into_par_iter().filter_map(face);
         let faces = faces.collect();
@@ -73,7 +73,8 @@ impl<'a, const D: usize> Saturation<'a, D> {
 
     fn point(
         &self,
-        (number, medium): (usize, u8),
+        number: usize,
+        medium: u8,
         source: &Source,
         multipoles: Option<&Multipoles>,
     ) -> Point<D> {
@@ -122,7 +123,8 @@ impl<'a, const D: usize> Saturation<'a, D> {
     fn face(
         &self,
         number: usize,
-        (permeable, source): (&Permeable, &Source),
+        permeable: &Permeable,
+        source: &Source,
         multipoles: Option<&Multipoles>,
     ) -> Face {
         let own = &self.region.faces[number];

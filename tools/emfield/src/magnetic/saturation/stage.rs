@@ -53,12 +53,7 @@ impl<'a, const D: usize, const K: usize> Saturated<'a, D, K> {
     }
 
     /// The same solve where currents flow in such media.
-    fn flowing(
-        &mut self,
-        (driven, wave): (&[f64], f64),
-        unknown: &mut [f64],
-        rule: Rule,
-    ) -> Solved {
+    fn flowing(&mut self, driven: &[f64], wave: f64, unknown: &mut [f64], rule: Rule) -> Solved {
         let mut newton = Newton {
             stage: &mut *self.stage,
             media: &self.media,
@@ -120,7 +115,7 @@ impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
         rule: Rule,
     ) -> Solved {
         if self.media.conducts() {
-            return self.flowing((driven, wave), unknown, rule);
+            return self.flowing(driven, wave, unknown, rule);
         }
         let mut anderson = Anderson::new(WINDOW);
         let (mut products, mut steps, mut least) = (0, 0, f64::INFINITY);

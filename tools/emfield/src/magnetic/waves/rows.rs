@@ -89,7 +89,7 @@ impl<const D: usize> Ground<'_, D> {
             let mut row = Vec::new();
             for (face, part, medium, normal) in hole.rim(region, media) {
                 let part = part * media.resistivity[medium as usize];
-                row.extend(self.slope(waves, (face, medium), normal, part)?);
+                row.extend(self.slope(waves, face, medium, normal, part)?);
             }
             return Some((row, hole.through(region, media)));
         }
@@ -104,7 +104,7 @@ impl<const D: usize> Ground<'_, D> {
                 let mut row = Vec::new();
                 for (medium, sign) in [(face.inner, 1.0), (face.outer, -1.0)] {
                     let part = sign * conductors.weight(medium);
-                    row.extend(self.slope(waves, (face, medium), face.normal, part)?);
+                    row.extend(self.slope(waves, face, medium, face.normal, part)?);
                 }
                 Some((row, 0.0))
             }
@@ -116,7 +116,8 @@ impl<const D: usize> Ground<'_, D> {
     fn slope(
         &self,
         waves: &Waves,
-        (face, medium): (&Face<D>, u8),
+        face: &Face<D>,
+        medium: u8,
         way: [f64; D],
         part: f64,
     ) -> Option<Vec<(u32, C)>> {

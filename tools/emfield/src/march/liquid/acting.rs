@@ -41,7 +41,7 @@ impl Acting {
     ) -> Result<Self, Failure> {
         let mut magnetic = match &part.magnetic {
             Some(given) => {
-                let made = || alternating((scene, given), liquid);
+                let made = || alternating(scene, given, liquid);
                 Some(session.timed("points about a ball", made)?)
             }
             None => None,

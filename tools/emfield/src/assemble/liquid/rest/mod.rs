@@ -28,10 +28,10 @@ pub(crate) fn rest(
         return Ok(());
     };
     if let Some(angle) = rest.contact_angle_deg {
-        return sessile(scene, (part, sphere, angle), session);
+        return sessile(scene, part, sphere, angle, session);
     }
     match rest.field_v_m {
-        Some(applied) => drawn(scene, (part, rest), (sphere, applied), session),
+        Some(applied) => drawn(scene, part, rest, sphere, applied, session),
         None => levitated(scene, part, session),
     }
 }
@@ -39,8 +39,10 @@ pub(crate) fn rest(
 /// A drop in a uniform field.
 fn drawn(
     scene: &Scene,
-    (part, rest): (&Part, &Equilibrium),
-    (sphere, applied): (&Sphere, f64),
+    part: &Part,
+    rest: &Equilibrium,
+    sphere: &Sphere,
+    applied: f64,
     session: &mut Session,
 ) -> Result<(), Failure> {
     let radius = sphere.radius_m;

@@ -14,7 +14,9 @@ use crate::scene::{Liquid as Part, Scene};
 /// Where no drop is at rest, or the disk refuses.
 pub(crate) fn sessile(
     scene: &Scene,
-    (part, sphere, angle): (&Part, &Sphere, f64),
+    part: &Part,
+    sphere: &Sphere,
+    angle: f64,
     session: &mut Session,
 ) -> Result<(), Failure> {
     let (radius, tension) = (sphere.radius_m, part.surface_tension_n_m.unwrap_or(0.0));

@@ -27,7 +27,8 @@ fn media<'a, const D: usize>(
 
 /// The largest error of the curl inside medium 1, of a vector by place, against what it is.
 fn error<const D: usize, const K: usize>(
-    (region, form): (&Region<D>, Form),
+    region: &Region<D>,
+    form: Form,
     unknown: Unknown,
     vector: impl Fn([f64; D], [f64; D]) -> [f64; 3],
     curl: impl Fn([f64; D]) -> [f64; K],
@@ -59,7 +60,7 @@ fn the_curl_in_a_plane_is_exact_on_quartics() {
     let vector = |[x, y]: [f64; 2], _| [x * y * y - y, x.powi(4) + 3.0 * x * y, 7.0];
     let curl = |[x, y]: [f64; 2]| [4.0 * x.powi(3) + 3.0 * y - 2.0 * x * y + 1.0];
     let region = rings(0.2);
-    let off = error((&region, form(4, 1.0)), Unknown::Potential, vector, curl);
+    let off = error(&region, form(4, 1.0), Unknown::Potential, vector, curl);
     assert!(off < 1e-9, "{off}");
 }
 
@@ -68,7 +69,7 @@ fn the_curl_in_space_is_exact_on_quadratics() {
     let vector = |[x, y, z]: [f64; 3], _| [y * z, 2.0 * x * x - z, x * z - 3.0 * y * y];
     let curl = |[x, y, z]: [f64; 3]| [1.0 - 6.0 * y, y - z, 4.0 * x - z];
     let (region, _) = shells(0.25, 0.25);
-    let off = error((&region, form(2, 1.0)), Unknown::Potential, vector, curl);
+    let off = error(&region, form(2, 1.0), Unknown::Potential, vector, curl);
     assert!(off < 1e-9, "{off}");
 }
 
@@ -95,6 +96,6 @@ fn the_curl_about_an_axis_is_exact_on_quartics() {
     };
     let curl = |[r, z]: [f64; 2]| [2.0 * z + r * r - 2.0 * (1.0 + z)];
     let form = form(4, Unknown::Around.around());
-    let off = error((&region, form), Unknown::Around, vector, curl);
+    let off = error(&region, form, Unknown::Around, vector, curl);
     assert!(off < 1e-9, "{off}");
 }
