@@ -84,7 +84,8 @@ impl Output {
     pub fn write(
         &mut self,
         system: &System,
-        (state, rates): (&State, &Rates),
+        state: &State,
+        rates: &Rates,
         event: Event,
         session: &mut Session,
     ) -> Result<(), Failure> {

@@ -287,7 +287,7 @@ impl March<'_> {
         if let Steps::Controlled { tolerance, floor } = self.steps {
             let (low, high) = extent(&self.state.temperature);
             let wanted = tolerance * self.pace.range.max(high - low);
-            let floor = floor.unwrap_or_else(|| control::floor((low, high)));
+            let floor = floor.unwrap_or_else(|| control::floor(low, high));
             let ratio = error / wanted.max(floor).max(f64::MIN_POSITIVE);
             if ratio.is_nan() {
                 return Ok(Some(0.25 * step));
@@ -312,7 +312,7 @@ impl March<'_> {
         event: Event,
         session: &mut Session,
     ) -> Result<(), Failure> {
-        output.write(self.system, (&self.state, &self.rates), event, session)
+        output.write(self.system, &self.state, &self.rates, event, session)
     }
 
     fn diverged(&self, quantity: &str, what: &str, point: Option<usize>) -> Failure {

@@ -43,15 +43,13 @@ pub fn solve(
             time: 0.0,
         };
         let solved = session.timed("solve", || {
-            solver.newton(system, problem, (&mut state.temperature, &mut rates), goal)
+            solver.newton(system, problem, &mut state.temperature, &mut rates, goal)
         });
         let far = matches!(
             solved,
             Err(SolveError::NotConverged { .. } | SolveError::Linear(_))
         );
-        if far
-            && std::mem::take(&mut guessed)
-            && restart(system, (&mut state, &mut rates), session)?
+        if far && std::mem::take(&mut guessed) && restart(system, &mut state, &mut rates, session)?
         {
             solver.forget();
             continue;
@@ -75,7 +73,7 @@ pub fn solve(
     session.closing("linear_iterations", "1", iterations as f64);
     session.memory("matrix and preconditioner", solver.bytes());
     let mut output = Output::new(scene, system, &state.temperature);
-    output.write(system, (&state, &rates), Event::whole(0.0), session)?;
+    output.write(system, &state, &rates, Event::whole(0.0), session)?;
     output.close_steady(system, &rates, session);
     Ok(())
 }
@@ -101,7 +99,8 @@ fn found(solved: Result<Effort, SolveError>, session: &mut Session) -> Result<Ef
 /// Goes on from one temperature of the whole body, where a guess has led nowhere; whether there is one.
 fn restart(
     system: &mut System,
-    (state, rates): (&mut State, &mut Rates),
+    state: &mut State,
+    rates: &mut Rates,
     session: &mut Session,
 ) -> Result<bool, Failure> {
     let Some(even) = even(system, &state.temperature, rates) else {

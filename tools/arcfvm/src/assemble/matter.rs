@@ -49,7 +49,7 @@ fn gas_material(scene: &Scene, file: Option<&GasFile>, faults: &mut Faults) -> M
             let names = if vapour { &GAS_NAMES[..] } else { &NAMES };
             let mut law = |property: &Option<Property>, name: &str, needed: bool| {
                 let at = format!("/gas/given/{name}");
-                read(property.as_ref(), (&at, names), needed, faults)
+                read(property.as_ref(), &at, names, needed, faults)
             };
             Material {
                 name: "gas".to_owned(),
@@ -164,7 +164,8 @@ fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) ->
     let own = metal.thermal_conductivity_w_m_k.as_ref();
     let thermal = read(
         own,
-        (&format!("{at}/thermal_conductivity_w_m_k"), &NAMES),
+        &format!("{at}/thermal_conductivity_w_m_k"),
+        &NAMES,
         heat,
         faults,
     );
@@ -179,7 +180,8 @@ fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) ->
         thermal_conductivity: thermal,
         electric_conductivity: read(
             metal.electric_conductivity_s_m.as_ref(),
-            (&format!("{at}/electric_conductivity_s_m"), &NAMES),
+            &format!("{at}/electric_conductivity_s_m"),
+            &NAMES,
             current,
             faults,
         ),
@@ -203,7 +205,8 @@ fn body_material(scene: &Scene, name: &str, body: &Body, faults: &mut Faults) ->
 /// not negative.
 fn read(
     property: Option<&Property>,
-    (at, names): (&str, &[&str]),
+    at: &str,
+    names: &[&str],
     needed: bool,
     faults: &mut Faults,
 ) -> Option<Law> {

@@ -104,7 +104,7 @@ impl Potential {
         };
         let drive = self.drive;
         self.equation
-            .fill(|i, j| cell_equation(&network, setup, drive, (i, j)));
+            .fill(|i, j| cell_equation(&network, setup, drive, i, j));
         self.equation.residual(&self.value, &mut self.scratch);
         self.unbalanced = Unbalanced::of(&self.scratch, case.grid.nr);
         self.solver.solve(&self.equation, &mut self.value)?;
@@ -227,7 +227,8 @@ fn cell_equation(
     network: &Network,
     setup: &PotentialCase,
     drive: f64,
-    (i, j): (usize, usize),
+    i: usize,
+    j: usize,
 ) -> Coefficients {
     let grid = network.grid;
     let mut c = Coefficients::default();

@@ -109,13 +109,13 @@ pub fn contacts(
             if i + 1 < grid.nr {
                 let there = grid.cell(i + 1, j);
                 if let Some(electrode) = meeting(material, here, there, &electrode_of) {
-                    all.push(radial_contact(grid, material, (i, j), electrode));
+                    all.push(radial_contact(grid, material, i, j, electrode));
                 }
             }
             if j + 1 < grid.nz {
                 let there = grid.cell(i, j + 1);
                 if let Some(electrode) = meeting(material, here, there, &electrode_of) {
-                    all.push(axial_contact(grid, material, (i, j), electrode));
+                    all.push(axial_contact(grid, material, i, j, electrode));
                 }
             }
         }
@@ -140,7 +140,8 @@ fn meeting(
 fn radial_contact(
     grid: &Grid,
     material: &[usize],
-    (i, j): (usize, usize),
+    i: usize,
+    j: usize,
     electrode: usize,
 ) -> Contact {
     let (inner, outer) = (grid.cell(i, j), grid.cell(i + 1, j));
@@ -170,12 +171,7 @@ fn radial_contact(
 }
 
 /// The contact at the upper face of cell `(i, j)`.
-fn axial_contact(
-    grid: &Grid,
-    material: &[usize],
-    (i, j): (usize, usize),
-    electrode: usize,
-) -> Contact {
+fn axial_contact(grid: &Grid, material: &[usize], i: usize, j: usize, electrode: usize) -> Contact {
     let (lower, upper) = (grid.cell(i, j), grid.cell(i, j + 1));
     let lower_is_gas = material[lower] == GAS;
     let halves = (0.5 * grid.dz[j], 0.5 * grid.dz[j + 1]);

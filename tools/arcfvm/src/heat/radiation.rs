@@ -26,7 +26,7 @@ fn around() -> Around {
 
 /// How strongly a ring at `(r, z)` shines on a surface at `place` with `normal`: the mean over the
 /// ring of `cos / (4 pi d^2)` \[1/m2\].
-fn seen(place: [f64; 2], normal: [f64; 2], (r, z): (f64, f64), around: &Around) -> f64 {
+fn seen(place: [f64; 2], normal: [f64; 2], r: f64, z: f64, around: &Around) -> f64 {
     let mut sum = 0.0;
     for [cosine, sine] in around {
         let (x, y) = (r * cosine - place[0], r * sine);
@@ -57,7 +57,7 @@ pub fn absorbed(grid: &Grid, contacts: &[&Contact], emission: &[f64], absorbed: 
     let on_one = |contact: &&Contact| {
         let parts = shining
             .iter()
-            .map(|(r, z, e)| e * seen(contact.place, contact.normal, (*r, *z), &around));
+            .map(|(r, z, e)| e * seen(contact.place, contact.normal, *r, *z, &around));
         parts.sum::<f64>()
     };
     let flux: Vec<f64> = contacts.par_iter().map(on_one).collect();
@@ -82,9 +82,9 @@ mod tests {
         for r in [0.0, 1.0, 3.0] {
             let d = (r * r + 4.0_f64).sqrt();
             let want = 2.0 / (4.0 * PI * d.powi(3));
-            assert!((seen([r, 0.0], [0.0, 1.0], (0.0, 2.0), &around()) - want).abs() < 1e-14);
+            assert!((seen([r, 0.0], [0.0, 1.0], 0.0, 2.0, &around()) - want).abs() < 1e-14);
         }
-        assert!(seen([0.0, 0.0], [0.0, -1.0], (1.0, 2.0), &around()).abs() < 1e-15);
+        assert!(seen([0.0, 0.0], [0.0, -1.0], 1.0, 2.0, &around()).abs() < 1e-15);
     }
 
     #[test]
@@ -104,7 +104,7 @@ mod tests {
         let z = grid.zc[8];
         let half: f64 = all
             .iter()
-            .map(|c| c.area * seen(c.place, c.normal, (0.0, z), &around()))
+            .map(|c| c.area * seen(c.place, c.normal, 0.0, z, &around()))
             .sum();
         assert!((half - 0.5).abs() < 0.02, "{half}");
     }

@@ -230,7 +230,8 @@ fn condition(entry: &Boundary, at: &str) -> Result<Condition, Vec<Fault>> {
         positive(
             &coefficient,
             &format!("{at}/convection/coefficient_w_m2_k"),
-            ("W/(m2 K)", f64::INFINITY),
+            "W/(m2 K)",
+            f64::INFINITY,
         )?;
         let ambient = kelvin(&robin.ambient_k, "convection/ambient_k")?;
         return Ok(Condition::Convection(coefficient, ambient));
@@ -239,17 +240,13 @@ fn condition(entry: &Boundary, at: &str) -> Result<Condition, Vec<Fault>> {
         unreachable!("one of the four is given");
     };
     let emissivity = curve(&radiation.emissivity, "radiation/emissivity")?;
-    positive(
-        &emissivity,
-        &format!("{at}/radiation/emissivity"),
-        ("", 1.0),
-    )?;
+    positive(&emissivity, &format!("{at}/radiation/emissivity"), "", 1.0)?;
     let surroundings = kelvin(&radiation.surroundings_k, "radiation/surroundings_k")?;
     Ok(Condition::Radiation(emissivity, surroundings))
 }
 
 /// Refuses a number below zero or above `most`.
-fn positive(curve: &Curve, at: &str, (unit, most): (&str, f64)) -> Result<(), Vec<Fault>> {
+fn positive(curve: &Curve, at: &str, unit: &str, most: f64) -> Result<(), Vec<Fault>> {
     match curve.constant() {
         Some(value) if value < 0.0 || value > most => {
             let range = if most.is_finite() {

@@ -47,7 +47,7 @@ pub(super) fn fill(half: [f64; 3], points: &Points, dimensions: usize) -> Cloud 
                 let w = [0, 1, 2].map(|a| width[a][at[a]]);
                 let spacing = (0..dimensions).map(|a| gap[a][at[a]]).fold(0.0, f64::max);
                 let point = cloud.push(x, spacing, w[0] * w[1] * w[2]);
-                own(&mut cloud, point, (&nodes, at, w));
+                own(&mut cloud, point, &nodes, at, w);
             }
         }
     }
@@ -55,7 +55,7 @@ pub(super) fn fill(half: [f64; 3], points: &Points, dimensions: usize) -> Cloud 
 }
 
 /// Gives a point its parts of the faces on which it lies.
-fn own(cloud: &mut Cloud, point: u32, (nodes, at, width): (&[Vec<f64>; 3], [usize; 3], [f64; 3])) {
+fn own(cloud: &mut Cloud, point: u32, nodes: &[Vec<f64>; 3], at: [usize; 3], width: [f64; 3]) {
     for axis in 0..cloud.dimensions {
         let last = nodes[axis].len() - 1;
         let area = width[0] * width[1] * width[2] / width[axis];

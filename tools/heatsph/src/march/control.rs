@@ -14,7 +14,7 @@ const NOTHING: f64 = 1e-10;
 /// The difference of temperature below which there is none, where temperatures lie between `low` and `high` \[K\]:
 /// errors over the range of temperature say nothing of a body of one temperature.
 #[must_use]
-pub fn floor((low, high): (f64, f64)) -> f64 {
+pub fn floor(low: f64, high: f64) -> f64 {
     NOTHING * low.abs().max(high.abs())
 }
 

@@ -74,8 +74,10 @@ impl Implicit {
     fn stage(
         &mut self,
         system: &System,
-        (time, length): (f64, f64),
-        (temperature, rates): (&mut Vec<f64>, &mut Rates),
+        time: f64,
+        length: f64,
+        temperature: &mut Vec<f64>,
+        rates: &mut Rates,
     ) -> Result<(), StepError> {
         system.hold(temperature, time)?;
         let problem = Problem {
@@ -85,7 +87,7 @@ impl Implicit {
         };
         let effort = self
             .solver
-            .newton(system, problem, (temperature, rates), self.goal)?;
+            .newton(system, problem, temperature, rates, self.goal)?;
         self.newton += effort.newton as u64;
         self.iterations += effort.iterations as u64;
         Ok(())
@@ -120,7 +122,7 @@ impl Implicit {
         let mut temperature = state.temperature.clone();
         let end = state.time + step;
         self.solver.forget();
-        self.stage(system, (end, step), (&mut temperature, rates))?;
+        self.stage(system, end, step, &mut temperature, rates)?;
         let before = std::mem::replace(&mut state.temperature, temperature);
         keep(system, state);
         state.pass(rates, step);
@@ -150,11 +152,7 @@ impl Method for Implicit {
         temperature.clone_from(&before.temperature);
         let mut middle = std::mem::take(&mut self.middle);
         let early = before.time + gamma * step;
-        let solved = self.stage(
-            system,
-            (early, gamma * step),
-            (&mut temperature, &mut middle),
-        );
+        let solved = self.stage(system, early, gamma * step, &mut temperature, &mut middle);
         self.middle = middle;
         solved?;
         // Second stage, from where the first one's rate leads.
@@ -166,7 +164,7 @@ impl Method for Implicit {
             // A guess beyond all that was is a bad one.
             temperature.clone_from(&before.temperature);
         }
-        self.stage(system, (end, gamma * step), (&mut temperature, rates))?;
+        self.stage(system, end, gamma * step, &mut temperature, rates)?;
         self.guess = std::mem::replace(&mut state.temperature, temperature);
         keep(system, state);
         state.pass(&self.middle, (1.0 - gamma) * step);
@@ -191,7 +189,7 @@ impl Method for Implicit {
         let at = (state.temperature.as_slice(), &*rates);
         let filtered = self.solver.filter(system, problem, at, (&scaled, FILTER))?;
         let error = filtered.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
-        if self.guard && rough(system, (&before, state), error) {
+        if self.guard && rough(system, &before, state, error) {
             state.clone_from(&before);
             self.euler(system, state, rates, step)?;
         }
@@ -235,14 +233,14 @@ fn keep(system: &System, state: &mut State) {
 
 /// Whether a step is too long for the second order: its error is a good part of the range of temperature, or its
 /// result leaves the range of what came before and of what is prescribed now.
-fn rough(system: &System, (before, after): (&State, &State), error: f64) -> bool {
+fn rough(system: &System, before: &State, after: &State, error: f64) -> bool {
     let (mut low, mut high) = extent(&before.temperature);
     for held in &system.surface.held {
         let t = after.temperature[held.point as usize];
         (low, high) = (low.min(t), high.max(t));
     }
     let (least, greatest) = extent(&after.temperature);
-    let floor = floor((least, greatest));
+    let floor = floor(least, greatest);
     let range = high - low;
     let sources = system.has_source() || !system.surface.films.is_empty();
     let beyond = (low - least).max(greatest - high) > OVER * range + floor;

@@ -91,7 +91,7 @@ fn a_steep_law_is_exact_when_steady() {
             steps: 60,
         };
         let effort = solver
-            .newton(&system, problem, (&mut state.temperature, &mut rates), goal)
+            .newton(&system, problem, &mut state.temperature, &mut rates, goal)
             .unwrap();
         for i in 0..system.len() {
             let exact = ((a.exp() - 1.0) * system.place(i)[0]).ln_1p() / a;

@@ -175,7 +175,7 @@ impl Materials {
                 continue;
             };
             let parts = parts?;
-            let ways = self.ways(ground, (i, own), temperature[i])?;
+            let ways = self.ways(ground, i, own, temperature[i])?;
             for (material, (stored, heat)) in parts.into_iter().enumerate() {
                 if stored <= 0.0 {
                     continue;
@@ -183,8 +183,7 @@ impl Materials {
                 let function = holds.function(material, i)?;
                 let mut give = |j: usize, stored: f64, heat: f64| {
                     holds.add(j, function, stored * volume[i]);
-                    surplus[j] +=
-                        holds.surplus(function, (stored, heat), temperature[j]) * volume[i];
+                    surplus[j] += holds.surplus(function, stored, heat, temperature[j]) * volume[i];
                 };
                 if material == own {
                     // What of the own part lies beyond the middle of a way, at most a good part of it.
@@ -215,7 +214,8 @@ impl Materials {
     fn ways(
         &self,
         ground: Ground<'_>,
-        (i, own): (usize, usize),
+        i: usize,
+        own: usize,
         temperature: f64,
     ) -> Result<Vec<Way>, OutOfRange> {
         let position = &ground.cloud.position;
@@ -294,7 +294,7 @@ impl Materials {
                         if part <= 0.0 {
                             continue;
                         }
-                        (part, inside(region, place, (distance, size)))
+                        (part, inside(region, place, distance, size))
                     }
                     _ => (left, self.beyond(place, size)),
                 };
@@ -334,7 +334,7 @@ impl Materials {
 }
 
 /// The place itself if it is inside the region, else the nearest inside, if that is near.
-fn inside(region: &Body, place: Vector, (distance, size): (f64, f64)) -> Vector {
+fn inside(region: &Body, place: Vector, distance: f64, size: f64) -> Vector {
     if distance > 0.0 && distance < size {
         along(
             place,

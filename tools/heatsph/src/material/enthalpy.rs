@@ -284,11 +284,11 @@ impl Enthalpy {
             part = part.max(miss / value);
         }
         let good = error <= TOLERANCE * cell && part <= SLOPE;
-        Ok((piece, good && self.trusted([a, b], (low, high))))
+        Ok((piece, good && self.trusted([a, b], low, high)))
     }
 
     /// Whether nothing hides between samples that span from `low` to `high`.
-    fn trusted(&self, [a, b]: [f64; 2], (low, high): (f64, f64)) -> bool {
+    fn trusted(&self, [a, b]: [f64; 2], low: f64, high: f64) -> bool {
         let whole = self.law.bounds([a, b]).width();
         if whole <= TRUST * (high - low) + NOTHING * high {
             return true;

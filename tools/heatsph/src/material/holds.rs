@@ -102,7 +102,7 @@ impl<'a> Holds<'a> {
     }
 
     /// Heat of a part above that which it would have at a temperature.
-    pub(super) fn surplus(&self, function: usize, (stored, heat): (f64, f64), t: f64) -> f64 {
+    pub(super) fn surplus(&self, function: usize, stored: f64, heat: f64, t: f64) -> f64 {
         if self.cells.is_empty() {
             return heat - stored * t;
         }

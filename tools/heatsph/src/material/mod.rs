@@ -78,7 +78,8 @@ impl Materials {
                 &at,
                 scene.dimensions,
                 (low, high),
-                (&mut conductors, &mut enthalpies),
+                &mut conductors,
+                &mut enthalpies,
             ) {
                 Ok(kind) => kinds.push(kind),
                 Err(found) => faults.extend(found),
@@ -157,7 +158,7 @@ impl Materials {
 
     /// Normal of the interface of two materials that meet at `x`.
     #[must_use]
-    pub fn interface(&self, (a, b): (usize, usize), x: Vector, step: f64) -> Vector {
+    pub fn interface(&self, a: usize, b: usize, x: Vector, step: f64) -> Vector {
         // The first of the two has the region that bounds the other.
         let region = self.kinds[a.min(b)].region.as_ref();
         region.map_or([0.0; 3], |region| region.normal(x, step))
@@ -258,7 +259,8 @@ fn kind(
     at: &str,
     dimensions: usize,
     range: (f64, f64),
-    (conductors, enthalpies): (&mut Vec<Conductor>, &mut Vec<Enthalpy>),
+    conductors: &mut Vec<Conductor>,
+    enthalpies: &mut Vec<Enthalpy>,
 ) -> Result<Kind, Vec<Fault>> {
     let stored = Stored::new(material, at, range, enthalpies).map_err(alone)?;
     let law = match (&material.conductivity_w_m_k, &material.mixture) {

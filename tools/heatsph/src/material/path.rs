@@ -99,7 +99,7 @@ impl Materials {
             let resistance = self.contact(current.material, next);
             if resistance > 0.0 {
                 let r = length(d);
-                let normal = self.interface((current.material, next), at(high), 1e-6 * r);
+                let normal = self.interface(current.material, next, at(high), 1e-6 * r);
                 let cosine = (dot(normal, d) / r).abs().max(1e-6);
                 contact += resistance / (r * cosine);
             }

@@ -151,7 +151,8 @@ impl Solver {
         &mut self,
         system: &System,
         problem: Problem<'_>,
-        (temperature, rates): (&[f64], &Rates),
+        temperature: &[f64],
+        rates: &Rates,
     ) -> Result<(), SolveError> {
         let at = (problem.time, temperature, rates);
         system.fill(&mut self.matrix, problem.shift, at)?;
@@ -221,7 +222,7 @@ impl Solver {
         (values, reduction): (&[f64], f64),
     ) -> Result<&[f64], SolveError> {
         if self.hold == Hold::Nothing {
-            self.linearise(system, problem, (temperature, rates))?;
+            self.linearise(system, problem, temperature, rates)?;
         }
         self.linear(values, reduction)?;
         Ok(&self.change)
@@ -282,7 +283,8 @@ impl Solver {
         &mut self,
         system: &System,
         problem: Problem<'_>,
-        (temperature, rates): (&mut Vec<f64>, &mut Rates),
+        temperature: &mut Vec<f64>,
+        rates: &mut Rates,
         goal: Goal,
     ) -> Result<Effort, SolveError> {
         let mut effort = Effort::default();
@@ -303,7 +305,7 @@ impl Solver {
             }
             let fresh = self.hold != Hold::Newton;
             if fresh {
-                self.linearise(system, problem, (temperature, rates))?;
+                self.linearise(system, problem, temperature, rates)?;
             }
             let reduction = (0.1 * wanted / norm.residual).clamp(least, 0.1);
             let right = std::mem::take(&mut self.residual);

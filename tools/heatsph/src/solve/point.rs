@@ -20,7 +20,7 @@ impl Own<'_> {
     pub(super) fn moved(&self, system: &System, i: usize, from: f64, change: f64) -> f64 {
         match &system.storage {
             Storage::Varies(content) if self.shift > 0.0 => {
-                self.stored(system, content, (i, from, change))
+                self.stored(system, content, i, from, change)
             }
             _ => conducted(system, i, from, change),
         }
@@ -32,7 +32,9 @@ impl Own<'_> {
         &self,
         system: &System,
         content: &storage::Content,
-        (i, from, change): (usize, f64, f64),
+        i: usize,
+        from: f64,
+        change: f64,
     ) -> f64 {
         let (capacity, heat) = content.at(i, from);
         let k = system.conductivity(i, from);

@@ -38,7 +38,7 @@ impl System {
         };
         let slopes = {
             let ends =
-                |[i, j]: [u32; 2]| self.ends((i as usize, j as usize), temperature, &rates.nodes);
+                |[i, j]: [u32; 2]| self.ends(i as usize, j as usize, temperature, &rates.nodes);
             self.conduction.slopes(ends, &rates.means)
         };
         let weight = &self.links.weight;

@@ -225,7 +225,7 @@ impl System {
             }
         }
         if let Storage::Varies(content) = &mut self.storage {
-            grown |= content.widen((low, high))?;
+            grown |= content.widen(low, high)?;
         }
         Ok(grown)
     }

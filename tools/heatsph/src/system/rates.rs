@@ -66,12 +66,7 @@ impl System {
 
     /// The two ends of the link from i to j.
     #[inline]
-    pub(super) fn ends<'a>(
-        &self,
-        (i, j): (usize, usize),
-        t: &[f64],
-        nodes: &'a [Node],
-    ) -> Ends<'a> {
+    pub(super) fn ends<'a>(&self, i: usize, j: usize, t: &[f64], nodes: &'a [Node]) -> Ends<'a> {
         let of = |i: usize| {
             let count = self.materials.conductors.len();
             if nodes.is_empty() {
@@ -125,7 +120,7 @@ impl System {
         rates.heat.resize(self.len(), 0.0);
         rates.stiffness.resize(self.len(), 0.0);
         let nodes = &rates.nodes;
-        let ends = |[i, j]: [u32; 2]| self.ends((i as usize, j as usize), temperature, nodes);
+        let ends = |[i, j]: [u32; 2]| self.ends(i as usize, j as usize, temperature, nodes);
         self.conduction.means(ends, &mut rates.means);
         let (nodes, means, passed) = (&rates.nodes, &rates.means, &rates.passed);
         rates
@@ -135,7 +130,7 @@ impl System {
             .enumerate()
             .with_min_len(ROWS)
             .for_each(|(i, (heat, stiffness))| {
-                (*heat, *stiffness) = self.links_of(i, temperature, (nodes, means));
+                (*heat, *stiffness) = self.links_of(i, temperature, nodes, means);
                 for passed in &passed[self.films[i] as usize..self.films[i + 1] as usize] {
                     *heat += passed.heat;
                     *stiffness -= passed.slope;
@@ -231,12 +226,7 @@ impl System {
 
     /// Heat through the links of point `i`, and the sum of their conductances.
     #[inline]
-    fn links_of(
-        &self,
-        i: usize,
-        temperature: &[f64],
-        (nodes, means): (&[Node], &[f64]),
-    ) -> (f64, f64) {
+    fn links_of(&self, i: usize, temperature: &[f64], nodes: &[Node], means: &[f64]) -> (f64, f64) {
         let row = self.links.pattern.row(i);
         let ends = &self.links.pattern.columns()[row.clone()];
         let weight = &self.links.weight[row.clone()];
@@ -248,7 +238,7 @@ impl System {
                 fraction,
             } => {
                 let conductance = |(a, j): (&f64, &u32)| {
-                    let ends = self.ends((i, *j as usize), temperature, nodes);
+                    let ends = self.ends(i, *j as usize, temperature, nodes);
                     a * fraction * kirchhoff(&ends, *conductor)
                 };
                 gathered(own, ends, weight.iter().zip(ends).map(conductance))

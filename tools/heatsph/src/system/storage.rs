@@ -123,7 +123,7 @@ impl Content {
     ///
     /// # Errors
     /// Where a property has no value.
-    pub fn widen(&mut self, (low, high): (f64, f64)) -> Result<bool, run::property::OutOfRange> {
+    pub fn widen(&mut self, low: f64, high: f64) -> Result<bool, run::property::OutOfRange> {
         let mut grown = false;
         for function in &mut self.functions {
             let (from, to) = function.span();

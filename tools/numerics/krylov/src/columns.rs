@@ -99,8 +99,10 @@ pub(crate) fn add<S: Scalar, const C: usize>(y: &mut [[S; C]], a: [S; C], x: &[[
 /// `y += a x + b z`.
 pub(crate) fn add_two<S: Scalar, const C: usize>(
     y: &mut [[S; C]],
-    (a, x): ([S; C], &[[S; C]]),
-    (b, z): ([S; C], &[[S; C]]),
+    a: [S; C],
+    x: &[[S; C]],
+    b: [S; C],
+    z: &[[S; C]],
 ) {
     update(y, |rows, y| {
         for ((y, x), z) in y.iter_mut().zip(&x[rows.clone()]).zip(&z[rows]) {

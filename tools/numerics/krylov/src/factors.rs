@@ -33,7 +33,7 @@ where
             if options.fluxes {
                 let least = scale.iter().copied().fold(f64::INFINITY, f64::min);
                 let weights = scale.iter().map(|s| least / s).collect();
-                Multigrid::of_fluxes(rows, shift, (order, weights), grids).map(Box::new)
+                Multigrid::of_fluxes(rows, shift, order, weights, grids).map(Box::new)
             } else {
                 Multigrid::new(rows, shift, order, grids).map(Box::new)
             }

@@ -74,7 +74,7 @@ impl<T: Copy> Rows<T> {
             row.clear();
             row.push((i as u32, zero));
             each(i, row);
-            append((i, n), row, columns, values);
+            append(i, n, row, columns, values);
         })
     }
 
@@ -314,7 +314,8 @@ impl<T: Copy> Rows<T> {
 /// Appends the entries of row `i` of `n`, columns rising, equal ones added up in the order they
 /// stand in.
 fn append<T: Copy + std::ops::AddAssign>(
-    (i, n): (usize, usize),
+    i: usize,
+    n: usize,
     row: &mut [(u32, T)],
     columns: &mut Vec<u32>,
     values: &mut Vec<T>,

@@ -347,11 +347,11 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
                 return None;
             }
         }
-        add_two(self.y, (g1, r0), (g2, r1));
+        add_two(self.y, g1, r0, g2, r1);
         let back = |g: [S; C]| g.map(|g| -g);
-        add_two(r0, (back(g1), r1), (back(g2), r2));
+        add_two(r0, back(g1), r1, back(g2), r2);
         let [u0, u1, u2] = &mut self.u;
-        add_two(u0, (back(g1), u1), (back(g2), u2));
+        add_two(u0, back(g1), u1, back(g2), u2);
         Some(norms(r0))
     }
 }

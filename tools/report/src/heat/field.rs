@@ -93,9 +93,9 @@ impl Field {
     fn cut(points: &Points, cut: Cut) -> Option<Self> {
         let centre = points.centre();
         let spacing = points.spacing();
-        let size = bounds(&project(points, (cut, false), centre))?.map(|[a, b]| b - a);
+        let size = bounds(&project(points, cut, false, centre))?.map(|[a, b]| b - a);
         let lying = size[1] > HIGH * size[0];
-        let samples = project(points, (cut, lying), centre);
+        let samples = project(points, cut, lying, centre);
         let groups = if points.body.jumps {
             points.material.as_ref()
         } else {
@@ -206,7 +206,7 @@ impl Field {
     fn deviation(&self, points: &Points) -> f64 {
         let range = points.range();
         let width = (range.greatest - range.least).max(1e-6 * range.greatest.abs());
-        let samples = project(points, (self.cut, self.lying), self.centre);
+        let samples = project(points, self.cut, self.lying, self.centre);
         let grid = crate::draw::contour::Grid {
             first: &self.across,
             second: &self.up,
@@ -230,7 +230,7 @@ impl Field {
 }
 
 /// All points that a plane shows, in its coordinates; the others of the section far off it.
-fn project(points: &Points, (cut, lying): (Cut, bool), centre: [f64; 3]) -> Vec<Sample> {
+fn project(points: &Points, cut: Cut, lying: bool, centre: [f64; 3]) -> Vec<Sample> {
     let each = points.position.iter().zip(&points.temperature);
     let at = |p: &[f64; 3]| match cut {
         Cut::Plane => [p[0], p[1], 0.0],

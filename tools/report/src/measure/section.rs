@@ -87,14 +87,14 @@ impl Section {
         let volume = metal.spacing.powi(3);
         for (p, fused) in metal.position.iter().zip(metal.fused) {
             if near(p) {
-                section.spread([p[flat], p[2]], p[normal] - place, (reach, volume), *fused);
+                section.spread([p[flat], p[2]], p[normal] - place, reach, volume, *fused);
             }
         }
         section
     }
 
     /// Adds one particle to the fields.
-    fn spread(&mut self, at: [f64; 2], off: f64, (reach, volume): (f64, f64), fused: f64) {
+    fn spread(&mut self, at: [f64; 2], off: f64, reach: f64, volume: f64, fused: f64) {
         let rows = self.up.len();
         let (Some(a0), Some(u0)) = (self.across.first().copied(), self.up.first().copied()) else {
             return;

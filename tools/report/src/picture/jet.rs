@@ -70,7 +70,8 @@ pub(crate) fn picture(
         disc(
             &mut canvas,
             axes.area,
-            (axes.pixel(dot.at), scale * dot.radius),
+            axes.pixel(dot.at),
+            scale * dot.radius,
             colour,
         );
     }
@@ -86,7 +87,7 @@ pub(crate) fn picture(
 }
 
 /// Fills a disc within an area with soft edges.
-fn disc(canvas: &mut Canvas, area: Rect, ([u, v], radius): ([f64; 2], f64), colour: Rgb) {
+fn disc(canvas: &mut Canvas, area: Rect, [u, v]: [f64; 2], radius: f64, colour: Rgb) {
     let radius = radius.max(0.7);
     let reach = radius.ceil() as i64 + 1;
     for y in v as i64 - reach..=v as i64 + reach {

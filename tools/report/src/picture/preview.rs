@@ -143,14 +143,14 @@ pub(crate) fn picture(preview: &Preview, view: View, by: By) -> Option<Canvas> {
         return None;
     }
     let seen = view.seen(preview);
-    let names = entries(preview, view, (&seen, by));
+    let names = entries(preview, view, &seen, by);
     let rows = wrapped(&names, WIDTH as f64 - 2.0 * MARGIN[1]);
     let top = LINE * rows.len() as f64 + 24.0;
     let axes = Axes::equal([MARGIN[0], top], scale, x, y);
     let mut canvas = Canvas::new(WIDTH, (top + axes.area.h + MARGIN[2]) as usize);
     canvas.within(axes.area, |canvas| {
         for i in &seen {
-            point(canvas, &axes, (preview, view, by), *i);
+            point(canvas, &axes, preview, view, by, *i);
         }
         marks(canvas, &axes, (preview, view));
     });
@@ -166,7 +166,7 @@ pub(crate) fn picture(preview: &Preview, view: View, by: By) -> Option<Canvas> {
 }
 
 /// A point as a rectangle of its size.
-fn point(canvas: &mut Canvas, axes: &Axes, (preview, view, by): (&Preview, View, By), i: usize) {
+fn point(canvas: &mut Canvas, axes: &Axes, preview: &Preview, view: View, by: By, i: usize) {
     let (place, size) = (preview.place[i], preview.size[i]);
     let at = axes.pixel([1e3 * place[view.right], 1e3 * place[view.up]]);
     let scale = axes.area.w / (axes.x[1] - axes.x[0]) * 1e3;
@@ -258,11 +258,7 @@ fn marks(canvas: &mut Canvas, axes: &Axes, (preview, view): (&Preview, View)) {
 }
 
 /// What the legend of a view names: materials or conditions that are seen, and marks.
-fn entries<'a>(
-    preview: &'a Preview,
-    view: View,
-    (seen, by): (&[usize], By),
-) -> Vec<(Rgb, &'a str)> {
+fn entries<'a>(preview: &'a Preview, view: View, seen: &[usize], by: By) -> Vec<(Rgb, &'a str)> {
     let numbers = |column: &[u32]| {
         let all: std::collections::BTreeSet<u32> = seen.iter().map(|i| column[*i]).collect();
         all.into_iter().collect::<Vec<_>>()
@@ -354,7 +350,7 @@ mod tests {
         assert!(found(material(0)) && found(material(1)) && !found(material(2)));
         assert!(found(condition(0)), "the mirror below");
         // Seen from above the mirror is no line.
-        let above = entries(&preview, views[2], (&[0], By::Condition));
+        let above = entries(&preview, views[2], &[0], By::Condition);
         assert!(above.is_empty(), "{above:?}");
     }
 

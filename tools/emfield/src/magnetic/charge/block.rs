@@ -54,7 +54,7 @@ where
             let rows = rows.permuted(&order);
             let mut fluxes = vec![0.0; n];
             order.forth(sizes, &mut fluxes);
-            let made = Multigrid::<f64, S>::of_fluxes(&rows, &mixed, (&order, fluxes), grids)?;
+            let made = Multigrid::<f64, S>::of_fluxes(&rows, &mixed, &order, fluxes, grids)?;
             way = Way::Grids(Box::new(made));
         }
         Ok(Self {

@@ -75,9 +75,11 @@ where
     /// Factors of all entries that are not below `least`, where these do not grow: they suit the rows best; else of `thin`,
     /// which lacks those of the wrong sign too.
     fn of_finest<T: Coefficient<S> + Scalar>(
-        (a, thin): (&Rows<T>, &Rows<T>),
+        a: &Rows<T>,
+        thin: &Rows<T>,
         shift: &[S],
-        (order, least): (&Order, f64),
+        order: &Order,
+        least: f64,
     ) -> Self {
         let whole = Self::new(&a.thinned(least, false), shift, order);
         let sound = Self::new(thin, shift, order);
@@ -180,7 +182,7 @@ where
                 &natural
             };
             let factors = if levels.is_empty() {
-                Smoother::of_finest((a, &thin), s, (order, grids.thin))
+                Smoother::of_finest(a, &thin, s, order, grids.thin)
             } else {
                 // Coarse rows have entries of the sign of their diagonal, with which incomplete
                 // factors can grow without bound; without them they cannot (Meijerink and van der
@@ -224,7 +226,8 @@ where
     pub fn of_fluxes(
         rows: &Rows<T>,
         shift: &[S],
-        (order, weights): (&Order, Vec<f64>),
+        order: &Order,
+        weights: Vec<f64>,
         grids: Grids,
     ) -> Result<Self, Error> {
         let mut rows = rows.clone();

@@ -43,7 +43,7 @@ fn one(points: &Points, plane: &Plane, quantity: &Quantity) -> Result<Option<Str
     let Some(shown) = draw(points, plane, (quantity, map, over)) else {
         return Ok(None);
     };
-    let words = caption(points, plane, (quantity, over), &shown);
+    let words = caption(points, plane, quantity, over, &shown);
     let image = picture(&shown.canvas, &words).map_err(|e| encoding(&e))?;
     Ok(Some(figure(&image, &words)))
 }
@@ -65,7 +65,8 @@ fn look(points: &Points, quantity: &Quantity) -> (Map, Over) {
 fn caption(
     points: &Points,
     plane: &Plane,
-    (quantity, over): (&Quantity, Over),
+    quantity: &Quantity,
+    over: Over,
     shown: &Shown,
 ) -> String {
     let mut letters = quantity.title.chars();

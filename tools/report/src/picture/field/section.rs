@@ -40,7 +40,7 @@ pub(crate) fn section(
     let field = plane.field(points, quantity)?;
     let window = Window::new(points, &plane.view, MARGIN[2]);
     let sized = points.columns.is_size(quantity);
-    let (scale, factor, above) = colours(points, quantity, &field, (map, sized))?;
+    let (scale, factor, above) = colours(points, quantity, &field, map, sized)?;
     let drawing = Drawing {
         points,
         window: &window,
@@ -81,7 +81,8 @@ fn colours(
     points: &Points,
     quantity: &Quantity,
     field: &Field,
-    (map, sized): (Map, bool),
+    map: Map,
+    sized: bool,
 ) -> Option<(Scale, f64, bool)> {
     let all = || field.media.iter().flat_map(|(_, v)| v.iter().copied());
     let wired = !points.scene.loops.is_empty() && !quantity.conductors;
