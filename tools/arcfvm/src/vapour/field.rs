@@ -9,7 +9,7 @@
 //! sum A (Y_P - Y_E) = area J             where it takes the place of as much gas (eq. 5.23),
 //! ```
 //!
-//! J being the flux of [`Evaporating::pass`] (eq. 5.24). What J brings in is written as
+//! J being the flux of [`super::evaporation::Evaporating::pass`] (eq. 5.24). What J brings in is written as
 //! `c (Y_eq - Y_P)` with `c >= 0` and `Y_eq` saturation: values stay between those of edges, metals and 1.
 
 use relax::{Coefficients, FivePoint};
