@@ -27,8 +27,8 @@ use crate::state::{ACCELERATION, DENSITY, MASS, State, VELOCITY};
 
 /// c over V of (18).
 const SOUND: f64 = 10.0;
-/// Times within the run at which the speed of a nozzle is looked at for V.
-const LOOKS: usize = 200;
+/// Parts of the run in each of which the speed of a nozzle is bounded for V.
+const PARTS: usize = 200;
 
 /// The stage of the water, its law, and the stages that must come after all others.
 type Stages = (Box<dyn Stage>, Tait, Vec<Box<dyn Stage>>);
@@ -209,12 +209,21 @@ fn nozzles(scene: &Scene, of: &WaterScene, set: usize) -> Result<Vec<Nozzle>, Fa
     .collect()
 }
 
-/// Greatest mean speed of the water of a nozzle until the end \[m/s\].
+/// Greatest mean speed of the water of a nozzle until the end \[m/s\], however short its pulses are; where a part of the run has
+/// no bound, that at its ends.
 fn fastest_of(nozzle: &Nozzle, end: f64) -> f64 {
     let (from, to) = (nozzle.runs.0.min(end), nozzle.runs.1.min(end));
-    let looks = (0..=LOOKS).map(|look| from + (to - from) * look as f64 / LOOKS as f64);
-    let speed = looks.map(|time| nozzle.speed.value(&Arguments::at([0.0; 3], time)));
-    speed.fold(0.0, |most, speed| f64::max(most, speed.unwrap_or(0.0)))
+    let at = |k: usize| Arguments::at([0.0; 3], from + (to - from) * k as f64 / PARTS as f64);
+    let most = |k: usize| {
+        let (low, high) = (at(k), at(k + 1));
+        let bound = nozzle.speed.bounds(&low, &high).high;
+        if bound.is_finite() {
+            return bound;
+        }
+        let ends = [low, high].map(|at| nozzle.speed.value(&at).unwrap_or(0.0));
+        ends[0].max(ends[1])
+    };
+    (0..PARTS).map(most).fold(0.0, f64::max)
 }
 
 /// Nozzles and outlets, which come after all other stages.
