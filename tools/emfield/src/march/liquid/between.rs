@@ -1,11 +1,12 @@
 //! The march of a liquid between faces: in a plane or in space.
 
-use artefact::{Checkpoint, Precision, Record};
+use artefact::{Precision, Record};
 use run::{Failure, Session};
 
+use super::course::Course;
 use crate::assemble::liquid::between::{fastest, start, steps};
 use crate::assemble::liquid::matter::{matter, way};
-use crate::liquid::effort::Effort;
+
 use crate::liquid::room::level::Level;
 use crate::liquid::step::{Ended, Liquid, Matter, Way};
 use crate::liquid::surface::Patch;
@@ -24,12 +25,7 @@ struct March<const D: usize> {
     matter: Matter<D>,
     way: Way,
     precision: Precision,
-    /// Volume at the start \[m3; m2 in a plane\], where there is a free surface.
-    volume: Option<f64>,
-    effort: Effort,
-    /// Steps that were divided.
-    divided: u64,
-    taken: u64,
+    course: Course,
 }
 
 /// Moves the liquid of a scene from its start to the end.
@@ -47,37 +43,37 @@ pub(crate) fn between<const D: usize>(
         matter: matter(part),
         way: way(scene, part),
         precision: scene.output.precision.into(),
-        volume: None,
-        effort: Effort::default(),
-        divided: 0,
-        taken: 0,
+        course: Course::default(),
     };
     if let Some(mut checkpoint) = session.restored() {
-        march.restore(&mut liquid, &mut checkpoint)?;
+        march.course.restore(&mut liquid, &mut checkpoint)?;
     } else {
-        let made = liquid.balance(&march.matter, &march.way, &mut march.effort)?;
+        let made = liquid.balance(&march.matter, &march.way, &mut march.course.effort)?;
         march.tell(&mut liquid, 0.0, session)?;
         march.write(&liquid, (0.0, &made), session)?;
     }
-    while march.taken < steps.count() {
-        let (_, length) = steps.step(march.taken);
+    while march.course.taken < steps.count() {
+        let (_, length) = steps.step(march.course.taken);
         let ended = march.step(&mut liquid, length, session)?;
-        march.taken += 1;
-        let (time, written) = steps.end(march.taken);
+        march.course.taken += 1;
+        let (time, written) = steps.end(march.course.taken);
         march.tell(&mut liquid, time, session)?;
         if written {
             march.write(&liquid, (time, &ended.patches), session)?;
         }
         let speed = fastest(&liquid);
-        session.progress(march.taken, steps.count(), || {
+        session.progress(march.course.taken, steps.count(), || {
             vec![
                 ("time", time, "s"),
                 ("step", length, "s"),
                 ("fastest", speed, "m/s"),
             ]
         });
-        if march.taken < steps.count() {
-            session.keep(|checkpoint| march.save(&liquid, checkpoint))?;
+        if march.course.taken < steps.count() {
+            session.keep(|checkpoint| {
+                march.course.save(&liquid, checkpoint);
+                Ok(())
+            })?;
         }
     }
     march.close(&steps, session);
@@ -95,14 +91,14 @@ impl<const D: usize> March<D> {
         let far = fastest(liquid) * length / (FARTHEST * self.way.spacing);
         let parts = far.ceil().max(1.0);
         if parts > 1.0 {
-            self.divided += 1;
+            self.course.divided += 1;
             session.substepped();
         }
         let mut left = parts as u64;
         loop {
             let (way, dt) = (&self.way, length / parts);
             let ended = session.timed("step", || {
-                liquid.advance(&self.matter, way, dt, &mut self.effort)
+                liquid.advance(&self.matter, way, dt, &mut self.course.effort)
             })?;
             if liquid.surface() > 0 {
                 liquid.smooth(&ended.patches, &ended.images);
@@ -129,8 +125,8 @@ impl<const D: usize> March<D> {
         let level =
             |liquid: &Liquid<D>| Level::new(&liquid.room, &liquid.position[..liquid.surface()]);
         let mut now = level(liquid);
-        match (&now, self.volume) {
-            (Some(found), None) => self.volume = Some(found.volume),
+        match (&now, self.course.volume) {
+            (Some(found), None) => self.course.volume = Some(found.volume),
             (Some(found), Some(volume)) => {
                 let free = liquid.room.free().map_or(0, |f| f.0);
                 let across = (0..D).filter(|k| *k != free);
@@ -191,75 +187,16 @@ impl<const D: usize> March<D> {
         session.frame("/surface", time, &surface)
     }
 
-    fn save(&self, liquid: &Liquid<D>, checkpoint: &mut Checkpoint) -> artefact::Result<()> {
-        for (name, vectors) in [
-            ("position", &liquid.position),
-            ("velocity", &liquid.velocity),
-            ("rate", &liquid.rate),
-            ("normal", &liquid.normal),
-            ("follow", &liquid.follow),
-        ] {
-            checkpoint.put_f64(name, vectors.as_flattened());
-        }
-        checkpoint.put_f64("pressure", &liquid.pressure);
-        checkpoint.put_f64("stress", &liquid.stress);
-        let volume: Vec<f64> = self.volume.into_iter().collect();
-        checkpoint.put_f64("volume", &volume);
-        checkpoint.put_f64("residual", &[self.effort.residual]);
-        let e = &self.effort;
-        let counts = [
-            self.taken,
-            self.divided,
-            e.products,
-            e.unsolved,
-            e.unsettled,
-        ];
-        checkpoint.put_u64("counts", &counts);
-        Ok(())
-    }
-
-    fn restore(
-        &mut self,
-        liquid: &mut Liquid<D>,
-        checkpoint: &mut Checkpoint,
-    ) -> Result<(), Failure> {
-        for (name, vectors) in [
-            ("position", &mut liquid.position),
-            ("velocity", &mut liquid.velocity),
-            ("rate", &mut liquid.rate),
-            ("normal", &mut liquid.normal),
-            ("follow", &mut liquid.follow),
-        ] {
-            *vectors = checkpoint.f64(name)?.as_chunks::<D>().0.to_vec();
-        }
-        liquid.pressure = checkpoint.f64("pressure")?;
-        liquid.stress = checkpoint.f64("stress")?;
-        self.volume = checkpoint.f64("volume")?.first().copied();
-        let residual = checkpoint.f64("residual")?;
-        self.effort.residual = residual.first().copied().unwrap_or(0.0);
-        if let [taken, divided, products, unsolved, unsettled] = checkpoint.u64("counts")?[..] {
-            (self.taken, self.divided) = (taken, divided);
-            self.effort.products = products;
-            (self.effort.unsolved, self.effort.unsettled) = (unsolved, unsettled);
-        }
-        Ok(())
-    }
-
     fn close(&self, steps: &Steps, session: &mut Session) {
-        session.steps(steps.count());
-        session.closing("step", "s", steps.longest());
-        session.closing("products", "1", self.effort.products as f64);
-        session.closing("residual", "1", self.effort.residual);
-        if let Some(volume) = self.volume {
-            session.closing("volume", if D == 2 { "m2" } else { "m3" }, volume);
-        }
-        if self.divided > 0 {
+        self.course
+            .close(steps, if D == 2 { "m2" } else { "m3" }, session);
+        if self.course.divided > 0 {
             session.note(format!(
                 "{} steps were divided: the liquid would have passed more than {FARTHEST} spacings",
-                self.divided
+                self.course.divided
             ));
         }
-        for doubt in self.effort.doubts() {
+        for doubt in self.course.effort.doubts() {
             session.warn(doubt);
         }
     }

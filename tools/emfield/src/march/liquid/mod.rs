@@ -2,6 +2,7 @@
 
 pub(crate) mod acting;
 pub(crate) mod between;
+mod course;
 pub(crate) mod heated;
 
 use artefact::{Checkpoint, Precision};
@@ -9,11 +10,12 @@ use run::{Failure, Session};
 
 use self::acting::Acting;
 use self::between::between;
+use self::course::Course;
 use self::heated::Heated;
 use crate::assemble::liquid::matter::{matter, way};
 use crate::assemble::liquid::{fastest, filled, start, steps};
 use crate::geometry::Geometry;
-use crate::liquid::effort::{Effort, failed};
+use crate::liquid::effort::failed;
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
 use crate::liquid::passing::Passing;
@@ -34,22 +36,17 @@ struct March {
     matter: Matter<3>,
     way: Way,
     precision: Precision,
-    /// Volume at the start \[m3\], where the outline tells it.
-    volume: Option<f64>,
     /// Velocity of the centre, as gravity and fields say \[m/s\].
     drift: [f64; 3],
     /// Centre that was told last \[m\].
     centre: [f64; 3],
-    effort: Effort,
+    course: Course,
     /// Fields that act on it.
     acting: Acting,
     /// Heat in it; none where the scene has none.
     heat: Option<Heated>,
     /// How fast a stirred liquid passes its points.
     passing: Passing,
-    /// Steps that were divided.
-    divided: u64,
-    taken: u64,
 }
 
 /// Moves the liquid of a scene from its start to the end.
@@ -75,39 +72,36 @@ pub(crate) fn flow(
         matter: matter(part),
         way: way(scene, part),
         precision: scene.output.precision.into(),
-        volume: None,
         drift: [0.0; 3],
         centre: [0.0; 3],
-        effort: Effort::default(),
+        course: Course::default(),
         acting: Acting::new((scene, part), &liquid, session)?,
         heat: Heated::new(part, &liquid)?,
         passing: Passing::default(),
-        divided: 0,
-        taken: 0,
     };
     if let Some(mut checkpoint) = session.restored() {
         march.restore(&mut liquid, &mut checkpoint)?;
     } else {
         march.begin((&mut liquid, part), session)?;
     }
-    while march.taken < steps.count() {
-        let (_, length) = steps.step(march.taken);
+    while march.course.taken < steps.count() {
+        let (_, length) = steps.step(march.course.taken);
         let made = march.step(&mut liquid, length, session)?;
-        march.taken += 1;
-        let (time, written) = steps.end(march.taken);
+        march.course.taken += 1;
+        let (time, written) = steps.end(march.course.taken);
         march.tell(&mut liquid, (time, &made), session)?;
         if written {
             march.write(&liquid, (time, &made), session)?;
         }
         let speed = fastest(&liquid);
-        session.progress(march.taken, steps.count(), || {
+        session.progress(march.course.taken, steps.count(), || {
             vec![
                 ("time", time, "s"),
                 ("step", length, "s"),
                 ("fastest", speed, "m/s"),
             ]
         });
-        if march.taken < steps.count() {
+        if march.course.taken < steps.count() {
             session.keep(|checkpoint| march.save(&liquid, checkpoint))?;
         }
     }
@@ -125,8 +119,9 @@ impl March {
         self.centre = liquid.middle();
         let at = (&mut *liquid, &self.way, self.centre);
         let weighed = (part, &self.matter);
-        self.acting.begin(weighed, at, &mut self.effort, session)?;
-        let made = liquid.balance(&self.matter, &self.way, &mut self.effort)?;
+        self.acting
+            .begin(weighed, at, &mut self.course.effort, session)?;
+        let made = liquid.balance(&self.matter, &self.way, &mut self.course.effort)?;
         let rows = operators(&liquid.position, &self.way);
         let rows = rows.map_err(|e| Failure::Other(format!("liquid: {e}")))?;
         let (mut sources, mut slopes) = (0.0_f64, 0.0_f64);
@@ -158,7 +153,7 @@ impl March {
             let surface = &liquid.position[..liquid.surface()];
             let patches = patches(surface, &liquid.normal, self.way.spacing);
             let patches = patches.map_err(|e| failed(&e))?;
-            let (how, effort) = ((&self.way, length), &mut self.effort);
+            let (how, effort) = ((&self.way, length), &mut self.course.effort);
             session.timed("heat", || {
                 heat.rest((liquid, &patches), &self.acting, how, effort)
             })?;
@@ -167,17 +162,23 @@ impl March {
         let far = fastest(liquid) * length / (FARTHEST * self.way.spacing);
         let parts = far.ceil().max(1.0);
         if parts > 1.0 {
-            self.divided += 1;
+            self.course.divided += 1;
             session.substepped();
         }
         let mut made = Vec::new();
         for _ in 0..parts as u64 {
             let (way, dt) = (&self.way, length / parts);
             let ended = session.timed("step", || {
-                liquid.advance(&self.matter, way, dt, &mut self.effort)
+                liquid.advance(&self.matter, way, dt, &mut self.course.effort)
             })?;
             if let Some(heat) = &mut self.heat {
-                heat.flow(liquid, &ended, &self.acting, (way, dt), &mut self.effort)?;
+                heat.flow(
+                    liquid,
+                    &ended,
+                    &self.acting,
+                    (way, dt),
+                    &mut self.course.effort,
+                )?;
             }
             liquid.smooth(&ended.patches, &ended.images);
             let apart = self.heat.is_some().then(|| liquid.position.clone());
@@ -201,8 +202,10 @@ impl March {
         session: &mut Session,
     ) -> Result<(), Failure> {
         let at = (liquid, &self.way, self.centre);
-        let impulse = self.acting.pull(at, passed, &mut self.effort, session)?;
-        if let Some(volume) = self.volume {
+        let impulse = self
+            .acting
+            .pull(at, passed, &mut self.course.effort, session)?;
+        if let Some(volume) = self.course.volume {
             let mass = self.matter.density * volume;
             self.drift = along(&self.drift, mass.recip(), &impulse);
         }
@@ -224,9 +227,9 @@ impl March {
             session.warn("the drop is no longer one whose surface every ray from its centre meets once: its radii, modes and volume are neither told nor kept");
             return Ok(());
         };
-        match self.volume {
+        match self.course.volume {
             None => {
-                self.volume = Some(totals.volume);
+                self.course.volume = Some(totals.volume);
                 self.drift = totals.drift;
             }
             Some(volume) => {
@@ -282,33 +285,15 @@ impl March {
     }
 
     fn save(&self, liquid: &Liquid<3>, checkpoint: &mut Checkpoint) -> artefact::Result<()> {
-        checkpoint.put_vectors("position", &liquid.position);
-        checkpoint.put_vectors("velocity", &liquid.velocity);
-        checkpoint.put_vectors("rate", &liquid.rate);
-        checkpoint.put_vectors("normal", &liquid.normal);
-        checkpoint.put_vectors("follow", &liquid.follow);
-        checkpoint.put_f64("pressure", &liquid.pressure);
-        checkpoint.put_f64("stress", &liquid.stress);
-        self.acting.save((liquid, &self.effort), checkpoint);
+        self.course.save(liquid, checkpoint);
+        self.acting.save((liquid, &self.course.effort), checkpoint);
         if let Some(heat) = &self.heat {
             heat.save(checkpoint);
         }
         if self.stirs(liquid).is_some() {
             checkpoint.put_f64("passing", &self.passing.save());
         }
-        let volume: Vec<f64> = self.volume.into_iter().collect();
-        checkpoint.put_f64("volume", &volume);
         checkpoint.put_vectors("centre", &[self.drift, self.centre]);
-        checkpoint.put_f64("residual", &[self.effort.residual]);
-        let e = &self.effort;
-        let counts = [
-            self.taken,
-            self.divided,
-            e.products,
-            e.unsolved,
-            e.unsettled,
-        ];
-        checkpoint.put_u64("counts", &counts);
         Ok(())
     }
 
@@ -317,14 +302,8 @@ impl March {
         liquid: &mut Liquid<3>,
         checkpoint: &mut Checkpoint,
     ) -> Result<(), Failure> {
-        liquid.position = checkpoint.vectors("position")?;
-        liquid.velocity = checkpoint.vectors("velocity")?;
-        liquid.rate = checkpoint.vectors("rate")?;
-        liquid.normal = checkpoint.vectors("normal")?;
-        liquid.follow = checkpoint.vectors("follow")?;
-        liquid.pressure = checkpoint.f64("pressure")?;
-        liquid.stress = checkpoint.f64("stress")?;
-        let kept = (&mut *liquid, &mut self.effort);
+        self.course.restore(liquid, checkpoint)?;
+        let kept = (&mut *liquid, &mut self.course.effort);
         self.acting.restore(kept, self.way.spacing, checkpoint)?;
         if let Some(heat) = &mut self.heat {
             heat.restore(checkpoint)?;
@@ -332,42 +311,34 @@ impl March {
         if self.stirs(liquid).is_some() {
             self.passing = Passing::restored(&checkpoint.f64("passing")?);
         }
-        self.volume = checkpoint.f64("volume")?.first().copied();
         if let [drift, centre] = checkpoint.vectors("centre")?[..] {
             (self.drift, self.centre) = (drift, centre);
-        }
-        let residual = checkpoint.f64("residual")?;
-        self.effort.residual = residual.first().copied().unwrap_or(0.0);
-        if let [taken, divided, products, unsolved, unsettled] = checkpoint.u64("counts")?[..] {
-            (self.taken, self.divided) = (taken, divided);
-            self.effort.products = products;
-            (self.effort.unsolved, self.effort.unsettled) = (unsolved, unsettled);
         }
         Ok(())
     }
 
     fn close(&self, liquid: &Liquid<3>, steps: &Steps, session: &mut Session) {
-        session.steps(steps.count());
-        session.closing("step", "s", steps.longest());
-        session.closing("products", "1", self.effort.products as f64);
-        session.closing("residual", "1", self.effort.residual);
-        if let Some(volume) = self.volume {
-            session.closing("volume", "m3", volume);
-        }
-        self.acting.close(&self.effort, session);
+        self.course.close(steps, "m3", session);
+        self.acting.close(&self.course.effort, session);
         if let Some(heat) = &self.heat {
             heat.close(session);
         }
-        if self.divided > 0 {
+        if self.course.divided > 0 {
             session.note(format!(
                 "{} steps were divided: points would have moved farther than {FARTHEST} spacings",
-                self.divided
+                self.course.divided
             ));
         }
         if self.stirs(liquid).is_some() {
             session.closing("cell_reynolds", "1", self.passing.greatest);
         }
-        for doubt in self.effort.doubts().into_iter().chain(self.passing.doubt()) {
+        for doubt in self
+            .course
+            .effort
+            .doubts()
+            .into_iter()
+            .chain(self.passing.doubt())
+        {
             session.warn(doubt);
         }
     }
