@@ -199,6 +199,42 @@ impl Outline {
         (volume, along(&self.origin, volume.recip(), &first))
     }
 
+    /// Velocity of the centre of a drop whose surface `points` move at `velocity` \[m/s\]. The radius grows by `r' = u . n/(e . n)` in
+    /// the direction e, with the normal n, so that
+    ///
+    /// ```text
+    /// V dc/dt = integral of r^2 r' (r e + o - c) over all directions, o the origin and c the centre
+    /// ```
+    ///
+    /// Without sources this is momentum over mass; sums over points err where a stream is one point deep.
+    #[must_use]
+    pub fn centre_velocity(
+        &self,
+        points: &[[f64; 3]],
+        normals: &[[f64; 3]],
+        velocity: &[[f64; 3]],
+    ) -> Option<[f64; 3]> {
+        let (volume, centre) = self.volume();
+        let all = points.iter().zip(normals).zip(velocity);
+        let rates: Vec<f64> = all
+            .map(|((x, n), u)| {
+                let ray = direction(&difference(x, &self.origin));
+                dot(u, n) / dot(&ray, n)
+            })
+            .collect();
+        let rates = self.fitted(points, &rates)?;
+        let aside = difference(&self.origin, &centre);
+        let mut first = [0.0; 3];
+        for node in self.nodes() {
+            let values = harmonics(self.degree, &node.direction);
+            let rate: f64 = values.iter().zip(&rates).map(|(y, c)| y * c).sum();
+            let r = self.radius(&node.direction);
+            let way = along(&aside, r, &node.direction);
+            first = along(&first, node.weight * r * r * rate, &way);
+        }
+        Some(first.map(|c| c / volume))
+    }
+
     /// Area \[m2\]: the integral of r sqrt(r^2 + |grad r|^2) over all directions.
     #[must_use]
     pub fn area(&self) -> f64 {
@@ -366,6 +402,23 @@ mod tests {
         let e = (1.0 - 1.0 / (1.3_f64 * 1.3)).sqrt();
         let area = 2.0 * PI * 1e-6 * (1.0 + 1.3 / e * e.asin());
         assert!((outline.area() / area - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_centre_moves_with_the_surface_whatever_streams_along_it() {
+        let (points, normals) = spheroid(1500, [1e-3, 1e-3, 1.1e-3], [2e-4, -1e-4, 3e-4]);
+        let outline = Outline::new(&points, &normals, [2.1e-4, -1e-4, 3.2e-4]).unwrap();
+        let whole = [0.01, 0.0, -0.02];
+        let moves = |n: &[f64; 3]| {
+            // 0.5 m/s along the surface, toward smaller z.
+            let down = along(&[0.0, 0.0, -0.5], 0.5 * n[2], n);
+            along(&whole, 1.0, &down)
+        };
+        let velocity: Vec<[f64; 3]> = normals.iter().map(moves).collect();
+        let found = outline.centre_velocity(&points, &normals, &velocity);
+        for (found, wanted) in found.unwrap().iter().zip(whole) {
+            assert!((found - wanted).abs() < 1e-6, "{found} {wanted}");
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use artefact::{Frame, Precision, Record};
 use super::outline::Outline;
 use super::step::{Liquid, Matter};
 use super::surface::Patch;
-use super::vector::{along, dot, spatial};
+use super::vector::{dot, spatial};
 
 /// Modes that are told, from 2.
 const MODES: usize = 6;
@@ -21,7 +21,7 @@ pub struct Totals {
     pub centre: [f64; 3],
     /// Area \[m2\].
     pub area: f64,
-    /// Momentum over mass: the velocity of the centre \[m/s\].
+    /// The velocity of the centre, which is momentum over mass \[m/s\].
     pub drift: [f64; 3],
     /// Kinetic energy \[J\].
     pub kinetic: f64,
@@ -41,11 +41,11 @@ impl Totals {
             .map(|i| volume * share(i) / whole)
             .collect();
         let volumes = outline.volumes(&liquid.position, &guess)?;
-        let (mut drift, mut kinetic) = ([0.0; 3], 0.0);
-        for (v, u) in volumes.iter().zip(&liquid.velocity) {
-            drift = along(&drift, v / volume, u);
-            kinetic += 0.5 * matter.density * v * dot(u, u);
-        }
+        let skin = &liquid.position[..surface];
+        let drift = outline.centre_velocity(skin, &liquid.normal, &liquid.velocity)?;
+        let masses = volumes.iter().map(|v| 0.5 * matter.density * v);
+        let kinetic = masses.zip(&liquid.velocity).map(|(m, u)| m * dot(u, u));
+        let kinetic = kinetic.sum();
         Some(Self {
             volume,
             centre,
