@@ -50,8 +50,8 @@ impl Case for FlowSloshing {
     }
 }
 
-/// Twice the mean time between the moments at which the mode stands still; what the energy of motion and height has gained
-/// at most on what it was before, over that of the start.
+/// Twice the mean time between the moments at which the mode stands still; what energy has gained at most on what it was before,
+/// over that of the start: that of motion whenever the surface passes its level, and that of motion and height at all times.
 fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
     let (long, high) = (
         number(run, "/faces/max_m/0")?,
@@ -78,16 +78,33 @@ fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
         });
     };
     let period = 2.0 * (last - first) / (stills.len() - 1) as f64;
-    let moving = mean(frame(0).map(|(_, u)| 0.5 * u.iter().map(|u| u * u).sum::<f64>()));
-    let (mut least, mut gained): (f64, f64) = (f64::INFINITY, 0.0);
-    for k in 0..count {
-        let energy = energy(k);
-        least = least.min(energy);
-        gained = gained.max((energy - least) / moving);
-    }
+    let moving = |k: usize| mean(frame(k).map(|(_, u)| 0.5 * u.iter().map(|u| u * u).sum::<f64>()));
+    let moving: Vec<f64> = (0..count).map(moving).collect();
+    let all = (0..count).map(|k| energy(k) / moving[0]);
     let errors = [
         ("period", (period / exact - 1.0).abs()),
-        ("energy_gained", gained),
+        ("energy_gained", rise(passing(&moving)) / moving[0]),
+        ("energy_by_heights", rise(all)),
     ];
     Ok(errors.map(|(name, error)| (name.to_owned(), error)).into())
+}
+
+/// The energy of motion at the start and at each of its later greatest values, by the parabola through three frames.
+fn passing(moving: &[f64]) -> impl Iterator<Item = f64> {
+    let peaks = moving.windows(3).filter(|w| w[1] > w[0] && w[1] >= w[2]);
+    let peaks = peaks.map(|w| {
+        let (slope, bend) = (0.5 * (w[2] - w[0]), w[2] - 2.0 * w[1] + w[0]);
+        w[1] - 0.5 * slope * slope / bend
+    });
+    moving.first().copied().into_iter().chain(peaks)
+}
+
+/// The greatest rise above an earlier value.
+fn rise(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut least, mut rise): (f64, f64) = (f64::INFINITY, 0.0);
+    for value in values {
+        least = least.min(value);
+        rise = rise.max(value - least);
+    }
+    rise
 }

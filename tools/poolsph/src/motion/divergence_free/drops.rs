@@ -13,6 +13,7 @@ use crate::motion::{Law, Motion, Parameters};
 use crate::stage::Stage;
 use crate::state::{PHASE, State, VELOCITY, phase};
 use crate::surface::cross;
+use crate::vector::dot;
 
 /// Viscosity \[Pa s\].
 const MU: f64 = 0.004;

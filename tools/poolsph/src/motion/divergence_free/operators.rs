@@ -10,16 +10,19 @@
 //! Solid neighbours have the velocity -u_a: the face between both rests.
 //!
 //! What a particle of the surface lacks of the weights that the lattice has stands one layer away across the surface,
-//! mirrored there: its pressure is 2 p_s - p_a, its velocity that of the particle, and it adds to the moments, so that
-//! grad p is exact for a plane of the lattice. A layer is as thick as the neighbours beneath lie deep: where the surface
-//! bends it stretches, and the surface with it. (With a surface that keeps its distance from the particle waves of 20
-//! spacings are 4 % too slow. With moments of the present neighbours alone in div u they would not grow, but films of a few
-//! particles, which then count whole, burst.) Where tension acts its scatter from particle to particle drives such a
-//! surface on, and drops without viscosity broke up: there a layer is one spacing thick, and m that of the lattice. Where
-//! particles lie scattered B means little, and the lattice's stands for it.
+//! mirrored there: its pressure is 2 p_s - p_a, and it adds to the moments of the gradient, so that grad p is exact for a
+//! plane of the lattice. A layer is as thick as the neighbours beneath lie deep: where the surface bends it stretches, and
+//! the surface with it.
+//!
+//! div u at the surface has two forms. Over deep liquid B is that of the present neighbours alone, exact for linear u: waves
+//! have the exact speed but for the second order, and neither grow nor fall. In films, beside solids, and where tension
+//! acts B has the moments of what is missing as well, as if it moved with the particle: by the first form thin films gain
+//! energy as they spread, and burst. (By the second form alone waves of 20 spacings grew by 4 % in each period.)
+//! Where tension acts a layer is one spacing thick, and m that of the lattice. Where particles lie scattered B means little,
+//! and the lattice's stands for it.
 
 use super::filled::{Filled, within};
-use super::openness::open;
+use super::openness::{lack, open};
 use crate::near::{Near, Row};
 use crate::vector::{dot, minus, plus, squared};
 
@@ -28,6 +31,10 @@ use crate::vector::{dot, minus, plus, squared};
 const LACKS: [f64; 2] = [0.10, 0.20];
 /// Part of the lattice's weight up to which B is the lattice's, and from which on it is the row's own.
 const TRUST: [f64; 2] = [0.45, 0.60];
+/// Part of the layer beneath that is inside, from which on the divergence begins to be, and is wholly, that of the present neighbours.
+const DEEP: [f64; 2] = [0.7, 1.0];
+/// Lack of neighbours, in parts of the lattice's, up to which a particle is inside, and from which on it is not.
+const INSIDE: [f64; 2] = [0.08, 0.16];
 /// Depth in spacings from which on a neighbour begins to be, and is wholly, one of the layer beneath.
 const BENEATH: [f64; 2] = [0.3, 0.7];
 /// Least and greatest thickness of a layer in spacings.
@@ -46,8 +53,10 @@ pub(super) struct Sums {
     pub(super) sure: f64,
     /// How far away what is missing stands \[m\].
     pub(super) layer: f64,
-    /// B: xx, yy, zz, xy, xz, yz \[m3\].
+    /// B of the gradient of p, what is missing included: xx, yy, zz, xy, xz, yz \[m3\].
     pub(super) inverse: [f64; 6],
+    /// B of the present neighbours alone \[m3\].
+    pub(super) present: [f64; 6],
     /// Mean moment along an axis, what is missing included \[1/m3\].
     pub(super) moment: f64,
     /// div u \[1/s\].
@@ -66,6 +75,11 @@ impl Sums {
             0.0
         };
         self.open.map(|x| half * x)
+    }
+
+    /// |grad u| \[1/s\].
+    pub(super) fn steep(&self) -> f64 {
+        self.slope.map(squared).iter().sum::<f64>().sqrt()
     }
 }
 
@@ -118,6 +132,7 @@ impl Sums {
             slope: [[0.0; 3]; 3],
             layer: filled.spacing,
             inverse: [0.0; 6],
+            present: [0.0; 6],
             open: [0.0; 3],
             sure: 0.0,
             moment: if tense {
@@ -126,41 +141,67 @@ impl Sums {
                 (moments[0] + moments[1] + moments[2] + missing * filled.beside) / 3.0
             },
         };
+        let present = filled.inverse(moments, within(fill, TRUST));
+        (sums.present, sums.inverse) = (present, present);
+        let mut shared = present;
         if missing > 0.0 {
             let inwards = near.gradient[a];
             sums.open = inwards.map(|x| part * x);
             sums.sure = open(near, filled, a, row);
+            let mut deep = 0.0;
             if !tense {
-                sums.layer = beneath(near, a, row, inwards, filled.spacing);
+                let floor = beneath(near, a, row, inwards, filled);
+                sums.layer = floor.depth;
+                deep = within(floor.deep, DEEP);
             }
             beyond(&mut moments, sums.open, missing, sums.layer);
+            sums.inverse = filled.inverse(moments, within(fill, TRUST));
+            shared = std::array::from_fn(|i| deep * present[i] + (1.0 - deep) * sums.inverse[i]);
         }
-        sums.inverse = filled.inverse(moments, within(fill, TRUST));
-        sums.slope = multiplied(sums.inverse, change);
+        sums.slope = multiplied(shared, change);
         sums.divergence = (0..3).map(|i| sums.slope[i][i]).sum();
         sums
     }
 }
 
-/// Mean depth \[m\] of the neighbours beneath a particle of the surface.
-fn beneath(near: &Near, a: usize, row: Row<'_>, inwards: [f64; 3], d: f64) -> f64 {
-    let size = squared(inwards).sqrt();
+/// The layer beneath a particle of the surface.
+struct Beneath {
+    /// Its mean depth \[m\].
+    depth: f64,
+    /// The part of it that lies inside the liquid, away from any other surface and from solids.
+    deep: f64,
+}
+
+/// The neighbours beneath a particle of the surface.
+fn beneath(near: &Near, a: usize, row: Row<'_>, inwards: [f64; 3], filled: Filled) -> Beneath {
+    let d = filled.spacing;
+    let (size, mut found) = (
+        squared(inwards).sqrt(),
+        Beneath {
+            depth: d,
+            deep: 0.0,
+        },
+    );
     if size <= 0.0 {
-        return d;
+        return found;
     }
-    let (mut sum, mut weight) = (0.0, 0.0);
+    let (mut sum, mut inside, mut weight) = (0.0, 0.0, 0.0);
     for (b, slope) in row.slopes() {
         let depth = dot(minus(near.position[b], near.position[a]), inwards) / (size * d);
         let part = -slope * within(depth, BENEATH);
         sum += part * depth;
         weight += part;
+        if part > 0.0 && near.role[b].flows() {
+            let lack = lack(near, filled, near.images().original(b));
+            inside += part * (1.0 - within(lack, INSIDE));
+        }
     }
     let [least, most] = THICK;
     if weight > 0.0 {
-        d * (sum / weight).clamp(least, most)
-    } else {
-        d
+        found.depth = d * (sum / weight).clamp(least, most);
+        found.deep = inside / weight;
     }
+    found
 }
 
 /// Adds the moments of what is missing: all of it `d` away, along `open` as far as that tells, evenly around

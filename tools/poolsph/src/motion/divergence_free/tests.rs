@@ -9,6 +9,7 @@ use crate::motion::tests::{METAL, block, march, steps, tank};
 use crate::motion::{Method, Motion, Parameters};
 use crate::stage::Stage;
 use crate::state::{PHASE, State, VELOCITY, phase};
+use crate::vector::dot;
 
 /// A shaken block: places are moved by up to a tenth of a spacing.
 fn shaken(cells: [i32; 3], phase: impl Fn([i32; 3]) -> u8) -> State {
@@ -308,7 +309,7 @@ fn a_plane_surface_is_one_and_its_particles_are_shifted_along_it() {
 }
 
 #[test]
-fn a_cube_that_collapses_is_nowhere_faster_than_its_fall() {
+fn a_column_that_collapses_is_nowhere_faster_than_the_front_of_a_dam_break() {
     let (wide, high) = (8, 12);
     let mut state = block(
         [32, 32, 2 + high],
@@ -322,7 +323,8 @@ fn a_cube_that_collapses_is_nowhere_faster_than_its_fall() {
         },
         |_| [0.0; 3],
     );
-    let fall = (2.0 * 9.8 * f64::from(high) * METAL.spacing).sqrt();
+    // 2 sqrt(g h) on a smooth floor without friction (Ritter 1892).
+    let front = 2.0 * (9.8 * f64::from(high) * METAL.spacing).sqrt();
     let mut march = march(Method::DivergenceFree, true, false);
     let mut fastest = 0.0_f64;
     for _ in 0..400 {
@@ -330,7 +332,7 @@ fn a_cube_that_collapses_is_nowhere_faster_than_its_fall() {
         fastest = fastest.max(state.near.fastest_squared().sqrt());
     }
     assert!(
-        fastest > 0.5 * fall && fastest < 1.3 * fall,
-        "{fastest} of {fall}"
+        fastest > 0.35 * front && fastest < front,
+        "{fastest} of {front}"
     );
 }

@@ -1,0 +1,104 @@
+//! The pressure at walls, and the one that pushes.
+//!
+//! A projection takes |dt/rho grad p|^2 from the square of the velocity in each step: a flow that turns loses its energy with
+//! the first order of the step. Without a surface the velocity is reflected instead (Zehnder, Narain and Thomaszewski
+//! 2018), but for a rest 1 - r:
+//!
+//! ```text
+//! u = u* - (1 + r) dt/rho grad p
+//! ```
+//!
+//! What p has in common with that of the last step pushes twice, so that an impact pushes once. What presses upon a surface is
+//! no part of what keeps the volume, and would act twice: there the velocity is projected.
+
+use super::DivergenceFree;
+use crate::motion::step::Step;
+use crate::near::{Near, Role};
+use crate::vector::{dot, minus};
+
+/// r: part of the pressure that pushes once more without a surface.
+const REFLECTED: f64 = 0.9;
+impl DivergenceFree {
+    /// p + rho f.(x_w - x_b) at solid particles w, the mean over their liquid neighbours b (Adami, Hu and Adams 2012,
+    /// eq. 27), with the acceleration f of the prediction; beyond faces that mirror, from each particle to its image.
+    pub(super) fn reach_walls(&mut self, near: &Near, step: Step) {
+        let (pressure, mut total) = (&self.pressure, std::mem::take(&mut self.total));
+        self.reach(near, step, |a| f64::from(pressure[a]), &mut total);
+        self.total = total;
+    }
+
+    /// Whether the velocity is reflected.
+    pub(super) fn reflects(&self, near: &Near) -> bool {
+        self.poisson.closed && near.tension.is_empty()
+    }
+
+    /// The pressure that pushes: p, and once more what it has in common with that of the last step. Impacts push once.
+    pub(super) fn reflect(&mut self, near: &Near, step: Step) {
+        let (pressure, last) = (&self.pressure, &self.last);
+        let mut pushing = std::mem::take(&mut self.pushing);
+        let push = |a: usize| {
+            let [now, before] = [pressure[a], last[a]].map(f64::from);
+            now + REFLECTED * common(now, before)
+        };
+        self.reach(near, step, push, &mut pushing);
+        self.pushing = pushing;
+    }
+
+    /// What `pressure` of the liquid makes at walls, as [`DivergenceFree::reach_walls`] says.
+    fn reach(
+        &self,
+        near: &Near,
+        step: Step,
+        pressure: impl Fn(usize) -> f64 + Sync,
+        total: &mut Vec<f64>,
+    ) {
+        let change = &self.change;
+        let inertia = step.metal.density / step.dt;
+        total.resize(near.len(), 0.0);
+        near.each_row(total, |a, row, out| {
+            *out = pressure(a);
+            if near.role[a] == Role::Wet {
+                let (mut sum, mut weight) = (0.0, 0.0);
+                for (b, slope) in row.slopes().filter(|(b, _)| near.role[*b].flows()) {
+                    let way = minus(near.position[a], near.position[b]);
+                    let original = near.images().original(b);
+                    sum -= slope * (pressure(original) + inertia * dot(change[b], way));
+                    weight -= slope;
+                }
+                *out = if weight > 0.0 { sum / weight } else { 0.0 };
+            }
+        });
+        near.complete(total, |p, image, turn| {
+            let of = near.images().original(image);
+            p + inertia * dot(change[of], turn.across(near.position[of]))
+        });
+    }
+}
+
+/// What two values have in common: the smaller one of the same sign.
+fn common(a: f64, b: f64) -> f64 {
+    if a * b <= 0.0 {
+        0.0
+    } else if a.abs() < b.abs() {
+        a
+    } else {
+        b
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::common;
+
+    #[test]
+    fn what_changes_its_sign_has_nothing_in_common() {
+        for (a, b, asked) in [
+            (2.0, 3.0, 2.0),
+            (-3.0, -2.0, -2.0),
+            (2.0, -1.0, 0.0),
+            (0.0, 5.0, 0.0),
+        ] {
+            assert!((common(a, b) - asked).abs() <= 0.0);
+        }
+    }
+}
