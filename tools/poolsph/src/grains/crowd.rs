@@ -9,8 +9,8 @@ use shapes::frame::{Vector, along, difference, dot, length};
 
 use super::Motion;
 use super::bounds::{Load, Setting, Slack};
-use super::depth::asleep;
-use super::lists::{Chunk, Lists, ROWS, Touch};
+use super::depth::{CELL, Depth};
+use super::lists::{Chunk, Lists, Pair, ROWS};
 use super::metal::Metal;
 use super::sleep::depth;
 use super::walls::Walls;
@@ -78,7 +78,7 @@ pub(super) struct Crowd {
 #[derive(Clone, Copy)]
 struct Seen<'a> {
     grains: &'a [Grain],
-    depth: &'a [u8],
+    depth: Depth<'a>,
     setting: &'a Setting,
     zeta: f64,
 }
@@ -90,7 +90,39 @@ impl Seen<'_> {
     }
 
     fn sleeps(&self, row: usize) -> bool {
-        asleep(self.depth, row)
+        self.depth.asleep(row)
+    }
+
+    /// Adds the contacts of the grains of a chunk that are awake, those of lower rows first.
+    fn meet(self, lists: &Lists, place: usize, around: &mut [Around]) {
+        let (chunk, first) = (&lists.chunks[place], place * ROWS);
+        for (cell, around) in around.chunks_mut(CELL).enumerate() {
+            if !self.sleeps(first + cell * CELL) {
+                around.fill(Around::default());
+            }
+        }
+        let part = self
+            .depth
+            .part()
+            .map(|part| &chunk.parts[part].incoming[..]);
+        let number = part.map_or(chunk.incoming.len(), <[u32]>::len);
+        let ends = (0..number).map(|k| chunk.incoming[part.map_or(k, |part| part[k] as usize)]);
+        for end in ends {
+            let (from, row) = (&lists.chunks[end.chunk as usize], end.row as usize);
+            let pair = from.pairs[from.place(end)];
+            if pair.touches() {
+                let a = end.chunk as usize * ROWS + pair.own as usize;
+                let normal = self.normal(a, self.grains[first + row].position);
+                around[row].add(normal.map(|n| -n));
+            }
+        }
+        for (a, b) in touching(place, chunk, self.depth.part()) {
+            let normal = self.normal(a, self.grains[b].position);
+            around[a - first].add(normal);
+            if let Some(other) = around.get_mut(b - first) {
+                other.add(normal.map(|n| -n));
+            }
+        }
     }
 
     /// Direction from b to a.
@@ -103,16 +135,14 @@ impl Seen<'_> {
 
 impl Crowd {
     fn count(&mut self, lists: &Lists, walls: &Walls, metal: Option<&Metal>, seen: Seen<'_>) {
-        self.around.clear();
-        self.around.resize(seen.grains.len(), Around::default());
-        for (place, chunk) in lists.chunks.iter().enumerate().filter(|(_, c)| !c.rests) {
-            for (a, b) in touching(place, chunk) {
-                let normal = seen.normal(a, seen.grains[b].position);
-                self.around[a].add(normal);
-                self.around[b].add(normal.map(|n| -n));
-            }
-        }
-        walls.touching(seen.grains, |row, normal| self.around[row].add(normal));
+        let rows = seen.grains.len();
+        self.around.resize(rows, Around::default());
+        self.loads.resize(rows, Load::default());
+        let chunks = self.around.par_chunks_mut(ROWS).enumerate();
+        chunks.for_each(|(place, around)| seen.meet(lists, place, around));
+        walls.touching(seen.grains, seen.depth, |row, normal| {
+            self.around[row].add(normal);
+        });
         self.on_metal.clear();
         if let Some(metal) = metal {
             self.on_metal.resize(metal.bodies.len(), 0.0);
@@ -124,17 +154,26 @@ impl Crowd {
             }
         }
         let c = seen.setting.inertia_factor;
-        let all = self.around.par_iter().zip(seen.grains).with_min_len(4096);
-        all.map(|(around, grain)| around.load(grain.mass, c))
-            .collect_into_vec(&mut self.loads);
+        let cells = self
+            .loads
+            .par_chunks_mut(CELL)
+            .zip(self.around.par_chunks(CELL));
+        let cells = cells.zip(seen.grains.par_chunks(CELL)).enumerate();
+        let awake = cells
+            .with_min_len(ROWS / CELL)
+            .filter(|(cell, _)| !seen.sleeps(cell * CELL));
+        awake.for_each(|(_, ((loads, around), grains))| {
+            for ((load, around), grain) in loads.iter_mut().zip(around).zip(grains) {
+                *load = around.load(grain.mass, c);
+            }
+        });
     }
 
     /// The least slack of two grains that touch.
     fn between(&self, lists: &Lists, seen: Seen<'_>) -> Option<Slack> {
         let chunks = lists.chunks.par_iter().enumerate();
-        let awake = chunks.filter(|(_, chunk)| !chunk.rests);
-        let slacks = awake.filter_map(|(place, chunk)| {
-            let pairs = touching(place, chunk).filter_map(|(a, b)| {
+        let slacks = chunks.filter_map(|(place, chunk)| {
+            let pairs = touching(place, chunk, seen.depth.part()).filter_map(|(a, b)| {
                 let (m, n) = (seen.grains[a].mass, seen.grains[b].mass);
                 let [own, other] = [self.loads[a], self.loads[b]];
                 match (seen.sleeps(a), seen.sleeps(b)) {
@@ -156,33 +195,29 @@ impl Crowd {
 
     /// The least slack at walls.
     fn at_walls(&self, walls: &Walls, seen: Seen<'_>) -> Option<Slack> {
-        let mut least: Option<Slack> = None;
-        walls.touching(seen.grains, |row, _| {
-            if !seen.sleeps(row) {
-                let slack = seen.slack(seen.grains[row].mass, self.loads[row]);
-                least = Some(least.map_or(slack, |least| least.least(slack)));
-            }
-        });
-        least
+        let rows = walls.rows_touching(seen.depth);
+        let slacks = rows.map(|row| seen.slack(seen.grains[row].mass, self.loads[row]));
+        slacks.reduce(Slack::least)
     }
 
-    /// The least slack of contacts with metal: what rests gives way to nothing, and what flows does not turn.
+    /// The least slack of contacts with metal: what rests or sleeps gives way to nothing, and what flows does not turn.
     fn with_metal(&self, metal: &Metal, seen: Seen<'_>) -> Option<Slack> {
         let pairs = metal.pairs.iter().filter(|pair| pair.near.touching);
-        let slacks = pairs.map(|pair| {
+        let slacks = pairs.filter_map(|pair| {
             let (row, body) = (pair.near.row as usize, pair.body as usize);
-            let (mass, metal) = (seen.grains[row].mass, &metal.bodies[body]);
-            let load = self.loads[row];
-            if metal.member.is_none() {
-                return seen.slack(mass, load);
-            }
-            let m = metal.grain.mass;
+            let (mass, load) = (seen.grains[row].mass, self.loads[row]);
+            let m = metal.bodies[body].grain.mass;
             let number = self.on_metal[body] / m;
             let other = Load {
                 number,
                 joint: number,
             };
-            seen.slack(mass * m / (mass + m), load + other)
+            match (seen.sleeps(row), metal.bodies[body].member.is_none()) {
+                (true, true) => None,
+                (false, true) => Some(seen.slack(mass, load)),
+                (true, false) => Some(seen.slack(m, other)),
+                (false, false) => Some(seen.slack(mass * m / (mass + m), load + other)),
+            }
         });
         slacks.reduce(Slack::least)
     }
@@ -202,10 +237,16 @@ fn most_loaded(contacts: impl Iterator<Item = (f64, Load)>, seen: Seen<'_>) -> O
     slacks.reduce(Slack::least)
 }
 
-/// Rows of the pairs of a chunk that touch.
-fn touching(place: usize, chunk: &Chunk) -> impl Iterator<Item = (usize, usize)> {
-    let pairs = chunk.pairs.iter();
-    let touching = pairs.filter(|pair| pair.state == Touch::Touching);
+/// Rows of the pairs of a chunk that touch, in a part of it or in all.
+fn touching(
+    place: usize,
+    chunk: &Chunk,
+    part: Option<usize>,
+) -> impl Iterator<Item = (usize, usize)> {
+    let part = part.map(|part| &chunk.parts[part].pairs[..]);
+    let number = part.map_or(chunk.pairs.len(), <[u32]>::len);
+    let pairs = (0..number).map(move |k| part.map_or(k, |part| part[k] as usize));
+    let touching = pairs.map(|place| chunk.pairs[place]).filter(Pair::touches);
     touching.map(move |pair| (place * ROWS + pair.own as usize, pair.other as usize))
 }
 
@@ -215,7 +256,7 @@ impl Motion {
         let (lists, walls, metal) = (&self.lists, &self.walls, self.metal.as_ref());
         let seen = Seen {
             grains: &self.moving.grains,
-            depth: depth(&self.sleep),
+            depth: Depth::of(depth(&self.sleep), false),
             setting: &self.setting,
             zeta: self.zeta,
         };

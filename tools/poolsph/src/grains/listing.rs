@@ -43,6 +43,7 @@ impl Motion {
         }
         let depth = self.sleep.as_ref().map_or(&[][..], Sleep::depth);
         self.lists.rest(depth);
+        self.walls.rest(depth);
     }
 
     /// Whether someone may touch who is not listed, where grains have gone as far as `far` \[m\].

@@ -7,13 +7,15 @@
 //! Rows are in the order of cells ([`super::order`]), and [`ROWS`] of them make a chunk: some eight grains along each side. A
 //! chunk holds its inner pairs first, both of whose grains are its own, and then those with a grain of a later chunk.
 
+use std::ops::Range;
+
 use contact::{Grain, History};
 use neighbours::Grid;
 use rayon::prelude::*;
 use shapes::frame::Vector;
 
 use super::again::Again;
-use super::depth::{CELL, kept};
+use super::depth::{CELL, Depth};
 use super::memory::Memory;
 
 /// Rows of a chunk, the unit of parallel work.
@@ -30,6 +32,15 @@ pub struct Pair {
     pub own: u16,
     /// What the pair does.
     pub state: Touch,
+}
+
+impl Pair {
+    /// Whether it touches.
+    #[inline]
+    #[must_use]
+    pub fn touches(&self) -> bool {
+        self.state == Touch::Touching
+    }
 }
 
 /// What a pair does.
@@ -82,10 +93,44 @@ pub struct Chunk {
     pub deepest: f64,
     /// Cells of its rows that share a pair with others, by cells.
     pub cells: Vec<[u32; 2]>,
+    /// What of it is reckoned where some sleep: in all steps but the last of a step of the run, and in the last.
+    pub parts: [Part; 2],
+}
+
+/// What of a chunk is reckoned where grains sleep.
+#[derive(Debug, Clone, Default)]
+pub struct Part {
     /// Whether the forces of all its rows stay as they are.
     pub kept: bool,
-    /// Whether those of all rows in its pairs do.
-    pub rests: bool,
+    /// Places of the pairs that are reckoned.
+    pub pairs: Vec<u32>,
+    /// Numbers of the incoming pairs that end in rows whose forces do not stay.
+    pub incoming: Vec<u32>,
+}
+
+impl Part {
+    /// Whether nothing is reckoned.
+    #[must_use]
+    pub fn rests(&self) -> bool {
+        self.kept && self.pairs.is_empty()
+    }
+
+    fn find(&mut self, chunk: (&[Pair], &[Incoming]), rows: Range<usize>, depth: Depth<'_>) {
+        let (pairs, incoming) = chunk;
+        let first = rows.start;
+        self.kept = rows.step_by(CELL).all(|row| depth.kept(row));
+        self.pairs.clear();
+        let moves =
+            |(_, pair): &(u32, &Pair)| !depth.still(first + pair.own as usize, pair.other as usize);
+        let places = (0..).zip(pairs).filter(moves);
+        self.pairs.extend(places.map(|(place, _)| place));
+        self.incoming.clear();
+        if !self.kept {
+            let ends = (0..).zip(incoming);
+            let ends = ends.filter(|(_, incoming)| !depth.kept(first + incoming.row as usize));
+            self.incoming.extend(ends.map(|(number, _)| number));
+        }
+    }
 }
 
 impl Chunk {
@@ -258,16 +303,20 @@ impl Lists {
         self.again.find(places, ROWS, reach);
     }
 
-    /// Finds which chunks need not be reckoned where cells sleep by `depth`.
+    /// Finds what of each chunk is reckoned where cells sleep by `depth`.
     pub fn rest(&mut self, depth: &[u8]) {
         let rows = self.rows;
         let chunks = self.chunks.par_iter_mut().enumerate();
         chunks.for_each(|(c, chunk)| {
-            let mut own = (c * ROWS..rows.min((c + 1) * ROWS)).step_by(CELL);
-            chunk.kept = own.all(|row| kept(depth, row));
-            let outgoing = &chunk.pairs[chunk.inner..];
-            chunk.rests =
-                chunk.kept && outgoing.iter().all(|pair| kept(depth, pair.other as usize));
+            if depth.is_empty() {
+                chunk.parts = Default::default();
+                return;
+            }
+            let own = c * ROWS..rows.min((c + 1) * ROWS);
+            let all = (&chunk.pairs[..], &chunk.incoming[..]);
+            for (part, depth) in chunk.parts.iter_mut().zip(Depth::both(depth)) {
+                part.find(all, own.clone(), depth);
+            }
         });
     }
 

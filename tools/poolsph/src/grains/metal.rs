@@ -17,7 +17,7 @@ use neighbours::{Grid, Halo};
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference};
 
-use super::depth::kept;
+use super::depth::Depth;
 use super::memory::Memory;
 use super::metal_heat::Exchange;
 use super::metal_pair::{Body, Pair};
@@ -124,7 +124,7 @@ impl Metal {
     /// greatest overlap \[m\].
     pub fn act<N: Normal + Copy + Sync>(
         &mut self,
-        (grains, depth): (&[Grain], &[u8]),
+        (grains, depth): (&[Grain], Depth<'_>),
         (contact, rolling): (&Contact<N>, Option<Rolling>),
         step: f64,
         (force, moment): (&mut [Vector], &mut [Vector]),
@@ -136,7 +136,7 @@ impl Metal {
         let bodies = &self.bodies;
         let pairs = self.pairs.par_iter_mut().with_min_len(256);
         pairs.for_each(|pair| {
-            if kept(depth, pair.near.row as usize) {
+            if depth.always().kept(pair.near.row as usize) {
                 return;
             }
             let (grain, body) = (&grains[pair.near.row as usize], &bodies[pair.body as usize]);
@@ -152,7 +152,7 @@ impl Metal {
             deepest = deepest.max(pair.near.overlap);
             if let Some(reply) = pair.near.reply {
                 let (row, body) = (pair.near.row as usize, &mut self.bodies[pair.body as usize]);
-                if !kept(depth, row) {
+                if !depth.kept(row) {
                     force[row] = along(force[row], 1.0, reply.force);
                     moment[row] = along(moment[row], 1.0, reply.moment);
                 }

@@ -10,6 +10,7 @@ use shapes::frame::dot;
 use super::bounds::{Doing, Setting};
 use super::columns::STATE;
 use super::crowd::{self, Crowd};
+use super::depth::Depth;
 use super::heat::Heat;
 use super::laid::{self, Laid};
 use super::law::Law;
@@ -152,24 +153,22 @@ impl Motion {
         self.put_in_order(set);
         self.list_metal();
         self.walls.spread(&self.moving.grains);
-        self.act(0.0);
+        self.act(0.0, true);
         self.lie();
         Ok(())
     }
 
-    /// Forces and moments of all contacts.
-    fn act(&mut self, step: f64) {
+    /// Forces and moments of all contacts after a step of `step` \[s\], the `last` within a step of the run or another.
+    fn act(&mut self, step: f64, last: bool) {
         match self.law {
-            Law::Linear(normal) => self.act_by(normal, step),
-            Law::Hertz(normal) => self.act_by(normal, step),
+            Law::Linear(normal) => self.act_by(normal, step, last),
+            Law::Hertz(normal) => self.act_by(normal, step, last),
         }
     }
 
-    fn act_by<N: Normal + Copy + Sync>(&mut self, normal: N, step: f64) {
-        let contact = Contact {
-            normal,
-            friction: self.friction,
-        };
+    fn act_by<N: Normal + Copy + Sync>(&mut self, normal: N, step: f64, last: bool) {
+        let friction = self.friction;
+        let contact = Contact { normal, friction };
         let laws = (&contact, self.rolling);
         let rows = self.moving.grains.len();
         self.moving.force.resize(rows, [0.0; 3]);
@@ -180,7 +179,7 @@ impl Motion {
             moment,
             ..
         } = &mut self.moving;
-        let depth = depth(&self.sleep);
+        let depth = Depth::of(depth(&self.sleep), last);
         let seen = (&grains[..], depth);
         pairs::act(&mut self.lists, seen, laws, step, [force, moment]);
         let at_walls = self.walls.act(seen, laws, step);
@@ -214,7 +213,7 @@ impl Motion {
             }
         }
         self.moving.turn();
-        self.act(step);
+        self.act(step, left <= 0.0);
         if self.parts.is_multiple_of(crowd::STEPS) {
             self.count_contacts();
         }

@@ -10,15 +10,15 @@ use rayon::prelude::*;
 use shapes::frame::{Vector, difference, dot};
 
 use super::block::{Block, LANES};
-use super::depth::{CELL, kept, still};
-use super::lists::{Chunk, Lists, Push, ROWS, Touch};
+use super::depth::{CELL, Depth};
+use super::lists::{Chunk, Incoming, Lists, Push, ROWS, Touch};
 use super::resistance::{Resistance, Sliding, SlidingAndRolling};
 
-/// Forces \[N\] and moments \[N m\] of the contacts of all grains with each other after a step of `step` \[s\], but of those that sleep
-/// deep by `depth`.
+/// Forces \[N\] and moments \[N m\] of the contacts of all grains with each other after a step of `step` \[s\], but of those that stay as
+/// they are by `depth`.
 pub fn act<N: Normal + Copy + Sync>(
     lists: &mut Lists,
-    (grains, depth): (&[Grain], &[u8]),
+    (grains, depth): (&[Grain], Depth<'_>),
     (contact, rolling): (&Contact<N>, Option<Rolling>),
     step: f64,
     [force, moment]: [&mut [Vector]; 2],
@@ -26,7 +26,7 @@ pub fn act<N: Normal + Copy + Sync>(
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
     let chunks = lists.chunks.par_iter_mut().zip(sums).enumerate();
     chunks.for_each(|(c, (chunk, (force, moment)))| {
-        if chunk.rests {
+        if depth.part().is_some_and(|part| chunk.parts[part].rests()) {
             return;
         }
         let work = Work {
@@ -49,21 +49,24 @@ pub fn act<N: Normal + Copy + Sync>(
 }
 
 /// Adds what pairs of other chunks do to the grains of each.
-fn fetch(lists: &Lists, depth: &[u8], [force, moment]: [&mut [Vector]; 2]) {
+fn fetch(lists: &Lists, depth: Depth<'_>, [force, moment]: [&mut [Vector]; 2]) {
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
-    let chunks = lists.chunks.par_iter().zip(sums).enumerate();
-    let awake = chunks.filter(|(_, (chunk, _))| !chunk.kept);
-    awake.for_each(|(c, (chunk, (force, moment)))| {
-        for incoming in &chunk.incoming {
+    let chunks = lists.chunks.par_iter().zip(sums);
+    chunks.for_each(|(chunk, (force, moment))| {
+        let mut add = |incoming: &Incoming| {
             let row = incoming.row as usize;
-            if kept(depth, c * ROWS + row) {
-                continue;
-            }
             let from = &lists.chunks[incoming.chunk as usize];
             let push = from.outgoing[incoming.number as usize];
             for k in 0..3 {
                 force[row][k] -= push.force[k];
                 moment[row][k] += push.moment[k];
+            }
+        };
+        match depth.part() {
+            None => chunk.incoming.iter().for_each(add),
+            Some(part) => {
+                let ends = chunk.parts[part].incoming.iter();
+                ends.for_each(|number| add(&chunk.incoming[*number as usize]));
             }
         }
     });
@@ -79,63 +82,96 @@ impl<N: Normal, R: Resistance> pulp::NullaryFnOnce for Wide<'_, N, R> {
     #[inline(always)]
     fn call(self) {
         let Self(work, chunk, sums, resistance) = self;
-        work.each(chunk, sums, &resistance);
+        let Some(part) = work.depth.part() else {
+            chunk.outgoing.fill(Push::default());
+            let places = 0..chunk.pairs.len();
+            return work.each(places, chunk, sums, &resistance);
+        };
+        let awake = std::mem::take(&mut chunk.parts[part].pairs);
+        let places = awake.iter().map(|place| *place as usize);
+        for place in places.clone().rev().take_while(|p| *p >= chunk.inner) {
+            chunk.outgoing[place - chunk.inner] = Push::default();
+        }
+        work.each(places, chunk, sums, &resistance);
+        chunk.parts[part].pairs = awake;
     }
 }
 
 /// What the contacts of a chunk are reckoned from.
 struct Work<'a, N> {
     grains: &'a [Grain],
-    depth: &'a [u8],
+    depth: Depth<'a>,
     contact: &'a Contact<N>,
     first: usize,
     step: f64,
+}
+
+/// Contacts of a chunk that go on and wait to be reckoned together.
+#[derive(Default)]
+struct Waiting {
+    block: Block,
+    places: [u32; LANES],
+    number: usize,
 }
 
 impl<N: Normal> Work<'_, N> {
     #[inline(always)]
     fn each(
         &self,
+        places: impl Iterator<Item = usize>,
         chunk: &mut Chunk,
         [force, moment]: [&mut [Vector]; 2],
         resistance: &impl Resistance,
     ) {
         let cells = force.chunks_mut(CELL).zip(moment.chunks_mut(CELL));
         for (cell, (force, moment)) in cells.enumerate() {
-            if !kept(self.depth, self.first + cell * CELL) {
+            if !self.depth.kept(self.first + cell * CELL) {
                 force.fill([0.0; 3]);
                 moment.fill([0.0; 3]);
             }
         }
-        chunk.outgoing.fill(Push::default());
         chunk.deepest = 0.0;
-        let mut block = Block::default();
-        let (mut waiting, mut number) = ([0_u32; LANES], 0);
-        for place in 0..chunk.pairs.len() {
+        let mut waiting = Waiting::default();
+        for place in places {
             let pair = chunk.pairs[place];
             let (a, b) = (self.first + pair.own as usize, pair.other as usize);
             let touches = self.touch(a, b);
             let goes_on = touches & (pair.state == Touch::Touching);
             let stays_away = !touches & (pair.state == Touch::Apart);
             // Written each time and counted where it goes on: no branch to be guessed wrong.
-            waiting[number] = place as u32;
-            number += usize::from(goes_on & !still(self.depth, a, b));
+            waiting.places[waiting.number] = place as u32;
+            waiting.number += usize::from(goes_on);
             if !(goes_on | stays_away)
                 && let Some(done) = self.turn(chunk, place, resistance)
             {
                 self.add(chunk, place, [force, moment], &done);
             }
-            if number == LANES || place + 1 == chunk.pairs.len() {
-                block.gather(self.grains, self.first, chunk, &waiting[..number]);
-                block.reckon(resistance, self.step);
-                for (lane, place) in waiting[..number].iter().enumerate() {
-                    let place = *place as usize;
-                    block.keep(lane, chunk, place);
-                    self.add(chunk, place, [force, moment], &block.reply(lane));
-                }
-                number = 0;
+            if waiting.number == LANES {
+                self.go_on(&mut waiting, chunk, [force, moment], resistance);
             }
         }
+        self.go_on(&mut waiting, chunk, [force, moment], resistance);
+    }
+
+    /// Contacts that go on, side by side.
+    #[inline(always)]
+    fn go_on(
+        &self,
+        waiting: &mut Waiting,
+        chunk: &mut Chunk,
+        sums: [&mut [Vector]; 2],
+        resistance: &impl Resistance,
+    ) {
+        let [force, moment] = sums;
+        let (block, places) = (&mut waiting.block, &waiting.places[..waiting.number]);
+        block.gather(self.grains, self.first, chunk, places);
+        block.reckon(resistance, self.step);
+        for (lane, place) in places.iter().enumerate() {
+            let place = *place as usize;
+            block.keep(lane, chunk, place);
+            self.add(chunk, place, [force, moment], &block.reply(lane));
+        }
+        waiting.number = 0;
     }
 
     /// Whether two grains touch.
@@ -189,7 +225,7 @@ impl<N: Normal> Work<'_, N> {
     ) {
         let pair = chunk.pairs[place];
         let a = pair.own as usize;
-        if !kept(self.depth, self.first + a) {
+        if !self.depth.kept(self.first + a) {
             for k in 0..3 {
                 force[a][k] += done.force[k];
                 moment[a][k] += done.moment[k];
@@ -197,7 +233,7 @@ impl<N: Normal> Work<'_, N> {
         }
         if place < chunk.inner {
             let b = pair.other as usize - self.first;
-            if kept(self.depth, self.first + b) {
+            if self.depth.kept(self.first + b) {
                 return;
             }
             for k in 0..3 {

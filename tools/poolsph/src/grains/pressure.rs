@@ -10,6 +10,8 @@ use shapes::frame::{Vector, along, difference, dot};
 use shapes::surface::{Piece, pieces};
 use shapes::{Body, Shape};
 
+use super::depth::Depth;
+
 /// Size of a piece over the least radius; pieces are a third of what is asked for.
 const SIZE: f64 = 3.0;
 /// A grain bears a piece that is nearer to its centre than this times the largest radius.
@@ -88,11 +90,11 @@ impl Pressed {
         self.pieces.iter().zip(self.bearers.iter().copied())
     }
 
-    /// Adds the force of each piece \[N\] to who bears it.
-    pub fn add(&self, force: &mut [Vector]) {
+    /// Adds the force of each piece \[N\] to who bears it, but where forces stay by `depth`.
+    pub fn add(&self, force: &mut [Vector], depth: Depth<'_>) {
         for (piece, bearer) in self.pieces.iter().zip(&self.bearers) {
-            if let Some(row) = bearer {
-                let row = *row as usize;
+            let row = bearer.map(|row| row as usize);
+            if let Some(row) = row.filter(|row| !depth.kept(*row)) {
                 force[row] = along(force[row], self.pressure * piece.area, piece.normal);
             }
         }

@@ -263,6 +263,7 @@ impl Motion {
             }
             sleep.turn(&mut self.moving, &self.stirred, dt);
             self.lists.rest(sleep.depth());
+            self.walls.rest(sleep.depth());
             self.stirred.clear();
         }
     }

@@ -6,7 +6,7 @@ use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange, Property};
 use shapes::frame::{Vector, along, difference, length};
 
-use super::depth::kept;
+use super::depth::Depth;
 use super::faces::Face;
 use super::light::Light;
 use super::lists::ROWS;
@@ -31,7 +31,11 @@ struct Wall {
     /// How far it has moved since the start \[m\], and where that was when neighbours were listed.
     moved: Vector,
     listed: Vector,
+    /// Grains near it: first those whose contacts are reckoned, so many, then those that stay as they are; each by rows.
     near: Vec<Near>,
+    reckoned: usize,
+    /// Greatest overlap of those that stay \[m\].
+    deepest: f64,
     /// How far each chunk of rows was from being listed \[m\], and where the wall was then.
     far: Vec<Option<(f64, Vector)>>,
 }
@@ -84,6 +88,8 @@ impl Walls {
                 moved: [0.0; 3],
                 listed: [0.0; 3],
                 near: Vec::new(),
+                reckoned: 0,
+                deepest: 0.0,
                 far: Vec::new(),
             }));
             // All faces of a wall are one surface.
@@ -180,6 +186,7 @@ impl Walls {
                     wall.near[at].remember(memory);
                 }
             }
+            (wall.reckoned, wall.deepest) = (wall.near.len(), 0.0);
         }
     }
 
@@ -196,12 +203,13 @@ impl Walls {
         for (w, wall) in self.walls.iter().enumerate() {
             memories.extend(wall.near.iter().filter_map(|near| near.memory(w as u32)));
         }
+        memories.sort_unstable_by_key(|memory| (memory.other, memory.row));
     }
 
     /// Reckons all contacts but those of grains that sleep deep, after a step of `step` \[s\]; gives the greatest overlap \[m\].
     pub fn act<N: Normal + Copy + Sync>(
         &mut self,
-        (grains, depth): (&[Grain], &[u8]),
+        (grains, depth): (&[Grain], Depth<'_>),
         (contact, rolling): (&Contact<N>, Option<Rolling>),
         step: f64,
     ) -> f64 {
@@ -213,9 +221,9 @@ impl Walls {
             }
             let (face, moved) = (&wall.face, wall.moved);
             let velocity = along(wall.velocity, 1.0, wall.sliding);
-            let near = wall.near.par_iter_mut().with_min_len(256);
+            let near = wall.near[..wall.reckoned].par_iter_mut().with_min_len(256);
             near.for_each(|near| {
-                if kept(depth, near.row as usize) {
+                if depth.kept(near.row as usize) {
                     return;
                 }
                 let grain = &grains[near.row as usize];
@@ -223,35 +231,50 @@ impl Walls {
                 let meeting = Meeting::beside_wall(grain, distance, normal, velocity);
                 near.meet(meeting, &own, rolling, step);
             });
-            let overlaps = wall.near.iter().map(|near| near.overlap);
-            deepest = overlaps.fold(deepest, f64::max);
+            let overlaps = wall.reckoned().iter().map(|near| near.overlap);
+            deepest = overlaps.fold(deepest.max(wall.deepest), f64::max);
         }
         deepest
     }
 
+    /// Puts the contacts first that are reckoned where cells sleep by `depth`.
+    pub fn rest(&mut self, depth: &[u8]) {
+        let depth = Depth::of(depth, true);
+        self.walls.iter_mut().for_each(|wall| wall.rest(depth));
+    }
+
     /// Adds force \[N\] and moment \[N m\] of the walls.
-    pub fn add(&self, [force, moment]: [&mut [Vector]; 2], depth: &[u8]) {
+    pub fn add(&self, [force, moment]: [&mut [Vector]; 2], depth: Depth<'_>) {
         for pressed in self.walls.iter().filter_map(|wall| wall.pressed.as_ref()) {
-            pressed.add(force);
+            pressed.add(force, depth);
         }
-        for near in self.walls.iter().flat_map(|wall| &wall.near) {
+        for near in self.walls.iter().flat_map(Wall::reckoned) {
             let row = near.row as usize;
-            if let Some(reply) = near.reply.filter(|_| !kept(depth, row)) {
+            if let Some(reply) = near.reply.filter(|_| !depth.kept(row)) {
                 force[row] = along(force[row], 1.0, reply.force);
                 moment[row] = along(moment[row], 1.0, reply.moment);
             }
         }
     }
 
-    /// Calls `meet` with the row of each grain that touches a wall, and the normal out of that.
-    pub fn touching(&self, grains: &[Grain], mut meet: impl FnMut(usize, Vector)) {
+    /// Calls `meet` with the row of each grain that is awake and touches a wall, and the normal out of that.
+    pub fn touching(
+        &self,
+        grains: &[Grain],
+        depth: Depth<'_>,
+        mut meet: impl FnMut(usize, Vector),
+    ) {
         for wall in &self.walls {
-            for near in wall.near.iter().filter(|near| near.touching) {
-                let grain = &grains[near.row as usize];
-                let place = difference(grain.position, wall.moved);
-                meet(near.row as usize, wall.face.at(place, grain.radius).1);
+            for row in wall.touching(depth) {
+                let place = difference(grains[row].position, wall.moved);
+                meet(row, wall.face.at(place, grains[row].radius).1);
             }
         }
+    }
+
+    /// Rows of the grains that touch walls and are awake, by walls.
+    pub(super) fn rows_touching(&self, depth: Depth<'_>) -> impl Iterator<Item = usize> {
+        self.walls.iter().flat_map(move |wall| wall.touching(depth))
     }
 
     /// Adds the rows of the grains near walls that move, are fed or press.
@@ -325,6 +348,31 @@ impl Walls {
 }
 
 impl Wall {
+    /// Contacts that are reckoned.
+    fn reckoned(&self) -> &[Near] {
+        &self.near[..self.reckoned]
+    }
+
+    /// Rows of the grains that touch it and are awake.
+    fn touching(&self, depth: Depth<'_>) -> impl Iterator<Item = usize> {
+        let touching = self.reckoned().iter().filter(|near| near.touching);
+        let rows = touching.map(|near| near.row as usize);
+        rows.filter(move |row| !depth.asleep(*row))
+    }
+
+    /// Puts the contacts first that are reckoned.
+    fn rest(&mut self, depth: Depth<'_>) {
+        let stays = |near: &Near| depth.kept(near.row as usize);
+        let (first, rest) = self.near.split_at(self.reckoned);
+        if first.iter().any(stays) || !rest.iter().all(stays) {
+            self.near
+                .sort_unstable_by_key(|near| (stays(near), near.row));
+        }
+        self.reckoned = self.near.partition_point(|near| !stays(near));
+        let stay = self.near[self.reckoned..].iter().map(|near| near.overlap);
+        self.deepest = stay.fold(0.0, f64::max);
+    }
+
     /// Whether the grains of a chunk that have not moved since it was looked at are too far to be listed.
     fn is_far(&self, chunk: usize) -> bool {
         let from = |(left, moved): (f64, Vector)| left > length(difference(self.moved, moved));
