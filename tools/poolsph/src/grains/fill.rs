@@ -3,11 +3,14 @@
 use particles::{Ids, Matter, POSITION, Set};
 use run::Fault;
 use shapes::check;
+use shapes::frame::{along, cross, difference, scaled};
 use shapes::{Body, Shape};
 
 use super::parameters::{GrainBody, Parameters};
 use super::slow::SLOW;
-use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
+use super::{
+    DRIVEN, FORCE, GLUED, GLUED_AT, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED,
+};
 
 /// Place \[m\] and radius \[m\] of a grain.
 pub type Lying = ([f64; 3], f64);
@@ -79,6 +82,10 @@ fn checked(body: &GrainBody, at: &str) -> Result<f64, Fault> {
     if told.iter().filter(|told| **told).count() != 1 {
         let what = "needs one of the keys 'shape', 'places_m' and 'bed'";
         return Err(Fault::at(at, what));
+    }
+    if body.glued && (body.bed || body.driven_m_s.is_some()) {
+        let what = "a body is glued, or 'driven_m_s', or a 'bed': one of these";
+        return Err(Fault::at(&format!("{at}/glued"), what));
     }
     if body.bed {
         return Ok(0.0);
@@ -157,18 +164,8 @@ impl GrainBody {
     }
 }
 
-/// The grains of all bodies, and how many each holds; `bed` are those of the input.
-#[must_use]
-pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
-    let radii = scene.bodies.iter().filter_map(|b| b.radius_m);
-    let widest = radii.chain(bed.iter().map(|(_, r)| *r)).fold(0.0, f64::max);
-    let matter = Matter {
-        density: scene.density_kg_m3,
-        spacing: 2.0 * widest,
-        smoothing_length: 2.0 * widest,
-    };
-    let mut set = Set::new("grains", matter);
-    let mut ids = Ids::default();
+/// Declares the columns that the scene needs.
+fn declare(set: &mut Set, scene: &Parameters) {
     for column in [&VELOCITY, &SPIN, &FORCE, &MOMENT, &LISTED] {
         set.declare(column);
     }
@@ -177,6 +174,10 @@ pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
     }
     if scene.bodies.iter().any(|body| body.driven_m_s.is_some()) {
         set.declare(&DRIVEN);
+    }
+    if scene.bodies.iter().any(|body| body.glued) {
+        set.declare(&GLUED);
+        set.declare(&GLUED_AT);
     }
     if scene.sleep.is_some() {
         for column in [&WATCHED, &TURNED] {
@@ -189,11 +190,27 @@ pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
     {
         set.declare(&SLOW);
     }
+}
+
+/// The grains of all bodies, and how many each holds; `bed` are those of the input.
+#[must_use]
+pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
+    let radii = scene.bodies.iter().filter_map(|b| b.radius_m);
+    let widest = radii.chain(bed.iter().map(|(_, r)| *r)).fold(0.0, f64::max);
+    let matter = Matter {
+        density: scene.density_kg_m3,
+        spacing: 2.0 * widest,
+        smoothing_length: 2.0 * widest,
+    };
+    let mut set = Set::new("grains", matter);
+    let mut ids = Ids::default();
+    declare(&mut set, scene);
     let mut counts = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {
         let places = body.places(bed);
         let density = body.density_kg_m3.unwrap_or(scene.density_kg_m3);
         counts.push(places.len());
+        let centre = centre(&places);
         for (place, radius) in places {
             let row = set.push(&mut ids);
             set.column_mut(&POSITION)[row] = place;
@@ -205,9 +222,30 @@ pub fn fill(scene: &Parameters, bed: &[Lying]) -> (Set, Vec<usize>) {
             if body.driven_m_s.is_some() {
                 set.column_mut(&DRIVEN)[row] = i as u8 + 1;
             }
+            if body.glued {
+                let (arm, velocity) = (
+                    difference(place, centre),
+                    &mut set.column_mut(&VELOCITY)[row],
+                );
+                *velocity = along(
+                    *velocity,
+                    1.0,
+                    cross(body.spin_rad_s.unwrap_or_default(), arm),
+                );
+                set.column_mut(&GLUED_AT)[row] = arm;
+                set.column_mut(&GLUED)[row] = i as u8 + 1;
+            }
         }
     }
     (set, counts)
+}
+
+/// Centre of mass of grains that are alike.
+fn centre(places: &[Lying]) -> [f64; 3] {
+    let sum = places
+        .iter()
+        .fold([0.0; 3], |sum, (x, _)| along(sum, 1.0, *x));
+    scaled(1.0 / places.len().max(1) as f64, sum)
 }
 
 /// Least and greatest radius \[m\].

@@ -31,6 +31,8 @@ pub mod depth;
 pub mod displaced;
 pub mod faces;
 pub mod fill;
+mod glued;
+mod greater;
 pub mod heat;
 pub mod laid;
 pub mod law;
@@ -87,5 +89,9 @@ pub const LISTED: Column<[f64; 3]> = Column::new("listed", "m", [0.0; 3]).saved(
 pub const WATCHED: Column<[f64; 3]> = Column::new("watched", "m", [0.0; 3]).saved();
 /// How far it has turned since \[rad\].
 pub const TURNED: Column<[f64; 3]> = Column::new("turned", "rad", [0.0; 3]).saved();
+/// Number of the body that it is glued into, plus one; 0 for a free grain.
+pub const GLUED: Column<u8> = Column::new("glued", "1", 0).saved();
+/// Where it was in that body at the start, seen from the centre of mass \[m\].
+pub const GLUED_AT: Column<[f64; 3]> = Column::new("glued_at", "m", [0.0; 3]).saved();
 /// Number of the body that drives it, plus one; 0 for a free grain.
 pub const DRIVEN: Column<u8> = Column::new("driven", "1", 0).saved();

@@ -7,6 +7,8 @@ use run::property::{Curve, OutOfRange};
 use shapes::frame::{Vector, difference, dot};
 
 use super::depth::{CELL, asleep};
+use super::glued::{Glued, Grains};
+use super::greater::greater;
 use super::lists::ROWS;
 use super::walls::velocity;
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
@@ -41,10 +43,11 @@ pub struct Moving {
     /// Forces and moments of the step before.
     before: [Vec<Vector>; 2],
     driven: Vec<Driven>,
+    pub(super) glued: Glued,
     drives: Vec<Option<[Curve; 3]>>,
     pub(super) gravity: Vector,
     /// I / (m r^2).
-    inertia_factor: f64,
+    pub(super) inertia_factor: f64,
     /// Depth of sleep by cells when the columns were last put back; none where they are to be taken anew.
     slept: Option<Vec<u8>>,
 }
@@ -115,6 +118,7 @@ impl Moving {
                     velocity: [self.grains[row].velocity; 2],
                 }),
         );
+        self.glued.take(set, &self.grains, self.inertia_factor);
         self.force = set.take(&FORCE);
         self.moment = set.take(&MOMENT);
         self.listed = set.take(&LISTED);
@@ -282,6 +286,8 @@ impl Moving {
             let grain = &mut self.grains[driven.row];
             (grain.velocity, grain.spin) = (driven.velocity[1], [0.0; 3]);
         }
+        let (glued, mut all) = self.glued();
+        glued.correct(&mut all, step);
         [
             if self.drives() {
                 self.fastest()
@@ -292,10 +298,21 @@ impl Moving {
         ]
     }
 
-    /// Whether grains are driven.
+    /// Whether grains are driven or glued.
     #[must_use]
     pub fn drives(&self) -> bool {
-        !self.driven.is_empty()
+        !(self.driven.is_empty() && self.glued.is_empty())
+    }
+
+    /// Bodies of glued grains, and what they move.
+    fn glued(&mut self) -> (&mut Glued, Grains<'_>) {
+        let all = Grains {
+            grains: &mut self.grains,
+            force: &self.force,
+            moment: &self.moment,
+            listed: &self.listed,
+        };
+        (&mut self.glued, all)
     }
 
     fn verlet(&self, step: f64) -> Verlet {
@@ -306,7 +323,7 @@ impl Moving {
         }
     }
 
-    /// Moves the grains that are held to a velocity. Gives the farthest way of these since neighbours were listed \[m\].
+    /// Moves the grains that are held to a velocity or glued. Gives the farthest way of these since neighbours were listed \[m\].
     ///
     /// # Errors
     /// Where a formula has no value.
@@ -327,26 +344,15 @@ impl Moving {
             let way = difference(grain.position, self.listed[driven.row]);
             far = greater(far, dot(way, way));
         }
-        Ok(far.sqrt())
+        let gravity = self.gravity;
+        let (glued, mut all) = self.glued();
+        Ok(greater(far.sqrt(), glued.predict(&mut all, step, gravity)))
     }
 
     /// Rows of a cell.
     #[must_use]
     pub fn cell(&self, cell: usize) -> std::ops::Range<usize> {
         cell * CELL..(cell * CELL + CELL).min(self.grains.len())
-    }
-
-    /// Stops the grains of a cell; gives the kinetic energy that they had \[J\].
-    pub fn stop(&mut self, cell: usize) -> f64 {
-        let rows = self.cell(cell);
-        let c = self.inertia_factor;
-        let mut taken = 0.0;
-        for grain in &mut self.grains[rows] {
-            let turning = c * grain.radius * grain.radius * dot(grain.spin, grain.spin);
-            taken += 0.5 * grain.mass * (dot(grain.velocity, grain.velocity) + turning);
-            (grain.velocity, grain.spin) = ([0.0; 3], [0.0; 3]);
-        }
-        taken
     }
 
     /// Keeps the forces of a cell as they are for as long as nobody reckons them.
@@ -358,7 +364,7 @@ impl Moving {
         }
     }
 
-    /// Rows that are held to a velocity that is not zero.
+    /// Rows that are held to a velocity that is not zero, and those that are glued.
     pub fn stirred(&self, rows: &mut Vec<u32>) {
         let moves = |driven: &&Driven| driven.velocity[1].iter().any(|u| u.abs() > 0.0);
         rows.extend(
@@ -367,6 +373,7 @@ impl Moving {
                 .filter(moves)
                 .map(|driven| driven.row as u32),
         );
+        rows.extend(self.glued.rows().map(|row| row as u32));
     }
 
     /// The greatest speed \[m/s\]; no number where one is none.
@@ -374,10 +381,4 @@ impl Moving {
         let squares = self.grains.iter().map(|g| dot(g.velocity, g.velocity));
         squares.fold(0.0, greater).sqrt()
     }
-}
-
-/// The greater of two; what is no number is greater.
-#[inline]
-pub(super) fn greater(a: f64, b: f64) -> f64 {
-    if b > a || b.is_nan() { b } else { a }
 }

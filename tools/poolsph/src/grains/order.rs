@@ -70,9 +70,15 @@ impl Motion {
         if !self.moving.grains.iter().any(outside) {
             return;
         }
-        let leaves: Vec<bool> = self.moving.grains.iter().map(outside).collect();
-        let lost = self.moving.grains.iter().filter(|grain| outside(grain));
-        for grain in lost {
+        let mut leaves: Vec<bool> = self.moving.grains.iter().map(outside).collect();
+        self.moving.glued.leave(&mut leaves);
+        for (grain, _) in self
+            .moving
+            .grains
+            .iter()
+            .zip(&leaves)
+            .filter(|(_, leaves)| **leaves)
+        {
             self.lost[0] += 1.0;
             self.lost[1] += grain.mass;
         }

@@ -193,6 +193,9 @@ pub struct GrainBody {
     /// T that the grains keep, a number or a formula in t. Free if absent.
     #[schemars(extend("x-unit" = "K"))]
     pub held_temperature_k: Option<Property>,
+    /// The grains are glued: they move as one rigid body under the sum of their forces and moments. Free of each other if absent.
+    #[serde(default)]
+    pub glued: bool,
     /// Velocity that the grains are held to, numbers or formulas in t; they do not turn. Free if absent.
     #[schemars(extend("x-unit" = "m/s"))]
     pub driven_m_s: Option<[Property; 3]>,

@@ -42,6 +42,7 @@ impl Motion {
         if let Some(sleep) = &self.sleep {
             saved.extend(sleep.save(self.moving.grains.len()));
         }
+        self.moving.glued.save(&mut saved);
         let memories = between.iter().chain(&at_walls);
         saved.extend(memories.flat_map(Memory::save));
         if let Some(metal) = &self.metal {
@@ -111,6 +112,7 @@ impl Motion {
         if let Some(sleep) = &mut self.sleep {
             sleep.restore(slept, &mut self.moving);
         }
+        let rest = self.moving.glued.restore(rest);
         let memories = rest.as_chunks::<9>().0;
         let split = (pairs as usize).min(memories.len());
         for (to, from) in self

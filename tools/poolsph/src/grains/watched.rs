@@ -2,7 +2,8 @@
 
 use shapes::frame::{along, difference, dot};
 
-use super::moving::{Moving, greater};
+use super::greater::greater;
+use super::moving::Moving;
 
 /// How far the grains of a cell have gone, or their surfaces by their turning \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,5 +45,18 @@ impl Moving {
             *then = grain.position;
         }
         turned[rows].fill([0.0; 3]);
+    }
+
+    /// Stops the grains of a cell; gives the kinetic energy that they had \[J\].
+    pub fn stop(&mut self, cell: usize) -> f64 {
+        let rows = self.cell(cell);
+        let c = self.inertia_factor;
+        let mut taken = 0.0;
+        for grain in &mut self.grains[rows] {
+            let turning = c * grain.radius * grain.radius * dot(grain.spin, grain.spin);
+            taken += 0.5 * grain.mass * (dot(grain.velocity, grain.velocity) + turning);
+            (grain.velocity, grain.spin) = ([0.0; 3], [0.0; 3]);
+        }
+        taken
     }
 }
