@@ -22,6 +22,7 @@ pub mod em;
 pub mod extreme;
 mod flow;
 mod grains;
+mod heap;
 pub mod heat;
 pub mod keep;
 pub mod lab;
