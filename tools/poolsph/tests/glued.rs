@@ -149,7 +149,7 @@ fn threads_and_interruptions_do_not_show() {
 }
 
 #[test]
-fn who_glues_nothing_has_no_column_and_who_drives_what_is_glued_is_refused() {
+fn what_is_glued_cannot_be_driven() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let mut scene = tumbling();
@@ -163,14 +163,4 @@ fn who_glues_nothing_has_no_column_and_who_drives_what_is_glued_is_refused() {
         "{}",
         said(&output)
     );
-    let held = |name: &str, glued: bool| {
-        let mut scene = tumbling();
-        scene["grains"]["bodies"][0]["glued"] = json!(glued);
-        finished(&scene, folder, name, &[]);
-        let record = std::fs::read(folder.join(name).with_extension("run.json")).unwrap();
-        let record: Value = serde_json::from_slice(&record).unwrap();
-        record["memory"][0]["bytes"].as_u64().unwrap()
-    };
-    // A number and a place more for each grain.
-    assert!(held("glued.mcap", true) > held("free.mcap", false));
 }
