@@ -22,9 +22,9 @@
 //! disorder from which it came grow, e-fold in 25 ms at 0.8 mm. What differences lack in action and reaction is given
 //! back to what touches no wall (`islands`).
 //!
-//! The equation of p is compact, and leaves a divergence, which is damped (`grad_div`). Without a surface p pushes twice but
-//! for a rest (`reflection`). Along streamlines particles come to lie
-//! in rows; they are shifted back each step (`shift`; Lind et al. 2012).
+//! The equation of p is compact, and leaves a divergence, which is damped (`grad_div`). Without a surface p pushes twice
+//! but for a rest (`reflection`). Along streamlines particles come to lie in rows; they are shifted back each step
+//! (`shift`; Lind et al. 2012).
 //! Neighbours that a particle of the surface lacks count as points beyond it (Nair and Tomar 2014), as many as the
 //! lattice has more, mirrored across the surface half a spacing away. Solid particles move as the mirror images of the
 //! liquid beside them: the wall stands half a spacing before their first layer.

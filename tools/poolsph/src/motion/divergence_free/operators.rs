@@ -17,7 +17,7 @@
 //! div u at the surface has two forms. Over deep liquid B is that of the present neighbours alone, exact for linear u: waves
 //! have the exact speed but for the second order, and neither grow nor fall. In films, beside solids, and where tension
 //! acts B has the moments of what is missing as well, as if it moved with the particle: by the first form thin films gain
-//! energy as they spread, and burst. (By the second form alone waves of 20 spacings grew by 4 % in each period.)
+//! energy as they spread, and burst. (By the second form alone waves of 20 spacings gained 5 % of energy in a period.)
 //! Where tension acts a layer is one spacing thick, and m that of the lattice. Where particles lie scattered B means little,
 //! and the lattice's stands for it.
 

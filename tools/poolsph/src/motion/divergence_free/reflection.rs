@@ -1,8 +1,8 @@
 //! The pressure at walls, and the one that pushes.
 //!
 //! A projection takes |dt/rho grad p|^2 from the square of the velocity in each step: a flow that turns loses its energy with
-//! the first order of the step. Without a surface the velocity is reflected instead (Zehnder, Narain and Thomaszewski
-//! 2018), but for a rest 1 - r:
+//! the first order of the step. A reflection takes nothing, and (1 - r)/(1 + r) of that with a rest. Without a surface
+//! the velocity is reflected (Zehnder, Narain and Thomaszewski 2018):
 //!
 //! ```text
 //! u = u* - (1 + r) dt/rho grad p
@@ -18,6 +18,7 @@ use crate::vector::{dot, minus};
 
 /// r: part of the pressure that pushes once more without a surface.
 const REFLECTED: f64 = 0.9;
+
 impl DivergenceFree {
     /// p + rho f.(x_w - x_b) at solid particles w, the mean over their liquid neighbours b (Adami, Hu and Adams 2012,
     /// eq. 27), with the acceleration f of the prediction; beyond faces that mirror, from each particle to its image.

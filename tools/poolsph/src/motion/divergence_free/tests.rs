@@ -6,7 +6,7 @@ use super::*;
 use crate::march::{Group, March};
 use crate::motion::integration::PRESSURE;
 use crate::motion::tests::{METAL, block, march, steps, tank};
-use crate::motion::{Method, Motion, Parameters};
+use crate::motion::{Law, Method, Motion, Parameters};
 use crate::stage::Stage;
 use crate::state::{PHASE, State, VELOCITY, phase};
 use crate::vector::dot;
@@ -306,6 +306,39 @@ fn a_plane_surface_is_one_and_its_particles_are_shifted_along_it() {
     let [x, y, z] = minus(near.position[a], before).map(|x| x / METAL.spacing);
     assert!(x < -1e-4, "{x}");
     assert!(y.abs() < 1e-9 && z.abs() < 1e-3 * x.abs(), "{y} {z}");
+}
+
+#[test]
+fn a_cloud_in_disorder_does_not_burst_by_its_own_pressure() {
+    let mut state = shaken_by(0.25, [8; 3], |_| phase::LIQUID);
+    for (k, u) in state.metal.column_mut(&VELOCITY).iter_mut().enumerate() {
+        *u = [0, 1, 2].map(|i| 0.5 * ((k * (7 + 5 * i)) as f64).sin());
+    }
+    state.gather();
+    let near = &mut state.near;
+    let fastest = |u: &[[f64; 3]]| u.iter().map(|u| squared(*u)).fold(0.0, f64::max).sqrt();
+    let viscosity = Viscosity::new(Law::Uniform(0.004), METAL);
+    let step = Step {
+        metal: METAL,
+        dt: 1e-4,
+        share: 1.0,
+    };
+    let tolerance = Tolerance {
+        density: 1e-7,
+        sweeps_min: 2,
+        sweeps_max: 500,
+    };
+    let mut solver = DivergenceFree::new(METAL);
+    let mut u = near.velocity.clone();
+    let first = fastest(&u);
+    // The particles stay where they are: only what a step does to the velocity is repeated.
+    for _ in 0..60 {
+        solver.begin(near, &viscosity);
+        solver.solve(near, &mut u, [0.0; 3], step, tolerance);
+        near.velocity.copy_from_slice(&u);
+    }
+    let last = fastest(&u);
+    assert!(last < 3.0 * first, "{last} of {first}");
 }
 
 #[test]
