@@ -41,6 +41,28 @@ fn iron(middle: f64) -> Value {
 
 /// It took all memory, or overflowed.
 #[test]
+fn a_liquid_between_faces_is_at_least_a_spacing_wide() {
+    let layer = |width: f64, spacing: f64| {
+        json!({"kind": "emfield.scene", "version": 1, "geometry": "plane",
+            "liquid": {"shape": {"box": {"min_m": [0, 0], "max_m": [width, 0.01]}},
+                "faces": {"periodic": ["x"], "wall": [{"face": "y-"}, {"face": "y+"}]},
+                "density_kg_m3": 1000, "viscosity_pa_s": 0.01, "march": {"end_s": 0.01}},
+            "points": {"spacing_m": spacing}})
+    };
+    for (width, spacing) in [(1e-300, 5e-4), (0.01, 5e8), (4e-4, 5e-4), (0.01, 1e-12)] {
+        let (code, said) = check(&layer(width, spacing));
+        assert_eq!(code, Some(2), "{width} {spacing}: {said}");
+        assert!(
+            said.contains("/points/spacing_m") && !said.contains("panic"),
+            "{said}"
+        );
+    }
+    let (code, said) = check(&layer(6e-4, 5e-4));
+    assert_eq!(code, Some(0), "{said}");
+}
+
+/// It took all memory, or overflowed.
+#[test]
 fn domains_of_any_size_are_refused_by_their_number_of_points() {
     for high in [1e3, 1e12, 1e300] {
         let began = Instant::now();

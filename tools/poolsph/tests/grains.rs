@@ -170,6 +170,16 @@ fn a_scene_of_nothing_is_refused_and_so_is_metal_without_its_lattice() {
     let mut tight = clouds();
     tight["grains"]["bodies"][0]["spacing_m"] = json!(0.9e-3);
     assert!(told(&tight).contains("within each other"));
+    // A wall throws out what begins inside it, and a step of the run never ends.
+    let mut buried = clouds();
+    buried["grains"]["walls"] = json!([
+        {"shape": {"box": {"min_m": [9, 9, 9], "max_m": [9.1, 9.1, 9.1]}}, "hollow": true}
+    ]);
+    let said = told(&buried);
+    assert!(
+        said.contains("/grains/walls/0") && said.contains("wholly inside this wall"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -10,6 +10,8 @@ use crate::matter::solid::law::Plane;
 
 /// Most frames and balances of a run.
 const EVENTS_MOST: f64 = 1e7;
+/// Most particles side by side in a nozzle.
+const LANES_MOST: f64 = 1e6;
 /// Most nozzles of a scene: a particle knows its own by a byte.
 const NOZZLES_MOST: usize = 255;
 
@@ -119,6 +121,14 @@ impl super::WaterScene {
             vectors.push((format!("{at}/exit_m"), Some(&nozzle.exit_m)));
             vectors.push((format!("{at}/direction"), Some(&nozzle.direction)));
             vectors.push((format!("{at}/traverse_m_s"), nozzle.traverse_m_s.as_deref()));
+            let across = (nozzle.width_m / self.spacing_m).powi(dimensions as i32 - 1);
+            if across > LANES_MOST {
+                let what = format!(
+                    "{:.3e} m wide: {across:.1e} particles of {:.3e} m side by side, at most {LANES_MOST:.0e}",
+                    nozzle.width_m, self.spacing_m
+                );
+                faults.push(Fault::at(&format!("{at}/width_m"), what).or_at("/water/spacing_m"));
+            }
             if k >= NOZZLES_MOST {
                 let what = format!("at most {NOZZLES_MOST} nozzles");
                 faults.push(Fault::at(&at, what));

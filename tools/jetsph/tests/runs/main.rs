@@ -132,13 +132,17 @@ const UPDATED: &str = r#"{
     "output": {"frames_interval_s": 1}
 }"#;
 
-fn begun(text: &str) -> Assembled {
+fn parsed(text: &str) -> Scene {
     let expected = Expected {
         kind: KIND.0,
         version: KIND.1,
         migrations: &[],
     };
-    let mut run = assemble(&parse::<Scene>(text, expected).unwrap().scene).unwrap();
+    parse::<Scene>(text, expected).unwrap().scene
+}
+
+fn begun(text: &str) -> Assembled {
+    let mut run = assemble(&parsed(text)).unwrap();
     run.march.begin(&mut run.state).unwrap();
     run
 }
@@ -163,6 +167,20 @@ fn bits(state: &State) -> Vec<u64> {
         .flat_map(|c| c.as_flattened())
         .map(|x| x.to_bits())
         .collect()
+}
+
+/// They took all memory.
+#[test]
+fn nozzles_of_too_many_particles_are_refused() {
+    for (from, to) in [
+        ("\"width_m\": 0.004", "\"width_m\": 4e9"),
+        ("\"spacing_m\": 0.001", "\"spacing_m\": 5e-16"),
+    ] {
+        let scene: Scene = parsed(&JET.replace(from, to));
+        let told: Vec<String> = scene.faults().iter().map(ToString::to_string).collect();
+        let told = told.join("\n");
+        assert!(told.contains("/water/nozzles/0/width_m"), "{told}");
+    }
 }
 
 #[test]

@@ -30,6 +30,13 @@ impl Source<'_> {
         let within = |fault: Fault| fault.within("/grains");
         let bed = bed(scene, inputs)?;
         let (mut set, counts) = fill(scene, &bed.grains);
+        let buried: Vec<Fault> = grains::buried(&scene.walls, &set)
+            .into_iter()
+            .map(within)
+            .collect();
+        if !buried.is_empty() {
+            return Err(Failure::Scene(buried));
+        }
         let heat = scene.heat.as_ref();
         let mut warmed = None;
         if let Some(heat) = heat {

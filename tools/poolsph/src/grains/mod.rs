@@ -22,6 +22,7 @@ pub mod again;
 mod around;
 pub mod block;
 pub mod bounds;
+mod buried;
 pub mod columns;
 mod conductances;
 mod conducting;
@@ -64,6 +65,7 @@ mod watched;
 
 use particles::Column;
 
+pub use buried::buried;
 pub use heat::Heat;
 pub use metal::Metal;
 pub use metal_heat::Exchange;

@@ -199,6 +199,9 @@ pub(crate) fn legend(canvas: &mut Canvas, at: [f64; 2], entries: &[(Rgb, &str)])
     }
 }
 
+/// Most ticks of an axis.
+const MOST: i64 = 1000;
+
 /// Round numbers inside `range`, about `wanted` of them.
 pub(crate) fn ticks(range: [f64; 2], wanted: f64) -> Vec<f64> {
     let width = range[1] - range[0];
@@ -214,6 +217,10 @@ pub(crate) fn ticks(range: [f64; 2], wanted: f64) -> Vec<f64> {
         .unwrap_or(10.0 * power);
     let first = (range[0] / step - 1e-6).ceil() as i64;
     let last = (range[1] / step + 1e-6).floor() as i64;
+    // Steps that are no normal number tell nothing apart.
+    if !step.is_normal() || last.saturating_sub(first) > MOST {
+        return Vec::new();
+    }
     (first..=last).map(|i| i as f64 * step).collect()
 }
 
@@ -266,6 +273,8 @@ mod tests {
             vec![1800.0, 2000.0, 2200.0, 2400.0]
         );
         assert!(ticks([1.0, 1.0], 4.0).is_empty());
+        assert!(ticks([-1e-323, 1e-323], 4.0).is_empty());
+        assert!(ticks([f64::MIN, f64::MAX], 4.0).is_empty());
     }
 
     #[test]

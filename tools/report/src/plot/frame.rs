@@ -85,9 +85,11 @@ fn marks(range: [f64; 2], run: Run, wanted: f64) -> Vec<f64> {
     if run == Run::Even {
         return ticks(range, wanted);
     }
+    // Beyond these powers there are no numbers.
+    let power = |v: f64| v.log10().clamp(-308.0, 308.0);
     let (low, high) = (
-        range[0].log10().floor() as i32,
-        range[1].log10().ceil() as i32,
+        power(range[0]).floor() as i32,
+        power(range[1]).ceil() as i32,
     );
     let inside = |v: &f64| *v >= range[0] && *v <= range[1];
     let decades: Vec<f64> = (low..=high).map(|e| 10.0_f64.powi(e)).collect();
@@ -141,6 +143,19 @@ mod tests {
         for pair in at.windows(2) {
             assert!((pair[1][0] - pair[0][0] - 100.0).abs() < 1e-9);
             assert!((pair[1][1] - pair[0][1] - 100.0).abs() < 1e-9);
+        }
+    }
+
+    /// They took 16 GiB.
+    #[test]
+    fn ticks_of_ranges_without_end_are_few() {
+        for range in [
+            [0.0, 1.0],
+            [1.0, f64::INFINITY],
+            [f64::NAN, 1.0],
+            [1e-310, f64::MAX],
+        ] {
+            assert!(marks(range, Run::Log, 5.0).len() < 100, "{range:?}");
         }
     }
 

@@ -16,6 +16,19 @@ use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 /// Bytes that a step holds for each point, about.
 const BYTES: u64 = 4_000;
 
+/// Refuses a room that is narrower than a spacing: images of the same points would fill all supports.
+fn wide<const D: usize>(room: &Room<D>, spacing: f64) -> Result<(), Failure> {
+    let Some(k) = (0..D).find(|k| room.length(*k) < spacing) else {
+        return Ok(());
+    };
+    let (name, length) = (["x", "y", "z"][k], room.length(k));
+    let what = format!(
+        "{spacing:.3e} m is more than the liquid is wide along {name}, {length:.3e} m: {:.1e} m would give four points",
+        0.25 * length
+    );
+    Err(vec![Fault::at("/points/spacing_m", what).or_at("/liquid/shape")].into())
+}
+
 /// The room of a scene and its points.
 pub(crate) fn filled<const D: usize>(
     scene: &Scene,
@@ -24,6 +37,7 @@ pub(crate) fn filled<const D: usize>(
     let mut room = faces.room::<D>(&part.shape);
     let spacing = scene.points.spacing_m;
     few((0..D).map(|k| room.length(k) / spacing).product(), spacing)?;
+    wide(&room, spacing)?;
     let filled = furnish(&mut room, spacing, scene.points.jitter, scene.points.seed);
     let faces = filled.normal.len() + room.held.len();
     if filled.position.len() <= faces {
