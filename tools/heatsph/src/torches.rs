@@ -101,11 +101,18 @@ impl Torches {
         (own, sum)
     }
 
-    /// Instants around each start and end of an arc until `end` \[s\]: the last before, and the first after.
+    /// Instants around each start and end of an arc and each corner of its waveform until `end` \[s\]: the last before, and
+    /// the first after.
     pub(crate) fn jumps(&self, end: f64) -> impl Iterator<Item = [f64; 2]> {
         let burns = self.torches.iter().flat_map(|torch| torch.path.burns());
         let within = burns.filter(move |t| *t > 0.0 && *t < end);
-        within.map(|t| [t.next_down(), t])
+        let corners = self.torches.iter().flat_map(move |torch| {
+            let [from, to] = torch.path.burns();
+            let (from, to) = (from.max(0.0), to.min(end));
+            let waveform = torch.waveform.iter();
+            waveform.flat_map(move |wave| wave.corners(from, to))
+        });
+        within.map(|t| [t.next_down(), t]).chain(corners)
     }
 
     /// Begins of the time in which each torch burns and of that in which it does not, with the longest steps there \[s\].
@@ -127,7 +134,7 @@ impl Torches {
         let of = |torch: &Torch| {
             let time = torch.path.burns()[0];
             let stand = torch.stand(time);
-            let density = torch.power(time) * torch.density(&stand, stand.place, d);
+            let density = torch.most() * torch.density(&stand, stand.place, d);
             density * if torch.is_deep() { d * d } else { d } / conductivity
         };
         self.torches.iter().map(of).fold(0.0, f64::max)
@@ -144,11 +151,13 @@ impl Torches {
                 lost: 0.0,
             };
             for look in 0..LOOKS {
-                let time = from + span * (look as f64 + 0.5) / LOOKS as f64;
+                let [begin, end] = [look, look + 1].map(|k| from + span * k as f64 / LOOKS as f64);
+                let Some((energy, time)) = torch.energy(begin, end) else {
+                    continue;
+                };
                 let (_, share) = self.weights(torch, &torch.stand(time), cloud);
                 inside.least = inside.least.min(share);
-                let given = part(torch, share) * share;
-                inside.lost += torch.power(time) * (1.0 - given) * span / LOOKS as f64;
+                inside.lost += energy * (1.0 - part(torch, share) * share);
             }
             (span > 0.0).then_some(inside)
         };
@@ -265,6 +274,21 @@ mod tests {
             );
             assert!(torches.told(0, inside).unwrap().contains("lost"));
         }
+    }
+
+    #[test]
+    fn steps_end_at_the_corners_of_pulses() {
+        let wave =
+            r#", "waveform": {"period_s": 0.5, "times_s": [0, 0.2, 0.2], "levels": [1, 1, 0]}"#;
+        let torches = Torches::new(vec![torch(DEEP, [0.0; 3], wave)], &[1.0]);
+        let mut jumps: Vec<_> = torches.jumps(1.0).collect();
+        jumps.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        jumps.dedup();
+        let middles: Vec<f64> = jumps.iter().map(|[a, b]| 0.5 * (a + b)).collect();
+        for (found, asked) in middles.iter().zip([0.2, 0.5, 0.7]) {
+            assert!((found - asked).abs() < 1e-12, "{middles:?}");
+        }
+        assert_eq!(middles.len(), 3);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! From the scene to stages and particles: the only place that asks what the scene contains.
 
+mod arcs;
 mod grains;
 mod metal;
 mod parts;
@@ -11,18 +12,19 @@ use std::sync::Arc;
 use run::property::Curve;
 use run::{Failure, Fault, Inputs};
 
+use self::arcs::Arcs;
 use self::grains::Beside;
 pub use self::parts::LeftOut;
 use self::parts::{Parts, Room};
 use crate::domain::bodies::{Body, Filled};
 use crate::domain::bounds::Bounds;
-use crate::domain::droplet::Droplets;
+use crate::domain::droplet::{Droplets, Wire};
 use crate::domain::fitting::fitting;
 use crate::faces::{self, Faces};
-use crate::forces::arc_pressure::{ArcPressure, Pressure};
+use crate::forces::arc_pressure::ArcPressure;
 use crate::forces::buoyancy::Buoyancy;
 use crate::forces::capillary::Capillary;
-use crate::forces::gas_shear::{Gas, GasShear};
+use crate::forces::gas_shear::GasShear;
 use crate::forces::lorentz::Lorentz;
 use crate::forces::marangoni::Marangoni;
 use crate::forces::surface_stress::SurfaceStress;
@@ -34,7 +36,6 @@ use crate::motion::{self, Law, Motion};
 use crate::patch::AREA;
 use crate::scene::{Scene, StartState};
 use crate::source::Path;
-use crate::source::arc::ArcSource;
 use crate::stage::Stage;
 use crate::state::State;
 use crate::surface::Surface;
@@ -59,7 +60,7 @@ pub struct Assembled {
 struct Source<'a> {
     scene: &'a Scene,
     caloric: Option<Arc<Caloric>>,
-    arc: Option<ArcSource>,
+    arcs: Arcs,
 }
 
 /// Particles with a temperature that they keep.
@@ -148,19 +149,10 @@ impl<'a> Source<'a> {
             Some(heat) => Some(heat.caloric().map_err(|fault| fault.within("/heat"))?),
             None => None,
         };
-        let pressed = scene.arc_pressure.as_ref();
-        let wanted = scene.gas_shear.is_some()
-            || scene.lorentz.is_some()
-            || pressed.is_some_and(|pressed| pressed.pressure_pa.is_none());
-        let arc = match (wanted, inputs.get("arc")) {
-            (false, None) => None,
-            (true, None) => Some(ArcSource::read(inputs.path("arc")?)?),
-            (_, Some(path)) => Some(ArcSource::read(path)?),
-        };
         Ok(Self {
             scene,
             caloric,
-            arc,
+            arcs: Arcs::read(scene, inputs)?,
         })
     }
 
@@ -176,11 +168,17 @@ impl<'a> Source<'a> {
         parts.when(Room::Domain, "source", scene.source, |source| {
             Ok(Box::new(Path(source)))
         })?;
-        parts.when(Room::Domain, "droplets", scene.droplets, |droplets| {
-            let metal = (scene.metal(), scene.halving()?);
-            let stage = Droplets::new(droplets, metal, self.caloric.as_ref())
-                .map_err(|fault| fault.within("/droplets"))?;
-            Ok(Box::new(stage))
+        let wires: Vec<_> = scene.wires().collect();
+        let fed = Some(wires).filter(|wires| !wires.is_empty());
+        parts.when(Room::Domain, "droplets", fed, |wires| {
+            let wire = |wire: &crate::scene::Wire| {
+                let metal = (scene.metal(), scene.halving(wire)?);
+                let made = Wire::new(wire.droplets, metal, self.caloric.as_ref());
+                let made = made.map_err(|fault| fault.within(&wire.at))?;
+                Ok(made.beside(wire.offset_m))
+            };
+            let wires: Result<_, Fault> = wires.iter().map(wire).collect();
+            Ok(Box::new(Droplets::of(wires?)))
         })?;
         parts.when(Room::Domain, "bounds", scene.bounds, |bounds| {
             let stage = Bounds::new(bounds, scene.metal());
@@ -231,10 +229,11 @@ impl<'a> Source<'a> {
         }
         parts.take(Room::Heat, Box::new(conduction));
         parts.when(Room::Heat, "arc", self.scene.arc.as_ref(), |arc| {
-            let surface = self.arc.as_ref().map(ArcSource::surface);
-            let stage = heat::Arc::new(arc, caloric.clone(), self.scene.metal(), surface)
-                .map_err(|fault| fault.within("/arc"))?;
-            Ok(Box::new(stage))
+            Ok(Box::new(self.arcs.heat(
+                arc,
+                self.scene,
+                caloric.clone(),
+            )?))
         })?;
         let torches = Some(&self.scene.torches).filter(|torches| !torches.is_empty());
         parts.when(Room::Heat, "torches", torches, |torches| {
@@ -284,25 +283,17 @@ impl<'a> Source<'a> {
         let shear = scene.gas_shear.as_ref();
         parts.when(Room::Forces, "gas_shear", shear, |shear| {
             let viscosity = flow.map_or(Ok(Law::Uniform(0.0)), |flow| self.viscosity(flow))?;
-            let stage = GasShear::new(shear, self.gas()?, viscosity, metal)
+            let stage = GasShear::new(shear, self.arcs.gases()?, viscosity, metal)
                 .map_err(|fault| fault.within("/gas_shear"))?;
             Ok(Box::new(stage))
         })?;
         parts.when(Room::Forces, "lorentz", scene.lorentz, |_| {
-            let table = self
-                .arc()?
-                .lorentz()?
-                .ok_or_else(|| Fault::at("/lorentz", "the input 'arc' holds no Lorentz force"))?;
-            Ok(Box::new(Lorentz::new(table, metal)))
+            Ok(Box::new(Lorentz::new(self.arcs.lorentz()?, metal)))
         })?;
         let pressed = scene.arc_pressure.as_ref();
         parts.when(Room::Forces, "arc_pressure", pressed, |pressed| {
-            let formula = pressed.formula();
-            let pressure = match formula.map_err(|fault| fault.within("/arc_pressure"))? {
-                Some(formula) => formula,
-                None => Pressure::Table(self.arc()?.radial("arc_pressure_pa")?),
-            };
-            Ok(Box::new(ArcPressure::new(pressure, metal, scene.even())))
+            let pressures = self.arcs.pressures(pressed)?;
+            Ok(Box::new(ArcPressure::new(pressures, metal, scene.even())))
         })?;
         parts.when(Room::Forces, "buoyancy", scene.buoyancy, |buoyancy| {
             let gravity = flow.and_then(|flow| flow.gravity_m_s2).unwrap_or_default();
@@ -323,20 +314,6 @@ impl<'a> Source<'a> {
             self.caloric.as_deref(),
         );
         law.map_err(|fault| fault.within("/flow"))
-    }
-
-    fn arc(&self) -> Result<&ArcSource, Failure> {
-        let missing = || Failure::Usage("this scene needs --input arc=FILE".to_owned());
-        self.arc.as_ref().ok_or_else(missing)
-    }
-
-    fn gas(&self) -> Result<Gas, Failure> {
-        let arc = self.arc()?;
-        Ok(Gas {
-            speed: arc.radial("gas_radial_velocity_m_s")?,
-            height: arc.scalar("gas_velocity_height_m")?,
-            temperature: arc.radial("gas_temperature_k")?,
-        })
     }
 
     /// The first solid body is the base metal; without one, the first body stands for it.

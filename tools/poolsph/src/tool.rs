@@ -26,6 +26,11 @@ impl Tool for PoolSph {
             required: false,
         },
         Input {
+            name: "arc2",
+            what: "a second arc source (arc-source 1.x), for entries of the key 'arcs' that say so",
+            required: false,
+        },
+        Input {
             name: "start",
             what: "an earlier run (particle-frames 1.x), whose metal is the initial state where the scene says so",
             required: false,

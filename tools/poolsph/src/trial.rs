@@ -57,7 +57,7 @@ pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failu
 /// Why steps become longer than those that are timed: a pool that is still to melt.
 pub(crate) fn grows(scene: &Scene) -> Option<&'static str> {
     let melts = scene.heat.as_ref().is_some_and(|h| h.melting.is_some()) && scene.flow.is_some();
-    let fed = scene.arc.is_some() || scene.droplets.is_some();
+    let fed = scene.arc.is_some() || scene.wires().next().is_some();
     let dry = scene.bodies.iter().all(|b| b.state != StartState::Liquid);
     (melts && fed && dry).then_some("steps last longer once there is a pool")
 }

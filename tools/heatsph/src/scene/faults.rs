@@ -3,8 +3,12 @@
 use run::Fault;
 
 use shapes::check::{Misfit, check, coordinates};
+use torch::Waveform;
 
 use super::{Scene, Time};
+
+/// Most corners of a waveform, at each of which a step ends.
+const CORNERS: f64 = 200_000.0;
 
 impl Scene {
     /// Everything that is wrong with the scene as far as it can be told without points.
@@ -74,6 +78,8 @@ impl Scene {
             faults.extend(
                 misfits.map(|m| Fault::at(&format!("/torches/{number}{}", m.path), m.what)),
             );
+            let waveform = torch.waveform.as_ref().zip(self.time.as_ref());
+            faults.extend(waveform.and_then(|(wave, time)| many(number, wave, time.end_s)));
         }
     }
 
@@ -120,4 +126,16 @@ impl Time {
             faults.push(Fault::at("/time", what));
         }
     }
+}
+
+/// A waveform with more corners than a march can end its steps at.
+fn many(number: usize, wave: &Waveform, end: f64) -> Option<Fault> {
+    let corners = wave.times_s.len() as f64 * end / wave.period_s;
+    (corners > CORNERS).then(|| {
+        let what = format!(
+            "has {corners:.3e} corners in {end} s, at each of which a step ends; at most {CORNERS:e} are followed: \
+             give a longer period, or a mean power without a waveform"
+        );
+        Fault::at(&format!("/torches/{number}/waveform/period_s"), what)
+    })
 }

@@ -1,6 +1,6 @@
 //! Heat sources of welding that move along a path.
 //!
-//! The words are the same in every tool. A [`Torch`] has a power, an efficiency, a [`path`] and a [`shape`]: Goldak's double
+//! The words are the same in every tool. A [`Torch`] has a power, an efficiency, a [`path`], a [`shape`] and, where it pulses, a [`Waveform`]: Goldak's double
 //! ellipsoid in the volume, or a Gaussian on the surface. It gives each point of a body a part of its heat:
 //!
 //! ```text
@@ -17,10 +17,12 @@ mod erfc;
 pub mod path;
 pub mod shape;
 mod torch;
+mod waveform;
 
 pub use path::{Path, Weave};
 pub use shape::{DoubleEllipsoid, Gaussian, Shape};
 pub use torch::{Beyond, Misfit, Stand, Torch};
+pub use waveform::Waveform;
 
 /// A place or direction in space.
 pub type Vector = [f64; 3];

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::path::Path;
 use crate::shape::Shape;
+use crate::waveform::Waveform;
 use crate::{Vector, along, cross, dot, length, unit};
 
 /// What becomes of the part of the distribution that lies outside the body.
@@ -30,6 +31,9 @@ pub struct Torch {
     #[serde(default = "whole")]
     #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub efficiency: f64,
+    /// The part of its power over time, again and again; the whole at all times if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waveform: Option<Waveform>,
     /// Where it goes, and when it burns.
     pub path: Path,
     /// Where it points: into the body. Any length; down, (0, 0, -1), if absent.
@@ -55,7 +59,7 @@ fn down() -> [f64; 3] {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Misfit {
     /// JSON pointer from the torch on.
-    pub path: &'static str,
+    pub path: String,
     /// What is wrong.
     pub what: String,
 }
@@ -74,7 +78,10 @@ impl Torch {
     #[must_use]
     pub fn misfits(&self) -> Vec<Misfit> {
         let mut found = Vec::new();
-        let mut add = |path, what: String| found.push(Misfit { path, what });
+        let mut add = |path: &str, what: String| {
+            let path = path.to_owned();
+            found.push(Misfit { path, what });
+        };
         let path = &self.path;
         if path.points_m.len() > 1 && path.speed_m_s.is_none() {
             add(
@@ -91,6 +98,9 @@ impl Torch {
         if let Some(end) = path.end_s.filter(|end| *end <= path.start_s) {
             let what = format!("{end} s is not after the start at {} s", path.start_s);
             add("/path/end_s", what);
+        }
+        if let Some(misfit) = self.waveform.as_ref().and_then(Waveform::misfit) {
+            add(&format!("/waveform{}", misfit.path), misfit.what);
         }
         let Some(into) = unit(self.points_to) else {
             add(
@@ -116,7 +126,8 @@ impl Torch {
     pub fn power(&self, time: f64) -> f64 {
         let [from, to] = self.path.burns();
         if time >= from && time < to {
-            self.efficiency * self.power_w
+            let level = self.waveform.as_ref().map_or(1.0, |wave| wave.at(time));
+            level * self.efficiency * self.power_w
         } else {
             0.0
         }
@@ -127,8 +138,19 @@ impl Torch {
     pub fn energy(&self, from: f64, to: f64) -> Option<(f64, f64)> {
         let burns = self.path.burns();
         let (from, to) = (from.max(burns[0]), to.min(burns[1]));
-        let power = self.efficiency * self.power_w;
-        (to > from).then_some((power * (to - from), 0.5 * (from + to)))
+        if to <= from {
+            return None;
+        }
+        let level = (self.waveform.as_ref()).map_or(1.0, |wave| wave.mean(from, to));
+        let energy = level * self.efficiency * self.power_w * (to - from);
+        (energy > 0.0).then_some((energy, 0.5 * (from + to)))
+    }
+
+    /// Greatest power at any time \[W\].
+    #[must_use]
+    pub fn most(&self) -> f64 {
+        let level = self.waveform.as_ref().map_or(1.0, Waveform::most);
+        level * self.efficiency * self.power_w
     }
 
     /// Where it stands at a time.
@@ -227,6 +249,19 @@ mod tests {
     }
 
     #[test]
+    fn a_waveform_divides_the_power_over_time() {
+        let wave =
+            r#", "waveform": {"period_s": 0.5, "times_s": [0, 0.2, 0.2], "levels": [1, 1, 0.25]}"#;
+        let torch = torch(wave);
+        assert!((torch.power(1.1) - 800.0).abs() < 1e-9 && (torch.power(1.3) - 200.0).abs() < 1e-9);
+        // 0.55 of the power over whole periods.
+        let (energy, middle) = torch.energy(1.0, 3.0).unwrap();
+        assert!((energy / (0.55 * 1600.0) - 1.0).abs() < 1e-12 && (middle - 2.0).abs() < 1e-12);
+        assert!((torch.most() - 800.0).abs() < 1e-12);
+        assert!(torch.misfits().is_empty());
+    }
+
+    #[test]
     fn turning_and_shifting_everything_changes_nothing() {
         let plain = torch("");
         // Turned by a right angle about x, and by an odd one about z, and shifted.
@@ -253,7 +288,11 @@ mod tests {
         let found = |change: &dyn Fn(&mut Torch)| {
             let mut torch = torch("");
             change(&mut torch);
-            torch.misfits().iter().map(|m| m.path).collect::<Vec<_>>()
+            torch
+                .misfits()
+                .into_iter()
+                .map(|m| m.path)
+                .collect::<Vec<_>>()
         };
         assert!(found(&|_| ()).is_empty());
         assert_eq!(found(&|t| t.path.speed_m_s = None), ["/path"]);

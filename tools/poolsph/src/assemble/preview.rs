@@ -8,6 +8,7 @@ use shapes::Face;
 use crate::domain::bodies::{self, Body};
 use crate::grains::{self, RADIUS};
 use crate::scene::{Scene, StartState};
+use crate::source::arcs::OneArc;
 use crate::source::bed;
 use crate::state::State;
 
@@ -132,8 +133,27 @@ fn source(scene: &Scene, preview: &mut Preview) {
         (None, Some([low, high])) => 0.2 * (high[1] - low[1]).max(high[0] - low[0]),
         (None, None) => scene.spacing_m,
     };
-    preview.mark(Marked::Axis, "axis of the arc", vec![above(height)]);
-    preview.mark(Marked::Path, "path of the arc", vec![vec![start, end]]);
+    let alone = [OneArc::default()];
+    let (arcs, several) = match scene.arcs.as_slice() {
+        [] => (alone.as_slice(), false),
+        arcs => (arcs, true),
+    };
+    for (number, arc) in arcs.iter().enumerate() {
+        let burning = arc.burning();
+        let name = if several {
+            format!("arc {number}")
+        } else {
+            "the arc".to_owned()
+        };
+        let axis = above(height).into_iter().map(|x| burning.axis(x));
+        preview.mark(
+            Marked::Axis,
+            &format!("axis of {name}"),
+            vec![axis.collect()],
+        );
+        let way = vec![burning.axis(start), burning.axis(end)];
+        preview.mark(Marked::Path, &format!("path of {name}"), vec![way]);
+    }
     if let Some(droplets) = &scene.droplets {
         let mut way = above(droplets.height_m);
         way.reverse();

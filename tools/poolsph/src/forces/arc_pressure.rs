@@ -20,7 +20,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::near::Role;
 use crate::patch::{self, Patches};
+use crate::source::Place;
 use crate::source::arc::Radial;
+use crate::source::arcs::Burning;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::State;
 use crate::vector::plus;
@@ -77,7 +79,10 @@ impl Pressure {
 
 /// The stage that presses on the surface.
 pub struct ArcPressure {
-    pressure: Pressure,
+    /// The pressure of each arc, and where and how strongly it burns.
+    arcs: Vec<(Pressure, Burning)>,
+    /// Axes of the arcs in a step, and their levels.
+    stands: Vec<(Place, f64)>,
     volume: f64,
     /// The pressure is a condition at the surface, not a force.
     bound: bool,
@@ -85,15 +90,29 @@ pub struct ArcPressure {
 }
 
 impl ArcPressure {
-    /// This pressure on `metal`; `bound`: as a condition at the surface, not as a force.
+    /// The pressure of arcs on `metal`; `bound`: as a condition at the surface, not as a force.
     #[must_use]
-    pub fn new(pressure: Pressure, metal: Matter, bound: bool) -> Self {
+    pub fn new(arcs: Vec<(Pressure, Burning)>, metal: Matter, bound: bool) -> Self {
         Self {
-            pressure,
+            arcs,
+            stands: Vec::new(),
             volume: metal.volume(),
             bound,
             pressed: 0.0,
         }
+    }
+}
+
+impl ArcPressure {
+    /// The pressure of all arcs at a place \[Pa\].
+    fn above(&self, x: [f64; 3], time: f64, dt: f64) -> Result<f64, StageError> {
+        let mut sum = 0.0;
+        for ((pressure, _), (axis, level)) in self.arcs.iter().zip(&self.stands) {
+            if *level > 0.0 {
+                sum += level * pressure.at(axis.around(x).0, time, dt)?;
+            }
+        }
+        Ok(sum)
     }
 }
 
@@ -108,9 +127,13 @@ impl Stage for ArcPressure {
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         self.pressed = 0.0;
-        let Some(axis) = state.source else {
+        let Some(source) = state.source else {
             return Ok(());
         };
+        self.stands.clear();
+        let stand = |burning: &Burning| (burning.place(source), burning.level(state.time, dt));
+        let stands = self.arcs.iter().map(|(_, burning)| stand(burning));
+        self.stands.extend(stands);
         let (near, surface) = (&mut state.near, Patches::of(&state.metal));
         if self.bound {
             near.outer.resize(near.len(), 0.0);
@@ -118,7 +141,7 @@ impl Stage for ArcPressure {
         for k in 0..near.len() {
             let patch = surface.at(near.id[k] as usize);
             let x = near.position[k];
-            let pressure = |x| self.pressure.at(axis.around(x).0, state.time, dt);
+            let pressure = |x| self.above(x, state.time, dt);
             if self.bound && near.role[k] == Role::Liquid {
                 // What lies hidden is reached as far as its surface is; hollows inside have no surface.
                 let hidden = patch.area > 0.0 && patch.seen <= 0.0;
@@ -170,7 +193,8 @@ mod tests {
         let d = state.metal.matter.spacing;
         on_top(&mut state, d * d);
         change(&mut state, shape);
-        let mut stage = ArcPressure::new(pressure, state.metal.matter, false);
+        let arcs = vec![(pressure, Burning::default())];
+        let mut stage = ArcPressure::new(arcs, state.metal.matter, false);
         stage.advance(&mut state, 1e-4).unwrap();
         let volume = state.metal.matter.volume();
         let total = |i: usize| -> f64 { state.near.force.iter().map(|f| f[i] * volume).sum() };

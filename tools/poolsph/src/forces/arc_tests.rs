@@ -14,6 +14,7 @@ use crate::near::Role;
 use crate::patch;
 use crate::source::Place;
 use crate::source::arc::{self, Radial};
+use crate::source::arcs::{Burning, OneArc};
 use crate::stage::Stage;
 use crate::state::{Particle, State, phase};
 use crate::surface::Surface;
@@ -99,9 +100,19 @@ fn sum(state: &State, part: impl Fn([f64; 3], [f64; 3]) -> f64) -> f64 {
     pairs.map(|(x, f)| METAL.volume() * part(*x, *f)).sum()
 }
 
+/// One arc on the axis.
+fn alone() -> Vec<Burning> {
+    vec![Burning::default()]
+}
+
 /// Force of a pressure of the peak 500 Pa \[N\].
 fn pressed(state: &mut State) -> [f64; 3] {
-    let mut stage = ArcPressure::new(Pressure::Table(cone(500.0)), METAL, false);
+    pressed_by(state, &alone())
+}
+
+fn pressed_by(state: &mut State, arcs: &[Burning]) -> [f64; 3] {
+    let own = |burning: &Burning| (Pressure::Table(cone(500.0)), burning.clone());
+    let mut stage = ArcPressure::new(arcs.iter().map(own).collect(), METAL, false);
     stage.advance(state, 1e-4).unwrap();
     [0, 1, 2].map(|axis| sum(state, |_, f| f[axis]))
 }
@@ -162,6 +173,10 @@ fn beside(axis: f64) -> f64 {
 
 /// Force along the outward direction of a shear of 333.3 Pa on the axis \[N\].
 fn sheared(state: &mut State) -> f64 {
+    sheared_by(state, &alone())
+}
+
+fn sheared_by(state: &mut State, arcs: &[Burning]) -> f64 {
     let gas = Gas {
         speed: cone(50.0),
         height: 3e-5,
@@ -171,7 +186,9 @@ fn sheared(state: &mut State) -> f64 {
         gas_viscosity_pa_s: Property::Constant(2e-4),
     };
     // Liquid too stiff to yield.
-    let mut stage = GasShear::new(&parameters, gas, Law::Uniform(1e9), METAL).unwrap();
+    let own = |burning: &Burning| (gas.clone(), burning.clone());
+    let arcs = arcs.iter().map(own).collect();
+    let mut stage = GasShear::new(&parameters, arcs, Law::Uniform(1e9), METAL).unwrap();
     stage.advance(state, 1e-4).unwrap();
     sum(state, |x, f| {
         let r = x[0].hypot(x[1]).max(1e-12);
@@ -203,10 +220,17 @@ fn window(x: [f64; 3]) -> f64 {
 
 /// Downward and outward Lorentz force \[N\] of a table that grows with radius and depth.
 fn pulled(state: &mut State) -> [f64; 2] {
+    pulled_by(state, &alone())
+}
+
+fn pulled_by(state: &mut State, arcs: &[Burning]) -> [f64; 2] {
     let axes = [vec![1e-6, 40.0], vec![0.0, 40.0]];
     // Radial -2 r, axial -3 depth, both exact between the rows.
     let (radial, axial) = (vec![0.0, 0.0, -80.0, -80.0], vec![0.0, -120.0, 0.0, -120.0]);
-    let mut stage = Lorentz::new(arc::Lorentz::new(axes, radial, axial), METAL);
+    let table = arc::Lorentz::new(axes, radial, axial);
+    let own = |burning: &Burning| (table.clone(), burning.clone());
+    let arcs = arcs.iter().map(own).collect();
+    let mut stage = Lorentz::new(arcs, METAL);
     stage.advance(state, 1e-4).unwrap();
     let within = |x: [f64; 3], part: f64| part * window(x);
     let outward = |x: [f64; 3], f: [f64; 3]| (f[0] * x[0] + f[1] * x[1]) / x[0].hypot(x[1]);
@@ -256,4 +280,43 @@ fn the_current_pulls_as_the_table_says() {
     let found = pulled(&mut ball(0.0));
     close(found[0], down, 0.01, "sphere");
     close(found[1], outward, 0.01, "sphere");
+}
+
+/// Arcs of these levels on the axis.
+fn levels(of: &[f64]) -> Vec<Burning> {
+    let one = |level: &f64| {
+        let arc =
+            serde_json::json!({"waveform": {"period_s": 1, "times_s": [0], "levels": [level]}});
+        serde_json::from_value::<OneArc>(arc).unwrap().burning()
+    };
+    of.iter().map(one).collect()
+}
+
+#[test]
+fn arcs_push_by_the_sum_of_their_levels() {
+    let arcs = levels(&[0.5, 0.0, 0.25]);
+    let (one, several) = (
+        pressed(&mut slab(TILTED)),
+        pressed_by(&mut slab(TILTED), &arcs),
+    );
+    close(several[2], 0.75 * one[2], 1e-9, "pressure");
+    close(several[0], 0.75 * one[0], 1e-9, "pressure sideways");
+    let (one, several) = (sheared(&mut slab(FLAT)), sheared_by(&mut slab(FLAT), &arcs));
+    close(several, 0.75 * one, 1e-9, "shear");
+    let (one, several) = (pulled(&mut slab(FLAT)), pulled_by(&mut slab(FLAT), &arcs));
+    close(several[0], 0.75 * one[0], 1e-9, "Lorentz force down");
+    close(several[1], 0.75 * one[1], 1e-9, "Lorentz force outwards");
+}
+
+#[test]
+fn an_arc_beside_the_axis_of_the_source_pushes_as_a_source_that_stands_there() {
+    let arc = serde_json::json!({"offset_m": [4, 0, 0]});
+    let beside = vec![serde_json::from_value::<OneArc>(arc).unwrap().burning()];
+    let (found, exact) = (pressed_by(&mut ball(0.0), &beside), pressed(&mut ball(4.0)));
+    for (found, exact) in found.iter().zip(exact) {
+        assert!(
+            (found - exact).abs() < 1e-9 * exact.abs().max(1.0),
+            "{found} {exact}"
+        );
+    }
 }

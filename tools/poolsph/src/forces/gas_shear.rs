@@ -21,6 +21,7 @@ use crate::motion::Law;
 use crate::near::Role;
 use crate::patch::{self, Patches};
 use crate::source::arc::Radial;
+use crate::source::arcs::Burning;
 use crate::stage::{Stage, StageError};
 use crate::state::{State, TEMPERATURE};
 use crate::vector::{dot, plus};
@@ -47,20 +48,21 @@ pub struct Gas {
 
 /// The stage that drags the surface outwards.
 pub struct GasShear {
-    gas: Gas,
+    /// The gas of each arc, and where and how strongly it burns.
+    arcs: Vec<(Gas, Burning)>,
     gas_viscosity: Curve,
     viscosity: Law,
     metal: Matter,
 }
 
 impl GasShear {
-    /// Shear on liquid of a `viscosity`.
+    /// Shear by the gas of arcs on liquid of a `viscosity`.
     ///
     /// # Errors
     /// A fault at the key that is wrong.
     pub fn new(
         parameters: &Parameters,
-        gas: Gas,
+        arcs: Vec<(Gas, Burning)>,
         viscosity: Law,
         metal: Matter,
     ) -> Result<Self, Fault> {
@@ -68,17 +70,18 @@ impl GasShear {
             .gas_viscosity_pa_s
             .compile("/gas_viscosity_pa_s", &["T"])?;
         Ok(Self {
-            gas,
+            arcs,
             gas_viscosity,
             viscosity,
             metal,
         })
     }
 
-    /// tau \[Pa\] at the distance `r` \[m\] on liquid of the viscosity `own` \[Pa s\] that moves outwards with `speed` \[m/s\].
-    fn stress(&self, r: f64, own: f64, speed: f64) -> Result<f64, StageError> {
+    /// tau of a gas \[Pa\] at the distance `r` \[m\] on liquid of the viscosity `own` \[Pa s\] that moves outwards with
+    /// `speed` \[m/s\].
+    fn stress(&self, above: &Gas, r: f64, own: f64, speed: f64) -> Result<f64, StageError> {
         // Beyond the table the gas rests and is cold: no shear.
-        let kelvin = self.gas.temperature.at(r);
+        let kelvin = above.temperature.at(r);
         if kelvin <= 0.0 {
             return Ok(0.0);
         }
@@ -86,8 +89,8 @@ impl GasShear {
             .gas_viscosity
             .at_temperature(kelvin)
             .map_err(|e| StageError::Data(format!("viscosity of the gas: {e}")))?;
-        let resistance = 0.5 * gas * self.metal.spacing + own * self.gas.height;
-        Ok(gas * own * (self.gas.speed.at(r) - speed) / resistance)
+        let resistance = 0.5 * gas * self.metal.spacing + own * above.height;
+        Ok(gas * own * (above.speed.at(r) - speed) / resistance)
     }
 }
 
@@ -100,25 +103,31 @@ impl Stage for GasShear {
         patch::declare(&mut state.metal);
     }
 
-    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let Some(axis) = state.source else {
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let Some(source) = state.source else {
             return Ok(());
         };
         let (near, surface) = (&mut state.near, Patches::of(&state.metal));
         let temperatures = state.metal.column(&TEMPERATURE);
-        for k in 0..near.len() {
-            let a = near.id[k] as usize;
-            if near.role[k] != Role::Liquid || surface.area[a] <= 0.0 {
+        for (gas, burning) in &self.arcs {
+            let (axis, level) = (burning.place(source), burning.level(state.time, dt));
+            if level <= 0.0 {
                 continue;
             }
-            let patch = surface.at(a);
-            let (r, [x, y]) = axis.around(patch.foot(near.position[k]));
-            let outward = [x, y, 0.0];
-            let own = self.viscosity.at(temperatures, a);
-            let stress = self.stress(r, own, dot(near.velocity[k], outward))?;
-            let along = plus(outward, -dot(outward, patch.normal), patch.normal);
-            let per_volume = stress * patch.reached() * patch.area / self.metal.volume();
-            near.force[k] = plus(near.force[k], per_volume, along);
+            for k in 0..near.len() {
+                let a = near.id[k] as usize;
+                if near.role[k] != Role::Liquid || surface.area[a] <= 0.0 {
+                    continue;
+                }
+                let patch = surface.at(a);
+                let (r, [x, y]) = axis.around(patch.foot(near.position[k]));
+                let outward = [x, y, 0.0];
+                let own = self.viscosity.at(temperatures, a);
+                let stress = level * self.stress(gas, r, own, dot(near.velocity[k], outward))?;
+                let along = plus(outward, -dot(outward, patch.normal), patch.normal);
+                let per_volume = stress * patch.reached() * patch.area / self.metal.volume();
+                near.force[k] = plus(near.force[k], per_volume, along);
+            }
         }
         Ok(())
     }
@@ -139,7 +148,8 @@ mod tests {
         let parameters = Parameters {
             gas_viscosity_pa_s: Property::Constant(2e-4),
         };
-        GasShear::new(&parameters, gas, Law::Uniform(viscosity), metal).unwrap()
+        let arcs = vec![(gas, Burning::default())];
+        GasShear::new(&parameters, arcs, Law::Uniform(viscosity), metal).unwrap()
     }
 
     #[test]
@@ -169,7 +179,7 @@ mod tests {
     fn one_stress_crosses_both_layers() {
         let metal = pool(|_| 0.0).metal.matter;
         let stage = stage(metal, 4e-3);
-        let tau = stage.stress(1e-3, 4e-3, 0.2).unwrap();
+        let tau = stage.stress(&stage.arcs[0].0, 1e-3, 4e-3, 0.2).unwrap();
         let wall = 50.0 - tau * 3e-5 / 2e-4;
         let inside = wall - tau * 0.5 * metal.spacing / 4e-3;
         assert!((inside - 0.2).abs() < 1e-12);

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::near::{Near, Role};
 use crate::patch::{self, Patches};
+use crate::source::arcs::Burning;
 use crate::source::{Place, arc};
 use crate::stage::{Stage, StageError};
 use crate::state::State;
@@ -29,16 +30,17 @@ pub struct Parameters {}
 
 /// The stage that lets the current pull.
 pub struct Lorentz {
-    table: arc::Lorentz,
+    /// The force of each arc, and where and how strongly it burns.
+    arcs: Vec<(arc::Lorentz, Burning)>,
     heights: Heights,
 }
 
 impl Lorentz {
-    /// The force of `table` in `metal`.
+    /// The force of arcs in `metal`.
     #[must_use]
-    pub fn new(table: arc::Lorentz, metal: Matter) -> Self {
+    pub fn new(arcs: Vec<(arc::Lorentz, Burning)>, metal: Matter) -> Self {
         Self {
-            table,
+            arcs,
             heights: Heights {
                 edge: metal.support(),
                 origin: [0.0; 2],
@@ -123,26 +125,32 @@ impl Stage for Lorentz {
         patch::declare(&mut state.metal);
     }
 
-    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        let Some(axis) = state.source else {
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let Some(source) = state.source else {
             return Ok(());
         };
         let (near, surface) = (&mut state.near, Patches::of(&state.metal));
-        self.heights
-            .measure(near, surface, axis, self.table.radius());
-        let (table, heights) = (&self.table, &self.heights);
-        near.force
-            .par_iter_mut()
-            .zip(&near.role)
-            .zip(&near.position)
-            .with_min_len(GRAIN)
-            .filter(|((_, role), _)| **role == Role::Liquid)
-            .for_each(|((force, _), &x)| {
-                let (r, [outward_x, outward_y]) = axis.around(x);
-                let top = heights.above(x).unwrap_or(axis.position[2]);
-                let (radial, axial) = table.at(r, (top - x[2]).max(0.0));
-                *force = plus(*force, 1.0, [radial * outward_x, radial * outward_y, axial]);
-            });
+        for (table, burning) in &self.arcs {
+            let (axis, level) = (burning.place(source), burning.level(state.time, dt));
+            if level <= 0.0 {
+                continue;
+            }
+            self.heights.measure(near, surface, axis, table.radius());
+            let heights = &self.heights;
+            near.force
+                .par_iter_mut()
+                .zip(&near.role)
+                .zip(&near.position)
+                .with_min_len(GRAIN)
+                .filter(|((_, role), _)| **role == Role::Liquid)
+                .for_each(|((force, _), &x)| {
+                    let (r, [outward_x, outward_y]) = axis.around(x);
+                    let top = heights.above(x).unwrap_or(axis.position[2]);
+                    let (radial, axial) = table.at(r, (top - x[2]).max(0.0));
+                    let own = [radial * outward_x, radial * outward_y, axial];
+                    *force = plus(*force, level, own);
+                });
+        }
         Ok(())
     }
 
@@ -165,7 +173,8 @@ mod tests {
         let axes = [vec![1e-4, 1e-2], vec![0.0, 1e-2]];
         let radial = vec![-1e2, -1e2, -1e4, -1e4];
         let axial = vec![0.0, -1e5, 0.0, -1e5];
-        let mut stage = Lorentz::new(arc::Lorentz::new(axes, radial, axial), state.metal.matter);
+        let arcs = vec![(arc::Lorentz::new(axes, radial, axial), Burning::default())];
+        let mut stage = Lorentz::new(arcs, state.metal.matter);
         stage.advance(&mut state, 1e-4).unwrap();
         let near = &state.near;
         for (k, force) in near.force.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A heat flux over the distance from the axis of the arc, and what it has put in.
+//! A heat flux over the distance from the axis of the arc.
 
 use std::sync::Arc;
 
@@ -7,14 +7,13 @@ use run::property::{Arguments, Curve};
 
 use super::cathode::Emitter;
 use super::film::Film;
-use super::ledger::Sum;
 use crate::stage::StageError;
 
 /// A flux by name.
 pub(super) struct Flux {
+    /// Of the energy that it puts in.
     pub(super) name: &'static str,
     law: Law,
-    pub(super) put: Sum,
 }
 
 /// What a flux follows.
@@ -29,11 +28,7 @@ pub(super) enum Law {
 
 impl Flux {
     pub(super) fn new(name: &'static str, law: Law) -> Self {
-        Self {
-            name,
-            law,
-            put: Sum::default(),
-        }
+        Self { name, law }
     }
 
     /// The flux at the distance `r` \[m\] into metal of `t` \[K\] \[W/m2\], that of a formula as its mean from `time`

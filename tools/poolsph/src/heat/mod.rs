@@ -33,8 +33,6 @@ pub use torches::Torches;
 pub use vapour::{Evaporation, GasLayer};
 
 #[cfg(test)]
-mod arc_tests;
-#[cfg(test)]
 mod surface_tests;
 #[cfg(test)]
 mod tests;

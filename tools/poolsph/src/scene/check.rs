@@ -4,7 +4,7 @@ use run::Fault;
 
 use shapes::check::{Misfit, check};
 
-use super::{Scene, StartState};
+use super::{Scene, StartState, Wire};
 use crate::domain::shape::Shape;
 use crate::grains;
 use crate::motion::Method;
@@ -32,6 +32,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         faults.push(Fault::at("/time/step_s", what));
     }
     faults.extend(adaptive(scene));
+    faults.extend(super::arcs::faults(scene));
     if let Some(grains) = &scene.grains {
         let found = grains::fill::faults(grains);
         faults.extend(found.into_iter().map(|fault| fault.within("/grains")));
@@ -68,7 +69,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     faults.extend(begun(scene));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
-        faults.extend(crowded(scene));
+        faults.extend(scene.wires().filter_map(|wire| crowded(scene, &wire)));
     }
     faults.extend(sizes);
     faults
@@ -157,12 +158,12 @@ fn without_metal(scene: &Scene) -> Vec<Fault> {
 }
 
 /// Droplets that are born into each other.
-fn crowded(scene: &Scene) -> Option<Fault> {
-    let droplets = scene.droplets?;
-    if let Err(fault) = scene.halving() {
+fn crowded(scene: &Scene, wire: &Wire) -> Option<Fault> {
+    let droplets = wire.droplets;
+    if let Err(fault) = scene.halving(wire) {
         return Some(fault);
     }
-    let period = scene.droplet_period()?;
+    let period = scene.droplet_period(wire)?;
     let (step, speed) = (scene.step(), droplets.speed_m_s);
     let fallen = speed * period.max(step);
     let high = 2.0 * droplets.radius_m;
@@ -180,7 +181,7 @@ fn crowded(scene: &Scene) -> Option<Fault> {
     } else {
         return None;
     };
-    Some(Fault::at(&format!("/droplets/{key}"), what))
+    Some(Fault::at(&format!("{}/{key}", wire.at), what))
 }
 
 /// Probes of one name.
@@ -255,6 +256,7 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
     let needs = [
         ("flow_start", scene.flow_start.is_some(), vec![flow, heat]),
         ("arc", scene.arc.is_some(), vec![heat]),
+        ("arcs", !scene.arcs.is_empty(), vec![source]),
         ("torches", !scene.torches.is_empty(), vec![heat]),
         ("output/probes", !scene.output.probes.is_empty(), vec![heat]),
         ("losses", scene.losses.is_some(), vec![heat]),

@@ -1,5 +1,6 @@
 //! The scene: what a person writes, typed. Optional physics is an absent key.
 
+mod arcs;
 mod body;
 mod check;
 mod odd;
@@ -76,6 +77,9 @@ pub struct Scene {
     /// The moving axis of the arc; absent: no arc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<source::Parameters>,
+    /// Several arcs, or one that pulses or alternates; absent: one, of the input `arc`, upon the axis of the source.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub arcs: Vec<source::arcs::OneArc>,
     /// Shear by the gas of the input `arc`; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gas_shear: Option<gas_shear::Parameters>,
@@ -111,6 +115,17 @@ pub struct Scene {
     pub grains: Option<grains::Parameters>,
     /// What is written, and when.
     pub output: Output,
+}
+
+/// A wire that gives droplets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wire {
+    /// The key that says so.
+    pub at: String,
+    /// Its droplets.
+    pub droplets: droplet::Parameters,
+    /// From the axis of the source \[m\].
+    pub offset_m: [f64; 3],
 }
 
 impl Scene {
@@ -163,13 +178,30 @@ impl Scene {
         compiled.map_err(|fault| fault.within("/faces"))
     }
 
-    /// The mirror plane that halves droplets; none where the scene has no droplets, or no mirror along the way of its source.
+    /// The wires that give droplets: that of the source, then those of arcs.
+    pub fn wires(&self) -> impl Iterator<Item = Wire> {
+        let own = self.droplets.map(|droplets| Wire {
+            at: "/droplets".to_owned(),
+            droplets,
+            offset_m: [0.0; 3],
+        });
+        let arcs = self.arcs.iter().enumerate();
+        let others = arcs.filter_map(|(number, arc)| {
+            Some(Wire {
+                at: format!("/arcs/{number}/droplets"),
+                droplets: arc.droplets?,
+                offset_m: arc.offset_m,
+            })
+        });
+        own.into_iter().chain(others)
+    }
+
+    /// The mirror plane that halves the droplets of a wire; none where no mirror lies along its way.
     ///
     /// # Errors
     /// A mirror that would cut a droplet.
-    pub fn halving(&self) -> Result<Option<droplet::Mirror>, Fault> {
-        let parts = (self.droplets, self.source, &self.faces);
-        let (Some(droplets), Some(source), Some(faces)) = parts else {
+    pub fn halving(&self, wire: &Wire) -> Result<Option<droplet::Mirror>, Fault> {
+        let (Some(source), Some(faces)) = (self.source, &self.faces) else {
             return Ok(None);
         };
         let mirrors = faces.mirror.iter().map(|face| {
@@ -178,14 +210,15 @@ impl Scene {
             (droplet::Mirror { axis, below }, corner[axis])
         });
         let mirrors: Vec<_> = mirrors.collect();
-        droplets.mirror(source.start_m, source.velocity_m_s, &mirrors)
+        let start = std::array::from_fn(|k| source.start_m[k] + wire.offset_m[k]);
+        wire.droplets.mirror(start, source.velocity_m_s, &mirrors)
     }
 
-    /// Time between two droplets \[s\], if there are any.
+    /// Time between two droplets of a wire \[s\], if it says how often they come.
     #[must_use]
-    pub fn droplet_period(&self) -> Option<f64> {
-        let mirror = self.halving().ok()?;
-        self.droplets?.period(self.spacing_m, mirror)
+    pub fn droplet_period(&self, wire: &Wire) -> Option<f64> {
+        let mirror = self.halving(wire).ok()?;
+        wire.droplets.period(self.spacing_m, mirror)
     }
 
     /// Number of steps.

@@ -15,6 +15,7 @@ pub fn notes(scene: &Scene) -> Vec<String> {
     notes.extend(outside(scene));
     notes.extend(still(scene));
     notes.extend(apart(scene));
+    notes.extend(super::arcs::blurred(scene));
     notes
 }
 
@@ -168,7 +169,7 @@ fn still(scene: &Scene) -> Option<String> {
         .heat
         .as_ref()
         .is_some_and(|heat| heat.melting.is_some());
-    let fed = scene.droplets.is_some();
+    let fed = scene.wires().next().is_some();
     (scene.flow.is_some() && !liquid && !melts && !fed)
         .then(|| "nothing will move: no body is liquid, none can melt, no droplets come".to_owned())
 }

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use run::Fault;
 
-use super::Scene;
+use super::{Scene, Wire};
 
 /// Most particles of a run, droplets included: some 10 GB.
 const PARTICLES_MOST: f64 = 2e7;
@@ -44,7 +44,7 @@ pub(super) fn faults(scene: &Scene) -> Vec<Fault> {
         let what = format!("hold {total:.1e} particles in all, at most {PARTICLES_MOST:.0e}");
         faults.push(Fault::at("/bodies", what));
     }
-    faults.extend(droplets(scene));
+    faults.extend(scene.wires().filter_map(|wire| droplets(scene, &wire)));
     faults
 }
 
@@ -75,16 +75,16 @@ fn crowd(at: &str, sites: [f64; 3], d: f64) -> Fault {
     Fault::at(at, what)
 }
 
-/// A droplet, or all of them, of too many particles.
-fn droplets(scene: &Scene) -> Option<Fault> {
-    let droplets = scene.droplets?;
+/// A droplet of a wire, or all of them, of too many particles.
+fn droplets(scene: &Scene, wire: &Wire) -> Option<Fault> {
+    let droplets = wire.droplets;
     let across = (2.0 * droplets.radius_m / scene.spacing_m).max(1.0);
     let each = across.powi(3);
     if each > PARTICLES_MOST {
-        let fault = crowd("/droplets/radius_m", [across.round(); 3], scene.spacing_m);
-        return Some(fault);
+        let at = format!("{}/radius_m", wire.at);
+        return Some(crowd(&at, [across.round(); 3], scene.spacing_m));
     }
-    let period = scene.droplet_period()?;
+    let period = scene.droplet_period(wire)?;
     let born = (scene.time.end_s / period).floor() + 1.0;
     let all = born * each;
     (all > PARTICLES_MOST).then(|| {
@@ -93,11 +93,11 @@ fn droplets(scene: &Scene) -> Option<Fault> {
             scene.time.end_s
         );
         let key = if droplets.period_s.is_some() {
-            "/droplets/period_s"
+            "period_s"
         } else {
-            "/droplets/feed_m3_s"
+            "feed_m3_s"
         };
-        Fault::at(key, what)
+        Fault::at(&format!("{}/{key}", wire.at), what)
     })
 }
 

@@ -1,6 +1,7 @@
 //! What a run begins with and goes by: the moving arc, where it stands and where in the droplet's period it is; files of other runs.
 
 pub mod arc;
+pub mod arcs;
 pub mod bed;
 mod path;
 pub mod start;

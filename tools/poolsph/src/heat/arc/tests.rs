@@ -6,10 +6,11 @@ use std::sync::Arc as Shared;
 use particles::POSITION;
 use serde_json::{Value, json};
 
-use super::caloric::tests::plain;
-use super::surface_tests::{METAL, body};
 use super::*;
+use crate::heat::caloric::tests::plain;
+use crate::heat::surface_tests::{METAL, body};
 use crate::patch::SEEN;
+use crate::source::arcs::OneArc;
 use crate::stage::Stage;
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
@@ -200,4 +201,113 @@ fn heat_given_twice_is_a_fault_at_its_key() {
         let fault = made(scene).err().unwrap().to_string();
         assert!(fault.contains(at), "{at}: {fault}");
     }
+}
+
+/// Arcs of the same table, each with an entry of the scene.
+fn several(arcs: Value, heat: Value) -> Arc {
+    let arcs: Vec<OneArc> = serde_json::from_value(arcs).unwrap();
+    let heat: ArcParameters = serde_json::from_value(heat).unwrap();
+    let mut stage = Arc::without_arcs(Shared::new(plain(1e9, 1.0, None)), METAL, heat.on);
+    for arc in &arcs {
+        let own = arc.heat.as_ref().unwrap_or(&heat);
+        stage.burn(own, arc.burning(), Some(&table())).unwrap();
+    }
+    stage
+}
+
+#[test]
+fn arcs_of_half_a_level_heat_as_one_does() {
+    let half = json!({"period_s": 1.0, "times_s": [0], "levels": [0.5]});
+    let arcs = json!([{"waveform": half}, {"waveform": half}]);
+    let scene = json!({"cathode": cathode()});
+    let dt = 1e-8;
+    let both = put(&mut several(arcs, scene.clone()), &mut plate(2800.0), dt);
+    let one = put(&mut made(scene).unwrap(), &mut plate(2800.0), dt);
+    assert_eq!(both.len(), 4);
+    for ((name, found), (own, exact)) in both.iter().zip(&one) {
+        assert_eq!(name, own);
+        assert!((found / exact - 1.0).abs() < 1e-9, "{name} {found} {exact}");
+    }
+    // The bound of the step is that of both.
+    let limit = |arc: Arc| arc.dt_limit(&plate(500.0)).unwrap().seconds;
+    let full = json!([{}, {}]);
+    let scene = json!({"cathode": cathode()});
+    let ratio = limit(several(full, scene.clone())) / limit(made(scene).unwrap());
+    assert!((ratio - 0.5).abs() < 1e-12, "{ratio}");
+}
+
+#[test]
+fn pulses_heat_by_the_mean_of_their_levels_whatever_the_steps() {
+    // The peak burns for 4 of 10 ms; the base has a quarter of its heat in the rest.
+    let arcs = json!([{"waveform": {"period_s": 0.01, "times_s": [0, 0.004, 0.004], "levels": [1, 1, 0.25]}}]);
+    let scene = json!({"parts": ["radiation"]});
+    for steps in [1, 7, 33] {
+        let mut pulsed = several(arcs.clone(), scene.clone());
+        let mut state = plate(500.0);
+        let dt = 0.02 / f64::from(steps);
+        let mut sum = Vec::new();
+        for _ in 0..steps {
+            pulsed.advance(&mut state, dt).unwrap();
+            state.time += dt;
+            sum = pulsed.figures();
+        }
+        let steady = put(&mut made(scene.clone()).unwrap(), &mut plate(500.0), 0.02);
+        let found = sum.iter().find(|f| f.unit == "J").unwrap().value;
+        let exact = 0.55 * of(&steady, "energy_in_arc_radiation_j");
+        assert!(
+            (found / exact - 1.0).abs() < 1e-9,
+            "{steps}: {found} {exact}"
+        );
+    }
+}
+
+#[test]
+fn an_arc_beside_the_axis_heats_around_its_own() {
+    let arcs = json!([{"offset_m": [3, -2, 0], "heat": {"parts": ["radiation"]}}]);
+    let mut state = plate(500.0);
+    let mut arc = several(arcs, json!({}));
+    let found = put(&mut arc, &mut state, 1e-3);
+    assert_eq!(found.len(), 1);
+    let mut moment = [0.0; 3];
+    for (x, t) in state
+        .metal
+        .column(&POSITION)
+        .iter()
+        .zip(state.metal.column(&ENTHALPY))
+    {
+        let heat = (t - 500.0) * METAL.mass();
+        moment = [
+            moment[0] + heat * x[0],
+            moment[1] + heat * x[1],
+            moment[2] + heat,
+        ];
+    }
+    let middle = [moment[0] / moment[2], moment[1] / moment[2]];
+    assert!(
+        (middle[0] - 3.0).abs() < 1e-2 && (middle[1] + 2.0).abs() < 1e-2,
+        "{middle:?}"
+    );
+}
+
+#[test]
+fn a_plate_that_is_cathode_and_anode_in_turn_takes_each_heat_in_its_time() {
+    let half =
+        |levels: [f64; 3]| json!({"period_s": 0.02, "times_s": [0, 0.01, 0.01], "levels": levels});
+    let arcs = json!([
+        {"waveform": half([1.0, 1.0, 0.0]), "heat": {"parts": [], "cathode": cathode()}},
+        {"waveform": half([0.0, 0.0, 1.0]), "heat": {"parts": ["electron"]}},
+    ]);
+    let mut arc = several(arcs, json!({}));
+    let mut state = plate(500.0);
+    let first = put(&mut arc, &mut state, 1e-8);
+    assert!(of(&first, "energy_in_arc_ion_j") > 0.0);
+    assert!(
+        of(&first, "energy_in_arc_electron_j").abs() < 1e-9 * of(&first, "energy_in_arc_ion_j")
+    );
+    state.time = 0.015;
+    arc.advance(&mut state, 1e-8).unwrap();
+    let after = arc.figures();
+    let value = |name: &str| after.iter().find(|f| f.name == name).unwrap().value;
+    assert!((value("energy_in_arc_electron_j") / (-3e6 * 1e-8 * CONE) - 1.0).abs() < 0.01);
+    assert!((value("energy_in_arc_ion_j") / of(&first, "energy_in_arc_ion_j") - 1.0).abs() < 1e-9);
 }

@@ -1,0 +1,349 @@
+//! Heat of the arc on the surface of the metal (Komen 2019, second term of eq. 4.10).
+//!
+//! ```text
+//! m dh_a/dt = q(r_a) dA_a
+//! ```
+//!
+//! r is the horizontal distance from the axis of the arc. The flux q is that of an arc above a flat
+//! surface, part by part as the arc's table has it: convection, absorbed radiation, electrons, ions,
+//! vapour. With `cathode` and `gas`, electrons, ions and convection follow from the temperature of
+//! the metal as it is here, in place of that in the table. What the metal radiates itself is left
+//! to [`super::Losses`].
+//!
+//! Such a flux falls with the temperature of the metal, by no more than s. An explicit step
+//! approaches the balance without passing it as long as dt s dA < m c; a longer one is divided,
+//! particle by particle.
+//!
+//! With `projected`, dA is the area seen from above: the metal takes what the table prescribes
+//! whatever shape it has. With `area`, it is the whole area. A surface that faces down takes
+//! nothing. The cross-section pi d^2/4 of eq. 4.10 would pass on 78.5 % of every flux.
+
+mod parameters;
+
+use std::sync::Arc as Shared;
+
+use particles::Matter;
+use run::Fault;
+
+use super::bounds::outside;
+use super::caloric::Caloric;
+use super::chunks::Chunks;
+use super::flux::Flux;
+use super::ledger::Sum;
+use super::skin::Skin;
+use crate::patch;
+use crate::source::arcs::Burning;
+use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::state::{ENTHALPY, State, TEMPERATURE};
+
+use parameters::ENERGIES;
+pub use parameters::{ArcParameters, Onto, Part};
+
+/// An arc that heats.
+struct Burner {
+    burning: Burning,
+    fluxes: Vec<Flux>,
+    /// Which energy each flux puts in.
+    energies: Vec<usize>,
+    /// Distance beyond which there is no heat \[m\].
+    reach: f64,
+}
+
+impl Burner {
+    /// What the fluxes fall with the temperature of the metal at most, below `hottest` \[K\] \[W/(m2 K)\].
+    fn steepest(&self, hottest: f64) -> f64 {
+        let fluxes = self.fluxes.iter().map(|flux| flux.steepest(hottest));
+        self.burning.most() * fluxes.sum::<f64>()
+    }
+}
+
+/// Heat of arcs as a stage.
+pub struct Arc {
+    caloric: Shared<Caloric>,
+    metal: Matter,
+    arcs: Vec<Burner>,
+    /// Energies put in, by name \[J\].
+    energies: Vec<(&'static str, Sum)>,
+    onto: Onto,
+    /// Area that takes a step whole, times that step \[m2 s\].
+    whole: f64,
+    power: f64,
+    /// Into how many parts the last step was divided at most.
+    parts: f64,
+    /// Whether something of a flux that varies in time may have been missed.
+    missed: bool,
+    /// Where each arc stands in this step, and how strongly it burns.
+    stands: Vec<Stand>,
+    heated: Chunks<Result<Heated, StageError>>,
+}
+
+/// An arc in a step.
+#[derive(Debug, Clone, Copy)]
+struct Stand {
+    axis: [f64; 3],
+    level: f64,
+}
+
+impl Stand {
+    /// Square of the distance of a place from the axis \[m2\].
+    fn square(&self, [x, y]: [f64; 2]) -> f64 {
+        let (dx, dy) = (x - self.axis[0], y - self.axis[1]);
+        dx * dx + dy * dy
+    }
+}
+
+/// A step of a particle: its number, its time and its length \[s\].
+#[derive(Debug, Clone, Copy)]
+struct Moment {
+    step: u64,
+    time: f64,
+    dt: f64,
+}
+
+/// What of a particle lies under the arcs.
+#[derive(Debug, Clone, Copy)]
+struct Spot {
+    at: [f64; 2],
+    /// That the arcs fall on \[m2\].
+    area: f64,
+}
+
+/// What a step leaves of a particle.
+#[derive(Debug, Clone, Copy)]
+struct Heated {
+    a: u32,
+    /// \[J/kg\]
+    enthalpy: f64,
+    /// \[K\]
+    temperature: f64,
+    /// Heat by energy \[J\].
+    put: [f64; ENERGIES],
+    /// Into how many parts its step was divided.
+    parts: f64,
+    /// Whether all of a flux that varies in time was found.
+    found: bool,
+}
+
+impl Arc {
+    /// The one arc of a scene; `surface` is the table over the radius of the arc input.
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong: neither formula nor input, both, or a column that the
+    /// input lacks.
+    pub fn new(
+        parameters: &ArcParameters,
+        caloric: Shared<Caloric>,
+        metal: Matter,
+        surface: Option<&artefact::Table>,
+    ) -> Result<Self, Fault> {
+        let mut arc = Self::without_arcs(caloric, metal, parameters.on);
+        arc.burn(parameters, Burning::default(), surface)?;
+        Ok(arc)
+    }
+
+    /// None yet; what they heat takes them by `onto`.
+    #[must_use]
+    pub fn without_arcs(caloric: Shared<Caloric>, metal: Matter, onto: Onto) -> Self {
+        Self {
+            caloric,
+            metal,
+            arcs: Vec::new(),
+            energies: Vec::new(),
+            onto,
+            whole: f64::INFINITY,
+            power: 0.0,
+            parts: 1.0,
+            missed: false,
+            stands: Vec::new(),
+            heated: Chunks::default(),
+        }
+    }
+
+    /// Adds an arc.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn burn(
+        &mut self,
+        parameters: &ArcParameters,
+        burning: Burning,
+        surface: Option<&artefact::Table>,
+    ) -> Result<(), Fault> {
+        let fluxes = parameters.fluxes(surface, self.metal, &self.caloric)?;
+        let mut energies = Vec::with_capacity(fluxes.len());
+        for flux in &fluxes {
+            let known = self
+                .energies
+                .iter()
+                .position(|(name, _)| *name == flux.name);
+            energies.push(known.unwrap_or(self.energies.len()));
+            if known.is_none() {
+                self.energies.push((flux.name, Sum::default()));
+            }
+        }
+        self.arcs.push(Burner {
+            burning,
+            reach: fluxes.iter().map(Flux::reach).fold(0.0, f64::max),
+            fluxes,
+            energies,
+        });
+        let hottest = self.caloric.range().1;
+        let steepest: f64 = self.arcs.iter().map(|arc| arc.steepest(hottest)).sum();
+        self.whole = self.metal.mass() * self.caloric.least_heat() / steepest;
+        Ok(())
+    }
+
+    /// What of particle `a` lies under the arcs; `None` where none reaches. What a particle has of the plan lies around it;
+    /// its whole area lies before it on the surface.
+    fn lit(&self, skin: &Skin<'_>, a: usize) -> Option<Spot> {
+        let patch = skin.surface.at(a);
+        if patch.area.max(patch.seen) <= 0.0 || !skin.takes(a) {
+            return None;
+        }
+        let ([x, y, _], area) = match self.onto {
+            Onto::Projected => (skin.position[a], patch.seen),
+            Onto::Area if patch.normal[2] > 0.0 => (patch.foot(skin.position[a]), patch.area),
+            Onto::Area => return None,
+        };
+        let mut arcs = self.arcs.iter().zip(&self.stands);
+        let reached = arcs.any(|(arc, stand)| stand.square([x, y]) <= arc.reach * arc.reach);
+        (reached && area > 0.0).then_some(Spot { at: [x, y], area })
+    }
+
+    /// Heats particle `a`, in as many parts of the step as it takes.
+    fn heat(
+        &self,
+        (skin, a): (&Skin<'_>, usize),
+        spot: Spot,
+        now: Moment,
+    ) -> Result<Heated, StageError> {
+        let Moment { step, time, dt } = now;
+        let mut heated = Heated {
+            a: a as u32,
+            enthalpy: skin.enthalpy[a],
+            temperature: skin.temperature[a],
+            put: [0.0; ENERGIES],
+            parts: (dt * spot.area / self.whole).ceil().max(1.0),
+            found: true,
+        };
+        let parts = heated.parts;
+        for _ in 0..parts as u64 {
+            let mut gain = 0.0;
+            for (arc, stand) in self.arcs.iter().zip(&self.stands) {
+                let square = stand.square(spot.at);
+                if stand.level <= 0.0 || square > arc.reach * arc.reach {
+                    continue;
+                }
+                let r = square.sqrt();
+                for (flux, energy) in arc.fluxes.iter().zip(&arc.energies) {
+                    let (mean, found) = flux.at(r, heated.temperature, time, dt)?;
+                    let heat = stand.level * mean * spot.area * dt / parts;
+                    heated.found &= found;
+                    heated.put[*energy] += heat;
+                    gain += heat;
+                }
+            }
+            heated.enthalpy += gain / self.metal.mass();
+            heated.temperature = self.caloric.temperature(heated.enthalpy);
+            if !self.caloric.covers(heated.temperature) {
+                let particle = (a, skin.position[a]);
+                return Err(outside(step, particle, heated.temperature, &self.caloric));
+            }
+        }
+        Ok(heated)
+    }
+}
+
+impl Stage for Arc {
+    fn name(&self) -> &'static str {
+        "arc"
+    }
+
+    fn declare(&self, state: &mut State) {
+        state.metal.declare(&TEMPERATURE);
+        state.metal.declare(&ENTHALPY);
+        patch::declare(&mut state.metal);
+    }
+
+    fn dt_limit(&self, _state: &State) -> Option<Limit> {
+        let seconds = self.whole / (self.metal.spacing * self.metal.spacing);
+        seconds
+            .is_finite()
+            .then(|| Limit::dividing("arc_feedback", seconds))
+    }
+
+    fn parts(&self) -> u64 {
+        self.parts as u64
+    }
+
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
+        let mut heated = std::mem::take(&mut self.heated);
+        let skin = Skin::of(&state.metal);
+        let source = state.source.map_or([0.0; 3], |source| source.position);
+        let now = Moment {
+            step: state.step,
+            time: state.time,
+            dt,
+        };
+        self.stands.clear();
+        self.stands.extend(self.arcs.iter().map(|arc| Stand {
+            axis: arc.burning.axis(source),
+            level: arc.burning.level(state.time, dt),
+        }));
+        heated.fill(&state.exposed, |a| {
+            let spot = self.lit(&skin, a)?;
+            Some(self.heat((&skin, a), spot, now))
+        });
+        let (enthalpies, temperatures) = state.metal.columns_mut((&ENTHALPY, &TEMPERATURE));
+        let mut gain = 0.0;
+        self.parts = 1.0;
+        for one in heated.drain() {
+            let one = one?;
+            self.parts = self.parts.max(one.parts);
+            self.missed |= !one.found;
+            let a = one.a as usize;
+            (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
+            for ((_, sum), heat) in self.energies.iter_mut().zip(one.put) {
+                sum.add(heat);
+                gain += heat;
+            }
+        }
+        self.power = gain / dt;
+        self.heated = heated;
+        Ok(())
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let put = self.energies.iter().map(|(name, sum)| Figure {
+            name,
+            unit: "J",
+            value: sum.value(),
+        });
+        let power = Figure {
+            name: "arc_power_w",
+            unit: "W",
+            value: self.power,
+        };
+        std::iter::once(power).chain(put).collect()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let missed = "flux_w_m2 has more pulses in time than could be followed: heat may be missed";
+        self.missed.then(|| missed.to_owned()).into_iter().collect()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        let put = self.energies.iter().flat_map(|(_, sum)| sum.save());
+        put.chain([f64::from(u8::from(self.missed))]).collect()
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.missed = saved.last().is_some_and(|missed| *missed > 0.0);
+        for ((_, sum), parts) in self.energies.iter_mut().zip(saved.chunks_exact(2)) {
+            *sum = Sum::restored(parts);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
