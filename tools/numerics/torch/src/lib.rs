@@ -14,14 +14,16 @@
 //! same in every direction, and no source is too narrow to be met.
 
 mod erfc;
+mod misfit;
 pub mod path;
 pub mod shape;
 mod torch;
 mod waveform;
 
+pub use misfit::Misfit;
 pub use path::{Path, Weave};
 pub use shape::{DoubleEllipsoid, Gaussian, Shape};
-pub use torch::{Beyond, Misfit, Stand, Torch};
+pub use torch::{Beyond, Stand, Torch};
 pub use waveform::Waveform;
 
 /// A place or direction in space.

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::misfit::Misfit;
 use crate::path::Path;
 use crate::shape::Shape;
 use crate::waveform::Waveform;
@@ -53,15 +54,6 @@ fn whole() -> f64 {
 
 fn down() -> [f64; 3] {
     [0.0, 0.0, -1.0]
-}
-
-/// What is wrong with a torch, and at which of its keys.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Misfit {
-    /// JSON pointer from the torch on.
-    pub path: String,
-    /// What is wrong.
-    pub what: String,
 }
 
 /// Where a torch stands: its place and its own axes.

@@ -10,7 +10,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::torch::Misfit;
+use crate::misfit::Misfit;
 
 /// Instants nearer to a corner than this part of the time, or of the period, are that corner.
 const NEAR: f64 = 8.0 * f64::EPSILON;

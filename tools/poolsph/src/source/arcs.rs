@@ -113,11 +113,17 @@ impl Burning {
 mod tests {
     use super::*;
 
+    fn near(found: [f64; 3], exact: [f64; 3]) {
+        for (found, exact) in found.iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-15, "{found} {exact}");
+        }
+    }
+
     #[test]
     fn an_arc_alone_burns_upon_the_axis_as_its_tables_say() {
         let alone = OneArc::default().burning();
         assert_eq!(alone, Burning::default());
-        assert_eq!(alone.axis([1.0, -2.0, 3.0]), [1.0, -2.0, 3.0]);
+        near(alone.axis([1.0, -2.0, 3.0]), [1.0, -2.0, 3.0]);
         assert!((alone.level(0.3, 1e-4) - 1.0).abs() <= 0.0 && (alone.most() - 1.0).abs() <= 0.0);
     }
 
@@ -135,7 +141,7 @@ mod tests {
             assert!((both - 1.0).abs() < 1e-9, "{both}");
         }
         assert!((peak.level(0.0, 1.0) - 0.4).abs() < 1e-12);
-        assert_eq!(base.axis([0.0, 0.5, 0.0]), [0.0, 0.49, 0.0]);
+        near(base.axis([0.0, 0.5, 0.0]), [0.0, 0.49, 0.0]);
         assert_eq!(arcs[1].input.name(), "arc2");
     }
 }
