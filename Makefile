@@ -70,6 +70,14 @@ preview: export PREVIEW_STUDY = $(STUDY)
 preview: $(addprefix $(BIN)/,arcfvm poolsph heatsph emfield jetsph report) ## the initial state of a study before it runs: bodies, points, paths, walls (STUDY=name)
 	+@BIN=$(BIN) pipelines/preview "$$PREVIEW_STUDY" "$(MAKE)"
 
+# A look while it runs, from another terminal.
+.PHONY: live
+live: export LIVE_STUDY := $(STUDY)
+live: ## a page about a running study that renews itself: build/STUDY/live.html (STUDY=name)
+	@[ -n "$$LIVE_STUDY" ] || { echo "say which: make live STUDY=gmaw-quick" >&2; exit 2; }
+	@echo "to look at: build/$$LIVE_STUDY/live.html"
+	@$(BIN)/report live "build/$$LIVE_STUDY" --out "build/$$LIVE_STUDY/live.html"
+
 # Checks.
 .PHONY: test format lint docs unit schemas
 test: format unit ## everything that must hold on every change (minutes)

@@ -7,7 +7,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use run::{Failure, Form, Owned};
 
 use crate::files::{
-    DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, PageFiles, PairFiles,
+    DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, LiveFiles, PageFiles, PairFiles,
     PassesFiles, PreviewFiles, SweepFiles, perhaps_named,
 };
 use crate::measure::heat_affected::AC1;
@@ -57,6 +57,9 @@ enum Action {
     /// One page about the initial state of a run, from the points that `TOOL check --points` writes.
     #[command(after_help = PREVIEW)]
     Preview(PreviewFiles),
+    /// One page about a study that is running, which renews itself.
+    #[command(after_help = LIVE)]
+    Live(LiveFiles),
     /// One page about all evidence: exact cases, extreme cases, speed, studies.
     Index(Folders),
     /// Prints the measures of a weld's bead as JSON, with their units and ranges along the weld.
@@ -120,6 +123,9 @@ const GAS: &str = "Example, from the repository root:\n  \
     target/release/report gas --study gases --out build/gases/report.html \\\n    \
     --table argon=build/gases/argon.mcap --reference argon=pipelines/gases/reference-argon.json";
 
+const LIVE: &str = "It ends when nothing has been written in the folder for a minute. Example, from the repository root:\n  \
+    target/release/report live build/gmaw-quick --out build/gmaw-quick/live.html";
+
 const PREVIEW: &str = "Example, from the repository root:\n  \
     target/release/poolsph check pipelines/gmaw-300a/pool.json --points build/look.mcap\n  \
     target/release/report preview pool=build/look.mcap --out build/look.html";
@@ -167,6 +173,7 @@ impl Action {
             Self::Sweep(f) => Some(&mut f.out),
             Self::Compare(f) => Some(&mut f.out),
             Self::Preview(f) => Some(&mut f.out),
+            Self::Live(f) => Some(&mut f.out),
             Self::Index(f) => Some(&mut f.out),
             Self::Validate { .. }
             | Self::Figures { .. }
@@ -206,6 +213,7 @@ impl Action {
             Self::Preview(f) => named(&[&f.looks]),
             Self::Index(f) => f.read(),
             Self::Compare(_)
+            | Self::Live(_)
             | Self::Validate { .. }
             | Self::Figures { .. }
             | Self::Probes { .. }
@@ -260,6 +268,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
         Action::Sweep(_) => ("--points", true),
         Action::Compare(_) => ("--a and --b", true),
         Action::Preview(_) => ("FILE.mcap", true),
+        Action::Live(_) => ("FOLDER", true),
         Action::Manual(_) => ("--into", true),
     };
     if !given {
@@ -281,6 +290,7 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Sweep(files) => page::sweep::write(files).map(|()| ExitCode::SUCCESS),
         Action::Compare(files) => page::pair::write(files).map(|()| ExitCode::SUCCESS),
         Action::Preview(files) => page::preview::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Live(files) => page::live::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Figures { pool } => figures::run(pool),
         Action::Probes {

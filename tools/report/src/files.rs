@@ -177,6 +177,33 @@ fn look(word: &str) -> Result<(String, PathBuf), String> {
     })
 }
 
+/// What a live page is about.
+#[derive(Debug, clap::Args)]
+pub(crate) struct LiveFiles {
+    /// Folder in which the study runs: build/STUDY.
+    pub(crate) folder: PathBuf,
+    /// The page to write.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Time between two renewals [s].
+    #[arg(long, default_value_t = 10.0, value_parser = pause)]
+    pub(crate) every_s: f64,
+    /// Writes it once.
+    #[arg(long)]
+    pub(crate) once: bool,
+}
+
+/// A pause from a second to an hour.
+fn pause(word: &str) -> Result<f64, String> {
+    let seconds: f64 = word
+        .parse()
+        .map_err(|_| "wanted is a time in s".to_owned())?;
+    match (1.0..=3600.0).contains(&seconds) {
+        true => Ok(seconds),
+        false => Err(format!("{seconds} s is out of range: from 1 s to 3600 s")),
+    }
+}
+
 /// Folders of the index.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Folders {

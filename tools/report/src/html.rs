@@ -37,6 +37,8 @@ pub(crate) struct Page {
     title: String,
     lead: String,
     sections: Vec<(String, String)>,
+    /// After so many seconds it is loaded anew.
+    renewed_s: Option<f64>,
 }
 
 impl Page {
@@ -46,7 +48,13 @@ impl Page {
             title: title.to_owned(),
             lead: lead.to_owned(),
             sections: Vec::new(),
+            renewed_s: None,
         }
+    }
+
+    /// Browsers load it anew after so many seconds.
+    pub(crate) fn renew(&mut self, seconds: f64) {
+        self.renewed_s = Some(seconds);
     }
 
     /// Adds a section with a heading and a body (HTML); nothing if the body is empty.
@@ -76,10 +84,17 @@ impl Page {
             true => format!("<script>\n{SLIDER}</script>\n"),
             false => String::new(),
         };
+        let renewal = |seconds: f64| {
+            format!(
+                "<meta http-equiv=\"refresh\" content=\"{:.0}\">\n",
+                seconds.ceil()
+            )
+        };
+        let renewal = self.renewed_s.map_or_else(String::new, renewal);
         format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             {renewal}<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
              <header>\n<h1>{title}</h1>\n{}</header>\n{nav}{bodies}</main>\n{script}</body>\n</html>\n",
             self.lead
         )

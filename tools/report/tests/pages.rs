@@ -436,3 +436,45 @@ fn what_was_not_run_is_not_judged_and_failing_machines_have_a_table() {
     assert!(html.contains("not judged: level 3 was not run") && !html.contains("targets missed"));
     assert!(html.contains("30 kills at random moments (seed 7)"));
 }
+
+#[test]
+fn a_live_page_shows_what_a_stage_has_written_and_renews_itself_while_it_runs() {
+    let folder = folder("live");
+    sample::weld(&folder.join("whole"), (8.0, 5), true);
+    let bytes = std::fs::read(folder.join("whole")).unwrap();
+    // The end is not written yet.
+    let part = folder.join("pool.mcap.part");
+    std::fs::write(&part, &bytes[..bytes.len() * 9 / 10]).unwrap();
+    let out = folder.join("live.html");
+    let words = [
+        "live",
+        folder.to_str().unwrap(),
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    let once = [&words[..], &["--once"]].concat();
+    assert!(report(&once).status.success());
+    let html = std::fs::read_to_string(&out).unwrap();
+    assert!(html.contains("Running: pool") && html.contains("simulated") && html.contains("<img"));
+    assert!(!html.contains("http-equiv"));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_report"))
+        .args(words)
+        .args(["--every-s", "1"])
+        .spawn()
+        .unwrap();
+    let renews = || {
+        let html = std::fs::read_to_string(&out).unwrap_or_default();
+        html.contains("http-equiv=\"refresh\" content=\"1\"")
+    };
+    let mut waited = 0;
+    while !renews() && waited < 200 {
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        waited += 1;
+    }
+    assert!(renews());
+    // Once nothing runs any more it ends, and is not loaded anew.
+    std::fs::remove_file(&part).unwrap();
+    assert!(child.wait().unwrap().success());
+    let html = std::fs::read_to_string(&out).unwrap();
+    assert!(html.contains("No stage is running") && !html.contains("http-equiv"));
+}

@@ -35,6 +35,15 @@ impl Canvas {
         }
     }
 
+    /// A picture of the given width and height from its pixels by rows, three bytes each; what is missing is white.
+    pub(crate) fn of_rgb([width, height]: [usize; 2], rgb: &[u8]) -> Self {
+        let mut canvas = Self::new(width, height);
+        for (pixel, bytes) in canvas.pixels.iter_mut().zip(rgb.chunks_exact(3)) {
+            *pixel = [0, 1, 2].map(|k| f32::from(bytes[k]) / 255.0);
+        }
+        canvas
+    }
+
     /// Draws with nothing going beyond `rect`.
     pub(crate) fn within(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
         let before = self.open;

@@ -2,6 +2,7 @@
 
 mod absence;
 mod bench;
+mod cards;
 mod certified;
 mod cost;
 mod faults;
@@ -16,6 +17,7 @@ use run::Failure;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
+use self::cards::{Card, cards};
 use self::cost::{Cost, Prices};
 use crate::files::{Folders, save};
 use crate::html::{Page, escape, note, paragraph};
@@ -195,22 +197,22 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         .collect())
 }
 
-/// Links to the pages of studies, and what their runs spent and left out.
+/// Cards of the pages of studies, and what their runs spent and left out.
 fn studies(folder: &Path, out: &Path, prices: &Prices) -> Result<String, Failure> {
     let mut folders = entries(folder)?;
     folders.sort();
     let from = out.parent().unwrap_or(Path::new("."));
-    let mut links = String::new();
+    let mut found = Vec::new();
     let mut records = Vec::new();
     for study in &folders {
         let name = study.file_name().unwrap_or_default().to_string_lossy();
         let mut link = |page: &Path, words: &str| {
-            let target = relative(from, page);
-            links += &format!(
-                "<li><a href=\"{}\">{}</a></li>\n",
-                escape(&target),
-                escape(words)
-            );
+            found.push(Card {
+                name: words.to_owned(),
+                link: relative(from, page),
+                // A page that cannot be read is linked to all the same.
+                page: std::fs::read_to_string(page).unwrap_or_default(),
+            });
         };
         let page = study.join("report.html");
         if page.is_file() {
@@ -222,7 +224,7 @@ fn studies(folder: &Path, out: &Path, prices: &Prices) -> Result<String, Failure
             link(&page, &format!("{name}: {sweep}"));
         }
     }
-    if links.is_empty() {
+    if found.is_empty() {
         return Ok(paragraph("Nothing here yet."));
     }
     let costs: Vec<Cost> = records
@@ -233,7 +235,7 @@ fn studies(folder: &Path, out: &Path, prices: &Prices) -> Result<String, Failure
         })
         .collect();
     let table = cost::table("Run", &costs, prices);
-    Ok(format!("<ul>\n{links}</ul>\n{table}"))
+    Ok(cards(&found) + &table)
 }
 
 /// The pages of sweeps of a study: those with a folder of points beside them.

@@ -15,6 +15,7 @@ mod flux;
 pub(crate) mod gas;
 pub(crate) mod heat;
 pub(crate) mod jet;
+pub(crate) mod live;
 mod mean;
 pub(crate) mod pair;
 pub(crate) mod passes;

@@ -4,7 +4,7 @@ pub(super) mod curves;
 pub(super) mod numbers;
 pub(super) mod pictures;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use artefact::Reader;
 use run::Failure;
@@ -45,6 +45,17 @@ impl Member {
         })
     }
 
+    /// A run of one stage that is not whole yet.
+    ///
+    /// # Errors
+    /// When nothing of it can be read.
+    pub(super) fn part(stage: &str, path: &PathBuf) -> Result<Self, Failure> {
+        Ok(Self {
+            name: stage.to_owned(),
+            stages: vec![Stage::of(stage, path, Reader::recover(path)?)?],
+        })
+    }
+
     /// A stage by its name.
     pub(super) fn stage(&self, name: &str) -> Option<&Stage> {
         self.stages.iter().find(|stage| stage.name == name)
@@ -53,7 +64,10 @@ impl Member {
 
 impl Stage {
     fn open(name: &str, path: &PathBuf) -> Result<Self, Failure> {
-        let reader = Reader::open(path)?;
+        Self::of(name, path, Reader::open(path)?)
+    }
+
+    fn of(name: &str, path: &Path, reader: Reader) -> Result<Self, Failure> {
         reader.must_be_known()?;
         let welds = reader.header().kind == "particle-frames"
             && reader.has("/plate")
