@@ -1,19 +1,29 @@
 //! A few steps taken to tell how long a run will last.
 
+use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
+use particles::POSITION;
 use run::{Estimate, Failure, Inputs, duration};
 
 use crate::assemble::{Assembled, assemble};
+use crate::march::March;
 use crate::scene::{Scene, StartState};
+use crate::state::{ENTHALPY, State, TEMPERATURE};
+use crate::vector::{minus, squared};
 
 /// Steps ahead of those that are timed: they fill the lists.
 const WARM: u64 = 2;
 /// The timed steps end with this number or after this time.
 const MOST: u64 = 50;
 const LONGEST: Duration = Duration::from_millis(500);
+/// Part of the heat that melts metal, about: the rest warms what stays solid.
+const MELTS: f64 = 0.35;
+/// Temperature of the pool over the melting point.
+const ABOVE: f64 = 1.1;
 
-/// Time of the whole run, if every step lasts as long as the first ones.
+/// Time of the whole run, if every step lasts as long as the first ones; where a pool is still to melt, as long as those with
+/// a pool do.
 ///
 /// # Errors
 /// What assembling or a step reports.
@@ -24,8 +34,41 @@ pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failu
         ..
     } = assemble(scene, inputs)?;
     let total = scene.steps();
+    let mut timed = timed(&mut march, &mut state, total)?;
+    let mut basis = if scene.has_metal() {
+        let liquid = state.liquid();
+        format!("with the {liquid} liquid particles of the start")
+    } else {
+        String::new()
+    };
+    let pool = Pool::of(scene, &state, &march).filter(|_| melts(scene));
+    if let Some(pool) = pool {
+        pool.melt(&mut state);
+        timed = self::timed(&mut march, &mut state, total)?;
+        basis = format!("with a pool of some {} particles", pool.particles);
+    }
+    let each = short(timed.each);
+    Ok(Estimate {
+        seconds: timed.whole * total as f64,
+        basis: match basis.as_str() {
+            "" => format!("{each} a step"),
+            with => format!("{each} a step, {with}"),
+        },
+        memory: Vec::new(),
+    })
+}
+
+/// What steps took \[s\]: one of those taken, and one of the scene's length.
+#[derive(Debug, Clone, Copy)]
+struct Timed {
+    each: f64,
+    whole: f64,
+}
+
+/// Takes a few steps of at most `total`.
+fn timed(march: &mut March, state: &mut State, total: u64) -> Result<Timed, Failure> {
     let mut step = || {
-        let done = march.step(&mut state, u64::MAX, |_, work| work());
+        let done = march.step(state, u64::MAX, |_, work| work());
         done.map_err(|e| Failure::Other(e.to_string()))
     };
     for _ in 0..WARM.min(total) {
@@ -38,28 +81,95 @@ pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failu
         taken += 1;
     }
     let spent = began.elapsed().as_secs_f64();
-    let each = spent / taken as f64;
-    Ok(Estimate {
-        seconds: spent / passed as f64 * total as f64,
-        basis: if scene.has_metal() {
-            format!(
-                "{} a step, with the {} liquid particles of the start",
-                short(each),
-                state.liquid()
-            )
-        } else {
-            format!("{} a step", short(each))
-        },
-        memory: Vec::new(),
+    Ok(Timed {
+        each: spent / taken as f64,
+        whole: spent / passed as f64,
     })
 }
 
-/// Why steps become longer than those that are timed: a pool that is still to melt.
-pub(crate) fn grows(scene: &Scene) -> Option<&'static str> {
+/// A pool as large as the heat of a run melts.
+struct Pool {
+    particles: usize,
+    centre: [f64; 3],
+    /// Of its metal: \[K\] and \[J/kg\].
+    temperature: f64,
+    enthalpy: f64,
+}
+
+impl Pool {
+    /// The half sphere that the heat melts while its source goes as far as it is large, or until the end:
+    ///
+    /// ```text
+    /// V = f P t / (rho dh),   t = min(end, L/v),   V = 2/3 pi L^3
+    /// ```
+    ///
+    /// A guess within a factor of two or so; nothing where no heat has a place.
+    fn of(scene: &Scene, state: &State, march: &March) -> Option<Self> {
+        let caloric = scene.heat.as_ref()?.caloric().ok()?;
+        let melting = caloric.melting_point()?;
+        let torch = scene.torches.first();
+        let stand = torch.map(|torch| torch.stand(torch.path.burns()[0]).place);
+        let centre = state.source.map(|source| source.position).or(stand)?;
+        let put = |name: &str| name.starts_with("energy_in_") && name != "energy_in_droplets_j";
+        let figures = march.figures().into_iter().map(|(_, figure)| figure);
+        let figures = figures.filter(|figure| put(figure.name));
+        let heated = figures.map(|figure| figure.value).sum::<f64>() / state.time;
+        let droplets = scene.wires().filter_map(|wire| {
+            let kelvin = wire.droplets.temperature_k.filter(|t| caloric.covers(*t))?;
+            let volume = 4.0 / 3.0 * PI * wire.droplets.radius_m.powi(3);
+            let mass = scene.density_kg_m3 * volume;
+            Some(mass * caloric.enthalpy(kelvin) / scene.droplet_period(&wire)?)
+        });
+        let power = heated + droplets.sum::<f64>();
+        // Not a number at time 0 too.
+        if power.is_nan() || power <= 0.0 {
+            return None;
+        }
+        let temperature = (ABOVE * melting).min(caloric.range().1);
+        let enthalpy = caloric.enthalpy(temperature);
+        let melted = MELTS * power / (scene.density_kg_m3 * caloric.halfway(1.0));
+        let along = scene
+            .source
+            .map(|source| squared(source.velocity_m_s).sqrt());
+        let speed = along.or_else(|| torch?.path.speed_m_s).unwrap_or(0.0);
+        let length = (1.5 * melted / (PI * speed)).sqrt();
+        let volume = melted * (length / speed).min(scene.time.end_s);
+        let particles = volume / state.metal.matter.volume();
+        Some(Self {
+            particles: (particles as usize).clamp(1, state.len()),
+            centre,
+            temperature,
+            enthalpy,
+        })
+    }
+
+    /// Melts the particles that are nearest to its centre.
+    fn melt(&self, state: &mut State) {
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
+        let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
+        let mut nearest: Vec<(f64, usize)> = (places.iter().enumerate())
+            .map(|(a, x)| (squared(minus(*x, self.centre)), a))
+            .collect();
+        nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, a) in &nearest[..self.particles.min(nearest.len())] {
+            enthalpies[*a] = self.enthalpy;
+            temperatures[*a] = self.temperature;
+        }
+    }
+}
+
+/// Whether a pool is still to melt.
+fn melts(scene: &Scene) -> bool {
     let melts = scene.heat.as_ref().is_some_and(|h| h.melting.is_some()) && scene.flow.is_some();
-    let fed = scene.arc.is_some() || scene.wires().next().is_some();
+    let fed = scene.arc.is_some() || !scene.torches.is_empty() || scene.wires().next().is_some();
     let dry = scene.bodies.iter().all(|b| b.state != StartState::Liquid);
-    (melts && fed && dry).then_some("steps last longer once there is a pool")
+    melts && fed && dry
+}
+
+/// Why steps become longer than those that are timed: a pool that is still to melt, and no source that says where.
+pub(crate) fn grows(scene: &Scene) -> Option<&'static str> {
+    let placed = scene.source.is_some() || !scene.torches.is_empty();
+    (melts(scene) && !placed).then_some("steps last longer once there is a pool")
 }
 
 /// Milliseconds with digits where they are few.
