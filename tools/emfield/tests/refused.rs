@@ -77,6 +77,14 @@ fn domains_of_any_size_are_refused_by_their_number_of_points() {
         );
         assert!(began.elapsed().as_secs_f64() < 8.0, "{high}");
     }
+    let mut vast = ball(5e-4);
+    vast["bodies"][0]["shape"]["sphere"]["radius_m"] = json!(1e300);
+    let (code, said) = check(&vast);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(
+        said.contains("/bodies/0/shape: ") && !said.contains("panic"),
+        "{said}"
+    );
     let (code, said) = check(&ball(5e-4));
     assert_eq!(code, Some(0), "{said}");
 }

@@ -84,6 +84,18 @@ pub(crate) fn check(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
         );
         return Err(vec![Fault::at("/domain", what)]);
     }
+    for (k, solid) in layout.solids.iter().enumerate() {
+        let [low, high] = solid.body.bounds();
+        let widest = (0..layout.dimensions).fold(0.0_f64, |w, k| w.max(high[k] - low[k]));
+        // What is infinite has a face in the domain alone.
+        if widest.is_finite() && widest > ACROSS * solid.spacing {
+            let what = format!(
+                "is {widest:.1e} m wide, {:.1e} spacings; at most {ACROSS:.0e}, beyond which places are not told apart",
+                widest / solid.spacing
+            );
+            return Err(vec![Fault::at(&format!("/bodies/{k}/shape"), what)]);
+        }
+    }
     let least = least(scene, layout);
     let what = format!(
         "spacing {} m in this domain gives at least {:.1e} points",
