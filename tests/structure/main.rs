@@ -44,7 +44,8 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "run" => &["artefact", "manual"],
         "columns" => &["artefact", "particles"],
         "fuzz" => &["artefact"],
-        "report" | "sweep" => &["artefact", "manual", "run"],
+        "report" => &["artefact", "manual", "neighbours", "run"],
+        "sweep" => &["artefact", "manual", "run"],
         "verification" => &["artefact", "kernels", "neighbours", "relax", "run", "wls"],
         _ => return NUMERICS.iter().chain(&HARNESS).copied().collect(),
     };

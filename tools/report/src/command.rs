@@ -7,11 +7,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 use run::{Failure, Form, Owned};
 
 use crate::files::{
-    DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, LiveFiles, PageFiles, PairFiles,
-    PassesFiles, PreviewFiles, SweepFiles, perhaps_named,
+    CalculixFiles, DropFiles, FieldFiles, Folders, GasFiles, HeatFiles, JetFiles, LiveFiles,
+    PageFiles, PairFiles, PassesFiles, PreviewFiles, SweepFiles, perhaps_named,
 };
 use crate::measure::heat_affected::AC1;
-use crate::{figures, index, page, probes, validate};
+use crate::{figures, handover, index, page, probes, validate};
 
 /// Pictures, plots and tables from artefacts and records, as self-contained HTML pages.
 #[derive(Debug, Parser)]
@@ -68,6 +68,14 @@ enum Action {
         #[arg(long)]
         pool: PathBuf,
     },
+    /// Prints the pool of a weld as a double ellipsoid (Goldak), a heat source for other programs.
+    Goldak {
+        /// Particle frames of the weld.
+        pool: PathBuf,
+    },
+    /// Writes the temperatures of a run at the nodes of a mesh, as steps of CalculiX.
+    #[command(after_help = CALCULIX)]
+    Calculix(CalculixFiles),
     /// Prints results of thermocouples as CSV: peaks, cooling times, the heat-affected zone; or their curves.
     Probes {
         /// Particle frames with probes, or points with monitors.
@@ -123,6 +131,10 @@ const GAS: &str = "Example, from the repository root:\n  \
     target/release/report gas --study gases --out build/gases/report.html \\\n    \
     --table argon=build/gases/argon.mcap --reference argon=pipelines/gases/reference-argon.json";
 
+const CALCULIX: &str = "Steps are static, of the length of time between frames; what else a step needs (supports, materials) stands before them \
+    in the input of the mesh. Exit code 3 where nodes lie in no metal. Example, from the repository root:\n  \
+    target/release/report calculix build/gmaw-quick/pool.mcap --mesh plate.inp --unit-m 0.001 --out build/plate";
+
 const LIVE: &str = "It ends when nothing has been written in the folder for a minute. Example, from the repository root:\n  \
     target/release/report live build/gmaw-quick --out build/gmaw-quick/live.html";
 
@@ -177,6 +189,8 @@ impl Action {
             Self::Index(f) => Some(&mut f.out),
             Self::Validate { .. }
             | Self::Figures { .. }
+            | Self::Goldak { .. }
+            | Self::Calculix(_)
             | Self::Probes { .. }
             | Self::Manual(_) => None,
         }
@@ -216,6 +230,8 @@ impl Action {
             | Self::Live(_)
             | Self::Validate { .. }
             | Self::Figures { .. }
+            | Self::Goldak { .. }
+            | Self::Calculix(_)
             | Self::Probes { .. }
             | Self::Manual(_) => Vec::new(),
         }
@@ -260,6 +276,7 @@ fn complete(action: &Action) -> Result<(), Failure> {
             ("--pool or --arc", given)
         }
         Action::Figures { .. } => ("--pool", true),
+        Action::Goldak { .. } | Action::Calculix(_) => ("FILE", true),
         Action::Probes { .. } => ("FILE", true),
         Action::Heat(_) | Action::Jet(_) => ("--frames", true),
         Action::Field(_) => ("--fields", true),
@@ -293,6 +310,8 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Live(files) => page::live::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Figures { pool } => figures::run(pool),
+        Action::Goldak { pool } => handover::goldak::run(pool),
+        Action::Calculix(files) => handover::calculix::run(files),
         Action::Probes {
             file,
             curves,

@@ -204,6 +204,39 @@ fn pause(word: &str) -> Result<f64, String> {
     }
 }
 
+/// What is handed over to CalculiX.
+#[derive(Debug, clap::Args)]
+pub(crate) struct CalculixFiles {
+    /// Particle frames of a weld, or points of a body that conducts heat.
+    pub(crate) frames: PathBuf,
+    /// The mesh: a file with nodes under *NODE, as CalculiX and Abaqus read it.
+    #[arg(long)]
+    pub(crate) mesh: PathBuf,
+    /// What is written: OUT-start.inp and OUT-steps.inp.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Length unit of the mesh [m]: 0.001 for mm.
+    #[arg(long, default_value_t = 1.0, value_parser = length)]
+    pub(crate) unit_m: f64,
+    /// Temperatures in degrees Celsius, not in K.
+    #[arg(long)]
+    pub(crate) celsius: bool,
+    /// Only every N-th frame, from the first on.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) every: u32,
+}
+
+/// A length above zero.
+fn length(word: &str) -> Result<f64, String> {
+    let metres: f64 = word
+        .parse()
+        .map_err(|_| "wanted is a length in m".to_owned())?;
+    match metres.is_finite() && metres > 0.0 {
+        true => Ok(metres),
+        false => Err(format!("{metres} m is out of range: above 0 m")),
+    }
+}
+
 /// Folders of the index.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Folders {

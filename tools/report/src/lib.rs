@@ -14,6 +14,7 @@ mod figures;
 mod files;
 mod flux;
 mod gas;
+mod handover;
 mod heat;
 mod html;
 mod index;

@@ -149,6 +149,11 @@ impl Weld {
         }
     }
 
+    /// Whether a particle is of the plate or of the bead, and no spatter.
+    pub(crate) fn belongs(&self, i: usize) -> bool {
+        self.joined[i]
+    }
+
     /// Whether particle `i` has ever been liquid: from half of the latent heat on.
     pub(crate) fn was_liquid(&self, i: usize) -> bool {
         self.fused[i] >= 0.5

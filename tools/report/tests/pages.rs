@@ -5,6 +5,8 @@
 mod beside;
 #[path = "pages/browser.rs"]
 mod browser;
+#[path = "pages/handover.rs"]
+mod handover;
 mod sample;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,6 @@
+//! What distortion programs take over: temperatures at the nodes of a mesh, and a fitted heat source.
+
+pub(crate) mod calculix;
+mod field;
+pub(crate) mod goldak;
+mod mesh;
