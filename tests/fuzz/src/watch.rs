@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 
 /// Most that is read of what a program said \[byte\].
 const SAID: u64 = 1 << 20;
-/// On a busy machine a program may wait this many times as long as it works.
+/// A program may do nothing for this many times as long as it may work; what it waits for a processor on a busy machine is
+/// not counted.
 const PATIENCE: u32 = 6;
 /// Ticks of the processor's clock in a second, on Linux.
 const TICKS: f64 = 100.0;
@@ -90,7 +91,9 @@ fn await_end(
         let clock = began.elapsed();
         if peak(child.id()) > bounds.memory {
             over = Some("memory");
-        } else if clock > bounds.time * PATIENCE || worked(child.id()) > bounds.time {
+        } else if worked(child.id()) > bounds.time
+            || clock.saturating_sub(delayed(child.id())) > bounds.time * PATIENCE
+        {
             over = Some("time");
         } else if stop.is_some_and(|at| clock > at) {
             stop = None;
@@ -123,6 +126,18 @@ fn worked(process: u32) -> Duration {
     let ticks = after.split_whitespace().skip(11).take(2);
     let ticks: f64 = ticks.filter_map(|t| t.parse::<f64>().ok()).sum();
     Duration::from_secs_f64(ticks / TICKS)
+}
+
+/// The longest that a thread of it has been ready and waited for a processor.
+fn delayed(process: u32) -> Duration {
+    let tasks = std::fs::read_dir(format!("/proc/{process}/task"));
+    let tasks = tasks.into_iter().flatten().flatten();
+    let delays = tasks.filter_map(|task| {
+        // Time at work, time in wait, turns.
+        let told = std::fs::read_to_string(task.path().join("schedstat")).ok()?;
+        told.split_whitespace().nth(1)?.parse().ok()
+    });
+    Duration::from_nanos(delays.max().unwrap_or(0))
 }
 
 fn said(path: &Path) -> Vec<u8> {
