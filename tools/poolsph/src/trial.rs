@@ -180,3 +180,57 @@ fn short(seconds: f64) -> String {
         duration(seconds)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::PHASE;
+
+    /// A torch of 2 kW over a plate that melts at 1500 K: c = 500 J/(kg K), L = 2e5 J/kg, from 300 K.
+    fn plate(more: &str) -> Scene {
+        let text = format!(
+            r#"{{"spacing_m": 5e-4, "time": {{"step_s": 1e-4, "end_s": 10}}, "density_kg_m3": 8000,
+            "bodies": [{{"shape": {{"box": {{"min_m": [-0.01, 0, -0.004], "max_m": [0.01, 0.02, 0]}}}}, "state": "solid", "temperature_k": 300}}],
+            "flow": {{"viscosity_pa_s": 0.005}}, "flow_start": {{"liquid_particles": 1}},
+            "heat": {{"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 500, "melting": {{"point_k": 1500, "latent_heat_j_kg": 2e5}}}},
+            "torches": [{{"power_w": 2000, "path": {{"points_m": [[0, 0.01, 0], [0, 0.02, 0]], "speed_m_s": 0.01}},
+                "shape": {{"gaussian": {{"radius_m": 0.003}}}}}}]{more},
+            "output": {{"particles_interval_s": 1}}}}"#
+        );
+        serde_json::from_str(&text).unwrap()
+    }
+
+    #[test]
+    fn a_pool_is_as_large_as_the_heat_melts_while_the_source_goes_as_far() {
+        let scene = plate("");
+        let mut run = assemble(&scene, &Inputs::none()).unwrap();
+        timed(&mut run.march, &mut run.state, scene.steps()).unwrap();
+        let pool = Pool::of(&scene, &run.state, &run.march).unwrap();
+        // Enthalpies count from 0 K: dh = 500 x 1500 + 2e5 J/kg.
+        let melted = MELTS * 2000.0 / (8000.0 * 9.5e5);
+        let length = (1.5 * melted / (PI * 0.01)).sqrt();
+        let exact = 2.0 / 3.0 * PI * length.powi(3) / 5e-4_f64.powi(3);
+        let found = pool.particles as f64;
+        assert!((found / exact - 1.0).abs() < 0.01, "{found} {exact}");
+        pool.melt(&mut run.state);
+        run.march
+            .step(&mut run.state, u64::MAX, |_, work| work())
+            .unwrap();
+        let phases = run.state.metal.column(&PHASE);
+        let liquid = phases.iter().filter(|p| **p == crate::state::phase::LIQUID);
+        assert!((liquid.count() as f64 / found - 1.0).abs() < 0.1);
+    }
+
+    #[test]
+    fn only_what_is_still_to_melt_is_foretold_with_a_pool() {
+        let scene = plate("");
+        assert!(melts(&scene) && grows(&scene).is_none());
+        let told = estimate(&scene, &Inputs::none()).unwrap();
+        assert!(told.basis.contains("with a pool of some"), "{}", told.basis);
+        let mut cold = scene;
+        cold.torches.clear();
+        assert!(!melts(&cold));
+        let told = estimate(&cold, &Inputs::none()).unwrap();
+        assert!(told.basis.contains("of the start"), "{}", told.basis);
+    }
+}

@@ -267,3 +267,25 @@ fn noise(number: usize) -> f64 {
     z ^= z >> 31;
     (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_glued_grains_have_the_columns_of_a_body() {
+        let filled = |more: &str| {
+            let text = format!(
+                r#"{{"density_kg_m3": 2500,
+                "contact": {{"law": {{"linear": {{"stiffness_n_m": 200}}}}, "restitution": 0.6}},
+                "bodies": [{{"shape": {{"box": {{"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 2e-3]}}}}, "radius_m": 1e-3{more}}}]}}"#
+            );
+            fill(&serde_json::from_str(&text).unwrap(), &[]).0
+        };
+        let (free, glued) = (filled(""), filled(r#", "glued": true"#));
+        assert_eq!(free.len(), glued.len());
+        assert!(glued.has(&GLUED) && glued.has(&GLUED_AT));
+        assert!(!free.has(&GLUED) && !free.has(&GLUED_AT));
+        assert!(free.bytes() < glued.bytes());
+    }
+}
