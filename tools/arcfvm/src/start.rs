@@ -86,7 +86,8 @@ impl Other {
     }
 
     /// As [`Self::value`], from cells of the kind `own` alone where there are any.
-    fn value_within(&self, column: &[f64], (r, z): (f64, f64), own: f64) -> f64 {
+    fn value_within(&self, column: &[f64], place: [f64; 2], own: f64) -> f64 {
+        let [r, z] = place;
         let nodes = self.around(r, z);
         let Some(kinds) = self.column("material") else {
             return self.value(column, r, z);
@@ -115,7 +116,7 @@ pub fn take(arc: &mut Arc, path: &std::path::Path) -> Result<Option<String>, Fai
         .map(|k| role(arc, arc.case.material[k] as f64))
         .collect();
     let grid = &arc.case.grid;
-    let centre = |k: usize| (grid.rc[k % grid.nr], grid.zc[k / grid.nr]);
+    let centre = |k: usize| [grid.rc[k % grid.nr], grid.zc[k / grid.nr]];
     if let Some(column) = other.column("temperature_k") {
         let start = &mut arc.case.start;
         for (k, t) in start.iter_mut().enumerate() {
@@ -315,7 +316,7 @@ mod tests {
         }
         assert!((other.value(&values, 9.0, 9.0) - field(2.5, 3.0)).abs() < 1e-12);
         // Only the lower cells at 1.5 and 2.5 are of kind 1.
-        let found = other.value_within(&values, (2.0, 2.5), 1.0);
+        let found = other.value_within(&values, [2.0, 2.5], 1.0);
         assert!((found - field(2.0, 1.0)).abs() < 1e-12);
     }
 }

@@ -47,9 +47,13 @@ impl Energy {
             for i in 1..grid.nr {
                 let cells = [grid.cell(i - 1, j), grid.cell(i, j)];
                 let ways = [0.5 * grid.dr[i - 1], 0.5 * grid.dr[i]];
-                let (face, area) = (grid.radial_face(i, j), grid.area(i, j));
-                let passed = (area, around.mass(FaceIndex::Radial(face)));
-                let link = between.through(cells, ways, [grid.rf[i], grid.zc[j]], passed);
+                let face = grid.radial_face(i, j);
+                let passed = Face {
+                    place: [grid.rf[i], grid.zc[j]],
+                    area: grid.area(i, j),
+                    mass: around.mass(FaceIndex::Radial(face)),
+                };
+                let link = between.through(cells, ways, passed);
                 if let Some(link) = link {
                     self.radial[face] = link.conductance;
                 }
@@ -70,9 +74,13 @@ impl Energy {
             for j in 1..grid.nz {
                 let cells = [grid.cell(i, j - 1), grid.cell(i, j)];
                 let ways = [0.5 * grid.dz[j - 1], 0.5 * grid.dz[j]];
-                let (face, area) = (grid.axial_face(i, j), grid.ring[i]);
-                let passed = (area, around.mass(FaceIndex::Axial(face)));
-                let link = between.through(cells, ways, [grid.rc[i], grid.zf[j]], passed);
+                let face = grid.axial_face(i, j);
+                let passed = Face {
+                    place: [grid.rc[i], grid.zf[j]],
+                    area: grid.ring[i],
+                    mass: around.mass(FaceIndex::Axial(face)),
+                };
+                let link = between.through(cells, ways, passed);
                 if let Some(link) = link {
                     self.axial[face] = link.conductance;
                 }
@@ -90,6 +98,14 @@ impl Energy {
             }
         }
     }
+}
+
+/// A face between two cells: its middle \[m\], its area \[m2\], and the mass that passes \[kg/s\].
+#[derive(Debug, Clone, Copy)]
+struct Face {
+    place: [f64; 2],
+    area: f64,
+    mass: f64,
 }
 
 /// Cells, their temperatures, and the material of the clear bed, where there is one.
@@ -123,19 +139,15 @@ impl Between<'_> {
         (solid && self.bed_at(cells)).then(|| meet([first, second], ways, t, place))
     }
 
-    /// Between two cells through a face of `area` \[m2\]; slopes only in and around a clear bed, and where no `mass` passes.
-    fn through(
-        &self,
-        cells: [usize; 2],
-        ways: [f64; 2],
-        place: [f64; 2],
-        (area, mass): (f64, f64),
-    ) -> Option<Link> {
-        let link = self.cells(cells, ways, place)?;
-        let slopes = link.slopes.filter(|_| mass == 0.0 && self.bed_at(cells));
+    /// Between two cells through a face; slopes only in and around a clear bed, and where no mass passes.
+    fn through(&self, cells: [usize; 2], ways: [f64; 2], face: Face) -> Option<Link> {
+        let link = self.cells(cells, ways, face.place)?;
+        let slopes = link
+            .slopes
+            .filter(|_| face.mass == 0.0 && self.bed_at(cells));
         Some(Link {
-            conductance: area * link.conductance,
-            slopes: slopes.map(|slopes| slopes.map(|s| area * s)),
+            conductance: face.area * link.conductance,
+            slopes: slopes.map(|slopes| slopes.map(|s| face.area * s)),
         })
     }
 

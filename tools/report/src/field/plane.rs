@@ -238,7 +238,8 @@ impl Plane {
     pub(crate) fn arrows(
         &self,
         points: &Points,
-        (quantity, part): (&Quantity, Part),
+        quantity: &Quantity,
+        part: Part,
     ) -> Option<[Field; 2]> {
         let vectors = points.columns.vectors(quantity, part)?;
         let outer = points.surface.joined(&format!("{}_outer", quantity.stem));

@@ -123,10 +123,8 @@ impl Fit {
             if reach <= 0.0 {
                 return self.samples[near[0].1 as usize].value;
             }
-            let rows: Vec<([f64; 4], f64, f64)> = near
-                .iter()
-                .map(|(square, n)| self.row(p, reach, (*square, *n)))
-                .collect();
+            let rows: Vec<([f64; 4], f64, f64)> =
+                near.iter().map(|near| self.row(p, reach, *near)).collect();
             let done = wanted >= MANY || near.len() < wanted;
             if done || roundness(&rows) > ROUND {
                 return solve(&rows);
@@ -145,10 +143,8 @@ impl Fit {
             if reach <= 0.0 {
                 return near.first().map_or_else(Vec::new, |n| vec![(n.1, 1.0)]);
             }
-            let rows: Vec<([f64; 4], f64, f64)> = near
-                .iter()
-                .map(|(square, n)| self.row(p, reach, (*square, *n)))
-                .collect();
+            let rows: Vec<([f64; 4], f64, f64)> =
+                near.iter().map(|near| self.row(p, reach, *near)).collect();
             let done = wanted >= MANY || near.len() < wanted;
             if done || roundness(&rows) > ROUND {
                 let factors = factors(&rows);
@@ -166,7 +162,8 @@ impl Fit {
     }
 
     /// Basis, value and weight of a neighbour.
-    fn row(&self, p: [f64; 2], reach: f64, (square, n): (f64, u32)) -> ([f64; 4], f64, f64) {
+    fn row(&self, p: [f64; 2], reach: f64, near: (f64, u32)) -> ([f64; 4], f64, f64) {
+        let (square, n) = near;
         let sample = &self.samples[n as usize];
         let q = square / (reach * reach);
         let weight = (1.0 - q).powi(2) / (q + 0.02);

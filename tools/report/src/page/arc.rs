@@ -135,7 +135,7 @@ fn surface(table: &Table) -> String {
     ];
     let figures: Vec<String> = kinds
         .into_iter()
-        .map(|(curves, title, caption)| (plot(table, (radius, end), curves, title), caption))
+        .map(|(curves, title, caption)| (plot(table, radius, end, curves, title), caption))
         .filter(|(plot, _)| !plot.is_empty())
         .map(|(plot, caption)| figure(&plot.html(), &caption))
         .collect();
@@ -143,7 +143,7 @@ fn surface(table: &Table) -> String {
 }
 
 /// Curves over the radius \[m\] up to an end.
-fn plot(table: &Table, (radius, end): (&[f64], f64), curves: &[Curve<'_>], title: &str) -> Plot {
+fn plot(table: &Table, radius: &[f64], end: f64, curves: &[Curve<'_>], title: &str) -> Plot {
     let mut plot = Plot::new("radius r [mm]", title).through(0.0);
     for (column, name, factor) in curves {
         if let Ok(values) = table.values(column) {

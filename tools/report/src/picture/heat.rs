@@ -154,6 +154,13 @@ fn levels(points: &Points, scale: &Scale) -> Vec<f64> {
     levels
 }
 
+/// A temperature that is drawn: its level, its colour, and its pieces.
+struct Isotherm {
+    level: f64,
+    pen: Rgb,
+    lines: Vec<[[f64; 2]; 2]>,
+}
+
 struct View<'a> {
     points: &'a Points,
     field: &'a Field,
@@ -236,7 +243,7 @@ impl View<'_> {
 
     fn isotherms(&self, canvas: &mut Canvas, scale: &Scale, levels: &[f64]) {
         let materials = self.field.values.len();
-        let mut drawn = Vec::new();
+        let mut drawn: Vec<Isotherm> = Vec::new();
         for level in levels {
             let pen = contrast(scale.colour(*level));
             let mut lines = Vec::new();
@@ -251,11 +258,15 @@ impl View<'_> {
                 lines.extend(inside.map(|s| s.map(|p| p.map(|v| self.factor * v))));
             }
             self.axes.segments(canvas, &lines, (pen, 2.0));
-            drawn.push((*level, pen, lines));
+            drawn.push(Isotherm {
+                level: *level,
+                pen,
+                lines,
+            });
         }
         let mut labels: Vec<Rect> = Vec::new();
-        for (level, pen, lines) in drawn {
-            self.label(canvas, (level, pen), &lines, (scale, &mut labels));
+        for isotherm in &drawn {
+            self.label(canvas, isotherm, scale, &mut labels);
         }
     }
 
@@ -263,10 +274,11 @@ impl View<'_> {
     fn label(
         &self,
         canvas: &mut Canvas,
-        (level, pen): (f64, Rgb),
-        lines: &[[[f64; 2]; 2]],
-        (scale, labels): (&Scale, &mut Vec<Rect>),
+        isotherm: &Isotherm,
+        scale: &Scale,
+        labels: &mut Vec<Rect>,
     ) {
+        let level = isotherm.level;
         let text = number(level);
         let (w, h) = (Hand::Small.width(&text) + 8.0, 24.0);
         let area = self.axes.area;
@@ -289,7 +301,11 @@ impl View<'_> {
                 })
         };
         let far = |at: &[f64; 2]| (at[0] - middle[0]).hypot(4.0 * (at[1] - middle[1]));
-        let places = lines.iter().map(|[a, _]| self.axes.pixel(*a)).filter(free);
+        let places = isotherm
+            .lines
+            .iter()
+            .map(|[a, _]| self.axes.pixel(*a))
+            .filter(free);
         let Some(at) = places.min_by(|a, b| far(a).total_cmp(&far(b))) else {
             return;
         };
@@ -300,7 +316,13 @@ impl View<'_> {
             h,
         };
         canvas.fill(back, scale.colour(level));
-        write(canvas, at, &text, Hand::Small, (Stand::Middle, pen));
+        write(
+            canvas,
+            at,
+            &text,
+            Hand::Small,
+            (Stand::Middle, isotherm.pen),
+        );
         labels.push(Rect {
             x: at[0],
             y: at[1],

@@ -152,7 +152,7 @@ pub(crate) fn picture(preview: &Preview, view: View, by: By) -> Option<Canvas> {
         for i in &seen {
             point(canvas, &axes, preview, view, by, *i);
         }
-        marks(canvas, &axes, (preview, view));
+        marks(canvas, &axes, preview, view);
     });
     let name = |axis: usize| match (preview.look.coordinates, axis) {
         (Coordinates::Axisymmetric, 0) => "r [mm]",
@@ -226,7 +226,7 @@ fn numbered(preview: &Preview) -> impl Iterator<Item = (usize, &Mark)> {
         .flat_map(|kind| preview.marks(kind).enumerate())
 }
 
-fn marks(canvas: &mut Canvas, axes: &Axes, (preview, view): (&Preview, View)) {
+fn marks(canvas: &mut Canvas, axes: &Axes, preview: &Preview, view: View) {
     let pixel = |place: &[f64; 3]| axes.pixel([1e3 * place[view.right], 1e3 * place[view.up]]);
     for (number, mark) in numbered(preview) {
         let (colour, width) = pen(mark.kind, number);

@@ -40,7 +40,7 @@ pub(super) fn section(run: &Run) -> Result<String, Failure> {
 
 fn one(points: &Points, plane: &Plane, quantity: &Quantity) -> Result<Option<String>, Failure> {
     let (map, over) = look(points, quantity);
-    let Some(shown) = draw(points, plane, (quantity, map, over)) else {
+    let Some(shown) = draw(points, plane, quantity, map, over) else {
         return Ok(None);
     };
     let words = caption(points, plane, quantity, over, &shown);

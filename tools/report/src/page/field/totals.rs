@@ -138,7 +138,7 @@ fn table(run: &Run, record: &Record) -> String {
             .flatten()
             .rev()
             .find_map(|e| Some((e.value, known(e)?)));
-        if let Some(cells) = row(&words, all, (judged, exact)) {
+        if let Some(cells) = row(&words, all, judged, exact) {
             table.row(cells);
         }
     }
@@ -149,7 +149,8 @@ fn table(run: &Run, record: &Record) -> String {
 fn row(
     words: &str,
     all: [Option<&Entry>; 4],
-    (judged, exact): (bool, Option<(f64, f64)>),
+    judged: bool,
+    exact: Option<(f64, f64)>,
 ) -> Option<Vec<String>> {
     let unit = all.iter().flatten().next()?.unit.clone();
     let sizes = all.iter().flatten().map(|e| e.value.abs());

@@ -81,16 +81,18 @@ pub(super) fn section(runs: &[Run]) -> Result<String, Failure> {
 
 fn plots(curves: &Curves<'_>) -> String {
     side_by_side(&[
-        plot(curves, "heat_rate", ("heat rate", "Heat into the body")),
+        plot(curves, "heat_rate", "heat rate", "Heat into the body"),
         plot(
             curves,
             "heat",
-            ("heat", "Heat that came into the body since the start"),
+            "heat",
+            "Heat that came into the body since the start",
         ),
         plot(
             curves,
             "temperature",
-            ("temperature", "Mean temperature of the surface"),
+            "temperature",
+            "Mean temperature of the surface",
         ),
     ])
 }
@@ -123,7 +125,7 @@ fn rows(table: &mut Rows, run: &Run, series: &Series, entry: &str) {
 }
 
 /// A quantity over time.
-fn plot(curves: &Curves<'_>, what: &str, (title, words): (&str, &str)) -> String {
+fn plot(curves: &Curves<'_>, what: &str, title: &str, words: &str) -> String {
     let Some((_, first, entry)) = curves.first() else {
         return String::new();
     };

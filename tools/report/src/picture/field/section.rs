@@ -35,7 +35,9 @@ pub(crate) enum Over {
 pub(crate) fn section(
     points: &Points,
     plane: &Plane,
-    (quantity, map, over): (&Quantity, Map, Over),
+    quantity: &Quantity,
+    map: Map,
+    over: Over,
 ) -> Option<Shown> {
     let field = plane.field(points, quantity)?;
     let window = Window::new(points, &plane.view, MARGIN[2]);
@@ -56,7 +58,7 @@ pub(crate) fn section(
     match over {
         Over::Lines => step = drawing.lines(&mut canvas),
         Over::Arrows(part) => {
-            if let Some(vectors) = plane.arrows(points, (quantity, part)) {
+            if let Some(vectors) = plane.arrows(points, quantity, part) {
                 arrows = drawing.arrows(&mut canvas, &vectors);
             }
         }
