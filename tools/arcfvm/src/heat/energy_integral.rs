@@ -48,11 +48,8 @@ impl Energy {
                 let cells = [grid.cell(i - 1, j), grid.cell(i, j)];
                 let ways = [0.5 * grid.dr[i - 1], 0.5 * grid.dr[i]];
                 let face = grid.radial_face(i, j);
-                let passed = Face {
-                    place: [grid.rf[i], grid.zc[j]],
-                    area: grid.area(i, j),
-                    mass: around.mass(FaceIndex::Radial(face)),
-                };
+                let mass = around.mass(FaceIndex::Radial(face));
+                let passed = Face::new([grid.rf[i], grid.zc[j]], grid.area(i, j), mass);
                 let link = between.through(cells, ways, passed);
                 if let Some(link) = link {
                     self.radial[face] = link.conductance;
@@ -75,11 +72,8 @@ impl Energy {
                 let cells = [grid.cell(i, j - 1), grid.cell(i, j)];
                 let ways = [0.5 * grid.dz[j - 1], 0.5 * grid.dz[j]];
                 let face = grid.axial_face(i, j);
-                let passed = Face {
-                    place: [grid.rc[i], grid.zf[j]],
-                    area: grid.ring[i],
-                    mass: around.mass(FaceIndex::Axial(face)),
-                };
+                let mass = around.mass(FaceIndex::Axial(face));
+                let passed = Face::new([grid.rc[i], grid.zf[j]], grid.ring[i], mass);
                 let link = between.through(cells, ways, passed);
                 if let Some(link) = link {
                     self.axial[face] = link.conductance;
@@ -106,6 +100,12 @@ struct Face {
     place: [f64; 2],
     area: f64,
     mass: f64,
+}
+
+impl Face {
+    fn new(place: [f64; 2], area: f64, mass: f64) -> Self {
+        Self { place, area, mass }
+    }
 }
 
 /// Cells, their temperatures, and the material of the clear bed, where there is one.
