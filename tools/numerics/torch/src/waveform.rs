@@ -20,7 +20,7 @@ const NEAR: f64 = 8.0 * f64::EPSILON;
 #[serde(deny_unknown_fields)]
 pub struct Waveform {
     /// Length of a period \[s\].
-    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 1e-9), extend("x-unit" = "s"))]
     pub period_s: f64,
     /// Corners within the period \[s\], rising; two at the same time are a jump.
     #[schemars(extend("x-unit" = "s"), length(min = 1), inner(range(min = 0.0)))]
@@ -216,6 +216,20 @@ mod tests {
                 0.0
             };
             assert!((jump - asked).abs() < 1e-9, "{before}: {jump}");
+        }
+    }
+
+    #[test]
+    fn means_are_exact_after_many_periods() {
+        let short = Waveform {
+            period_s: 1e-9,
+            times_s: vec![0.0],
+            levels: vec![0.7],
+            start_s: 0.0,
+        };
+        for from in [0.0, 3.0, 1e4] {
+            let mean = short.mean(from, from + 0.1);
+            assert!((mean - 0.7).abs() < 1e-6, "{from}: {mean}");
         }
     }
 
