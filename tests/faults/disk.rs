@@ -97,7 +97,7 @@ fn a_folder_that_cannot_be_written_is_named() {
 }
 
 #[test]
-fn the_plan_tells_the_size_of_frames_and_what_a_cold_weld_cannot_tell() {
+fn the_plan_tells_the_size_of_frames_and_foretells_the_pool_of_a_cold_weld() {
     let weld = root().join("pipelines/gmaw-300a/pool.json");
     let place = Place::new();
     // Without what needs an arc, and at a coarse spacing.
@@ -114,6 +114,17 @@ fn the_plan_tells_the_size_of_frames_and_what_a_cold_weld_cannot_tell() {
             "output               at most ",
             "/particles                   11 x ",
             "/pool                        51 x ",
+            "time                 about ",
+            "a step, with a pool of some ",
+        ],
+    );
+    // Without a source nobody knows where the pool will be.
+    let placeless = r#"{"source": null, "droplets": null, "arc": {"flux_w_m2": 1e7}}"#;
+    let placeless = place.file("placeless.json", placeless);
+    check.arg("--patch").arg(&placeless);
+    told(&mut check).must(
+        0,
+        &[
             "time                 at least ",
             "with the 0 liquid particles of the start; steps last longer once there is a pool",
         ],
