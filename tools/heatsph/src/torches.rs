@@ -167,7 +167,13 @@ impl Torches {
     /// Keeps what of each torch lay inside until `end` \[s\], and tells where it was little.
     pub fn close(&self, end: f64, cloud: &Cloud, session: &mut Session) {
         for (number, inside) in self.inside(end, cloud).into_iter().enumerate() {
-            let Some(inside) = inside else { continue };
+            let Some(inside) = inside else {
+                let from = self.torches[number].path.burns()[0];
+                session.warn(format!(
+                    "torches/{number}: never burned until the end at {end} s: it burns from {from} s on"
+                ));
+                continue;
+            };
             session.closing(&format!("torch_{number}_inside_least"), "1", inside.least);
             session.closing(&format!("torch_{number}_lost"), "J", inside.lost);
             if let Some(told) = self.told(number, inside) {

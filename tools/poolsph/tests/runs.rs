@@ -433,3 +433,39 @@ fn faces_off_the_bodies_are_refused_by_name() {
     );
     assert!(said.contains("/flow/method"), "{said}");
 }
+
+#[test]
+fn an_arc_and_a_torch_that_give_nothing_are_told() {
+    let folder = folder();
+    let told = |key: &str, value: Value| {
+        let mut plate = json!({
+            "kind": "poolsph.scene", "version": 1, "title": "A plate",
+            "spacing_m": 1e-3, "time": {"step_s": 1e-3, "end_s": 0.01}, "density_kg_m3": 7850,
+            "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [8e-3, 8e-3, 4e-3]}}, "state": "solid", "temperature_k": 300}],
+            "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700},
+            "source": {"start_m": [4e-3, 4e-3, 4e-3], "velocity_m_s": [0, 0, 0]},
+            "output": {"particles_interval_s": 0.01}
+        });
+        plate[key] = value;
+        if key == "arcs" {
+            plate["arc"] = json!({"flux_w_m2": {"expr": "1e6*exp(-(r/1e-3)^2)"}});
+        }
+        let path = write(folder.path(), "plate.json", &plate);
+        let output = run(&path, &folder.path().join("plate.mcap"), &[]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), said)
+    };
+    let (code, said) = told("arcs", json!([{"offset_m": [1, 0, 0]}]));
+    assert_eq!(code, Some(3), "{said}");
+    assert!(said.contains("no heat at all"), "{said}");
+    let late = json!([{"power_w": 100, "shape": {"gaussian": {"radius_m": 2e-3}},
+        "path": {"points_m": [[4e-3, 4e-3, 4e-3]], "start_s": 1}}]);
+    let (code, said) = told("torches", late);
+    assert_eq!(code, Some(3), "{said}");
+    assert!(
+        said.contains("torches/0") && said.contains("from 1 s on"),
+        "{said}"
+    );
+    let (code, said) = told("arcs", json!([{}]));
+    assert_eq!(code, Some(0), "{said}");
+}

@@ -277,7 +277,13 @@ impl Folders {
             let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
             entries.map(|entry| entry.path())
         });
-        files.map(|path| ("a record".to_owned(), path)).collect()
+        let studies = self.studies.iter().flat_map(|folder| {
+            let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+            entries.map(|entry| entry.path().join("report.html"))
+        });
+        let pages = studies.map(|path| ("the page of a study".to_owned(), path));
+        let records = files.map(|path| ("a record".to_owned(), path));
+        records.chain(pages).collect()
     }
 }
 

@@ -85,7 +85,11 @@ pub(crate) struct RunRecord {
 impl RunRecord {
     /// The record beside an artefact; `None` when there is none that can be read.
     pub(crate) fn beside(artefact: &Path) -> Option<Self> {
-        let text = std::fs::read_to_string(artefact.with_extension("run.json")).ok()?;
+        let path = artefact.with_extension("run.json");
+        // What is no file may never end.
+        let text = path
+            .is_file()
+            .then(|| std::fs::read_to_string(&path).ok())??;
         serde_json::from_str(&text).ok()
     }
 

@@ -480,3 +480,37 @@ fn a_live_page_shows_what_a_stage_has_written_and_renews_itself_while_it_runs() 
     let html = std::fs::read_to_string(&out).unwrap();
     assert!(html.contains("No stage is running") && !html.contains("http-equiv"));
 }
+
+#[test]
+fn the_page_of_all_evidence_is_no_page_of_a_study() {
+    let folder = folder("evidence");
+    let study = folder.join("weld");
+    std::fs::create_dir_all(&study).unwrap();
+    let page = study.join("report.html");
+    std::fs::write(&page, "<html>the weld</html>").unwrap();
+    let words = |out: &Path| {
+        report(&[
+            "index",
+            "--studies",
+            folder.to_str().unwrap(),
+            "--out",
+            out.to_str().unwrap(),
+        ])
+    };
+    let refused = words(&page);
+    assert_eq!(refused.status.code(), Some(2));
+    assert_eq!(
+        std::fs::read_to_string(&page).unwrap(),
+        "<html>the weld</html>"
+    );
+    // A pipe is no record, and nothing waits for it.
+    let pipe = study.join("arc.run.json");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert!(words(&folder.join("all.html")).status.success());
+}

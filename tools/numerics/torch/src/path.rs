@@ -21,7 +21,7 @@ pub struct Weave {
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub amplitude_m: f64,
     /// Whole turns in a second.
-    #[schemars(extend("x-unit" = "Hz", "exclusiveMinimum" = 0.0))]
+    #[schemars(range(max = 1e5), extend("x-unit" = "Hz", "exclusiveMinimum" = 0.0))]
     pub frequency_hz: f64,
 }
 

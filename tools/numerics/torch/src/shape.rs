@@ -32,16 +32,16 @@ use crate::erfc::erfc;
 #[serde(deny_unknown_fields)]
 pub struct DoubleEllipsoid {
     /// a: half width across the path \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 1e-9), extend("x-unit" = "m"))]
     pub half_width_m: f64,
     /// b: depth into the body \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 1e-9), extend("x-unit" = "m"))]
     pub depth_m: f64,
     /// c_f: length ahead of the torch \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 1e-9), extend("x-unit" = "m"))]
     pub front_m: f64,
     /// c_r: length behind it \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 1e-9), extend("x-unit" = "m"))]
     pub rear_m: f64,
     /// f_f, of which half is the part of the heat ahead; 2 c_f/(c_f + c_r) if absent, with which q is continuous.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -54,7 +54,7 @@ pub struct DoubleEllipsoid {
 #[serde(deny_unknown_fields)]
 pub struct Gaussian {
     /// R: 95 % of the heat falls within it; the standard deviation is R/sqrt(6) \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 1e-9), extend("x-unit" = "m"))]
     pub radius_m: f64,
 }
 

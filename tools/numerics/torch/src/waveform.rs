@@ -23,14 +23,14 @@ pub struct Waveform {
     #[schemars(range(min = 1e-9), extend("x-unit" = "s"))]
     pub period_s: f64,
     /// Corners within the period \[s\], rising; two at the same time are a jump.
-    #[schemars(extend("x-unit" = "s"), length(min = 1), inner(range(min = 0.0)))]
+    #[schemars(extend("x-unit" = "s"), length(min = 1, max = 10000), inner(range(min = 0.0)))]
     pub times_s: Vec<f64>,
     /// Levels at the corners: parts of what has the waveform.
-    #[schemars(extend("x-unit" = "1"), length(min = 1), inner(range(min = 0.0)))]
+    #[schemars(extend("x-unit" = "1"), length(min = 1, max = 10000), inner(range(min = 0.0)))]
     pub levels: Vec<f64>,
     /// When a period begins \[s\].
     #[serde(default)]
-    #[schemars(extend("x-unit" = "s"))]
+    #[schemars(range(min = -1e6, max = 1e6), extend("x-unit" = "s"))]
     pub start_s: f64,
 }
 

@@ -9,6 +9,13 @@ use super::cathode::Emitter;
 use super::film::Film;
 use crate::stage::StageError;
 
+/// Distance from the axis within which a formula is taken as its mean over squares, in spacings.
+const NEAR: f64 = 2.5;
+/// Parts of a side of a square.
+const PARTS: u32 = 8;
+/// Share of a square's flux on one of its parts from which on it is not resolved.
+const NARROW: f64 = 0.6;
+
 /// A flux by name.
 pub(super) struct Flux {
     /// Of the energy that it puts in.
@@ -54,6 +61,36 @@ impl Flux {
             }
         };
         Ok((value, true))
+    }
+
+    /// The same on the square of the side `d` \[m\] that a particle has of the plan, `from` the axis; near the axis that of a formula is its
+    /// mean over the square, so that none is too narrow for the particles. Not found is one that falls on one part of
+    /// the square under the axis.
+    pub(super) fn over(
+        &self,
+        from: [f64; 2],
+        d: f64,
+        t: f64,
+        times: [f64; 2],
+    ) -> Result<(f64, bool), StageError> {
+        let [time, dt] = times;
+        let r = (from[0] * from[0] + from[1] * from[1]).sqrt();
+        if !matches!(self.law, Law::Curve(_)) || r > NEAR * d {
+            return self.at(r, t, time, dt);
+        }
+        let (mut sum, mut most, mut whole) = (0.0, 0.0_f64, true);
+        for i in 0..PARTS {
+            for j in 0..PARTS {
+                let off = [i, j].map(|k| d * ((f64::from(k) + 0.5) / f64::from(PARTS) - 0.5));
+                let (value, found) =
+                    self.at((from[0] + off[0]).hypot(from[1] + off[1]), t, time, dt)?;
+                (sum, most) = (sum + value, most.max(value.abs()));
+                whole &= found;
+            }
+        }
+        let under = from.iter().all(|x| x.abs() <= 0.5 * d);
+        whole &= !under || most <= NARROW * sum.abs();
+        Ok((sum / f64::from(PARTS * PARTS), whole))
     }
 
     /// Distance beyond which there is nothing \[m\].

@@ -264,3 +264,58 @@ fn a_step_too_long_for_the_losses_comes_to_the_balance_and_not_below() {
         "{coarse} {fine}"
     );
 }
+
+#[test]
+fn a_formula_narrower_than_the_spacing_delivers_its_heat_wherever_its_axis_is() {
+    for radius in [0.2, 0.4, 0.6, 1.0] {
+        let expr = format!("exp(-(r/{radius})^2)");
+        let parameters = ArcParameters {
+            flux_w_m2: Some(Property::Formula(Formula { expr })),
+            parts: None,
+            cathode: None,
+            gas: None,
+            on: Onto::Projected,
+        };
+        for axis in [[0.0, 0.0], [0.5, 0.5], [0.3, 0.1], [0.5, 0.0]] {
+            let caloric = Shared::new(plain(1.0, 1.0, None));
+            let mut arc = Arc::new(&parameters, caloric, METAL, None).unwrap();
+            let mut state = body([8, 8, 4], |x| x[2] < 0.0);
+            state.source = Some(crate::source::Place {
+                position: [axis[0], axis[1], 0.0],
+                phase: 0.0,
+                droplets: 0,
+            });
+            arc.advance(&mut state, 1.0).unwrap();
+            let put = arc.figures().iter().find(|f| f.unit == "J").unwrap().value;
+            let exact = std::f64::consts::PI * radius * radius;
+            assert!(
+                (put / exact - 1.0).abs() < 0.01,
+                "{radius} at {axis:?}: {put} {exact}"
+            );
+            assert!(arc.warnings().is_empty());
+        }
+    }
+}
+
+#[test]
+fn a_formula_too_narrow_for_parts_of_a_spacing_is_told() {
+    let parameters = ArcParameters {
+        flux_w_m2: Some(Property::Formula(Formula {
+            expr: "exp(-(r/0.01)^2)".to_owned(),
+        })),
+        parts: None,
+        cathode: None,
+        gas: None,
+        on: Onto::Projected,
+    };
+    let caloric = Shared::new(plain(1.0, 1.0, None));
+    let mut arc = Arc::new(&parameters, caloric, METAL, None).unwrap();
+    let mut state = body([8, 8, 4], |x| x[2] < 0.0);
+    state.source = Some(crate::source::Place {
+        position: [0.56, 0.44, 0.0],
+        phase: 0.0,
+        droplets: 0,
+    });
+    arc.advance(&mut state, 1.0).unwrap();
+    assert_eq!(arc.warnings().len(), 1, "{:?}", arc.warnings());
+}

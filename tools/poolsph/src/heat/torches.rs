@@ -201,6 +201,12 @@ impl Stage for Torches {
     }
 
     fn warnings(&self) -> Vec<String> {
+        let dark = self.torches.iter().enumerate();
+        let dark = dark.filter(|(_, lit)| lit.put.value() + lit.lost.value() <= 0.0);
+        let dark = dark.map(|(number, lit)| {
+            let from = lit.torch.path.burns()[0];
+            format!("torches/{number}: gave no heat at all; it burns from {from} s on")
+        });
         let little = self.torches.iter().enumerate();
         let little = little.filter(|(_, lit)| lit.least < LITTLE);
         let told = little.map(|(number, lit)| {
@@ -213,7 +219,7 @@ impl Stage for Torches {
                 _ => format!("{at}, which takes the whole power all the same"),
             }
         });
-        told.collect()
+        dark.chain(told).collect()
     }
 
     fn bytes(&self) -> usize {

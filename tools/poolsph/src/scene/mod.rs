@@ -79,6 +79,7 @@ pub struct Scene {
     pub source: Option<source::Parameters>,
     /// Several arcs, or one that pulses or alternates; absent: one, of the input `arc`, upon the axis of the source.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 64))]
     pub arcs: Vec<source::arcs::OneArc>,
     /// Shear by the gas of the input `arc`; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]

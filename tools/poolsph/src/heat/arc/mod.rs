@@ -72,6 +72,8 @@ pub struct Arc {
     parts: f64,
     /// Whether something of a flux that varies in time may have been missed.
     missed: bool,
+    /// Whether grains may have taken the heat.
+    covered: bool,
     /// Where each arc stands in this step, and how strongly it burns.
     stands: Vec<Stand>,
     heated: Chunks<Result<Heated, StageError>>,
@@ -154,6 +156,7 @@ impl Arc {
             power: 0.0,
             parts: 1.0,
             missed: false,
+            covered: false,
             stands: Vec::new(),
             heated: Chunks::default(),
         }
@@ -234,9 +237,10 @@ impl Arc {
                 if stand.level <= 0.0 || square > arc.reach * arc.reach {
                     continue;
                 }
-                let r = square.sqrt();
+                let from = [0, 1].map(|k| spot.at[k] - stand.axis[k]);
                 for (flux, energy) in arc.fluxes.iter().zip(&arc.energies) {
-                    let (mean, found) = flux.at(r, heated.temperature, time, dt)?;
+                    let kelvin = heated.temperature;
+                    let (mean, found) = flux.over(from, self.metal.spacing, kelvin, [time, dt])?;
                     let heat = stand.level * mean * spot.area * dt / parts;
                     heated.found &= found;
                     heated.put[*energy] += heat;
@@ -285,6 +289,7 @@ impl Stage for Arc {
             time: state.time,
             dt,
         };
+        self.covered = state.grains.is_some();
         self.stands.clear();
         self.stands.extend(self.arcs.iter().map(|arc| Stand {
             axis: arc.burning.axis(source),
@@ -328,8 +333,15 @@ impl Stage for Arc {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let missed = "flux_w_m2 has more pulses in time than could be followed: heat may be missed";
-        self.missed.then(|| missed.to_owned()).into_iter().collect()
+        let missed = "flux_w_m2 changes faster in time or in space than could be followed: heat may be missed";
+        let missed = self.missed.then(|| missed.to_owned());
+        let none = |(_, sum): &(&str, Sum)| sum.value().abs() <= 0.0;
+        let nothing = !self.covered && self.energies.iter().all(none);
+        let nothing = nothing.then(|| {
+            "the arc gave the metal no heat at all: see where its axis is, and when it burns"
+                .to_owned()
+        });
+        missed.into_iter().chain(nothing).collect()
     }
 
     fn save(&self) -> Vec<f64> {
