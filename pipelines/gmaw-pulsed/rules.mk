@@ -26,4 +26,4 @@ $(PULSED)/report.html: $(PULSED)/peak.mcap $(PULSED)/base.mcap $(PULSED)/pool.mc
 	  --arc peak=$(PULSED)/peak.mcap --arc base=$(PULSED)/base.mcap \
 	  --pool $(PULSED)/pool.mcap --mean $(PULSED)/mean.mcap
 
-.PRECIOUS: $(PULSED)/peak.mcap $(PULSED)/base.mcap $(PULSED)/pool.mcap $(PULSED)/mean.mcap $(PULSED)/report.html
+.PRECIOUS: $(PULSED)/%.mcap $(PULSED)/peak.mcap $(PULSED)/base.mcap $(PULSED)/pool.mcap $(PULSED)/mean.mcap $(PULSED)/report.html
