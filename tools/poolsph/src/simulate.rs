@@ -36,17 +36,7 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     };
     plan = plan.count(steps, scene.steps());
     plan = with_grains(plan, scene, &assembled)?;
-    for (i, filled) in assembled.filled.iter().enumerate() {
-        plan = plan.count(&format!("particles of body {i}"), filled.placed as u64);
-        if filled.left_out > 0 {
-            let left_out = filled.left_out as u64;
-            plan = plan.count(&format!("left out of body {i}"), left_out);
-        }
-        if filled.placed == 0 {
-            let what = "holds no particle: too thin for the spacing, cut away, or in another body";
-            return Err(Fault::at(&format!("/bodies/{i}"), what).into());
-        }
-    }
+    plan = with_bodies(plan, scene, &assembled)?;
     for stage in assembled.march.stages() {
         plan = plan.stage(stage.name());
         if let Some(limit) = stage.dt_limit(state) {
@@ -77,6 +67,25 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     }
     for note in (crate::scene::notes(scene).into_iter()).chain(crate::scene::doubts(scene)) {
         plan = plan.note(note);
+    }
+    Ok(plan)
+}
+
+/// What is told of bodies: their particles, and boxes that these do not fill as they are.
+fn with_bodies(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<Plan, Failure> {
+    for (i, filled) in assembled.filled.iter().enumerate() {
+        plan = plan.count(&format!("particles of body {i}"), filled.placed as u64);
+        if filled.left_out > 0 {
+            let left_out = filled.left_out as u64;
+            plan = plan.count(&format!("left out of body {i}"), left_out);
+        }
+        if filled.placed == 0 {
+            let what = "holds no particle: too thin for the spacing, cut away, or in another body";
+            return Err(Fault::at(&format!("/bodies/{i}"), what).into());
+        }
+        if let Some(note) = scene.bodies[i].rounded(filled, scene.spacing_m) {
+            plan = plan.note(format!("bodies/{i}: {note}"));
+        }
     }
     Ok(plan)
 }

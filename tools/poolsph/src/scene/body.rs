@@ -5,7 +5,7 @@ use run::property::{Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::domain::bodies::{Body, Cut};
+use crate::domain::bodies::{Body, Cut, Filled};
 use crate::domain::shape::Shape;
 use crate::state::phase;
 
@@ -20,6 +20,9 @@ pub enum StartState {
     /// Rests and never melts.
     Wall,
 }
+
+/// A box whose particles hold its volume but for this part is what it says.
+const ROUNDED: f64 = 0.01;
 
 /// A plane that cuts a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -63,6 +66,28 @@ pub struct BodyScene {
 }
 
 impl BodyScene {
+    /// What is told of a box whose sides are no whole numbers of spacings, so that its particles hold another volume.
+    #[must_use]
+    pub fn rounded(&self, filled: &Filled, spacing: f64) -> Option<String> {
+        let Shape::Box(own) = &self.shape else {
+            return None;
+        };
+        if filled.left_out > 0 || !self.cuts.is_empty() || self.lattice_m.is_some() {
+            return None;
+        }
+        let sides = [0, 1, 2].map(|k| own.max_m[k] - own.min_m[k]);
+        let off = filled.placed as f64 * spacing.powi(3) / sides.iter().product::<f64>() - 1.0;
+        (off.abs() > ROUNDED).then(|| {
+            let fit =
+                sides.map(|side| format!("{:.4e}", spacing * (side / spacing).round().max(1.0)));
+            format!(
+                "its particles hold {:+.1} % of its volume: sides of {} m would fit the spacing",
+                100.0 * off,
+                fit.join(", ")
+            )
+        })
+    }
+
     /// The body, checked; `at` is its JSON pointer, `heat` whether it needs a temperature.
     ///
     /// # Errors
@@ -154,5 +179,31 @@ impl BodyScene {
             )),
             None => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_that_is_no_multiple_of_the_spacing_is_told_with_sizes_that_fit() {
+        let told = |max: &str, placed| {
+            let text = format!(
+                r#"{{"shape": {{"box": {{"min_m": [-0.0039, -0.004, -0.0018], "max_m": {max}}}}}, "state": "solid"}}"#
+            );
+            let body: BodyScene = serde_json::from_str(&text).unwrap();
+            let filled = Filled {
+                placed,
+                left_out: 0,
+            };
+            body.rounded(&filled, 5e-4)
+        };
+        let note = told("[0.0039, 0.004, 0]", 16 * 16 * 4).unwrap();
+        assert!(
+            note.contains("+14.0 %") && note.contains("8.0000e-3, 8.0000e-3, 2.0000e-3 m"),
+            "{note}"
+        );
+        assert_eq!(told("[0.0041, 0.004, 0.0002]", 16 * 16 * 4), None);
     }
 }
