@@ -18,6 +18,9 @@ impl<const D: usize> Liquid<D> {
     /// Velocities of the points of a liquid that moves at `velocity` \[m/s\].
     #[must_use]
     pub fn moved(&self, velocity: &[[f64; D]]) -> Vec<[f64; D]> {
+        if self.loose() {
+            return velocity.to_vec();
+        }
         if self.follow.is_empty() {
             let mut moved = velocity.to_vec();
             for (w, n) in moved.iter_mut().zip(&self.normal) {

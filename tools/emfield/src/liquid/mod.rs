@@ -4,6 +4,7 @@
 
 pub mod air;
 pub mod balance;
+mod chart;
 pub mod drift;
 pub mod effort;
 pub mod electric;

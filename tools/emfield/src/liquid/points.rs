@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::operators::Fits;
 use super::room::Room;
 use super::vector::along;
 
@@ -39,6 +40,24 @@ impl<const D: usize> Liquid<D> {
     #[must_use]
     pub fn surface(&self) -> usize {
         self.normal.len()
+    }
+
+    /// Whether its points go with the liquid, those of the surface too: nothing but the surface bounds it, and no field stirs it or
+    /// drags along the surface. A stream along a surface that stays would crowd them.
+    #[must_use]
+    pub fn loose(&self) -> bool {
+        self.follow.is_empty() && self.drag.is_empty() && !self.room.bounds()
+    }
+
+    /// What fits of derivatives are like: between faces and where points go with the liquid they pass through their own points,
+    /// and their values, where they are wanted, are fitted apart.
+    #[must_use]
+    pub fn fits(&self, value: bool) -> Fits {
+        let through = self.room.bounds() || self.loose();
+        Fits {
+            through,
+            value: value && !through,
+        }
     }
 
     /// Points on walls.

@@ -72,7 +72,7 @@ impl<const D: usize> Liquid<D> {
             patches: rounds.patches,
             images: rounds.images,
             held: held.len(),
-            through: self.room.bounds(),
+            through: self.fits(false).through,
         };
         let diffusion = tau * viscosity / matter.density;
         let friction = Friction::new(rounds.place, ground, rounds.way, diffusion);

@@ -1,8 +1,11 @@
 //! After a step: the surface on its fit (2.2.4, Matsuzawa 2017), its volume, and points apart.
 
-use wls::Stencils;
+use rayon::prelude::*;
+use wls::{Error, Stencils};
 
 use super::fill::pushes;
+use super::matter::{Matter, Way};
+use super::operators::{Points, values};
 use super::room::images::Images;
 use super::step::Liquid;
 use super::surface::Patch;
@@ -16,6 +19,36 @@ const CALM: f64 = 0.03;
 const YIELD: f64 = 0.3;
 
 impl<const D: usize> Liquid<D> {
+    /// Lets velocities of points that go with the liquid go over into the values of fits, by `dt (1/T + |u|/h)`: T is
+    /// `sqrt(rho h^3/gamma)`, the time of a ripple as long as the spacing h, and u the fastest.
+    ///
+    /// Fits through their own points see waves of two spacings. One-sided gradients and divergences of them are no pair, and let
+    /// such waves grow beneath the surface: without this a drop of 5 spacings a radius broke after 1.5 periods at Oh 0.005 and
+    /// 1.03:1.
+    ///
+    /// # Errors
+    /// Where points coincide.
+    pub fn quiet(&mut self, matter: &Matter<D>, way: &Way, dt: f64) -> Result<(), Error> {
+        let h = way.spacing;
+        let fastest = self.velocity.iter().map(length).fold(0.0, f64::max);
+        let ripples = (matter.tension / (matter.density * h.powi(3))).sqrt();
+        let share = (dt * (ripples + fastest / h)).min(1.0);
+        let points = Points {
+            all: &self.position,
+            own: self.position.len(),
+        };
+        let fits = values(points, way)?;
+        let old = &self.velocity;
+        let each = (0..old.len()).into_par_iter();
+        let new = each.map(|i| {
+            let rest = old[i].map(|c| (1.0 - share) * c);
+            let fit = fits.value(i).iter();
+            fit.fold(rest, |sum, (j, w)| along(&sum, share * w, &old[j]))
+        });
+        self.velocity = new.collect();
+        Ok(())
+    }
+
     /// Moves surface points toward the fitted surface, as a whole neither out nor in, by what the fit of the offsets leaves of
     /// them: what the fits know of a shape to a part `e` is then damped by `e^2`, the ripples that they do not know as before.
     pub fn smooth(&mut self, patches: &[Patch<D>], images: &Images<D>) {

@@ -5,8 +5,8 @@
 //!
 //! A stage moves the liquid from `(x-, u-)`, where rates of the stage before have brought it, to
 //! `x = x- + tau w`, `u = u- + tau (-grad p/rho + nu div grad u + g + ((w - u) . grad) u)` with `div u = 0` (2.38 to 2.50,
-//! Matsuzawa 2017). Points inside move with the liquid, w = u, or follow the surface ([`super::follow`]); those of the surface move along
-//! its normal, w = (u . n) n.
+//! Matsuzawa 2017). Points move with the liquid, w = u. Where a force stirs it those inside follow the surface
+//! ([`super::follow`]), and where there is a stream along a surface that stays its points move along its normal, w = (u . n) n.
 //!
 //! What divergence fits leave is not taken away at once but by the share `CLEANED` in each stage: divergence and gradient of
 //! one-sided fits are no pair, and taking away all of it amplifies what they leave near the surface. Between faces all of it
@@ -134,7 +134,7 @@ impl<const D: usize> Liquid<D> {
         let n = self.position.len();
         let (all, images) = self.room.images(&self.position, way.spacing);
         let points = Points { all: &all, own: n };
-        let rows = derivatives(points, way, self.room.fits(false)).map_err(|e| failed(&e))?;
+        let rows = derivatives(points, way, self.fits(false)).map_err(|e| failed(&e))?;
         let patches = self.patches(&self.position, way.spacing);
         let patches = patches.map_err(|e| failed(&e))?;
         self.normal = patches.iter().map(|p| p.normal).collect();
@@ -193,7 +193,7 @@ impl<const D: usize> Liquid<D> {
         let follows = !self.follow.is_empty();
         let (all, images) = self.room.images(&place, way.spacing);
         let points = Points { all: &all, own: n };
-        let rows = derivatives(points, way, self.room.fits(follows)).map_err(|e| failed(&e))?;
+        let rows = derivatives(points, way, self.fits(follows)).map_err(|e| failed(&e))?;
         // Fits through their own points smooth nothing.
         let apart = follows && self.room.bounds();
         let fits = apart.then(|| values(points, way)).transpose();
@@ -267,6 +267,9 @@ impl<const D: usize> Liquid<D> {
         let (u, spacing) = (&there.guess, there.spacing);
         let back = |i: usize| difference(&there.goes[i], &u[i]);
         let (n, walled) = (there.goes.len(), self.walls().end);
+        if self.loose() {
+            return vec![[0.0; D]; n];
+        }
         let mut drift = drift::along_surface(there.patches, u, back);
         if !self.follow.is_empty() {
             drift.resize(walled, [0.0; D]);

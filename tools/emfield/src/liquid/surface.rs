@@ -1,22 +1,20 @@
 //! The free surface: normal, curvature and rows of derivatives along it, by fits in axes aligned with the normal.
 
-use nalgebra::{DMatrix, DVector};
 use neighbours::Tree;
 use rayon::prelude::*;
 
+use super::chart::{Chart, Frame, Near, exponents};
 use super::vector::{along, difference, direction, dot, length, spatial};
 
-/// Degree of the fit: curvature is then right to order 3, on even points to order 4.
-const DEGREE: i32 = 4;
 /// Radius of a support in spacings: twice as many points as monomials and more.
 const RADIUS: f64 = 3.4;
 /// A support grows by this factor until it has points enough.
 const GROWTH: f64 = 1.2;
 /// Growths at most.
 const GROWTHS: usize = 12;
-/// Fits of a point, each in the axes, and beside the sphere, that the one before it found.
+/// Fits of a point, each in the axes, and on the sphere, that the one before it found.
 const TURNS: usize = 3;
-/// Farthest point from the axis of a sphere beside which the surface is fitted, over its radius.
+/// Largest radius of a support over that of the sphere beside which the surface is fitted.
 const CAP: f64 = 0.9;
 /// Normals further apart than this cosine belong to another side.
 const SIDE: f64 = 0.0;
@@ -103,22 +101,6 @@ pub fn beside<const D: usize>(
         .collect()
 }
 
-/// Exponents of the monomials of a fit in one or two variables, by degree.
-fn exponents(variables: usize) -> Vec<[i32; 2]> {
-    let mut all = Vec::new();
-    for degree in 0..=DEGREE {
-        let last = if variables == 1 { 0 } else { degree };
-        all.extend((0..=last).map(|second| [degree - second, second]));
-    }
-    all
-}
-
-/// Points of a fit and the radius that holds them.
-struct Near {
-    points: Vec<u32>,
-    radius: f64,
-}
-
 fn support<const D: usize>(
     i: usize,
     sheet: Sheet<'_, D>,
@@ -187,13 +169,14 @@ fn fit<const D: usize>(
     let mut turn = 0;
     loop {
         let axes = tangents(&normal);
-        let local = Local::new(i, points, Frame { normal, axes }, near, exponents);
-        let bow_now = if bow.abs() * near.radius < CAP {
-            bow
-        } else {
-            0.0
+        let most = CAP / near.radius;
+        let frame = Frame {
+            normal,
+            axes,
+            bow: bow.clamp(-most, most),
         };
-        let [offset, x, y, xx, xy, yy] = local.derivatives(bow_now, D == 3);
+        let local = Chart::new(i, points, frame, near, exponents);
+        let [offset, x, y, xx, xy, yy] = local.derivatives(D == 3);
         let rise = [x, y];
         turn += 1;
         if turn <= TURNS {
@@ -225,92 +208,6 @@ fn fit<const D: usize>(
             slope: (0..near.points.len()).map(slope).collect(),
             neighbours: near.points.clone(),
         };
-    }
-}
-
-/// The axes of a point: its normal, and those along the surface.
-#[derive(Clone, Copy)]
-struct Frame<const D: usize> {
-    normal: [f64; D],
-    axes: [[f64; D]; 2],
-}
-
-/// Neighbours in the axes of a point.
-struct Local {
-    /// Along the normal \[m\].
-    heights: Vec<f64>,
-    /// Squares of the distance from the normal \[m2\].
-    squares: Vec<f64>,
-    /// Weights of the value, of d/dx, d/dy, d2/dx2, d2/dx dy and d2/dy2; zeros where there is no y.
-    weights: [Vec<f64>; 6],
-}
-
-impl Local {
-    fn new<const D: usize>(
-        i: usize,
-        points: &[[f64; D]],
-        frame: Frame<D>,
-        near: &Near,
-        exponents: &[[i32; 2]],
-    ) -> Self {
-        let Frame { normal, axes } = frame;
-        let (many, terms) = (near.points.len(), exponents.len());
-        let scale = near.radius.recip();
-        let mut basis = DMatrix::<f64>::zeros(terms, many);
-        let mut share = vec![0.0; many];
-        let mut heights = vec![0.0; many];
-        let mut squares = vec![0.0; many];
-        for (m, &j) in near.points.iter().enumerate() {
-            let d = difference(&points[j as usize], &points[i]);
-            let (x, y) = (dot(&d, &axes[0]) * scale, dot(&d, &axes[1]) * scale);
-            heights[m] = dot(&d, &normal);
-            squares[m] = (x * x + y * y) * near.radius * near.radius;
-            share[m] = wls::quartic(length(&d) * scale).max(1e-12);
-            for (k, e) in exponents.iter().enumerate() {
-                basis[(k, m)] = x.powi(e[0]) * y.powi(e[1]);
-            }
-        }
-        let mut weighted = basis.clone();
-        for (m, w) in share.iter().enumerate() {
-            weighted.column_mut(m).scale_mut(*w);
-        }
-        let gram = &weighted * basis.transpose();
-        let inverse = gram.clone().cholesky().map(|c| c.inverse());
-        let inverse = inverse.or_else(|| gram.pseudo_inverse(1e-12).ok());
-        let inverse = inverse.unwrap_or_else(|| DMatrix::zeros(terms, terms));
-        let row = |exponent: [i32; 2], factor: f64| {
-            let Some(k) = exponents.iter().position(|e| *e == exponent) else {
-                return vec![0.0; many];
-            };
-            let coefficients: DVector<f64> = inverse.column(k) * factor;
-            (weighted.tr_mul(&coefficients)).as_slice().to_vec()
-        };
-        let weights = [
-            row([0, 0], 1.0),
-            row([1, 0], scale),
-            row([0, 1], scale),
-            row([2, 0], 2.0 * scale * scale),
-            row([1, 1], scale * scale),
-            row([0, 2], 2.0 * scale * scale),
-        ];
-        Self {
-            heights,
-            squares,
-            weights,
-        }
-    }
-
-    /// Height at the point and its derivatives d/dx, d/dy, d2/dx2, d2/dx dy, d2/dy2 \[m, 1, 1/m\], by a fit of what the
-    /// surface has beside a sphere (a circle without y) of curvature `bow` \[1/m\]: it is small and fitted the better.
-    fn derivatives(&self, bow: f64, has_y: bool) -> [f64; 6] {
-        let cap = |far: f64| bow * far / (1.0 + (1.0 - bow * bow * far).max(0.0).sqrt());
-        let raised = self.heights.iter().zip(&self.squares);
-        let heights: Vec<f64> = raised.map(|(z, far)| z + cap(*far)).collect();
-        let own = [0.0, 0.0, 0.0, bow, 0.0, if has_y { bow } else { 0.0 }];
-        std::array::from_fn(|k| {
-            let terms = heights.iter().zip(&self.weights[k]);
-            terms.map(|(z, w)| z * w).sum::<f64>() - own[k]
-        })
     }
 }
 
@@ -371,4 +268,50 @@ fn area<const D: usize>(i: usize, points: &[[f64; D]], near: &[u32], axes: [[f64
         })
         .sum();
     0.5 * twice
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    /// Even points of a spheroid of some ratio of axes, as large as the unit sphere, and their normals.
+    fn spheroid(many: usize, ratio: f64) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+        let wide = ratio.cbrt().recip();
+        let axes = [wide, wide, ratio * wide];
+        let golden = PI * (3.0 - 5.0_f64.sqrt());
+        let all = (0..many).map(|k| {
+            let z = 1.0 - (2.0 * k as f64 + 1.0) / many as f64;
+            let (ring, angle) = ((1.0 - z * z).sqrt(), golden * k as f64);
+            let e = [ring * angle.cos(), ring * angle.sin(), z];
+            let x: [f64; 3] = std::array::from_fn(|k| axes[k] * e[k]);
+            (x, direction(&std::array::from_fn(|k| e[k] / axes[k])))
+        });
+        all.unzip()
+    }
+
+    /// Root of the mean square of what is wrong with the curvature over that of the sphere, five spacings a radius.
+    fn wrong(ratio: f64) -> f64 {
+        let (points, normals) = spheroid(330, ratio);
+        let wide = ratio.cbrt().recip();
+        let axes = [wide, wide, ratio * wide];
+        let found = patches(&points, &normals, 0.2).unwrap();
+        let squares = points.iter().zip(&found).map(|(x, patch)| {
+            let slope: [f64; 3] = std::array::from_fn(|k| x[k] / (axes[k] * axes[k]));
+            let n = direction(&slope);
+            let bent = (0..3).map(|k| (1.0 - n[k] * n[k]) / (axes[k] * axes[k]));
+            let wanted = bent.sum::<f64>() / length(&slope);
+            (patch.curvature - wanted).powi(2)
+        });
+        (squares.sum::<f64>() / points.len() as f64).sqrt() / 2.0
+    }
+
+    #[test]
+    fn spheres_are_exact_and_spheroids_nearly() {
+        for (ratio, most) in [(1.0, 1e-8), (0.6, 1.5e-2), (1.5, 1e-2), (2.0, 2e-2)] {
+            let found = wrong(ratio);
+            assert!(found < most, "{ratio}: {found:e}");
+        }
+    }
 }

@@ -6,6 +6,7 @@ mod between;
 mod field;
 mod heat;
 mod lifted;
+mod stretched;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};

@@ -19,7 +19,6 @@ pub mod level;
 
 pub use fill::furnish;
 
-use super::operators::Fits;
 use super::vector::{difference, dot};
 
 /// What a face is.
@@ -74,17 +73,6 @@ impl<const D: usize> Room<D> {
     #[must_use]
     pub fn bounds(&self) -> bool {
         self.sides.iter().flatten().any(|s| *s != Side::Open)
-    }
-
-    /// What fits of derivatives are like: between faces they pass through their own points, and their values, where they are
-    /// wanted, are fitted apart.
-    #[must_use]
-    pub fn fits(&self, value: bool) -> Fits {
-        let through = self.bounds();
-        Fits {
-            through,
-            value: value && !through,
-        }
     }
 
     /// Length along an axis \[m\].

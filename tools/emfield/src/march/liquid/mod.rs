@@ -180,6 +180,10 @@ impl March {
                     &mut self.course.effort,
                 )?;
             }
+            if liquid.loose() {
+                let quiet = || liquid.quiet(&self.matter, way, dt);
+                session.timed("ripples", quiet).map_err(|e| failed(&e))?;
+            }
             liquid.smooth(&ended.patches, &ended.images);
             let apart = self.heat.is_some().then(|| liquid.position.clone());
             let Ended { rows, images, .. } = &ended;
