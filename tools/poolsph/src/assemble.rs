@@ -52,6 +52,8 @@ pub struct Assembled {
     pub filled: Vec<Filled>,
     /// Grains of each of their bodies, in the order of the scene.
     pub grain_counts: Vec<usize>,
+    /// What is told of grains that begin deep within others.
+    pub overlaps: Vec<String>,
     /// Physics that is absent.
     pub left_out: LeftOut,
 }
@@ -98,12 +100,13 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         Some(grains) => Some(source.grains(grains, inputs, &state)?),
         None => None,
     };
-    let (stages, grain_counts) = match grains {
-        Some((stages, set, counts)) => {
+    let (stages, grain_counts, overlaps) = match grains {
+        Some((mut stages, set, counts)) => {
             state.grains = Some(set);
-            (Some(stages), counts)
+            let overlaps = std::mem::take(&mut stages.overlaps);
+            (Some(stages), counts, overlaps)
         }
-        None => (None, Vec::new()),
+        None => (None, Vec::new(), Vec::new()),
     };
     let mut parts = source.stages(&mut state, held(&bodies, &filled), stages)?;
     if scene.grains.is_none() {
@@ -117,6 +120,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         state,
         filled,
         grain_counts,
+        overlaps,
         left_out: parts.left_out,
     })
 }
@@ -133,9 +137,10 @@ fn held(bodies: &[Body], filled: &[Filled]) -> Held {
 }
 
 fn checked_bodies(scene: &Scene, faults: &mut Vec<Fault>) -> Vec<Body> {
+    let lattice = scene.lattice();
     let mut bodies = Vec::with_capacity(scene.bodies.len());
     for (i, body) in scene.bodies.iter().enumerate() {
-        match body.body(&format!("/bodies/{i}"), scene.heat.is_some()) {
+        match body.body(&format!("/bodies/{i}"), &lattice, scene.heat.is_some()) {
             Ok(body) => bodies.push(body),
             Err(fault) => faults.push(fault),
         }
@@ -326,8 +331,8 @@ impl<'a> Source<'a> {
         PlateNote {
             min_m,
             max_m,
-            spacing_m: self.scene.spacing_m,
-            particle_volume_m3: self.scene.spacing_m.powi(3),
+            spacing_m: self.scene.metal().spacing,
+            particle_volume_m3: self.scene.metal().volume(),
             melting_point_k: self.caloric.as_ref().and_then(|c| c.melting_point()),
             direction: velocity.and_then(unit).unwrap_or([0.0, 1.0, 0.0]),
         }

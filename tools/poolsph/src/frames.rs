@@ -129,7 +129,7 @@ pub fn count(scene: &Scene, interval: f64) -> u64 {
 /// Channels of frames with the number of their messages, and at most their bytes before they are compressed.
 #[must_use]
 pub fn volume(scene: &Scene, state: &State, plate: &PlateNote) -> Vec<(&'static str, u64, u64)> {
-    let (end, d) = (scene.time.end_s, scene.spacing_m);
+    let (end, d) = (scene.time.end_s, state.metal.matter.spacing);
     // All droplets are born at the last frame.
     let born = scene.wires().map(|wire| {
         let period = scene.droplet_period(&wire).unwrap_or(end).max(scene.step());

@@ -83,7 +83,7 @@ fn with_bodies(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<P
             let what = "holds no particle: too thin for the spacing, cut away, or in another body";
             return Err(Fault::at(&format!("/bodies/{i}"), what).into());
         }
-        if let Some(note) = scene.bodies[i].rounded(filled, scene.spacing_m) {
+        if let Some(note) = scene.bodies[i].rounded(filled, scene.metal().spacing) {
             plan = plan.note(format!("bodies/{i}: {note}"));
         }
     }
@@ -95,7 +95,7 @@ fn with_probes(plan: Plan, scene: &Scene, state: &State) -> Plan {
     let probes = scene.output.probes.iter().enumerate();
     let off = probes.filter_map(|(i, probe)| {
         let away = probes::read(state, probe.place_m).away;
-        (away > scene.spacing_m).then(|| {
+        (away > state.metal.matter.spacing).then(|| {
             let name = &probe.name;
             format!("output/probes/{i}: '{name}' stands {away:.3e} m from the nearest particle at the start")
         })
@@ -115,6 +115,9 @@ fn with_grains(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<P
             let what = "holds no grain: too thin for their diameter";
             return Err(Fault::at(&format!("/grains/bodies/{i}"), what).into());
         }
+    }
+    for overlap in &assembled.overlaps {
+        plan = plan.note(overlap.clone());
     }
     if let Some(grains) = &assembled.state.grains {
         let frame = frames::grains(grains, scene.output.precision);
@@ -347,7 +350,8 @@ impl<'a> Simulation<'a> {
             session.warn(warning);
         }
         let told = march.stages().flat_map(|stage| stage.warnings());
-        for warning in told.chain(crate::scene::doubts(self.scene)) {
+        let doubts = crate::scene::doubts(self.scene).into_iter();
+        for warning in told.chain(doubts).chain(self.run.overlaps.clone()) {
             session.warn(warning);
         }
         if state.step == self.scene.steps()

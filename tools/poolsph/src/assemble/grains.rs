@@ -17,6 +17,8 @@ pub(super) struct Beside {
     pub(super) motion: grains::Motion,
     pub(super) cover: Option<Cover>,
     pub(super) displaced: Option<Displaced>,
+    /// What is told of grains that begin deep within others.
+    pub(super) overlaps: Vec<String>,
 }
 
 impl Source<'_> {
@@ -37,6 +39,12 @@ impl Source<'_> {
         if !buried.is_empty() {
             return Err(Failure::Scene(buried));
         }
+        let mut laid_rows = Vec::with_capacity(set.len());
+        for (body, count) in scene.bodies.iter().zip(&counts) {
+            laid_rows.resize(laid_rows.len() + count, body.bed);
+        }
+        let metal = self.scene.has_metal().then_some(&state.metal);
+        let overlaps = grains::overlaps(&scene.walls, &set, &laid_rows, metal).map_err(within)?;
         let heat = scene.heat.as_ref();
         let mut warmed = None;
         if let Some(heat) = heat {
@@ -48,17 +56,16 @@ impl Source<'_> {
             warmed = Some(heat);
         }
         let radii = grains::fill::radii(&set);
+        let spacing = self.scene.metal().spacing;
         let metal = self.scene.has_metal().then(|| {
             let of = scene.metal.unwrap_or_default();
             let exchange = heat.zip(self.caloric.as_ref());
             let exchange = exchange.map(|(heat, caloric)| {
                 grains::Exchange::new(caloric.clone(), of.modulus(heat.contact.elastic()))
             });
-            grains::Metal::new(self.scene.spacing_m, radii, of.friction).heated(exchange)
+            grains::Metal::new(spacing, radii, of.friction).heated(exchange)
         });
-        let cover = metal
-            .is_some()
-            .then(|| Cover::new(self.scene.spacing_m, radii[1]));
+        let cover = metal.is_some().then(|| Cover::new(spacing, radii[1]));
         let flow = self.scene.flow.as_ref().filter(|_| self.scene.has_metal());
         let projected = flow.filter(|flow| flow.method == Method::Projection);
         let displaced = projected.map(|_| Displaced::new(self.scene.metal(), radii[1]));
@@ -70,6 +77,7 @@ impl Source<'_> {
             motion,
             cover,
             displaced,
+            overlaps,
         };
         Ok((beside, set, counts))
     }

@@ -20,7 +20,11 @@ pub fn preview(scene: &Scene, inputs: &Inputs) -> Result<Preview, Failure> {
     let mut faults = crate::scene::faults(scene);
     let mut all = Vec::with_capacity(scene.bodies.len());
     for (i, body) in scene.bodies.iter().enumerate() {
-        match body.body(&format!("/bodies/{i}"), scene.heat.is_some()) {
+        match body.body(
+            &format!("/bodies/{i}"),
+            &scene.lattice(),
+            scene.heat.is_some(),
+        ) {
             Ok(body) => all.push(body),
             Err(fault) => faults.push(fault),
         }
@@ -63,7 +67,7 @@ fn metal(scene: &Scene, all: &[Body], preview: &mut Preview) -> Result<(), Failu
         for place in &state.metal.column(&POSITION)[first..first + filled.placed] {
             preview.spot(Spot {
                 place: *place,
-                size: [scene.spacing_m; 3],
+                size: scene.lattice().pitch,
                 material,
                 condition,
             });

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use run::Fault;
 use run::property::{Arguments, Curve};
 
-use super::shape::Shape;
+use super::round::Round;
+use super::shape::{Shape, edge};
 use crate::heat::Caloric;
 use crate::state::{Particle, State, phase};
 
@@ -26,8 +27,12 @@ pub struct Cut {
 pub struct Body {
     /// Its shape.
     pub shape: Shape,
+    /// Spacings of its lattice along the axes \[m\].
+    pub pitch: [f64; 3],
     /// Origin of its lattice \[m\]; the lower corner of its box by default.
     pub lattice: Option<[f64; 3]>,
+    /// How the lattice of a round body lies.
+    pub round: Round,
     /// Planes that cut it.
     pub cuts: Vec<Cut>,
     /// Solid or liquid at the start.
@@ -103,7 +108,7 @@ pub fn fill(
     };
     let mut filled = Vec::with_capacity(bodies.len());
     for (i, body) in bodies.iter().enumerate() {
-        let points = body_points(body, d);
+        let points = body_points(body);
         let (kept, crowded): (Vec<_>, Vec<_>) =
             points.into_iter().partition(|p| !occupied.near(*p));
         for &position in &kept {
@@ -172,8 +177,9 @@ fn warmth(
 }
 
 /// Lattice points of a body with its cuts made.
-fn body_points(body: &Body, d: f64) -> Vec<[f64; 3]> {
-    let mut points = body.shape.points(d, body.lattice);
+fn body_points(body: &Body) -> Vec<[f64; 3]> {
+    let d = edge(body.pitch);
+    let mut points = body.round.points(&body.shape, body.pitch, body.lattice);
     for cut in &body.cuts {
         let length = cut.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
         points.retain(|p| {
@@ -210,7 +216,9 @@ mod tests {
     fn body(shape: Shape, phase: u8) -> Body {
         Body {
             shape,
+            pitch: [D; 3],
             lattice: None,
+            round: Round::default(),
             cuts: Vec::new(),
             phase,
             wall: false,

@@ -109,7 +109,7 @@ mod tests {
                 };
                 assert_eq!(tank.misfit(D), None);
                 // Along the axis, the first layer of the floor has no gap.
-                let points = Shape::Container(tank).points(D, None);
+                let points = Shape::Container(tank).points([D; 3], None);
                 let floor = |p: &&[f64; 3]| {
                     (p[2] + 0.5 * D).abs() < 1e-12 && (p[1 - axis] - 0.5 * D).abs() < 1e-12
                 };
@@ -151,9 +151,9 @@ mod tests {
                 open,
             })
         };
-        let closed = container(vec![]).points(D, None);
+        let closed = container(vec![]).points([D; 3], None);
         assert_eq!(closed.len(), 8 * 9 * 10 - 4 * 5 * 6);
-        let open = container(vec![Face::ZHigh]).points(D, None);
+        let open = container(vec![Face::ZHigh]).points([D; 3], None);
         assert_eq!(open.len(), 8 * 9 * 8 - 4 * 5 * 6);
         for p in &closed {
             assert!((0..3).any(|k| {

@@ -5,5 +5,7 @@ pub mod bounds;
 pub mod container;
 pub mod droplet;
 pub mod fitting;
+pub mod pitch;
+pub mod round;
 mod row;
 pub mod shape;

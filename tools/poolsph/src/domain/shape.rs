@@ -1,7 +1,9 @@
 //! Shapes of bodies, and the lattice points that fill them.
 //!
-//! A lattice point stands at `anchor + (i + 1/2) d`. A box whose edges are whole multiples of d is
-//! filled exactly: as many particles as its volume over d^3, the outer ones d/2 inside its faces.
+//! A lattice point stands at `anchor + (i + 1/2) d`, with the spacings d of the axes. A box whose edges are whole multiples of
+//! them is filled exactly: as many particles as its volume over theirs, the outer ones d/2 inside its faces.
+
+use std::f64::consts::PI;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -137,31 +139,57 @@ impl Shape {
         self.composed().map(|shape| Body::new(&shape, 3))
     }
 
-    /// Lattice points of spacing `d` \[m\] along each edge of the box around the shape, before any is
+    /// Lattice points of the spacings `pitch` \[m\] along each edge of the box around the shape, before any is
     /// made: as many as [`Shape::points`] looks at.
     #[must_use]
-    pub fn sites(&self, d: f64) -> [f64; 3] {
+    pub fn sites(&self, pitch: [f64; 3]) -> [f64; 3] {
         let (low, high) = self.bounds();
-        [0, 1, 2].map(|k| ((high[k] - low[k]) / d).round().max(1.0))
+        [0, 1, 2].map(|k| ((high[k] - low[k]) / pitch[k]).round().max(1.0))
     }
 
-    /// Lattice points of spacing `d` \[m\] within the shape, x fastest; `anchor` defaults to the
+    /// Lattice points of the spacings `pitch` \[m\] along the axes within the shape, x fastest; `anchor` defaults to the
     /// lower corner of the box around it.
     #[must_use]
-    pub fn points(&self, d: f64, anchor: Option<[f64; 3]>) -> Vec<[f64; 3]> {
+    pub fn points(&self, pitch: [f64; 3], anchor: Option<[f64; 3]>) -> Vec<[f64; 3]> {
         if let Self::Container(c) = self {
-            return container_points(c, d);
+            return container_points(c, edge(pitch));
         }
         let (low, high) = self.bounds();
         let anchor = anchor.unwrap_or(low);
-        let axes = [0, 1, 2].map(|k| lattice(anchor[k], low[k], high[k], d));
+        let axes = [0, 1, 2].map(|k| lattice(anchor[k], low[k], high[k], pitch[k]));
         let mut points = product(&axes);
         let body = self.body();
         points.retain(|p| match &body {
-            Some(body) => body.distance(*p) <= SLACK * d,
+            Some(body) => body.distance(*p) <= SLACK * pitch[0],
             None => self.holds(*p),
         });
         points
+    }
+
+    /// Sides that a whole number of layers has to fill \[m\], along each axis.
+    #[must_use]
+    pub fn sides(&self) -> [Option<f64>; 3] {
+        match self {
+            Self::Box(b) => [0, 1, 2].map(|k| Some(b.max_m[k] - b.min_m[k])),
+            Self::Cylinder(c) => {
+                [0, 1, 2].map(|k| Some(c.length_m).filter(|_| k == c.axis.index()))
+            }
+            _ => [None; 3],
+        }
+    }
+
+    /// Centre \[m\] and volume \[m3\] of a round body; none of others.
+    #[must_use]
+    pub fn round(&self) -> Option<([f64; 3], f64)> {
+        match self {
+            Self::Cylinder(c) => Some((c.centre_m, PI * c.radius_m * c.radius_m * c.length_m)),
+            Self::Sphere(s) => Some((s.centre_m, 4.0 / 3.0 * PI * s.radius_m.powi(3))),
+            Self::Ellipsoid(e) => {
+                let volume = 4.0 / 3.0 * PI * e.half_m.iter().product::<f64>();
+                Some((e.centre_m, volume))
+            }
+            _ => None,
+        }
     }
 
     fn holds(&self, p: [f64; 3]) -> bool {
@@ -194,6 +222,16 @@ impl Shape {
     }
 }
 
+/// Edge d of the cube that a cell of these edges fills \[m\]: d itself where all are equal.
+#[must_use]
+pub fn edge(pitch: [f64; 3]) -> f64 {
+    let [x, y, z] = pitch;
+    if x.to_bits() == y.to_bits() && y.to_bits() == z.to_bits() {
+        return x;
+    }
+    (x * y * z).cbrt()
+}
+
 fn cylinder_half(c: &Cylinder) -> [f64; 3] {
     let mut half = [c.radius_m; 3];
     half[c.axis.index()] = 0.5 * c.length_m;
@@ -210,7 +248,6 @@ fn around(centre: [f64; 3], half: [f64; 3]) -> ([f64; 3], [f64; 3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     const D: f64 = 0.5e-3;
 
@@ -220,7 +257,7 @@ mod tests {
             min_m: [-10e-3, 0.0, -5e-3],
             max_m: [10e-3, 65e-3, 0.0],
         });
-        let points = plate.points(D, None);
+        let points = plate.points([D; 3], None);
         assert_eq!(points.len(), 52_000);
         let top = points.iter().fold(f64::MIN, |m, p| m.max(p[2]));
         assert!((top + 0.5 * D).abs() < 1e-15);
@@ -232,7 +269,7 @@ mod tests {
             min_m: [0.0; 3],
             max_m: [4.0 * D; 3],
         });
-        let shifted = shape.points(D, Some([0.25 * D; 3]));
+        let shifted = shape.points([D; 3], Some([0.25 * D; 3]));
         assert_eq!(shifted.len(), 64);
         assert!((shifted[0][0] - 0.75 * D).abs() < 1e-15);
     }
@@ -244,7 +281,7 @@ mod tests {
             centre_m: [1e-3, 2e-3, 3e-3],
             radius_m: radius,
         });
-        let volume = sphere.points(D, None).len() as f64 * D.powi(3);
+        let volume = sphere.points([D; 3], None).len() as f64 * D.powi(3);
         let exact = 4.0 / 3.0 * PI * radius.powi(3);
         assert!((volume / exact - 1.0).abs() < 0.02, "{}", volume / exact);
         let half = [8.0 * D, 12.0 * D, 10.0 * D];
@@ -252,7 +289,7 @@ mod tests {
             centre_m: [1e-3, 2e-3, 3e-3],
             half_m: half,
         });
-        let points = drawn.points(D, None);
+        let points = drawn.points([D; 3], None);
         let exact = 4.0 / 3.0 * PI * half.iter().product::<f64>();
         let ratio = points.len() as f64 * D.powi(3) / exact;
         assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
@@ -265,7 +302,7 @@ mod tests {
                 radius_m: radius,
                 length_m: length,
             });
-            let volume = bar.points(D, None).len() as f64 * D.powi(3);
+            let volume = bar.points([D; 3], None).len() as f64 * D.powi(3);
             let exact = PI * radius * radius * length;
             assert!((volume / exact - 1.0).abs() < 0.02, "{}", volume / exact);
         }

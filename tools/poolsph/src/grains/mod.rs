@@ -51,6 +51,7 @@ pub mod motion;
 pub mod moving;
 mod near;
 pub mod order;
+mod overlap;
 pub mod pairs;
 pub mod parameters;
 pub mod pressure;
@@ -70,6 +71,7 @@ pub use heat::Heat;
 pub use metal::Metal;
 pub use metal_heat::Exchange;
 pub use motion::Motion;
+pub use overlap::overlaps;
 pub use parameters::Parameters;
 pub use warm::warm;
 

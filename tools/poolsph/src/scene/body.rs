@@ -5,7 +5,9 @@ use run::property::{Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Lattice;
 use crate::domain::bodies::{Body, Cut, Filled};
+use crate::domain::round::MISSED;
 use crate::domain::shape::Shape;
 use crate::state::phase;
 
@@ -20,9 +22,6 @@ pub enum StartState {
     /// Rests and never melts.
     Wall,
 }
-
-/// A box whose particles hold its volume but for this part is what it says.
-const ROUNDED: f64 = 0.01;
 
 /// A plane that cuts a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -66,33 +65,29 @@ pub struct BodyScene {
 }
 
 impl BodyScene {
-    /// What is told of a box whose sides are no whole numbers of spacings, so that its particles hold another volume.
+    /// What is told of a box or a round body whose particles hold another volume, by those of the spacing \[m\].
     #[must_use]
     pub fn rounded(&self, filled: &Filled, spacing: f64) -> Option<String> {
-        let Shape::Box(own) = &self.shape else {
-            return None;
-        };
-        if filled.left_out > 0 || !self.cuts.is_empty() || self.lattice_m.is_some() {
+        if filled.left_out > 0 || !self.cuts.is_empty() {
             return None;
         }
-        let sides = [0, 1, 2].map(|k| own.max_m[k] - own.min_m[k]);
-        let off = filled.placed as f64 * spacing.powi(3) / sides.iter().product::<f64>() - 1.0;
-        (off.abs() > ROUNDED).then(|| {
-            let fit =
-                sides.map(|side| format!("{:.4e}", spacing * (side / spacing).round().max(1.0)));
-            format!(
-                "its particles hold {:+.1} % of its volume: sides of {} m would fit the spacing",
-                100.0 * off,
-                fit.join(", ")
-            )
-        })
+        let volume = match &self.shape {
+            Shape::Box(own) => [0, 1, 2]
+                .map(|k| own.max_m[k] - own.min_m[k])
+                .iter()
+                .product(),
+            round => round.round()?.1,
+        };
+        let off = filled.placed as f64 * spacing.powi(3) / volume - 1.0;
+        (off.abs() > MISSED)
+            .then(|| format!("its particles hold {:+.1} % of its volume", 100.0 * off))
     }
 
-    /// The body, checked; `at` is its JSON pointer, `heat` whether it needs a temperature.
+    /// The body, checked, on its lattice; `at` is its JSON pointer, `heat` whether it needs a temperature.
     ///
     /// # Errors
     /// A fault at the key that is wrong.
-    pub fn body(&self, at: &str, heat: bool) -> Result<Body, Fault> {
+    pub fn body(&self, at: &str, lattice: &Lattice, heat: bool) -> Result<Body, Fault> {
         self.check(at)?;
         let temperature = match (&self.temperature_k, heat) {
             (Some(property), _) => {
@@ -121,7 +116,9 @@ impl BodyScene {
         };
         Ok(Body {
             shape: self.shape.clone(),
+            pitch: lattice.pitch,
             lattice: self.lattice_m,
+            round: lattice.round,
             cuts: self.cuts.iter().map(cut).collect(),
             phase: match self.state {
                 StartState::Liquid => phase::LIQUID,
@@ -187,11 +184,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_box_that_is_no_multiple_of_the_spacing_is_told_with_sizes_that_fit() {
-        let told = |max: &str, placed| {
-            let text = format!(
-                r#"{{"shape": {{"box": {{"min_m": [-0.0039, -0.004, -0.0018], "max_m": {max}}}}}, "state": "solid"}}"#
-            );
+    fn a_body_whose_particles_hold_another_volume_is_told() {
+        let told = |shape: &str, placed| {
+            let text = format!(r#"{{"shape": {shape}, "state": "solid"}}"#);
             let body: BodyScene = serde_json::from_str(&text).unwrap();
             let filled = Filled {
                 placed,
@@ -199,11 +194,12 @@ mod tests {
             };
             body.rounded(&filled, 5e-4)
         };
-        let note = told("[0.0039, 0.004, 0]", 16 * 16 * 4).unwrap();
-        assert!(
-            note.contains("+14.0 %") && note.contains("8.0000e-3, 8.0000e-3, 2.0000e-3 m"),
-            "{note}"
-        );
-        assert_eq!(told("[0.0041, 0.004, 0.0002]", 16 * 16 * 4), None);
+        let own = r#"{"box": {"min_m": [-0.0039, -0.004, -0.0018], "max_m": [0.0039, 0.004, 0]}}"#;
+        assert!(told(own, 16 * 16 * 4).unwrap().contains("+14.0 %"));
+        let fit =
+            r#"{"box": {"min_m": [-0.0039, -0.004, -0.0018], "max_m": [0.0041, 0.004, 0.0002]}}"#;
+        assert_eq!(told(fit, 16 * 16 * 4), None);
+        let ball = r#"{"sphere": {"centre_m": [0, 0, 0], "radius_m": 5e-4}}"#;
+        assert!(told(ball, 4).unwrap().contains("-4.5 %"));
     }
 }

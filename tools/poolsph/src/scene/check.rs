@@ -69,6 +69,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     faults.extend(begun(scene));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
+        faults.extend(super::lattice::faults(scene));
         faults.extend(scene.wires().filter_map(|wire| crowded(scene, &wire)));
     }
     faults.extend(sizes);
@@ -232,7 +233,7 @@ fn beside(scene: &Scene) -> Vec<Fault> {
 
 /// Containers that no lattice of the spacing fits.
 fn hollows(scene: &Scene) -> Vec<Fault> {
-    let d = scene.spacing_m;
+    let d = scene.metal().spacing;
     let bodies = scene.bodies.iter().enumerate();
     let odd = bodies.filter_map(|(i, body)| match &body.shape {
         Shape::Container(container) => container.misfit(d).map(|misfit| (i, misfit)),

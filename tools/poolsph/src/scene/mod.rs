@@ -3,6 +3,7 @@
 mod arcs;
 mod body;
 mod check;
+mod lattice;
 mod odd;
 mod output;
 mod size;
@@ -16,6 +17,7 @@ use torch::Torch;
 
 pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
+pub use lattice::Lattice;
 pub use odd::{doubts, notes};
 pub use output::{FloatWidth, Output, PoolOutput, due};
 pub use time::{Adaptive, Time};
@@ -36,7 +38,8 @@ pub struct Scene {
     /// What it shows, in a line.
     #[serde(default)]
     pub title: String,
-    /// Particle diameter d = spacing of the lattice \[m\]; needed where there are bodies of metal.
+    /// Particle diameter d = spacing of the lattice \[m\]; needed where there are bodies of metal. Along each axis the lattice is
+    /// fitted to them.
     #[serde(default)]
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: f64,
@@ -144,7 +147,7 @@ impl Scene {
         let spacing = if self.bodies.is_empty() {
             1.0
         } else {
-            self.spacing_m
+            self.lattice().spacing()
         };
         Matter {
             density: self.density_kg_m3,
@@ -219,7 +222,7 @@ impl Scene {
     #[must_use]
     pub fn droplet_period(&self, wire: &Wire) -> Option<f64> {
         let mirror = self.halving(wire).ok()?;
-        wire.droplets.period(self.spacing_m, mirror)
+        wire.droplets.period(self.metal().spacing, mirror)
     }
 
     /// Number of steps.

@@ -58,8 +58,9 @@ fn thin(scene: &Scene) -> Vec<String> {
         // The walls of a container have their own least thickness.
         body.state != StartState::Liquid && !matches!(body.shape, Shape::Container(_))
     };
+    let lattice = scene.lattice();
     let layers = |body: &BodyScene| {
-        let sites = body.shape.sites(scene.spacing_m);
+        let sites = body.shape.sites(lattice.pitch);
         sites.into_iter().fold(f64::INFINITY, f64::min)
     };
     let bodies = scene.bodies.iter().enumerate();
@@ -68,7 +69,7 @@ fn thin(scene: &Scene) -> Vec<String> {
         .map(|(i, _)| {
             format!(
                 "body {i} is one particle thick: liquid leaks through it; {TIGHT} layers, {} m, hold",
-                TIGHT * scene.spacing_m
+                TIGHT * lattice.spacing()
             )
         })
         .collect()

@@ -33,7 +33,7 @@ pub(super) fn faults(scene: &Scene) -> Vec<Fault> {
             faults.extend(far.into_iter().chain(anchor));
             continue;
         }
-        let sites = body.shape.sites(d);
+        let sites = body.shape.sites([d; 3]);
         let number: f64 = sites.iter().product();
         total += number;
         if number > PARTICLES_MOST {
