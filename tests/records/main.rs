@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod full_disk;
+mod memory;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -15,6 +15,7 @@ pub mod balance;
 pub mod frames;
 pub mod march;
 pub mod matter;
+pub mod memory;
 pub mod motion;
 pub mod resume;
 pub mod scene;

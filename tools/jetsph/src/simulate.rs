@@ -6,6 +6,7 @@ use run::{Failure, Fault, Plan, Session};
 use crate::assemble::{Assembled, assemble};
 use crate::balance::Balance;
 use crate::frames;
+use crate::memory;
 use crate::resume;
 use crate::scene::{Method, Scene};
 use crate::stage::{Limit, StageError, place_text};
@@ -59,6 +60,9 @@ pub fn plan(scene: &Scene) -> Result<Plan, Failure> {
     }
     for (name, bytes) in state.memory() {
         plan = plan.memory(&name, bytes as u64);
+    }
+    for (name, bytes) in memory::beyond(scene, &state) {
+        plan = plan.memory(name, bytes);
     }
     for (name, why) in &left_out {
         plan = plan.left_out(name, why);
@@ -219,6 +223,9 @@ impl<'a> Simulation<'a> {
         }
         for (name, bytes) in state.memory() {
             session.memory(&name, bytes as u64);
+        }
+        for stage in march.stages.iter().filter(|stage| stage.bytes() > 0) {
+            session.memory(stage.name(), stage.bytes() as u64);
         }
     }
 }

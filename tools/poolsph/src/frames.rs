@@ -6,6 +6,7 @@ use particles::{ID, POSITION, Set};
 use run::{Failure, Session};
 use serde::Serialize;
 
+use crate::memory;
 use crate::scene::{FloatWidth, PoolOutput, Scene};
 use crate::state::State;
 
@@ -131,12 +132,7 @@ pub fn count(scene: &Scene, interval: f64) -> u64 {
 pub fn volume(scene: &Scene, state: &State, plate: &PlateNote) -> Vec<(&'static str, u64, u64)> {
     let (end, d) = (scene.time.end_s, state.metal.matter.spacing);
     // All droplets are born at the last frame.
-    let born = scene.wires().map(|wire| {
-        let period = scene.droplet_period(&wire).unwrap_or(end).max(scene.step());
-        let each = (2.0 * wire.droplets.radius_m / d).powi(3) * std::f64::consts::FRAC_PI_6;
-        each * (end / period)
-    });
-    let born = born.fold(0.0, |sum, wire| sum + wire);
+    let born = memory::fed(scene);
     let row = metal(state, &[], scene.output.precision).row_bytes() as f64;
     let bytes = |frames: f64, particles: f64| (frames * particles * row) as u64;
     let from_on = |from: f64, interval: f64| {

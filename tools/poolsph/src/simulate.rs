@@ -6,6 +6,7 @@ use crate::assemble::{Assembled, assemble};
 use crate::balance::{Balance, Start, thrown, unclosed};
 use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
+use crate::memory;
 use crate::probes;
 use crate::resume;
 use crate::scene::{PoolOutput, Scene, due};
@@ -56,6 +57,9 @@ pub fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
     plan = with_probes(plan, scene, state);
     for (name, bytes) in state.memory() {
         plan = plan.memory(name, bytes as u64);
+    }
+    for (name, bytes) in memory::beyond(scene, state) {
+        plan = plan.memory(name, bytes);
     }
     if scene.has_metal() {
         for (channel, messages, bytes) in frames::volume(scene, state, &assembled.plate) {
