@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod full_disk;
-mod memory;
+mod plans;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -381,21 +381,4 @@ fn the_published_schemas_of_scenes_are_what_the_programs_print() {
             "schemas/{tool}.scene.v1.json is not what '{tool} schema' prints: make schemas"
         );
     }
-}
-
-#[test]
-fn check_tells_how_long_a_run_will_last() {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
-    let output = Command::new(programs().join("poolsph"))
-        .arg("check")
-        .arg(scene)
-        .output()
-        .unwrap();
-    let said = String::from_utf8(output.stdout).unwrap();
-    let time = said.lines().find(|line| line.starts_with("  time "));
-    let time = time.unwrap_or_else(|| panic!("{said}"));
-    assert!(
-        time.contains("about") && time.contains("ms a step"),
-        "{time}"
-    );
 }

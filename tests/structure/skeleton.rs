@@ -35,9 +35,9 @@ const LACKING: [(&str, &str); 8] = [
 ];
 
 /// Modules that may read the scene: the program around the physics.
-const PROGRAM: [&str; 10] = [
+const PROGRAM: [&str; 11] = [
     "program", "scene", "assemble", "march", "iterate", "frames", "plan", "settings", "simulate",
-    "trial",
+    "memory", "trial",
 ];
 
 /// The one file of a folder of physics that may read the scene: it makes what the others compute with.

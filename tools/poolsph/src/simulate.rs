@@ -107,10 +107,6 @@ fn with_probes(plan: Plan, scene: &Scene, state: &State) -> Plan {
     off.fold(plan, Plan::note)
 }
 
-/// Bytes at work for each grain beside its columns: its contacts, their lists and their scratch. Measured: 900 of 3.5e6 grains on
-/// a lattice on which they touch.
-const CONTACTS: u64 = 900;
-
 /// What is told of grains, if there are any.
 fn with_grains(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<Plan, Failure> {
     for (i, grains) in assembled.grain_counts.iter().enumerate() {
@@ -131,7 +127,6 @@ fn with_grains(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<P
         let frames = frames::count(scene, scene.output.grains_interval());
         let bytes = frames * (grains.len() * frame.row_bytes()) as u64;
         plan = plan.output("/grains", frames, bytes);
-        plan = plan.memory("contacts", grains.len() as u64 * CONTACTS);
     }
     Ok(plan)
 }

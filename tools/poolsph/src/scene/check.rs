@@ -3,6 +3,7 @@
 use run::Fault;
 
 use shapes::check::{Misfit, check};
+use shapes::frame::{difference, length};
 
 use super::{Scene, StartState, Wire};
 use crate::domain::shape::Shape;
@@ -71,6 +72,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     if sizes.is_empty() {
         faults.extend(super::lattice::faults(scene));
         faults.extend(scene.wires().filter_map(|wire| crowded(scene, &wire)));
+        faults.extend(entangled(scene));
     }
     faults.extend(sizes);
     faults
@@ -156,6 +158,29 @@ fn without_metal(scene: &Scene) -> Vec<Fault> {
     let there = keys.filter(|(_, there)| *there);
     let fault = |key: &str| Fault::at(&format!("/{key}"), "means nothing without the key 'bodies'");
     there.map(|(key, _)| fault(key)).collect()
+}
+
+/// Droplets of two wires that are born into each other: the first of each comes at time 0.
+fn entangled(scene: &Scene) -> Option<Fault> {
+    let wires: Vec<Wire> = scene.wires().collect();
+    let centre = |wire: &Wire| {
+        let [x, y, z] = wire.offset_m;
+        [x, y, z + wire.droplets.height_m]
+    };
+    let pairs = (1..wires.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
+    let mut near = pairs.filter_map(|(a, b)| {
+        let (one, other) = (&wires[a], &wires[b]);
+        let apart = length(difference(centre(one), centre(other)));
+        let least = one.droplets.radius_m + other.droplets.radius_m;
+        (apart < least * (1.0 - 1e-9)).then(|| {
+            let what = format!(
+                "its droplets are born {apart:.3e} m from those of {}, within each other: radii of {} m and {} m need {least:.3e} m",
+                one.at, one.droplets.radius_m, other.droplets.radius_m
+            );
+            Fault::at(&other.at, what)
+        })
+    });
+    near.next()
 }
 
 /// Droplets that are born into each other.
@@ -336,6 +361,31 @@ mod tests {
         assert!(
             one.contains("/droplets/feed_m3_s") && one.contains("more often"),
             "{one}"
+        );
+    }
+
+    #[test]
+    fn droplets_of_two_wires_are_not_born_into_each_other() {
+        let at = |offset: f64| {
+            let droplets =
+                json!({"period_s": 0.02, "radius_m": 7.5e-4, "height_m": 0.015, "speed_m_s": 1.5});
+            let scene = json!({
+                "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 2.0}, "density_kg_m3": 7850,
+                "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "liquid"}],
+                "flow": {"method": "projection", "viscosity_pa_s": 0.004},
+                "source": {"start_m": [0, 0, 0], "velocity_m_s": [0, 0.005, 0]},
+                "droplets": droplets,
+                "arcs": [{"offset_m": [0, offset, 0], "droplets": droplets}],
+                "output": {"particles_interval_s": 0.1}
+            });
+            let scene: Scene = serde_json::from_value(scene).unwrap();
+            entangled(&scene).map(|fault| fault.to_string())
+        };
+        assert_eq!(at(1.5e-3), None);
+        let told = at(1e-3).unwrap();
+        assert!(
+            told.contains("/arcs/0/droplets") && told.contains("1.500e-3 m"),
+            "{told}"
         );
     }
 }

@@ -86,7 +86,7 @@ pub(super) fn faults(scene: &Scene) -> Vec<Fault> {
     let fit: Vec<String> = fit
         .filter_map(|(side, axis)| side.map(|side| format!("{:.6e} in {axis}", d * layers(side))))
         .collect();
-    let shared = if pitch(&body.shape.sides().map(|side| Vec::from_iter(side)), d).is_some() {
+    let shared = if pitch(&body.shape.sides().map(Vec::from_iter), d).is_some() {
         "together with the other bodies "
     } else {
         ""

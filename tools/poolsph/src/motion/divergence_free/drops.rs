@@ -230,3 +230,31 @@ fn a_drop_without_viscosity_needs_no_normals() {
             .any(|u| squared(*u) > 0.0)
     );
 }
+
+#[test]
+fn a_drop_that_swings_loses_no_more_than_viscosity_takes() {
+    let (oh, cells) = (0.02, 7);
+    let mode = |[x, y, z]: [f64; 3]| [-x, -y, 2.0 * z];
+    let number = ball(cells, |_| [0.0; 3]).near.len() as f64;
+    let radius = METAL.spacing * (0.75 * number / std::f64::consts::PI).cbrt();
+    let time = (METAL.density * radius.powi(3)).sqrt();
+    let mu = oh * (METAL.density * radius).sqrt();
+    let frequency = 8.0_f64.sqrt() / time;
+    let period = std::f64::consts::TAU / frequency;
+    // From the sphere, by the flow of the second mode, to a tenth of its radius.
+    let mut state = ball(cells, |x| mode(x).map(|u| 0.05 * frequency * u));
+    let swing = |state: &State| {
+        let moves = state.metal.column(&POSITION).iter();
+        let moves = moves.zip(state.metal.column(&VELOCITY));
+        let liquid = moves.zip(state.metal.column(&PHASE));
+        let liquid = liquid.filter(|(_, p)| **p == phase::LIQUID);
+        liquid.map(|((x, u), _)| dot(mode(*x), *u)).sum::<f64>()
+    };
+    let first = swing(&state);
+    let mut march = march_of(1.0, mu, period / 300.0);
+    steps(&mut march, &mut state, 300).unwrap();
+    // 5 nu/R^2 (Lamb 1932, section 355).
+    let exact = 5.0 * mu / METAL.density / radius.powi(2) * period;
+    let decay = -(swing(&state) / first).ln() / exact;
+    assert!((0.6..1.5).contains(&decay), "{decay} times Lamb's");
+}

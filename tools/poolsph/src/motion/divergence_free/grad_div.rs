@@ -7,7 +7,8 @@
 //! u <- u - alpha D^T D u        (D u)_a = B_a : sum_b s x_ab (u_b - u_a)
 //! ```
 //!
-//! with the B of the present neighbours, at the surface as well. D is zero for a linear flow without divergence. As D^T D is
+//! with the B of the present neighbours, at the surface as well unless tension acts: there the pressure makes another divergence
+//! zero (see [`operators`](super::operators)), and damping this one would take it back in each step, and the swing of a drop with it. D is zero for a linear flow without divergence. As D^T D is
 //! symmetric and not negative, energy can only fall. Momentum and angular momentum are kept: D of a translation or a
 //! rotation is zero.
 
@@ -68,13 +69,14 @@ impl GradDiv {
         self.moved.extend_from_slice(u);
         near.complete(&mut self.moved, |u, _, turn| turn.vector(u));
         let moved = &self.moved;
+        let tense = !near.tension.is_empty();
         self.stretched.resize(near.len(), [0.0; 6]);
         near.each_row(
             &mut self.stretched,
             #[inline(always)]
             |a, row, stretched| {
                 *stretched = [0.0; 6];
-                if near.role[a] != Role::Liquid {
+                if near.role[a] != Role::Liquid || (tense && rows[a].missing > 0.0) {
                     return;
                 }
                 let inverse = rows[a].present;

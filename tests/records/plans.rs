@@ -1,4 +1,4 @@
-//! The memory that plans tell is what runs take.
+//! What plans tell of memory and time is what runs take.
 
 use std::path::Path;
 use std::process::Command;
@@ -94,4 +94,21 @@ fn droplets_that_will_come_have_their_memory_in_the_plan() {
     };
     // A drop of 66 mm: 1.2e6 particles of more than a kilobyte each.
     assert!(told(0.066) > 1.2e9 + told(0.002), "{}", told(0.066));
+}
+
+#[test]
+fn check_tells_how_long_a_run_will_last() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("resume/drop.json");
+    let output = Command::new(programs().join("poolsph"))
+        .arg("check")
+        .arg(scene)
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    let time = said.lines().find(|line| line.starts_with("  time "));
+    let time = time.unwrap_or_else(|| panic!("{said}"));
+    assert!(
+        time.contains("about") && time.contains("ms a step"),
+        "{time}"
+    );
 }
