@@ -20,6 +20,14 @@ pub(crate) struct Frames {
     pub(crate) scalar: Vec<Vec<f64>>,
     /// Which particles are liquid at the end.
     pub(crate) liquid: Vec<bool>,
+    /// Volume of a particle, of the lattice that was fitted to the bodies \[m3\].
+    pub(crate) volume: f64,
+}
+
+/// What is read of `/plate`.
+#[derive(serde::Deserialize)]
+struct Plate {
+    particle_volume_m3: f64,
 }
 
 impl Frames {
@@ -32,7 +40,11 @@ impl Frames {
             velocity: Vec::new(),
             scalar: Vec::new(),
             liquid: Vec::new(),
+            volume: f64::NAN,
         };
+        if let Some((_, plate)) = reader.json::<Plate>("/plate")?.first() {
+            all.volume = plate.particle_volume_m3;
+        }
         for frame in reader.frames("/particles")? {
             let frame = frame?;
             all.time.push(frame.time_s);

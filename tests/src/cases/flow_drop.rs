@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::{drop_mode, zeros};
+use crate::drop::Series;
+use crate::drop::swing::{Fit, fit, rest};
+use crate::flow::drop_mode;
 use crate::lab::{Finished, Lab, LabError};
 use crate::particles::{Frames, mean, measurement, number};
 
@@ -90,9 +92,9 @@ impl Case for FlowDrop {
     }
 }
 
-/// Period and decay of the elongation, from its turning points without the first quarter.
+/// Period and decay of the elongation by a fit without the first quarter, and what it swings about.
 fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
-    let volume = frames.liquid.len() as f64 * number(run, "/spacing_m")?.powi(3);
+    let volume = frames.liquid.len() as f64 * frames.volume;
     let radius = (0.75 * volume / PI).cbrt();
     let density = number(run, "/density_kg_m3")?;
     let rayleigh =
@@ -108,35 +110,21 @@ fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
         .iter()
         .map(|places| elongation(places))
         .collect();
-    let zeros = zeros(&frames.time, &swing);
-    let (Some(first), Some(last), true) = (zeros.first(), zeros.last(), zeros.len() > 4) else {
-        return Err(LabError::Content {
-            path: run.artefact.clone(),
-            what: format!("swings through the sphere {} times, not five", zeros.len()),
-        });
+    // The lattice rings at first.
+    let first = frames.time.partition_point(|t| *t < 0.5 * PI / frequency);
+    let series = Series {
+        time: frames.time[first..].to_vec(),
+        value: swing[first..].to_vec(),
     };
-    let half = (last - first) / (zeros.len() - 1) as f64;
-    let mut errors = vec![("period", (half * frequency / PI - 1.0).abs())];
+    let found = fit(&series, Fit { frequency, decay });
+    let mut errors = vec![("period", (frequency / found.frequency - 1.0).abs())];
     if decay > 0.0 {
-        // The widest of each swing between two zeros falls as e^(-decay t).
-        let widest = zeros.windows(2).map(|pair| {
-            let within = frames.time.iter().zip(&swing);
-            let within = within.filter(|(time, _)| pair[0] < **time && **time < pair[1]);
-            within
-                .map(|(_, swing)| swing.abs())
-                .fold(0.0, f64::max)
-                .ln()
-        });
-        let widest: Vec<f64> = widest.collect();
-        let middle = 0.5 * (widest.len() - 1) as f64;
-        let (mut along, mut square) = (0.0, 0.0);
-        for (k, widest) in widest.iter().enumerate() {
-            let at = k as f64 - middle;
-            along += at * widest;
-            square += at * at;
-        }
-        errors.push(("decay", (-along / square / half / decay - 1.0).abs()));
+        errors.push(("decay", (found.decay / decay - 1.0).abs()));
+    } else {
+        // Of the swing, in a period.
+        errors.push(("lost", 1.0 - (-found.decay * found.period()).exp()));
     }
+    errors.push(("rest", (rest(&series, found) / swing[0]).abs()));
     Ok(errors
         .into_iter()
         .map(|(name, error)| (name.to_owned(), error))

@@ -46,7 +46,7 @@ impl Case for FlowSessile {
 /// The height of the middle of the drop, and its width as the root mean square of the distances from its axis; means over
 /// the second half of the run.
 fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
-    let volume = frames.liquid.len() as f64 * number(run, "/spacing_m")?.powi(3);
+    let volume = frames.liquid.len() as f64 * frames.volume;
     let weight = -number(run, "/density_kg_m3")? * number(run, "/flow/gravity_m_s2/2")?;
     let tension = number(run, "/tension/surface_tension_n_m")?;
     let exact = Sessile::of(volume, weight / tension);

@@ -39,7 +39,7 @@ impl Case for PoolDropOscillation {
 }
 
 fn errors(run: &Finished, frames: &Frames, liquid: &[usize]) -> Result<Errors, LabError> {
-    let volume = liquid.len() as f64 * number(run, "/spacing_m")?.powi(3);
+    let volume = liquid.len() as f64 * frames.volume;
     let cube = 0.75 * volume / PI;
     let stiffness = 8.0 * number(run, "/tension/surface_tension_n_m")?;
     let exact = 2.0 * PI / (stiffness / (number(run, "/density_kg_m3")? * cube)).sqrt();

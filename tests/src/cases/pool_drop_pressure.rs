@@ -39,7 +39,7 @@ impl Case for PoolDropPressure {
 }
 
 fn errors(run: &Finished, frames: &Frames, liquid: &[usize]) -> Result<Errors, LabError> {
-    let volume = liquid.len() as f64 * number(run, "/spacing_m")?.powi(3);
+    let volume = liquid.len() as f64 * frames.volume;
     let radius = (0.75 * volume / PI).cbrt();
     let exact = 2.0 * number(run, "/tension/surface_tension_n_m")? / radius;
     let inside = |k: usize| {

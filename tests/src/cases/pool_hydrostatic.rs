@@ -70,7 +70,7 @@ fn errors(run: &Finished, frames: &Frames, liquid: &[usize]) -> Result<Errors, L
     let gravity = -number(run, "/flow/gravity_m_s2/2")?;
     let [width, length] = [0, 1].map(|k| number(run, &format!("/bodies/1/shape/box/max_m/{k}")));
     // The surface stands where the volume of the liquid puts it.
-    let volume = liquid.len() as f64 * number(run, "/spacing_m")?.powi(3);
+    let volume = liquid.len() as f64 * frames.volume;
     let height = volume / (width? * length?);
     let bottom = density * gravity * height;
     let late = frames.second_half();

@@ -87,8 +87,19 @@ pub fn fit(series: &Series, guess: Fit) -> Fit {
     now
 }
 
+/// c, the value that a series swings about, of the best a, b, c.
+#[must_use]
+pub fn rest(series: &Series, fit: Fit) -> f64 {
+    best(series, fit).1
+}
+
 /// What the best a, b, c leave.
 fn residual(series: &Series, fit: Fit) -> Vec<f64> {
+    best(series, fit).0
+}
+
+/// What the best a, b, c leave, and c.
+fn best(series: &Series, fit: Fit) -> (Vec<f64>, f64) {
     let rows: Vec<[f64; 3]> = series
         .time
         .iter()
@@ -99,7 +110,7 @@ fn residual(series: &Series, fit: Fit) -> Vec<f64> {
         })
         .collect();
     let mut bases: Vec<Vec<f64>> = Vec::new();
-    let mut left = series.value.clone();
+    let (mut left, mut rest) = (series.value.clone(), 0.0);
     for k in 0..3 {
         let mut column: Vec<f64> = rows.iter().map(|r| r[k]).collect();
         for _ in 0..2 {
@@ -117,9 +128,11 @@ fn residual(series: &Series, fit: Fit) -> Vec<f64> {
         left.iter_mut()
             .zip(&column)
             .for_each(|(l, c)| *l -= along * c);
+        // The last column has only what the others lack: its factor is that of the constant.
+        rest = along / size;
         bases.push(column);
     }
-    left
+    (left, rest)
 }
 
 #[cfg(test)]
@@ -140,6 +153,7 @@ mod tests {
         };
         let found = fit(&series, guess);
         assert!((found.frequency - 5.0).abs() < 1e-9 && (found.decay - 0.3).abs() < 1e-9);
+        assert!((rest(&series, found) - 0.1).abs() < 1e-9);
         let even = Series {
             value: series.time.iter().map(|t| (5.0 * t).sin()).collect(),
             ..series

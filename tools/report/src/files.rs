@@ -264,6 +264,19 @@ pub(crate) struct Folders {
 }
 
 impl Folders {
+    /// Folders that are not there.
+    pub(crate) fn missing(&self) -> impl Iterator<Item = &PathBuf> {
+        let folders = [
+            &self.verify,
+            &self.stability,
+            &self.bench,
+            &self.certify,
+            &self.faults,
+            &self.studies,
+        ];
+        (folders.into_iter().flatten()).filter(|folder| !folder.is_dir())
+    }
+
     /// Every record that is read, with what it is.
     pub(crate) fn read(&self) -> Vec<(String, PathBuf)> {
         let folders = [

@@ -25,10 +25,24 @@ pub(crate) fn escape(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
+            // A page of text may hold no other control characters.
+            other if other.is_control() && !matches!(other, '\n' | '\r' | '\t') => {
+                out.push(char::REPLACEMENT_CHARACTER);
+            }
             other => out.push(other),
         }
     }
     out
+}
+
+/// A part as per cent with its sign and so many digits; one that rounds to nothing is no less than nothing.
+pub(crate) fn percent(part: f64, digits: usize) -> String {
+    let text = format!("{:+.digits$} %", 100.0 * part);
+    let nothing = text.chars().all(|c| !('1'..='9').contains(&c));
+    if nothing && part.is_finite() {
+        return format!("{:.digits$} %", 0.0);
+    }
+    text.replace('-', "\u{2212}")
 }
 
 /// A page that is put together from the top to the bottom.
@@ -267,6 +281,14 @@ mod tests {
     #[test]
     fn reserved_characters_do_no_harm() {
         assert_eq!(escape("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
+        assert_eq!(escape("a\u{1b}[2Jb\n\u{85}"), "a\u{fffd}[2Jb\n\u{fffd}");
+    }
+
+    #[test]
+    fn a_part_that_rounds_to_nothing_has_no_sign() {
+        let told = [-0.0004, 0.0004, -0.0125, 0.0125, f64::NAN].map(|part| percent(part, 1));
+        assert_eq!(told[..4], ["0.0 %", "0.0 %", "\u{2212}1.2 %", "+1.2 %"]);
+        assert!(told[4].contains("NaN"));
     }
 
     #[test]

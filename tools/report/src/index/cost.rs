@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::html::{Rows, escape};
+use crate::html::{Rows, escape, percent};
 use crate::records::{LeftOut, Memory, RunRecord, Spent, bytes, duration};
 
 /// Stages shorter than this part of a run are not named.
@@ -62,7 +62,7 @@ impl Prices {
             return String::new();
         };
         let part = |ratio: &Option<f64>, what: &str| {
-            ratio.map(|r| format!("{:+.1} % {what}", 100.0 * (r - 1.0)).replace('-', "\u{2212}"))
+            ratio.map(|r| format!("{} {what}", percent(r - 1.0, 1)))
         };
         let parts = [part(time, "time"), part(memory, "memory")];
         let parts: Vec<String> = parts.into_iter().flatten().collect();

@@ -28,6 +28,10 @@ pub(crate) fn write(folders: &Folders) -> Result<(), Failure> {
     let lead = "Evidence that the programs solve their equations: error against run time for cases with exact \
                 solutions, how extreme cases end, how fast it is, and the studies themselves.";
     let mut page = Page::new("Fusionline: evidence", &paragraph(lead));
+    let missing = folders
+        .missing()
+        .map(|folder| note(&format!("There is no folder {}.", folder.display())));
+    page.section("Not there", missing.collect());
     let speed = match &folders.bench {
         Some(folder) => Speed::read(folder)?,
         None => Speed::default(),

@@ -9,7 +9,7 @@ use super::beside::{self, Member, curves, numbers, pictures};
 use super::runs;
 use crate::csv::{self, Csv};
 use crate::files::{PairFiles, save};
-use crate::html::{Page, Rows, escape, note, paragraph};
+use crate::html::{Page, Rows, escape, note, paragraph, percent};
 use crate::records::figure as digits;
 
 /// Writes the page, and its table as CSV beside it.
@@ -180,7 +180,7 @@ fn table(names: &[String; 2], all: &[Vec<numbers::Number>; 2]) -> String {
         let part = difference.zip(values[0]).filter(|(_, a)| a.abs() > 0.0);
         let share = match (difference, part) {
             (Some(d), _) if d.abs() <= 0.0 => "same".to_owned(),
-            (_, Some((d, a))) => format!("{:+.1} %", 100.0 * d / a.abs()).replace('-', "\u{2212}"),
+            (_, Some((d, a))) => percent(d / a.abs(), 1),
             _ => String::new(),
         };
         table.row([

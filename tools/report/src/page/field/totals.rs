@@ -5,7 +5,7 @@ use run::Failure;
 
 use super::Run;
 use crate::field::columns::prefixed;
-use crate::html::{Rows, escape, paragraph};
+use crate::html::{Rows, escape, paragraph, percent};
 use crate::page::{grouped, tiles};
 use crate::records::{RunRecord, bytes, duration, figure as digits};
 
@@ -164,8 +164,7 @@ fn row(
     cells.push(escape(&shown));
     match exact {
         Some((value, wanted)) => {
-            let error = format!("{:+.2} %", 100.0 * (value / wanted - 1.0));
-            cells.extend([cell(wanted), error.replace('-', "\u{2212}")]);
+            cells.extend([cell(wanted), percent(value / wanted - 1.0, 2)]);
         }
         None if judged => cells.extend([String::new(), String::new()]),
         None => {}
