@@ -206,7 +206,7 @@ impl<'a> Source<'a> {
         })?;
         parts.stages().for_each(|stage| stage.declare(state));
         if state.metal.has(&AREA) {
-            let surface = Surface::new(scene.metal());
+            let surface = Surface::new(scene.metal()).of_cells(scene.lattice().cell());
             surface.declare(state);
             parts.take(Room::Surface, Box::new(surface));
             if let Some(cover) = cover {

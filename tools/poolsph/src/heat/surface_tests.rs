@@ -319,3 +319,35 @@ fn a_formula_too_narrow_for_parts_of_a_spacing_is_told() {
     arc.advance(&mut state, 1.0).unwrap();
     assert_eq!(arc.warnings().len(), 1, "{:?}", arc.warnings());
 }
+
+#[test]
+fn the_plan_of_a_body_is_that_of_its_columns() {
+    let seen = |half: [i32; 3], inside: &dyn Fn([f64; 3]) -> bool| {
+        let state = body(half, inside);
+        let patches = Patches::of(&state.metal);
+        let seen: f64 = (0..state.len()).map(|a| patches.at(a).seen).sum();
+        let plan: std::collections::HashSet<[i64; 2]> = state
+            .metal
+            .column(&particles::POSITION)
+            .iter()
+            .map(|[x, y, _]| [x.floor() as i64, y.floor() as i64])
+            .collect();
+        seen / plan.len() as f64 - 1.0
+    };
+    for rows in 1..6 {
+        let strip = |x: [f64; 3]| x[1] < f64::from(rows) - 4.0;
+        let off = seen([6, 4, 3], &strip);
+        assert!(off.abs() < 1e-12, "{rows} rows: {off}");
+    }
+    // A disc, a plate that stands askew, and one with a step.
+    let disc = |[x, y, _]: [f64; 3]| x.hypot(y) < 9.3;
+    let askew =
+        |[x, y, _]: [f64; 3]| (0.6 * x + 0.8 * y).abs() < 6.0 && (0.8 * x - 0.6 * y).abs() < 9.0;
+    let step = |[x, _, z]: [f64; 3]| x < 0.0 || z < 0.0;
+    type Inside<'a> = &'a dyn Fn([f64; 3]) -> bool;
+    let shapes: [(Inside<'_>, f64); 3] = [(&step, 1e-12), (&askew, 0.02), (&disc, 0.02)];
+    for (shape, bound) in shapes {
+        let off = seen([12, 12, 3], shape);
+        assert!(off.abs() < bound, "{off}");
+    }
+}

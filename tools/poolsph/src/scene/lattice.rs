@@ -20,10 +20,16 @@ pub struct Lattice {
 }
 
 impl Lattice {
+    /// Sides of a particle's cell along the axes \[m\].
+    #[must_use]
+    pub fn cell(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| self.pitch[k] * self.round.stretch[k])
+    }
+
     /// Spacing d, the edge of the cube of a particle's volume \[m\].
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        edge([0, 1, 2].map(|k| self.pitch[k] * self.round.stretch[k]))
+        edge(self.cell())
     }
 }
 

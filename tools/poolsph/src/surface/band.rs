@@ -4,7 +4,8 @@ use kernels::CubicSpline;
 use rayon::prelude::*;
 
 use super::area::Polygon;
-use super::columns::Columns;
+use super::columns::{Columns, Stood};
+use super::edges::Open;
 use super::{Cloud, tangents};
 use crate::faces::Turn;
 use crate::patch::Patch;
@@ -56,10 +57,22 @@ pub(super) struct Band {
     depths: Vec<f32>,
     levelled: Vec<f32>,
     areas: Vec<f64>,
+    /// Open sides of all particles of the cloud.
+    open: Vec<Open>,
+    /// Sides of a cell of the lattice along x and y \[m\].
+    cell: [f64; 2],
     columns: Columns,
 }
 
 impl Band {
+    /// A band of particles that a lattice of such cells, by their sides along x and y \[m\], has filled bodies with.
+    pub(super) fn of(cell: [f64; 2]) -> Self {
+        Self {
+            cell,
+            ..Self::default()
+        }
+    }
+
     /// Completes the coloured `patches` of a cloud.
     pub(super) fn complete(
         &mut self,
@@ -93,12 +106,37 @@ impl Band {
         for (&k, area) in self.rows.iter().zip(&self.areas) {
             patches[k as usize].seen = *area;
         }
+        self.find_edges(cloud, spacing);
         // What stands beyond a face sees its part of the columns there.
         let beyond = |k: &u32| self.within[*k as usize];
         let images = cloud.places.len() - cloud.images.len()..cloud.places.len();
         self.rows.extend(images.map(|k| k as u32).filter(beyond));
-        self.columns
-            .settle(&self.rows, cloud.places, spacing, patches);
+        let stood = Stood {
+            places: cloud.places,
+            open: &self.open,
+            cell: self.cell,
+            spacing,
+        };
+        self.columns.settle(&self.rows, &stood, patches);
+    }
+
+    /// Where the metal ends, as seen from above.
+    fn find_edges(&mut self, cloud: &Cloud<'_>, spacing: f64) {
+        let own = cloud.places.len() - cloud.images.len();
+        let within = &self.within;
+        (0..own)
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|k| {
+                if within[k] {
+                    Open::of(cloud, k, spacing)
+                } else {
+                    Open::default()
+                }
+            })
+            .collect_into_vec(&mut self.open);
+        let images = cloud.images;
+        images.complete(&mut self.open, |open, _, turn| open.turned(turn));
     }
 
     /// The particles of the band, and what all have to begin with.

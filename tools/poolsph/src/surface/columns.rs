@@ -10,9 +10,8 @@
 //!
 //! rho is the distance from the axis of the column, in the plan, and t how far the particle lies below
 //! the highest one there; v(t) is 1, and falls to 0 for what is hidden. The shares of a column add up
-//! to it. C is 1 where there is metal below; at an edge it falls to 0 within a column, where the
-//! planes of the surface end.
-
+//! to it. C is 1 where there is metal below; at an edge it falls to 0 within a column, half a spacing beyond the last particles
+//! (`edges`), elsewhere where the planes of the surface end.
 //!
 //! Columns stand in square tiles, which do not know of each other and are worked on side by side.
 
@@ -21,6 +20,7 @@ use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
 
+use super::edges::Open;
 use crate::patch::Patch;
 
 /// Columns per spacing.
@@ -35,6 +35,18 @@ const HIDDEN: f64 = 1.75;
 const EDGE: i64 = 16;
 /// Columns of a tile.
 const SIZE: usize = (EDGE * EDGE) as usize;
+
+/// Where particles stand.
+pub(super) struct Stood<'a> {
+    /// Places \[m\].
+    pub(super) places: &'a [[f64; 3]],
+    /// Open sides.
+    pub(super) open: &'a [Open],
+    /// Sides of a cell of the lattice along x and y \[m\].
+    pub(super) cell: [f64; 2],
+    /// d \[m\].
+    pub(super) spacing: f64,
+}
 
 /// What is known of a column.
 #[derive(Debug, Clone, Copy)]
@@ -85,14 +97,9 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Shares the plan among the `rows` of `patches`, which know what they see of the sky among
-    /// their neighbours; `places` tells where they are \[m\].
-    pub(super) fn settle(
-        &mut self,
-        rows: &[u32],
-        places: &[[f64; 3]],
-        spacing: f64,
-        patches: &mut [Patch],
-    ) {
+    /// their neighbours.
+    pub(super) fn settle(&mut self, rows: &[u32], stood: &Stood<'_>, patches: &mut [Patch]) {
+        let (places, spacing) = (stood.places, stood.spacing);
         self.places.clear();
         for &k in rows {
             self.enter(k, places[k as usize], spacing);
@@ -101,7 +108,7 @@ impl Columns {
         let known = &*patches;
         tiles
             .par_iter_mut()
-            .for_each(|tile| tile.share(places, spacing, known));
+            .for_each(|tile| tile.share(stood, known));
         for &k in rows {
             patches[k as usize].seen = 0.0;
         }
@@ -138,14 +145,15 @@ impl Columns {
 
 impl Tile {
     /// What of the columns here each member sees.
-    fn share(&mut self, places: &[[f64; 3]], spacing: f64, patches: &[Patch]) {
+    fn share(&mut self, stood: &Stood<'_>, patches: &[Patch]) {
+        let (places, spacing) = (stood.places, stood.spacing);
         self.columns.clear();
         self.columns.resize(SIZE, EMPTY);
         self.shares.clear();
         self.ends.clear();
         for m in 0..self.members.len() {
             let k = self.members[m] as usize;
-            self.stand(places[k], &patches[k], spacing);
+            self.stand(stood, k, &patches[k]);
             self.ends.push(self.shares.len() as u32);
         }
         let mut from = 0;
@@ -174,7 +182,8 @@ impl Tile {
     }
 
     /// Enters a particle in all columns here within R.
-    fn stand(&mut self, [x, y, z]: [f64; 3], patch: &Patch, spacing: f64) {
+    fn stand(&mut self, stood: &Stood<'_>, k: usize, patch: &Patch) {
+        let ([x, y, z], open, spacing) = (stood.places[k], stood.open[k], stood.spacing);
         let (edge, reach) = (spacing / FINE, REACH * spacing);
         let [west, south] = self.key.map(|key| key * EDGE);
         let here = |at, start: i64| {
@@ -191,8 +200,10 @@ impl Tile {
                 }
                 let at = (i - west + EDGE * (j - south)) as u32;
                 let column = &mut self.columns[at as usize];
-                let beyond = (patch.normal[0] * dx + patch.normal[1] * dy - patch.depth) / edge;
-                column.cover = column.cover.max((0.5 - beyond).clamp(0.0, 1.0));
+                let beyond = patch.normal[0] * dx + patch.normal[1] * dy - patch.depth;
+                let plane = (0.5 - beyond / edge).clamp(0.0, 1.0);
+                let cover = open.cover([dx, dy], stood.cell, edge, plane);
+                column.cover = column.cover.max(cover);
                 if patch.seen > 0.0 {
                     column.top = column.top.max(z);
                     let near = rest / (reach * reach);
@@ -239,7 +250,13 @@ mod tests {
         let mut patches: Vec<Patch> = bodies.iter().map(|body| body.1).collect();
         let places: Vec<[f64; 3]> = bodies.iter().map(|body| body.0).collect();
         let rows: Vec<u32> = (0..places.len() as u32).collect();
-        Columns::default().settle(&rows, &places, 1.0, &mut patches);
+        let stood = Stood {
+            places: &places,
+            open: &vec![Open::default(); places.len()],
+            cell: [1.0; 2],
+            spacing: 1.0,
+        };
+        Columns::default().settle(&rows, &stood, &mut patches);
         patches.iter().map(|patch| patch.seen).collect()
     }
 

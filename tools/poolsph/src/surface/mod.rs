@@ -19,6 +19,7 @@ mod band;
 mod columns;
 pub mod curvature;
 mod depth;
+mod edges;
 
 use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
@@ -75,12 +76,19 @@ impl Surface {
             metal,
             kernel,
             depth: Depth::new(kernel),
-            band: Band::default(),
+            band: Band::of([metal.spacing; 2]),
             coloured: Vec::new(),
             exposed: Vec::new(),
             resting: 0,
             total: 0.0,
         }
+    }
+
+    /// The same where bodies were filled with cells of such sides along the axes \[m\].
+    #[must_use]
+    pub fn of_cells(self, [x, y, _]: [f64; 3]) -> Self {
+        let band = Band::of([x, y]);
+        Self { band, ..self }
     }
 
     /// Measures all particles.
