@@ -15,6 +15,7 @@ use crate::matter::meeting::faces::{BEND_RATE, DEFORMATION_RATE, WARP_RATE};
 use crate::matter::meeting::sight::Sight;
 use crate::matter::meeting::skin::{DEFORMATION, Skin};
 use crate::matter::meeting::wet::Wet;
+use crate::matter::shares::shares;
 use crate::matter::water::friction::{Artificial, ArtificialViscosity};
 use crate::matter::water::near::LISTED;
 use crate::matter::water::nozzle::{Feed, LED, Nozzle};
@@ -281,7 +282,7 @@ fn fill(
         let what = format!("holds no particle at a spacing of {} m", water.spacing_m);
         return Err(Fault::at("/body", what));
     }
-    let volume: f64 = lattice.cell[..dimensions].iter().product();
+    let volume = volume(&body, &lattice, dimensions);
     let compiled = |property: &Property, at: String| -> Result<(Curve, String), Fault> {
         Ok((property.compile(&at, &["x", "y", "z", "r"])?, at))
     };
@@ -313,6 +314,17 @@ fn fill(
         pressures.push(pressure.as_ref().map_or(Ok(0.0), value)?);
     }
     Ok(pressures)
+}
+
+/// Volume of each particle of a body, in the plane its area: that of a cell where cells end where the body does, else the same part
+/// of what the body has \[m3\].
+fn volume(body: &Body, lattice: &Lattice, dimensions: usize) -> f64 {
+    let cell: f64 = lattice.cell[..dimensions].iter().product();
+    let shares = shares(body, lattice, dimensions);
+    if shares.is_empty() {
+        return cell;
+    }
+    cell * shares.iter().sum::<f64>() / shares.len() as f64
 }
 
 fn nozzle(

@@ -1,7 +1,7 @@
 //! Water without sound.
 
-use super::begun;
-use jetsph::assemble::Assembled;
+use super::{begun, parsed};
+use jetsph::assemble::{Assembled, assemble};
 use jetsph::balance::Balance;
 use jetsph::state::VELOCITY;
 use particles::POSITION;
@@ -170,4 +170,37 @@ fn a_jet_that_starts_late_comes_whole_and_stays_before_its_plate() {
     let lowest = lowest.fold(f64::INFINITY, f64::min);
     // Shifts may take a particle a little behind the plate, until it is looked at anew.
     assert!(lowest > -0.01 - 0.1 * 0.001, "{lowest}");
+}
+
+#[test]
+fn water_weighs_what_its_body_holds() {
+    let weight = |body: &str, dimensions: u32, method: &str| {
+        let velocity = &[1, 0, 0][..dimensions as usize];
+        let text = format!(
+            r#"{{"kind": "jetsph.scene", "version": 1, "dimensions": {dimensions}, "time": {{"end_s": 1}},
+                "water": {{"density_kg_m3": 1000, "spacing_m": 0.001, "method": "{method}", "bodies": [{{"body": {body}, "velocity_m_s": {velocity:?}}}]}},
+                "output": {{"frames_interval_s": 1}}}}"#
+        );
+        let Assembled { state, march, .. } = assemble(&parsed(&text)).unwrap();
+        Balance::of(&state, &march).mass
+    };
+    for radius in [0.0023, 0.00371, 0.0052] {
+        for method in ["divergence_free", "weakly_compressible"] {
+            let disc = format!(r#"{{"disc": {{"centre_m": [0.0003, 0], "radius_m": {radius}}}}}"#);
+            let exact = 1000.0 * std::f64::consts::PI * radius * radius;
+            let off = weight(&disc, 2, method) / exact - 1.0;
+            assert!(off.abs() < 5e-3, "disc of {radius} m: {off}");
+            let ball =
+                format!(r#"{{"sphere": {{"centre_m": [0, 0, 0.0004], "radius_m": {radius}}}}}"#);
+            let exact = 4.0 / 3.0 * exact * radius;
+            let off = weight(&ball, 3, method) / exact - 1.0;
+            assert!(off.abs() < 5e-3, "ball of {radius} m: {off}");
+        }
+    }
+    let fit = weight(
+        r#"{"box": {"min_m": [0, 0], "max_m": [0.0053, 0.004]}}"#,
+        2,
+        "divergence_free",
+    );
+    assert!((fit / 0.0212 - 1.0).abs() < 1e-12, "{fit}");
 }
