@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::drop::swing::{Fit, fit, zeros};
+use crate::drop::swing::{Fit, fit_with_double, zeros};
 use crate::drop::viscous::{rates, rayleigh};
 use crate::drop::{Series, points};
 use crate::em::frames::planned;
@@ -224,5 +224,5 @@ fn swing(run: &Finished, series: &Series, period: f64) -> Result<(f64, Fit), Lab
         frequency: 2.0 * PI / period,
         decay: 0.0,
     };
-    Ok((second, fit(series, guess)))
+    Ok((second, fit_with_double(series, guess)))
 }
