@@ -48,8 +48,9 @@ pub(super) struct Chart {
 }
 
 impl Chart {
+    /// The surface about `place`, where one of its points may stand.
     pub(super) fn new<const D: usize>(
-        i: usize,
+        place: &[f64; D],
         points: &[[f64; D]],
         frame: Frame<D>,
         near: &Near,
@@ -62,7 +63,7 @@ impl Chart {
         let mut share = vec![0.0; many];
         let mut heights = vec![0.0; many];
         for (m, &j) in near.points.iter().enumerate() {
-            let d = difference(&points[j as usize], &points[i]);
+            let d = difference(&points[j as usize], place);
             let (x, y, z) = (dot(&d, &axes[0]), dot(&d, &axes[1]), dot(&d, &normal));
             // |x - c| k, without a difference of large numbers where k is small.
             let far = (bow * bow * (x * x + y * y) + (1.0 + bow * z).powi(2)).sqrt();

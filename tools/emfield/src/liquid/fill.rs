@@ -94,24 +94,54 @@ pub(super) fn pushes<const D: usize>(
     own: usize,
     spacing: f64,
 ) -> Vec<[f64; D]> {
-    let places: Vec<[f64; 3]> = points.iter().map(spatial).collect();
-    let tree = Tree::new(&places);
-    let radius = REACH * spacing;
-    (0..own)
-        .into_par_iter()
-        .map(|i| {
-            let mut push = [0.0; D];
-            tree.within(places[i], radius, |j, _| {
-                let d = difference(&points[i], &points[j]);
-                let far = length(&d);
-                if j != i && far > 0.0 {
-                    let near = 1.0 - far / radius;
-                    push = along(&push, PUSH * spacing * near * near / far, &d);
-                }
-            });
-            push
-        })
-        .collect()
+    let crowd = Crowd::new(points, spacing);
+    let each = (0..own).into_par_iter();
+    each.map(|i| crowd.push(&points[i])).collect()
+}
+
+/// Points among which places are looked at.
+pub(super) struct Crowd<'a, const D: usize> {
+    points: &'a [[f64; D]],
+    tree: Tree,
+    spacing: f64,
+}
+
+impl<'a, const D: usize> Crowd<'a, D> {
+    pub(super) fn new(points: &'a [[f64; D]], spacing: f64) -> Self {
+        let places: Vec<[f64; 3]> = points.iter().map(spatial).collect();
+        Self {
+            points,
+            tree: Tree::new(&places),
+            spacing,
+        }
+    }
+
+    /// How far a place is pushed by the points around it \[m\].
+    pub(super) fn push(&self, place: &[f64; D]) -> [f64; D] {
+        let radius = REACH * self.spacing;
+        let mut push = [0.0; D];
+        self.tree.within(spatial(place), radius, |j, _| {
+            let d = difference(place, &self.points[j]);
+            let far = length(&d);
+            if far > 0.0 {
+                let near = 1.0 - far / radius;
+                push = along(&push, PUSH * self.spacing * near * near / far, &d);
+            }
+        });
+        push
+    }
+
+    /// The point nearest to a place, and how far it is \[m\].
+    pub(super) fn nearest(&self, place: &[f64; D]) -> Option<(usize, f64)> {
+        let nearest = self.tree.nearest(spatial(place))?;
+        Some((nearest, length(&difference(place, &self.points[nearest]))))
+    }
+
+    /// Visits points nearer than so many spacings.
+    pub(super) fn near(&self, place: &[f64; D], reach: f64, mut visit: impl FnMut(usize)) {
+        let radius = reach * self.spacing;
+        self.tree.within(spatial(place), radius, |j, _| visit(j));
+    }
 }
 
 /// Closest packing: face-centred cubes in space, triangles in a plane.

@@ -20,6 +20,7 @@ pub mod outline;
 pub mod passing;
 pub mod points;
 pub mod pressure;
+pub mod renew;
 pub mod room;
 mod rounds;
 pub mod sessile;

@@ -135,8 +135,7 @@ impl<const D: usize> Liquid<D> {
         let (all, images) = self.room.images(&self.position, way.spacing);
         let points = Points { all: &all, own: n };
         let rows = derivatives(points, way, self.fits(false)).map_err(|e| failed(&e))?;
-        let patches = self.patches(&self.position, way.spacing);
-        let patches = patches.map_err(|e| failed(&e))?;
+        let patches = self.skin(way.spacing).map_err(|e| failed(&e))?;
         self.normal = patches.iter().map(|p| p.normal).collect();
         let drawn = 2.0 * matter.viscosity.unwrap_or(0.0);
         let pushed = self.pushed(matter, 0.0);
@@ -241,6 +240,14 @@ impl<const D: usize> Liquid<D> {
             rows,
             images,
         })
+    }
+
+    /// The surface as it is.
+    ///
+    /// # Errors
+    /// Where too few points are near.
+    pub fn skin(&self, spacing: f64) -> Result<Vec<Patch<D>>, Bare> {
+        self.patches(&self.position, spacing)
     }
 
     /// The surface with points at `place`.

@@ -17,7 +17,9 @@ const TURNS: usize = 3;
 /// Largest radius of a support over that of the sphere beside which the surface is fitted.
 const CAP: f64 = 0.9;
 /// Normals further apart than this cosine belong to another side.
-const SIDE: f64 = 0.0;
+pub(super) const SIDE: f64 = 0.0;
+/// Times that a new point is moved onto the fit about it.
+const SETTLES: usize = 3;
 
 /// The surface near one of its points.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,27 +97,66 @@ pub fn beside<const D: usize>(
     (0..own)
         .into_par_iter()
         .map(|i| {
-            let near = support(i, sheet, &tree, spacing, exponents.len())?;
-            Ok(fit(i, points, normals[i], &near, &exponents))
+            let seat = Seat {
+                place: points[i],
+                normal: normals[i],
+            };
+            let near = support(&seat, sheet, &tree, spacing, exponents.len())?;
+            Ok(fit(&seat, points, &near, &exponents))
+        })
+        .collect()
+}
+
+/// Where a point of a surface stands, about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seat<const D: usize> {
+    /// Place \[m\].
+    pub place: [f64; D],
+    /// Unit normal, out of the liquid.
+    pub normal: [f64; D],
+}
+
+/// Patches of a surface at seats where it may have no points; the seats are moved onto it.
+///
+/// # Errors
+/// Where too few points are near.
+pub fn between<const D: usize>(
+    sheet: Sheet<'_, D>,
+    seats: &mut [Seat<D>],
+    spacing: f64,
+) -> Result<Vec<Patch<D>>, Bare> {
+    let places: Vec<[f64; 3]> = sheet.points.iter().map(spatial).collect();
+    let tree = Tree::new(&places);
+    let exponents = exponents(D - 1);
+    seats
+        .par_iter_mut()
+        .map(|seat| {
+            let near = support(seat, sheet, &tree, spacing, exponents.len())?;
+            for _ in 0..SETTLES {
+                let patch = fit(seat, sheet.points, &near, &exponents);
+                seat.place = along(&seat.place, patch.offset, &patch.normal);
+                seat.normal = patch.normal;
+            }
+            Ok(fit(seat, sheet.points, &near, &exponents))
         })
         .collect()
 }
 
 fn support<const D: usize>(
-    i: usize,
+    seat: &Seat<D>,
     sheet: Sheet<'_, D>,
     tree: &Tree,
     spacing: f64,
     terms: usize,
 ) -> Result<Near, Bare> {
-    let Sheet { points, normals } = sheet;
+    let normals = sheet.normals;
     let wanted = if D == 2 { terms + 2 } else { 2 * terms };
     let mut radius = RADIUS * spacing;
     let mut near = Vec::new();
     for _ in 0..GROWTHS {
         near.clear();
-        tree.within(spatial(&points[i]), radius, |j, _| {
-            if dot(&normals[i], &normals[j]) > SIDE {
+        tree.within(spatial(&seat.place), radius, |j, _| {
+            if dot(&seat.normal, &normals[j]) > SIDE {
                 near.push(j as u32);
             }
         });
@@ -129,7 +170,7 @@ fn support<const D: usize>(
         radius *= GROWTH;
     }
     Err(Bare {
-        place: points[i].to_vec(),
+        place: seat.place.to_vec(),
         found: near.len(),
         wanted,
         radius,
@@ -159,13 +200,12 @@ pub fn tangents<const D: usize>(n: &[f64; D]) -> [[f64; D]; 2] {
 /// z(x, y) = sum a_k x^p y^q by weighted least squares, z along the normal, turned until the surface does not rise at the
 /// point: then (2.44), Matsuzawa (2017), with its exponent put right, is kappa = -(z_xx + z_yy).
 fn fit<const D: usize>(
-    i: usize,
+    seat: &Seat<D>,
     points: &[[f64; D]],
-    guess: [f64; D],
     near: &Near,
     exponents: &[[i32; 2]],
 ) -> Patch<D> {
-    let (mut normal, mut bow) = (guess, 0.0_f64);
+    let (mut normal, mut bow) = (seat.normal, 0.0_f64);
     let mut turn = 0;
     loop {
         let axes = tangents(&normal);
@@ -175,7 +215,7 @@ fn fit<const D: usize>(
             axes,
             bow: bow.clamp(-most, most),
         };
-        let local = Chart::new(i, points, frame, near, exponents);
+        let local = Chart::new(&seat.place, points, frame, near, exponents);
         let [offset, x, y, xx, xy, yy] = local.derivatives(D == 3);
         let rise = [x, y];
         turn += 1;
@@ -200,7 +240,7 @@ fn fit<const D: usize>(
             curvature: -bent / steep.powf(1.5),
             squares: xx * xx + 2.0 * xy * xy + yy * yy,
             offset,
-            area: area(i, points, &near.points, axes),
+            area: area(&seat.place, points, &near.points, axes),
             value: local.weights[0].clone(),
             laplace: (0..near.points.len())
                 .map(|m| local.weights[3][m] + local.weights[5][m])
@@ -212,9 +252,14 @@ fn fit<const D: usize>(
 }
 
 /// The part of the tangent plane that is nearer to the point than to any neighbour.
-fn area<const D: usize>(i: usize, points: &[[f64; D]], near: &[u32], axes: [[f64; D]; 2]) -> f64 {
-    let flat = near.iter().filter(|j| **j as usize != i).map(|&j| {
-        let d = difference(&points[j as usize], &points[i]);
+fn area<const D: usize>(
+    place: &[f64; D],
+    points: &[[f64; D]],
+    near: &[u32],
+    axes: [[f64; D]; 2],
+) -> f64 {
+    let ways = near.iter().map(|&j| difference(&points[j as usize], place));
+    let flat = ways.filter(|d| dot(d, d) > 0.0).map(|d| {
         let (x, y) = (dot(&d, &axes[0]), dot(&d, &axes[1]));
         // A step along the surface is as long as the way there, not as its shadow.
         let shadow = x.hypot(y);

@@ -59,6 +59,11 @@ impl Acting {
         })
     }
 
+    /// Whether there is any.
+    pub(crate) fn any(&self) -> bool {
+        self.electric.is_some() || self.magnetic.is_some()
+    }
+
     /// What fields do at the start, with currents as strong as the scene asks for.
     ///
     /// # Errors

@@ -4,6 +4,7 @@ use artefact::Checkpoint;
 use run::Session;
 
 use crate::liquid::effort::Effort;
+use crate::liquid::renew::Renewed;
 use crate::liquid::step::Liquid;
 use crate::march::steps::Steps;
 
@@ -16,6 +17,8 @@ pub(super) struct Course {
     /// Steps that were divided.
     pub(super) divided: u64,
     pub(super) taken: u64,
+    /// Points that came and merged.
+    pub(super) renewed: Renewed,
 }
 
 impl Course {
@@ -42,6 +45,8 @@ impl Course {
             e.products,
             e.unsolved,
             e.unsettled,
+            self.renewed.added,
+            self.renewed.merged,
         ];
         checkpoint.put_u64("counts", &counts);
     }
@@ -66,10 +71,13 @@ impl Course {
         self.volume = checkpoint.f64("volume")?.first().copied();
         let residual = checkpoint.f64("residual")?;
         self.effort.residual = residual.first().copied().unwrap_or(0.0);
-        if let [taken, divided, products, unsolved, unsettled] = checkpoint.u64("counts")?[..] {
+        if let [taken, divided, products, unsolved, unsettled, added, merged] =
+            checkpoint.u64("counts")?[..]
+        {
             (self.taken, self.divided) = (taken, divided);
             self.effort.products = products;
             (self.effort.unsolved, self.effort.unsettled) = (unsolved, unsettled);
+            self.renewed = Renewed { added, merged };
         }
         Ok(())
     }

@@ -28,6 +28,10 @@ use crate::scene::{Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that a point may move in a step; longer ones are divided.
 const FARTHEST: f64 = 0.5;
+/// Change of the volume, over it, that one even move of the surface puts right.
+const EVEN: f64 = 1e-3;
+/// Moves that put right what is more.
+const SWELLS: usize = 2;
 /// Divergence over gradient of a velocity at the start that is no longer called free of divergence.
 const SOURCES: f64 = 0.05;
 
@@ -192,10 +196,35 @@ impl March {
                 heat.carry(&ended.rows, &before, &liquid.position);
             }
             made = ended.patches;
+            self.renew(liquid, &mut made, session)?;
             self.pull(liquid, length / parts, session)?;
         }
         self.drift = along(&self.drift, length, &self.matter.gravity);
         Ok(made)
+    }
+
+    /// Lets points of a drop in the open merge and come, and finds its surface again where they did.
+    fn renew(
+        &mut self,
+        liquid: &mut Liquid<3>,
+        made: &mut Vec<Patch<3>>,
+        session: &mut Session,
+    ) -> Result<(), Failure> {
+        if !self.renews(liquid) {
+            return Ok(());
+        }
+        let way = &self.way;
+        let count = session.timed("renewal of points", || liquid.renew(way))?;
+        if count.any() {
+            *made = liquid.skin(way.spacing).map_err(|e| failed(&e))?;
+        }
+        self.course.renewed.add(count);
+        Ok(())
+    }
+
+    /// Whether points may merge and come: fields and heat keep values of their own by point.
+    fn renews(&self, liquid: &Liquid<3>) -> bool {
+        liquid.loose() && self.heat.is_none() && !self.acting.any()
     }
 
     /// What fields do where the liquid is, `passed` after the last time \[s\].
@@ -237,7 +266,7 @@ impl March {
                 self.drift = totals.drift;
             }
             Some(volume) => {
-                liquid.swell((volume - totals.volume) / totals.area);
+                self.swell(liquid, volume, &totals);
                 let lack = difference(&self.drift, &totals.drift);
                 for u in &mut liquid.velocity {
                     *u = along(u, 1.0, &lack);
@@ -254,6 +283,20 @@ impl March {
             session.record("/liquid", time, &row)?;
         }
         Ok(())
+    }
+
+    /// Gives a liquid its volume back by an even move of its surface; more of them where the first leaves some of it.
+    fn swell(&self, liquid: &mut Liquid<3>, volume: f64, totals: &Totals) {
+        liquid.swell((volume - totals.volume) / totals.area);
+        if (volume - totals.volume).abs() < EVEN * volume {
+            return;
+        }
+        for _ in 0..SWELLS {
+            let Some((_, totals)) = self.outline(liquid) else {
+                return;
+            };
+            liquid.swell((volume - totals.volume) / totals.area);
+        }
     }
 
     /// The viscosity that bounds what a force stirs \[Pa s\], where points are passed.
@@ -332,6 +375,10 @@ impl March {
                 "{} steps were divided: points would have moved farther than {FARTHEST} spacings",
                 self.course.divided
             ));
+        }
+        if self.renews(liquid) {
+            session.closing("points_added", "1", self.course.renewed.added as f64);
+            session.closing("points_merged", "1", self.course.renewed.merged as f64);
         }
         if self.stirs(liquid).is_some() {
             session.closing("cell_reynolds", "1", self.passing.greatest);
