@@ -104,3 +104,32 @@ fn fields_that_cannot_lift_are_told_with_their_place() {
     let (code, text, _) = said(folder.path(), &scene, "1");
     assert!(code == 1 && text.contains("touches a coil"), "{text}");
 }
+
+#[test]
+fn a_search_for_a_shape_at_rest_ends_when_it_is_interrupted() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = json!({
+        "kind": "emfield.scene", "version": 1, "geometry": "space",
+        "liquid": {"shape": {"sphere": {"centre_m": [0, 0, 0], "radius_m": 5e-5}}, "density_kg_m3": 1000,
+            "surface_tension_n_m": 0.072, "equilibrium": {"field_v_m": 1e6, "relative_permittivity": 80}},
+        // As many harmonics as there may be: some ten seconds.
+        "points": {"spacing_m": 1e-9}
+    });
+    let file = folder.path().join("scene.json");
+    std::fs::write(&file, scene.to_string()).unwrap();
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"))
+        .args(["run", file.to_str().unwrap(), "--out"])
+        .arg(folder.path().join("rest.mcap"))
+        .args(["--threads", "1", "-q"])
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    let interrupt = format!("kill -INT {}", child.id());
+    let sent = std::process::Command::new("sh")
+        .args(["-c", &interrupt])
+        .status();
+    assert!(sent.unwrap().success());
+    let status = child.wait().unwrap();
+    assert_eq!(status.code(), Some(130), "{status}");
+    assert!(!folder.path().join("rest.mcap").exists());
+}

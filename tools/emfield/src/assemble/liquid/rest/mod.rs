@@ -27,6 +27,8 @@ pub(crate) fn rest(
     let Shape::Sphere(sphere) = &part.shape else {
         return Ok(());
     };
+    // A shape that is not found yet is worth no checkpoint.
+    let _expendable = session.expendable();
     if let Some(angle) = rest.contact_angle_deg {
         return sessile(scene, part, sphere, angle, session);
     }
