@@ -264,29 +264,27 @@ pub(crate) struct Folders {
 }
 
 impl Folders {
-    /// Folders that are not there.
-    pub(crate) fn missing(&self) -> impl Iterator<Item = &PathBuf> {
+    /// Folders of records that are asked for.
+    fn records(&self) -> impl Iterator<Item = &PathBuf> {
         let folders = [
             &self.verify,
             &self.stability,
             &self.bench,
             &self.certify,
             &self.faults,
-            &self.studies,
         ];
-        (folders.into_iter().flatten()).filter(|folder| !folder.is_dir())
+        folders.into_iter().flatten()
+    }
+
+    /// Folders that are not there.
+    pub(crate) fn missing(&self) -> impl Iterator<Item = &PathBuf> {
+        let folders = self.records().chain(&self.studies);
+        folders.filter(|folder| !folder.is_dir())
     }
 
     /// Every record that is read, with what it is.
     pub(crate) fn read(&self) -> Vec<(String, PathBuf)> {
-        let folders = [
-            &self.verify,
-            &self.stability,
-            &self.bench,
-            &self.certify,
-            &self.faults,
-        ];
-        let files = folders.into_iter().flatten().flat_map(|folder| {
+        let files = self.records().flat_map(|folder| {
             let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
             entries.map(|entry| entry.path())
         });

@@ -88,19 +88,23 @@ pub(super) fn faults(scene: &Scene) -> Vec<Fault> {
     let Some((i, body)) = free.max_by(|a, b| off(a.1).total_cmp(&off(b.1))) else {
         return Vec::new();
     };
-    let fit = body.shape.sides().into_iter().zip(["x", "y", "z"]);
-    let fit: Vec<String> = fit
-        .filter_map(|(side, axis)| side.map(|side| format!("{:.6e} in {axis}", d * layers(side))))
-        .collect();
-    let shared = if pitch(&body.shape.sides().map(Vec::from_iter), d).is_some() {
-        "together with the other bodies "
+    let alone = pitch(&body.shape.sides().map(Vec::from_iter), d).is_some();
+    let what = if alone {
+        format!(
+            "has no spacing along each axis in common with the other bodies, near {d} m and in all axes alike to 5 %: sides of all \
+             bodies that are whole numbers of one spacing would be filled"
+        )
     } else {
-        ""
+        let fit = body.shape.sides().into_iter().zip(["x", "y", "z"]);
+        let fit = fit.filter_map(|(side, axis)| Some((layers(side?), axis)));
+        let fit: Vec<String> = fit
+            .map(|(n, axis)| format!("{:.6e} in {axis}", d * n))
+            .collect();
+        format!(
+            "is filled by no whole numbers of layers about {d} m apart, in all axes alike to 5 %: sides of {} m would be",
+            fit.join(", ")
+        )
     };
-    let what = format!(
-        "is filled {shared}by no whole numbers of layers about {d} m apart, in all axes alike to 5 %: sides of {} m would be",
-        fit.join(", ")
-    );
     vec![Fault::at(&format!("/bodies/{i}/shape"), what).or_at("/spacing_m")]
 }
 
@@ -152,6 +156,13 @@ mod tests {
             told.contains("/bodies/1/shape") && told.contains("1.600000e-3 in z"),
             "{told}"
         );
+        // Each alone is filled, both together are not.
+        let apart = scene(&json!([
+            body("solid", [0.0; 3], [0.0103, 0.0077, 0.0052]),
+            body("solid", [0.0, 0.0, 0.0052], [0.0103, 0.0061, 0.0082]),
+        ]));
+        let told = faults(&apart)[0].to_string();
+        assert!(told.contains("in common with the other bodies"), "{told}");
         // Twice as thick as it is thin: layers of 0.775 mm fill both.
         assert_eq!(thin(0.0031), None);
         // A wall is no metal, and takes the layers of the others.
