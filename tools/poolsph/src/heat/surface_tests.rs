@@ -338,6 +338,14 @@ fn the_plan_of_a_body_is_that_of_its_columns() {
         let strip = |x: [f64; 3]| x[1] < f64::from(rows) - 4.0;
         let off = seen([6, 4, 3], &strip);
         assert!(off.abs() < 1e-12, "{rows} rows: {off}");
+        let state = body([6, 4, 3], strip);
+        let patches = Patches::of(&state.metal);
+        for (a, place) in state.metal.column(&particles::POSITION).iter().enumerate() {
+            // Each of the top layer has its own column, at edges and corners too.
+            let own = if place[2] > 2.0 { 1.0 } else { 0.0 };
+            let seen = patches.at(a).seen;
+            assert!((seen - own).abs() < 0.05, "{rows} rows, {place:?}: {seen}");
+        }
     }
     // A disc, a plate that stands askew, and one with a step.
     let disc = |[x, y, _]: [f64; 3]| x.hypot(y) < 9.3;

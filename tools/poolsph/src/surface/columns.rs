@@ -185,6 +185,8 @@ impl Tile {
     fn stand(&mut self, stood: &Stood<'_>, k: usize, patch: &Patch) {
         let ([x, y, z], open, spacing) = (stood.places[k], stood.open[k], stood.spacing);
         let (edge, reach) = (spacing / FINE, REACH * spacing);
+        let claim = open.claim(stood.cell[0] * stood.cell[1]);
+        let claim = claim.map_or(patch.seen, |area| if patch.seen > 0.0 { area } else { 0.0 });
         let [west, south] = self.key.map(|key| key * EDGE);
         let here = |at, start: i64| {
             let (first, last) = columns(at, spacing).into_inner();
@@ -209,7 +211,7 @@ impl Tile {
                     let near = rest / (reach * reach);
                     self.shares.push(Share {
                         column: at,
-                        weight: patch.seen * near * near,
+                        weight: claim * near * near,
                     });
                 }
             }

@@ -29,6 +29,8 @@ const FIRST: f64 = 1.25;
 const ALONG: f64 = 0.1;
 /// The bit of a particle upon its lattice.
 const LAID: u8 = 0b1_0000;
+/// The bit of a particle with none straight above it.
+const HIGHEST: u8 = 0b10_0000;
 
 /// Open sides of a particle, a bit each, and whether it stands upon its lattice.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -38,6 +40,7 @@ impl Open {
     /// Those of particle `k` of a cloud.
     pub(super) fn of(cloud: &Cloud<'_>, k: usize, spacing: f64) -> Self {
         let (mut open, mut first, mut askew) = (0b1111, false, false);
+        let mut highest = HIGHEST;
         for &b in cloud.row(k) {
             let [x, y, z] = minus(cloud.places[b as usize], cloud.places[k]).map(|x| x / spacing);
             if z.abs() > UPRIGHT {
@@ -45,6 +48,7 @@ impl Open {
             }
             if squared([x, y, z]) < FIRST * FIRST {
                 first = true;
+                highest &= if z > BEYOND { 0 } else { HIGHEST };
                 askew |= [x, y, z].iter().filter(|x| x.abs() < ALONG).count() < 2;
             }
             let ways = [(-x, y), (x, y), (-y, x), (y, x)];
@@ -53,22 +57,26 @@ impl Open {
                     open &= !(1 << side);
                 }
             }
-            if open == 0 {
-                return Self(0);
-            }
         }
-        Self(open | if first && !askew { LAID } else { 0 })
+        Self(open | highest | if first && !askew { LAID } else { 0 })
     }
 
     /// Those of its image.
     pub(super) fn turned(self, turn: &Turn) -> Self {
-        let mut open = self.0 & LAID;
+        let mut open = self.0 & (LAID | HIGHEST);
         for (side, way) in SIDES.iter().enumerate().filter(|(side, _)| self.has(*side)) {
             let to = turn.vector(*way);
             let kept = SIDES.iter().position(|s| s[0] * to[0] + s[1] * to[1] > 0.5);
             open |= 1 << kept.unwrap_or(side);
         }
         Self(open)
+    }
+
+    /// What it claims of the plan, of the area of a cell \[m2\]: all of it at the edge of a lattice, where its normal leans outwards
+    /// and would leave some to those beside and below it; nothing beneath another there. None where its planes tell.
+    pub(super) fn claim(self, cell: f64) -> Option<f64> {
+        let on_top = if self.0 & HIGHEST == 0 { 0.0 } else { cell };
+        (self.0 & LAID != 0).then_some(on_top)
     }
 
     fn has(self, side: usize) -> bool {
@@ -78,7 +86,7 @@ impl Open {
     /// Part of a column of the edge `edge` at `dx`, `dy` from the particle \[m\] that lies within half a cell of the sides `cell` towards
     /// the open sides, and, unless this is all that counts, below its `plane`.
     pub(super) fn cover(self, [dx, dy]: [f64; 2], cell: [f64; 2], edge: f64, plane: f64) -> f64 {
-        if self.0 == 0 {
+        if self.0 & 0b1111 == 0 {
             return plane;
         }
         let within = |side: usize, away: f64| {
