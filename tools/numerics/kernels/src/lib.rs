@@ -17,8 +17,10 @@
 //! assert!(kernel.value(0.0) > 0.0 && kernel.value(1.0e-3) == 0.0);
 //! ```
 
+mod number;
 mod wendland;
 
+pub use number::Number;
 pub use wendland::Wendland;
 
 /// A kernel of compact support.
@@ -27,8 +29,8 @@ pub trait Kernel: Send + Sync {
     fn support(&self) -> f64;
     /// W at distance r \[1/m^D\].
     fn value(&self, r: f64) -> f64;
-    /// (dW/dr) / r \[1/m^(D+2)\]; never positive.
-    fn slope(&self, r: f64) -> f64;
+    /// (dW/dr) / r \[1/m^(D+2)\] at one distance or at several; never positive.
+    fn slope<N: Number>(&self, r: N) -> N;
 }
 
 impl<const D: usize> Kernel for CubicSpline<D> {
@@ -42,7 +44,7 @@ impl<const D: usize> Kernel for CubicSpline<D> {
     }
 
     #[inline(always)]
-    fn slope(&self, r: f64) -> f64 {
+    fn slope<N: Number>(&self, r: N) -> N {
         Self::slope(self, r)
     }
 }
@@ -113,15 +115,16 @@ impl<const D: usize> CubicSpline<D> {
         self.value_scale * (0.25 * outer * outer * outer - inner * inner * inner)
     }
 
-    /// (dW/dr) / r \[1/m^(D+2)\] (eq. 3.88); -3 c_D / h^(D+2) at r = 0.
-    #[inline]
+    /// (dW/dr) / r \[1/m^(D+2)\] (eq. 3.88), at one distance or at several; -3 c_D / h^(D+2) at r = 0.
+    #[inline(always)]
     #[must_use]
-    pub fn slope(&self, r: f64) -> f64 {
-        let q = r * self.inverse_length;
-        let outer = (2.0 - q).max(0.0);
-        let near = 2.25 * q - 3.0;
-        let far = -0.75 * outer * outer / q.max(1.0);
-        self.slope_scale * if q < 1.0 { near } else { far }
+    pub fn slope<N: Number>(&self, r: N) -> N {
+        let q = r * r.of(self.inverse_length);
+        let one = r.of(1.0);
+        let outer = (r.of(2.0) - q).greatest(r.of(0.0));
+        let near = r.of(2.25) * q - r.of(3.0);
+        let far = r.of(-0.75) * outer * outer / q.greatest(one);
+        r.of(self.slope_scale) * q.below(one, near, far)
     }
 
     /// Value and slope together, sharing q.

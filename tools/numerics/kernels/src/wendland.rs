@@ -7,7 +7,7 @@
 //! (Wendland 1995; Dehnen and Aly 2012.) Its transform is positive, so that particles do not pair however many there
 //! are in its support, which the cubic spline lets happen beyond h = 1.3 d or so.
 
-use crate::Kernel;
+use crate::{Kernel, Number};
 
 /// Wendland's kernel of second order.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,9 +55,9 @@ impl<const D: usize> Kernel for Wendland<D> {
     }
 
     #[inline(always)]
-    fn slope(&self, r: f64) -> f64 {
-        let rest = (1.0 - 0.5 * r * self.inverse_length).max(0.0);
-        self.slope_scale * rest * rest * rest
+    fn slope<N: Number>(&self, r: N) -> N {
+        let rest = (r.of(1.0) - r.of(0.5) * r * r.of(self.inverse_length)).greatest(r.of(0.0));
+        r.of(self.slope_scale) * rest * rest * rest
     }
 }
 

@@ -1,12 +1,12 @@
 //! Water as its particles see it: places, speeds and volumes of neighbours, and their images beyond plain walls.
 
 use kernels::Kernel;
-use particles::{POSITION, Set, sweep};
+use particles::{POSITION, Rows, Set, sweep};
 use rayon::prelude::*;
 use shapes::Body;
 
 use super::images::{Plane, image, mirrors};
-use super::near::{LISTED, Near};
+use super::near::{LISTED, Lists, Near};
 use super::seen::Seen;
 use crate::state::VELOCITY;
 
@@ -14,9 +14,9 @@ use crate::state::VELOCITY;
 pub(super) const GRAIN: usize = 64;
 
 /// What each particle sees.
-pub(super) struct Around<K> {
+pub(super) struct Around<K, L = Rows> {
     pub(super) kernel: K,
-    pub(super) near: Near,
+    pub(super) near: Near<L>,
     pub(super) seen: Vec<Seen>,
     /// Particles near walls, since neighbours were found.
     pub(super) beside: Vec<u32>,
@@ -24,7 +24,7 @@ pub(super) struct Around<K> {
     pub(super) bodies: Vec<Body>,
 }
 
-impl<K: Kernel> Around<K> {
+impl<K: Kernel, L: Lists> Around<K, L> {
     /// Nothing yet; `h` is the smoothing length of `kernel` \[m\].
     pub(super) fn new(kernel: K, h: f64, bodies: Vec<Body>) -> Self {
         Self {
@@ -74,31 +74,11 @@ impl<K: Kernel> Around<K> {
             let all = (0..listed.len() as u32).into_par_iter().with_min_len(GRAIN);
             self.beside = all.filter(near).collect();
         }
+        self.near.stand_beside(&self.beside, listed);
     }
 
-    /// Calls `visit` with the others of particle `a` within the support: its number and itself, the offset from it \[m\], r^2 \[m2\] and
-    /// grad W = slope . offset.
-    #[inline(always)]
-    pub(super) fn each(&self, a: usize, mut visit: impl FnMut(usize, &Seen, [f64; 3], f64, f64)) {
-        let own = &self.seen[a];
-        let limit = self.kernel.support() * self.kernel.support();
-        for b in self.near.rows.row(a) {
-            let other = &self.seen[*b as usize];
-            let dx = [0, 1, 2].map(|k| own.x[k] - other.x[k]);
-            let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
-            if square < limit {
-                visit(
-                    *b as usize,
-                    other,
-                    dx,
-                    square,
-                    self.kernel.slope(square.sqrt()),
-                );
-            }
-        }
-    }
-
-    /// The same for the images of all others and its own; `visit` is told the first wall and whose image it is.
+    /// Calls `visit` with the images of the others of particle `a` and its own within the support: the first wall and whose image it
+    /// is, the image, the offset from it \[m\], r^2 \[m2\] and grad W = slope . offset.
     pub(super) fn mirrored(
         &self,
         a: usize,
@@ -125,8 +105,10 @@ impl<K: Kernel> Around<K> {
         };
         for mirror in mirrors(&self.bodies, own.x, reach) {
             each(&mirror, a, own);
-            for b in self.near.rows.row(a) {
-                each(&mirror, *b as usize, &self.seen[*b as usize]);
+            for b in self.near.rows.row(a).iter().map(|b| *b as usize) {
+                if b != a {
+                    each(&mirror, b, &self.seen[b]);
+                }
             }
         }
     }
@@ -134,5 +116,29 @@ impl<K: Kernel> Around<K> {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         self.near.bytes() + 64 * self.seen.len()
+    }
+}
+
+impl<K: Kernel> Around<K> {
+    /// Calls `visit` with the others of particle `a` within the support: its number and itself, the offset from it \[m\], r^2 \[m2\] and
+    /// grad W = slope . offset.
+    #[inline(always)]
+    pub(super) fn each(&self, a: usize, mut visit: impl FnMut(usize, &Seen, [f64; 3], f64, f64)) {
+        let own = &self.seen[a];
+        let limit = self.kernel.support() * self.kernel.support();
+        for b in self.near.rows.row(a) {
+            let other = &self.seen[*b as usize];
+            let dx = [0, 1, 2].map(|k| own.x[k] - other.x[k]);
+            let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
+            if square < limit {
+                visit(
+                    *b as usize,
+                    other,
+                    dx,
+                    square,
+                    self.kernel.slope(square.sqrt()),
+                );
+            }
+        }
     }
 }

@@ -8,6 +8,7 @@ use super::around::Around;
 use super::diffusion::DensityDiffusion;
 use super::friction::Artificial;
 use super::near::LISTED;
+use super::pairs::Pairs;
 use super::tait::Tait;
 use super::walls::Walls;
 use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
@@ -45,7 +46,7 @@ pub struct Water {
 /// The stage.
 pub struct Flow<const D: usize, K> {
     pub(super) water: Water,
-    pub(super) around: Around<K>,
+    pub(super) around: Around<K, Pairs>,
     /// Corrected slopes of density.
     pub(super) slopes: Vec<[f64; 3]>,
     pub(super) walls: Walls,
@@ -80,6 +81,7 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
         self.around.look(set, exchanges, |a| {
             (mass[a] / law.filling(density[a]), value(density[a]))
         });
+        self.around.near.rows.look(&self.around.seen);
         set.put(&MASS, mass);
         set.put(&DENSITY, density);
     }
@@ -100,9 +102,10 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
     fn limit(&self, state: &State) -> Option<Limit> {
         let set = &state.sets[self.water.set];
         let (h, c) = (self.water.smoothing_length, self.water.law.sound_speed);
-        let length = |x: [f64; 3]| x[0].hypot(x[1]).hypot(x[2]);
+        let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
         let fastest = |column: &[[f64; 3]]| {
-            sweep::greatest(column.len(), |a| length(column[a])).map_or(0.0, |(_, most)| most)
+            let most = sweep::greatest(column.len(), |a| square(column[a]));
+            most.map_or(0.0, |(_, most)| most.sqrt())
         };
         // Of speeds only how they differ counts; the whole is at most that.
         let speed = fastest(set.column(&VELOCITY));

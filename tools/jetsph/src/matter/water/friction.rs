@@ -8,6 +8,7 @@
 //! In print (39) has C h for C h^2, which mixes units. Both act along the line of centres, so that momentum and angular
 //! momentum stay, and both take energy from all motion.
 
+use kernels::Number;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -38,15 +39,15 @@ impl ArtificialViscosity {
 
 /// A friction.
 pub trait Friction: Sync {
-    /// q \[Pa\] of a pair with u_ij . x_ij \[m2/s\] and r^2 \[m2\].
-    fn pressure(&self, approach: f64, square: f64) -> f64;
+    /// q \[Pa\] of a pair, or of several, with u_ij . x_ij \[m2/s\] and r^2 \[m2\].
+    fn pressure<N: Number>(&self, approach: N, square: N) -> N;
 }
 
 /// None.
 impl Friction for () {
     #[inline(always)]
-    fn pressure(&self, _: f64, _: f64) -> f64 {
-        0.0
+    fn pressure<N: Number>(&self, approach: N, _: N) -> N {
+        approach.of(0.0)
     }
 }
 
@@ -75,9 +76,9 @@ impl Artificial {
 
 impl Friction for Artificial {
     #[inline(always)]
-    fn pressure(&self, approach: f64, square: f64) -> f64 {
-        let rate = approach.min(0.0) / (square + self.guard);
-        rate * (self.quadratic * rate - self.linear)
+    fn pressure<N: Number>(&self, approach: N, square: N) -> N {
+        let rate = approach.least(square.of(0.0)) / (square + square.of(self.guard));
+        rate * (square.of(self.quadratic) * rate - square.of(self.linear))
     }
 }
 
@@ -103,14 +104,14 @@ impl Viscous {
 
 impl Friction for Viscous {
     #[inline(always)]
-    fn pressure(&self, approach: f64, square: f64) -> f64 {
-        -self.scale * approach / (square + self.guard)
+    fn pressure<N: Number>(&self, approach: N, square: N) -> N {
+        square.of(-self.scale) * approach / (square + square.of(self.guard))
     }
 }
 
 impl<A: Friction, B: Friction> Friction for (A, B) {
     #[inline(always)]
-    fn pressure(&self, approach: f64, square: f64) -> f64 {
+    fn pressure<N: Number>(&self, approach: N, square: N) -> N {
         self.0.pressure(approach, square) + self.1.pressure(approach, square)
     }
 }

@@ -13,18 +13,22 @@
 //!
 //! - [`tait`] is the equation of state, [`friction`] artificial and true viscosity, [`diffusion`] that of density;
 //! - [`divergence_free`] is the other stage, of water without sound;
-//! - [`near`] keeps neighbours, [`images`] are plain walls, [`flow`] is the stage, `sums` what it gathers over pairs;
+//! - [`near`] keeps neighbours, `pairs` sums over them, `four` by four, [`images`] are plain walls, [`flow`] is the stage, `sums`
+//!   what it sums;
 //! - [`nozzle`] brings water in, [`outlet`] takes it away.
 
 mod around;
 pub mod diffusion;
 pub mod divergence_free;
+mod exchange;
 pub mod flow;
+mod four;
 pub mod friction;
 pub mod images;
 pub mod near;
 pub mod nozzle;
 pub mod outlet;
+mod pairs;
 mod seen;
 mod sums;
 pub mod tait;

@@ -9,19 +9,48 @@ pub const LISTED: Column<[f64; 3]> = Column::new("listed", "m", [f64::NAN; 3]).s
 /// The skin in smoothing lengths.
 const SKIN: f64 = 0.3;
 
+/// How neighbours are listed.
+pub trait Lists: Default + Send + Sync {
+    /// Lists those of places that `grid` was given, closer than `radius` \[m\].
+    fn find(&mut self, listed: &[[f64; 3]], grid: &Grid, radius: f64);
+
+    /// Tells who stands beside walls.
+    fn stand_beside(&mut self, _beside: &[u32], _listed: (&[[f64; 3]], &Grid, f64)) {}
+
+    /// All neighbours of a particle that stands beside a wall, of any where nobody was told.
+    fn row(&self, a: usize) -> &[u32];
+
+    /// Bytes held.
+    fn bytes(&self) -> usize;
+}
+
+impl Lists for Rows {
+    fn find(&mut self, listed: &[[f64; 3]], grid: &Grid, radius: f64) {
+        self.within(listed, grid, radius);
+    }
+
+    fn row(&self, a: usize) -> &[u32] {
+        self.row(a)
+    }
+
+    fn bytes(&self) -> usize {
+        self.bytes()
+    }
+}
+
 /// Neighbours within a set.
 #[derive(Debug, Clone)]
-pub struct Near {
+pub struct Near<L = Rows> {
     grid: Grid,
     /// For each particle, those within the support and the skin.
-    pub rows: Rows,
+    pub rows: L,
     radius: f64,
     skin: f64,
     /// The exchange of particles that they know of.
     seen: u64,
 }
 
-impl Near {
+impl<L: Lists> Near<L> {
     /// None yet; `h` is the smoothing length \[m\].
     #[must_use]
     pub fn new(h: f64) -> Self {
@@ -29,7 +58,7 @@ impl Near {
         let radius = 2.0 * h + skin;
         Self {
             grid: Grid::new(0.5 * radius),
-            rows: Rows::new(),
+            rows: L::default(),
             radius,
             skin,
             seen: u64::MAX,
@@ -67,7 +96,13 @@ impl Near {
 
     fn find(&mut self, listed: &[[f64; 3]]) {
         self.grid.bin(listed);
-        self.rows.within(listed, &self.grid, self.radius);
+        self.rows.find(listed, &self.grid, self.radius);
+    }
+
+    /// Tells who stands beside walls, where they were last listed.
+    pub fn stand_beside(&mut self, beside: &[u32], listed: &[[f64; 3]]) {
+        self.rows
+            .stand_beside(beside, (listed, &self.grid, self.radius));
     }
 
     /// What a checkpoint keeps.

@@ -4,6 +4,7 @@ use kernels::Kernel;
 use particles::{POSITION, Set};
 
 use super::around::Around;
+use super::near::Lists;
 use crate::stage::{Course, Entry, Figure};
 use crate::state::{MASS, VELOCITY};
 
@@ -60,10 +61,10 @@ impl Walls {
 
     /// Brings back what came behind a wall, and takes its speed into the wall: thin or parted water has no pressure that
     /// could stop it, and clings there instead of leaping off. What it gives to the wall is counted.
-    pub(super) fn land<K: Kernel>(
+    pub(super) fn land<K: Kernel, L: Lists>(
         &mut self,
         set: &mut Set,
-        around: &Around<K>,
+        around: &Around<K, L>,
         dt: f64,
         entry: &mut Entry,
     ) {
