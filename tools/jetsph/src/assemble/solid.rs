@@ -33,6 +33,8 @@ pub(super) struct Made {
     pub(super) size: [f64; 3],
     /// Stiffness of a cell under compression, M V/d^2 \[N/m\].
     stiffness: f64,
+    /// How deep its particles lie below its surface at rest \[m\]; none where it can break.
+    depths: Vec<f64>,
     /// Speed of its compression waves \[m/s\].
     sound: f64,
     /// Whether it has the updated form: water sees its particles as they stand.
@@ -106,12 +108,18 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
         );
         return Err(Fault::at("/spacing_m", what));
     }
+    let depth = |x: &[f64; 3]| (-shape.distance(*x)).max(0.0);
+    let depths = match solid.fracture {
+        None => lattice.places.iter().map(depth).collect(),
+        Some(_) => Vec::new(),
+    };
     let modulus = cell.law.lame + 2.0 * cell.law.shear;
     let spacing = spacing(lattice.cell, dimensions);
     let made = Made {
         set: state.sets.len(),
         size: lattice.cell,
         stiffness: modulus * cell.volume / (spacing * spacing),
+        depths,
         sound: cell.law.wave_speed(solid.density_kg_m3),
         is_updated: solid.updated_form.is_some(),
         cells: (scene.water.is_some() && solid.updated_form.is_none())
@@ -217,6 +225,7 @@ pub(super) fn contact(scene: &Scene, solids: &[Made]) -> Box<dyn Stage> {
         set: made.set,
         spacing: spacing(made.size, scene.dimensions),
         stiffness: made.stiffness,
+        depths: made.depths.clone(),
     };
     let damping = scene.contact.map_or(0.0, |contact| contact.damping);
     let walls = super::plain_walls(&scene.walls, scene.dimensions);

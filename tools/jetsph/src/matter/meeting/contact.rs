@@ -6,7 +6,8 @@
 //! f = max(0, k delta - c u_n),   delta = (d_a + d_b)/2 - r,   c = 2 zeta sqrt(k m),   m = m_a m_b/(m_a + m_b)
 //! ```
 //!
-//! k is the stiffness of a cell under compression, M V/d^2. At a plain wall delta = d/2 - s. Neighbours at rest of one
+//! k is the stiffness of a cell under compression, M V/d^2. At a plain wall delta = d/2 - s. Different bodies that cannot break
+//! touch by the balls of `balls`: `(d_a + d_b)/2` is the sum of their radii, k is weighted. Neighbours at rest of one
 //! unbroken piece are no contact: what holds them keeps them apart. A particle that broke bears compression alone
 //! (Shinohara et al. 2004, section 2.3): it is one of these.
 
@@ -14,6 +15,7 @@ use neighbours::Grid;
 use particles::{POSITION, Rows, sweep};
 use shapes::Body;
 
+use super::balls::{Across, Ball, balls};
 use crate::matter::solid::elastic::REST;
 use crate::matter::solid::fracture::BROKEN;
 use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
@@ -27,7 +29,7 @@ const SWING: f64 = 0.2;
 const WAY: f64 = 0.1;
 
 /// A solid that takes part.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Party {
     /// Number of its set.
     pub set: usize,
@@ -35,6 +37,8 @@ pub struct Party {
     pub spacing: f64,
     /// k \[N/m\].
     pub stiffness: f64,
+    /// How deep each particle lies below the surface at rest \[m\]; none of a body that can break.
+    pub depths: Vec<f64>,
 }
 
 /// What a contact knows of a particle.
@@ -46,6 +50,7 @@ struct Seen {
     mass: f64,
     party: u32,
     broken: bool,
+    ball: Ball,
 }
 
 /// The stage.
@@ -54,8 +59,11 @@ pub struct Contact {
     walls: Vec<(String, Body)>,
     /// zeta.
     damping: f64,
+    /// The balls of each party; none where all are alike.
+    balls: Vec<Vec<Ball>>,
     grid: Grid,
     rows: Rows,
+    across: Across,
     seen: Vec<Seen>,
     forces: Vec<[f64; 3]>,
     stored: f64,
@@ -69,7 +77,13 @@ impl Contact {
     #[must_use]
     pub fn new(parties: Vec<Party>, walls: Vec<(String, Body)>, damping: f64) -> Self {
         let reach = parties.iter().fold(0.0_f64, |most, p| most.max(p.spacing));
+        let each = parties.iter().map(|p| balls(&p.depths, p.spacing));
+        let balls: Vec<Vec<Ball>> = each.collect();
+        let counted = balls.iter().flatten().filter(|ball| ball.weight > 0.0);
+        let widest = counted.fold(0.5 * reach, |most, ball| most.max(ball.radius));
         Self {
+            across: Across::new(widest),
+            balls,
             grid: Grid::new(reach),
             rows: Rows::new(),
             seen: Vec::new(),
@@ -89,6 +103,11 @@ impl Contact {
             let set = &state.sets[party.set];
             let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
             let (rest, mass, broken) = (set.column(&REST), set.column(&MASS), set.column(&BROKEN));
+            let alike = Ball {
+                radius: 0.5 * party.spacing,
+                weight: 1.0,
+            };
+            let balls = &self.balls[number];
             self.seen.extend((0..set.len()).map(|a| Seen {
                 x: position[a],
                 u: velocity[a],
@@ -96,6 +115,7 @@ impl Contact {
                 mass: mass[a],
                 party: number as u32,
                 broken: broken.get(a).is_some_and(|b| *b > 0),
+                ball: balls.get(a).copied().unwrap_or(alike),
             }));
         }
         let places: Vec<[f64; 3]> = self.seen.iter().map(|s| s.x).collect();
@@ -105,6 +125,10 @@ impl Contact {
             .fold(0.0_f64, |most, p| most.max(p.spacing));
         self.grid.bin(&places);
         self.rows.within(&places, &self.grid, reach);
+        let seen = &self.seen;
+        self.across.find(seen.len(), self.parties.len(), |a| {
+            (seen[a].x, seen[a].party as usize, seen[a].ball.weight)
+        });
     }
 
     /// Whether two particles belong to one unbroken piece, side by side.
@@ -124,30 +148,51 @@ impl Contact {
         [force, 0.5 * spring * overlap, (spring - force) * apart]
     }
 
-    /// Force \[N\], energy and loss of one particle by its pairs; of the last two it has half.
+    /// Force \[N\], energy and loss of one particle by its pairs within its body; of the last two it has half.
     fn pairs(&self, a: usize) -> [f64; 5] {
         let own = &self.seen[a];
         let party = &self.parties[own.party as usize];
         let mut sum = [0.0; 5];
-        for b in self.rows.row(a) {
-            let other = &self.seen[*b as usize];
-            let theirs = &self.parties[other.party as usize];
-            let dx = [0, 1, 2].map(|k| own.x[k] - other.x[k]);
-            let r = (dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]).sqrt();
-            let overlap = 0.5 * (party.spacing + theirs.spacing) - r;
-            if overlap <= 0.0 || r <= 0.0 || self.joined(own, other) {
-                continue;
+        for other in self.rows.row(a).iter().map(|b| &self.seen[*b as usize]) {
+            if own.party == other.party && !self.joined(own, other) {
+                let push = self.pair(own, other, party.spacing, party.stiffness);
+                (0..5).for_each(|k| sum[k] += push[k]);
             }
-            let apart = (0..3).map(|k| (own.u[k] - other.u[k]) * dx[k]).sum::<f64>() / r;
-            let stiffness =
-                2.0 * party.stiffness * theirs.stiffness / (party.stiffness + theirs.stiffness);
-            let mass = own.mass * other.mass / (own.mass + other.mass);
-            let [force, stored, lost] = self.push(stiffness, mass, overlap, apart);
-            (0..3).for_each(|k| sum[k] += force * dx[k] / r);
-            sum[3] += 0.5 * stored;
-            sum[4] += 0.5 * lost;
         }
         sum
+    }
+
+    /// The same by its pairs with other bodies; `number` is that among those who may touch.
+    fn across(&self, number: usize) -> [f64; 5] {
+        let own = &self.seen[self.across.who[number] as usize];
+        let k = self.parties[own.party as usize].stiffness;
+        let mut sum = [0.0; 5];
+        for b in self.across.rows.row(number) {
+            let other = &self.seen[self.across.who[*b as usize] as usize];
+            if own.party != other.party {
+                let theirs = self.parties[other.party as usize].stiffness;
+                let stiffness =
+                    own.ball.weight * other.ball.weight * 2.0 * k * theirs / (k + theirs);
+                let push = self.pair(own, other, own.ball.radius + other.ball.radius, stiffness);
+                (0..5).for_each(|k| sum[k] += push[k]);
+            }
+        }
+        sum
+    }
+
+    /// The same by a pair that touches at a distance `touch` \[m\].
+    fn pair(&self, own: &Seen, other: &Seen, touch: f64, stiffness: f64) -> [f64; 5] {
+        let dx = [0, 1, 2].map(|k| own.x[k] - other.x[k]);
+        let r = (dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]).sqrt();
+        let overlap = touch - r;
+        if overlap <= 0.0 || r <= 0.0 {
+            return [0.0; 5];
+        }
+        let apart = (0..3).map(|k| (own.u[k] - other.u[k]) * dx[k]).sum::<f64>() / r;
+        let mass = own.mass * other.mass / (own.mass + other.mass);
+        let [force, stored, lost] = self.push(stiffness, mass, overlap, apart);
+        let [x, y, z] = dx.map(|dx| force * dx / r);
+        [x, y, z, 0.5 * stored, 0.5 * lost]
     }
 
     /// Which particles are broken, as last seen.
@@ -243,6 +288,11 @@ impl Stage for Contact {
         }
         let mut found = vec![[0.0; 5]; self.seen.len()];
         sweep::fill(&mut found, |a| self.pairs(a));
+        let mut met = vec![[0.0; 5]; self.across.who.len()];
+        sweep::fill(&mut met, |number| self.across(number));
+        for (a, met) in self.across.who.iter().zip(&met) {
+            (0..5).for_each(|k| found[*a as usize][k] += met[k]);
+        }
         let mut total = [0.0; 3];
         for (number, (_, body)) in self.walls.iter().enumerate() {
             let mut pushed = vec![[0.0; 5]; self.seen.len()];
@@ -321,3 +371,6 @@ impl Stage for Contact {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

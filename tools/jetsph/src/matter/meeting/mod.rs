@@ -4,6 +4,7 @@
 //! - [`sight`] finds who meets whom, [`faces`] the face through which water presses;
 //! - [`wet`] is the pressure between the two; [`contact`] keeps solids apart.
 
+mod balls;
 pub mod contact;
 pub mod faces;
 pub mod sight;
