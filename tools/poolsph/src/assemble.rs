@@ -52,8 +52,8 @@ pub struct Assembled {
     pub filled: Vec<Filled>,
     /// Grains of each of their bodies, in the order of the scene.
     pub grain_counts: Vec<usize>,
-    /// What is told of grains that begin deep within others.
-    pub overlaps: Vec<String>,
+    /// What is doubtful about the grains at the start.
+    pub grain_doubts: Vec<String>,
     /// Physics that is absent.
     pub left_out: LeftOut,
 }
@@ -100,11 +100,11 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         Some(grains) => Some(source.grains(grains, inputs, &state)?),
         None => None,
     };
-    let (stages, grain_counts, overlaps) = match grains {
+    let (stages, grain_counts, grain_doubts) = match grains {
         Some((mut stages, set, counts)) => {
             state.grains = Some(set);
-            let overlaps = std::mem::take(&mut stages.overlaps);
-            (Some(stages), counts, overlaps)
+            let doubts = std::mem::take(&mut stages.doubts);
+            (Some(stages), counts, doubts)
         }
         None => (None, Vec::new(), Vec::new()),
     };
@@ -120,7 +120,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         state,
         filled,
         grain_counts,
-        overlaps,
+        grain_doubts,
         left_out: parts.left_out,
     })
 }

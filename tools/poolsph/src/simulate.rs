@@ -116,8 +116,8 @@ fn with_grains(mut plan: Plan, scene: &Scene, assembled: &Assembled) -> Result<P
             return Err(Fault::at(&format!("/grains/bodies/{i}"), what).into());
         }
     }
-    for overlap in &assembled.overlaps {
-        plan = plan.note(overlap.clone());
+    for doubt in &assembled.grain_doubts {
+        plan = plan.note(doubt.clone());
     }
     if let Some(grains) = &assembled.state.grains {
         let frame = frames::grains(grains, scene.output.precision);
@@ -350,7 +350,7 @@ impl<'a> Simulation<'a> {
         }
         let told = march.stages().flat_map(|stage| stage.warnings());
         let doubts = crate::scene::doubts(self.scene).into_iter();
-        for warning in told.chain(doubts).chain(self.run.overlaps.clone()) {
+        for warning in told.chain(doubts).chain(self.run.grain_doubts.clone()) {
             session.warn(warning);
         }
         if state.step == self.scene.steps()

@@ -160,6 +160,27 @@ impl Meeting {
         }
     }
 
+    /// A grain beside a mirror plane that is `distance` \[m\] from its centre: the contact with its own image, whether it touches or not.
+    ///
+    /// The image has the same speed along the plane and turns the other way about what lies in it, so that nothing slides.
+    #[inline]
+    #[must_use]
+    pub fn with_image(a: &Grain, distance: f64, normal: Vector) -> Self {
+        let along_normal = |v: Vector| dot(v, normal);
+        let arm = distance.max(0.0);
+        Self {
+            normal,
+            overlap: 2.0 * (a.radius - distance),
+            arms: [arm, arm],
+            approach: -2.0 * along_normal(a.velocity),
+            slide: [0.0; 3],
+            turn: scaled(2.0, along(a.spin, -along_normal(a.spin), normal)),
+            swing: [0.0; 3],
+            mass: 0.5 * a.mass,
+            radius: 0.5 * a.radius,
+        }
+    }
+
     /// The contact of a grain with a body at rest or moving as a whole, by the body's signed distance (negative inside);
     /// a grain whose centre has passed the surface is pushed out along the same normal.
     #[must_use]

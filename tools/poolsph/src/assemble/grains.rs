@@ -1,6 +1,6 @@
 //! Grains and what they meet.
 
-use particles::Set;
+use particles::{POSITION, Set};
 use run::{Failure, Fault, Inputs};
 
 use super::Source;
@@ -17,8 +17,8 @@ pub(super) struct Beside {
     pub(super) motion: grains::Motion,
     pub(super) cover: Option<Cover>,
     pub(super) displaced: Option<Displaced>,
-    /// What is told of grains that begin deep within others.
-    pub(super) overlaps: Vec<String>,
+    /// What is told of grains that begin deep within others, or beside a mirror that is none for them.
+    pub(super) doubts: Vec<String>,
 }
 
 impl Source<'_> {
@@ -44,7 +44,8 @@ impl Source<'_> {
             laid_rows.resize(laid_rows.len() + count, body.bed);
         }
         let metal = self.scene.has_metal().then_some(&state.metal);
-        let overlaps = grains::overlaps(&scene.walls, &set, &laid_rows, metal).map_err(within)?;
+        let mut doubts = grains::overlaps(&scene.walls, &set, &laid_rows, metal).map_err(within)?;
+        doubts.extend(self.unmirrored(scene, &set));
         let heat = scene.heat.as_ref();
         let mut warmed = None;
         if let Some(heat) = heat {
@@ -68,7 +69,13 @@ impl Source<'_> {
         let cover = metal.is_some().then(|| Cover::new(spacing, radii[1]));
         let flow = self.scene.flow.as_ref().filter(|_| self.scene.has_metal());
         let projected = flow.filter(|flow| flow.method == Method::Projection);
-        let displaced = projected.map(|_| Displaced::new(self.scene.metal(), radii[1]));
+        let displaced = projected.map(|_| {
+            Displaced::new(
+                self.scene.metal(),
+                radii[1],
+                grains::Mirrors::of(&scene.walls),
+            )
+        });
         let motion = grains::Motion::new(scene, &set, warmed).map_err(within)?;
         let motion = motion
             .beside(metal)
@@ -77,9 +84,37 @@ impl Source<'_> {
             motion,
             cover,
             displaced,
-            overlaps,
+            doubts,
         };
         Ok((beside, set, counts))
+    }
+
+    /// Mirrors of the flow that grains lie beside and do not have.
+    fn unmirrored(&self, scene: &grains::Parameters, set: &Set) -> Vec<String> {
+        let mirrors = grains::Mirrors::of(&scene.walls);
+        let [_, widest] = grains::fill::radii(set);
+        let faces = self.scene.faces.iter();
+        let sides =
+            faces.flat_map(|faces| faces.mirror.iter().map(move |face| (faces, face.side())));
+        let missing = sides.filter_map(|(faces, (axis, upper))| {
+            let (point, sign) = if upper {
+                (faces.max_m, -1.0)
+            } else {
+                (faces.min_m, 1.0)
+            };
+            let mut normal = [0.0; 3];
+            normal[axis] = sign;
+            let beside = |x: &[f64; 3]| (x[axis] - point[axis]).abs() < 2.0 * widest;
+            let lie = set.column(&POSITION).iter().filter(|x| beside(x)).count();
+            (lie > 0 && !mirrors.have(point, normal, 0.01 * widest)).then(|| {
+                let (name, at) = (["x", "y", "z"][axis], point[axis]);
+                format!(
+                    "the mirror of the flow at {name} = {at} m is none for grains, of which {lie} lie beside it: give them a wall \
+                     with the shape 'half_space' and \"mirror\": true"
+                )
+            })
+        });
+        missing.collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use neighbours::{Grid, Halo};
 use particles::POSITION;
 
-use super::RADIUS;
+use super::{Mirrors, RADIUS};
 use crate::state::State;
 
 /// Grains within a reach of places of the metal, with what finds them.
@@ -15,6 +15,7 @@ pub(super) struct Around {
     metal: Vec<[f64; 3]>,
     places: Vec<[f64; 3]>,
     radii: Vec<f64>,
+    mirrors: Mirrors,
 }
 
 impl Around {
@@ -27,7 +28,13 @@ impl Around {
             metal: Vec::new(),
             places: Vec::new(),
             radii: Vec::new(),
+            mirrors: Mirrors::default(),
         }
+    }
+
+    /// With the images of grains in `mirrors`.
+    pub(super) fn beside(self, mirrors: Mirrors) -> Self {
+        Self { mirrors, ..self }
     }
 
     /// Takes the grains of `state` that are near one of the places `metal` \[m\].
@@ -43,6 +50,8 @@ impl Around {
             self.places.push(*x);
             self.radii.push(*r);
         }
+        self.mirrors
+            .complete(&mut self.places, &mut self.radii, self.reach);
         self.grid.bin(&self.places);
     }
 

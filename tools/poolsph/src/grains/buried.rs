@@ -4,7 +4,7 @@ use particles::{POSITION, Set};
 use run::Fault;
 use shapes::Body;
 
-use super::parameters::WallScene;
+use super::wall_parameters::WallScene;
 use super::{DRIVEN, RADIUS};
 
 /// Faults of walls that hold whole grains.

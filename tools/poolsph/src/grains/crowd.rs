@@ -196,7 +196,14 @@ impl Crowd {
     /// The least slack at walls.
     fn at_walls(&self, walls: &Walls, seen: Seen<'_>) -> Option<Slack> {
         let rows = walls.rows_touching(seen.depth);
-        let slacks = rows.map(|row| seen.slack(seen.grains[row].mass, self.loads[row]));
+        let slacks = rows.map(|(row, mirror)| {
+            let (mass, load) = (seen.grains[row].mass, self.loads[row]);
+            if mirror {
+                seen.slack(0.5 * mass, load + load)
+            } else {
+                seen.slack(mass, load)
+            }
+        });
         slacks.reduce(Slack::least)
     }
 

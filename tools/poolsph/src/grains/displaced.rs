@@ -15,6 +15,7 @@ use particles::Matter;
 use rayon::prelude::*;
 use shapes::rule::gauss;
 
+use super::Mirrors;
 use super::around::Around;
 use crate::near::Role;
 use crate::stage::{Figure, Stage, StageError};
@@ -32,13 +33,13 @@ pub struct Displaced {
 }
 
 impl Displaced {
-    /// The room that grains of at most `widest` \[m\] in radius take of the liquid of a metal.
+    /// The room that grains of at most `widest` \[m\] in radius, and their images in `mirrors`, take of the liquid of a metal.
     #[must_use]
-    pub fn new(metal: Matter, widest: f64) -> Self {
+    pub fn new(metal: Matter, widest: f64, mirrors: Mirrors) -> Self {
         Self {
             kernel: CubicSpline::new(metal.smoothing_length),
             rule: gauss(PLACES),
-            around: Around::new(metal.support() + widest),
+            around: Around::new(metal.support() + widest).beside(mirrors),
             most: 0.0,
         }
     }
@@ -130,7 +131,7 @@ mod tests {
             spacing: 1e-3,
             smoothing_length: 1e-3,
         };
-        Displaced::new(metal, 1e-3)
+        Displaced::new(metal, 1e-3, Mirrors::default())
     }
 
     #[test]

@@ -33,10 +33,8 @@ pub fn faults(scene: &Parameters) -> Vec<Fault> {
         }
     }
     for (i, wall) in scene.walls.iter().enumerate() {
-        let mut misfits = Vec::new();
-        check::check(&wall.shape, &format!("/walls/{i}/shape"), 3, &mut misfits);
-        let found = misfits.into_iter().map(|m| Fault::at(&m.path, m.what));
-        faults.extend(found);
+        let found = wall.faults().into_iter();
+        faults.extend(found.map(|fault| fault.within(&format!("/walls/{i}"))));
     }
     if let Some(bounds) = scene.bounds {
         let flat = (0..3).find(|k| bounds.max_m[*k] <= bounds.min_m[*k]);

@@ -9,7 +9,7 @@ use shapes::Body;
 use shapes::frame::{difference, length};
 
 use super::fill::radii;
-use super::parameters::WallScene;
+use super::wall_parameters::WallScene;
 use super::{DRIVEN, GLUED, RADIUS};
 
 /// Part of the smaller radius from which on an overlap at the start is told.

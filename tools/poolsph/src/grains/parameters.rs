@@ -10,8 +10,8 @@ use serde::Deserialize;
 use shapes::Shape;
 
 use super::law::Law;
-use super::light::LightScene;
 use super::metal_parameters::{HertzScene, MetalScene};
+use super::wall_parameters::WallScene;
 use crate::heat::{self, Caloric};
 
 /// Grains, what they are made of and what holds them.
@@ -296,31 +296,6 @@ impl GrainHeat {
         }
         .caloric()
     }
-}
-
-/// A wall.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct WallScene {
-    /// What it looks like.
-    pub shape: Shape,
-    /// The wall is all that is outside of the shape: a box that grains lie in, each side a contact of its own.
-    #[serde(default)]
-    pub hollow: bool,
-    /// Velocity, numbers or formulas in t; at rest if absent.
-    #[schemars(extend("x-unit" = "m/s"))]
-    pub velocity_m_s: Option<[Property; 3]>,
-    /// Velocity at which its surface goes along itself, beside that of the wall: a wire that is fed. Numbers or formulas in t.
-    #[schemars(extend("x-unit" = "m/s"))]
-    pub surface_m_s: Option<[Property; 3]>,
-    /// Pressure of its surface on the grains beside it: a cavity. Absent: none.
-    #[schemars(extend("x-unit" = "Pa"))]
-    pub pressure_pa: Option<f64>,
-    /// Light of an arc on the grains behind its surface, and what they give off; absent: none.
-    pub light: Option<LightScene>,
-    /// Coefficient of friction on this wall, if it is another.
-    #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
-    pub friction: Option<f64>,
 }
 
 /// When grains rest.

@@ -1,7 +1,7 @@
 //! Pressure of a wall on the grains beside it: the cavity of an arc.
 //!
 //! The surface is divided into pieces, and each presses with p A n on the grain that is nearest to it outside, if there is one within two
-//! diameters. So the sum is the pressure times the area that is borne, whatever grains bear it.
+//! diameters. Pieces beyond a mirror are those of the other half. So the sum is the pressure times the area that is borne, whatever grains bear it.
 
 use contact::Grain;
 use neighbours::Grid;
@@ -10,6 +10,7 @@ use shapes::frame::{Vector, along, difference, dot};
 use shapes::surface::{Piece, pieces};
 use shapes::{Body, Shape};
 
+use super::Mirrors;
 use super::depth::Depth;
 
 /// Size of a piece over the least radius; pieces are a third of what is asked for.
@@ -34,12 +35,13 @@ pub struct Pressed {
     places: Vec<Vector>,
     /// Row of the grain that bears each piece.
     bearers: Vec<Option<u32>>,
+    mirrors: Mirrors,
 }
 
 impl Pressed {
-    /// The surface of a shape under `pressure` \[Pa\], among grains whose radii go from `least` to `widest` \[m\].
+    /// The surface of a shape under `pressure` \[Pa\], among grains whose radii go from `least` to `widest` \[m\], and before `mirrors`.
     #[must_use]
-    pub fn new(shape: &Shape, pressure: f64, [least, widest]: [f64; 2]) -> Self {
+    pub fn new(shape: &Shape, pressure: f64, [least, widest]: [f64; 2], mirrors: &Mirrors) -> Self {
         let reach = REACH * widest;
         Self {
             pressure,
@@ -50,6 +52,7 @@ impl Pressed {
             grid: Grid::new(reach),
             places: Vec::new(),
             bearers: Vec::new(),
+            mirrors: mirrors.clone(),
         }
     }
 
@@ -64,9 +67,12 @@ impl Pressed {
             return;
         }
         self.grid.bin(&self.places);
-        let (grid, reach) = (&self.grid, self.reach);
+        let (grid, reach, mirrors) = (&self.grid, self.reach, &self.mirrors);
         let bearer = |piece: &Piece| {
             let place = along(piece.place, 1.0, moved);
+            if mirrors.hide(place) {
+                return None;
+            }
             let mut nearest: Option<(f64, u32)> = None;
             grid.runs(place, reach, |run| {
                 for (at, k) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {

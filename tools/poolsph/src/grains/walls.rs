@@ -6,14 +6,15 @@ use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange, Property};
 use shapes::frame::{Vector, along, difference, length};
 
+use super::Mirrors;
 use super::depth::Depth;
 use super::faces::Face;
 use super::light::Light;
 use super::lists::ROWS;
 use super::memory::Memory;
 use super::near::Near;
-use super::parameters::WallScene;
 use super::pressure::Pressed;
+use super::wall_parameters::WallScene;
 
 /// A face that may move.
 #[derive(Debug, Clone)]
@@ -27,6 +28,8 @@ struct Wall {
     pressed: Option<Pressed>,
     light: Option<Light>,
     friction: Option<f64>,
+    /// Whether grains meet their own images in it.
+    mirror: bool,
     velocity: Vector,
     /// How far it has moved since the start \[m\], and where that was when neighbours were listed.
     moved: Vector,
@@ -63,6 +66,7 @@ impl Walls {
     /// A formula that cannot be read.
     pub fn new(scene: &[WallScene], radii: [f64; 2]) -> Result<Self, Fault> {
         let mut walls: Vec<Wall> = Vec::new();
+        let mirrors = Mirrors::of(scene);
         for (i, wall) in scene.iter().enumerate() {
             let by = |velocity: &Option<[Property; 3]>, key: &str| {
                 let at = format!("/walls/{i}/{key}");
@@ -84,6 +88,7 @@ impl Walls {
                 pressed: None,
                 light: None,
                 friction: wall.friction,
+                mirror: wall.mirror,
                 velocity: [0.0; 3],
                 moved: [0.0; 3],
                 listed: [0.0; 3],
@@ -97,7 +102,7 @@ impl Walls {
             let light = light.map(|l| l.light(&format!("/walls/{i}/light")));
             let borne = wall.pressure_pa.or(light.is_some().then_some(0.0));
             if let (Some(pressure), Some(first)) = (borne, walls.get_mut(before)) {
-                first.pressed = Some(Pressed::new(&wall.shape, pressure, radii));
+                first.pressed = Some(Pressed::new(&wall.shape, pressure, radii, &mirrors));
                 first.light = light.transpose()?;
             }
         }
@@ -135,10 +140,8 @@ impl Walls {
     /// The farthest that a wall has moved since neighbours were listed \[m\].
     #[must_use]
     pub fn strayed(&self) -> f64 {
-        let far = self
-            .walls
-            .iter()
-            .map(|w| length(difference(w.moved, w.listed)));
+        let walls = self.walls.iter();
+        let far = walls.map(|w| length(difference(w.moved, w.listed)));
         far.fold(0.0, f64::max)
     }
 
@@ -219,7 +222,7 @@ impl Walls {
             if let Some(coefficient) = wall.friction {
                 own.friction = Some(contact::Friction { coefficient });
             }
-            let (face, moved) = (&wall.face, wall.moved);
+            let (face, moved, mirror) = (&wall.face, wall.moved, wall.mirror);
             let velocity = along(wall.velocity, 1.0, wall.sliding);
             let near = wall.near[..wall.reckoned].par_iter_mut().with_min_len(256);
             near.for_each(|near| {
@@ -228,7 +231,11 @@ impl Walls {
                 }
                 let grain = &grains[near.row as usize];
                 let (distance, normal) = face.at(difference(grain.position, moved), grain.radius);
-                let meeting = Meeting::beside_wall(grain, distance, normal, velocity);
+                let meeting = if mirror {
+                    Meeting::with_image(grain, distance, normal)
+                } else {
+                    Meeting::beside_wall(grain, distance, normal, velocity)
+                };
                 near.meet(meeting, &own, rolling, step);
             });
             let overlaps = wall.reckoned().iter().map(|near| near.overlap);
@@ -272,9 +279,10 @@ impl Walls {
         }
     }
 
-    /// Rows of the grains that touch walls and are awake, by walls.
-    pub(super) fn rows_touching(&self, depth: Depth<'_>) -> impl Iterator<Item = usize> {
-        self.walls.iter().flat_map(move |wall| wall.touching(depth))
+    /// Rows of the grains that touch walls and are awake, by walls, and whether that is a mirror.
+    pub(super) fn rows_touching(&self, depth: Depth<'_>) -> impl Iterator<Item = (usize, bool)> {
+        let walls = self.walls.iter();
+        walls.flat_map(move |wall| wall.touching(depth).map(move |row| (row, wall.mirror)))
     }
 
     /// Adds the rows of the grains near walls that move, are fed or press.

@@ -25,6 +25,29 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 proptest! {
     #[test]
+    fn a_grain_beside_a_mirror_meets_its_image(x in vector(), u in vector(), w in vector(), distance in 0.05..1.2_f64) {
+        let a = grain([distance, x[1], x[2]], u, w, 1e-3);
+        let mut image = a;
+        image.position[0] = -a.position[0];
+        image.velocity[0] = -a.velocity[0];
+        // A turn about the normal looks the same in a mirror, one about the plane is reversed.
+        image.spin = [a.spin[0], -a.spin[1], -a.spin[2]];
+        let told = Meeting::with_image(&a, a.position[0], [1.0, 0.0, 0.0]);
+        let Some(pair) = Meeting::of(&a, &image) else {
+            prop_assert!(told.overlap <= 0.0);
+            return Ok(());
+        };
+        let near = |one: f64, other: f64, size: f64| (one - other).abs() <= 1e-13 * size;
+        prop_assert!(near(told.overlap, pair.overlap, 1e-3) && near(told.approach, pair.approach, 1.0));
+        prop_assert!(near(told.mass, pair.mass, a.mass) && near(told.radius, pair.radius, 1e-3));
+        for k in 0..3 {
+            prop_assert!(near(told.normal[k], pair.normal[k], 1.0) && near(told.slide[k], pair.slide[k], 1.0));
+            prop_assert!(near(told.turn[k], pair.turn[k], 1e3) && near(told.swing[k], pair.swing[k], 1e3));
+        }
+        prop_assert!(near(told.arms[0], pair.arms[0], 1e-3) && near(told.arms[1], pair.arms[1], 1e-3));
+    }
+
+    #[test]
     fn swapping_grains_negates_every_bit_and_keeps_angular_momentum(
         xa in vector(), xb in vector(), ua in vector(), ub in vector(), wa in vector(), wb in vector(), s in vector()
     ) {
