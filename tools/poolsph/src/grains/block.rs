@@ -117,6 +117,7 @@ impl Block {
     /// Reckons all contacts: a loop without branches, to be compiled for the vectors of the processor.
     #[inline(always)]
     pub(super) fn reckon(&mut self, resistance: &impl Resistance, step: f64) {
+        let resistance = *resistance;
         for lane in 0..self.filled.min(LANES) {
             let meeting = Meeting::overlapping(&self.sides[0].get(lane), &self.sides[1].get(lane));
             let mut history = History {

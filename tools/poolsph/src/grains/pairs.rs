@@ -39,9 +39,14 @@ pub fn act<N: Normal + Copy + Sync>(
         let sums = [force, moment];
         let arch = pulp::Arch::new();
         match rolling {
-            None => arch.dispatch(Wide(work, chunk, sums, Sliding(contact))),
+            None => arch.dispatch(Wide(work, chunk, sums, Sliding(*contact))),
             Some(rolling) => {
-                arch.dispatch(Wide(work, chunk, sums, SlidingAndRolling(contact, rolling)));
+                arch.dispatch(Wide(
+                    work,
+                    chunk,
+                    sums,
+                    SlidingAndRolling(*contact, rolling),
+                ));
             }
         }
     });
