@@ -7,6 +7,7 @@ use run::property::OutOfRange;
 
 use super::MASS;
 use super::columns::{ENTHALPY, HELD, TEMPERATURE};
+use super::conducting::Recent;
 use super::heat::Heat;
 use super::lists::{Lists, ROWS, Touch};
 use super::metal::Metal;
@@ -45,12 +46,13 @@ impl Heat {
         let grains = self
             .conductor
             .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
-        let pair = |a: usize, b: usize| -> Result<f64, OutOfRange> {
+        let pair = |recent: &mut Recent, a: usize, b: usize| -> Result<f64, OutOfRange> {
             let Some(meeting) = Meeting::of(&grains.grain(a), &grains.grain(b)) else {
                 return Ok(0.0);
             };
-            let gas = grains.gas(0.5 * (grains.temperature[a] + grains.temperature[b]))?;
-            let k = [grains.conductivity(a), grains.conductivity(b)];
+            let mean = 0.5 * (grains.temperature[a] + grains.temperature[b]);
+            let gas = recent.gas(&grains, mean)?;
+            let k = recent.conductivities(&grains, [a, b]);
             Ok(grains.of_contact(&meeting, grains.radii[a], k, gas))
         };
         all.resize_with(lists.chunks.len(), Vec::new);
@@ -61,11 +63,12 @@ impl Heat {
                 if !busy.conduct[c] {
                     return Ok(());
                 }
+                let mut recent = Recent::default();
                 for other in &chunk.pairs {
                     let (a, b) = (c * ROWS + other.own as usize, other.other as usize);
                     let touching = other.state == Touch::Touching;
                     let h = if touching && pass.takes(a, b) {
-                        pair(a, b)?
+                        pair(&mut recent, a, b)?
                     } else {
                         0.0
                     };

@@ -127,6 +127,48 @@ impl Conducting<'_> {
     }
 }
 
+/// What was last asked for. Most grains of a bed have one temperature to the bit, and properties cost more than contacts.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Recent {
+    /// Temperature and enthalpy of a grain, by bits, and its k; of both sides of a contact.
+    grains: [Option<([u64; 2], f64)>; 2],
+    /// Temperature of the gas by bits, and its k.
+    gas: Option<(u64, Option<f64>)>,
+}
+
+impl Recent {
+    /// [`Conducting::conductivity`] of the grains a and b.
+    pub(super) fn conductivities(&mut self, grains: &Conducting<'_>, pair: [usize; 2]) -> [f64; 2] {
+        let mut k = [0.0; 2];
+        for ((k, last), a) in k.iter_mut().zip(&mut self.grains).zip(pair) {
+            let now = [
+                grains.temperature[a].to_bits(),
+                grains.enthalpies[a].to_bits(),
+            ];
+            *k = match *last {
+                Some((then, k)) if then == now => k,
+                _ => grains.conductivity(a),
+            };
+            *last = Some((now, *k));
+        }
+        k
+    }
+
+    /// [`Conducting::gas`] at `t` \[K\].
+    pub(super) fn gas(
+        &mut self,
+        grains: &Conducting<'_>,
+        t: f64,
+    ) -> Result<Option<f64>, OutOfRange> {
+        let k = match self.gas {
+            Some((then, k)) if then == t.to_bits() => k,
+            _ => grains.gas(t)?,
+        };
+        self.gas = Some((t.to_bits(), k));
+        Ok(k)
+    }
+}
+
 /// A contact whose overlap stands still.
 fn still(meeting: &Meeting) -> Meeting {
     Meeting {
