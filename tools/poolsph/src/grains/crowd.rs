@@ -38,6 +38,11 @@ impl Around {
         }
     }
 
+    /// All of the step for a grain with one contact, half of it in a crowd.
+    fn lead(&self) -> f64 {
+        if self.number > 1.0 { 0.5 } else { 1.0 }
+    }
+
     /// What the grain bears; s of [`super::bounds`].
     fn load(&self, mass: f64, c: f64) -> Load {
         let n = self.number;
@@ -74,6 +79,28 @@ pub(super) struct Crowd {
     on_metal: Vec<f64>,
 }
 
+/// A contact as its step is bounded.
+#[derive(Debug, Clone, Copy)]
+struct Loaded {
+    /// Effective mass \[kg\].
+    mass: f64,
+    /// What its grains bear together.
+    load: Load,
+    /// The greater of the leads of its grains.
+    lead: f64,
+}
+
+impl Loaded {
+    /// Both grains of a contact.
+    fn with(self, other: Self) -> Self {
+        Self {
+            mass: self.mass * other.mass / (self.mass + other.mass),
+            load: self.load + other.load,
+            lead: self.lead.max(other.lead),
+        }
+    }
+}
+
 /// Grains as they are seen here: themselves, how deeply they sleep, and what bounds their steps.
 #[derive(Clone, Copy)]
 struct Seen<'a> {
@@ -84,9 +111,10 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// The slack of a contact of effective `mass` \[kg\].
-    fn slack(&self, mass: f64, load: Load) -> Slack {
-        Slack::of(mass, load, self.zeta, self.setting.inertia_factor)
+    /// The slack of a contact.
+    fn slack(&self, contact: Loaded) -> Slack {
+        let Loaded { mass, load, lead } = contact;
+        Slack::of(mass, load, lead * self.zeta, self.setting.inertia_factor)
     }
 
     fn sleeps(&self, row: usize) -> bool {
@@ -134,6 +162,14 @@ impl Seen<'_> {
 }
 
 impl Crowd {
+    /// How much of a step the velocities of the rows from `first` on are led on to the end of the step, for dashpots and sliders.
+    pub(super) fn lead(&self, first: usize, leads: &mut [f64]) {
+        let around = self.around.get(first..).unwrap_or_default();
+        for (lead, around) in leads.iter_mut().zip(around) {
+            *lead = around.lead();
+        }
+    }
+
     fn count(&mut self, lists: &Lists, walls: &Walls, metal: Option<&Metal>, seen: Seen<'_>) {
         let rows = seen.grains.len();
         self.around.resize(rows, Around::default());
@@ -169,25 +205,30 @@ impl Crowd {
         });
     }
 
+    /// A grain at what does not give way.
+    fn alone(&self, row: usize, seen: Seen<'_>) -> Loaded {
+        Loaded {
+            mass: seen.grains[row].mass,
+            load: self.loads[row],
+            lead: self.around[row].lead(),
+        }
+    }
+
     /// The least slack of two grains that touch.
     fn between(&self, lists: &Lists, seen: Seen<'_>) -> Option<Slack> {
         let chunks = lists.chunks.par_iter().enumerate();
         let slacks = chunks.filter_map(|(place, chunk)| {
             let pairs = touching(place, chunk, seen.depth.part()).filter_map(|(a, b)| {
-                let (m, n) = (seen.grains[a].mass, seen.grains[b].mass);
-                let [own, other] = [self.loads[a], self.loads[b]];
                 match (seen.sleeps(a), seen.sleeps(b)) {
                     (true, true) => None,
-                    (false, true) => Some((m, own)),
-                    (true, false) => Some((n, other)),
-                    (false, false) => Some((m * n / (m + n), own + other)),
+                    (false, true) => Some(self.alone(a, seen)),
+                    (true, false) => Some(self.alone(b, seen)),
+                    (false, false) => Some(self.alone(a, seen).with(self.alone(b, seen))),
                 }
             });
             match seen.setting.alike {
                 Some(_) => most_loaded(pairs, seen),
-                None => pairs
-                    .map(|(mass, load)| seen.slack(mass, load))
-                    .reduce(Slack::least),
+                None => pairs.map(|pair| seen.slack(pair)).reduce(Slack::least),
             }
         });
         slacks.reduce_with(Slack::least)
@@ -197,12 +238,8 @@ impl Crowd {
     fn at_walls(&self, walls: &Walls, seen: Seen<'_>) -> Option<Slack> {
         let rows = walls.rows_touching(seen.depth);
         let slacks = rows.map(|(row, mirror)| {
-            let (mass, load) = (seen.grains[row].mass, self.loads[row]);
-            if mirror {
-                seen.slack(0.5 * mass, load + load)
-            } else {
-                seen.slack(mass, load)
-            }
+            let own = self.alone(row, seen);
+            seen.slack(if mirror { own.with(own) } else { own })
         });
         slacks.reduce(Slack::least)
     }
@@ -212,18 +249,22 @@ impl Crowd {
         let pairs = metal.pairs.iter().filter(|pair| pair.near.touching);
         let slacks = pairs.filter_map(|pair| {
             let (row, body) = (pair.near.row as usize, pair.body as usize);
-            let (mass, load) = (seen.grains[row].mass, self.loads[row]);
-            let m = metal.bodies[body].grain.mass;
-            let number = self.on_metal[body] / m;
-            let other = Load {
-                number,
-                joint: number,
+            let own = self.alone(row, seen);
+            let (mass, number) = (metal.bodies[body].grain.mass, self.on_metal[body]);
+            let number = number / mass;
+            let other = Loaded {
+                mass,
+                load: Load {
+                    number,
+                    joint: number,
+                },
+                lead: 1.0,
             };
             match (seen.sleeps(row), metal.bodies[body].member.is_none()) {
                 (true, true) => None,
-                (false, true) => Some(seen.slack(mass, load)),
-                (true, false) => Some(seen.slack(m, other)),
-                (false, false) => Some(seen.slack(mass * m / (mass + m), load + other)),
+                (false, true) => Some(seen.slack(own)),
+                (true, false) => Some(seen.slack(other)),
+                (false, false) => Some(seen.slack(own.with(other))),
             }
         });
         slacks.reduce(Slack::least)
@@ -231,16 +272,20 @@ impl Crowd {
 }
 
 /// The least slack of contacts whose effective mass is that of two grains alike, or of one: of equal masses the most loaded has the least.
-fn most_loaded(contacts: impl Iterator<Item = (f64, Load)>, seen: Seen<'_>) -> Option<Slack> {
-    let mut most: [Option<(f64, Load)>; 2] = [None; 2];
-    for (mass, load) in contacts {
-        let alone = usize::from(mass > 0.75 * seen.setting.lightest);
-        let (_, greatest) = most[alone].get_or_insert((mass, load));
-        greatest.number = greatest.number.max(load.number);
-        greatest.joint = greatest.joint.max(load.joint);
+fn most_loaded(contacts: impl Iterator<Item = Loaded>, seen: Seen<'_>) -> Option<Slack> {
+    let mut most: [Option<Loaded>; 4] = [None; 4];
+    for contact in contacts {
+        let alone = usize::from(contact.mass > 0.75 * seen.setting.lightest);
+        let led = usize::from(contact.lead > 0.75);
+        let greatest = most[2 * alone + led].get_or_insert(contact);
+        let (load, of) = (contact.load, &mut greatest.load);
+        of.number = of.number.max(load.number);
+        of.joint = of.joint.max(load.joint);
     }
-    let found = most.into_iter().flatten();
-    let slacks = found.map(|(mass, load)| seen.slack(mass, load));
+    let slacks = most
+        .into_iter()
+        .flatten()
+        .map(|contact| seen.slack(contact));
     slacks.reduce(Slack::least)
 }
 

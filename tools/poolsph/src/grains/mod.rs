@@ -5,13 +5,13 @@
 //! ```
 //!
 //! Forces and moments of a contact are those of the crate `contact`. A step of the run is divided into steps that the
-//! contacts allow ([`bounds`]); each is one of velocity Verlet, whose dashpots feel the velocities at its end as
-//! the last forces predict them:
+//! contacts allow ([`bounds`]); each is one of velocity Verlet, whose dashpots feel the velocities that the last forces
+//! lead on: to the end of the step for a grain with one contact, l = 1, to its middle in a crowd, l = 1/2:
 //!
 //! ```text
-//! x += dt u + dt^2/2 a,  u += dt a              predict
+//! x += dt u + dt^2/2 a,  u += l dt a            predict
 //! a' = forces(x, u) / m + g                     act
-//! u += dt/2 (a' - a)                            correct
+//! u += dt (a'/2 + (1/2 - l) a)                  correct
 //! ```
 //!
 //! Each contact is reckoned once, for the grain of the lower row, and added to both of its grains in the order of the list.

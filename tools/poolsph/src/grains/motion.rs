@@ -199,7 +199,7 @@ impl Motion {
     ) -> Result<Option<[f64; 2]>, OutOfRange> {
         let far = match predicted {
             Some(far) => far,
-            None => self.moving.predict(step, depth(&self.sleep)),
+            None => self.moving.predict(step, depth(&self.sleep), &self.crowd),
         };
         self.walls.drift(time, step)?;
         let driven = self.moving.drive(time, step)?;
@@ -219,7 +219,7 @@ impl Motion {
         }
         // By the speeds of the step before, which one step hardly changes.
         let next = (left > 0.0 && !self.moving.drives()).then(|| self.part(left));
-        let [fastest, far] = self.moving.correct(step, next, depth(&self.sleep));
+        let [fastest, far] = (self.moving).correct(step, next, depth(&self.sleep), &self.crowd);
         if let Some(metal) = &mut self.metal {
             metal.correct(step);
         }

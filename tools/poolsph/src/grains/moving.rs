@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use run::property::{Curve, OutOfRange};
 use shapes::frame::{Vector, difference, dot};
 
+use super::crowd::Crowd;
 use super::depth::{CELL, asleep};
 use super::glued::{Glued, Grains};
 use super::greater::greater;
@@ -42,6 +43,8 @@ pub struct Moving {
     pub(super) watched: [Vec<Vector>; 2],
     /// Forces and moments of the step before.
     before: [Vec<Vector>; 2],
+    /// How much of the step velocities have been led on, by rows.
+    leads: Vec<f64>,
     driven: Vec<Driven>,
     pub(super) glued: Glued,
     drives: Vec<Option<[Curve; 3]>>,
@@ -61,27 +64,28 @@ struct Verlet {
 }
 
 impl Verlet {
-    /// x += dt u + dt^2/2 a, u += dt a.
+    /// x += dt u + dt^2/2 a, u += `lead` dt a.
     #[inline(always)]
-    fn predict(&self, grain: &mut Grain, [force, moment]: [&Vector; 2]) {
+    fn predict(&self, grain: &mut Grain, [force, moment]: [&Vector; 2], lead: f64) {
         let (step, inverse) = (self.step, 1.0 / grain.mass);
-        let turns = step * inverse / (self.inertia_factor * grain.radius * grain.radius);
+        let turns = lead * step * inverse / (self.inertia_factor * grain.radius * grain.radius);
         for k in 0..3 {
             let gained = step * (force[k] * inverse + self.gravity[k]);
             grain.position[k] += step * (grain.velocity[k] + 0.5 * gained);
-            grain.velocity[k] += gained;
+            grain.velocity[k] += lead * gained;
             grain.spin[k] += turns * moment[k];
         }
     }
 
-    /// u += dt/2 (a' - a).
+    /// u += dt (a'/2 + (1/2 - `lead`) a).
     #[inline(always)]
-    fn correct(&self, grain: &mut Grain, now: [&Vector; 2], before: [&Vector; 2]) {
-        let half = 0.5 * self.step / grain.mass;
+    fn correct(&self, grain: &mut Grain, now: [&Vector; 2], before: [&Vector; 2], lead: f64) {
+        let (half, back) = (0.5 * self.step / grain.mass, 2.0 * lead - 1.0);
         let turns = half / (self.inertia_factor * grain.radius * grain.radius);
+        let fall = 0.5 * self.step * (1.0 - back);
         for k in 0..3 {
-            grain.velocity[k] += half * (now[0][k] - before[0][k]);
-            grain.spin[k] += turns * (now[1][k] - before[1][k]);
+            grain.velocity[k] += half * (now[0][k] - back * before[0][k]) + fall * self.gravity[k];
+            grain.spin[k] += turns * (now[1][k] - back * before[1][k]);
         }
     }
 }
@@ -210,11 +214,13 @@ impl Moving {
         Ok(())
     }
 
-    /// x += dt u + dt^2/2 a, u += dt a. Gives the farthest way since neighbours were listed \[m\]; no number where one is none.
+    /// x += dt u + dt^2/2 a, u += dt a, or half of that by [`Crowd::lead`]. Gives the farthest way since neighbours were listed
+    /// \[m\]; no number where one is none.
     ///
     /// What sleeps by `depth` stands still.
-    pub fn predict(&mut self, step: f64, depth: &[u8]) -> f64 {
+    pub(super) fn predict(&mut self, step: f64, depth: &[u8], crowd: &Crowd) -> f64 {
         let verlet = self.verlet(step);
+        self.leads.resize(self.grains.len(), 1.0);
         for driven in &mut self.driven {
             driven.from = self.grains[driven.row].position;
         }
@@ -222,17 +228,18 @@ impl Moving {
             .force
             .par_chunks(CELL)
             .zip(self.moment.par_chunks(CELL));
-        let places = self.listed.par_chunks(CELL);
+        let places = (self.leads.par_chunks_mut(CELL)).zip(self.listed.par_chunks(CELL));
         let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
         let far = grains.zip(forces).zip(places).enumerate();
-        let far = far.map(|(cell, ((grains, (force, moment)), listed))| {
+        let far = far.map(|(cell, ((grains, (force, moment)), (leads, listed)))| {
             let mut far = 0.0;
             if asleep(depth, cell * CELL) {
                 return far;
             }
-            let each = grains.iter_mut().zip(force).zip(moment).zip(listed);
-            for (((grain, force), moment), listed) in each {
-                verlet.predict(grain, [force, moment]);
+            crowd.lead(cell * CELL, leads);
+            let each = (grains.iter_mut().zip(leads)).zip(force.iter().zip(moment));
+            for (((grain, lead), (force, moment)), listed) in each.zip(listed) {
+                verlet.predict(grain, [force, moment], *lead);
                 let way = difference(grain.position, *listed);
                 far = greater(far, dot(way, way));
             }
@@ -248,10 +255,16 @@ impl Moving {
         std::mem::swap(moment, &mut self.moment);
     }
 
-    /// u += dt/2 (a' - a), but for what sleeps by `depth`. Where a step of `next` \[s\] follows, its prediction is made at once, for
+    /// u += dt/2 (a' - a), or dt/2 a', but for what sleeps by `depth`. Where a step of `next` \[s\] follows, its prediction is made at once, for
     /// grains are then in fast memory. Gives the greatest speed \[m/s\], and the farthest way since neighbours were listed
     /// \[m\] where the next step was predicted; no number where one is none.
-    pub fn correct(&mut self, step: f64, next: Option<f64>, depth: &[u8]) -> [f64; 2] {
+    pub(super) fn correct(
+        &mut self,
+        step: f64,
+        next: Option<f64>,
+        depth: &[u8],
+        crowd: &Crowd,
+    ) -> [f64; 2] {
         let verlet = self.verlet(step);
         let following = next.map(|next| self.verlet(next));
         let forces = self
@@ -260,20 +273,25 @@ impl Moving {
             .zip(self.moment.par_chunks(CELL));
         let [before, turned] = &self.before;
         let old = before.par_chunks(CELL).zip(turned.par_chunks(CELL));
-        let rest = forces.zip(old).zip(self.listed.par_chunks(CELL));
+        let places = (self.leads.par_chunks_mut(CELL)).zip(self.listed.par_chunks(CELL));
+        let rest = forces.zip(old).zip(places);
         let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
         let most = grains.zip(rest).enumerate();
-        let most = most.map(|(cell, (grains, ((forces, old), listed)))| {
+        let most = most.map(|(cell, (grains, ((forces, old), (leads, listed))))| {
             let (mut fastest, mut far) = (0.0, 0.0);
             if asleep(depth, cell * CELL) {
                 return [fastest, far];
             }
-            let forces = (forces.0.iter().zip(forces.1)).zip(old.0.iter().zip(old.1));
-            for ((grain, (now, before)), listed) in grains.iter_mut().zip(forces).zip(listed) {
-                verlet.correct(grain, [now.0, now.1], [before.0, before.1]);
+            let both = (forces.0.iter().zip(forces.1)).zip(old.0.iter().zip(old.1));
+            for ((grain, lead), (now, before)) in grains.iter_mut().zip(&*leads).zip(both) {
+                verlet.correct(grain, [now.0, now.1], [before.0, before.1], *lead);
                 fastest = greater(fastest, dot(grain.velocity, grain.velocity));
-                if let Some(following) = &following {
-                    following.predict(grain, [now.0, now.1]);
+            }
+            if let Some(following) = &following {
+                crowd.lead(cell * CELL, leads);
+                let now = (leads.iter().zip(listed)).zip(forces.0.iter().zip(forces.1));
+                for (grain, ((lead, listed), now)) in grains.iter_mut().zip(now) {
+                    following.predict(grain, [now.0, now.1], *lead);
                     let way = difference(grain.position, *listed);
                     far = greater(far, dot(way, way));
                 }
@@ -367,12 +385,8 @@ impl Moving {
     /// Rows that are held to a velocity that is not zero, and those that are glued.
     pub fn stirred(&self, rows: &mut Vec<u32>) {
         let moves = |driven: &&Driven| driven.velocity[1].iter().any(|u| u.abs() > 0.0);
-        rows.extend(
-            self.driven
-                .iter()
-                .filter(moves)
-                .map(|driven| driven.row as u32),
-        );
+        let driven = self.driven.iter().filter(moves);
+        rows.extend(driven.map(|driven| driven.row as u32));
         rows.extend(self.glued.rows().map(|row| row as u32));
     }
 
