@@ -16,7 +16,7 @@ use super::sleep::depth;
 use super::walls::Walls;
 
 /// Steps of the grains from one count to the next.
-pub(super) const STEPS: u64 = 8;
+pub(super) const STEPS: u64 = 16;
 
 /// Contacts around a grain.
 #[derive(Debug, Clone, Copy, Default)]
@@ -162,11 +162,13 @@ impl Seen<'_> {
 }
 
 impl Crowd {
-    /// How much of a step the velocities of the rows from `first` on are led on to the end of the step, for dashpots and sliders.
-    pub(super) fn lead(&self, first: usize, leads: &mut [f64]) {
-        let around = self.around.get(first..).unwrap_or_default();
-        for (lead, around) in leads.iter_mut().zip(around) {
-            *lead = around.lead();
+    /// How much of a step the velocities of the rows from a first one on are led on to its end, for dashpots and sliders.
+    pub(super) fn leads(&self) -> impl Fn(usize, &mut [f64]) + Sync + '_ {
+        |first, leads| {
+            let around = self.around.get(first..).unwrap_or_default();
+            for (lead, around) in leads.iter_mut().zip(around) {
+                *lead = around.lead();
+            }
         }
     }
 
@@ -303,6 +305,12 @@ fn touching(
 }
 
 impl Motion {
+    /// Contacts of a grain with others that touch, in the mean.
+    pub(super) fn contacts(&self) -> f64 {
+        let grains = self.moving.grains.len().max(1);
+        2.0 * self.lists.touching() as f64 / grains as f64
+    }
+
     /// Counts contacts, and finds the least slack that they leave.
     pub(super) fn count_contacts(&mut self) {
         let (lists, walls, metal) = (&self.lists, &self.walls, self.metal.as_ref());

@@ -61,6 +61,7 @@ mod saved;
 pub mod sleep;
 pub mod slow;
 pub mod totals;
+mod verlet;
 pub mod wall_parameters;
 pub mod walls;
 mod warm;

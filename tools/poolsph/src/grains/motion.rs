@@ -199,7 +199,9 @@ impl Motion {
     ) -> Result<Option<[f64; 2]>, OutOfRange> {
         let far = match predicted {
             Some(far) => far,
-            None => self.moving.predict(step, depth(&self.sleep), &self.crowd),
+            None => self
+                .moving
+                .predict(step, depth(&self.sleep), self.crowd.leads()),
         };
         self.walls.drift(time, step)?;
         let driven = self.moving.drive(time, step)?;
@@ -219,7 +221,8 @@ impl Motion {
         }
         // By the speeds of the step before, which one step hardly changes.
         let next = (left > 0.0 && !self.moving.drives()).then(|| self.part(left));
-        let [fastest, far] = (self.moving).correct(step, next, depth(&self.sleep), &self.crowd);
+        let (depth, leads) = (depth(&self.sleep), self.crowd.leads());
+        let [fastest, far] = self.moving.correct(step, next, depth, leads);
         if let Some(metal) = &mut self.metal {
             metal.correct(step);
         }
@@ -249,12 +252,6 @@ impl Motion {
         let warmed = heat.advance(set, touching, state, dt);
         self.stir_changed(set);
         warmed
-    }
-
-    /// Contacts of a grain with others that touch, in the mean.
-    fn contacts(&self) -> f64 {
-        let grains = self.moving.grains.len().max(1);
-        2.0 * self.lists.touching() as f64 / grains as f64
     }
 }
 

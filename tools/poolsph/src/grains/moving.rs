@@ -6,11 +6,11 @@ use rayon::prelude::*;
 use run::property::{Curve, OutOfRange};
 use shapes::frame::{Vector, difference, dot};
 
-use super::crowd::Crowd;
 use super::depth::{CELL, asleep};
 use super::glued::{Glued, Grains};
 use super::greater::greater;
 use super::lists::ROWS;
+use super::verlet::{Lead, Verlet};
 use super::walls::velocity;
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
 
@@ -53,41 +53,6 @@ pub struct Moving {
     pub(super) inertia_factor: f64,
     /// Depth of sleep by cells when the columns were last put back; none where they are to be taken anew.
     slept: Option<Vec<u8>>,
-}
-
-/// Turns force and moment of a step into the motion of a grain.
-#[derive(Debug, Clone, Copy)]
-struct Verlet {
-    step: f64,
-    gravity: Vector,
-    inertia_factor: f64,
-}
-
-impl Verlet {
-    /// x += dt u + dt^2/2 a, u += `lead` dt a.
-    #[inline(always)]
-    fn predict(&self, grain: &mut Grain, [force, moment]: [&Vector; 2], lead: f64) {
-        let (step, inverse) = (self.step, 1.0 / grain.mass);
-        let turns = lead * step * inverse / (self.inertia_factor * grain.radius * grain.radius);
-        for k in 0..3 {
-            let gained = step * (force[k] * inverse + self.gravity[k]);
-            grain.position[k] += step * (grain.velocity[k] + 0.5 * gained);
-            grain.velocity[k] += lead * gained;
-            grain.spin[k] += turns * moment[k];
-        }
-    }
-
-    /// u += dt (a'/2 + (1/2 - `lead`) a).
-    #[inline(always)]
-    fn correct(&self, grain: &mut Grain, now: [&Vector; 2], before: [&Vector; 2], lead: f64) {
-        let (half, back) = (0.5 * self.step / grain.mass, 2.0 * lead - 1.0);
-        let turns = half / (self.inertia_factor * grain.radius * grain.radius);
-        let fall = 0.5 * self.step * (1.0 - back);
-        for k in 0..3 {
-            grain.velocity[k] += half * (now[0][k] - back * before[0][k]) + fall * self.gravity[k];
-            grain.spin[k] += turns * (now[1][k] - back * before[1][k]);
-        }
-    }
 }
 
 impl Moving {
@@ -214,11 +179,11 @@ impl Moving {
         Ok(())
     }
 
-    /// x += dt u + dt^2/2 a, u += dt a, or half of that by [`Crowd::lead`]. Gives the farthest way since neighbours were listed
+    /// x += dt u + dt^2/2 a, u += dt a, or as much of that as `lead` says for the rows from a first one on. Gives the farthest way since neighbours were listed
     /// \[m\]; no number where one is none.
     ///
     /// What sleeps by `depth` stands still.
-    pub(super) fn predict(&mut self, step: f64, depth: &[u8], crowd: &Crowd) -> f64 {
+    pub fn predict(&mut self, step: f64, depth: &[u8], lead: impl Lead) -> f64 {
         let verlet = self.verlet(step);
         self.leads.resize(self.grains.len(), 1.0);
         for driven in &mut self.driven {
@@ -236,7 +201,7 @@ impl Moving {
             if asleep(depth, cell * CELL) {
                 return far;
             }
-            crowd.lead(cell * CELL, leads);
+            lead(cell * CELL, leads);
             let each = (grains.iter_mut().zip(leads)).zip(force.iter().zip(moment));
             for (((grain, lead), (force, moment)), listed) in each.zip(listed) {
                 verlet.predict(grain, [force, moment], *lead);
@@ -258,12 +223,12 @@ impl Moving {
     /// u += dt/2 (a' - a), or dt/2 a', but for what sleeps by `depth`. Where a step of `next` \[s\] follows, its prediction is made at once, for
     /// grains are then in fast memory. Gives the greatest speed \[m/s\], and the farthest way since neighbours were listed
     /// \[m\] where the next step was predicted; no number where one is none.
-    pub(super) fn correct(
+    pub fn correct(
         &mut self,
         step: f64,
         next: Option<f64>,
         depth: &[u8],
-        crowd: &Crowd,
+        lead: impl Lead,
     ) -> [f64; 2] {
         let verlet = self.verlet(step);
         let following = next.map(|next| self.verlet(next));
@@ -288,7 +253,7 @@ impl Moving {
                 fastest = greater(fastest, dot(grain.velocity, grain.velocity));
             }
             if let Some(following) = &following {
-                crowd.lead(cell * CELL, leads);
+                lead(cell * CELL, leads);
                 let now = (leads.iter().zip(listed)).zip(forces.0.iter().zip(forces.1));
                 for (grain, ((lead, listed), now)) in grains.iter_mut().zip(now) {
                     following.predict(grain, [now.0, now.1], *lead);
