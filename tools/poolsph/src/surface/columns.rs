@@ -185,8 +185,9 @@ impl Tile {
     fn stand(&mut self, stood: &Stood<'_>, k: usize, patch: &Patch) {
         let ([x, y, z], open, spacing) = (stood.places[k], stood.open[k], stood.spacing);
         let (edge, reach) = (spacing / FINE, REACH * spacing);
+        // At a sharp lower edge the normal of the last particle of a lattice looks down, though nothing lies above it.
         let claim = open.claim(stood.cell[0] * stood.cell[1]);
-        let claim = claim.map_or(patch.seen, |area| if patch.seen > 0.0 { area } else { 0.0 });
+        let claim = claim.unwrap_or(patch.seen);
         let [west, south] = self.key.map(|key| key * EDGE);
         let here = |at, start: i64| {
             let (first, last) = columns(at, spacing).into_inner();
@@ -206,7 +207,7 @@ impl Tile {
                 let plane = (0.5 - beyond / edge).clamp(0.0, 1.0);
                 let cover = open.cover([dx, dy], stood.cell, edge, plane);
                 column.cover = column.cover.max(cover);
-                if patch.seen > 0.0 {
+                if claim > 0.0 {
                     column.top = column.top.max(z);
                     let near = rest / (reach * reach);
                     self.shares.push(Share {

@@ -251,3 +251,25 @@ fn hollows_have_their_area() {
         }
     }
 }
+
+#[test]
+fn what_falls_on_cut_edges_is_taken_whole() {
+    // The upper side of a plate slopes down to its lower edge, or the plate hangs over; columns of the lattice tell the plan.
+    for slope in [0.5, 1.0, 2.0] {
+        for under in [1.0, -1.0] {
+            let inside = |x: [f64; 3]| {
+                let cut = x[0] + under * x[2] / slope < if under > 0.0 { 3.0 } else { 8.0 };
+                x[0] > -9.0 && x[1].abs() < 5.0 && x[2] < 0.0 && x[2] > -5.0 && cut
+            };
+            let state = cloud(12, ([0.5, 0.5, 0.5], 0.0, 0.0), inside);
+            let places = state.metal.column(&POSITION);
+            let plan: std::collections::BTreeSet<[i64; 2]> = places
+                .iter()
+                .map(|x| [x[0], x[1]].map(|x| (10.0 * x).round() as i64))
+                .collect();
+            let seen: f64 = patches(&state).map(|p| p.seen).sum();
+            let lost = 1.0 - seen / plan.len() as f64;
+            assert!(lost.abs() < 5e-3, "slope {slope}, {under}: {lost}");
+        }
+    }
+}
