@@ -65,19 +65,13 @@ pub struct BodyScene {
 }
 
 impl BodyScene {
-    /// What is told of a box or a round body whose particles hold another volume, by those of the spacing \[m\].
+    /// What is told of a body whose particles hold another volume, by those of the spacing \[m\].
     #[must_use]
     pub fn rounded(&self, filled: &Filled, spacing: f64) -> Option<String> {
         if filled.left_out > 0 || !self.cuts.is_empty() {
             return None;
         }
-        let volume = match &self.shape {
-            Shape::Box(own) => [0, 1, 2]
-                .map(|k| own.max_m[k] - own.min_m[k])
-                .iter()
-                .product(),
-            round => round.round()?.1,
-        };
+        let volume = self.shape.volume()?;
         let off = filled.placed as f64 * spacing.powi(3) / volume - 1.0;
         (off.abs() > MISSED)
             .then(|| format!("its particles hold {:+.1} % of its volume", 100.0 * off))
@@ -201,5 +195,10 @@ mod tests {
         assert_eq!(told(fit, 16 * 16 * 4), None);
         let ball = r#"{"sphere": {"centre_m": [0, 0, 0], "radius_m": 5e-4}}"#;
         assert!(told(ball, 4).unwrap().contains("-4.5 %"));
+        // Composed, its volume is measured: 8 x 8 x 4 mm less the bevel of 4 x 4 / 2 x 8 mm3.
+        let bevel = r#"{"intersection": [{"box": {"min_m": [-0.004, -0.004, -0.004], "max_m": [0.004, 0.004, 0]}},
+            {"half_space": {"point_m": [0, 0, 0], "normal": [1, 0, 1]}}]}"#;
+        assert_eq!(told(bevel, 192 * 8), None);
+        assert!(told(bevel, 185 * 8).unwrap().contains("-3."));
     }
 }
