@@ -1,6 +1,6 @@
 //! The program: what it is called, what it reads, and one run from scene to artefact.
 
-use std::borrow::Cow;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use run::{Estimate, Failure, Fault, Input, Inputs, Plan, Preview, Session, Tool};
@@ -22,6 +22,15 @@ const LONGEST_TRIAL: Duration = Duration::from_millis(500);
 /// The stage `arcfvm`.
 #[derive(Debug, Clone, Copy)]
 pub struct ArcFvm;
+
+/// An arc before its first iteration.
+#[derive(Debug)]
+pub struct Ready {
+    scene: Scene,
+    case: Case,
+    /// A solution to start from.
+    start: Option<PathBuf>,
+}
 
 impl Stopwatch for Session {
     fn timed<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R {
@@ -56,18 +65,25 @@ impl Tool for ArcFvm {
         },
     ];
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
-        let (scene, case) = problem(scene, inputs)?;
-        let plan = plan::plan(&case);
-        Ok(match pool::told(&scene, &case) {
+    fn prepare(scene: Scene, inputs: Inputs) -> Result<Ready, Failure> {
+        let (scene, case) = problem(scene, &inputs)?;
+        let start = inputs.get("start").map(Path::to_owned);
+        Ok(Ready { scene, case, start })
+    }
+
+    fn plan(ready: &Ready) -> Result<Plan, Failure> {
+        let plan = plan::plan(&ready.case);
+        Ok(match pool::told(&ready.scene, &ready.case) {
             Some(told) => plan.note(told),
             None => plan,
         })
     }
 
-    fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
-        let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
+    fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
+        let Ready { scene, case, .. } = ready;
+        let mut arc = Arc::new(case, Settings::from(&scene.iterate));
         arc.iterate(&mut ())?;
         let began = Instant::now();
         let mut done = 0_u32;
@@ -95,10 +111,11 @@ impl Tool for ArcFvm {
         }
     }
 
-    fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        let mut arc = Arc::new(case(scene, inputs)?, Settings::from(&scene.iterate));
-        if let Some(path) = inputs.get("start")
-            && let Some(told) = start::take(&mut arc, path)?
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        let Ready { scene, case, start } = ready;
+        let mut arc = Arc::new(case, Settings::from(&scene.iterate));
+        if let Some(path) = start
+            && let Some(told) = start::take(&mut arc, &path)?
         {
             session.note(told);
         }
@@ -115,20 +132,15 @@ impl Tool for ArcFvm {
     }
 }
 
-/// The problem of a scene and its inputs.
-fn case(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
-    Ok(problem(scene, inputs)?.1)
-}
-
 /// Reads the inputs that the scene asks for and assembles the problem; with the surface of the inputs in the scene.
-fn problem<'a>(scene: &'a Scene, inputs: &Inputs) -> Result<(Cow<'a, Scene>, Case), Failure> {
+fn problem(scene: Scene, inputs: &Inputs) -> Result<(Scene, Case), Failure> {
     let gas = match (&scene.gas, inputs.get("gas")) {
         (Gas::Table(_), Some(path)) => Some(GasFile::read(path)?),
         _ => None,
     };
     let scene = match inputs.get("surface") {
-        Some(path) => Cow::Owned(pool::deform(scene, path)?),
-        None => Cow::Borrowed(scene),
+        Some(path) => pool::deform(&scene, path)?,
+        None => scene,
     };
     let case = assemble(&scene, gas.as_ref())?;
     let driven = case.potential.as_ref().and_then(|p| p.driven);

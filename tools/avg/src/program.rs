@@ -20,6 +20,14 @@ const FEW_DROPLETS: usize = 2;
 #[derive(Debug)]
 pub struct Avg;
 
+/// Frames and what is to be averaged of them.
+#[derive(Debug)]
+pub struct Ready {
+    scene: Scene,
+    reader: Reader,
+    plan: Plan,
+}
+
 impl Tool for Avg {
     const NAME: &'static str = "avg";
     const VERSION: &'static str = env!("CARGO_PKG_VERSION");
@@ -37,19 +45,29 @@ impl Tool for Avg {
     }];
 
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, inputs: &Inputs) -> Result<Shown, Failure> {
+    fn prepare(scene: Scene, inputs: Inputs) -> Result<Ready, Failure> {
         let faults = scene.faults();
         if !faults.is_empty() {
             let located = |(path, what): (String, String)| Fault::at(&path, what);
             return Err(faults.into_iter().map(located).collect::<Vec<_>>().into());
         }
-        let (_, plan) = open(scene, inputs)?;
-        Ok(shown(&plan, scene))
+        let reader = Reader::open_kind(inputs.path("frames")?, FRAMES.0, FRAMES.1)?;
+        let plan = Plan::new(&scene, &reader).map_err(failure)?;
+        Ok(Ready {
+            scene,
+            reader,
+            plan,
+        })
     }
 
-    fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
-        let (reader, plan) = open(scene, inputs)?;
+    fn plan(ready: &Ready) -> Result<Shown, Failure> {
+        Ok(shown(&ready.plan, &ready.scene))
+    }
+
+    fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
+        let Ready { reader, plan, .. } = ready;
         let mut averaging = Averaging::new(&plan);
         if plan.frames.is_empty() {
             return Ok(None);
@@ -65,8 +83,8 @@ impl Tool for Avg {
         }))
     }
 
-    fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        let (reader, plan) = open(scene, inputs)?;
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        let Ready { reader, plan, .. } = ready;
         let mut averaging = Averaging::new(&plan);
         let total = plan.frames.len() as u64;
         let taken = match session.restored() {
@@ -92,12 +110,6 @@ impl Tool for Avg {
         close(session, &plan, &averages);
         Ok(())
     }
-}
-
-fn open(scene: &Scene, inputs: &Inputs) -> Result<(Reader, Plan), Failure> {
-    let reader = Reader::open_kind(inputs.path("frames")?, FRAMES.0, FRAMES.1)?;
-    let plan = Plan::new(scene, &reader).map_err(failure)?;
-    Ok((reader, plan))
 }
 
 /// What the scene asked for and the frames do not hold is a fault of the scene.

@@ -442,7 +442,7 @@ fn what_the_schema_cannot_say_is_refused_before_any_file_is_opened() {
     use run::{Inputs, Tool};
     let mut scene = scene();
     scene.follow = None;
-    let said = Avg::plan(&scene, &Inputs::none()).unwrap_err().to_string();
+    let said = Avg::prepare(scene, Inputs::none()).unwrap_err().to_string();
     assert!(
         said.contains("/phases") && said.contains("'follow'"),
         "{said}"

@@ -1,8 +1,5 @@
 //! The program: plan, run, record.
 
-use std::sync::Mutex;
-use std::time::Instant;
-
 use artefact::Version;
 use run::{Estimate, Failure, Inputs, Plan, Preview, Session, Tool};
 
@@ -18,24 +15,12 @@ use crate::{electric, magnetic, march, surface};
 #[derive(Debug)]
 pub struct EmField;
 
-/// The points that the plan of a scene has made, for what follows it.
-static READY: Mutex<Option<(Scene, Planned)>> = Mutex::new(None);
-
-/// The points of a scene: those of its plan, if there was one.
-fn ready(scene: &Scene) -> Result<Planned, Failure> {
-    let kept = READY.lock().ok().and_then(|mut ready| ready.take());
-    match kept {
-        Some((known, planned)) if known == *scene => Ok(planned),
-        _ => planned(scene),
-    }
-}
-
-/// The points of a scene, made anew.
-fn planned(scene: &Scene) -> Result<Planned, Failure> {
-    let began = Instant::now();
-    let cloud = Cloud::new(scene)?;
-    let seconds = began.elapsed().as_secs_f64();
-    Ok(Planned { cloud, seconds })
+/// A scene with its points.
+#[derive(Debug)]
+pub struct Ready {
+    scene: Scene,
+    /// Points of bodies and of what is about them; none where there is a liquid.
+    points: Option<Planned>,
 }
 
 impl Tool for EmField {
@@ -49,36 +34,32 @@ impl Tool for EmField {
     const ARTEFACT_VERSION: Version = Version::new(1, 0);
 
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
+    fn prepare(scene: Scene, _: Inputs) -> Result<Ready, Failure> {
         let mut faults = scene.faults();
         // What drives currents has its form once nothing is wrong with the scene itself.
         if faults.is_empty() {
             let currents = scene.eddy_currents.iter();
-            faults.extend(currents.flat_map(|e| magnetic::setup::faults(scene, e)));
+            faults.extend(currents.flat_map(|e| magnetic::setup::faults(&scene, e)));
         }
         if !faults.is_empty() {
             return Err(faults.into());
         }
-        if let Some(liquid) = &scene.liquid {
-            return assemble::liquid::plan(scene, liquid);
+        let points = match scene.liquid {
+            Some(_) => None,
+            None => Some(Planned::new(&scene)?),
+        };
+        Ok(Ready { scene, points })
+    }
+
+    fn plan(ready: &Ready) -> Result<Plan, Failure> {
+        let scene = &ready.scene;
+        match (&scene.liquid, &ready.points) {
+            (Some(liquid), _) => assemble::liquid::plan(scene, liquid),
+            (None, Some(planned)) => plan(scene, &planned.cloud),
+            (None, None) => Ok(Plan::new()),
         }
-        let planned = planned(scene)?;
-        let cloud = &planned.cloud;
-        if let Some(currents) = &scene.eddy_currents {
-            magnetic::driven::setup::windings(scene, currents, cloud)?;
-            magnetic::medium::setup::magnets(scene, currents)?;
-        }
-        if let Some(electrostatics) = &scene.electrostatics {
-            electric::setup::shorts(scene, electrostatics, cloud)?;
-            electric::setup::room(electrostatics, cloud)?;
-        }
-        let enclosing = surface::setup::enclosing(scene, cloud)?;
-        let plan = shown(scene, cloud, &enclosing);
-        if let Ok(mut ready) = READY.lock() {
-            *ready = Some((scene.clone(), planned));
-        }
-        Ok(plan)
     }
 
     fn outline(scene: &Scene) -> Plan {
@@ -92,28 +73,47 @@ impl Tool for EmField {
             .memory("points and weights, at least", bytes as u64)
     }
 
-    fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
-        if let Some(liquid) = &scene.liquid {
-            return assemble::liquid::estimate(scene, liquid);
+    fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
+        let scene = &ready.scene;
+        match (&scene.liquid, &ready.points) {
+            (Some(liquid), _) => assemble::liquid::estimate(scene, liquid),
+            (None, Some(planned)) => trial::estimate(scene, planned).map(Some),
+            (None, None) => Ok(None),
         }
-        trial::estimate(scene, &ready(scene)?).map(Some)
     }
 
     fn preview(scene: &Scene, _: &Inputs) -> Result<Preview, Failure> {
         assemble::preview(scene)
     }
 
-    fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        if let Some(liquid) = &scene.liquid {
-            return match (&liquid.march, &liquid.equilibrium) {
-                (Some(march), _) => march::liquid::flow(scene, (liquid, march), session),
-                (None, Some(rest)) => assemble::liquid::rest::rest(scene, (liquid, rest), session),
-                (None, None) => Ok(()),
-            };
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        let scene = &ready.scene;
+        if let Some(planned) = &ready.points {
+            return assemble::solve(scene, &planned.cloud, session);
         }
-        let planned = session.timed("points", || ready(scene))?;
-        assemble::solve(scene, &planned.cloud, session)
+        let Some(liquid) = &scene.liquid else {
+            return Ok(());
+        };
+        match (&liquid.march, &liquid.equilibrium) {
+            (Some(march), _) => march::liquid::flow(scene, (liquid, march), session),
+            (None, Some(rest)) => assemble::liquid::rest::rest(scene, (liquid, rest), session),
+            (None, None) => Ok(()),
+        }
     }
+}
+
+/// What a run would do with the points of bodies and of what is about them.
+fn plan(scene: &Scene, cloud: &Cloud) -> Result<Plan, Failure> {
+    if let Some(currents) = &scene.eddy_currents {
+        magnetic::driven::setup::windings(scene, currents, cloud)?;
+        magnetic::medium::setup::magnets(scene, currents)?;
+    }
+    if let Some(electrostatics) = &scene.electrostatics {
+        electric::setup::shorts(scene, electrostatics, cloud)?;
+        electric::setup::room(electrostatics, cloud)?;
+    }
+    let enclosing = surface::setup::enclosing(scene, cloud)?;
+    Ok(shown(scene, cloud, &enclosing))
 }
 
 fn shown(scene: &Scene, cloud: &Cloud, enclosing: &[Enclosing]) -> Plan {

@@ -4,6 +4,8 @@
 //! the points: stencils, rows, multigrid and products have as much work at each; direct factors, and the products of incomplete
 //! ones, have more the more points there are.
 
+use std::time::Instant;
+
 use artefact::{Header, Version};
 use run::{Estimate, Failure, Taken, duration, trial};
 
@@ -41,10 +43,24 @@ const TOLD: [(&str, &str); 4] = [
 ];
 
 /// Points of a scene.
+#[derive(Debug)]
 pub(crate) struct Planned {
     pub(crate) cloud: Cloud,
     /// What they took \[s\].
-    pub(crate) seconds: f64,
+    seconds: f64,
+}
+
+impl Planned {
+    /// The points of a scene, and how long it takes to make them.
+    ///
+    /// # Errors
+    /// Where bodies and spacings do not suit each other.
+    pub(crate) fn new(scene: &Scene) -> Result<Self, Failure> {
+        let began = Instant::now();
+        let cloud = Cloud::new(scene)?;
+        let seconds = began.elapsed().as_secs_f64();
+        Ok(Self { cloud, seconds })
+    }
 }
 
 /// Time and memory of a run.

@@ -16,6 +16,13 @@ use crate::table::{self, Errors, Rows};
 #[derive(Debug)]
 pub struct GasProp;
 
+/// A gas and the states that are asked of it.
+#[derive(Debug)]
+pub struct Ready {
+    scene: Scene,
+    gas: Gas,
+}
+
 /// Temperatures that are evaluated between two looks at the clock, per thread.
 const PER_THREAD: usize = 4;
 
@@ -30,13 +37,23 @@ impl Tool for GasProp {
     const ARTEFACT_VERSION: Version = Version::new(1, 0);
 
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
-        Ok(shown(scene, &ready(scene)?))
+    fn prepare(scene: Scene, _: Inputs) -> Result<Ready, Failure> {
+        let faults = scene.faults();
+        if !faults.is_empty() {
+            return Err(faults.into());
+        }
+        let gas = Gas::new(&scene).map_err(failure)?;
+        Ok(Ready { scene, gas })
     }
 
-    fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
-        let gas = ready(scene)?;
+    fn plan(ready: &Ready) -> Result<Plan, Failure> {
+        Ok(shown(&ready.scene, &ready.gas))
+    }
+
+    fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
+        let Ready { scene, gas } = ready;
         let iron = scene.iron();
         let probes = [1000.0, 8000.0, 20_000.0];
         let began = Instant::now();
@@ -46,14 +63,14 @@ impl Tool for GasProp {
         let each = began.elapsed().as_secs_f64() / probes.len() as f64;
         let threads = rayon::current_num_threads();
         Ok(Some(Estimate {
-            seconds: each * states(scene) as f64 / threads as f64,
+            seconds: each * states(&scene) as f64 / threads as f64,
             basis: format!("{:.2} ms a state, {threads} threads", 1e3 * each),
             memory: Vec::new(),
         }))
     }
 
-    fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        let gas = session.timed("data", || ready(scene))?;
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        let Ready { ref scene, gas } = ready;
         let mut work = Work {
             gas: &gas,
             session,
@@ -88,15 +105,6 @@ impl Tool for GasProp {
         tell(scene, &gas, &errors, session);
         Ok(())
     }
-}
-
-/// The gas of a scene without faults.
-fn ready(scene: &Scene) -> Result<Gas, Failure> {
-    let faults = scene.faults();
-    if !faults.is_empty() {
-        return Err(faults.into());
-    }
-    Gas::new(scene).map_err(failure)
 }
 
 /// A cold gas that cannot be is a fault of the scene.

@@ -1,6 +1,5 @@
 //! The program: plan, run, record.
 
-use std::sync::Mutex;
 use std::time::Instant;
 
 use artefact::Version;
@@ -17,16 +16,13 @@ use crate::{simulate, steady};
 #[derive(Debug)]
 pub struct HeatSph;
 
-/// What the plan of a scene has put together, for the run that follows it.
-static READY: Mutex<Option<(Scene, System, Vec<f64>)>> = Mutex::new(None);
-
-/// The system of a scene: that of its plan, if there was one.
-fn ready(scene: &Scene) -> Result<(System, Vec<f64>), Failure> {
-    let kept = READY.lock().ok().and_then(|mut ready| ready.take());
-    match kept {
-        Some((planned, system, temperature)) if planned == *scene => Ok((system, temperature)),
-        _ => Ok(assemble::system(scene)?),
-    }
+/// A body put together, at its first temperature.
+#[derive(Debug)]
+pub struct Ready {
+    scene: Scene,
+    system: System,
+    /// Of each point \[K\].
+    temperature: Vec<f64>,
 }
 
 impl Tool for HeatSph {
@@ -39,26 +35,36 @@ impl Tool for HeatSph {
     const ARTEFACT_VERSION: Version = Version::new(1, 0);
 
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
-        let (system, temperature) = assemble::system(scene)?;
-        let mut rates = Rates::default();
-        let evaluated = system.rates(0.0, &temperature, &mut rates);
-        evaluated.map_err(|error| Failure::Other(error.to_string()))?;
-        refuse(scene, system.explicit_limit(&rates))?;
-        let plan = shown(scene, &system, &rates);
-        if let Ok(mut ready) = READY.lock() {
-            *ready = Some((scene.clone(), system, temperature));
-        }
-        Ok(plan)
+    fn prepare(scene: Scene, _: Inputs) -> Result<Ready, Failure> {
+        let (system, temperature) = assemble::system(&scene)?;
+        Ok(Ready {
+            scene,
+            system,
+            temperature,
+        })
     }
 
-    fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
+    fn plan(ready: &Ready) -> Result<Plan, Failure> {
+        let Ready { scene, system, .. } = ready;
+        let mut rates = Rates::default();
+        let evaluated = system.rates(0.0, &ready.temperature, &mut rates);
+        evaluated.map_err(|error| Failure::Other(error.to_string()))?;
+        refuse(scene, system.explicit_limit(&rates))?;
+        Ok(shown(scene, system, &rates))
+    }
+
+    fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
+        let Ready {
+            scene,
+            system,
+            temperature,
+        } = ready;
         let Some(time) = &scene.time else {
             return Ok(None);
         };
-        let (system, temperature) = ready(scene)?;
-        let (mut method, steps) = choice::method(scene, &system);
+        let (mut method, steps) = choice::method(&scene, &system);
         let mut rates = Rates::default();
         let mut state = State::new(&system, temperature);
         let failed = |error: String| Failure::Other(error);
@@ -86,8 +92,12 @@ impl Tool for HeatSph {
         Ok(assemble::preview::preview(scene)?)
     }
 
-    fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        let (mut system, temperature) = session.timed("assemble", || ready(scene))?;
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        let Ready {
+            scene,
+            mut system,
+            temperature,
+        } = ready;
         if let Some(balance) = system.links.balance {
             session.closing("balance_newton_steps", "1", balance.steps as f64);
             session.closing("balance_iterations", "1", balance.iterations as f64);
@@ -95,8 +105,8 @@ impl Tool for HeatSph {
             session.closing("balance_quadratic_error", "1", balance.quadratic);
         }
         match scene.steady {
-            Some(rule) => steady::solve(scene, rule, (&mut system, temperature), session),
-            None => simulate::march(scene, &mut system, temperature, session),
+            Some(rule) => steady::solve(&scene, rule, (&mut system, temperature), session),
+            None => simulate::march(&scene, &mut system, temperature, session),
         }
     }
 }

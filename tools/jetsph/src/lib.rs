@@ -17,6 +17,7 @@ pub mod march;
 pub mod matter;
 pub mod memory;
 pub mod motion;
+mod plan;
 pub mod resume;
 pub mod scene;
 pub mod simulate;

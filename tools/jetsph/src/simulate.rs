@@ -1,14 +1,13 @@
 //! A run from the first step to the last: what is written when, and what stops it.
 
 use particles::{POSITION, sweep};
-use run::{Failure, Fault, Plan, Session};
+use run::{Failure, Session};
 
-use crate::assemble::{Assembled, assemble};
+use crate::assemble::Assembled;
 use crate::balance::Balance;
 use crate::frames;
-use crate::memory;
 use crate::resume;
-use crate::scene::{Method, Scene};
+use crate::scene::Scene;
 use crate::stage::{Limit, StageError, place_text};
 use crate::state::{State, VELOCITY};
 
@@ -19,68 +18,10 @@ const WATCH_STEPS: u64 = 50;
 /// Shares of the progress bar.
 const SHARES: f64 = 1e4;
 /// A time that is nearer to an event than this part of a step is at it.
-const AT: f64 = 1e-6;
-
-/// What is done before a run, and told by `check`.
-///
-/// # Errors
-/// Every fault of the scene.
-pub fn plan(scene: &Scene) -> Result<Plan, Failure> {
-    let Assembled {
-        state,
-        march,
-        left_out,
-    } = assemble(scene)?;
-    let mut plan = Plan::new().count("particles", state.len() as u64);
-    let frames = (scene.time.end_s / scene.output.frames_interval_s + AT).floor() as u64 + 1;
-    for set in &state.sets {
-        let n = set.len() as u64;
-        plan = plan.count(&format!("particles of {}", set.name()), n);
-        let frame = frames::frame(set, state.dimensions, scene.output.precision);
-        for column in frame.columns() {
-            plan = plan.column(&format!("{}.{}", set.name(), column.name), &column.unit);
-        }
-        plan = plan.output(
-            &columns::channel(set),
-            frames,
-            frames * n * frame.row_bytes() as u64,
-        );
-    }
-    for stage in &march.stages {
-        plan = plan.stage(stage.name());
-        if stage.bytes() > 0 {
-            plan = plan.memory(stage.name(), stage.bytes() as u64);
-        }
-        if let Some(limit) = stage.limit(&state) {
-            if let Some(what) = endless(scene, limit) {
-                return Err(Fault::at("/time/end_s", what).into());
-            }
-            plan = plan.limit(&format!("step_{}", limit.name), limit.seconds, "s");
-        }
-    }
-    for (name, bytes) in state.memory() {
-        plan = plan.memory(&name, bytes as u64);
-    }
-    for (name, bytes) in memory::beyond(scene, &state) {
-        plan = plan.memory(name, bytes);
-    }
-    for (name, why) in &left_out {
-        plan = plan.left_out(name, why);
-    }
-    let soundless = scene.water.as_ref().map(|water| water.method) == Some(Method::DivergenceFree);
-    if soundless && scene.gravity_m_s2.is_some() {
-        plan = plan.note(
-            "water without sound is for jets: a tank does not rest under gravity, take sound there",
-        );
-    }
-    if state.dimensions == 2 {
-        plan = plan.note("a plane scene: masses, forces and energies are per metre of depth");
-    }
-    Ok(plan)
-}
+pub(crate) const AT: f64 = 1e-6;
 
 /// Why a run would never end.
-fn endless(scene: &Scene, limit: Limit) -> Option<String> {
+pub(crate) fn endless(scene: &Scene, limit: Limit) -> Option<String> {
     let steps = scene.time.end_s
         / limit
             .seconds
@@ -99,9 +40,8 @@ fn endless(scene: &Scene, limit: Limit) -> Option<String> {
 ///
 /// # Errors
 /// Divergence, the disk, the user.
-pub fn run(scene: &Scene, session: &mut Session) -> Result<(), Failure> {
-    let assembled = session.timed("assemble", || assemble(scene))?;
-    let mut simulation = Simulation::begin(scene, assembled, session)?;
+pub fn run(scene: &Scene, run: Assembled, session: &mut Session) -> Result<(), Failure> {
+    let mut simulation = Simulation::begin(scene, run, session)?;
     while simulation.run.state.time < scene.time.end_s {
         simulation.step(session)?;
     }

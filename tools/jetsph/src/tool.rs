@@ -2,8 +2,9 @@
 
 use run::{Estimate, Failure, Inputs, Plan, Preview, Session, Tool};
 
+use crate::assemble::{Assembled, assemble, preview};
 use crate::scene::{KIND, Scene};
-use crate::{assemble, simulate, trial};
+use crate::{plan, simulate, trial};
 
 /// The program `jetsph`.
 #[derive(Debug)]
@@ -19,20 +20,32 @@ impl Tool for JetSph {
     const SCENE_VERSION: u32 = KIND.1;
     const ARTEFACT_KIND: &'static str = "jet-frames";
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
-        simulate::plan(scene)
+    fn prepare(scene: Scene, _: Inputs) -> Result<Ready, Failure> {
+        let run = assemble(&scene)?;
+        Ok(Ready { scene, run })
     }
 
-    fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
-        trial::estimate(scene).map(Some)
+    fn plan(ready: &Ready) -> Result<Plan, Failure> {
+        plan::plan(&ready.scene, &ready.run)
+    }
+
+    fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
+        trial::estimate(&ready.scene, ready.run).map(Some)
     }
 
     fn preview(scene: &Scene, _: &Inputs) -> Result<Preview, Failure> {
-        Ok(assemble::preview(scene)?)
+        Ok(preview(scene)?)
     }
 
-    fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        simulate::run(scene, session)
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        simulate::run(&ready.scene, ready.run, session)
     }
+}
+
+/// A scene with its particles and stages at the start of a run.
+pub struct Ready {
+    scene: Scene,
+    run: Assembled,
 }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use run::{Estimate, Failure};
 
-use crate::assemble::assemble;
+use crate::assemble::Assembled;
 use crate::scene::Scene;
 use crate::simulate::failure;
 
@@ -15,9 +15,8 @@ const LONGEST: Duration = Duration::from_millis(300);
 /// Time of the whole run, if every step lasts as long as the first ones.
 ///
 /// # Errors
-/// What assembling or a step reports.
-pub(crate) fn estimate(scene: &Scene) -> Result<Estimate, Failure> {
-    let mut run = assemble(scene)?;
+/// What a step reports.
+pub(crate) fn estimate(scene: &Scene, mut run: Assembled) -> Result<Estimate, Failure> {
     run.march
         .begin(&mut run.state)
         .map_err(|e| failure(e, &run.state))?;

@@ -23,6 +23,7 @@ pub mod memory;
 pub mod motion;
 pub mod pace;
 pub mod patch;
+mod plan;
 pub mod probes;
 pub mod rest;
 pub mod resume;

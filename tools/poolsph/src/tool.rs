@@ -3,8 +3,9 @@
 use run::{Estimate, Failure, Input, Inputs, Plan, Preview, Session, Tool};
 
 use crate::assemble::preview::preview;
+use crate::assemble::{Assembled, assemble};
 use crate::scene::{KIND, Scene};
-use crate::{simulate, trial};
+use crate::{plan, simulate, trial};
 
 /// The program `poolsph`.
 #[derive(Debug)]
@@ -42,13 +43,19 @@ impl Tool for PoolSph {
         },
     ];
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, inputs: &Inputs) -> Result<Plan, Failure> {
-        simulate::plan(scene, inputs)
+    fn prepare(scene: Scene, inputs: Inputs) -> Result<Ready, Failure> {
+        let run = assemble(&scene, &inputs)?;
+        Ok(Ready { scene, run })
     }
 
-    fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
-        trial::estimate(scene, inputs).map(Some)
+    fn plan(ready: &Ready) -> Result<Plan, Failure> {
+        plan::plan(&ready.scene, &ready.run)
+    }
+
+    fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
+        trial::estimate(&ready.scene, ready.run).map(Some)
     }
 
     fn grows(scene: &Scene) -> Option<&'static str> {
@@ -59,7 +66,13 @@ impl Tool for PoolSph {
         preview(scene, inputs)
     }
 
-    fn run(scene: &Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        simulate::run(scene, inputs, session)
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        simulate::run(&ready.scene, ready.run, session)
     }
+}
+
+/// A scene with its particles and stages at the start of a run.
+pub struct Ready {
+    scene: Scene,
+    run: Assembled,
 }

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
 use particles::POSITION;
-use run::{Estimate, Failure, Inputs, duration};
+use run::{Estimate, Failure, duration};
 
-use crate::assemble::{Assembled, assemble};
+use crate::assemble::Assembled;
 use crate::march::March;
 use crate::scene::{Scene, StartState};
 use crate::state::{ENTHALPY, State, TEMPERATURE};
@@ -26,13 +26,13 @@ const ABOVE: f64 = 1.1;
 /// a pool do.
 ///
 /// # Errors
-/// What assembling or a step reports.
-pub(crate) fn estimate(scene: &Scene, inputs: &Inputs) -> Result<Estimate, Failure> {
+/// What a step reports.
+pub(crate) fn estimate(scene: &Scene, run: Assembled) -> Result<Estimate, Failure> {
     let Assembled {
         mut march,
         mut state,
         ..
-    } = assemble(scene, inputs)?;
+    } = run;
     let total = scene.steps();
     let mut timed = timed(&mut march, &mut state, total)?;
     let mut basis = if scene.has_metal() {
@@ -184,7 +184,9 @@ fn short(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::assemble::assemble;
     use crate::state::PHASE;
+    use run::Inputs;
 
     /// A torch of 2 kW over a plate that melts at 1500 K: c = 500 J/(kg K), L = 2e5 J/kg, from 300 K.
     fn plate(more: &str) -> Scene {
@@ -200,10 +202,14 @@ mod tests {
         serde_json::from_str(&text).unwrap()
     }
 
+    fn assembled(scene: &Scene) -> Assembled {
+        assemble(scene, &Inputs::none()).unwrap()
+    }
+
     #[test]
     fn a_pool_is_as_large_as_the_heat_melts_while_the_source_goes_as_far() {
         let scene = plate("");
-        let mut run = assemble(&scene, &Inputs::none()).unwrap();
+        let mut run = assembled(&scene);
         timed(&mut run.march, &mut run.state, scene.steps()).unwrap();
         let pool = Pool::of(&scene, &run.state, &run.march).unwrap();
         // Enthalpies count from 0 K: dh = 500 x 1500 + 2e5 J/kg.
@@ -225,12 +231,12 @@ mod tests {
     fn only_what_is_still_to_melt_is_foretold_with_a_pool() {
         let scene = plate("");
         assert!(melts(&scene) && grows(&scene).is_none());
-        let told = estimate(&scene, &Inputs::none()).unwrap();
+        let told = estimate(&scene, assembled(&scene)).unwrap();
         assert!(told.basis.contains("with a pool of some"), "{}", told.basis);
         let mut cold = scene;
         cold.torches.clear();
         assert!(!melts(&cold));
-        let told = estimate(&cold, &Inputs::none()).unwrap();
+        let told = estimate(&cold, assembled(&cold)).unwrap();
         assert!(told.basis.contains("of the start"), "{}", told.basis);
     }
 }

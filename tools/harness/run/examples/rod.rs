@@ -196,6 +196,15 @@ impl Rod {
     }
 }
 
+/// A rod at its start.
+struct Ready {
+    scene: Scene,
+    curves: Curves,
+    /// Places of its points \[m\].
+    x: Vec<f64>,
+    rod: Rod,
+}
+
 /// The stage.
 struct Tester;
 
@@ -213,11 +222,26 @@ impl Tool for Tester {
     }];
     const CHECKPOINT_S: f64 = 0.05;
     type Scene = Scene;
+    type Ready = Ready;
 
-    fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
-        let curves = curves(scene)?;
-        let x = places(scene);
+    fn prepare(scene: Scene, _: Inputs) -> Result<Ready, Failure> {
+        let (curves, x) = (curves(&scene)?, places(&scene));
         let rod = Rod::new(&curves, &x)?;
+        Ok(Ready {
+            scene,
+            curves,
+            x,
+            rod,
+        })
+    }
+
+    fn plan(ready: &Ready) -> Result<Plan, Failure> {
+        let Ready {
+            scene,
+            curves,
+            x,
+            rod,
+        } = ready;
         let mut greatest = 0.0_f64;
         for t in &rod.temperature {
             let a = curves.diffusivity.at_temperature(*t);
@@ -243,15 +267,20 @@ impl Tool for Tester {
         })
     }
 
-    fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
-        let (curves, x, time) = (curves(scene)?, places(scene), &scene.time);
-        let mut rod = match session.restored() {
-            Some(mut checkpoint) => Rod::restore(&mut checkpoint)?,
-            None => Rod::new(&curves, &x)?,
-        };
+    fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
+        let Ready {
+            scene,
+            curves,
+            x,
+            mut rod,
+        } = ready;
+        let time = &scene.time;
+        if let Some(mut checkpoint) = session.restored() {
+            rod = Rod::restore(&mut checkpoint)?;
+        }
         let mut fastest = f64::INFINITY;
         while rod.step < time.steps {
-            fastest = session.timed("conduction", || rod.advance(scene, &curves, &x))?;
+            fastest = session.timed("conduction", || rod.advance(&scene, &curves, &x))?;
             #[allow(clippy::cast_precision_loss, reason = "below 2^53 steps")]
             let now = rod.step as f64 * time.step_s;
             if rod.step.is_multiple_of(time.table_steps) {

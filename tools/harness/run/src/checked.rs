@@ -6,7 +6,7 @@ use crate::bounded::{Step, bounded};
 use crate::command::Study;
 use crate::failure::Failure;
 use crate::plan::{Estimate, Plan, bytes, duration};
-use crate::ready::{caught, prepare, read};
+use crate::ready::{caught, planned, read};
 use crate::room::memory_room;
 use crate::tool::Tool;
 
@@ -50,10 +50,11 @@ fn steps<T: Tool>(study: &Study, tell: &dyn Fn(Step<Planned, Estimated>)) -> Res
     let read = read::<T>(study)?;
     tell(Step::Read);
     tell(Step::Outline((caught(|| T::outline(&read.scene))?, None)));
-    let ready = prepare::<T>(study, read)?;
-    tell(Step::Plan((ready.plan, T::grows(&ready.scene))));
+    let grows = caught(|| T::grows(&read.scene))?;
+    let planned = planned::<T>(study, read)?;
+    tell(Step::Plan((planned.plan, grows)));
     // The scene is good whether or not its time can be told, but a panic is a fault of ours.
-    let estimate = caught(|| T::estimate(&ready.scene, &ready.inputs))?;
+    let estimate = caught(|| T::estimate(planned.ready))?;
     tell(Step::Estimate(estimate));
     Ok(())
 }
@@ -103,17 +104,22 @@ mod tests {
         const SCENE_KIND: &'static str = "wrong.scene";
         const ARTEFACT_KIND: &'static str = "wrong";
         type Scene = Scene;
+        type Ready = Scene;
 
-        fn plan(_: &Scene, _: &Inputs) -> Result<Plan, Failure> {
+        fn prepare(scene: Scene, _: Inputs) -> Result<Scene, Failure> {
+            Ok(scene)
+        }
+
+        fn plan(_: &Scene) -> Result<Plan, Failure> {
             Ok(Plan::new().stage("trial"))
         }
 
-        fn estimate(scene: &Scene, _: &Inputs) -> Result<Option<Estimate>, Failure> {
+        fn estimate(scene: Scene) -> Result<Option<Estimate>, Failure> {
             assert!(scene.refused, "no such point");
             Err(Failure::Other("the disk is full".to_owned()))
         }
 
-        fn run(_: &Scene, _: &Inputs, _: &mut Session) -> Result<(), Failure> {
+        fn run(_: Scene, _: &mut Session) -> Result<(), Failure> {
             Ok(())
         }
     }

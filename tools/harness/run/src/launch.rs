@@ -18,7 +18,7 @@ use crate::machine;
 use crate::owned::{Form, Owned};
 use crate::plan::{Plan, bytes, duration};
 use crate::progress::Style;
-use crate::ready::{Ready, guarded, placed, prepare, read};
+use crate::ready::{Planned, guarded, placed, planned, read};
 use crate::record::RunRecord;
 use crate::scene::{named, schema_of, schema_text};
 use crate::session::{Opening, Session};
@@ -118,32 +118,33 @@ fn run_scene<T: Tool>(mut run: Run) -> Result<ExitCode, Failure> {
     let owned = Owned::of(&run.out, Form::Artefact, run.study.reads())?;
     run.out = owned.out().to_owned();
     set_threads(run.threads)?;
-    let ready = prepare::<T>(&run.study, read::<T>(&run.study)?)?;
-    let opened = open::<T>(&run, &ready.header, began, ready.read);
+    let planned = planned::<T>(&run.study, read::<T>(&run.study)?)?;
+    let opened = open::<T>(&run, &planned.header, began, planned.read);
     let (mut session, told) = opened.map_err(|failure| advised(failure, &run.out))?;
     if run.level() > Level::Quiet {
-        head::<T>(&run, &ready);
+        head::<T>(&run, &planned.plan, &planned.header);
     }
-    session.planned(&ready.plan);
+    let Planned {
+        ready,
+        plan,
+        header,
+        merged,
+        ..
+    } = planned;
+    session.planned(&plan);
     if let Some(told) = told {
         session.note(told);
     }
-    if let Some(tight) = tight(&ready.plan, &run.out) {
+    if let Some(tight) = tight(&plan, &run.out) {
         session.note(tight);
     }
     let awake = Awake::keep();
-    let ended = guarded(|| T::run(&ready.scene, &ready.inputs, &mut session));
+    let ended = guarded(|| T::run(ready, &mut session));
     drop(awake);
-    let ended = ended.map_err(|failure| placed(failure, &ready.merged));
+    let ended = ended.map_err(|failure| placed(failure, &merged));
     let (ledger, ended) = session.end(ended);
     let ended = ended.map_err(|failure| advised(failure, &run.out));
-    let record = RunRecord::new(
-        &run.out,
-        &ready.header,
-        start,
-        ledger,
-        ended.as_ref().copied(),
-    );
+    let record = RunRecord::new(&run.out, &header, start, ledger, ended.as_ref().copied());
     let written = record.write();
     ended?;
     written?;
@@ -226,21 +227,17 @@ fn set_threads(threads: Option<u16>) -> Result<(), Failure> {
         .map_err(|e| Failure::Other(format!("--threads {threads}: {e}")))
 }
 
-fn head<T: Tool>(run: &Run, ready: &Ready<T::Scene>) {
+fn head<T: Tool>(run: &Run, plan: &Plan, header: &Header) {
     line(&title::<T>(&run.study.scene));
-    line(ready.plan.to_string().trim_end());
+    line(plan.to_string().trim_end());
     line(&format!(
         "  {:<20} {}",
         "threads",
         rayon::current_num_threads()
     ));
     if run.level() == Level::Verbose {
-        line(&format!(
-            "  {:<20} {}",
-            "scene",
-            ready.header.scene_sha256()
-        ));
-        for (name, hash) in ready.inputs.hashes() {
+        line(&format!("  {:<20} {}", "scene", header.scene_sha256()));
+        for (name, hash) in &header.inputs {
             line(&format!("  {:<20} {name} {hash}", "input"));
         }
     }

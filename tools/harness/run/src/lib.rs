@@ -26,16 +26,21 @@
 //!     const SCENE_KIND: &'static str = "fall.scene";
 //!     const ARTEFACT_KIND: &'static str = "fall-time";
 //!     type Scene = Scene;
+//!     type Ready = Scene;
 //!
-//!     fn plan(scene: &Scene, _: &Inputs) -> Result<Plan, Failure> {
+//!     fn prepare(scene: Scene, _: Inputs) -> Result<Scene, Failure> {
 //!         if scene.height_m > 1e4 {
 //!             let what = format!("{} m is out of range: at most 1e4 m without air", scene.height_m);
 //!             return Err(Fault::at("/height_m", what).into());
 //!         }
+//!         Ok(scene)
+//!     }
+//!
+//!     fn plan(_: &Scene) -> Result<Plan, Failure> {
 //!         Ok(Plan::new().stage("fall").left_out("air", "never computed"))
 //!     }
 //!
-//!     fn run(scene: &Scene, _: &Inputs, session: &mut Session) -> Result<(), Failure> {
+//!     fn run(scene: Scene, session: &mut Session) -> Result<(), Failure> {
 //!         let time_s = session.timed("fall", || (2.0 * scene.height_m / 9.80665).sqrt());
 //!         session.closing("time", "s", time_s);
 //!         session.record("/fall", 0.0, &artefact::Record::new().with("time", "s", time_s))

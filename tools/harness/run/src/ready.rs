@@ -14,10 +14,9 @@ use crate::scene::quantity;
 use crate::scene::{Loaded, Merged, load, located, schema_of};
 use crate::tool::{Tool, expected};
 
-/// A scene that was found good, with its plan.
-pub(crate) struct Ready<S> {
-    pub(crate) scene: S,
-    pub(crate) inputs: Inputs,
+/// A scene that was found good and put together, with its plan.
+pub(crate) struct Planned<R> {
+    pub(crate) ready: R,
     pub(crate) plan: Plan,
     pub(crate) header: Header,
     pub(crate) merged: Merged,
@@ -54,14 +53,14 @@ pub(crate) fn read<T: Tool>(study: &Study) -> Result<Read<T::Scene>, Failure> {
     })
 }
 
-/// Plans a scene.
+/// Puts a scene together and plans it.
 ///
 /// # Errors
 /// All faults of the scene and its inputs; more memory than there is.
-pub(crate) fn prepare<T: Tool>(
+pub(crate) fn planned<T: Tool>(
     study: &Study,
     read: Read<T::Scene>,
-) -> Result<Ready<T::Scene>, Failure> {
+) -> Result<Planned<T::Ready>, Failure> {
     let Read {
         scene,
         merged,
@@ -69,7 +68,13 @@ pub(crate) fn prepare<T: Tool>(
         read,
     } = read;
     let inputs = Inputs::from_words(&study.inputs, T::INPUTS)?;
-    let plan = guarded(|| T::plan(&scene, &inputs)).map_err(|failure| placed(failure, &merged))?;
+    let hashes = inputs.hashes().clone();
+    let made = guarded(|| {
+        let ready = T::prepare(scene, inputs)?;
+        let plan = T::plan(&ready)?;
+        Ok((ready, plan))
+    });
+    let (ready, plan) = made.map_err(|failure| placed(failure, &merged))?;
     #[allow(clippy::cast_precision_loss, reason = "no limit is known to the byte")]
     let wanted = plan.memory_bytes() as f64;
     if let Some(fault) = crowded("", "all that is planned", wanted, "take fewer points") {
@@ -90,11 +95,10 @@ pub(crate) fn prepare<T: Tool>(
         tool: T::NAME.to_owned(),
         tool_version: T::VERSION.to_owned(),
         scene: merged.value().clone(),
-        inputs: inputs.hashes().clone(),
+        inputs: hashes,
     };
-    Ok(Ready {
-        scene,
-        inputs,
+    Ok(Planned {
+        ready,
         plan,
         header,
         merged,

@@ -43,11 +43,20 @@ pub trait Tool: 'static {
     /// Its scene; doc comments become descriptions, `#[schemars(range(..))]` becomes a check.
     type Scene: DeserializeOwned + JsonSchema;
 
-    /// Says what a run would do, and finds every fault that the types cannot express.
+    /// A scene and its inputs put together, as the first step of a run finds them.
+    type Ready;
+
+    /// Puts a scene and its inputs together, once for all that follows, and finds every fault that the types cannot express.
     ///
     /// # Errors
     /// [`Failure::Scene`] with all faults found, or what is wrong with an input.
-    fn plan(scene: &Self::Scene, inputs: &Inputs) -> Result<Plan, Failure>;
+    fn prepare(scene: Self::Scene, inputs: Inputs) -> Result<Self::Ready, Failure>;
+
+    /// Says what a run would do.
+    ///
+    /// # Errors
+    /// As [`Tool::prepare`], for faults that show only when the parts stand together.
+    fn plan(ready: &Self::Ready) -> Result<Plan, Failure>;
 
     /// What of the plan is known at once, for `check` where the plan itself takes longer than that may.
     #[must_use]
@@ -60,7 +69,7 @@ pub trait Tool: 'static {
     ///
     /// # Errors
     /// As [`Tool::run`]; `check` then says why in place of the time.
-    fn estimate(_scene: &Self::Scene, _inputs: &Inputs) -> Result<Option<Estimate>, Failure> {
+    fn estimate(_ready: Self::Ready) -> Result<Option<Estimate>, Failure> {
         Ok(None)
     }
 
@@ -85,7 +94,7 @@ pub trait Tool: 'static {
     ///
     /// # Errors
     /// Any [`Failure`]; the record and the exit code follow from it.
-    fn run(scene: &Self::Scene, inputs: &Inputs, session: &mut Session) -> Result<(), Failure>;
+    fn run(ready: Self::Ready, session: &mut Session) -> Result<(), Failure>;
 }
 
 /// Kind and version of the scene of a tool.

@@ -1,0 +1,67 @@
+//! What a run would do, as `check` tells it.
+
+use run::{Failure, Fault, Plan};
+
+use crate::assemble::Assembled;
+use crate::frames;
+use crate::memory;
+use crate::scene::{Method, Scene};
+use crate::simulate::{AT, endless};
+
+/// What is done before a run, and told by `check`.
+///
+/// # Errors
+/// A run without end.
+pub(crate) fn plan(scene: &Scene, run: &Assembled) -> Result<Plan, Failure> {
+    let Assembled {
+        state,
+        march,
+        left_out,
+    } = run;
+    let mut plan = Plan::new().count("particles", state.len() as u64);
+    let frames = (scene.time.end_s / scene.output.frames_interval_s + AT).floor() as u64 + 1;
+    for set in &state.sets {
+        let n = set.len() as u64;
+        plan = plan.count(&format!("particles of {}", set.name()), n);
+        let frame = frames::frame(set, state.dimensions, scene.output.precision);
+        for column in frame.columns() {
+            plan = plan.column(&format!("{}.{}", set.name(), column.name), &column.unit);
+        }
+        plan = plan.output(
+            &columns::channel(set),
+            frames,
+            frames * n * frame.row_bytes() as u64,
+        );
+    }
+    for stage in &march.stages {
+        plan = plan.stage(stage.name());
+        if stage.bytes() > 0 {
+            plan = plan.memory(stage.name(), stage.bytes() as u64);
+        }
+        if let Some(limit) = stage.limit(state) {
+            if let Some(what) = endless(scene, limit) {
+                return Err(Fault::at("/time/end_s", what).into());
+            }
+            plan = plan.limit(&format!("step_{}", limit.name), limit.seconds, "s");
+        }
+    }
+    for (name, bytes) in state.memory() {
+        plan = plan.memory(&name, bytes as u64);
+    }
+    for (name, bytes) in memory::beyond(scene, state) {
+        plan = plan.memory(name, bytes);
+    }
+    for (name, why) in left_out {
+        plan = plan.left_out(name, why);
+    }
+    let soundless = scene.water.as_ref().map(|water| water.method) == Some(Method::DivergenceFree);
+    if soundless && scene.gravity_m_s2.is_some() {
+        plan = plan.note(
+            "water without sound is for jets: a tank does not rest under gravity, take sound there",
+        );
+    }
+    if state.dimensions == 2 {
+        plan = plan.note("a plane scene: masses, forces and energies are per metre of depth");
+    }
+    Ok(plan)
+}
