@@ -5,15 +5,16 @@
 //! F = (d gamma/d T) (dA/dV) (grad T - n (n . grad T))
 //! ```
 //!
-//! The slope is a number, a table or a formula of the temperature: with sulphur in steel its sign turns. The gradient of the
-//! temperature is that of the neighbours with the kernel gradient corrected to be exact for a linear field, at the surface
-//! as well as inside.
+//! The slope is a number, a table or a formula of the temperature, or follows from what the iron has of sulphur and oxygen
+//! ([`super::solute`]): with them its sign turns. The gradient of the temperature is that of the neighbours with the kernel
+//! gradient corrected to be exact for a linear field, at the surface as well as inside.
 
 use run::Fault;
-use run::property::{Curve, Property};
+use run::property::{Curve, OutOfRange, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::solute::{IRON, Solute};
 use crate::near::{Near, Role, Row};
 use crate::patch::{self, AREA, Patches};
 use crate::stage::{Stage, StageError};
@@ -26,8 +27,64 @@ use crate::vector::{dot, minus, plus};
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
     /// d gamma/d T, a number or that of the temperature T; positive pulls towards the hot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "N/(m K)"))]
-    pub slope_n_m_k: Property,
+    pub slope_n_m_k: Option<Property>,
+    /// In place of the slope: sulphur that liquid iron has at its surface, in per cent by weight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "%"))]
+    pub sulphur_percent: Option<f64>,
+    /// In place of the slope: oxygen, likewise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "%"))]
+    pub oxygen_percent: Option<f64>,
+}
+
+/// d gamma/d T.
+enum Slope {
+    Given(Curve),
+    /// That of iron with what is dissolved in it.
+    Iron(Vec<Solute>),
+}
+
+impl Slope {
+    /// The slope that the scene says.
+    fn of(parameters: &Parameters) -> Result<Self, Fault> {
+        let sulphur = parameters.sulphur_percent.map(Solute::sulphur);
+        let oxygen = parameters.oxygen_percent.map(Solute::oxygen);
+        let solutes: Vec<Solute> = sulphur.into_iter().chain(oxygen).collect();
+        match (&parameters.slope_n_m_k, solutes.is_empty()) {
+            (Some(slope), true) => Ok(Self::Given(slope.compile("/slope_n_m_k", &["T"])?)),
+            (None, false) => Ok(Self::Iron(solutes)),
+            (Some(_), false) => Err(Fault::at(
+                "/slope_n_m_k",
+                "is given beside what is dissolved, which gives it: leave one of them",
+            )),
+            (None, true) => Err(Fault::at(
+                "",
+                "wants 'slope_n_m_k', or 'sulphur_percent' or 'oxygen_percent' of iron",
+            )),
+        }
+    }
+
+    /// Its value where it is the same at any temperature.
+    fn constant(&self) -> Option<f64> {
+        match self {
+            Self::Given(curve) => curve.constant(),
+            Self::Iron(_) => None,
+        }
+    }
+
+    /// Its value at the temperature `kelvin`.
+    fn at(&self, kelvin: f64) -> Result<f64, OutOfRange> {
+        match self {
+            Self::Given(curve) => curve.at_temperature(kelvin),
+            Self::Iron(solutes) => {
+                let each = solutes.iter().map(|solute| solute.slope(kelvin));
+                Ok(each.sum::<f64>() - IRON)
+            }
+        }
+    }
 }
 
 /// Largest size of d gamma/d T \[N/(m K)\].
@@ -35,7 +92,7 @@ const STEEPEST: f64 = 0.1;
 
 /// The stage that drags the surface along.
 pub struct Marangoni {
-    slope: Curve,
+    slope: Slope,
     temperature: Vec<f64>,
     /// d gamma/d T of each particle \[N/(m K)\], `[m]`; zero off the surface.
     each: Vec<f64>,
@@ -47,7 +104,7 @@ impl Marangoni {
     /// # Errors
     /// A fault at the key that is wrong.
     pub fn new(parameters: &Parameters) -> Result<Self, Fault> {
-        let slope = parameters.slope_n_m_k.compile("/slope_n_m_k", &["T"])?;
+        let slope = Slope::of(parameters)?;
         if let Some(value) = slope.constant()
             && (value.is_nan() || value.abs() > STEEPEST)
         {
@@ -64,7 +121,7 @@ impl Marangoni {
 
     /// d gamma/d T at the temperature `kelvin` \[N/(m K)\].
     fn at(&self, kelvin: f64) -> Result<f64, StageError> {
-        let slope = self.slope.at_temperature(kelvin);
+        let slope = self.slope.at(kelvin);
         let slope = slope
             .map_err(|fault| StageError::Data(format!("slope of the surface tension: {fault}")))?;
         if slope.abs() <= STEEPEST {
@@ -214,6 +271,39 @@ mod tests {
                     assert!((force[0] * d - stress).abs() < 1e-9, "{force:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn sulphur_turns_the_flow_about() {
+        // Towards the hot below some temperature and from it above; the more sulphur, the higher it is.
+        let turn = |text: &str| {
+            let stage = made(text).unwrap();
+            let (mut low, mut high) = (1600.0_f64, 4000.0_f64);
+            assert!(stage.at(low).unwrap() > 0.0 && stage.at(high).unwrap() < 0.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if stage.at(middle).unwrap() > 0.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            low
+        };
+        let [little, much] = [0.004, 0.03].map(|s| turn(&format!(r#"{{"sulphur_percent": {s}}}"#)));
+        assert!(little > 1811.0 && much > little + 100.0, "{little} {much}");
+        let both = turn(r#"{"sulphur_percent": 0.004, "oxygen_percent": 0.01}"#);
+        assert!(both > little, "{both} {little}");
+        let pure = made(r#"{"sulphur_percent": 0}"#).unwrap();
+        assert!((pure.at(2000.0).unwrap() / -IRON - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn one_way_to_say_the_slope_is_wanted() {
+        for text in ["{}", r#"{"slope_n_m_k": 1e-4, "sulphur_percent": 0.01}"#] {
+            let what = made(text).err().unwrap().to_string();
+            assert!(what.contains("slope_n_m_k"), "{what}");
         }
     }
 

@@ -6,6 +6,7 @@ pub mod capillary;
 pub mod gas_shear;
 pub mod lorentz;
 pub mod marangoni;
+pub mod solute;
 pub mod surface_stress;
 pub mod tension;
 

@@ -30,6 +30,7 @@ pub(crate) use parameters::table;
 pub use parameters::{Faces, MeltingParameters, Parameters};
 pub use phase::{FlowStart, Phase};
 pub use torches::Torches;
+pub(crate) use vapour::MOLAR_GAS;
 pub use vapour::{Evaporation, GasLayer};
 
 #[cfg(test)]

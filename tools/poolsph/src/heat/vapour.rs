@@ -16,7 +16,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Molar gas constant \[J/(mol K)\].
-const MOLAR_GAS: f64 = 8.314_462_618;
+pub(crate) const MOLAR_GAS: f64 = 8.314_462_618;
 /// Pressure at the boiling point \[Pa\].
 const ATMOSPHERE: f64 = 101_325.0;
 /// Below this part of the boiling point the vapour pressure is under 1e-12 of that at it, for any
