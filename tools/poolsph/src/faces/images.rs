@@ -1,6 +1,6 @@
 //! Images beyond the faces, behind the points that they are images of.
 
-use super::planes::{Faces, Turn};
+use super::planes::{Faces, Lean, Turn};
 
 /// An image of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +18,8 @@ pub struct Images {
     turns: Vec<Turn>,
     /// Faces of each axis, and whether they are periodic.
     planes: [([Option<f64>; 2], bool); 3],
+    /// Faces that the free surface meets askew.
+    leans: Vec<Lean>,
 }
 
 impl Images {
@@ -31,6 +33,7 @@ impl Images {
         if self.turns.is_empty() {
             self.turns = faces.turns().to_vec();
             self.planes = [0, 1, 2].map(|axis| (faces.planes(axis), faces.is_periodic(axis)));
+            self.leans = faces.leans();
         }
         self.reflect(reach, places);
     }
@@ -45,6 +48,7 @@ impl Images {
         if self.turns.is_empty() {
             self.turns.clone_from(&other.turns);
             self.planes = other.planes;
+            self.leans.clone_from(&other.leans);
         }
         self.reflect(reach, places);
     }
@@ -78,6 +82,12 @@ impl Images {
         let turn = before.turn + (side as u8 + 1) * 3_u8.pow(axis as u32);
         places.push(self.turns[turn as usize].place(places[before.of as usize]));
         self.list.push(Image { turn, ..before });
+    }
+
+    /// The faces that the free surface meets at another angle than a right one.
+    #[must_use]
+    pub fn leans(&self) -> &[Lean] {
+        &self.leans
     }
 
     /// True without images.

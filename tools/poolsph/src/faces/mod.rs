@@ -13,14 +13,21 @@
 //! exact. For the pressure a wall is a mirror, so that nothing flows through it. A moving wall moves along itself. Beside
 //! an edge the images of images complete the corner; a box is at least a support wide, so that no image is
 //! needed twice.
+//!
+//! A free surface with tension meets mirrors and walls at a contact angle theta, a right one unless the scene says otherwise. Its
+//! places and normals, and these alone, have images that stand as the surface would go on beyond the face, evenly curved:
+//!
+//! ```text
+//! x' = mirror of x + 2 s cot(theta) t      n' ~ mirror of n + 2 |n_t| cot(theta) e      s distance of x, t along the face and n
+//! ```
 
 mod images;
 mod parameters;
 mod planes;
 
 pub use images::{Image, Images};
-pub use parameters::{Parameters, WallParameters};
-pub use planes::{Faces, Turn};
+pub use parameters::{ContactAngle, Parameters, WallParameters};
+pub use planes::{Faces, Lean, Turn};
 
 #[cfg(test)]
 mod tests;

@@ -30,6 +30,21 @@ pub struct Parameters {
     /// Walls to which the liquid sticks, in the plane of the face itself.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wall: Vec<WallParameters>,
+    /// Angles at which the free surface meets mirrors and walls; a right angle where none is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contact_angles: Vec<ContactAngle>,
+}
+
+/// The angle at which a free surface that has tension meets a face.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactAngle {
+    /// Which face it is: a mirror or a wall.
+    pub face: Face,
+    /// Angle between face and surface, within the liquid: below 90 degrees the liquid wets the face. Below 50 degrees the edge
+    /// is a film too thin for particles.
+    #[schemars(range(min = 50.0, max = 165.0), extend("x-unit" = "deg"))]
+    pub angle_deg: f64,
 }
 
 /// A wall in the plane of a face.
@@ -106,7 +121,45 @@ impl Parameters {
                 return Err(Fault::at(&format!("/max_m/{axis}"), what));
             }
         }
-        Ok(Faces::new(self.min_m, self.max_m, sides))
+        let leans = self.leans(&sides)?;
+        Ok(Faces::new(self.min_m, self.max_m, sides).leaning(leans))
+    }
+
+    /// Contact angles that mean nothing: without `tension`, or where the flow is not without divergence (`even`).
+    #[must_use]
+    pub fn meaningless_angles(&self, tension: bool, even: bool) -> Option<Fault> {
+        let what = match (tension, even) {
+            _ if self.contact_angles.is_empty() => return None,
+            (true, true) => return None,
+            (false, _) => "means nothing without the key 'tension'",
+            (true, false) => {
+                "means nothing with this method, whose cohesion has an angle of its own: take \"divergence_free\" as 'method' of 'flow'"
+            }
+        };
+        Some(Fault::at("/contact_angles", what))
+    }
+
+    /// cot theta at each face.
+    fn leans(&self, sides: &[[Option<Side>; 2]; 3]) -> Result<[[f64; 2]; 3], Fault> {
+        let mut leans = [[None; 2]; 3];
+        for (i, angle) in self.contact_angles.iter().enumerate() {
+            let (axis, upper) = angle.face.side();
+            let (side, sign) = (usize::from(upper), if upper { '+' } else { '-' });
+            let fault = |what: &str| {
+                let what = format!("the face '{}{sign}' {what}", NAMES[axis]);
+                Fault::at(&format!("/contact_angles/{i}/face"), what)
+            };
+            match sides[axis][side] {
+                Some(Side::Mirror | Side::Wall { .. }) => {}
+                Some(Side::Periodic) => return Err(fault("is periodic: no surface ends there")),
+                None => return Err(fault("is neither a mirror nor a wall")),
+            }
+            let cot = 1.0 / angle.angle_deg.to_radians().tan();
+            if leans[axis][side].replace(cot).is_some() {
+                return Err(fault("has two angles"));
+            }
+        }
+        Ok(leans.map(|axis| axis.map(Option::unwrap_or_default)))
     }
 }
 

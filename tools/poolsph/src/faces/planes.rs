@@ -2,6 +2,8 @@
 
 use run::property::{Arguments, Curve, OutOfRange};
 
+use crate::vector::{plus, squared};
+
 /// What lies beyond a face.
 #[derive(Debug, Clone)]
 pub(super) enum Side {
@@ -24,8 +26,30 @@ pub struct Faces {
     min: [f64; 3],
     max: [f64; 3],
     sides: [[Option<Side>; 2]; 3],
+    /// cot of the angle at which the free surface meets each face; 0 of a right one.
+    leans: [[f64; 2]; 3],
     /// By the faces that it goes through: of each axis none, the lower or the upper one.
     turns: Vec<Turn>,
+}
+
+/// A face that the free surface meets at another angle than a right one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lean {
+    /// Axis across the face.
+    pub axis: usize,
+    /// Where it is along the axis \[m\].
+    pub plane: f64,
+    /// cot of the angle.
+    pub cot: f64,
+}
+
+impl Lean {
+    /// Distance of `x` from the face \[m\].
+    #[must_use]
+    #[inline]
+    pub fn distance(&self, x: [f64; 3]) -> f64 {
+        (x[self.axis] - self.plane).abs()
+    }
 }
 
 /// How an image follows from its original.
@@ -40,6 +64,10 @@ pub struct Turn {
     slide: [f64; 3],
     /// Faces of held temperature on the way.
     held: Vec<(usize, usize)>,
+    /// cot of the contact angle at the face of each axis that it goes through.
+    lean: [f64; 3],
+    /// Upper faces that it goes through.
+    upper: [bool; 3],
 }
 
 impl Turn {
@@ -49,6 +77,8 @@ impl Turn {
         stick: [1.0; 3],
         slide: [0.0; 3],
         held: Vec::new(),
+        lean: [0.0; 3],
+        upper: [false; 3],
     };
 
     /// Place of the image of `x`.
@@ -56,6 +86,20 @@ impl Turn {
     #[inline]
     pub fn place(&self, x: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| self.sign[k] * x[k] + self.shift[k])
+    }
+
+    /// Whether the image stands beyond a mirror or a wall across an `axis`.
+    #[must_use]
+    #[inline]
+    pub fn mirrors(&self, axis: usize) -> bool {
+        self.sign[axis] < 0.0
+    }
+
+    /// Whether the free surface goes on askew on the way to the image.
+    #[must_use]
+    #[inline]
+    pub fn leans(&self) -> bool {
+        self.lean.iter().any(|cot| *cot != 0.0)
     }
 
     /// Whether what has such an image is held along each axis: along that of a mirror, along all by a wall, which it sticks to.
@@ -86,6 +130,32 @@ impl Turn {
         std::array::from_fn(|k| self.sign[k] * u[k])
     }
 
+    /// Place and outward normal of the free surface that goes on beyond the faces at their contact angles, from those at `x`.
+    #[must_use]
+    pub fn surface(&self, x: [f64; 3], normal: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+        let (mut place, mut turned) = (self.place(x), self.vector(normal));
+        for axis in (0..3).filter(|axis| self.lean[*axis] != 0.0) {
+            let mut along = turned;
+            along[axis] = 0.0;
+            let size = squared(along).sqrt();
+            if size > 0.0 {
+                let (way, lean) = ((x[axis] - place[axis]).abs(), self.lean[axis]);
+                let inward = if self.upper[axis] { -1.0 } else { 1.0 };
+                place = plus(place, lean * way / size, along);
+                turned[axis] += 2.0 * size * lean * inward;
+                let length = squared(turned).sqrt();
+                turned = turned.map(|n| n / length);
+            }
+        }
+        (place, turned)
+    }
+
+    /// Outward normal of the free surface that goes on beyond the faces.
+    #[must_use]
+    pub fn facing(&self, normal: [f64; 3]) -> [f64; 3] {
+        self.surface([0.0; 3], normal).1
+    }
+
     /// Velocity of the image for viscosity, with which the liquid sticks to walls.
     #[must_use]
     #[inline]
@@ -114,12 +184,36 @@ impl Faces {
             min,
             max,
             sides,
+            leans: [[0.0; 2]; 3],
             turns: Vec::new(),
         };
         if faces.any() {
             faces.turns = (0..27).map(|code| faces.turn(code)).collect();
         }
         faces
+    }
+
+    /// The same, with the cot of the angle at which the free surface meets each face.
+    pub(super) fn leaning(mut self, leans: [[f64; 2]; 3]) -> Self {
+        self.leans = leans;
+        for (code, turn) in self.turns.iter_mut().enumerate() {
+            let side = |axis: usize| (code / 3_usize.pow(axis as u32) % 3).checked_sub(1);
+            turn.lean = std::array::from_fn(|k| side(k).map_or(0.0, |side| leans[k][side]));
+            turn.upper = std::array::from_fn(|k| side(k) == Some(1));
+        }
+        self
+    }
+
+    /// The faces that the free surface meets at another angle than a right one.
+    pub(super) fn leans(&self) -> Vec<Lean> {
+        let at = [self.min, self.max];
+        let faces = (0..3).flat_map(|axis| [0, 1].map(|side| (axis, side)));
+        let leans = faces.map(|(axis, side)| Lean {
+            axis,
+            plane: at[side][axis],
+            cot: self.leans[axis][side],
+        });
+        leans.filter(|lean| lean.cot != 0.0).collect()
     }
 
     /// True if there is a face.

@@ -9,7 +9,7 @@ use crate::motion::viscosity::Viscosity;
 use crate::motion::{self, Law, Motion};
 use crate::stage::Stage;
 use crate::state::{ENTHALPY, Particle, State, TEMPERATURE, VELOCITY, phase};
-use crate::vector::{minus, squared};
+use crate::vector::{dot, minus, squared};
 
 const METAL: Matter = Matter {
     density: 1000.0,
@@ -267,6 +267,67 @@ fn faces_that_cannot_be_are_refused_by_name() {
     assert!(across.contains("/wall/0/velocity_m_s/0"), "{across}");
     let cold = told(&box_of(r#""wall": [{"face": "x-", "temperature_k": 300}]"#));
     assert!(cold.contains("/wall/0/temperature_k"), "{cold}");
+    let angle = |faces: &str, angles: &str| {
+        told(&box_of(&format!(
+            r#"{faces}, "contact_angles": [{angles}]"#
+        )))
+    };
+    let one = r#"{"face": "x-", "angle_deg": 60}"#;
+    let nowhere = angle(r#""mirror": ["x+"]"#, one);
+    assert!(
+        nowhere.contains("/contact_angles/0/face") && nowhere.contains("neither"),
+        "{nowhere}"
+    );
+    let through = angle(r#""periodic": ["x"]"#, one);
+    assert!(through.contains("'x-' is periodic"), "{through}");
+    let two = angle(r#""mirror": ["x-"]"#, &format!("{one}, {one}"));
+    assert!(two.contains("/contact_angles/1/face"), "{two}");
+}
+
+#[test]
+fn beyond_a_face_a_surface_goes_on_at_its_contact_angle() {
+    // A plane that meets the floor at theta goes on as the same plane, whichever way it faces.
+    let floor = [30.0_f64, 60.0, 90.0, 135.0].map(|angle| (angle, "z-", 0.5, 1.0));
+    for (degrees, face, beside, up) in floor.into_iter().chain([(50.0, "z+", 8.5, -1.0)]) {
+        let text = format!(
+            r#"{{"min_m": [0, 0, 0], "max_m": [9, 9, 9], "mirror": ["{face}", "x-"],
+            "contact_angles": [{{"face": "{face}", "angle_deg": {degrees}}}]}}"#
+        );
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let mut images = Images::default();
+        let mut places = vec![[5.0, 4.0, beside]];
+        images.place(&faces(&text), 1.0, &mut places);
+        assert_eq!(images.len(), 1);
+        for turn in [0.0_f64, 1.0, 2.5] {
+            let normal = [sin * turn.cos(), sin * turn.sin(), up * cos];
+            let (place, turned) = images.turn(1).unwrap().surface(places[0], normal);
+            let away = dot(minus(place, places[0]), normal);
+            assert!(
+                away.abs() < 1e-14 && (place[2] - beside + up).abs() < 1e-14,
+                "{place:?}"
+            );
+            let off = squared(minus(turned, normal));
+            assert!(off < 1e-28, "{degrees} degrees: {turned:?} for {normal:?}");
+            let facing = images.turn(1).unwrap().facing(normal);
+            assert!(squared(minus(facing, turned)) <= 0.0);
+        }
+    }
+}
+
+#[test]
+fn contact_angles_want_tension_and_a_flow_without_divergence() {
+    let text = r#"{"min_m": [0, 0, 0], "max_m": [6, 6, 6], "mirror": ["z-"], "contact_angles": [{"face": "z-", "angle_deg": 60}]}"#;
+    let parameters: Parameters = serde_json::from_str(text).unwrap();
+    assert!(parameters.meaningless_angles(true, true).is_none());
+    let told = |tension, even| {
+        parameters
+            .meaningless_angles(tension, even)
+            .unwrap()
+            .to_string()
+    };
+    assert!(
+        told(false, true).contains("'tension'") && told(true, false).contains("divergence_free")
+    );
 }
 
 /// A lattice of 5 x 5 x 6 cells between two walls.

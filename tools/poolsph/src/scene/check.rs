@@ -321,6 +321,10 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
         let what = "means nothing without the key 'gravity_m_s2' in 'flow'";
         faults.push(Fault::at("/buoyancy", what));
     }
+    if let Some(faces) = &scene.faces {
+        let angles = faces.meaningless_angles(scene.tension.is_some(), scene.even());
+        faults.extend(angles.map(|fault| fault.within("/faces")));
+    }
     faults
 }
 

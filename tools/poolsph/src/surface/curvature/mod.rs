@@ -9,9 +9,10 @@
 //! 4. Single particles and drops of a few know no more of a shape than their size: they have the greatest curvature 2/d.
 //!    No curvature is larger in size, and those that would be are counted.
 //!
-//! Solid metal counts as metal, so that a pool's surface goes on over its edge. Images stand beyond faces, and there the surface meets a
-//! mirror at a right angle.
+//! Solid metal counts as metal, so that a pool's surface goes on over its edge. Beyond faces the surface goes on at its contact angle
+//! (`askew`).
 
+mod askew;
 mod quadric;
 
 use kernels::CubicSpline;
@@ -19,6 +20,7 @@ use neighbours::{Grid, Lists, ROWS};
 use particles::Matter;
 use rayon::prelude::*;
 
+use self::askew::Askew;
 pub use self::quadric::{Sample, Shape, shape};
 use super::depth::Depth;
 use crate::faces::Images;
@@ -58,6 +60,9 @@ pub struct Curvature {
     /// grad C of members and images, and its average \[1/m\].
     gradient: Vec<[f64; 3]>,
     turned: Vec<[f64; 3]>,
+    /// What stands beside faces of other contact angles than right ones, and the sums of W then; none without such faces.
+    askew: Option<Askew>,
+    number: Vec<f64>,
     /// Members that tell of the surface.
     members: Vec<u32>,
     places: Vec<[f64; 3]>,
@@ -82,6 +87,8 @@ impl Curvature {
             smoothing_length: metal.smoothing_length,
             gradient: Vec::new(),
             turned: Vec::new(),
+            askew: None,
+            number: Vec::new(),
             members: Vec::new(),
             places: Vec::new(),
             samples: Vec::new(),
@@ -95,6 +102,9 @@ impl Curvature {
 
     /// Finds the curvature at all liquid particles along the surface.
     pub fn measure(&mut self, near: &Near) {
+        if self.askew.is_none() && !near.images().leans().is_empty() {
+            self.askew = Some(Askew::new(2.0 * self.smoothing_length));
+        }
         self.turn(near);
         self.sample(near);
         self.search(near);
@@ -108,9 +118,22 @@ impl Curvature {
     fn turn(&mut self, near: &Near) {
         let volume = self.volume;
         self.gradient.clear();
-        let gradients = near.gradient.iter();
-        (self.gradient).extend(gradients.map(|gradient| gradient.map(|x| volume * x)));
-        near.complete(&mut self.gradient, |g, _, turn| turn.vector(g));
+        self.gradient.extend_from_slice(&near.gradient);
+        if let Some(askew) = &mut self.askew {
+            self.number.clone_from(&near.number);
+            askew.correct(near, &mut self.number, &mut self.gradient);
+        }
+        for gradient in &mut self.gradient {
+            *gradient = gradient.map(|x| volume * x);
+        }
+        near.complete(&mut self.gradient, |gradient, _, turn| {
+            let size = squared(gradient).sqrt();
+            if turn.leans() && size > 0.0 {
+                let outward = turn.facing(gradient.map(|x| -x / size));
+                return outward.map(|x| -x * size);
+            }
+            turn.vector(gradient)
+        });
         let (gradient, own) = (&self.gradient, near.kernel.value(0.0));
         self.turned.resize(near.len(), [0.0; 3]);
         near.each_row(&mut self.turned, |a, row, out| {
@@ -127,14 +150,19 @@ impl Curvature {
         self.members.clear();
         self.places.clear();
         self.samples.clear();
-        for a in 0..near.len() {
+        let number = if self.askew.is_some() {
+            &self.number
+        } else {
+            &near.number
+        };
+        for (a, number) in number[..near.len()].iter().enumerate() {
             let (slope, turned) = (squared(self.gradient[a]).sqrt(), self.turned[a]);
             let steep = slope * self.smoothing_length;
             let size = squared(turned).sqrt();
             if near.role[a] == Role::Backing || steep <= from || size <= 0.0 {
                 continue;
             }
-            let colour = self.volume * near.number[a].max(own);
+            let colour = self.volume * number.max(own);
             let depth = self.depth.at(colour, slope);
             if depth > DEEPEST * self.spacing {
                 continue;
@@ -156,13 +184,17 @@ impl Curvature {
         let reach = REACH * self.smoothing_length;
         let points = self.samples.len();
         (self.images).place_beside(near.images(), reach, &mut self.places);
-        let places = &self.places;
-        self.images
-            .complete(&mut self.samples, |sample, k, turn| Sample {
-                place: places[k],
-                normal: turn.vector(sample.normal),
+        self.images.complete(&mut self.samples, |sample, _, turn| {
+            let (place, normal) = turn.surface(sample.place, sample.normal);
+            Sample {
+                place,
+                normal,
                 ..sample
-            });
+            }
+        });
+        for (place, sample) in self.places.iter_mut().zip(&self.samples).skip(points) {
+            *place = sample.place;
+        }
         self.grid.bin(&self.places);
         let (members, role) = (&self.members, &near.role);
         let liquid = |k: usize| role[members[k] as usize] == Role::Liquid;
@@ -254,6 +286,8 @@ impl Curvature {
         (2 * 24 + 16) * self.gradient.capacity()
             + (size_of::<Sample>() + 24 + 4 + 32) * self.samples.capacity()
             + self.lists.bytes()
+            + 8 * self.number.capacity()
+            + self.askew.as_ref().map_or(0, Askew::bytes)
     }
 }
 

@@ -261,3 +261,33 @@ fn half_a_ball_beside_a_mirror_is_the_whole() {
         }
     }
 }
+
+#[test]
+fn a_cap_on_a_mirror_has_the_curvature_of_its_ball() {
+    for degrees in [40.0_f64, 60.0, 75.0, 90.0, 120.0, 140.0] {
+        let angle = degrees.to_radians();
+        // Nine layers high.
+        let r = 9.0 / (1.0 - angle.cos());
+        let centre = -r * angle.cos();
+        let within = |[x, y, z]: [f64; 3]| z > 0.0 && squared([x, y, z - centre]) < r * r;
+        let cloud = shaken(lattice(27, within), 0.05);
+        let text = format!(
+            r#"{{"min_m": [-30, -30, 0], "max_m": [30, 30, 30], "mirror": ["z-"],
+            "contact_angles": [{{"face": "z-", "angle_deg": {degrees}}}]}}"#
+        );
+        let faces: crate::faces::Parameters = serde_json::from_str(&text).unwrap();
+        let found = measured_beside(&cloud, 1.0, faces.faces(2.0, false).unwrap()).mean;
+        // Layers of the lattice end in steps: three of them and more tell.
+        for (low, high, off) in [(0.0, 3.0, 0.1), (3.0, 30.0, 0.07)] {
+            let between = cloud.iter().zip(&found);
+            let between = between.filter(|(x, _)| (low..high).contains(&x[2]));
+            let known: Vec<f64> = between.filter_map(|(_, found)| *found).collect();
+            let [mean, rough] = spread(&known);
+            let mean = 0.5 * r * mean;
+            assert!(
+                (mean - 1.0).abs() < off,
+                "{degrees} degrees, {low} to {high} above the mirror: {mean}, scatter {rough}"
+            );
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Colours beside faces that the surface meets at another angle than a right one.
+//!
+//! Images stand as mirrors have them, and the colour that they make is that of a surface which meets the face at a right angle. Here
+//! neighbours beyond the face stand where the metal would go on at its contact angle (see [`crate::faces`]), sheared along the surface:
+//!
+//! ```text
+//! x' = mirror of x + 2 s cot(theta) t      t along the face and -grad C      s distance of x from the face
+//! ```
+
+use neighbours::Grid;
+use rayon::prelude::*;
+
+use crate::faces::Lean;
+use crate::near::Near;
+use crate::vector::{minus, plus, squared};
+
+/// Size of -grad C along a face, in 1/h, from which on it tells a direction.
+const TELLS: f64 = 0.05;
+
+/// What lies beside such faces, with its scratch.
+#[derive(Debug, Clone)]
+pub(super) struct Askew {
+    support: f64,
+    /// Numbers and places of all that have a mirror image within a support.
+    beside: Vec<u32>,
+    places: Vec<[f64; 3]>,
+    grid: Grid,
+    changed: Vec<(usize, f64, [f64; 3])>,
+}
+
+impl Askew {
+    /// With kernels of this support \[m\].
+    pub(super) fn new(support: f64) -> Self {
+        Self {
+            support,
+            beside: Vec::new(),
+            places: Vec::new(),
+            grid: Grid::new(support),
+            changed: Vec::new(),
+        }
+    }
+
+    /// Puts right the sums of W \[1/m3\] and grad W \[1/m4\] of the particles beside such faces.
+    pub(super) fn correct(&mut self, near: &Near, number: &mut [f64], gradient: &mut [[f64; 3]]) {
+        for lean in near.images().leans() {
+            self.gather(near, lean);
+            let members = (0..near.len()).into_par_iter();
+            let seen = members.filter(|a| lean.distance(near.position[*a]) < self.support);
+            let changed = seen.filter_map(|a| {
+                let along = self.along(lean, gradient[a])?;
+                let (number, gradient) = self.sums(near, lean, a, along);
+                Some((a, number, gradient))
+            });
+            self.changed = changed.collect();
+            for (a, more, slope) in &self.changed {
+                number[*a] += more;
+                gradient[*a] = plus(gradient[*a], 1.0, *slope);
+            }
+        }
+    }
+
+    /// Finds who stands beside a face, images beyond others included.
+    fn gather(&mut self, near: &Near, lean: &Lean) {
+        let images = near.images();
+        let through = |b: usize| images.turn(b).is_some_and(|turn| turn.mirrors(lean.axis));
+        let all = near.position.iter().enumerate();
+        let beside = all.filter(|(b, x)| lean.distance(**x) < self.support && !through(*b));
+        self.beside.clear();
+        self.places.clear();
+        for (b, x) in beside {
+            self.beside.push(b as u32);
+            self.places.push(*x);
+        }
+        self.grid.bin(&self.places);
+    }
+
+    /// t from grad W; none where that has no direction along the face.
+    fn along(&self, lean: &Lean, gradient: [f64; 3]) -> Option<[f64; 3]> {
+        let mut along = gradient.map(|g| -g);
+        along[lean.axis] = 0.0;
+        let (size, all) = (squared(along).sqrt(), squared(gradient).sqrt());
+        (size > TELLS * all).then(|| along.map(|x| x / size))
+    }
+
+    /// What particle `a` has of sheared images, less what it has of mirror images.
+    fn sums(&self, near: &Near, lean: &Lean, a: usize, along: [f64; 3]) -> (f64, [f64; 3]) {
+        let (images, kernel, place) = (near.images(), &near.kernel, near.position[a]);
+        let (mut number, mut gradient) = (0.0, [0.0; 3]);
+        let mut add = |sign: f64, other: [f64; 3]| {
+            let way = minus(place, other);
+            let sample = kernel.sample(squared(way).sqrt());
+            number += sign * sample.value;
+            gradient = plus(gradient, sign * sample.slope, way);
+        };
+        for &b in near.lists.row(a) {
+            let b = b as usize;
+            if images.turn(b).is_some_and(|turn| turn.mirrors(lean.axis)) {
+                add(-1.0, near.position[b]);
+            }
+        }
+        // All whose image may be within the support: half as far from the face as the farthest of them, give or take.
+        let half = 0.5 * (self.support - lean.distance(place));
+        let mut middle = plus(place, -2.0 * lean.cot * half, along);
+        middle[lean.axis] = lean.plane + half.copysign(place[lean.axis] - lean.plane);
+        let reach = half.hypot(self.support + 2.0 * half * lean.cot.abs());
+        self.grid.runs(middle, reach, |run| {
+            for x in &self.grid.sorted()[run] {
+                let mut other = plus(*x, 2.0 * lean.cot * lean.distance(*x), along);
+                other[lean.axis] = 2.0 * lean.plane - x[lean.axis];
+                add(1.0, other);
+            }
+        });
+        (number, gradient)
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        (4 + 24 + 28) * self.places.capacity() + 40 * self.changed.capacity()
+    }
+}
