@@ -104,7 +104,11 @@ fn the_record_of_an_exact_case_fits_its_schema() {
         patch: None,
         repeat_s: 0.01,
     };
-    let record = study(&Square, &lab, &[1, 2, 3]).unwrap();
+    let mut told = Vec::new();
+    let tell = |line: &str| told.push(line.to_owned());
+    let record = study(&Square, &lab, &[1, 2, 3], tell).unwrap();
+    let line = "  first level 2: 200 points  a_linf 6.250e-4 b_linf 2.500e-2";
+    assert_eq!((told.len(), told[3].as_str()), (8, line));
     assert!(record.holds, "{}", record.table());
     let path = folder.path().join("square.json");
     let mut value = serde_json::to_value(&record).unwrap();

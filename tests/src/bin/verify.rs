@@ -95,7 +95,9 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
         if !arguments.case.is_empty() && !arguments.case.iter().any(|c| c == case.name()) {
             continue;
         }
-        match study::study(case.as_ref(), &lab, &arguments.levels) {
+        eprintln!("{}", case.name());
+        let tell = |line: &str| eprintln!("{line}");
+        match study::study(case.as_ref(), &lab, &arguments.levels, tell) {
             Ok(study) => {
                 print!("{}", study.table());
                 good &= study.holds;

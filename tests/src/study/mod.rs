@@ -73,11 +73,17 @@ pub struct Study {
 
 /// Runs `case` at `levels` with each of its methods, which take turns at every level.
 ///
-/// Where a patch of the user's does not fit a method, the others go on and the record tells why.
+/// Where a patch of the user's does not fit a method, the others go on and the record tells why. What a run has found is given to
+/// `tell` as soon as it is known, for a study that is cut off.
 ///
 /// # Errors
 /// When a run fails, its artefact cannot be read, or a repeat of it writes other bytes; when no method is left.
-pub fn study(case: &dyn Case, lab: &Lab, levels: &[u32]) -> Result<Study, LabError> {
+pub fn study(
+    case: &dyn Case,
+    lab: &Lab,
+    levels: &[u32],
+    mut tell: impl FnMut(&str),
+) -> Result<Study, LabError> {
     let methods = case.methods();
     let mut all: Vec<Vec<Taken>> = methods.iter().map(|_| Vec::new()).collect();
     let mut refused: Vec<Option<LabError>> = methods.iter().map(|_| None).collect();
@@ -90,6 +96,7 @@ pub fn study(case: &dyn Case, lab: &Lab, levels: &[u32]) -> Result<Study, LabErr
             }
             match case.measure(lab, level, method) {
                 Ok(measured) => {
+                    tell(&line(&measured, method, level));
                     batch.push(Repeated::first(measured.runs.clone())?);
                     found.push((m, measured));
                 }
@@ -134,6 +141,15 @@ pub fn study(case: &dyn Case, lab: &Lab, levels: &[u32]) -> Result<Study, LabErr
         first,
         series: competing,
     })
+}
+
+/// What a measurement has found, in one line.
+fn line(measured: &Measurement, method: &str, level: u32) -> String {
+    let mut text = format!("  {method} level {level}: {} points ", measured.points);
+    for (quantity, error) in measured.errors.iter().chain(&measured.costs) {
+        text += &format!(" {quantity} {error:.3e}");
+    }
+    text
 }
 
 /// A level of a method with its repeats.
