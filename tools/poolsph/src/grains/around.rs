@@ -2,6 +2,7 @@
 
 use neighbours::{Grid, Halo};
 use particles::POSITION;
+use rayon::prelude::*;
 
 use super::{Mirrors, RADIUS};
 use crate::state::State;
@@ -39,17 +40,18 @@ impl Around {
 
     /// Takes the grains of `state` that are near one of the places `metal` \[m\].
     pub(super) fn look(&mut self, state: &State, metal: impl Iterator<Item = [f64; 3]>) {
-        self.places.clear();
-        self.radii.clear();
-        let Some(set) = &state.grains else { return };
+        let Some(set) = &state.grains else {
+            self.places.clear();
+            self.radii.clear();
+            return;
+        };
         self.metal.clear();
         self.metal.extend(metal);
         self.halo.mark(&self.metal);
-        let grains = set.column(&POSITION).iter().zip(set.column(&RADIUS));
-        for (x, r) in grains.filter(|(x, _)| self.halo.may_touch(**x)) {
-            self.places.push(*x);
-            self.radii.push(*r);
-        }
+        let (halo, all) = (&self.halo, set.column(&POSITION).par_iter());
+        let near = all.zip(set.column(&RADIUS)).with_min_len(4096);
+        let near = near.filter(|(x, _)| halo.may_touch(**x));
+        (self.places, self.radii) = near.map(|(x, r)| (*x, *r)).unzip();
         self.mirrors
             .complete(&mut self.places, &mut self.radii, self.reach);
         self.grid.bin(&self.places);

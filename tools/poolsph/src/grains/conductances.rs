@@ -9,7 +9,7 @@ use super::MASS;
 use super::columns::{ENTHALPY, HELD, TEMPERATURE};
 use super::conducting::Recent;
 use super::heat::Heat;
-use super::lists::{Lists, ROWS, Touch};
+use super::lists::{AT_ONCE, Lists, ROWS, Touch};
 use super::metal::Metal;
 use super::slow::Pass;
 use crate::state::State;
@@ -57,6 +57,7 @@ impl Heat {
         };
         all.resize_with(lists.chunks.len(), Vec::new);
         let chunks = all.par_iter_mut().zip(&lists.chunks).enumerate();
+        let chunks = chunks.with_max_len(AT_ONCE);
         let done: Result<(), OutOfRange> = chunks
             .map(|(c, (conductance, chunk))| {
                 conductance.clear();

@@ -10,7 +10,7 @@ use shapes::frame::{Vector, along, difference, dot, length};
 use super::Motion;
 use super::bounds::{Load, Setting, Slack};
 use super::depth::{CELL, Depth};
-use super::lists::{Chunk, Lists, Pair, ROWS};
+use super::lists::{AT_ONCE, Chunk, Lists, Pair, ROWS};
 use super::metal::Metal;
 use super::sleep::depth;
 use super::walls::Walls;
@@ -177,6 +177,7 @@ impl Crowd {
         self.around.resize(rows, Around::default());
         self.loads.resize(rows, Load::default());
         let chunks = self.around.par_chunks_mut(ROWS).enumerate();
+        let chunks = chunks.with_max_len(AT_ONCE);
         chunks.for_each(|(place, around)| seen.meet(lists, place, around));
         walls.touching(seen.grains, seen.depth, |row, normal| {
             self.around[row].add(normal);
@@ -199,6 +200,7 @@ impl Crowd {
         let cells = cells.zip(seen.grains.par_chunks(CELL)).enumerate();
         let awake = cells
             .with_min_len(ROWS / CELL)
+            .with_max_len(AT_ONCE * ROWS / CELL)
             .filter(|(cell, _)| !seen.sleeps(cell * CELL));
         awake.for_each(|(_, ((loads, around), grains))| {
             for ((load, around), grain) in loads.iter_mut().zip(around).zip(grains) {
@@ -218,7 +220,7 @@ impl Crowd {
 
     /// The least slack of two grains that touch.
     fn between(&self, lists: &Lists, seen: Seen<'_>) -> Option<Slack> {
-        let chunks = lists.chunks.par_iter().enumerate();
+        let chunks = lists.chunks.par_iter().with_max_len(AT_ONCE).enumerate();
         let slacks = chunks.filter_map(|(place, chunk)| {
             let pairs = touching(place, chunk, seen.depth.part()).filter_map(|(a, b)| {
                 match (seen.sleeps(a), seen.sleeps(b)) {

@@ -25,7 +25,7 @@ use super::columns::{ENTHALPY, FROZEN, HELD, SLAG, STATE, TEMPERATURE};
 use super::conducting::{Conductor, Radius};
 use super::depth::kept;
 use super::light::Lighting;
-use super::lists::{Lists, ROWS};
+use super::lists::{AT_ONCE, Lists, ROWS};
 use super::metal::Metal;
 use super::parameters::{ConductanceScene, GrainHeat, Parameters};
 use super::slow::{Busy, Long, Pass, SLOW};
@@ -61,6 +61,7 @@ pub struct Heat {
 /// Values of chunks that get heat, changed.
 fn change<T: Send>(get: &[bool], values: &mut [T], change: impl Fn(usize, &mut T) + Sync) {
     let chunks = values.par_chunks_mut(ROWS).zip(get).enumerate();
+    let chunks = chunks.with_max_len(AT_ONCE);
     let chunks = chunks.filter(|(_, (_, gets))| **gets);
     chunks.for_each(|(c, (values, _))| {
         for (own, value) in values.iter_mut().enumerate() {
@@ -136,6 +137,7 @@ impl Heat {
         weight: impl Fn(usize, usize) -> f64 + Sync,
     ) {
         let chunks = sums.par_chunks_mut(ROWS).zip(&lists.chunks).enumerate();
+        let chunks = chunks.with_max_len(AT_ONCE);
         chunks.for_each(|(c, (sums, chunk))| {
             let first = c * ROWS;
             sums.fill(0.0);

@@ -20,6 +20,8 @@ use super::memory::Memory;
 
 /// Rows of a chunk, the unit of parallel work.
 pub const ROWS: usize = 512;
+/// Chunks that a thread takes at once at most: those that are awake, or are listed again, lie together.
+pub const AT_ONCE: usize = 4;
 /// Skin over the least radius. Wider lists last longer and cost more in each step.
 const SKIN: f64 = 0.25;
 
@@ -263,7 +265,7 @@ impl Lists {
         let count = grains.len().div_ceil(ROWS);
         self.chunks.resize_with(count, Chunk::default);
         let (grid, rolls) = (&*grid, self.rolls);
-        let chunks = self.chunks.par_iter_mut().enumerate();
+        let chunks = self.chunks.par_iter_mut().with_max_len(AT_ONCE).enumerate();
         let listed = chunks.filter(|(c, _)| !self.again.stays(*c));
         listed.for_each(|(c, chunk)| {
             let first = c * ROWS;
@@ -306,7 +308,7 @@ impl Lists {
     /// Finds what of each chunk is reckoned where cells sleep by `depth`.
     pub fn rest(&mut self, depth: &[u8]) {
         let rows = self.rows;
-        let chunks = self.chunks.par_iter_mut().enumerate();
+        let chunks = self.chunks.par_iter_mut().with_max_len(AT_ONCE).enumerate();
         chunks.for_each(|(c, chunk)| {
             if depth.is_empty() {
                 chunk.parts = Default::default();

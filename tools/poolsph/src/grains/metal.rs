@@ -134,7 +134,7 @@ impl Metal {
             own.friction = Some(contact::Friction { coefficient });
         }
         let bodies = &self.bodies;
-        let pairs = self.pairs.par_iter_mut().with_min_len(256);
+        let pairs = self.pairs.par_iter_mut().with_min_len(64);
         pairs.for_each(|pair| {
             if depth.always().kept(pair.near.row as usize) {
                 return;

@@ -19,6 +19,8 @@ use crate::state::{PHASE, State, phase};
 
 /// Metal is looked for so many skins, and so many times the way of the fastest within a step, beyond what may touch.
 const AHEAD: f64 = 2.0;
+/// Particles of metal that a thread looks around at once.
+const BODIES: usize = 128;
 
 impl Metal {
     /// Chooses the grains that are looked at: all, or those whose forces do not stay as they are by `depth` and those
@@ -178,22 +180,32 @@ impl Metal {
         self.places.extend(places);
         let Some(grid) = &mut self.grid else { return };
         grid.bin(&self.places);
-        let rows = &self.rows;
-        for (place, body) in self.bodies.iter().enumerate() {
-            let (at, own) = (body.grain.position, self.radius + self.skin);
-            grid.runs(at, own + self.widest, |run| {
-                for (x, k) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
-                    let row = &rows[*k as usize];
-                    let (way, within) = (difference(*x, at), own + grains[*row as usize].radius);
-                    if dot(way, way) < within * within {
-                        self.pairs.push(Pair {
-                            near: Near::new(*row),
-                            body: place as u32,
-                        });
-                    }
+        let (grid, rows, widest) = (&*grid, &self.rows, self.widest);
+        let own = self.radius + self.skin;
+        let bodies = self.bodies.par_chunks(BODIES).enumerate();
+        let found: Vec<Vec<Pair>> = bodies
+            .map(|(c, bodies)| {
+                let mut pairs = Vec::new();
+                for (place, body) in (c * BODIES..).zip(bodies) {
+                    let at = body.grain.position;
+                    grid.runs(at, own + widest, |run| {
+                        for (x, k) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
+                            let row = &rows[*k as usize];
+                            let way = difference(*x, at);
+                            let within = own + grains[*row as usize].radius;
+                            if dot(way, way) < within * within {
+                                pairs.push(Pair {
+                                    near: Near::new(*row),
+                                    body: place as u32,
+                                });
+                            }
+                        }
+                    });
                 }
-            });
-        }
+                pairs
+            })
+            .collect();
+        self.pairs.extend(found.into_iter().flatten());
         self.pairs
             .sort_unstable_by_key(|pair| (pair.near.row, pair.body));
         for memory in self.memories.drain(..) {
@@ -224,7 +236,7 @@ impl Metal {
         };
         let bodies = self.bodies.iter().map(|body| body.grain.position);
         let far = bodies.zip(of_bodies).map(squared).fold(0.0, f64::max);
-        let rows = self.rows.par_iter().with_min_len(4096);
+        let rows = self.rows.par_iter().with_min_len(1024);
         let farther = rows.map(|row| grains[*row as usize].position);
         let farther = farther.zip(of_grains).map(squared);
         let farther = farther.reduce(|| 0.0, f64::max);

@@ -9,7 +9,7 @@ use shapes::frame::{Vector, difference, dot};
 use super::depth::{CELL, asleep};
 use super::glued::{Glued, Grains};
 use super::greater::greater;
-use super::lists::ROWS;
+use super::lists::{AT_ONCE, ROWS};
 use super::verlet::{Lead, Verlet};
 use super::walls::velocity;
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
@@ -196,6 +196,7 @@ impl Moving {
         let places = (self.leads.par_chunks_mut(CELL)).zip(self.listed.par_chunks(CELL));
         let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
         let far = grains.zip(forces).zip(places).enumerate();
+        let far = far.with_max_len(AT_ONCE * CELLS);
         let far = far.map(|(cell, ((grains, (force, moment)), (leads, listed)))| {
             let mut far = 0.0;
             if asleep(depth, cell * CELL) {
@@ -242,6 +243,7 @@ impl Moving {
         let rest = forces.zip(old).zip(places);
         let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
         let most = grains.zip(rest).enumerate();
+        let most = most.with_max_len(AT_ONCE * CELLS);
         let most = most.map(|(cell, (grains, ((forces, old), (leads, listed))))| {
             let (mut fastest, mut far) = (0.0, 0.0);
             if asleep(depth, cell * CELL) {

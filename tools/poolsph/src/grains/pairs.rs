@@ -11,7 +11,7 @@ use shapes::frame::{Vector, difference, dot};
 
 use super::block::{Block, LANES};
 use super::depth::{CELL, Depth};
-use super::lists::{Chunk, Incoming, Lists, Push, ROWS, Touch};
+use super::lists::{AT_ONCE, Chunk, Incoming, Lists, Push, ROWS, Touch};
 use super::resistance::{Resistance, Sliding, SlidingAndRolling};
 
 /// Forces \[N\] and moments \[N m\] of the contacts of all grains with each other after a step of `step` \[s\], but of those that stay as
@@ -25,6 +25,7 @@ pub fn act<N: Normal + Copy + Sync>(
 ) {
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
     let chunks = lists.chunks.par_iter_mut().zip(sums).enumerate();
+    let chunks = chunks.with_max_len(AT_ONCE);
     chunks.for_each(|(c, (chunk, (force, moment)))| {
         if depth.part().is_some_and(|part| chunk.parts[part].rests()) {
             return;
@@ -56,7 +57,7 @@ pub fn act<N: Normal + Copy + Sync>(
 /// Adds what pairs of other chunks do to the grains of each.
 fn fetch(lists: &Lists, depth: Depth<'_>, [force, moment]: [&mut [Vector]; 2]) {
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
-    let chunks = lists.chunks.par_iter().zip(sums);
+    let chunks = lists.chunks.par_iter().zip(sums).with_max_len(AT_ONCE);
     chunks.for_each(|(chunk, (force, moment))| {
         let mut add = |incoming: &Incoming| {
             let row = incoming.row as usize;

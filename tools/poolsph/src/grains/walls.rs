@@ -10,7 +10,7 @@ use super::Mirrors;
 use super::depth::Depth;
 use super::faces::Face;
 use super::light::Light;
-use super::lists::ROWS;
+use super::lists::{AT_ONCE, ROWS};
 use super::memory::Memory;
 use super::near::Near;
 use super::pressure::Pressed;
@@ -161,15 +161,12 @@ impl Walls {
                 pressed.rows.clear();
             }
             wall.far.resize(grains.len().div_ceil(ROWS), None);
-            for (c, chunk) in grains.chunks(ROWS).enumerate() {
-                let still = still.get(c).copied().unwrap_or(false);
-                if still && wall.is_far(c) {
-                    continue;
-                }
+            let distances = wall.distances(grains, still);
+            for ((c, chunk), distances) in grains.chunks(ROWS).enumerate().zip(distances) {
+                let Some(distances) = distances else { continue };
                 let (mut nearest, mut odd) = (f64::INFINITY, false);
-                for (own, grain) in chunk.iter().enumerate() {
+                for ((own, grain), distance) in chunk.iter().enumerate().zip(distances) {
                     let row = (c * ROWS + own) as u32;
-                    let distance = wall.face.distance(difference(grain.position, wall.moved));
                     nearest = nearest.min(distance - grain.radius - skin);
                     if let Some(pressed) = &mut wall.pressed {
                         nearest = nearest.min(distance - pressed.near);
@@ -224,7 +221,7 @@ impl Walls {
             }
             let (face, moved, mirror) = (&wall.face, wall.moved, wall.mirror);
             let velocity = along(wall.velocity, 1.0, wall.sliding);
-            let near = wall.near[..wall.reckoned].par_iter_mut().with_min_len(256);
+            let near = wall.near[..wall.reckoned].par_iter_mut().with_min_len(64);
             near.for_each(|near| {
                 if depth.kept(near.row as usize) {
                     return;
@@ -272,10 +269,14 @@ impl Walls {
         mut meet: impl FnMut(usize, Vector),
     ) {
         for wall in &self.walls {
-            for row in wall.touching(depth) {
+            let normal = |row: usize| {
                 let place = difference(grains[row].position, wall.moved);
-                meet(row, wall.face.at(place, grains[row].radius).1);
-            }
+                (row, wall.face.at(place, grains[row].radius).1)
+            };
+            let rows: Vec<usize> = wall.touching(depth).collect();
+            let met = rows.into_par_iter().with_min_len(64).map(normal);
+            let met: Vec<(usize, Vector)> = met.collect();
+            met.into_iter().for_each(|(row, normal)| meet(row, normal));
         }
     }
 
@@ -379,6 +380,17 @@ impl Wall {
         self.reckoned = self.near.partition_point(|near| !stays(near));
         let stay = self.near[self.reckoned..].iter().map(|near| near.overlap);
         self.deepest = stay.fold(0.0, f64::max);
+    }
+
+    /// Distances of grains by chunks \[m\]; none of those that are `still` and too far to be listed.
+    fn distances(&self, grains: &[Grain], still: &[bool]) -> Vec<Option<Vec<f64>>> {
+        let chunks = grains.par_chunks(ROWS).enumerate();
+        let looked = chunks.map(|(c, chunk)| {
+            let still = still.get(c).copied().unwrap_or(false);
+            let away = |g: &Grain| self.face.distance(difference(g.position, self.moved));
+            (!(still && self.is_far(c))).then(|| chunk.iter().map(away).collect())
+        });
+        looked.with_max_len(AT_ONCE).collect()
     }
 
     /// Whether the grains of a chunk that have not moved since it was looked at are too far to be listed.
