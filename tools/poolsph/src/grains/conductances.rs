@@ -31,7 +31,8 @@ impl Heat {
         self.busy.find(lists, pass, lit.chain(held).chain(beside));
     }
 
-    /// Conductances of all contacts \[W/K\] and the longest step \[s\].
+    /// Conductances of all contacts \[W/K\] and the longest step \[s\]; unless `alike`, but of those whose grains have one
+    /// temperature: no heat goes through them in a step that nothing divides.
     pub(super) fn conduct(
         &mut self,
         set: &Set,
@@ -41,7 +42,7 @@ impl Heat {
         pass: Pass<'_>,
     ) -> Result<(), OutOfRange> {
         self.find_busy(set, lists, metal.as_deref(), pass);
-        let busy = &self.busy;
+        let (busy, alike) = (&self.busy, self.alike);
         let mut all = std::mem::take(&mut self.conductance);
         let grains = self
             .conductor
@@ -68,7 +69,8 @@ impl Heat {
                 for other in &chunk.pairs {
                     let (a, b) = (c * ROWS + other.own as usize, other.other as usize);
                     let touching = other.state == Touch::Touching;
-                    let h = if touching && pass.takes(a, b) {
+                    let [t, u] = [a, b].map(|row| grains.temperature[row].to_bits());
+                    let h = if touching && (alike || t != u) && pass.takes(a, b) {
                         pair(&mut recent, a, b)?
                     } else {
                         0.0

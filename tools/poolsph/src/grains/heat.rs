@@ -54,6 +54,8 @@ pub struct Heat {
     /// The longest step \[s\].
     pub(super) limit: f64,
     pub(super) busy: Busy,
+    /// Whether contacts of grains of one temperature are asked for.
+    pub(super) alike: bool,
     /// Long steps of what sleeps deep, if it has any.
     slow: Option<Long>,
 }
@@ -125,6 +127,7 @@ impl Heat {
             brought: 0.0,
             limit: f64::INFINITY,
             busy: Busy::default(),
+            alike: false,
             slow: None,
         })
     }
@@ -307,7 +310,13 @@ impl Heat {
         (lists, mut metal): (&Lists, Option<&mut Metal>),
         (pass, dt): (Pass<'_>, f64),
     ) -> Result<(), OutOfRange> {
+        self.alike = false;
         self.conduct(set, state, lists, metal.as_deref_mut(), pass)?;
+        if self.limit * (1.0 + 1e-9) < dt {
+            // In the parts of a divided step heat comes to contacts that had none to pass at its start.
+            self.alike = true;
+            self.conduct(set, state, lists, metal.as_deref_mut(), pass)?;
+        }
         let parts = (dt / self.limit - 1e-9).ceil().max(1.0);
         let step = dt / parts;
         for part in 1..=parts as u64 {
