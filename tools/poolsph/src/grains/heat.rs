@@ -218,9 +218,14 @@ impl Heat {
                 enthalpy[a] = kept;
             }
         }
-        let caloric = &self.caloric;
-        change(get, set.column_mut(&TEMPERATURE), |a, t| {
-            *t = caloric.temperature(enthalpy[a]);
+        let (caloric, boiling) = (&self.caloric, self.boiling.unwrap_or(f64::INFINITY));
+        let (temperatures, held) = set.columns_mut((&TEMPERATURE, &HELD));
+        change(get, temperatures, |a, t| {
+            let held = held.get(a).is_some_and(|body| *body > 0);
+            // What has got no heat has the temperature that it had.
+            if rate[a] != 0.0 || held || enthalpy[a] >= boiling {
+                *t = caloric.temperature(enthalpy[a]);
+            }
         });
         set.put(&ENTHALPY, enthalpy);
         self.rate = rate;
