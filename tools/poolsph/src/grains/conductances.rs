@@ -42,6 +42,31 @@ impl Heat {
         pass: Pass<'_>,
     ) -> Result<(), OutOfRange> {
         self.find_busy(set, lists, metal.as_deref(), pass);
+        self.between(set, lists, pass)?;
+        let mut sum = std::mem::take(&mut self.sum);
+        sum.resize(set.len(), 0.0);
+        self.gather(lists, &mut sum, |_, _| 1.0);
+        let grains = self
+            .conductor
+            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
+        let of_metal = match metal.and_then(Metal::exchange) {
+            Some((exchange, pairs)) => exchange.conduct(pairs, (&grains, pass), state, &mut sum)?,
+            None => 0.0,
+        };
+        let least = self.caloric.least_heat();
+        let masses = set.column(&MASS);
+        let fastest = sweep::greatest(set.len(), |a| sum[a] / (masses[a] * least));
+        self.sum = sum;
+        let shine = self
+            .lighting
+            .fastest(set.column(&TEMPERATURE), |a| masses[a] * least);
+        let rate = fastest.map_or(of_metal, |(_, rate)| rate.max(of_metal)) + shine;
+        self.limit = PART / rate;
+        Ok(())
+    }
+
+    /// Conductances of the contacts of grains with each other, by chunks.
+    fn between(&mut self, set: &Set, lists: &Lists, pass: Pass<'_>) -> Result<(), OutOfRange> {
         let (busy, alike) = (&self.busy, self.alike);
         let mut all = std::mem::take(&mut self.conductance);
         let grains = self
@@ -81,26 +106,6 @@ impl Heat {
             })
             .collect();
         self.conductance = all;
-        done?;
-        let mut sum = std::mem::take(&mut self.sum);
-        sum.resize(set.len(), 0.0);
-        self.gather(lists, &mut sum, |_, _| 1.0);
-        let grains = self
-            .conductor
-            .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
-        let of_metal = match metal.and_then(Metal::exchange) {
-            Some((exchange, pairs)) => exchange.conduct(pairs, (&grains, pass), state, &mut sum)?,
-            None => 0.0,
-        };
-        let least = self.caloric.least_heat();
-        let masses = set.column(&MASS);
-        let fastest = sweep::greatest(set.len(), |a| sum[a] / (masses[a] * least));
-        self.sum = sum;
-        let shine = self
-            .lighting
-            .fastest(set.column(&TEMPERATURE), |a| masses[a] * least);
-        let rate = fastest.map_or(of_metal, |(_, rate)| rate.max(of_metal)) + shine;
-        self.limit = PART / rate;
-        Ok(())
+        done
     }
 }

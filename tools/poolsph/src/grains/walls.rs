@@ -10,7 +10,6 @@ use super::Mirrors;
 use super::depth::Depth;
 use super::faces::Face;
 use super::light::Light;
-use super::lists::{AT_ONCE, ROWS};
 use super::memory::Memory;
 use super::near::Near;
 use super::pressure::Pressed;
@@ -18,35 +17,35 @@ use super::wall_parameters::WallScene;
 
 /// A face that may move.
 #[derive(Debug, Clone)]
-struct Wall {
-    face: Face,
+pub(super) struct Wall {
+    pub(super) face: Face,
     /// Velocity \[m/s\], if it moves.
     driven: Option<[Curve; 3]>,
     /// Velocity of its surface along itself \[m/s\], if that goes.
     slides: Option<[Curve; 3]>,
     sliding: Vector,
-    pressed: Option<Pressed>,
+    pub(super) pressed: Option<Pressed>,
     light: Option<Light>,
     friction: Option<f64>,
     /// Whether grains meet their own images in it.
     mirror: bool,
     velocity: Vector,
     /// How far it has moved since the start \[m\], and where that was when neighbours were listed.
-    moved: Vector,
-    listed: Vector,
+    pub(super) moved: Vector,
+    pub(super) listed: Vector,
     /// Grains near it: first those whose contacts are reckoned, so many, then those that stay as they are; each by rows.
-    near: Vec<Near>,
-    reckoned: usize,
+    pub(super) near: Vec<Near>,
+    pub(super) reckoned: usize,
     /// Greatest overlap of those that stay \[m\].
-    deepest: f64,
+    pub(super) deepest: f64,
     /// How far each chunk of rows was from being listed \[m\], and where the wall was then.
-    far: Vec<Option<(f64, Vector)>>,
+    pub(super) far: Vec<Option<(f64, Vector)>>,
 }
 
 /// All walls.
 #[derive(Debug, Clone, Default)]
 pub struct Walls {
-    walls: Vec<Wall>,
+    pub(super) walls: Vec<Wall>,
 }
 
 /// Velocity by formulas in t.
@@ -150,44 +149,6 @@ impl Walls {
     pub fn fastest(&self) -> f64 {
         let speeds = self.walls.iter().map(|w| length(w.velocity));
         speeds.fold(0.0, f64::max)
-    }
-
-    /// Lists the grains within `skin` \[m\] of each wall; `memories`, by walls and rows, go along. Chunks of grains that are `still` are not looked at where the wall is far from them.
-    pub fn list(&mut self, (grains, still): (&[Grain], &[bool]), skin: f64, memories: &[Memory]) {
-        for (w, wall) in self.walls.iter_mut().enumerate() {
-            wall.listed = wall.moved;
-            wall.near.clear();
-            if let Some(pressed) = &mut wall.pressed {
-                pressed.rows.clear();
-            }
-            wall.far.resize(grains.len().div_ceil(ROWS), None);
-            let distances = wall.distances(grains, still);
-            for ((c, chunk), distances) in grains.chunks(ROWS).enumerate().zip(distances) {
-                let Some(distances) = distances else { continue };
-                let (mut nearest, mut odd) = (f64::INFINITY, false);
-                for ((own, grain), distance) in chunk.iter().enumerate().zip(distances) {
-                    let row = (c * ROWS + own) as u32;
-                    nearest = nearest.min(distance - grain.radius - skin);
-                    if let Some(pressed) = &mut wall.pressed {
-                        nearest = nearest.min(distance - pressed.near);
-                        if distance < pressed.near {
-                            pressed.rows.push(row);
-                        }
-                    }
-                    if distance < grain.radius + skin {
-                        wall.near.push(Near::new(row));
-                    }
-                    odd |= distance.is_nan();
-                }
-                wall.far[c] = (!odd).then_some((nearest, wall.moved));
-            }
-            for memory in memories.iter().filter(|m| m.other as usize == w) {
-                if let Ok(at) = wall.near.binary_search_by_key(&memory.row, |n| n.row) {
-                    wall.near[at].remember(memory);
-                }
-            }
-            (wall.reckoned, wall.deepest) = (wall.near.len(), 0.0);
-        }
     }
 
     /// Whether the face of a number is there, and nearer to a place at the start than a distance \[m\].
@@ -380,23 +341,6 @@ impl Wall {
         self.reckoned = self.near.partition_point(|near| !stays(near));
         let stay = self.near[self.reckoned..].iter().map(|near| near.overlap);
         self.deepest = stay.fold(0.0, f64::max);
-    }
-
-    /// Distances of grains by chunks \[m\]; none of those that are `still` and too far to be listed.
-    fn distances(&self, grains: &[Grain], still: &[bool]) -> Vec<Option<Vec<f64>>> {
-        let chunks = grains.par_chunks(ROWS).enumerate();
-        let looked = chunks.map(|(c, chunk)| {
-            let still = still.get(c).copied().unwrap_or(false);
-            let away = |g: &Grain| self.face.distance(difference(g.position, self.moved));
-            (!(still && self.is_far(c))).then(|| chunk.iter().map(away).collect())
-        });
-        looked.with_max_len(AT_ONCE).collect()
-    }
-
-    /// Whether the grains of a chunk that have not moved since it was looked at are too far to be listed.
-    fn is_far(&self, chunk: usize) -> bool {
-        let from = |(left, moved): (f64, Vector)| left > length(difference(self.moved, moved));
-        self.far[chunk].is_some_and(from)
     }
 }
 
