@@ -204,7 +204,7 @@ fn a_search_for_neighbours() {
         let mut lists = neighbours::Lists::new();
         let spent = spent(|| {
             grid.bin(&points);
-            lists.build(&grid, &points, 2.0, |_| true, |_, _| true);
+            lists.build(grid.search(&points, 2.0), |_| true, |_, _| true);
         });
         must_be_quiet("neighbours", points.len(), spent);
     }

@@ -109,7 +109,7 @@ fn search(side: usize) -> Work {
         parts: points.len() as f64,
         run: Box::new(move || {
             grid.bin(&points);
-            lists.build(&grid, &points, 2.0, |_| true, |_, _| true);
+            lists.build(grid.search(&points, 2.0), |_| true, |_, _| true);
             black_box(lists.len());
         }),
     }
@@ -120,7 +120,7 @@ fn pair_sweep(side: usize) -> Work {
     let points = cloud(side);
     let (mut grid, mut lists) = (Grid::new(1.0), Lists::new());
     grid.bin(&points);
-    lists.build(&grid, &points, 2.0, |_| true, |_, _| true);
+    lists.build(grid.search(&points, 2.0), |_| true, |_, _| true);
     let kernel = CubicSpline::<3>::new(1.0);
     let mut density = vec![0.0; points.len()];
     Work {

@@ -49,7 +49,7 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     };
     let links = Links::new(&cloud, scene.operator)
         .map_err(|error| vec![Fault::at("/operator", error.to_string())])?;
-    let spread = |curve| Source::new(curve, (&cloud, &links.volume), &body);
+    let spread = |curve| Source::new(curve, &cloud, &links.volume, &body);
     let source = source.map(spread).transpose();
     let source = source.map_err(|error| fault("/source_w_m3", error))?;
     let ground = Ground {
@@ -67,7 +67,7 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     };
     let torches =
         (!scene.torches.is_empty()).then(|| Torches::new(scene.torches.clone(), &links.volume));
-    let system = System::new((cloud, links), (materials, surface), (storage, source))
+    let system = System::new(cloud, links, materials, surface, storage, source)
         .map_err(|error| fault("/materials", error))?
         .under(torches);
     Ok((system, cells.temperature))

@@ -105,7 +105,7 @@ impl Tool for HeatSph {
             session.closing("balance_quadratic_error", "1", balance.quadratic);
         }
         match scene.steady {
-            Some(rule) => steady::solve(&scene, rule, (&mut system, temperature), session),
+            Some(rule) => steady::solve(&scene, rule, &mut system, temperature, session),
             None => simulate::march(&scene, &mut system, temperature, session),
         }
     }

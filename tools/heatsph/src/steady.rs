@@ -23,7 +23,8 @@ const HALVINGS: usize = 40;
 pub fn solve(
     scene: &Scene,
     steady: Steady,
-    (system, temperature): (&mut System, Vec<f64>),
+    system: &mut System,
+    temperature: Vec<f64>,
     session: &mut Session,
 ) -> Result<(), Failure> {
     let mut state = State::new(system, temperature);

@@ -94,7 +94,7 @@ fn surroundings_that_jump_start_the_march() {
 }
 
 /// Heat prescribed through a face and delivered \[J/m\], in every march.
-fn delivered(more: &Value, end: f64, (name, exact): (&str, f64)) {
+fn delivered(more: &Value, end: f64, name: &str, exact: f64) {
     for time in marches(end) {
         let mut scene = plate(more);
         scene["time"] = time.clone();
@@ -127,7 +127,7 @@ fn a_pulse_is_neither_missed_nor_cut() {
         ("1e5 + 1e7*max(0, 1 - abs(t - 3)/0.01)", 5e5 + 1e5),
     ] {
         let entry = json!({"on": ["y+"], "heat_flux_w_m2": {"expr": flux}});
-        delivered(&json!({"boundaries": [entry]}), 5.0, ("y+", 0.2 * heat));
+        delivered(&json!({"boundaries": [entry]}), 5.0, "y+", 0.2 * heat);
     }
 }
 
@@ -135,7 +135,7 @@ fn a_pulse_is_neither_missed_nor_cut() {
 fn a_source_is_delivered_however_short() {
     let source = json!({"source_w_m3": {"expr": "2e12*exp(-((t - 3.1)/1e-5)^2)*(1 + x)"}});
     let heat = 2e12 * 1e-5 * std::f64::consts::PI.sqrt() * 0.1 * (0.2 + 0.02);
-    delivered(&source, 5.0, ("source", heat));
+    delivered(&source, 5.0, "source", heat);
 }
 
 #[test]

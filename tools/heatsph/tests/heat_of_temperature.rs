@@ -37,11 +37,7 @@ fn material(density: &Value, heat: &Value, conductivity: &str) -> Value {
 }
 
 /// Marches to `end` in `steps` steps, or in those of the explicit limit.
-fn march(
-    name: &str,
-    (system, temperature): (&mut System, Vec<f64>),
-    (end, steps): (f64, usize),
-) -> State {
+fn march(name: &str, system: &mut System, temperature: Vec<f64>, end: f64, steps: usize) -> State {
     let mut state = State::new(system, temperature);
     let mut rates = Rates::default();
     system.reach(&state.temperature).unwrap();
@@ -97,7 +93,7 @@ fn a_constant_diffusivity_makes_heat_a_linear_field() {
                 "exp(2*T)",
             );
             let (mut system, first) = bar(spacing, &law, &json!({}));
-            let state = march(name, (&mut system, first.clone()), (end, 400));
+            let state = march(name, &mut system, first.clone(), end, 400);
             let (stored, came) = heats(&system, &first, &state);
             assert!(
                 (stored / came - 1.0).abs() < 1e-8,
@@ -130,7 +126,7 @@ fn no_peak_is_stepped_over() {
                 &json!({
                 "boundaries": [{"on": ["x+"], "temperature_k": 1}]}),
             );
-            let state = march(name, (&mut system, first.clone()), (6.0, 300));
+            let state = march(name, &mut system, first.clone(), 6.0, 300);
             let (stored, came) = heats(&system, &first, &state);
             let wanted = if name == "implicit" { 1e-8 } else { 1e-10 };
             assert!(
@@ -159,7 +155,7 @@ fn temperatures_that_leave_a_peak_stay_bounded() {
         let (mut system, first) = bar(0.1, &melting(0.05), &json!({"initial_temperature_k": 0.5}));
         let mut state = State::new(&system, first.clone());
         for _ in 0..20 {
-            let next = march(name, (&mut system, state.temperature.clone()), (0.01, 1));
+            let next = march(name, &mut system, state.temperature.clone(), 0.01, 1);
             state = next;
             let (low, high) = extent(&state.temperature);
             assert!(low > -1e-3 && high < 1.0 + 1e-3, "{name}: {low} to {high}");
@@ -182,7 +178,7 @@ fn each_place_may_have_its_own_heat_of_temperature() {
         for name in MARCHES {
             let law = material(&density, &heat, "1e-9");
             let (mut system, first) = bar(0.1, &law, &json!({"boundaries": [], "source_w_m3": 2}));
-            let state = march(name, (&mut system, first.clone()), (1.0, 50));
+            let state = march(name, &mut system, first.clone(), 1.0, 50);
             let (stored, came) = heats(&system, &first, &state);
             assert!(
                 (stored / came - 1.0).abs() < 1e-9,
@@ -215,7 +211,7 @@ fn materials_that_meet_share_what_their_cells_hold() {
         // Above the least temperature, 1 K: the integral of c from 1 K to 2 K is 2.5.
         let exact = 0.4 * 2.5 * (2.0 * 0.43 + 0.5 * 0.43 * 0.43);
         assert!((held / exact - 1.0).abs() < 1e-2, "{held} of {exact}");
-        let state = march(name, (&mut system, first.clone()), (40.0, 100));
+        let state = march(name, &mut system, first.clone(), 40.0, 100);
         let after: f64 = state.heat.iter().sum();
         assert!(
             (after / held - 1.0).abs() < 1e-9,

@@ -191,7 +191,7 @@ impl Aggregated {
         let found = if self.symmetric {
             conjugate_gradient(matrix, rhs, x, hierarchy, rule, work)
         } else {
-            gmres(matrix, rhs, x, hierarchy, (rule, RESTART), work)
+            gmres(matrix, rhs, x, hierarchy, rule.restarted(RESTART), work)
         };
         let found = found.ok()?;
         let fresh = *self.fresh.get_or_insert(found.iterations);

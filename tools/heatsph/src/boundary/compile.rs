@@ -32,7 +32,7 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
         }
         let name = entry.name.clone().unwrap_or_else(|| entry.on.join(" "));
         surface.names.push(name);
-        match Entry::new(entry, &at, (cloud, scene.dimensions)) {
+        match Entry::new(entry, &at, cloud) {
             Ok(entry) => entries.push(entry),
             Err(found) => faults.extend(found),
         }
@@ -75,11 +75,7 @@ struct Entry {
 }
 
 impl Entry {
-    fn new(
-        entry: &Boundary,
-        at: &str,
-        (cloud, dimensions): (&Cloud, usize),
-    ) -> Result<Self, Vec<Fault>> {
+    fn new(entry: &Boundary, at: &str, cloud: &Cloud) -> Result<Self, Vec<Fault>> {
         let mut faults = Vec::new();
         let mut faces = Vec::new();
         for (place, face) in entry.on.iter().enumerate() {
@@ -97,7 +93,7 @@ impl Entry {
         let within = entry
             .within
             .as_ref()
-            .map(|shape| Body::new(shape, dimensions));
+            .map(|shape| Body::new(shape, cloud.dimensions));
         if faults.is_empty() {
             Ok(Self { faces, within })
         } else {

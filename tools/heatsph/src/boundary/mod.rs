@@ -172,7 +172,8 @@ impl Surface {
 
     /// A range of temperature \[K\] widened by that of constant surroundings.
     #[must_use]
-    pub fn extent(&self, (mut low, mut high): (f64, f64)) -> (f64, f64) {
+    pub fn extent(&self, range: (f64, f64)) -> (f64, f64) {
+        let (mut low, mut high) = range;
         for condition in &self.conditions {
             let curve = match condition {
                 Condition::Temperature(curve)

@@ -38,7 +38,7 @@ pub(super) fn fill(body: &Body, points: &Points, dimensions: usize) -> Result<Cl
             for i in 0..counts[0] {
                 let at = [i, j, k];
                 let plain = std::array::from_fn(|a| start[a] + spacing * at[a] as f64);
-                let x = shift::shifted(plain, number, points, (spacing, dimensions));
+                let x = shift::shifted(plain, number, points, spacing, dimensions);
                 number += 1;
                 if body.distance(x) < -NEAREST * spacing {
                     cloud.push(x, spacing, share);

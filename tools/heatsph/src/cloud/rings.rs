@@ -10,9 +10,13 @@ use shapes::frame::Vector;
 /// One ring and what its points stand for.
 struct Ring {
     radius: f64,
+    /// Distance to the nearer of its neighbours.
+    gap: f64,
     points: usize,
     /// Radii between which it lies.
     edges: [f64; 2],
+    /// Whether it is the rim.
+    outer: bool,
 }
 
 /// One layer of a cylinder.
@@ -44,6 +48,7 @@ pub(super) fn fill(radius: f64, half: f64, points: &Points, dimensions: usize) -
         for (m, &r) in radii.iter().enumerate() {
             let ring = Ring {
                 radius: r,
+                gap: gap[m],
                 points: if m == 0 {
                     1
                 } else {
@@ -61,10 +66,10 @@ pub(super) fn fill(radius: f64, half: f64, points: &Points, dimensions: usize) -
                         0.5 * (radii[m + 1] + r)
                     },
                 ],
+                outer: m == steps,
             };
-            let spacing = gap[m].max(layer.gap);
             for k in 0..ring.points {
-                point(&mut cloud, (&ring, layer), (k, spacing, m == steps), faces);
+                point(&mut cloud, &ring, layer, k, faces);
             }
         }
     }
@@ -115,12 +120,7 @@ fn layers(half: f64, points: &Points, dimensions: usize) -> Vec<Layer> {
 }
 
 /// Adds point `k` of a ring with what it owns of the rim and the ends.
-fn point(
-    cloud: &mut Cloud,
-    (ring, layer): (&Ring, &Layer),
-    (k, spacing, outer): (usize, f64, bool),
-    faces: [u32; 3],
-) {
+fn point(cloud: &mut Cloud, ring: &Ring, layer: &Layer, k: usize, faces: [u32; 3]) {
     let part = TAU / ring.points as f64;
     let angle = part * k as f64;
     let at = |radius: f64, angle: f64, z: f64| -> Vector {
@@ -131,7 +131,7 @@ fn point(
     let sector = (outside * outside - inner * inner) * PI / ring.points as f64;
     let point = cloud.push(
         at(ring.radius, angle, layer.height),
-        spacing,
+        ring.gap.max(layer.gap),
         sector * layer.width,
     );
     let mut own = |face: u32, area: f64, normal: Vector, place: Vector| {
@@ -143,7 +143,7 @@ fn point(
             place,
         });
     };
-    if outer {
+    if ring.outer {
         let area = ring.radius * part * layer.width;
         let height = 0.5 * (layer.edges[0] + layer.edges[1]);
         own(

@@ -20,7 +20,8 @@ pub(super) fn shifted(
     x: Vector,
     number: u64,
     points: &Points,
-    (spacing, dimensions): (f64, usize),
+    spacing: f64,
+    dimensions: usize,
 ) -> Vector {
     if points.jitter <= 0.0 {
         return x;
@@ -45,8 +46,8 @@ pub(super) fn inner_points(cloud: &mut Cloud, points: &Points) {
     }
     for (number, x) in cloud.position.iter_mut().enumerate() {
         if !outer[number] {
-            let scale = (cloud.spacing[number], cloud.dimensions);
-            *x = shifted(*x, number as u64, points, scale);
+            let spacing = cloud.spacing[number];
+            *x = shifted(*x, number as u64, points, spacing, cloud.dimensions);
         }
     }
     cloud.lattice = false;

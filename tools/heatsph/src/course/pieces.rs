@@ -96,7 +96,7 @@ impl Piece {
     }
 
     /// The jump in it, if there is one: neighbouring times between which its whole rise is made.
-    fn jump(&self, of: &impl Varies, (range, end): (f64, f64)) -> Option<[f64; 2]> {
+    fn jump(&self, of: &impl Varies, range: f64, end: f64) -> Option<[f64; 2]> {
         let rise = |k: usize| (self.sample[k + 1] - self.sample[k]).abs();
         let k = (0..4).max_by(|a, b| rise(*a).total_cmp(&rise(*b)))?;
         let whole: f64 = (0..4).map(rise).sum();
@@ -136,8 +136,8 @@ pub(super) fn divide(of: &impl Varies, end: f64) -> Pieces {
     for _ in 0..AGAIN {
         (pieces, resolved, share) = refine(of, &jumps, end);
         let values = values(&pieces);
-        let range = (values.width(), end);
-        let found: Vec<_> = pieces.iter().filter_map(|p| p.jump(of, range)).collect();
+        let jump = |p: &Piece| p.jump(of, values.width(), end);
+        let found: Vec<_> = pieces.iter().filter_map(jump).collect();
         if found.is_empty() || jumps.len() + found.len() > JUMPS {
             resolved &= found.is_empty();
             break;

@@ -175,14 +175,13 @@ fn power(system: &System, giver: Giver, time: f64) -> Result<(f64, f64), OutOfRa
         }
         Giver::Source => {
             let (cold, mut heat) = (vec![0.0; system.len()], vec![0.0; system.len()]);
-            let points = (&system.cloud, system.links.volume.as_slice());
             let cold = Warmth {
                 temperature: &cold,
                 cells: &[],
                 time,
             };
             if let Some(source) = &system.source {
-                source.heat(points, cold, &mut heat)?;
+                source.heat(&system.cloud, &system.links.volume, cold, &mut heat)?;
             }
             if let Some(torches) = &system.torches {
                 torches.add(time, &system.cloud, &mut heat);

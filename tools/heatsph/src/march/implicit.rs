@@ -12,7 +12,7 @@
 //! where its result leaves the range of what came before, it is taken by the implicit Euler method, which does.
 
 use super::control::floor;
-use super::{Method, State, StepError, estimate};
+use super::{End, Method, State, StepError, estimate};
 use crate::solve::{Goal, Problem, Solver};
 use crate::system::{Rates, System, extent};
 
@@ -20,8 +20,6 @@ use crate::system::{Rates, System, extent};
 const SMOOTH: f64 = 0.01;
 /// Overshoot of the range that is left to rounding.
 const OVER: f64 = 1e-9;
-/// Reduction of the residual in the filter of the estimate.
-const FILTER: f64 = 1e-2;
 /// Newton steps of a stage.
 const NEWTON: usize = 40;
 
@@ -172,13 +170,11 @@ impl Method for Implicit {
         state.time = end;
         state.settle(system, &before.temperature);
         // The estimate, filtered: a stiff part that the step has damped is no error.
-        estimate(
-            system,
-            (&before, &*state),
-            (&self.first, rates),
-            step,
-            &mut self.error,
-        );
+        let first = End {
+            state: &before,
+            rates: &self.first,
+        };
+        estimate(system, first, End { state, rates }, step, &mut self.error);
         let shift = 1.0 / (gamma * step);
         let scaled: Vec<f64> = self.error.iter().map(|e| shift * e).collect();
         let problem = Problem {
@@ -186,8 +182,10 @@ impl Method for Implicit {
             from: &self.base,
             time: end,
         };
-        let at = (state.temperature.as_slice(), &*rates);
-        let filtered = self.solver.filter(system, problem, at, (&scaled, FILTER))?;
+        let temperature = &state.temperature;
+        let filtered = self
+            .solver
+            .filter(system, problem, temperature, rates, &scaled)?;
         let error = filtered.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
         if self.guard && rough(system, &before, state, error) {
             state.clone_from(&before);

@@ -145,15 +145,24 @@ impl State {
     }
 }
 
+/// An end of a step.
+#[derive(Clone, Copy)]
+pub(crate) struct End<'a> {
+    pub(crate) state: &'a State,
+    /// Those of the state.
+    pub(crate) rates: &'a Rates,
+}
+
 /// Estimate of the error of a step of second order from the rates at its ends (Sommeijer, Shampine and Verwer
 /// 1998, eq. 2.9): `(12 (T_n - T_n+1) + 6 dt (F_n + F_n+1)) / 15`, here times the capacity \[J\].
 pub(crate) fn estimate(
     system: &System,
-    (before, after): (&State, &State),
-    (first, last): (&Rates, &Rates),
+    first: End<'_>,
+    last: End<'_>,
     step: f64,
     out: &mut Vec<f64>,
 ) {
+    let (before, after) = (first.state, last.state);
     out.clear();
     out.extend((0..before.temperature.len()).map(|i| {
         if system.is_held(i) {
@@ -165,7 +174,7 @@ pub(crate) fn estimate(
             }
             Storage::Varies(_) => before.heat[i] - after.heat[i],
         };
-        (12.0 * change + 6.0 * step * (first.heat[i] + last.heat[i])) / 15.0
+        (12.0 * change + 6.0 * step * (first.rates.heat[i] + last.rates.heat[i])) / 15.0
     }));
 }
 

@@ -1,7 +1,7 @@
 //! The Runge-Kutta-Legendre method of second order (Meyer, Balsara and Aslam 2014, J. Comput. Phys. 257, 594,
 //! eqs 14 to 17): `s` explicit stages carry a step of `(s^2 + s - 2) / 4` times the explicit limit.
 
-use super::{Method, State, StepError, estimate};
+use super::{End, Method, State, StepError, estimate};
 use crate::system::{Rates, System};
 
 /// Part of the stable step that is used: conductivities may rise within a step.
@@ -53,7 +53,7 @@ impl Method for Stabilised {
             if s > STAGES {
                 break;
             }
-            match self.step(system, (&*state, step), (s, limit))? {
+            match self.step(system, state, step, s, limit)? {
                 Some(less) => limit = RISE * less,
                 None => return self.finish(system, state, rates, step),
             }
@@ -91,8 +91,10 @@ impl Stabilised {
     fn step(
         &mut self,
         system: &System,
-        (state, step): (&State, f64),
-        (s, limit): (usize, f64),
+        state: &State,
+        step: f64,
+        s: usize,
+        limit: f64,
     ) -> Result<Option<f64>, StepError> {
         self.most_stages = self.most_stages.max(s);
         let w = 4.0 / (s * s + s - 2) as f64;
@@ -158,13 +160,12 @@ impl Stabilised {
         old.settle(system, &state.temperature);
         system.rates(old.time, &old.temperature, rates)?;
         self.evaluations += 1;
-        estimate(
-            system,
-            (&*state, &*old),
-            (&self.first, rates),
-            step,
-            &mut self.error,
-        );
+        let first = End {
+            state,
+            rates: &self.first,
+        };
+        let last = End { state: old, rates };
+        estimate(system, first, last, step, &mut self.error);
         std::mem::swap(state, old);
         let error = self.error.iter().zip(&state.temperature).enumerate();
         let kelvin = error.map(|(i, (e, t))| (e / system.storage.capacity(i, *t)).abs());

@@ -62,11 +62,12 @@ pub struct Enthalpy {
 }
 
 impl Enthalpy {
-    /// The table of a law from `low` to `high` \[K\].
+    /// The table of a law over a range \[K\].
     ///
     /// # Errors
     /// Where the law has no value, or one that is not positive.
-    pub fn new(law: Volumetric, (low, high): (f64, f64)) -> Result<Self, OutOfRange> {
+    pub fn new(law: Volumetric, range: (f64, f64)) -> Result<Self, OutOfRange> {
+        let (low, high) = range;
         let width = (high - low).max(1e-9 * (low.abs() + high.abs()).max(1e-6));
         let first = Knot {
             temperature: low,

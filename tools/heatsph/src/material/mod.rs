@@ -63,11 +63,11 @@ pub struct Materials {
 }
 
 impl Materials {
-    /// The materials of a scene whose temperatures lie between `low` and `high` \[K\] at the start.
+    /// The materials of a scene whose temperatures lie within `range` \[K\] at the start.
     ///
     /// # Errors
     /// Faults of the scene.
-    pub fn new(scene: &Scene, (low, high): (f64, f64)) -> Result<Self, Vec<Fault>> {
+    pub fn new(scene: &Scene, range: (f64, f64)) -> Result<Self, Vec<Fault>> {
         let mut faults = Vec::new();
         let (mut conductors, mut enthalpies) = (Vec::new(), Vec::new());
         let mut kinds = Vec::new();
@@ -77,7 +77,7 @@ impl Materials {
                 material,
                 &at,
                 scene.dimensions,
-                (low, high),
+                range,
                 &mut conductors,
                 &mut enthalpies,
             ) {
@@ -111,7 +111,7 @@ impl Materials {
             kinds,
             conductors,
             enthalpies,
-            range: (low, high),
+            range,
             contact,
             dimensions: scene.dimensions,
         })
@@ -337,11 +337,11 @@ fn law(
 fn tabulate(
     curve: Curve,
     at: &str,
-    (low, high): (f64, f64),
+    range: (f64, f64),
     conductors: &mut Vec<Conductor>,
 ) -> Result<usize, Vec<Fault>> {
-    let conductor =
-        Conductor::new(curve, low, high).map_err(|error| vec![Fault::at(at, error.to_string())])?;
+    let conductor = Conductor::new(curve, range.0, range.1)
+        .map_err(|error| vec![Fault::at(at, error.to_string())])?;
     let place = conductors.iter().position(|known| *known == conductor);
     Ok(place.unwrap_or_else(|| {
         conductors.push(conductor);

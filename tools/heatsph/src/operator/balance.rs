@@ -86,10 +86,9 @@ pub fn balanced(
     // In units of the spacing weights are numbers about one.
     let scale = unit.powi(2 - cloud.dimensions as i32);
     weight.iter_mut().for_each(|a| *a *= scale);
-    let ground = (cloud, &*pattern, unit);
     let done = match cloud.dimensions {
-        2 => found::<2, 4>(ground, &mut weight)?,
-        _ => found::<3, 8>(ground, &mut weight)?,
+        2 => found::<2, 4>(cloud, &pattern, unit, &mut weight)?,
+        _ => found::<3, 8>(cloud, &pattern, unit, &mut weight)?,
     };
     weight.iter_mut().for_each(|a| *a /= scale);
     let volume = volumes(cloud, &pattern, &weight);
@@ -103,10 +102,11 @@ pub fn balanced(
 
 /// Meets (2) as far as it can be met, then (1).
 fn found<const D: usize, const K: usize>(
-    ground: (&Cloud, &Pattern, f64),
+    cloud: &Cloud,
+    pattern: &Pattern,
+    unit: f64,
     weight: &mut [f64],
 ) -> Result<Balance, OperatorError> {
-    let (cloud, _, unit) = ground;
     let far = cloud
         .position
         .iter()
@@ -114,9 +114,9 @@ fn found<const D: usize, const K: usize>(
         .fold(0.0_f64, |m, x| m.max(x.abs()));
     let exact = EXACT.max(ROUNDING * f64::EPSILON * far / unit);
     let mut done = Balance::default();
-    let linear = Net::<D, D>::new(ground);
+    let linear = Net::<D, D>::new(cloud, pattern, unit);
     if greatest(&linear.imbalance(weight, &[])) > exact {
-        relax(&Net::<D, K>::new(ground), weight, &mut done);
+        relax(&Net::<D, K>::new(cloud, pattern, unit), weight, &mut done);
     }
     solve(&linear, weight, exact, &mut done)?;
     Ok(done)
@@ -141,12 +141,7 @@ fn relax<const D: usize, const K: usize>(
         if greatest(&imbalance) < MOMENTS {
             break;
         }
-        done.iterations += step(
-            net,
-            (weight, &imbalance),
-            &mut multipliers,
-            (rule, &mut work),
-        );
+        done.iterations += step(net, weight, &imbalance, &mut multipliers, rule, &mut work);
         done.steps += 1;
         net.weigh(&trial, &multipliers, weight);
     }
@@ -190,12 +185,7 @@ fn solve<const D: usize>(
             floor: 0.0,
             iterations: ITERATIONS,
         };
-        done.iterations += step(
-            net,
-            (weight, &imbalance),
-            &mut multipliers,
-            (rule, &mut work),
-        );
+        done.iterations += step(net, weight, &imbalance, &mut multipliers, rule, &mut work);
         done.steps += 1;
         net.weigh(&trial, &multipliers, weight);
     }
@@ -221,9 +211,11 @@ fn solve<const D: usize>(
 /// One Newton step of the multipliers; gives the iterations of the linear solver.
 fn step<const D: usize, const K: usize>(
     net: &Net<'_, D, K>,
-    (weight, imbalance): (&[f64], &[f64]),
+    weight: &[f64],
+    imbalance: &[f64],
     multipliers: &mut [f64],
-    (rule, work): (Krylov, &mut Workspace),
+    rule: Krylov,
+    work: &mut Workspace,
 ) -> usize {
     let springs = Springs { net, weight };
     let right: Vec<f64> = imbalance.iter().map(|g| -g).collect();

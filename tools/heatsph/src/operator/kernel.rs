@@ -98,9 +98,7 @@ fn search(cloud: &Cloud, smoothing: f64) -> Result<Pattern, OperatorError> {
     let (mut grid, mut lists) = (Grid::new(radius), Lists::new());
     grid.bin(&cloud.position);
     lists.build(
-        &grid,
-        &cloud.position,
-        radius,
+        grid.search(&cloud.position, radius),
         |_| true,
         |i, j| {
             let reach = 0.5 * support * (cloud.spacing[i] + cloud.spacing[j]);

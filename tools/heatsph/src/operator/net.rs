@@ -27,7 +27,7 @@ pub(super) struct Net<'a, const D: usize, const K: usize> {
 
 impl<'a, const D: usize, const K: usize> Net<'a, D, K> {
     /// The net of a cloud with the given links and spacing.
-    pub(super) fn new((cloud, pattern, unit): (&'a Cloud, &'a Pattern, f64)) -> Self {
+    pub(super) fn new(cloud: &'a Cloud, pattern: &'a Pattern, unit: f64) -> Self {
         let mut surface = vec![0.0; K * cloud.position.len()];
         let scale = unit.powi(1 - D as i32);
         for patch in &cloud.patches {

@@ -25,6 +25,8 @@ const ITERATIONS: usize = 500;
 const ROUNDING: f64 = 2.0;
 /// Part of the residual that a step with an older matrix may leave before the matrix is taken anew.
 const LED: f64 = 0.2;
+/// Reduction of the residual in the filter of an estimate.
+const FILTER: f64 = 1e-2;
 /// Halvings of a Newton step.
 const HALVINGS: usize = 12;
 /// Points that one task moves.
@@ -154,8 +156,8 @@ impl Solver {
         temperature: &[f64],
         rates: &Rates,
     ) -> Result<(), SolveError> {
-        let at = (problem.time, temperature, rates);
-        system.fill(&mut self.matrix, problem.shift, at)?;
+        let (shift, time) = (problem.shift, problem.time);
+        system.fill(&mut self.matrix, shift, time, temperature, rates)?;
         system.scale(rates, &mut self.scale);
         let scale = |i: usize| self.scale.get(i).copied().unwrap_or(1.0);
         let dominance = |i: usize| {
@@ -201,7 +203,8 @@ impl Solver {
         let outcome = if self.symmetric {
             conjugate_gradient(matrix, rhs, &mut self.change, near, rule, work)?
         } else {
-            gmres(matrix, rhs, &mut self.change, near, (rule, RESTART), work)?
+            let rule = rule.restarted(RESTART);
+            gmres(matrix, rhs, &mut self.change, near, rule, work)?
         };
         for (change, k) in self.change.iter_mut().zip(&self.scale) {
             *change /= k;
@@ -218,13 +221,14 @@ impl Solver {
         &mut self,
         system: &System,
         problem: Problem<'_>,
-        (temperature, rates): (&[f64], &Rates),
-        (values, reduction): (&[f64], f64),
+        temperature: &[f64],
+        rates: &Rates,
+        values: &[f64],
     ) -> Result<&[f64], SolveError> {
         if self.hold == Hold::Nothing {
             self.linearise(system, problem, temperature, rates)?;
         }
-        self.linear(values, reduction)?;
+        self.linear(values, FILTER)?;
         Ok(&self.change)
     }
 
@@ -314,7 +318,7 @@ impl Solver {
             effort.iterations += solved?;
             effort.newton += 1;
             let before = norm.residual;
-            norm = self.step(system, problem, (temperature, rates), before)?;
+            norm = self.step(system, problem, temperature, rates, before)?;
             if norm.residual > LED * before {
                 self.hold = Hold::Filter;
             }
@@ -340,7 +344,8 @@ impl Solver {
         &mut self,
         system: &System,
         problem: Problem<'_>,
-        (temperature, rates): (&mut Vec<f64>, &mut Rates),
+        temperature: &mut Vec<f64>,
+        rates: &mut Rates,
         norm: f64,
     ) -> Result<Norm, SolveError> {
         let mut length = 1.0;

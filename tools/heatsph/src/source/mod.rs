@@ -79,7 +79,8 @@ impl Source {
     /// Where the curve has no value.
     pub fn new(
         curve: Curve,
-        (cloud, volume): (&Cloud, &[f64]),
+        cloud: &Cloud,
+        volume: &[f64],
         body: &Body,
     ) -> Result<Self, OutOfRange> {
         let mut source = Self {
@@ -116,7 +117,7 @@ impl Source {
                 cells: &[],
                 time: 0.0,
             };
-            let resolved = source.heat((cloud, volume), cold, &mut heat)?;
+            let resolved = source.heat(cloud, volume, cold, &mut heat)?;
             source.still = Some((heat, resolved));
         }
         Ok(source)
@@ -146,7 +147,8 @@ impl Source {
     /// Where the curve has no value.
     pub fn heat(
         &self,
-        (cloud, volume): (&Cloud, &[f64]),
+        cloud: &Cloud,
+        volume: &[f64],
         warmth: Warmth<'_>,
         heat: &mut Vec<f64>,
     ) -> Result<bool, OutOfRange> {
@@ -210,7 +212,8 @@ impl Source {
     /// Where the curve has no value.
     pub fn slopes(
         &self,
-        (cloud, volume): (&Cloud, &[f64]),
+        cloud: &Cloud,
+        volume: &[f64],
         warmth: Warmth<'_>,
     ) -> Result<Vec<f64>, OutOfRange> {
         let greatest = self.greatest(warmth);

@@ -18,7 +18,7 @@ fn heat(body: &str, points: &str, dimensions: usize, text: &str) -> (Vec<f64>, V
     let body = Body::new(&serde_json::from_str(body).unwrap(), dimensions);
     let cloud = Cloud::fill(&body, &serde_json::from_str(points).unwrap(), dimensions).unwrap();
     let volume = Links::new(&cloud, Operator::default()).unwrap().volume;
-    let source = Source::new(curve(text), (&cloud, &volume), &body).unwrap();
+    let source = Source::new(curve(text), &cloud, &volume, &body).unwrap();
     let cold = vec![0.0; volume.len()];
     let mut heat = Vec::new();
     let cold = Warmth {
@@ -26,7 +26,7 @@ fn heat(body: &str, points: &str, dimensions: usize, text: &str) -> (Vec<f64>, V
         cells: &[],
         time: 0.0,
     };
-    let resolved = source.heat((&cloud, &volume), cold, &mut heat).unwrap();
+    let resolved = source.heat(&cloud, &volume, cold, &mut heat).unwrap();
     assert!(resolved, "{text}");
     (heat, volume)
 }

@@ -26,7 +26,9 @@ impl System {
         &self,
         matrix: &mut Sparse,
         shift: f64,
-        (time, temperature, rates): (f64, &[f64], &Rates),
+        time: f64,
+        temperature: &[f64],
+        rates: &Rates,
     ) -> Result<(), OutOfRange> {
         let heating = self.heating(time, temperature)?;
         let own = |i: usize| {
@@ -44,11 +46,10 @@ impl System {
         let weight = &self.links.weight;
         matrix.fill(|i, columns, values| {
             let row = self.links.pattern.row(i);
-            let links = (i, columns);
             match &self.conduction {
                 Conduction::Fixed(g) => {
                     let slopes = g[row].iter().map(|g| (*g, *g));
-                    self.lay(links, (own(i), slopes), values)
+                    self.lay(i, columns, own(i), slopes, values)
                 }
                 Conduction::Kirchhoff {
                     conductor,
@@ -57,7 +58,7 @@ impl System {
                     let count = self.materials.conductors.len();
                     let k = fraction * rates.nodes[i * count + conductor].0;
                     let slopes = weight[row].iter().map(|a| (*a, *a));
-                    self.lay(links, (own(i) / k, slopes), values)
+                    self.lay(i, columns, own(i) / k, slopes, values)
                 }
                 Conduction::Mixture(_) | Conduction::Series(_) => {
                     let edges = self.conduction.edges_of(row.clone());
@@ -70,7 +71,7 @@ impl System {
                         }
                     };
                     let slopes = columns.iter().zip(edges).zip(&weight[row]).map(slope);
-                    self.lay(links, (own(i), slopes), values)
+                    self.lay(i, columns, own(i), slopes, values)
                 }
             }
         });
@@ -81,8 +82,10 @@ impl System {
     #[inline]
     fn lay(
         &self,
-        (i, columns): (usize, &[u32]),
-        (own, slopes): (f64, impl Iterator<Item = (f64, f64)>),
+        i: usize,
+        columns: &[u32],
+        own: f64,
+        slopes: impl Iterator<Item = (f64, f64)>,
         values: &mut [f64],
     ) -> f64 {
         let mut diagonal = own;
@@ -123,8 +126,7 @@ impl System {
             cells: &cells,
             time,
         };
-        let points = (&self.cloud, self.links.volume.as_slice());
-        let mut slopes = source.slopes(points, warmth)?;
+        let mut slopes = source.slopes(&self.cloud, &self.links.volume, warmth)?;
         // A source that grows with temperature is left to the iteration: the matrix keeps its sign.
         slopes.iter_mut().for_each(|slope| *slope = slope.min(0.0));
         Ok(slopes)

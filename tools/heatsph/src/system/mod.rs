@@ -61,9 +61,12 @@ impl System {
     /// # Errors
     /// Where a property has no value.
     pub fn new(
-        (cloud, links): (Cloud, Links),
-        (materials, surface): (Materials, Surface),
-        (storage, source): (Storage, Option<Source>),
+        cloud: Cloud,
+        links: Links,
+        materials: Materials,
+        surface: Surface,
+        storage: Storage,
+        source: Option<Source>,
     ) -> Result<Self, OutOfRange> {
         let conduction = Conduction::new(&materials, &cloud.position, &links)?;
         let material = cloud

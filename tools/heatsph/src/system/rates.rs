@@ -148,7 +148,6 @@ impl System {
         rates.source = 0.0;
         rates.hidden = rates.passed.iter().any(|passed| passed.hidden);
         if let Some(source) = &self.source {
-            let points = (&self.cloud, self.links.volume.as_slice());
             // Iterations at one instant meet the same source, unless it depends on temperature.
             let known = rates
                 .sourced
@@ -165,7 +164,7 @@ impl System {
                         cells: &rates.within,
                         time,
                     };
-                    source.heat(points, warmth, &mut rates.sources)?
+                    source.heat(&self.cloud, &self.links.volume, warmth, &mut rates.sources)?
                 }
             };
             rates.sourced = Some((time, resolved));
@@ -230,9 +229,8 @@ impl System {
         let row = self.links.pattern.row(i);
         let ends = &self.links.pattern.columns()[row.clone()];
         let weight = &self.links.weight[row.clone()];
-        let own = (temperature, i);
         match &self.conduction {
-            Conduction::Fixed(g) => gathered(own, ends, g[row].iter().copied()),
+            Conduction::Fixed(g) => gathered(temperature, i, ends, g[row].iter().copied()),
             Conduction::Kirchhoff {
                 conductor,
                 fraction,
@@ -241,12 +239,22 @@ impl System {
                     let ends = self.ends(i, *j as usize, temperature, nodes);
                     a * fraction * kirchhoff(&ends, *conductor)
                 };
-                gathered(own, ends, weight.iter().zip(ends).map(conductance))
+                gathered(
+                    temperature,
+                    i,
+                    ends,
+                    weight.iter().zip(ends).map(conductance),
+                )
             }
             Conduction::Mixture(_) | Conduction::Series(_) => {
                 let edges = self.conduction.edges_of(row);
                 let conductance = |(a, edge): (&f64, &u32)| a * means[*edge as usize];
-                gathered(own, ends, weight.iter().zip(edges).map(conductance))
+                gathered(
+                    temperature,
+                    i,
+                    ends,
+                    weight.iter().zip(edges).map(conductance),
+                )
             }
         }
     }
@@ -292,7 +300,8 @@ impl System {
 /// Heat through links of the given conductances from point `i` to the others, and the sum of these.
 #[inline]
 fn gathered(
-    (temperature, i): (&[f64], usize),
+    temperature: &[f64],
+    i: usize,
     ends: &[u32],
     conductances: impl Iterator<Item = f64>,
 ) -> (f64, f64) {

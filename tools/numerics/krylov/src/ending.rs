@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::Restarted;
+
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
 pub struct Rule<'a> {
@@ -17,6 +19,12 @@ pub struct Rule<'a> {
 }
 
 impl Rule<'_> {
+    /// The same with cycles of so many steps.
+    #[must_use]
+    pub fn restarted(self, after: usize) -> Restarted<Self> {
+        Restarted { rule: self, after }
+    }
+
     /// Is the solution no longer wanted?
     pub(crate) fn stopped(&self) -> bool {
         self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
@@ -209,7 +217,7 @@ mod tests {
             let solved = if short {
                 bicgstab2(&a, &rhs, &mut x, &mut Identity, rule, &mut scratch)
             } else {
-                let rule = (rule, 30);
+                let rule = rule.restarted(30);
                 minimal_residual(&a, &rhs, &mut x, &mut Identity, rule, &mut scratch)
             };
             let mut left = rhs.clone();

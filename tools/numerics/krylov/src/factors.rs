@@ -1,6 +1,6 @@
 //! The factors in use, and the iterations they serve.
 
-use crate::operator::residual;
+use crate::operator::{Equations, residual};
 use crate::{
     Breakdown, Coefficient, Direct, Ending, Error, Grids, Incomplete, Inverse, Keep, Method,
     Multigrid, Operator, Options, Order, Rows, Rule, Scalar, Scratch, Solved, Stagnation,
@@ -26,7 +26,8 @@ where
     pub(crate) fn new(
         rows: &Rows<T>,
         shift: &[S],
-        (order, scale): (&Order, &[f64]),
+        order: &Order,
+        scale: &[f64],
         options: Options,
     ) -> Result<Self, Error> {
         let grids = |grids| {
@@ -57,18 +58,17 @@ impl<T: Coefficient<S> + Scalar, S: Scalar> Factors<T, S>
 where
     f32: Coefficient<S>,
 {
-    /// Solves with `a`, of which these are the factors, or nearly so.
+    /// Solves equations of which these are the factors, or nearly so.
     pub(crate) fn solve<const C: usize>(
         &mut self,
-        a: &impl Operator<S, C>,
-        b: &[[S; C]],
+        equations: &Equations<'_, impl Operator<S, C>, S, C>,
         y: &mut [[S; C]],
         rule: Rule,
         scratch: &mut Scratch<S>,
     ) -> Solved {
-        let solved = self.stabilised(a, b, y, rule, scratch);
+        let solved = self.stabilised(equations, y, rule, scratch);
         if weak(&solved) && !matches!(self, Self::Direct(_)) {
-            self.minimal(a, b, (y, solved), rule, scratch)
+            self.minimal(equations, y, solved, rule, scratch)
         } else {
             solved
         }
@@ -78,12 +78,13 @@ where
     /// where minimal residuals do not.
     pub(crate) fn minimal<const C: usize>(
         &mut self,
-        a: &impl Operator<S, C>,
-        b: &[[S; C]],
-        (y, solved): (&mut [[S; C]], Solved),
+        equations: &Equations<'_, impl Operator<S, C>, S, C>,
+        y: &mut [[S; C]],
+        solved: Solved,
         rule: Rule,
         scratch: &mut Scratch<S>,
     ) -> Solved {
+        let &Equations { a, b } = equations;
         if solved.products >= rule.products {
             return solved;
         }
@@ -95,7 +96,7 @@ where
             products: rule.products - solved.products,
             ..rule
         };
-        let rule = (rule, vectors.clamp(20, 120));
+        let rule = rule.restarted(vectors.clamp(20, 120));
         let first = solved.ending;
         let mut both = joined(solved, minimal_residual(a, b, y, self, rule, scratch));
         if both.ending == Ending::Spent {
@@ -108,12 +109,12 @@ where
     /// Short recurrences.
     pub(crate) fn stabilised<const C: usize>(
         &mut self,
-        a: &impl Operator<S, C>,
-        b: &[[S; C]],
+        equations: &Equations<'_, impl Operator<S, C>, S, C>,
         y: &mut [[S; C]],
         rule: Rule,
         scratch: &mut Scratch<S>,
     ) -> Solved {
+        let &Equations { a, b } = equations;
         if !matches!(self, Self::Direct(_)) {
             return bicgstab2(a, b, y, self, rule, scratch);
         }
@@ -124,7 +125,7 @@ where
         self.invert(b, y);
         let mut solved = bicgstab2(a, b, y, self, first, scratch);
         if solved.ending == Ending::Spent {
-            solved.ending = refused(a, b, y);
+            solved.ending = refused(equations, y);
         }
         solved
     }
@@ -165,10 +166,10 @@ pub(crate) fn joined(first: Solved, mut second: Solved) -> Solved {
 
 /// Why sparse factors do not solve a system: what they make is no solution.
 fn refused<S: Scalar, const C: usize>(
-    a: &impl Operator<S, C>,
-    b: &[[S; C]],
+    equations: &Equations<'_, impl Operator<S, C>, S, C>,
     y: &[[S; C]],
 ) -> Ending {
+    let &Equations { a, b } = equations;
     let mut r = b.to_vec();
     let left = residual(a, b, y, &mut r);
     if left.iter().any(|r| !r.is_finite()) {

@@ -3,11 +3,11 @@
 use crate::conjugate::Goal;
 use crate::operator::{column, column_mut};
 use crate::sums::{add, dot};
-use crate::{Error, Inverse, Krylov, Operator, Outcome, Workspace, residual, sizes};
+use crate::{Error, Inverse, Krylov, Operator, Outcome, Restarted, Workspace, residual, sizes};
 
 /// Restarted, flexible, right-preconditioned GMRES for a matrix that need not be symmetric
 /// (Saad 1993, SIAM J. Sci. Comput. 14, 461); `x` is the first guess and becomes the solution.
-/// Holds `2 restart + 1` columns at most, and only those that a solve has come to need.
+/// Holds one column more than twice the steps of a cycle at most, and only those that a solve has come to need.
 ///
 /// # Errors
 /// When the matrix is singular on the way, values leave the numbers or lengths differ. To run out
@@ -17,17 +17,20 @@ pub fn gmres(
     rhs: &[f64],
     x: &mut [f64],
     inverse: &mut impl Inverse<f64>,
-    (rule, restart): (Krylov, usize),
+    restarted: Restarted<Krylov>,
     work: &mut Workspace,
 ) -> Result<Outcome, Error> {
     sizes(a, rhs, x)?;
-    let restart = restart.max(1);
+    let Restarted { rule, after } = restarted;
     let first = residual(a, rhs, x, &mut work.fit(1, x.len())[0])?;
     let mut goal = Goal::new(rule.target(first), a.rounding(column(x)));
     let (mut last, mut iterations) = (first, 0);
     while !goal.reached(last) && iterations < rule.iterations {
-        let most = restart.min(rule.iterations - iterations);
-        let cycle = cycle(a, x, inverse, (last, goal.target, most), work)?;
+        let bounds = Cycle {
+            steps: after.max(1).min(rule.iterations - iterations),
+            residual: goal.target,
+        };
+        let cycle = cycle(a, x, inverse, last, bounds, work)?;
         iterations += cycle.steps;
         let before = last;
         last = residual(a, rhs, x, &mut work.columns[0])?;
@@ -45,6 +48,7 @@ pub fn gmres(
     })
 }
 
+/// How far a cycle goes, or went.
 struct Cycle {
     steps: usize,
     /// Norm of the residual as the rotations have it.
@@ -105,15 +109,16 @@ impl Small<'_> {
     }
 }
 
-/// One cycle from the residual in column 0, of norm `norm`.
+/// One cycle from the residual in column 0, of norm `norm`, to either of the bounds.
 fn cycle(
     a: &impl Operator<f64>,
     x: &mut [f64],
     inverse: &mut impl Inverse<f64>,
-    (norm, target, most): (f64, f64, usize),
+    norm: f64,
+    bounds: Cycle,
     work: &mut Workspace,
 ) -> Result<Cycle, Error> {
-    let n = x.len();
+    let (n, most) = (x.len(), bounds.steps);
     let mut numbers = std::mem::take(&mut work.small);
     numbers.clear();
     numbers.resize(most * (most + 1) + 3 * most + 1, 0.0);
@@ -130,7 +135,7 @@ fn cycle(
     let scale = 1.0 / norm;
     columns[0].iter_mut().for_each(|v| *v *= scale);
     let mut m = 0;
-    while m < most && small.side[m].abs() > target {
+    while m < most && small.side[m].abs() > bounds.residual {
         // Column 2 m: basis; 2 m + 1: the same preconditioned; 2 m + 2: the next of the basis.
         let columns = work.fit(2 * m + 3, n);
         let (old, new) = columns.split_at_mut(2 * m + 1);

@@ -95,11 +95,26 @@ impl Krylov {
         (self.reduction * first).max(self.floor)
     }
 
+    /// The same with cycles of so many steps.
+    #[must_use]
+    pub fn restarted(self, after: usize) -> Restarted<Self> {
+        Restarted { rule: self, after }
+    }
+
     /// Did the solve reach what was asked for, or what rounding allows?
     #[must_use]
     pub fn reached(&self, outcome: &Outcome) -> bool {
         outcome.last <= self.target(outcome.first).max(outcome.rounding)
     }
+}
+
+/// A stopping rule for a method that starts anew after so many steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Restarted<R> {
+    /// When to stop.
+    pub rule: R,
+    /// Steps of a cycle.
+    pub after: usize,
 }
 
 /// How a solve ended; [`Krylov::reached`] tells whether it converged.

@@ -1,9 +1,11 @@
 //! Generalised minimal residuals for several columns.
 
 use crate::columns::{add, dot, norms, update};
-use crate::operator::residual;
+use crate::operator::{Preconditioned, residual};
 use crate::stabilised::Watch;
-use crate::{Breakdown, Ending, Inverse, Operator, Rule, Scalar, Scratch, Solved, Stagnation};
+use crate::{
+    Breakdown, Ending, Inverse, Operator, Restarted, Rule, Scalar, Scratch, Solved, Stagnation,
+};
 
 /// A cycle that leaves more than this share of the residual gains nothing.
 const GAIN: f64 = 0.9;
@@ -92,7 +94,7 @@ impl<S: Scalar> Small<S> {
 
 /// Restarted GMRES, preconditioned from the right (Saad and Schultz 1986, SIAM J. Sci. Stat.
 /// Comput. 7, 856). `x` is the first guess and becomes the solution. Columns share products and have
-/// least-squares problems of their own; one that has converged rests. Holds `restart + 2` vectors.
+/// least-squares problems of their own; one that has converged rests. Holds two vectors more than the steps of a cycle.
 ///
 /// # Panics
 /// When lengths differ.
@@ -101,7 +103,7 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
     rhs: &[[S; C]],
     x: &mut [[S; C]],
     inverse: &mut impl Inverse<S, C>,
-    (rule, restart): (Rule, usize),
+    restarted: Restarted<Rule>,
     scratch: &mut Scratch<S>,
 ) -> Solved {
     let n = a.len();
@@ -110,11 +112,12 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
         "{n} rows, {} given",
         rhs.len()
     );
-    let restart = restart.max(1);
+    let (rule, restart) = (restarted.rule, restarted.after.max(1));
     let mut vectors = scratch.vectors::<C>(restart + 2, n);
     let Some(z) = vectors.pop() else {
         return Watch::new(&rule, [0.0; C], [0.0; C]).solved(Ending::Converged, 0);
     };
+    let mut whole = Preconditioned { a, inverse, z };
     let start = residual(a, rhs, x, vectors[0]);
     let mut watch = Watch::new(&rule, norms(rhs), start);
     let mut products = 1;
@@ -137,15 +140,15 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
             .map(|c| Small::new(steps, before[c], watch.done(c)))
             .collect();
         let done = cycle(
-            (a, inverse),
-            (&mut vectors, z),
+            &mut whole,
+            &mut vectors,
             &mut small,
-            (&rule, &mut watch),
+            &rule,
+            &mut watch,
             &mut products,
         );
         combine(&mut small, &mut vectors);
-        inverse.invert(vectors[done], z);
-        add(x, [S::ONE; C], z);
+        whole.correct(x, vectors[done]);
         let carried = watch.now;
         let now = residual(a, rhs, x, vectors[0]);
         products += 1;
@@ -169,10 +172,11 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
 /// Builds the basis from the residual in the first vector; the number of the vector after the last
 /// of the basis.
 fn cycle<S: Scalar, const C: usize>(
-    (a, inverse): (&impl Operator<S, C>, &mut impl Inverse<S, C>),
-    (vectors, z): (&mut [&mut [[S; C]]], &mut [[S; C]]),
+    whole: &mut Preconditioned<'_, impl Operator<S, C>, impl Inverse<S, C>, S, C>,
+    vectors: &mut [&mut [[S; C]]],
     small: &mut [Small<S>],
-    (rule, watch): (&Rule, &mut Watch<C>),
+    rule: &Rule,
+    watch: &mut Watch<C>,
     products: &mut usize,
 ) -> usize {
     let scale = |c: usize| {
@@ -188,8 +192,7 @@ fn cycle<S: Scalar, const C: usize>(
     for m in 0..most {
         let (basis, rest) = vectors.split_at_mut(m + 1);
         let Some(w) = rest.first_mut() else { return m };
-        inverse.invert(basis[m], z);
-        a.apply(z, w);
+        whole.apply(basis[m], w);
         *products += 1;
         for (k, v) in basis.iter().enumerate() {
             let h = dot(v, w);
@@ -288,7 +291,7 @@ mod tests {
             &rhs,
             &mut x,
             &mut Identity,
-            (rule, n),
+            rule.restarted(n),
             &mut Scratch::default(),
         );
         assert!(solved.converged() && solved.products <= 2 * n, "{solved:?}");
@@ -309,8 +312,8 @@ mod tests {
         rhs[0] = [1.0];
         let mut x = vec![[0.0]; n];
         let mut scratch = Scratch::default();
-        let how = (rule, restart);
-        minimal_residual(&a, &rhs, &mut x, &mut Identity, how, &mut scratch)
+        let rule = rule.restarted(restart);
+        minimal_residual(&a, &rhs, &mut x, &mut Identity, rule, &mut scratch)
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Operators and approximate inverses, for all methods: rows, rows with a diagonal of their own.
 
-use crate::columns::dot;
+use crate::columns::{add, dot};
 use crate::{Coefficient, Rows, Scalar};
 
 /// A square linear operator on `C` columns of numbers `S`; one that knows a single column alone is an `Operator<S>`.
@@ -20,6 +20,38 @@ pub trait Operator<S: Scalar, const C: usize = 1>: Sync {
     /// smaller. Zero where it is not known.
     fn rounding(&self, _x: &[[S; C]]) -> f64 {
         0.0
+    }
+}
+
+/// The equations `A x = b`.
+pub(crate) struct Equations<'a, A, S, const C: usize> {
+    pub(crate) a: &'a A,
+    pub(crate) b: &'a [[S; C]],
+}
+
+/// The operator after the approximate inverse: `A M^-1`.
+pub(crate) struct Preconditioned<'a, A, M, S, const C: usize> {
+    pub(crate) a: &'a A,
+    pub(crate) inverse: &'a mut M,
+    /// What the inverse makes of a vector.
+    pub(crate) z: &'a mut [[S; C]],
+}
+
+impl<A, M, S: Scalar, const C: usize> Preconditioned<'_, A, M, S, C>
+where
+    A: Operator<S, C>,
+    M: Inverse<S, C>,
+{
+    /// `out = A M^-1 v`.
+    pub(crate) fn apply(&mut self, v: &[[S; C]], out: &mut [[S; C]]) {
+        self.inverse.invert(v, self.z);
+        self.a.apply(self.z, out);
+    }
+
+    /// `x += M^-1 y`.
+    pub(crate) fn correct(&mut self, x: &mut [[S; C]], y: &[[S; C]]) {
+        self.inverse.invert(y, self.z);
+        add(x, [S::ONE; C], self.z);
     }
 }
 

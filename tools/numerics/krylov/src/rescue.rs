@@ -7,6 +7,7 @@
 
 use crate::factors::{Factors, joined, weak};
 use crate::lowrank::Ties;
+use crate::operator::Equations;
 use crate::{
     Coefficient, Direct, Ending, Error, Incomplete, Keep, Rule, Scalar, Solved, Stagnation, System,
 };
@@ -70,13 +71,13 @@ where
         rule: Rule,
     ) -> Solved {
         let mut solved = self.run(ties, |factors, a, scratch| {
-            factors.stabilised(a, b, y, rule, scratch)
+            factors.stabilised(&Equations { a, b }, y, rule, scratch)
         });
         if weak(&solved) && !matches!(self.factors, Factors::Direct(_)) {
             solved = match self.incomplete(ties, b, y, solved, rule) {
                 Ok(solved) => return solved,
                 Err(solved) => self.run(ties, |factors, a, scratch| {
-                    factors.minimal(a, b, (y, solved), rule, scratch)
+                    factors.minimal(&Equations { a, b }, y, solved, rule, scratch)
                 }),
             };
         }
@@ -90,7 +91,7 @@ where
             self.rescued = Some(Rescue::Direct);
             y.fill([S::ZERO; C]);
             let last = self.run(ties, |factors, a, scratch| {
-                factors.solve(a, b, y, rule, scratch)
+                factors.solve(&Equations { a, b }, y, rule, scratch)
             });
             solved = joined(solved, last);
         }
@@ -124,7 +125,7 @@ where
             ..rule
         };
         let next = self.run(ties, |factors, a, scratch| {
-            factors.solve(a, b, y, rule, scratch)
+            factors.solve(&Equations { a, b }, y, rule, scratch)
         });
         let mut both = joined(solved, next);
         if both.converged() || both.ending == Ending::Stopped {

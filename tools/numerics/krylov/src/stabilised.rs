@@ -1,7 +1,7 @@
 //! Stabilised bi-conjugate gradients of second order, for several columns.
 
 use crate::columns::{add, add_two, dot, gather, norms, sum, turn};
-use crate::operator::residual;
+use crate::operator::{Preconditioned, residual};
 use crate::{Breakdown, Ending, Inverse, Operator, Rule, Scalar, Solved, Stagnation};
 
 /// Products without a decrease by a tenth after which a solve has stagnated.
@@ -169,8 +169,9 @@ pub fn bicgstab2<S: Scalar, const C: usize>(
         u: [next(), next(), next()],
         shadow: next(),
         y: next(),
-        z: next(),
     };
+    let z = next();
+    let mut whole = Preconditioned { a, inverse, z };
     let start = residual(a, rhs, x, set.r[0]);
     let mut watch = Watch::new(&rule, norms(rhs), start);
     let (mut products, mut renewals) = (1, 0);
@@ -183,10 +184,9 @@ pub fn bicgstab2<S: Scalar, const C: usize>(
             return watch.solved(Ending::Converged, products);
         }
         let before = watch.now;
-        let end = set.run(a, inverse, (&rule, &mut watch), &mut products);
+        let end = set.run(&mut whole, &rule, &mut watch, &mut products);
         // x += M^-1 y, and what is really left.
-        inverse.invert(set.y, set.z);
-        add(x, [S::ONE; C], set.z);
+        whole.correct(x, set.y);
         let carried = watch.now;
         let now = residual(a, rhs, x, set.r[0]);
         products += 1;
@@ -216,14 +216,12 @@ pub fn bicgstab2<S: Scalar, const C: usize>(
     }
 }
 
-/// The vectors: residuals, directions, shadow residual, the solution before preconditioning, and
-/// a preconditioned vector.
+/// The vectors: residuals, directions, shadow residual, and the solution before preconditioning.
 struct Set<'a, S, const C: usize> {
     r: [&'a mut [[S; C]]; 3],
     u: [&'a mut [[S; C]]; 3],
     shadow: &'a mut [[S; C]],
     y: &'a mut [[S; C]],
-    z: &'a mut [[S; C]],
 }
 
 impl<S: Scalar, const C: usize> Set<'_, S, C> {
@@ -231,9 +229,9 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
     /// something ends them; their sum is left in `y`.
     fn run(
         &mut self,
-        a: &impl Operator<S, C>,
-        inverse: &mut impl Inverse<S, C>,
-        (rule, watch): (&Rule, &mut Watch<C>),
+        whole: &mut Preconditioned<'_, impl Operator<S, C>, impl Inverse<S, C>, S, C>,
+        rule: &Rule,
+        watch: &mut Watch<C>,
         products: &mut usize,
     ) -> Option<Ending> {
         let mut state: State<S, C> = State::new(watch);
@@ -256,7 +254,7 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
                 state.rho[c] = (state.omega[c] * state.rho[c]).times_real(-1.0);
             }
             for j in 0..2 {
-                if !self.conjugate(j, &mut state, (a, inverse), (watch, &shadow)) {
+                if !self.conjugate(j, &mut state, whole, watch, &shadow) {
                     return Some(Ending::BrokenDown(Breakdown::Shadow));
                 }
                 if rule.stopped() {
@@ -281,8 +279,9 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
         &mut self,
         j: usize,
         state: &mut State<S, C>,
-        (a, inverse): (&impl Operator<S, C>, &mut impl Inverse<S, C>),
-        (watch, shadow): (&Watch<C>, &[f64; C]),
+        whole: &mut Preconditioned<'_, impl Operator<S, C>, impl Inverse<S, C>, S, C>,
+        watch: &Watch<C>,
+        shadow: &[f64; C],
     ) -> bool {
         let large: [f64; C] = std::array::from_fn(|c| shadow[c] * watch.now[c]);
         let rho = dot(self.shadow, self.r[j]);
@@ -297,8 +296,8 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
         for i in 0..=j {
             turn(self.u[i], beta, self.r[i]);
         }
-        inverse.invert(self.u[j], self.z);
-        a.apply(self.z, self.u[j + 1]);
+        let (u, next) = self.u.split_at_mut(j + 1);
+        whole.apply(u[j], next[0]);
         let gamma = dot(self.shadow, self.u[j + 1]);
         let Some(alpha) = state.ratio(rho, gamma, large) else {
             return false;
@@ -308,8 +307,8 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
         for i in 0..=j {
             add(self.r[i], back, self.u[i + 1]);
         }
-        inverse.invert(self.r[j], self.z);
-        a.apply(self.z, self.r[j + 1]);
+        let (r, next) = self.r.split_at_mut(j + 1);
+        whole.apply(r[j], next[0]);
         add(self.y, alpha, self.u[0]);
         true
     }

@@ -2,6 +2,7 @@
 
 use crate::factors::Factors;
 use crate::lowrank::{LowRank, Ties};
+use crate::operator::Equations;
 use crate::{
     Coefficient, Direct, Ending, Error, Grids, Keep, Order, Pair, Rescue, Rows, Rule, Scalar,
     Scratch, Shifted, Sides, Solved, Stagnation, Unknown,
@@ -209,9 +210,9 @@ where
                     *v = v.times_real(*scale);
                 }
             }
-            Factors::new(&low, &mixed, (&order, &scale), options)?
+            Factors::new(&low, &mixed, &order, &scale, options)?
         } else {
-            Factors::new(&rows, &mixed, (&order, &scale), options)?
+            Factors::new(&rows, &mixed, &order, &scale, options)?
         };
         Ok(Self {
             options,
@@ -286,7 +287,7 @@ where
             self.choose(&ties, b, y, rule)
         } else {
             self.run(&ties, |factors, a, scratch| {
-                factors.solve(a, b, y, rule, scratch)
+                factors.solve(&Equations { a, b }, y, rule, scratch)
             })
         };
         if matches!(solved.ending, Ending::Stagnated(Stagnation::Plateau { .. })) {

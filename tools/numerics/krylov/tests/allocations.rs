@@ -49,7 +49,7 @@ fn a_solve_allocates_nothing() {
                 x.fill(0.0);
                 conjugate_gradient(&a, &rhs, &mut x, &mut grid, rule, &mut work).unwrap();
                 x.fill(0.0);
-                gmres(&a, &rhs, &mut x, &mut any, (rule, 10), &mut work).unwrap();
+                gmres(&a, &rhs, &mut x, &mut any, rule.restarted(10), &mut work).unwrap();
             };
             solve();
             let region = Region::new(GLOBAL);

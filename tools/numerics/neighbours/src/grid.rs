@@ -61,6 +61,17 @@ pub struct Grid {
 /// and to its ends along x.
 pub(crate) type Reach = Vec<([isize; 2], usize)>;
 
+/// The points of a cloud, and how near to each others are looked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Search<'a> {
+    /// Their cells.
+    pub(crate) grid: &'a Grid,
+    /// All of them \[m\].
+    pub(crate) points: &'a [[f64; 3]],
+    /// Points closer than this are neighbours \[m\].
+    pub(crate) radius: f64,
+}
+
 impl Grid {
     /// An empty grid with cells of `edge` \[m\]; the search radius or half of it is a good choice.
     #[must_use]
@@ -216,6 +227,16 @@ impl Grid {
             }
         }
         false
+    }
+
+    /// All points, as they were last given to [`Self::bin`], and the radius \[m\] within which others are neighbours.
+    #[must_use]
+    pub fn search<'a>(&'a self, points: &'a [[f64; 3]], radius: f64) -> Search<'a> {
+        Search {
+            grid: self,
+            points,
+            radius,
+        }
     }
 
     /// Rows of cells with points closer than `radius` to those of a cell.

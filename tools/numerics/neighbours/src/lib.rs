@@ -20,7 +20,7 @@
 //! let points = [[0.0, 0.0, 0.0], [0.9, 0.0, 0.0], [1.0, 0.0, 0.0], [-3.0, 0.0, 0.0]];
 //! let (mut grid, mut lists) = (Grid::new(1.0), Lists::new());
 //! grid.bin(&points);
-//! lists.build(&grid, &points, 1.0, |_| true, |_, _| true);
+//! lists.build(grid.search(&points, 1.0), |_| true, |_, _| true);
 //! assert_eq!(lists.row(0), [1]);
 //! assert_eq!(lists.row(1), [0, 2]);
 //! ```
@@ -32,7 +32,7 @@ pub mod naive;
 mod sieve;
 mod tree;
 
-pub use grid::Grid;
+pub use grid::{Grid, Search};
 pub use halo::Halo;
 pub use lists::{Chunk, Lists, ROWS};
 pub use tree::Tree;

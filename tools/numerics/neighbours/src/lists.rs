@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::grid::{Grid, Reach};
+use crate::grid::{Grid, Reach, Search};
 use crate::sieve::{AWAY, Candidates, Centre, LANES, Lanes, Sieve, Sifting, on_this_machine};
 
 /// Cells along x of which the neighbourhood is found at once: consecutive rows mostly share it.
@@ -202,28 +202,29 @@ impl Chunk {
 /// The filling of a chunk.
 struct Fill<'a, W> {
     chunk: &'a mut Chunk,
-    grid: &'a Grid,
+    search: Search<'a>,
     reach: &'a Reach,
-    points: &'a [[f64; 3]],
-    radius: f64,
     wanted: &'a W,
 }
 
 impl<W: Fn(usize) -> bool> Sifting for Fill<'_, W> {
     #[inline(always)]
     fn run(self, sieve: impl Sieve) {
-        let Self {
-            chunk, grid, reach, ..
-        } = self;
-        let end = self.points.len().min(chunk.first + ROWS);
+        let Self { chunk, reach, .. } = self;
+        let Search {
+            grid,
+            points,
+            radius,
+        } = self.search;
+        let end = points.len().min(chunk.first + ROWS);
         chunk.offsets.clear();
         chunk.offsets.push(0);
         // The grid has changed.
         chunk.brick.place = None;
         let mut used = 0;
-        for (a, &point) in self.points[..end].iter().enumerate().skip(chunk.first) {
+        for (a, &point) in points[..end].iter().enumerate().skip(chunk.first) {
             if (self.wanted)(a) {
-                let (radius, own) = (self.radius, a as u32);
+                let own = a as u32;
                 let centre = Centre { point, radius, own };
                 used = chunk.search(grid, reach, centre, used, sieve);
             }
@@ -246,28 +247,23 @@ impl Lists {
         Self::default()
     }
 
-    /// Fills the rows of all `points`, as last given to `grid`, with the points closer than
-    /// `radius`.
+    /// Fills the rows of all points with their neighbours.
     ///
     /// A row for which `wanted` is false stays empty; a pair (row, neighbour) for which
     /// `accepts` is false is left out.
     pub fn build(
         &mut self,
-        grid: &Grid,
-        points: &[[f64; 3]],
-        radius: f64,
+        search: Search<'_>,
         wanted: impl Fn(usize) -> bool + Sync,
         accepts: impl Fn(usize, usize) -> bool + Sync,
     ) {
-        self.resize(points.len());
-        let reach = &grid.reach(radius);
+        self.resize(search.points.len());
+        let reach = &search.grid.reach(search.radius);
         self.chunks.par_iter_mut().for_each(|chunk| {
             on_this_machine(Fill {
                 chunk,
-                grid,
+                search,
                 reach,
-                points,
-                radius,
                 wanted: &wanted,
             });
             chunk.prune(&accepts);
@@ -279,24 +275,21 @@ impl Lists {
     /// squares may be swapped for another one; it holds numbers beyond those of the pairs.
     pub fn build_with<T: Send>(
         &mut self,
-        grid: &Grid,
-        (points, radius): (&[[f64; 3]], f64),
+        search: Search<'_>,
         wanted: impl Fn(usize) -> bool + Sync,
         extra: impl IndexedParallelIterator<Item = T>,
         visit: impl Fn(&Chunk, &mut Vec<f64>, T) + Sync,
     ) {
-        self.resize(points.len());
-        let reach = &grid.reach(radius);
+        self.resize(search.points.len());
+        let reach = &search.grid.reach(search.radius);
         self.chunks
             .par_iter_mut()
             .zip(extra)
             .for_each(|(chunk, extra)| {
                 on_this_machine(Fill {
                     chunk,
-                    grid,
+                    search,
                     reach,
-                    points,
-                    radius,
                     wanted: &wanted,
                 });
                 let mut squares = std::mem::take(&mut chunk.square);
@@ -366,7 +359,7 @@ mod tests {
     fn rows(points: &[[f64; 3]], edge: f64, radius: f64) -> Vec<Vec<u32>> {
         let (mut grid, mut lists) = (Grid::new(edge), Lists::new());
         grid.bin(points);
-        lists.build(&grid, points, radius, |_| true, |_, _| true);
+        lists.build(grid.search(points, radius), |_| true, |_, _| true);
         (0..points.len()).map(|a| lists.row(a).to_vec()).collect()
     }
 
@@ -434,7 +427,8 @@ mod tests {
         let points = cloud(400, 4.0, 11);
         let (mut grid, mut lists) = (Grid::new(1.0), Lists::new());
         grid.bin(&points);
-        lists.build(&grid, &points, 1.0, |a| a % 2 == 0, |_, b| b % 3 == 0);
+        let search = grid.search(&points, 1.0);
+        lists.build(search, |a| a % 2 == 0, |_, b| b % 3 == 0);
         for (a, row) in naive::search(&points, 1.0).into_iter().enumerate() {
             let mut found = lists.row(a).to_vec();
             found.sort_unstable();

@@ -102,7 +102,7 @@ impl Surface {
         images.place(&state.faces, support, &mut places);
         grid.bin(&places);
         let points = &places[..ids.len()];
-        lists.build(&grid, points, support, |_| true, |_, _| true);
+        lists.build(grid.search(points, support), |_| true, |_, _| true);
         let cloud = Cloud {
             places: &places,
             images: &images,

@@ -119,14 +119,7 @@ impl<S: Rate> AtRate<S> {
             factors: &mut self.factors,
         };
         let x = x.as_chunks_mut::<1>().0;
-        let with = (rule, vectors);
-        minimal_residual(
-            &whole,
-            ones(right),
-            x,
-            &mut inverse,
-            with,
-            &mut self.scratch,
-        )
+        let (right, rule) = (ones(right), rule.restarted(vectors));
+        minimal_residual(&whole, right, x, &mut inverse, rule, &mut self.scratch)
     }
 }

@@ -204,7 +204,7 @@ impl<const D: usize> Newton<'_, '_, D> {
             &here.way,
             &mut way,
             &mut Identity, // the stage has been applied already
-            (rule, LINEAR.0),
+            rule.restarted(LINEAR.0),
             work,
         )
         .ok()?;

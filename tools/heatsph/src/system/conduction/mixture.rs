@@ -64,7 +64,8 @@ impl Mixture {
     /// Where a property has no value.
     pub(super) fn new(
         conductor: usize,
-        (materials, position): (&Materials, &[Vector]),
+        materials: &Materials,
+        position: &[Vector],
         links: &Links,
     ) -> Result<Self, OutOfRange> {
         let (mut begin, mut contact, mut shares) = (vec![0], Vec::new(), Vec::new());

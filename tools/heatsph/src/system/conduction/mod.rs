@@ -63,7 +63,7 @@ impl Conduction {
         }
         match mixture::sole(materials) {
             Some(conductor) => {
-                Mixture::new(conductor, (materials, position), links).map(Self::Mixture)
+                Mixture::new(conductor, materials, position, links).map(Self::Mixture)
             }
             None => Series::new(materials, position, links).map(Self::Series),
         }

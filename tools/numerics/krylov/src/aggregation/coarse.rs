@@ -76,7 +76,8 @@ impl Groups {
     /// diagonal, as those to fixed values do.
     pub(crate) fn sum(
         &mut self,
-        (rows, balance): (&Rows, &Balance),
+        rows: &Rows,
+        balance: &Balance,
         coarse: &mut Rows,
         sums: &mut Balance,
     ) -> Result<(), Error> {

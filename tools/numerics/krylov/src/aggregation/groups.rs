@@ -196,7 +196,7 @@ impl<'a> Joining<'a> {
                 }
             }
             let partner = partners.swap_remove(place?);
-            if self.any || self.good(g, partner, best) {
+            if self.any || self.good(g, partner.0, best) {
                 return Some(partner);
             }
             if self.stride == 1 {
@@ -217,7 +217,8 @@ impl<'a> Joining<'a> {
         (w + tie) * (d0 + d1) / (d0 * d1).max(f64::MIN_POSITIVE)
     }
 
-    fn good(&self, g: usize, (other, _): Partner, value: f64) -> bool {
+    /// Is the quality of two groups as one good enough?
+    fn good(&self, g: usize, other: u32, value: f64) -> bool {
         let nodes = || self.group(g).chain(self.group(other as usize));
         let wide = nodes()
             .map(|i| f64::from(self.wide[i as usize]))

@@ -79,7 +79,7 @@ impl Aggregation {
             };
             let mut groups = Groups::new(of, count);
             let (mut coarse, mut sums) = (Rows::default(), Balance::default());
-            groups.sum((&rows, &balance), &mut coarse, &mut sums)?;
+            groups.sum(&rows, &balance, &mut coarse, &mut sums)?;
             let zeros = || vec![0.0; count];
             new.levels.push(Level {
                 x: vec![0.0; rows.len()],
@@ -125,9 +125,7 @@ impl Aggregation {
             }
             let next = rest.first_mut().map(|level| &mut level.rows);
             let mut coarse = std::mem::take(next.unwrap_or(&mut self.last));
-            level
-                .groups
-                .sum((&rows, &balance), &mut coarse, &mut sums)?;
+            level.groups.sum(&rows, &balance, &mut coarse, &mut sums)?;
             level.rows = rows;
             rows = coarse;
             std::mem::swap(&mut balance, &mut sums);

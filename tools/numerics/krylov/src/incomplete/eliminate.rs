@@ -246,8 +246,9 @@ fn entries<F: Copy>(
 ) -> impl Iterator<Item = (usize, F)> + '_ {
     let base = if piece.first >= border { 0 } else { border };
     let (far, near) = (piece.upper.beyond(k), piece.upper.own(k));
-    let far = far.0.iter().map(move |j| *j as usize + base).zip(far.1);
-    let near = near.0.iter().map(|j| *j as usize + piece.first).zip(near.1);
+    let beyond = far.columns.iter().map(move |j| *j as usize + base);
+    let own = near.columns.iter().map(|j| *j as usize + piece.first);
+    let (far, near) = (beyond.zip(far.values), own.zip(near.values));
     far.chain(near).map(|(j, v)| (j, *v))
 }
 

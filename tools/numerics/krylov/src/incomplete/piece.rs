@@ -1,5 +1,7 @@
 //! The factors of the rows of one slab or wall.
 
+use std::ops::Range;
+
 use crate::{Coefficient, Scalar};
 
 /// Rows of a triangular factor: first the columns beyond the piece, then its own, counted from its
@@ -39,21 +41,49 @@ impl<F: Copy> Triangle<F> {
         self.starts.push(self.columns.len() as u32);
     }
 
-    /// Columns and values of row `k` beyond the piece.
-    pub(crate) fn beyond(&self, k: usize) -> (&[u32], &[F]) {
+    /// Entries of row `k` beyond the piece.
+    pub(crate) fn beyond(&self, k: usize) -> Entries<'_, F> {
         let row = self.starts[k] as usize..self.middles[k] as usize;
-        (&self.columns[row.clone()], &self.values[row])
+        self.entries_at(row)
     }
 
-    /// Columns and values of row `k` within the piece.
-    pub(crate) fn own(&self, k: usize) -> (&[u32], &[F]) {
+    /// Entries of row `k` within the piece.
+    pub(crate) fn own(&self, k: usize) -> Entries<'_, F> {
         let row = self.middles[k] as usize..self.starts[k + 1] as usize;
-        (&self.columns[row.clone()], &self.values[row])
+        self.entries_at(row)
+    }
+
+    fn entries_at(&self, row: Range<usize>) -> Entries<'_, F> {
+        Entries {
+            columns: &self.columns[row.clone()],
+            values: &self.values[row],
+        }
     }
 
     fn bytes(&self) -> usize {
         4 * (self.starts.capacity() + self.middles.capacity() + self.columns.capacity())
             + size_of::<F>() * self.values.capacity()
+    }
+}
+
+/// Entries of a part of a row.
+pub(crate) struct Entries<'a, F> {
+    pub(crate) columns: &'a [u32],
+    pub(crate) values: &'a [F],
+}
+
+impl<F: Copy> Entries<'_, F> {
+    /// `sum -= values x[columns]`.
+    fn subtract<S: Scalar, const C: usize>(&self, sum: &mut [S; C], x: &[[S; C]])
+    where
+        F: Coefficient<S>,
+    {
+        for (&j, &v) in self.columns.iter().zip(self.values) {
+            let x = &x[j as usize];
+            for c in 0..C {
+                sum[c] -= v.times(x[c]);
+            }
+        }
     }
 }
 
@@ -91,8 +121,8 @@ impl<F: Copy> Piece<F> {
     {
         for (k, rhs) in rhs.iter().enumerate() {
             let mut sum = *rhs;
-            subtract(&mut sum, self.lower.beyond(k), beyond);
-            subtract(&mut sum, self.lower.own(k), out);
+            self.lower.beyond(k).subtract(&mut sum, beyond);
+            self.lower.own(k).subtract(&mut sum, out);
             out[k] = sum;
         }
     }
@@ -104,23 +134,9 @@ impl<F: Copy> Piece<F> {
     {
         for (k, inverse) in self.inverse.iter().enumerate().rev() {
             let mut sum = out[k];
-            subtract(&mut sum, self.upper.beyond(k), beyond);
-            subtract(&mut sum, self.upper.own(k), out);
+            self.upper.beyond(k).subtract(&mut sum, beyond);
+            self.upper.own(k).subtract(&mut sum, out);
             out[k] = sum.map(|s| inverse.times(s));
-        }
-    }
-}
-
-/// `sum -= values x[columns]`.
-fn subtract<S: Scalar, F: Coefficient<S>, const C: usize>(
-    sum: &mut [S; C],
-    (columns, values): (&[u32], &[F]),
-    x: &[[S; C]],
-) {
-    for (&j, &v) in columns.iter().zip(values) {
-        let x = &x[j as usize];
-        for c in 0..C {
-            sum[c] -= v.times(x[c]);
         }
     }
 }

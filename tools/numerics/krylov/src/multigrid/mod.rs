@@ -265,9 +265,9 @@ where
     f32: Coefficient<S>,
 {
     fn invert(&mut self, rhs: &[[S; C]], out: &mut [[S; C]]) {
-        let bottom = (&mut self.bottom, self.visits);
+        let (bottom, visits) = (&mut self.bottom, self.visits);
         if self.weights.is_empty() {
-            cycle(&mut self.levels, bottom, rhs, out);
+            cycle(&mut self.levels, bottom, visits, rhs, out);
             return;
         }
         self.weighed.resize(rhs.len() * C, S::ZERO);
@@ -275,14 +275,15 @@ where
         for ((weighed, rhs), weight) in weighed.iter_mut().zip(rhs).zip(&self.weights) {
             *weighed = rhs.map(|r| r.times_real(*weight));
         }
-        cycle(&mut self.levels, bottom, weighed, out);
+        cycle(&mut self.levels, bottom, visits, weighed, out);
     }
 }
 
 /// `out` becomes the correction for `rhs` on the first of the levels.
 fn cycle<S: Scalar, T: Coefficient<S> + Scalar, const C: usize>(
     levels: &mut [Level<T, S>],
-    (bottom, visits): (&mut Direct<S>, usize),
+    bottom: &mut Direct<S>,
+    visits: usize,
     rhs: &[[S; C]],
     out: &mut [[S; C]],
 ) where
@@ -304,7 +305,7 @@ fn cycle<S: Scalar, T: Coefficient<S> + Scalar, const C: usize>(
     let (again, scratch) = scratch.split_at_mut(m);
     let more = &mut scratch[..m];
     level.down.product(rhs, below, |_, sum, out| *out = sum);
-    cycle(rest, (bottom, visits), below, sum);
+    cycle(rest, bottom, visits, below, sum);
     for _ in 1..visits {
         let Some(next) = rest.first() else { break };
         let Some(rows) = &next.rows else { break };
@@ -313,7 +314,7 @@ fn cycle<S: Scalar, T: Coefficient<S> + Scalar, const C: usize>(
                 out[c] = below[i][c] - product[c] - next.shift[i] * sum[i][c];
             }
         });
-        cycle(rest, (bottom, visits), again, more);
+        cycle(rest, bottom, visits, again, more);
         crate::columns::add(sum, [S::ONE; C], more);
     }
     level.up.product(sum, out, |_, sum, out| *out = sum);

@@ -33,7 +33,7 @@ fn solve_any(a: &Sparse, rhs: &[f64]) -> (Vec<f64>, Outcome) {
     let mut x = vec![0.0; rhs.len()];
     let mut grid = Aggregation::new(a, false).unwrap();
     let work = &mut Workspace::default();
-    let outcome = gmres(a, rhs, &mut x, &mut grid, (RULE, 40), work).unwrap();
+    let outcome = gmres(a, rhs, &mut x, &mut grid, RULE.restarted(40), work).unwrap();
     assert!(RULE.reached(&outcome), "{outcome:?}");
     (x, outcome)
 }
@@ -98,7 +98,7 @@ fn the_diagonal_is_a_preconditioner_too() {
     assert!(rule.reached(&o), "{o:?}");
     assert!(difference(&x, exact.as_slice()) < 1e-7);
     x.fill(0.0);
-    let o = gmres(&a, &rhs, &mut x, &mut jacobi, (rule, 60), &mut work).unwrap();
+    let o = gmres(&a, &rhs, &mut x, &mut jacobi, rule.restarted(60), &mut work).unwrap();
     assert!(rule.reached(&o), "{o:?}");
     assert!(difference(&x, exact.as_slice()) < 1e-7);
 }
@@ -251,7 +251,7 @@ fn jacobians_of_conductivity_that_depends_on_temperature() {
         columns: &k,
     };
     let (mut y, mut work) = (vec![0.0; rhs.len()], Workspace::default());
-    let o = gmres(&j, &rhs, &mut y, &mut scaled, (RULE, 40), &mut work).unwrap();
+    let o = gmres(&j, &rhs, &mut y, &mut scaled, RULE.restarted(40), &mut work).unwrap();
     assert!(o.iterations <= 21, "{o:?}");
     assert!(difference(&x, &y) < 1e-7);
     let rough: Vec<f64> = (0..rhs.len())
@@ -260,7 +260,7 @@ fn jacobians_of_conductivity_that_depends_on_temperature() {
     let j = jacobian(&a, &rough);
     scaled.columns = &rough;
     y.fill(0.0);
-    let o = gmres(&j, &rhs, &mut y, &mut scaled, (RULE, 40), &mut work).unwrap();
+    let o = gmres(&j, &rhs, &mut y, &mut scaled, RULE.restarted(40), &mut work).unwrap();
     assert!(o.iterations <= 21 && RULE.reached(&o), "{o:?}");
 }
 
@@ -281,7 +281,7 @@ fn a_second_solve_costs_no_iterations() {
         };
         let again = conjugate_gradient(&a, &rhs, &mut x, &mut grid, rule, &mut work).unwrap();
         assert_eq!((again.iterations, again.last), (0, o.last));
-        let again = gmres(&a, &rhs, &mut x, &mut grid, (rule, 20), &mut work).unwrap();
+        let again = gmres(&a, &rhs, &mut x, &mut grid, rule.restarted(20), &mut work).unwrap();
         assert_eq!((again.iterations, again.last), (0, o.last));
     }
 }
@@ -398,7 +398,7 @@ fn faults_have_names() {
     let fault = Some(Error::NotFinite { index: 3, what });
     let o = conjugate_gradient(&good, &bad, &mut x, &mut grid, RULE, &mut work);
     assert_eq!(o.err(), fault);
-    let o = gmres(&good, &bad, &mut x, &mut grid, (RULE, 9), &mut work);
+    let o = gmres(&good, &bad, &mut x, &mut grid, RULE.restarted(9), &mut work);
     assert_eq!(o.err(), fault);
     let o = conjugate_gradient(&good, &rhs, &mut x[..5], &mut grid, RULE, &mut work);
     let (expected, found) = (1600, 5);

@@ -311,12 +311,11 @@ impl Near {
     /// Neighbours and kernel values for the positions in the grid.
     fn search(&mut self) {
         self.mark();
-        let cloud = (&self.position[..self.len], self.kernel.support());
+        let (points, support) = (&self.position[..self.len], self.kernel.support());
         let (kernel, role, marks) = (self.kernel, &self.role, &self.marks);
         let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
         self.lists.build_with(
-            &self.grid,
-            cloud,
+            self.grid.search(points, support),
             |a| role[a] != Role::Backing,
             rows(&mut self.pairs, sums, self.len),
             |chunk, squares, mut row| {

@@ -198,9 +198,8 @@ impl Curvature {
         self.grid.bin(&self.places);
         let (members, role) = (&self.members, &near.role);
         let liquid = |k: usize| role[members[k] as usize] == Role::Liquid;
-        let cloud = (&self.grid, &self.places[..points], reach);
-        self.lists
-            .build(cloud.0, cloud.1, cloud.2, liquid, |_, _| true);
+        let search = self.grid.search(&self.places[..points], reach);
+        self.lists.build(search, liquid, |_, _| true);
     }
 
     /// Shapes at all places of liquid particles.
