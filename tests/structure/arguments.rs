@@ -8,7 +8,7 @@ use std::path::Path;
 use super::{root, sources};
 
 /// Crates with functions that still take tuples apart.
-const STILL: [&str; 2] = ["emfield", "poolsph"];
+const STILL: [&str; 1] = ["poolsph"];
 
 /// The parameters of all functions of a text that are tuples taken apart.
 fn tuples(text: &str) -> Vec<String> {

@@ -95,8 +95,8 @@ impl Tool for EmField {
             return Ok(());
         };
         match (&liquid.march, &liquid.equilibrium) {
-            (Some(march), _) => march::liquid::flow(scene, (liquid, march), session),
-            (None, Some(rest)) => assemble::liquid::rest::rest(scene, (liquid, rest), session),
+            (Some(march), _) => march::liquid::flow(scene, liquid, march, session),
+            (None, Some(rest)) => assemble::liquid::rest::rest(scene, liquid, rest, session),
             (None, None) => Ok(()),
         }
     }

@@ -92,7 +92,7 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
         frames: frames as f64 / taken_frames as f64,
         judged: assemble::far::judged(scene),
     };
-    Ok(told(&taken, &more, (planned, small.len(), steps)))
+    Ok(told(&taken, &more, planned, small.len(), steps))
 }
 
 /// The scene with fewer points and these, unless it has few or can have no fewer.
@@ -209,7 +209,7 @@ impl More {
     }
 }
 
-fn told(taken: &Taken, more: &More, (planned, few, steps): (&Planned, usize, u64)) -> Estimate {
+fn told(taken: &Taken, more: &More, planned: &Planned, few: usize, steps: u64) -> Estimate {
     let once = |name: &str| more.judged || name != "far field";
     let seconds = |name: &str| match once(name) {
         true => taken.of(name).0 * more.times(name).0,

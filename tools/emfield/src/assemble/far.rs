@@ -32,7 +32,8 @@ pub(crate) fn judged(scene: &Scene) -> bool {
 /// # Errors
 /// Where the run is interrupted.
 pub(super) fn tell<const D: usize, const K: usize>(
-    (scene, cloud): (&Scene, &Cloud),
+    scene: &Scene,
+    cloud: &Cloud,
     found: &Found,
     session: &mut Session,
 ) -> Result<(), Failure> {

@@ -52,23 +52,29 @@ fn fields<const D: usize, const K: usize>(
         drop(expendable);
         let mut doubts = Vec::new();
         let parameters = magnetic::setup::parameters(scene, currents, cloud, numerics(scene))?;
-        let problem = problem::<D>((scene, &parameters), cloud, session)?;
-        let with = (transient, &scene.output);
-        march::currents::march::<D, K>(&problem, with, session, |time, fields, session| {
-            let mut all = still.clone();
-            all.join(fields);
-            doubts.append(&mut all.doubts);
-            output::write(scene, cloud, &samples, (time, &all), session)
-        })?;
+        let problem = problem::<D>(scene, &parameters, cloud, session)?;
+        let output = &scene.output;
+        march::currents::march::<D, K>(
+            &problem,
+            transient,
+            output,
+            session,
+            |time, fields, session| {
+                let mut all = still.clone();
+                all.join(fields);
+                doubts.append(&mut all.doubts);
+                output::write(scene, cloud, &samples, time, &all, session)
+            },
+        )?;
         tell(doubts, session);
         return Ok(());
     }
     let mut found = steady::<D, K>(scene, cloud, session)?;
     session.stopped()?;
-    far::tell::<D, K>((scene, cloud), &found, session)?;
+    far::tell::<D, K>(scene, cloud, &found, session)?;
     session.stopped()?;
     tell(std::mem::take(&mut found.doubts), session);
-    output::write(scene, cloud, &samples, (0.0, &found), session)
+    output::write(scene, cloud, &samples, 0.0, &found, session)
 }
 
 /// The fields of charges and electrodes, if there are some.
@@ -79,24 +85,26 @@ fn electric<const D: usize>(
 ) -> Result<Found, Failure> {
     let electrostatics = scene.electrostatics.as_ref();
     electrostatics.map_or(Ok(Found::default()), |electrostatics| {
-        let with = (numerics(scene), enclosing(scene, cloud)?);
-        electric::setup::electrostatics::<D>((scene, electrostatics), cloud, with, session)
+        electric::setup::electrostatics::<D>(
+            scene,
+            electrostatics,
+            cloud,
+            numerics(scene),
+            enclosing(scene, cloud)?,
+            session,
+        )
     })
 }
 
 /// What the eddy currents of a scene are computed with.
 fn problem<'a, const D: usize>(
-    (scene, parameters): (&Scene, &'a Parameters),
+    scene: &Scene,
+    parameters: &'a Parameters,
     cloud: &'a Cloud,
     session: &mut Session,
 ) -> Result<Problem<'a, D>, Failure> {
     let region = stencils::setup::region(scene, cloud, &|_| false);
-    Problem::new(
-        parameters,
-        (cloud, region),
-        enclosing(scene, cloud)?,
-        session,
-    )
+    Problem::new(parameters, cloud, region, enclosing(scene, cloud)?, session)
 }
 
 /// All fields of a scene that has no march.
@@ -109,7 +117,7 @@ fn steady<const D: usize, const K: usize>(
     session.stopped()?;
     if let Some(currents) = &scene.eddy_currents {
         let parameters = magnetic::setup::parameters(scene, currents, cloud, numerics(scene))?;
-        let problem = problem::<D>((scene, &parameters), cloud, session)?;
+        let problem = problem::<D>(scene, &parameters, cloud, session)?;
         found.join(match currents.standing {
             Some(_) => problem.standing::<K>(session)?,
             None => problem.harmonic::<K>(session)?,

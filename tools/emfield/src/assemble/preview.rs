@@ -69,8 +69,8 @@ pub(crate) fn preview(scene: &Scene) -> Result<Preview, Failure> {
 /// The points of a liquid at its start.
 fn liquid(scene: &Scene, part: &Liquid) -> Result<Preview, Failure> {
     match (&part.faces, scene.geometry) {
-        (Some(faces), Geometry::Space) => return between::<3>(scene, (part, faces)),
-        (Some(faces), _) => return between::<2>(scene, (part, faces)),
+        (Some(faces), Geometry::Space) => return between::<3>(scene, part, faces),
+        (Some(faces), _) => return between::<2>(scene, part, faces),
         (None, _) => {}
     }
     let filled = filled(scene, part)?;
@@ -89,8 +89,12 @@ fn liquid(scene: &Scene, part: &Liquid) -> Result<Preview, Failure> {
 }
 
 /// The points of a liquid between faces at its start.
-fn between<const D: usize>(scene: &Scene, of: (&Liquid, &Faces)) -> Result<Preview, Failure> {
-    let (room, filled) = super::liquid::between::filled::<D>(scene, of)?;
+fn between<const D: usize>(
+    scene: &Scene,
+    part: &Liquid,
+    faces: &Faces,
+) -> Result<Preview, Failure> {
+    let (room, filled) = super::liquid::between::filled::<D>(scene, part, faces)?;
     let mut preview = Preview::new(match scene.geometry {
         Geometry::Space => Coordinates::Space,
         _ => Coordinates::Plane,

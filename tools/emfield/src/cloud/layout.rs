@@ -113,7 +113,7 @@ fn wall(domain: &Domain, dimensions: usize, axisymmetric: bool) -> (Wall, f64) {
 
 impl Layout {
     /// A ball in space without bodies, with lattices from one spacing to a greater one \[m\].
-    pub(crate) fn ball((centre, radius): (Vector, f64), [spacing, largest]: [f64; 2]) -> Self {
+    pub(crate) fn ball(centre: Vector, radius: f64, [spacing, largest]: [f64; 2]) -> Self {
         Self {
             dimensions: 3,
             wall: Wall::Ball { centre, radius },

@@ -1,10 +1,9 @@
 //! What is written of a potential: fields of points, tractions, forces on bodies and on what surfaces enclose.
 
-use run::{Failure, Session};
 use shapes::frame::Vector;
 
 use super::doubts::doubts;
-use super::enclosed::{all_within, through};
+use super::enclosed::{Surfaces, forces};
 use super::equations::Problem;
 use super::open::walls::OpenWalls;
 use super::traction::{dielectric, electrode};
@@ -13,56 +12,50 @@ use crate::geometry::Geometry;
 use crate::output::{Column, Found};
 use crate::stencils::region::Region;
 use crate::stencils::setup::raise;
-use crate::stencils::sides::Form;
-use crate::surface::enclosing::Enclosing;
-use crate::surface::fits::{self, Enclosed, about_all};
 
-/// Columns and totals of a potential and the fields of both sides, by point.
+/// A potential and its field, by point.
+pub(crate) struct Potential<const D: usize> {
+    /// The potential \[V\].
+    pub(crate) value: Vec<f64>,
+    /// Its field; on interfaces that of the inner side \[V/m\].
+    pub(crate) inner: Vec<[f64; D]>,
+    /// Its field; on interfaces that of the outer side \[V/m\].
+    pub(crate) beyond: Vec<[f64; D]>,
+}
+
+/// Columns and totals of a potential, with the forces on what surfaces enclose.
 pub(crate) fn told<const D: usize>(
-    (cloud, problem): (&Cloud, &Problem),
-    at: (&Region<D>, &Form),
-    (value, fields): (Vec<f64>, [Vec<[f64; D]>; 2]),
-    (open, around): (Option<&OpenWalls>, Vec<Enclosing>),
-    session: &mut Session,
-) -> Result<Found, Failure> {
-    let region = at.0;
-    let enclosed = fits::all(around, at, session)?;
+    cloud: &Cloud,
+    problem: &Problem,
+    region: &Region<D>,
+    potential: Potential<D>,
+    open: Option<&OpenWalls>,
+    surfaces: &Surfaces<D>,
+) -> Found {
     let up = |e| raise(cloud.geometry, e);
+    let fields = [potential.inner, potential.beyond];
     let [inner, beyond] = fields.map(|field| field.into_iter().map(up).collect::<Vec<Vector>>());
-    let (mut found, pulls) = columns(cloud, problem, value, &inner, &beyond);
+    let (mut found, pulls) = columns(cloud, problem, potential.value, &inner, &beyond);
+    let potential = std::mem::take(&mut found.columns[0].values);
     if let Some(open) = open {
-        let potential = std::mem::take(&mut found.columns[0].values);
         open.totals(
-            (cloud.geometry, problem.permittivity[0]),
+            cloud.geometry,
+            problem.permittivity[0],
             &potential,
             &mut found,
         );
-        found.columns[0].values = potential;
     }
     if !cloud.surface.is_empty() {
-        let about = about_all(cloud, at, &enclosed, session);
-        let with = (found.columns[0].values.as_slice(), pulls.as_slice());
-        let (with, closed) = ((region, with), (enclosed.as_slice(), &about));
-        found.join(forces((cloud, problem), with, [&inner, &beyond], closed));
+        let mut closed = surfaces.asked(problem, region, &potential);
+        forces(cloud, &pulls, &closed, &mut found);
+        closed.extend(surfaces.all(problem, region, &potential));
+        let sides = [&inner, &beyond].map(|field| on_surface(cloud, field));
+        let sides = sides.each_ref().map(Vec::as_slice);
+        let doubts = doubts(cloud, problem, &pulls, sides, &closed);
+        found.doubts.extend(doubts);
     }
-    Ok(found)
-}
-
-/// Electric forces on what surfaces enclose, and doubts about those on bodies, from potential by point, tractions by
-/// surface point, and the fields of both sides by point.
-fn forces<const D: usize>(
-    at: (&Cloud, &Problem),
-    (region, (potential, pulls)): (&Region<D>, (&[f64], &[Vector])),
-    fields: [&[Vector]; 2],
-    (enclosed, about): (&[Enclosed<D>], &Option<Enclosed<D>>),
-) -> Found {
-    let sides = fields.map(|field| on_surface(at.0, field));
-    let sides = sides.each_ref().map(Vec::as_slice);
-    let mut totals = Found::default();
-    let mut closed = through(at, region, (potential, pulls), enclosed, &mut totals);
-    closed.extend(all_within(at.1, (region, potential), about));
-    totals.doubts = doubts(at, (pulls, sides), &closed);
-    totals
+    found.columns[0].values = potential;
+    found
 }
 
 /// Values of points on surfaces.

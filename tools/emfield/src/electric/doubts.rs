@@ -25,7 +25,7 @@ struct Pulled {
 }
 
 impl Pulled {
-    fn add(&mut self, area: f64, (pull, [inside, outside]): (Vector, [Vector; 2]), place: Vector) {
+    fn add(&mut self, area: f64, pull: Vector, [inside, outside]: [Vector; 2], place: Vector) {
         let jump = minus(outside, inside);
         for k in 0..3 {
             self.force[k] += area * pull[k];
@@ -43,8 +43,10 @@ impl Pulled {
 /// Doubts about electric forces: of each body by its tractions and by the stress of both sides, of all within each closed
 /// surface by the stress over it. Tractions and fields of both sides are by surface point.
 pub(crate) fn doubts(
-    (cloud, problem): (&Cloud, &Problem),
-    (pulls, sides): (&[Vector], [&[Vector]; 2]),
+    cloud: &Cloud,
+    problem: &Problem,
+    pulls: &[Vector],
+    sides: [&[Vector]; 2],
     closed: &[Closed],
 ) -> Vec<Doubt> {
     let mut bodies = vec![Pulled::default(); cloud.media.len() - 1];
@@ -53,11 +55,11 @@ pub(crate) fn doubts(
         let both = both(problem, s, sides.map(|fields| fields[n]));
         let place = cloud.position[s.point as usize];
         if s.inner > 0 {
-            bodies[s.inner as usize - 1].add(s.area, (*pull, both), place);
+            bodies[s.inner as usize - 1].add(s.area, *pull, both, place);
         }
         for (all, one) in within.iter_mut().zip(closed) {
             if one.within.is_none_or(|w| w[s.point as usize]) {
-                all.add(s.area, (*pull, both), place);
+                all.add(s.area, *pull, both, place);
             }
         }
     }
@@ -94,7 +96,7 @@ pub(crate) fn doubts(
             at: all.worst.1,
         };
         let doubt = ways.doubt(geometry);
-        doubt.or_else(|| charged((cloud, problem), one, (&ways, all)))
+        doubt.or_else(|| charged(cloud, problem, one, &ways, all))
     });
     let worst = |a: Doubt, b: Doubt| if b.share > a.share { b } else { a };
     own.reduce(worst)
@@ -118,9 +120,11 @@ fn both(problem: &Problem, s: &SurfacePoint, fields: [Vector; 2]) -> [Vector; 2]
 /// What to say where a surface about dielectrics lets a flux through as if they carried charge: the field about them
 /// pulls at it.
 fn charged(
-    (cloud, problem): (&Cloud, &Problem),
+    cloud: &Cloud,
+    problem: &Problem,
     one: &Closed,
-    (ways, all): (&Ways, &Pulled),
+    ways: &Ways,
+    all: &Pulled,
 ) -> Option<Doubt> {
     if problem.electrodes.iter().any(Option::is_some) {
         return None;
@@ -138,7 +142,7 @@ fn charged(
             if cloud.geometry == Geometry::Plane { "C/m" } else { "C" },
             cloud.geometry.unit_of_force(),
             100.0 * share,
-            told(ways.at.into()),
+            told(ways.at),
         ),
     })
 }

@@ -1,5 +1,6 @@
 //! Force and charge of what closed surfaces enclose.
 
+use run::{Failure, Session};
 use shapes::frame::Vector;
 
 use super::equations::Problem;
@@ -7,7 +8,9 @@ use super::traction::EPS0;
 use crate::cloud::Cloud;
 use crate::output::Found;
 use crate::stencils::region::Region;
-use crate::surface::fits::Enclosed;
+use crate::stencils::sides::Form;
+use crate::surface::enclosing::Enclosing;
+use crate::surface::fits::{self, Enclosed, about_all};
 use crate::surface::ways::{push, strength};
 
 /// What the electric field does through a closed surface to all within.
@@ -24,10 +27,63 @@ pub(crate) struct Closed<'a> {
     pub(crate) within: Option<&'a [bool]>,
 }
 
+/// Closed surfaces through which forces are taken, with fits of the points about them.
+pub(crate) struct Surfaces<const D: usize> {
+    /// Those that a scene asks for.
+    asked: Vec<Enclosed<D>>,
+    /// One about all bodies, where there is room for it and none of the others is one.
+    all: Option<Enclosed<D>>,
+}
+
+impl<const D: usize> Surfaces<D> {
+    /// Makes the fits.
+    ///
+    /// # Errors
+    /// Where too few points lie about a surface that is asked for.
+    pub(crate) fn new(
+        cloud: &Cloud,
+        region: &Region<D>,
+        form: &Form,
+        asked: Vec<Enclosing>,
+        session: &mut Session,
+    ) -> Result<Self, Failure> {
+        let asked = fits::all(asked, region, form, session)?;
+        let all = match cloud.surface.is_empty() {
+            true => None,
+            false => about_all(cloud, region, form, &asked, session),
+        };
+        Ok(Self { asked, all })
+    }
+
+    /// What the field of a potential by point does through the surfaces that are asked for.
+    pub(crate) fn asked(
+        &self,
+        problem: &Problem,
+        region: &Region<D>,
+        potential: &[f64],
+    ) -> Vec<Closed<'_>> {
+        let each = self.asked.iter();
+        each.map(|one| closed(problem, region, potential, one))
+            .collect()
+    }
+
+    /// What it does through the surface about all bodies.
+    pub(crate) fn all(
+        &self,
+        problem: &Problem,
+        region: &Region<D>,
+        potential: &[f64],
+    ) -> Option<Closed<'_>> {
+        let all = self.all.as_ref()?;
+        Some(closed(problem, region, potential, all))
+    }
+}
+
 /// Force and flux of a potential by point over a closed surface.
 fn closed<'a, const D: usize>(
     problem: &Problem,
-    (region, potential): (&Region<D>, &[f64]),
+    region: &Region<D>,
+    potential: &[f64],
     one: &'a Enclosed<D>,
 ) -> Closed<'a> {
     let surface = &one.surface;
@@ -42,16 +98,9 @@ fn closed<'a, const D: usize>(
     }
 }
 
-/// Adds the electric forces of a potential by point; `pulls` are the tractions on surfaces of bodies.
-pub(crate) fn through<'a, const D: usize>(
-    (cloud, problem): (&Cloud, &Problem),
-    region: &Region<D>,
-    (potential, pulls): (&[f64], &[Vector]),
-    enclosed: &'a [Enclosed<D>],
-    all: &mut Found,
-) -> Vec<Closed<'a>> {
-    let add = |one| {
-        let closed = closed(problem, (region, potential), one);
+/// Adds the electric forces on what surfaces enclose; `pulls` are the tractions on surfaces of bodies.
+pub(crate) fn forces(cloud: &Cloud, pulls: &[Vector], closed: &[Closed], all: &mut Found) {
+    for closed in closed {
         let mut bodies = [0.0; 3];
         for (s, pull) in cloud.surface.iter().zip(pulls) {
             if closed.within.is_none_or(|w| w[s.point as usize]) {
@@ -60,16 +109,5 @@ pub(crate) fn through<'a, const D: usize>(
         }
         let name = format!("{}.electric_force", closed.name);
         push(cloud.geometry, &name, &[closed.force, bodies], all);
-        closed
-    };
-    enclosed.iter().map(add).collect()
-}
-
-/// What the field does through a surface about all bodies.
-pub(crate) fn all_within<'a, const D: usize>(
-    problem: &Problem,
-    at: (&Region<D>, &[f64]),
-    about: &'a Option<Enclosed<D>>,
-) -> Option<Closed<'a>> {
-    about.as_ref().map(|one| closed(problem, at, one))
+    }
 }

@@ -28,9 +28,11 @@ const SAME: f64 = 1e-9;
 /// # Errors
 /// Where a stencil cannot be made, a formula has no value, or the solve breaks down.
 pub(crate) fn electrostatics<const D: usize>(
-    (scene, electrostatics): (&Scene, &Electrostatics),
+    scene: &Scene,
+    electrostatics: &Electrostatics,
     cloud: &Cloud,
-    (numerics, around): (Numerics, Vec<Enclosing>),
+    numerics: Numerics,
+    around: Vec<Enclosing>,
     session: &mut Session,
 ) -> Result<Found, Failure> {
     let walls = Walls::new(cloud, electrostatics)?;

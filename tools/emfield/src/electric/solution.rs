@@ -3,7 +3,8 @@
 use krylov::{Options, Pair, Rows, System};
 use run::{Failure, Session};
 
-use super::columns::told;
+use super::columns::{Potential, told};
+use super::enclosed::Surfaces;
 use super::equations::{Equations, Held, Problem, Smeared};
 use super::open::walls::{Applied, OpenWalls};
 use crate::cloud::Cloud;
@@ -41,10 +42,10 @@ pub(crate) fn found<const D: usize>(
     } = given;
     let form = numerics.form;
     let low = numerics.low_order(region.len());
-    let open = OpenWalls::new(cloud, (problem, given.applied), (region, &form), session)?;
+    let open = OpenWalls::new(cloud, problem, given.applied, region, &form, session)?;
     let open = open.as_ref();
     let stencil = |error: wls::Error| no_stencil("electrostatics", &error, cloud);
-    let (value, inner, beyond) = if given.smeared {
+    let potential = if given.smeared {
         let form = form.for_potentials();
         let made = session.timed("weights", || Smeared::new(region, &form));
         let stencils = made.map_err(stencil)?;
@@ -54,9 +55,13 @@ pub(crate) fn found<const D: usize>(
             Ok(session.timed("assemble", || stencils.rows(problem, region).0))
         });
         let low = low.transpose().map_err(stencil)?;
-        let v = solve((cloud, numerics), equations, (low, open), session)?;
-        let a = session.timed("fields", || stencils.field(&v));
-        (v, a.clone(), a)
+        let value = solve(cloud, numerics, equations, low, open, session)?;
+        let inner = session.timed("fields", || stencils.field(&value));
+        Potential {
+            value,
+            beyond: inner.clone(),
+            inner,
+        }
     } else {
         let form = if region.axial {
             form.for_potentials()
@@ -74,22 +79,20 @@ pub(crate) fn found<const D: usize>(
             Ok(session.timed("assemble", || problem.rows(region, &sides).0))
         });
         let low = low.transpose().map_err(stencil)?;
-        let v = solve((cloud, numerics), equations, (low, open), session)?;
-        let field = |inner| Problem::field(region, &sides, &v, inner);
-        let (a, b) = session.timed("fields", || (field(true), field(false)));
-        (v, a, b)
+        let value = solve(cloud, numerics, equations, low, open, session)?;
+        let field = |inner| Problem::field(region, &sides, &value, inner);
+        let (inner, beyond) = session.timed("fields", || (field(true), field(false)));
+        Potential {
+            value,
+            inner,
+            beyond,
+        }
     };
-    if let Some(what) = beyond_given(cloud, given.applied.is_some(), problem, &value) {
+    if let Some(what) = beyond_given(cloud, given.applied.is_some(), problem, &potential.value) {
         session.warn(what);
     }
-    let fields = (value, [inner, beyond]);
-    told(
-        (cloud, problem),
-        (region, &form),
-        fields,
-        (open, around),
-        session,
-    )
+    let surfaces = Surfaces::new(cloud, region, &form, around, session)?;
+    Ok(told(cloud, problem, region, potential, open, &surfaces))
 }
 
 /// Share of the range of what is given by which a potential may lie outside it.
@@ -123,12 +126,14 @@ fn beyond_given(cloud: &Cloud, open: bool, problem: &Problem, value: &[f64]) -> 
 
 /// Solves the equations; rows of low order, where there are some, precondition them.
 fn solve(
-    at: (&Cloud, &Numerics),
-    (rows, mut right): Equations,
-    (low, open): (Option<Rows<f64>>, Option<&OpenWalls>),
+    cloud: &Cloud,
+    numerics: &Numerics,
+    equations: Equations,
+    low: Option<Rows<f64>>,
+    open: Option<&OpenWalls>,
     session: &mut Session,
 ) -> Result<Vec<f64>, Failure> {
-    let (cloud, numerics) = at;
+    let (rows, mut right) = equations;
     let options = Options {
         fluxes: true,
         ..numerics.options
@@ -137,16 +142,20 @@ fn solve(
         Some(low) => System::with_low_order(rows, Vec::new(), low, options),
         None => System::new(rows, Vec::new(), options),
     });
-    let mut system = made.map_err(|error| unsolvable("potential", &error, cloud))?;
-    let Some(open) = open else {
-        return solve_for(at, (&mut system, &[]), ("potential", &right), session);
+    let mut ready = Ready {
+        cloud,
+        numerics,
+        system: made.map_err(|error| unsolvable("potential", &error, cloud))?,
+        pairs: open.map_or_else(Vec::new, |open| open.far.pairs()),
     };
-    let pairs = open.far.pairs();
+    let Some(open) = open else {
+        return ready.solve("potential", &right, session);
+    };
     open.far.applied(&open.applied, &mut right);
-    let mut found = solve_for(at, (&mut system, &pairs), ("potential", &right), session)?;
+    let mut found = ready.solve("potential", &right, session)?;
     if open.floats {
         let name = "potential_far";
-        let unit = solve_for(at, (&mut system, &pairs), (name, &open.walls), session)?;
+        let unit = ready.solve(name, &open.walls, session)?;
         let far = (open.far.flux(&open.applied) - open.far.flux(&found)) / open.far.flux(&unit);
         for (v, unit) in found.iter_mut().zip(unit) {
             *v += far * unit;
@@ -156,18 +165,31 @@ fn solve(
     Ok(found)
 }
 
-/// The potential that a right side has.
-fn solve_for(
-    (cloud, numerics): (&Cloud, &Numerics),
-    (system, pairs): (&mut System<f64, f64>, &[Pair<f64>]),
-    (name, right): (&str, &[[f64; 1]]),
-    session: &mut Session,
-) -> Result<Vec<f64>, Failure> {
-    let mut x = vec![[0.0]; right.len()];
-    let stop = session.interrupt();
-    let rule = numerics.rule(&*stop);
-    let solved = session.timed("solve", || system.solve_with(pairs, right, &mut x, rule));
-    let at = (cloud, |i: usize| x[i][0].abs());
-    report((name, "V"), &solved, at, session)?;
-    Ok(x.into_iter().map(|x| x[0]).collect())
+/// Equations that are ready to be solved.
+struct Ready<'a> {
+    cloud: &'a Cloud,
+    numerics: &'a Numerics,
+    system: System<f64, f64>,
+    /// What multipoles put into the rows of open walls.
+    pairs: Vec<Pair<f64>>,
+}
+
+impl Ready<'_> {
+    /// The potential that a right side has; what is said of the solve has this name.
+    fn solve(
+        &mut self,
+        name: &str,
+        right: &[[f64; 1]],
+        session: &mut Session,
+    ) -> Result<Vec<f64>, Failure> {
+        let mut x = vec![[0.0]; right.len()];
+        let stop = session.interrupt();
+        let rule = self.numerics.rule(&*stop);
+        let solved = session.timed("solve", || {
+            self.system.solve_with(&self.pairs, right, &mut x, rule)
+        });
+        let size = |i: usize| x[i][0].abs();
+        report(name, "V", &solved, self.cloud, size, session)?;
+        Ok(x.into_iter().map(|x| x[0]).collect())
+    }
 }

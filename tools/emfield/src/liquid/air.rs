@@ -148,7 +148,7 @@ impl Air {
             spacing + growth * (away - nearer - fine).max(0.0)
         };
         let largest = spacing + growth * (radius - fine);
-        let region = Layout::ball((centre, radius), [spacing, largest]);
+        let region = Layout::ball(centre, radius, [spacing, largest]);
         let lattice = graded(&region, &wanted);
         let edge = (0..6)
             .map(|k| {
@@ -165,7 +165,7 @@ impl Air {
             }),
             3,
         );
-        let wall = seeds(&body, 3, (edge, edge), &|_| edge)
+        let wall = seeds(&body, 3, edge, edge, &|_| edge)
             .into_iter()
             .map(|seed| Node {
                 place: seed.place,

@@ -32,7 +32,7 @@ pub struct Filled<const D: usize> {
 /// Fills a body with points at about `spacing` \[m\], one for each cube (square) of that edge.
 #[must_use]
 pub fn fill<const D: usize>(body: &Body, spacing: f64) -> Filled<D> {
-    let seeds = cloud::seeds(body, D, (spacing, spacing), &|_| spacing);
+    let seeds = cloud::seeds(body, D, spacing, spacing, &|_| spacing);
     let surface = seeds.len();
     let mut position: Vec<[f64; D]> = seeds.iter().map(|s| flat(&s.place)).collect();
     let lattice = lattice::<D>(body.bounds(), spacing);

@@ -41,3 +41,12 @@ impl Way {
         }
     }
 }
+
+/// A step in time.
+#[derive(Debug, Clone, Copy)]
+pub struct Step<'a> {
+    /// How it is made.
+    pub way: &'a Way,
+    /// How long it is \[s\].
+    pub dt: f64,
+}

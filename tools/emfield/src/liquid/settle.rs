@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use wls::{Error, Stencils};
 
 use super::fill::pushes;
-use super::matter::{Matter, Way};
+use super::matter::{Matter, Step};
 use super::operators::{Points, values};
 use super::room::images::Images;
 use super::step::Liquid;
@@ -28,7 +28,8 @@ impl<const D: usize> Liquid<D> {
     ///
     /// # Errors
     /// Where points coincide.
-    pub fn quiet(&mut self, matter: &Matter<D>, way: &Way, dt: f64) -> Result<(), Error> {
+    pub fn quiet(&mut self, matter: &Matter<D>, step: Step<'_>) -> Result<(), Error> {
+        let Step { way, dt } = step;
         let h = way.spacing;
         let fastest = self.velocity.iter().map(length).fold(0.0, f64::max);
         let ripples = (matter.tension / (matter.density * h.powi(3))).sqrt();

@@ -29,7 +29,7 @@ use super::rounds::Rounds;
 use super::surface::{Bare, Patch, Sheet, beside};
 use super::vector::{along, difference, dot};
 
-pub use super::matter::{Matter, Way};
+pub use super::matter::{Matter, Step, Way};
 pub use super::points::Liquid;
 
 /// g of the stages.
@@ -88,17 +88,17 @@ pub struct Ended<const D: usize> {
 }
 
 impl<const D: usize> Liquid<D> {
-    /// Takes a step of `dt` \[s\].
+    /// Takes a step.
     ///
     /// # Errors
     /// Where fits or equations cannot be made.
     pub fn advance(
         &mut self,
         matter: &Matter<D>,
-        way: &Way,
-        dt: f64,
+        step: Step<'_>,
         effort: &mut Effort,
     ) -> Result<Ended<D>, Failure> {
+        let Step { way, dt } = step;
         let tau = PART * dt;
         let base = Base {
             position: self.position.clone(),

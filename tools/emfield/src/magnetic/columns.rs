@@ -8,7 +8,7 @@ use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, Media, Solution};
 use crate::magnetic::medium::law::traction;
 use crate::magnetic::source::{C, Source};
-use crate::magnetic::totals::{Acting, Totals};
+use crate::magnetic::totals::Totals;
 use crate::magnetic::unknown::Unknown;
 use crate::output::{Column, Found};
 use crate::stencils::region::Face;
@@ -43,7 +43,8 @@ impl<const D: usize> Problem<'_, D> {
             flux: driven.flux,
         };
         let mut fields = Fields::new(
-            (&self.region, &self.sides),
+            &self.region,
+            &self.sides,
             self.parameters.unknown,
             solution,
             &media,
@@ -59,8 +60,13 @@ impl<const D: usize> Problem<'_, D> {
             }
         }
         if let Some(windings) = driven.windings {
-            let at = (&self.region, &self.sides);
-            fields.wound::<D, K>(at, self.parameters.unknown, (&media, windings));
+            fields.wound::<D, K>(
+                &self.region,
+                &self.sides,
+                self.parameters.unknown,
+                &media,
+                windings,
+            );
         }
         if self.parameters.unknown == Unknown::Axial {
             for (part, of) in self.parts() {
@@ -69,8 +75,8 @@ impl<const D: usize> Problem<'_, D> {
                 columns.push(Column::new(&name, "A/m", values));
             }
         } else {
-            let name = ("vector_potential", "Wb/m");
-            self.vector(columns, name, &fields.potential, &[]);
+            let potential = &fields.potential;
+            self.vector(columns, "vector_potential", "Wb/m", potential, &[]);
         }
         self.flux(&fields, columns);
         if conductivity.iter().any(|s| *s > 0.0) || driven.windings.is_some() {
@@ -79,21 +85,10 @@ impl<const D: usize> Problem<'_, D> {
         if self.magnetic() {
             all.surface.extend(self.pulls(&fields));
         }
-        let acts: Vec<bool> = (0..self.cloud.media.len()).map(|m| self.acts(m)).collect();
-        let acting = Acting {
-            acts: &acts,
-            laws: &self.parameters.laws,
-            permeable: self.conductors.permeable.as_ref(),
-        };
-        let totals = self.totals(&fields, (driven, acting), &mut all);
-        self.enclosed(
-            solution,
-            (&fields, &totals),
-            (driven.source, acting),
-            &mut all,
-        );
-        all.doubts.extend(self.doubt(&fields, &totals, acting));
-        all.doubts.extend(self.heat_doubt(&fields, &totals, acting));
+        let totals = self.totals(&fields, driven, &mut all);
+        self.enclosed(solution, &fields, &totals, driven.source, &mut all);
+        all.doubts.extend(self.doubt(&fields, &totals));
+        all.doubts.extend(self.heat_doubt(&fields, &totals));
         all
     }
 
@@ -103,18 +98,13 @@ impl<const D: usize> Problem<'_, D> {
         if self.magnetic() {
             beyond.extend(fields.beyond.iter().map(|b| b.flux));
         }
-        let name = ("magnetic_flux_density", "T");
-        self.vector(columns, name, &fields.flux, &beyond);
+        let name = "magnetic_flux_density";
+        self.vector(columns, name, "T", &fields.flux, &beyond);
     }
 
     /// Whether permeability is not uniform.
     fn magnetic(&self) -> bool {
         self.parameters.magnetic.contains(&true)
-    }
-
-    /// Whether a magnetic field acts on a medium.
-    fn acts(&self, medium: usize) -> bool {
-        self.parameters.conductivity[medium] > 0.0 || self.parameters.magnetic[medium]
     }
 
     /// Traction where permeability jumps, by surface point.
@@ -140,7 +130,8 @@ impl<const D: usize> Problem<'_, D> {
     fn vector(
         &self,
         columns: &mut Vec<Column>,
-        (name, unit): (&str, &'static str),
+        name: &str,
+        unit: &'static str,
         values: &[[C; 3]],
         beyond: &[[C; 3]],
     ) {
@@ -156,8 +147,8 @@ impl<const D: usize> Problem<'_, D> {
     /// Currents, forces and heat of conductors.
     fn currents(&self, fields: &Fields, columns: &mut Vec<Column>) {
         let beyond: Vec<[C; 3]> = fields.beyond.iter().map(|b| b.current).collect();
-        let name = ("current_density", "A/m2");
-        self.vector(columns, name, &fields.current, &beyond);
+        let current = &fields.current;
+        self.vector(columns, "current_density", "A/m2", current, &beyond);
         let beyond: Vec<Vector> = fields.beyond.iter().map(|b| b.force).collect();
         columns.extend(Column::vector(
             "force_density",
@@ -172,12 +163,8 @@ impl<const D: usize> Problem<'_, D> {
     }
 
     /// Adds and gives the totals of all conductors.
-    fn totals(
-        &self,
-        fields: &Fields,
-        (driven, acting): (Driven<'_>, Acting<'_>),
-        all: &mut Found,
-    ) -> Totals {
+    fn totals(&self, fields: &Fields, driven: Driven<'_>, all: &mut Found) -> Totals {
+        let acting = self.acting();
         let geometry = self.cloud.geometry;
         let (newton, watt) = (geometry.unit_of_force(), geometry.unit_of_power());
         let mut force = |name: &str, value| push_force(geometry, name, value, all);
@@ -198,7 +185,9 @@ impl<const D: usize> Problem<'_, D> {
             &self.region,
             fields,
             &self.weights,
-            ((driven.source, driven.windings), acting),
+            driven.source,
+            driven.windings,
+            acting,
         );
         force("force_volume", found.force_volume);
         force("force_maxwell", found.force_stress);

@@ -28,6 +28,17 @@ pub struct Conductors {
     pub permeable: Option<Permeable>,
 }
 
+/// The points, their stencils, and what is sought at them.
+#[derive(Debug, Clone, Copy)]
+pub struct Ground<'a, const D: usize> {
+    /// Points.
+    pub region: &'a Region<D>,
+    /// Stencils.
+    pub sides: &'a Sides<D>,
+    /// What is sought.
+    pub unknown: Unknown,
+}
+
 /// Media and holes as `H_z` needs them.
 #[derive(Debug, Clone)]
 pub struct Axial {
@@ -84,7 +95,8 @@ impl Conductors {
     #[must_use]
     pub fn at<const D: usize>(
         &self,
-        (region, sides): (&Region<D>, &Sides<D>),
+        region: &Region<D>,
+        sides: &Sides<D>,
         unknown: Unknown,
         i: usize,
     ) -> f64 {
@@ -94,7 +106,7 @@ impl Conductors {
         if let Some((hole, media)) = self.hole(i) {
             let first = hole.first as usize == i;
             return if first {
-                hole.rate((region, sides), media)
+                hole.rate(region, sides, media)
             } else {
                 0.0
             };
@@ -123,7 +135,7 @@ impl Conductors {
         unknown: Unknown,
     ) -> Vec<f64> {
         (0..region.len())
-            .map(|i| self.at((region, sides), unknown, i))
+            .map(|i| self.at(region, sides, unknown, i))
             .collect()
     }
 
@@ -161,7 +173,7 @@ impl Conductors {
             }
             if let Some((hole, media)) = self.hole(i) {
                 if hole.first as usize == i {
-                    hole.row((region, sides), media, push);
+                    hole.row(region, sides, media, push);
                 } else {
                     push(i, 1.0);
                     push(hole.first as usize, -1.0);

@@ -5,7 +5,7 @@ use shapes::frame::{Vector, length};
 use super::fields::{Beyond, Fields};
 use super::problem::Problem;
 use super::source::C;
-use super::totals::{Acting, Totals};
+use super::totals::Totals;
 use super::unknown::Unknown;
 use crate::cloud::{Class, SurfacePoint};
 use crate::output::Doubt;
@@ -19,7 +19,7 @@ const NOISE: f64 = 1e-7;
 
 /// What to say of a heat by volume and by what flows in through surfaces, if they disagree; `gross` is what that comes to without
 /// its phase.
-fn heats(ways: [f64; 2], gross: f64, (unit, at): (&str, Vector)) -> Option<Doubt> {
+fn heats(ways: [f64; 2], gross: f64, unit: &str, at: Vector) -> Option<Doubt> {
     let apart = (ways[0] - ways[1]).abs();
     let most = ways[0].abs().max(ways[1].abs());
     let share = apart / most.max(NOISE * gross);
@@ -32,20 +32,15 @@ fn heats(ways: [f64; 2], gross: f64, (unit, at): (&str, Vector)) -> Option<Doubt
             ways[0],
             ways[1],
             100.0 * share,
-            told(at.into()),
+            told(at),
         ),
     })
 }
 
 impl<const D: usize> Problem<'_, D> {
     /// A doubt about the force on all bodies; none where a wall counts as a part of one, whose surface lacks that.
-    pub(crate) fn doubt(
-        &self,
-        fields: &Fields,
-        totals: &Totals,
-        acting: Acting<'_>,
-    ) -> Option<Doubt> {
-        if self.parameters.unknown == Unknown::Axial || self.walled(acting) {
+    pub(crate) fn doubt(&self, fields: &Fields, totals: &Totals) -> Option<Doubt> {
+        if self.parameters.unknown == Unknown::Axial || self.walled() {
             return None;
         }
         let volume = ("volume".to_owned(), totals.force_volume);
@@ -64,7 +59,7 @@ impl<const D: usize> Problem<'_, D> {
         }
         let doubt = |ways: Vec<(String, Vector)>, gross: f64| {
             let all = Ways {
-                of: if acting.permeable.is_some() {
+                of: if self.acting().permeable.is_some() {
                     "all bodies"
                 } else {
                     "all conductors"
@@ -78,14 +73,15 @@ impl<const D: usize> Problem<'_, D> {
         };
         // The stress is that of the sources too, whose sum over points is not nothing. Beside them weak currents are noise.
         let all = [volume.clone(), stress].into_iter().chain(coil.clone());
-        let most = self.stresses(fields, acting);
+        let most = self.stresses(fields);
         let found = doubt(all.collect(), gross.max(most));
         let pair = || doubt(vec![volume, coil?], gross);
         found.or_else(|| (gross > WEAK * most).then(pair).flatten())
     }
 
     /// Whether a wall counts as a part of what is acted on, whose surface lacks that.
-    fn walled(&self, acting: Acting<'_>) -> bool {
+    fn walled(&self) -> bool {
+        let acting = self.acting();
         let acts = |m: u8| acting.acts[m as usize];
         let walled = |class: &Class| matches!(class, Class::Outer { medium, .. } if acts(*medium));
         self.cloud.class.iter().any(walled)
@@ -93,33 +89,26 @@ impl<const D: usize> Problem<'_, D> {
 
     /// A doubt about the heat in all conductors in a sinusoidal steady state: what is released in them is what flows in through
     /// their surfaces (Poynting 1884).
-    pub(crate) fn heat_doubt(
-        &self,
-        fields: &Fields,
-        totals: &Totals,
-        acting: Acting<'_>,
-    ) -> Option<Doubt> {
+    pub(crate) fn heat_doubt(&self, fields: &Fields, totals: &Totals) -> Option<Doubt> {
         if self.parameters.omega.is_none()
             || self.parameters.unknown == Unknown::Axial
-            || self.walled(acting)
+            || self.walled()
         {
             return None;
         }
         let heat = |i: &usize| (self.weights[*i] * fields.heat[*i]).abs();
         let hottest = (0..self.weights.len()).max_by(|a, b| heat(a).total_cmp(&heat(b)))?;
-        let at = (
-            self.cloud.geometry.unit_of_power(),
-            self.cloud.position[hottest],
-        );
         heats(
             [totals.heat_volume, totals.heat_surface],
             totals.heat_gross,
-            at,
+            self.cloud.geometry.unit_of_power(),
+            self.cloud.position[hottest],
         )
     }
 
     /// What the stresses on surfaces of bodies come to without their directions, from without \[N\].
-    fn stresses(&self, fields: &Fields, acting: Acting<'_>) -> f64 {
+    fn stresses(&self, fields: &Fields) -> f64 {
+        let acting = self.acting();
         let square = |(s, beyond): (&SurfacePoint, &Beyond)| -> f64 {
             let [a, b] = [s.inner, s.outer].map(|m| acting.acts[m as usize]);
             if a == b {
@@ -144,7 +133,7 @@ mod tests {
 
     #[test]
     fn heats_that_disagree_are_told() {
-        let told = |ways, gross| heats(ways, gross, ("W", [0.0; 3]));
+        let told = |ways, gross| heats(ways, gross, "W", [0.0; 3]);
         let far = told([34.6, 1.7e-6], 100.0).unwrap();
         assert!(
             far.share > 0.99 && far.what.contains("3.460e1 W by volume, 1.700e-6 W by"),

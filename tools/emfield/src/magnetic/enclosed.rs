@@ -5,7 +5,7 @@ use shapes::frame::Vector;
 use super::fields::{Fields, Solution, cross_mean};
 use super::problem::Problem;
 use super::source::{C, Source, minus};
-use super::totals::{Acting, Totals};
+use super::totals::Totals;
 use crate::output::Found;
 use crate::surface::fits::Enclosed;
 use crate::surface::ways::push;
@@ -15,8 +15,9 @@ impl<const D: usize> Problem<'_, D> {
     pub(crate) fn enclosed<const K: usize>(
         &self,
         solution: Solution<'_, K>,
-        (fields, totals): (&Fields, &Totals),
-        (source, acting): (&Source, Acting<'_>),
+        fields: &Fields,
+        totals: &Totals,
+        source: &Source,
         all: &mut Found,
     ) {
         for one in &self.enclosed {
@@ -24,7 +25,7 @@ impl<const D: usize> Problem<'_, D> {
             let mu = self.parameters.laws[surface.medium as usize].permeability(0.0);
             let (stress, heat) = self.stress(one, solution.found, source);
             let kept = |i: usize| surface.within[i];
-            let bodies = Totals::bodies(&self.region, fields, &self.weights, acting, kept);
+            let bodies = Totals::bodies(&self.region, fields, &self.weights, self.acting(), kept);
             let mut ways = vec![
                 stress.map(|f| f / mu),
                 bodies.force_volume,

@@ -80,6 +80,13 @@ pub struct Media<'a> {
     pub flux: &'a [[C; 3]],
 }
 
+impl Media<'_> {
+    /// The permeability of a medium \[H/m\]; zero where it depends on the field.
+    fn permeability(&self, medium: u8) -> f64 {
+        self.laws[medium as usize].constant().unwrap_or(0.0)
+    }
+}
+
 /// A solution, by point.
 #[derive(Debug, Clone, Copy)]
 pub struct Solution<'a, const K: usize> {
@@ -94,14 +101,18 @@ pub struct Solution<'a, const K: usize> {
 }
 
 impl<const K: usize> Solution<'_, K> {
-    /// Slopes of the reaction at a point, on interfaces from the inner side, where `mu sigma` is given.
+    /// Slopes of the reaction at a point, on interfaces from the inner side.
     fn slopes<const D: usize>(
         &self,
-        (region, sides): (&Region<D>, &Sides<D>),
+        region: &Region<D>,
+        sides: &Sides<D>,
         unknown: Unknown,
         i: usize,
-        (media, mu_sigma): (&Media<'_>, f64),
+        media: &Media<'_>,
     ) -> [[C; D]; K] {
+        let medium = region.medium(i);
+        // Slopes beside a medium whose permeability depends on the field do not know the Laplacian.
+        let mu_sigma = media.permeability(medium) * media.conductivity[medium as usize];
         let on = region.on_interface(i);
         let stencils = if on { &sides.inner } else { &sides.own };
         let plain = |k: usize| -> [C; D] {
@@ -113,10 +124,9 @@ impl<const K: usize> Solution<'_, K> {
             })
         };
         let carried = |k: usize| -> Option<[C; D]> {
-            let at = (region, i, region.medium(i));
             let (waves, source) = self.waves?;
             let total = |j: usize| self.found[j][k] + source[j][k];
-            let mut both = waves.slope(at, stencils, total)?;
+            let mut both = waves.slope(region, i, medium, stencils, total)?;
             // That of the sources is known.
             if unknown == Unknown::Potential {
                 let [x, y, _] = media.flux[i];
@@ -146,7 +156,8 @@ impl Fields {
     /// Fields of a solution, on interfaces from the inner side.
     #[must_use]
     pub fn new<const D: usize, const K: usize>(
-        (region, sides): (&Region<D>, &Sides<D>),
+        region: &Region<D>,
+        sides: &Sides<D>,
         unknown: Unknown,
         solution: Solution<'_, K>,
         media: &Media<'_>,
@@ -159,13 +170,10 @@ impl Fields {
         } = solution;
         let point = |i: usize| {
             let place = region.places[i];
-            let medium = region.medium(i) as usize;
-            let sigma = media.conductivity[medium];
+            let medium = region.medium(i);
+            let sigma = media.conductivity[medium as usize];
             let total: [C; K] = std::array::from_fn(|k| found[i][k] + source[i][k]);
-            // Slopes beside a medium whose permeability depends on the field do not know the Laplacian.
-            let mu = media.laws[medium].constant().unwrap_or(0.0);
-            let mu_sigma = mu * sigma;
-            let slopes = solution.slopes((region, sides), unknown, i, (media, mu_sigma));
+            let slopes = solution.slopes(region, sides, unknown, i, media);
             let (potential, reaction) = local(unknown, &place, &total, &found[i], &slopes);
             let electric = along(unknown, &place, &change[i]).map(|rate| -rate);
             let mut flux = reaction;
@@ -174,6 +182,7 @@ impl Fields {
             }
             let mut current = electric.map(|e| e * sigma);
             if unknown == Unknown::Axial {
+                let mu = media.permeability(medium);
                 flux = reaction.map(|h| h * mu);
                 current = NONE;
                 if sigma > 0.0 {
@@ -216,7 +225,7 @@ impl Fields {
                 Unknown::Axial if a > 0.0 => self.current[i].map(|j| j / a),
                 _ => self.electric[i],
             };
-            let flux = beyond((media.laws, face), self.flux[i], region.raise(face.normal));
+            let flux = beyond(media.laws, face, self.flux[i], region.raise(face.normal));
             Beyond::new(electric, flux, b)
         };
         region.faces.iter().map(face).collect()
@@ -241,9 +250,11 @@ impl Fields {
     /// that the Laplacian is `-mu J`.
     pub fn wound<const D: usize, const K: usize>(
         &mut self,
-        (region, sides): (&Region<D>, &Sides<D>),
+        region: &Region<D>,
+        sides: &Sides<D>,
         unknown: Unknown,
-        (media, windings): (&Media<'_>, &Windings),
+        media: &Media<'_>,
+        windings: &Windings,
     ) {
         let none = [C::new(0.0, 0.0); K];
         let carries = |j: &[C; 3]| *j != NONE;
@@ -251,9 +262,7 @@ impl Fields {
             let current = windings.own[i];
             if region.on_interface(i) {
                 let place = region.places[i];
-                let mu = media.laws[region.medium(i) as usize]
-                    .constant()
-                    .unwrap_or(0.0);
+                let mu = media.permeability(region.medium(i));
                 let bend: [C; K] = component(unknown, &place, &current);
                 let share = |axis: usize| -> f64 {
                     let row = sides.inner.derivative(i, axis);
@@ -278,7 +287,7 @@ impl Fields {
         {
             let i = face.point as usize;
             if carries(&windings.own[i]) {
-                other.flux = beyond((media.laws, face), self.flux[i], region.raise(face.normal));
+                other.flux = beyond(media.laws, face, self.flux[i], region.raise(face.normal));
             }
             if carries(current) {
                 other.current = *current;

@@ -12,7 +12,7 @@ use super::fields::{Solution, steady_change};
 use super::open::multipoles::Multipoles;
 use super::problem::Problem;
 use super::source::C;
-use super::waves::rows::{Ground, WaveRows};
+use super::waves::rows::WaveRows;
 use crate::output::Found;
 use crate::solve::broken::unsolvable;
 use crate::solve::report;
@@ -36,7 +36,7 @@ impl<const D: usize> Problem<'_, D> {
         let charged = charges.filter(Coupling::charged).map(|charges| {
             let rate = C::new(0.0, drive.omega);
             let voltage: Vec<C> = phi.iter().map(|phi| rate * phi).collect();
-            self.charged(&charges.stencils, (&voltage, &voltage), &mut change)
+            self.charged(&charges.stencils, &voltage, &voltage, &mut change)
         });
         self.tell(self.lack(&change, 0.0), session);
         let solution = Solution {
@@ -71,28 +71,21 @@ impl<const D: usize> Problem<'_, D> {
             (rates, conductors.rows(region, sides, unknown))
         });
         let Some(waves) = &self.waves else {
-            let right = drive.right(conductors, (region, unknown), &rates);
-            let bars = self.columns(drive, &rows);
-            return self.solved(drive, (rows, &rates), (right, bars), session);
+            let right = drive.right(conductors, region, unknown, &rates);
+            return self.solved(drive, rows, &rates, right, session);
         };
-        let ground = Ground {
-            conductors,
-            region,
-            sides,
-            unknown,
-        };
-        let made = || ground.rows(waves, (&rows, rates), &drive.source);
+        let ground = self.ground();
+        let made = || ground.rows(conductors, waves, &rows, rates, &drive.source);
         let WaveRows {
             rows,
             rates,
             source,
         } = session.timed("assemble", made);
-        let mut right = drive.right(conductors, (region, unknown), &rates);
+        let mut right = drive.right(conductors, region, unknown, &rates);
         for (right, source) in right.iter_mut().zip(source) {
             *right = std::array::from_fn(|k| right[k] - source[k]);
         }
-        let bars = self.columns(drive, &rows);
-        self.solved(drive, (rows, &rates), (right, bars), session)
+        self.solved(drive, rows, &rates, right, session)
     }
 
     /// What is applied along each bar in the rows of all points.
@@ -100,8 +93,8 @@ impl<const D: usize> Problem<'_, D> {
     where
         C: From<T>,
     {
-        let at = (&self.region, &self.sides);
-        let column = |bar: &Bar| bar.column(&self.conductors, at, (rows, drive.omega));
+        let (region, sides) = (&self.region, &self.sides);
+        let column = |bar: &Bar| bar.column(&self.conductors, region, sides, rows, drive.omega);
         self.bars.iter().map(column).collect()
     }
 
@@ -109,34 +102,35 @@ impl<const D: usize> Problem<'_, D> {
     fn solved<T: Scalar, const K: usize>(
         &self,
         drive: &Drive<K>,
-        (rows, rates): (Rows<T>, &[f64]),
-        (mut right, mut bars): (Vec<[C; K]>, Vec<Vec<C>>),
+        rows: Rows<T>,
+        rates: &[f64],
+        mut right: Vec<[C; K]>,
         session: &mut Session,
     ) -> Result<Vec<[C; K]>, Failure>
     where
-        C: krylov::Unknown<T>,
+        C: krylov::Unknown<T> + From<T>,
     {
-        let at = (&self.region, self.parameters.unknown);
+        let (region, unknown) = (&self.region, self.parameters.unknown);
+        let mut bars = self.columns(drive, &rows);
         for (right, given) in right.iter_mut().zip(self.given_rows::<K>()) {
             for (right, given) in right.iter_mut().zip(given) {
                 *right += given;
             }
         }
         let mut pairs = if self.parameters.open {
-            let multipoles = Multipoles::new(&self.region, &self.weights);
-            let mut pairs = drive.pairs(&self.conductors, at, &multipoles, &mut right);
+            let multipoles = Multipoles::new(region, &self.weights);
+            let mut pairs = drive.pairs(&self.conductors, region, unknown, &multipoles, &mut right);
             let bound = self.bound(&multipoles, &mut right);
             pairs.extend(drive.bound(&bound, &mut right));
             for (bar, column) in self.bars.iter().zip(&mut bars) {
-                bar.far(column, &self.conductors, &self.region, &multipoles);
+                bar.far(column, &self.conductors, region, &multipoles);
             }
             pairs
         } else {
             Vec::new()
         };
         for (bar, column) in self.bars.iter().zip(bars) {
-            let given = (drive.omega, drive.source.as_slice());
-            pairs.push(bar.pair(column, given, &mut right));
+            pairs.push(bar.pair(column, drive.omega, &drive.source, &mut right));
         }
         let shift = diffusion::shift(rates, drive.omega);
         let options = self.parameters.numerics.options;
@@ -148,8 +142,8 @@ impl<const D: usize> Problem<'_, D> {
         let rule = self.parameters.numerics.rule(&*stop);
         let solved = session.timed("solve", || system.solve_with(&pairs, &right, &mut x, rule));
         let size = |i: usize| x[i].iter().map(C::norm_sqr).sum();
-        let at = (self.cloud, size);
-        report(("vector_potential", "V s/m"), &solved, at, session)?;
+        let name = "vector_potential";
+        report(name, "V s/m", &solved, self.cloud, size, session)?;
         Ok(x)
     }
 

@@ -156,7 +156,8 @@ impl Hole {
     /// The rim with the stencils of the conductor.
     fn contour<'a, const D: usize>(
         &'a self,
-        (region, sides): (&'a Region<D>, &'a Sides<D>),
+        region: &'a Region<D>,
+        sides: &'a Sides<D>,
         media: Media<'a>,
     ) -> impl Iterator<Item = (&'a Face<D>, f64, u8, &'a Stencils<D>, [f64; D])> {
         let stencils = |(face, part, medium, normal): (&'a Face<D>, f64, u8, [f64; D])| {
@@ -170,11 +171,12 @@ impl Hole {
     /// The mean of `resistivity dH/dn` along the rim.
     pub fn row<const D: usize>(
         &self,
-        at: (&Region<D>, &Sides<D>),
+        region: &Region<D>,
+        sides: &Sides<D>,
         media: Media<'_>,
         mut push: impl FnMut(usize, f64),
     ) {
-        for (face, part, medium, stencils, normal) in self.contour(at, media) {
+        for (face, part, medium, stencils, normal) in self.contour(region, sides, media) {
             let weight = part * media.resistivity[medium as usize];
             along_normal(stencils, face.point as usize, normal, weight, &mut push);
         }
@@ -183,14 +185,19 @@ impl Hole {
     /// What stands before `dH/dt` in that row: the flux through the hole, less the shares of the Laplacians around it in
     /// the slopes.
     #[must_use]
-    pub fn rate<const D: usize>(&self, at: (&Region<D>, &Sides<D>), media: Media<'_>) -> f64 {
+    pub fn rate<const D: usize>(
+        &self,
+        region: &Region<D>,
+        sides: &Sides<D>,
+        media: Media<'_>,
+    ) -> f64 {
         let shares = |(face, part, medium, stencils, normal): (&Face<D>, f64, u8, _, _)| {
             let m = medium as usize;
             let share = share_along(stencils, face.point as usize, normal);
             part * media.resistivity[m] * media.mu_sigma[m] * share
         };
-        let slopes: f64 = self.contour(at, media).map(shares).sum();
-        self.through(at.0, media) - slopes
+        let slopes: f64 = self.contour(region, sides, media).map(shares).sum();
+        self.through(region, media) - slopes
     }
 
     /// The flux through the hole over the length of its rim, where `H` is 1.

@@ -2,11 +2,11 @@
 
 use run::{Failure, Session};
 
-use super::diffusion::{Axial, Conductors};
+use super::diffusion::{Axial, Conductors, Ground};
 use super::driven::bar::Bar;
 use super::driven::winding::Windings;
 use super::holes::Holes;
-use super::medium::interface::Permeable;
+use super::medium::interface::{Acting, Permeable};
 use super::medium::law::Law;
 use super::parameters::Parameters;
 use super::saturation::places::level;
@@ -31,6 +31,8 @@ pub(crate) struct Problem<'a, const D: usize> {
     pub(crate) region: Region<D>,
     pub(crate) sides: Sides<D>,
     pub(crate) conductors: Conductors,
+    /// Whether a magnetic field acts on a medium.
+    acts: Vec<bool>,
     /// Weights of points in integrals over conductors.
     pub(crate) weights: Vec<f64>,
     /// What conductors carry in a sinusoidal steady state in a plane; none elsewhere.
@@ -50,7 +52,8 @@ impl<'a, const D: usize> Problem<'a, D> {
     /// Where a stencil cannot be made.
     pub(crate) fn new(
         parameters: &'a Parameters,
-        (cloud, region): (&'a Cloud, Region<D>),
+        cloud: &'a Cloud,
+        region: Region<D>,
         around: Vec<Enclosing>,
         session: &mut Session,
     ) -> Result<Self, Failure> {
@@ -74,16 +77,19 @@ impl<'a, const D: usize> Problem<'a, D> {
         }
         let bar = |(medium, current): &(u8, C)| {
             let sigma = parameters.conductivity[*medium as usize];
-            Bar::new(&region, &weights, (*medium, sigma), *current)
+            Bar::new(&region, &weights, *medium, sigma, *current)
         };
         let bars = parameters.bars.iter().map(bar).collect();
+        let conducts = parameters.conductivity.iter().map(|s| *s > 0.0);
+        let acts = conducts.zip(&parameters.magnetic).map(|(c, m)| c || *m);
         let coils = &parameters.coils;
         let wound = || Windings::new(&region, coils, &mut weights);
         Ok(Self {
             waves: waves(parameters, &conductors, &region),
             windings: (!coils.is_empty()).then(wound),
+            acts: acts.collect(),
             bars,
-            enclosed: fits::all(around, (&region, &form), session)?,
+            enclosed: fits::all(around, &region, &form, session)?,
             sides,
             weights,
             source,
@@ -92,6 +98,24 @@ impl<'a, const D: usize> Problem<'a, D> {
             cloud,
             parameters,
         })
+    }
+
+    /// Its points, their stencils and what is sought.
+    pub(crate) fn ground(&self) -> Ground<'_, D> {
+        Ground {
+            region: &self.region,
+            sides: &self.sides,
+            unknown: self.parameters.unknown,
+        }
+    }
+
+    /// What fields act on.
+    pub(crate) fn acting(&self) -> Acting<'_> {
+        Acting {
+            acts: &self.acts,
+            laws: &self.parameters.laws,
+            permeable: self.conductors.permeable.as_ref(),
+        }
     }
 
     /// Conductivity times volume by point, up to a factor: what the square of a rate is weighted with in the heat.
@@ -147,7 +171,7 @@ fn waves<const D: usize>(
         .omega
         .filter(|_| !parameters.numerics.form.positive)?;
     let free = |m| !parameters.run.contains(&m);
-    Waves::new(conductors, region, (omega, free))
+    Waves::new(conductors, region, omega, free)
 }
 
 /// The conductors.

@@ -72,7 +72,7 @@ fn laws(scene: &Scene) -> Result<Vec<Law>, Fault> {
                 scene.bodies[k].relative_permeability.rows(&at)?
             }
         };
-        let curve = rows.and_then(Curve::new).map(Law::Curve);
+        let curve = rows.and_then(|(b, h)| Curve::new(b, h)).map(Law::Curve);
         let constant = Law::Constant(MU0 * scene.medium(m).relative_permeability);
         Ok(curve.unwrap_or(constant))
     };

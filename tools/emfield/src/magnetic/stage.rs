@@ -107,7 +107,8 @@ impl<const K: usize> Stage for Alone<K> {
     fn solve(
         &mut self,
         driven: &[f64],
-        (wave, more): (f64, &[f64]),
+        wave: f64,
+        more: &[f64],
         unknown: &mut [f64],
         rule: Rule,
     ) -> Solved {

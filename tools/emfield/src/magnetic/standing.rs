@@ -25,14 +25,14 @@ impl<const D: usize> Problem<'_, D> {
         let mut unknown = none.clone();
         let stop = session.interrupt();
         let rule = self.parameters.numerics.rule(&*stop);
-        let solved = session.timed("solve", || {
-            stage.solve(&none, (1.0, &[]), &mut unknown, rule)
-        });
+        let solved = session.timed("solve", || stage.solve(&none, 1.0, &[], &mut unknown, rule));
         let size = |i: usize| unknown[K * i..K * (i + 1)].iter().map(|a| a * a).sum();
         report(
-            ("vector_potential", "V s/m"),
+            "vector_potential",
+            "V s/m",
             &solved,
-            (self.cloud, size),
+            self.cloud,
+            size,
             session,
         )?;
         self.told(stage.settled(), session);

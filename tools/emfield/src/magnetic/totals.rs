@@ -3,21 +3,10 @@
 use crate::magnetic::driven::force;
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, cross_mean};
-use crate::magnetic::medium::interface::Permeable;
-use crate::magnetic::medium::law::{Law, jumps, traction};
+use crate::magnetic::medium::interface::Acting;
+use crate::magnetic::medium::law::{jumps, traction};
 use crate::magnetic::source::{C, Source, minus};
 use crate::stencils::region::Region;
-
-/// Media on which magnetic fields act.
-#[derive(Debug, Clone, Copy)]
-pub struct Acting<'a> {
-    /// Whether a medium conducts, or has another permeability than the surroundings.
-    pub acts: &'a [bool],
-    /// Permeability by medium.
-    pub laws: &'a [Law],
-    /// Where permeability is not uniform.
-    pub permeable: Option<&'a Permeable>,
-}
 
 /// Totals of all conductors and magnets.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -47,11 +36,12 @@ impl Totals {
         region: &Region<D>,
         fields: &Fields,
         weights: &[f64],
-        (coils, acting): ((&Source, Option<&Windings>), Acting<'_>),
+        source: &Source,
+        windings: Option<&Windings>,
+        acting: Acting<'_>,
     ) -> Self {
-        let permeable = acting.permeable;
         Self {
-            force_coil: force::force((region, weights), fields, coils, (permeable, acting.laws)),
+            force_coil: force::force(region, weights, fields, source, windings, acting),
             ..Self::bodies(region, fields, weights, acting, |_| true)
         }
     }

@@ -38,10 +38,10 @@ pub(crate) fn stage<'a, const D: usize, const K: usize>(
     };
     let given: Vec<[f64; 3]> = charges.given.iter().map(|g| g.map(|g| g.re)).collect();
     let source: Vec<[f64; K]> = drive.source.iter().map(|a| a.map(|a| a.re)).collect();
-    let with = (slope, problem.parameters.numerics.options);
+    let options = problem.parameters.numerics.options;
     let made = session.timed("factorise", || {
-        let driven = (&spread(&source)[..], given);
-        Charged::new(&charges.equations, driven, with)
+        let source = spread(&source);
+        Charged::new(&charges.equations, &source, given, slope, options)
     });
     let charged = Box::new(made.map_err(|error| failed(&error))?);
     Ok(problem.saturated::<K>(charged, session))
@@ -88,7 +88,7 @@ fn equations<const D: usize, const K: usize>(
         given: given.iter().map(|g| g.map(|g| g.re)).collect(),
         pairs: multipoles
             .iter()
-            .flat_map(|all| pairs(conductors, (region, unknown), all))
+            .flat_map(|all| pairs(conductors, region, unknown, all))
             .collect(),
         bound,
         options: problem.parameters.numerics.options,
@@ -129,7 +129,7 @@ impl<const D: usize, const K: usize> View<'_, D, K> {
             };
             let phi = potential(&state.change[K * problem.region.len()..]);
             let voltage = potential(&state.following);
-            problem.charged(&charges.stencils, (&phi, &voltage), &mut change)
+            problem.charged(&charges.stencils, &phi, &voltage, &mut change)
         });
         // What solves leave is no field.
         let most = state.total.iter().fold(0.0, |m: f64, a| m.max(a.abs()));

@@ -60,7 +60,8 @@ impl Effort {
 /// Where a stencil cannot be made, a solve breaks down, the user interrupts, or those of `write`.
 pub(crate) fn march<const D: usize, const K: usize>(
     problem: &Problem<'_, D>,
-    (transient, output): (&Transient, &Output),
+    transient: &Transient,
+    output: &Output,
     session: &mut Session,
     mut write: impl FnMut(f64, Found, &mut Session) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
@@ -79,10 +80,10 @@ pub(crate) fn march<const D: usize, const K: usize>(
         flux: &flux,
         charges: charges.as_ref(),
     };
-    let mut growth = Growth::new(problem.heating());
+    let mut growth = Growth::new(problem.heating(), K);
     let (mut taken, mut effort) = (0, Effort::default());
     if let Some(mut checkpoint) = session.restored() {
-        (taken, length, effort) = restore((&mut march, &mut growth), &steps, &mut checkpoint)?;
+        (taken, length, effort) = restore(&mut march, &mut growth, &steps, &mut checkpoint)?;
     } else {
         write(0.0, view.fields(march.state(), 0.0, length).0, session)?;
     }
@@ -99,8 +100,8 @@ pub(crate) fn march<const D: usize, const K: usize>(
         let (time, written) = steps.end(taken);
         effort.add(time, &solved, session)?;
         let still = wave.stands(from, time)?;
-        let rates = (&march.state().change[..K * problem.cloud.len()], K);
-        growth.watch(rates, still, (taken, time), problem.cloud)?;
+        let rates = &march.state().change[..K * problem.cloud.len()];
+        growth.watch(rates, still, taken, time, problem.cloud)?;
         session.progress(taken, steps.count(), || {
             vec![
                 ("time", time, "s"),
@@ -115,7 +116,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
             write(time, found, session)?;
         }
         if taken < steps.count() {
-            session.keep(|checkpoint| save((&march, &growth), taken, effort, checkpoint))?;
+            session.keep(|checkpoint| save(&march, &growth, taken, effort, checkpoint))?;
         }
     }
     problem.tell(effort.lack, session);
@@ -161,7 +162,8 @@ fn failed(error: &dyn std::fmt::Display) -> Failure {
 
 /// Puts all that the rest of a march depends on into a checkpoint.
 fn save(
-    (march, growth): (&March<'_>, &Growth),
+    march: &March<'_>,
+    growth: &Growth,
     taken: u64,
     effort: Effort,
     checkpoint: &mut Checkpoint,
@@ -187,7 +189,8 @@ fn save(
 
 /// Takes back what [`save`] put: the steps taken, the length of the last one \[s\] and the effort.
 fn restore(
-    (march, growth): (&mut March<'_>, &mut Growth),
+    march: &mut March<'_>,
+    growth: &mut Growth,
     steps: &Steps,
     checkpoint: &mut Checkpoint,
 ) -> Result<(u64, f64, Effort), Failure> {
@@ -200,7 +203,7 @@ fn restore(
             .then_some(values)
             .ok_or_else(|| lacks(&format!(" of \"{name}\"")))
     };
-    let reached = (column("unknown")?, column("total")?);
+    let (unknown, total) = (column("unknown")?, column("total")?);
     let (count, effort) = (checkpoint.u64("count")?, checkpoint.f64("effort")?);
     let (&[taken, products, place], &[residual, largest, worst]) = (&count[..], &effort[..]) else {
         return Err(lacks(""));
@@ -217,7 +220,7 @@ fn restore(
         march.pace(last).map_err(|error| failed(&error))?;
     }
     march
-        .restore(reached, rescued)
+        .restore(unknown, total, rescued)
         .map_err(|error| failed(&error))?;
     if let &[last, most, rises] = &checkpoint.f64("growth")?[..] {
         growth.seen = (last, most, rises as u32);

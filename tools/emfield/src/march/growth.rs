@@ -20,31 +20,35 @@ const REST: f64 = 1e-8;
 pub(crate) struct Growth {
     /// Conductivity times volume by point, up to a factor.
     weights: Vec<f64>,
+    /// Unknowns of a point.
+    components: usize,
     /// Heat of the last step, the largest heat, and how many steps it has risen.
     pub(crate) seen: (f64, f64, u32),
 }
 
 impl Growth {
-    pub(crate) fn new(weights: Vec<f64>) -> Self {
+    pub(crate) fn new(weights: Vec<f64>, components: usize) -> Self {
         Self {
             weights,
+            components,
             seen: (0.0, 0.0, 0),
         }
     }
 
-    /// Takes in the rates of a step, `components` a point, that ends at `time` \[s\] and in which sources stood `still`.
+    /// Takes in the rates of a step, by unknown, that ends at `time` \[s\] and in which sources stood `still`.
     ///
     /// # Errors
     /// The point where currents are largest, where they have grown for several steps of that kind.
     pub(crate) fn watch(
         &mut self,
-        (rates, components): (&[f64], usize),
+        rates: &[f64],
         still: bool,
-        (step, time): (u64, f64),
+        step: u64,
+        time: f64,
         cloud: &Cloud,
     ) -> Result<(), Failure> {
         let heat = |i: usize| -> f64 {
-            let own = &rates[components * i..components * (i + 1)];
+            let own = &rates[self.components * i..self.components * (i + 1)];
             self.weights[i] * own.iter().map(|r| r * r).sum::<f64>()
         };
         let whole: f64 = (0..self.weights.len()).map(heat).sum();
@@ -82,9 +86,9 @@ mod tests {
     /// The step at which heats, the roots of which are given, are found to grow.
     fn ends(rates: &[f64], still: bool) -> Option<u64> {
         let cloud = cloud();
-        let mut growth = Growth::new(vec![1.0; 2]);
+        let mut growth = Growth::new(vec![1.0; 2], 1);
         (0..).zip(rates).find_map(|(step, rate)| {
-            let found = growth.watch((&[0.0, *rate], 1), still, (step, 0.0), &cloud);
+            let found = growth.watch(&[0.0, *rate], still, step, 0.0, &cloud);
             let Err(Failure::Diverged { place, .. }) = found else {
                 return None;
             };

@@ -47,11 +47,12 @@ pub trait Stage: Send {
     }
 
     /// Solves them for `unknown`, which is the first guess: its rate is `slope` times it and what is `driven`; the
-    /// `sources` are `wave` times themselves, and what else stands on the right of the rows of A, or nothing.
+    /// sources are `wave` times themselves; `more` is what else stands on the right of the rows of A, or nothing.
     fn solve(
         &mut self,
         driven: &[f64],
-        sources: (f64, &[f64]),
+        wave: f64,
+        more: &[f64],
         unknown: &mut [f64],
         rule: Rule,
     ) -> Solved;
@@ -70,15 +71,15 @@ pub struct Settled {
 
 impl Settled {
     /// Counts a solve that ended after so many steps with a change \[T\] at a point, `found` or not.
-    pub fn count(&mut self, steps: u64, (change, point): (f64, usize), found: bool) {
+    pub fn count(&mut self, steps: u64, change: f64, point: usize, found: bool) {
         self.steps += steps;
         self.residual = self.residual.max(change);
         if !found {
-            self.lose((change, point));
+            self.lose(change, point);
         }
     }
 
-    fn lose(&mut self, (change, point): (f64, usize)) {
+    fn lose(&mut self, change: f64, point: usize) {
         if self.lost.is_none_or(|(most, _)| change > most) {
             self.lost = Some((change, point));
         }
@@ -89,8 +90,8 @@ impl Settled {
     pub fn with(mut self, other: Self) -> Self {
         self.steps += other.steps;
         self.residual = self.residual.max(other.residual);
-        if let Some(lost) = other.lost {
-            self.lose(lost);
+        if let Some((change, point)) = other.lost {
+            self.lose(change, point);
         }
         self
     }
@@ -171,7 +172,8 @@ impl<'a> March<'a> {
     /// Those of the stage.
     pub fn restore(
         &mut self,
-        (unknown, total): (Vec<f64>, Vec<f64>),
+        unknown: Vec<f64>,
+        total: Vec<f64>,
         rescued: Option<Rescue>,
     ) -> Result<(), Error> {
         (self.state.unknown, self.state.total) = (unknown, total);
@@ -220,7 +222,7 @@ impl<'a> March<'a> {
             *driven = slope * (source * wave - total);
         }
         let unknown = &mut state.unknown;
-        let solved = self.stage.solve(&self.driven, (wave, &[]), unknown, rule);
+        let solved = self.stage.solve(&self.driven, wave, &[], unknown, rule);
         let rates = state.change.iter_mut().zip(&state.unknown);
         for ((change, unknown), driven) in rates.zip(&self.driven) {
             *change = slope * unknown + driven;

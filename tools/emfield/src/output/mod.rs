@@ -108,7 +108,8 @@ pub fn write(
     scene: &Scene,
     cloud: &Cloud,
     samples: &Samples,
-    (time, found): (f64, &Found),
+    time: f64,
+    found: &Found,
     session: &mut Session,
 ) -> Result<(), Failure> {
     session.frame("/points", time, &points(scene, cloud, found))?;

@@ -24,8 +24,10 @@ pub(crate) fn unsolvable(name: &str, error: &Error, cloud: &Cloud) -> Failure {
 
 /// A solve that broke down, at the point where the solution is no number or largest.
 pub(crate) fn broken_down(
-    (name, unit): (&str, &str),
-    (solved, why): (&Solved, Breakdown),
+    name: &str,
+    unit: &str,
+    solved: &Solved,
+    why: Breakdown,
     cloud: &Cloud,
     size: impl Fn(usize) -> f64,
 ) -> Failure {
@@ -75,9 +77,15 @@ mod tests {
             residuals: Vec::new(),
             history: Vec::new(),
         };
-        let at = (&solved, Breakdown::NotFinite);
         let size = |i: usize| if i == 7 { f64::NAN } else { 1e300 };
-        let failure = broken_down(("potential", "V"), at, &cloud, size);
+        let failure = broken_down(
+            "potential",
+            "V",
+            &solved,
+            Breakdown::NotFinite,
+            &cloud,
+            size,
+        );
         assert_eq!(failure.outcome(), "diverged");
         assert!(failure.to_string().contains("point 7 at"), "{failure}");
     }

@@ -76,9 +76,11 @@ pub(crate) fn supports(name: &str, report: &wls::Report, session: &mut Session) 
 /// # Errors
 /// Where it broke down, or was stopped.
 pub(crate) fn report(
-    (name, unit): (&str, &str),
+    name: &str,
+    unit: &str,
     solved: &Solved,
-    (cloud, size): (&Cloud, impl Fn(usize) -> f64),
+    cloud: &Cloud,
+    size: impl Fn(usize) -> f64,
     session: &mut Session,
 ) -> Result<(), Failure> {
     for (k, value) in solved.history.iter().enumerate() {
@@ -90,12 +92,7 @@ pub(crate) fn report(
     match &solved.ending {
         Ending::Converged => Ok(()),
         Ending::Stopped => session.stopped(),
-        Ending::BrokenDown(why) => Err(broken::broken_down(
-            (name, unit),
-            (solved, *why),
-            cloud,
-            size,
-        )),
+        Ending::BrokenDown(why) => Err(broken::broken_down(name, unit, solved, *why, cloud, size)),
         other => {
             session.warn(format!(
                 "not converged: {name}: {other}; residual {residual:.2e}"

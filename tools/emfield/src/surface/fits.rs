@@ -34,7 +34,8 @@ pub struct Enclosed<const D: usize> {
 /// Where too few points lie about one.
 pub(crate) fn all<const D: usize>(
     surfaces: Vec<Enclosing>,
-    (region, form): (&Region<D>, &Form),
+    region: &Region<D>,
+    form: &Form,
     session: &mut Session,
 ) -> Result<Vec<Enclosed<D>>, Failure> {
     if surfaces.is_empty() {
@@ -53,7 +54,8 @@ pub(crate) fn all<const D: usize>(
 /// A surface about all bodies with fits of the points about it, where one has room and no other holds all bodies.
 pub(crate) fn about_all<const D: usize>(
     cloud: &Cloud,
-    (region, form): (&Region<D>, &Form),
+    region: &Region<D>,
+    form: &Form,
     others: &[Enclosed<D>],
     session: &mut Session,
 ) -> Option<Enclosed<D>> {

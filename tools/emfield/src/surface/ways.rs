@@ -40,7 +40,8 @@ pub(crate) fn size(ways: impl Iterator<Item = Vector>, gross: f64, largest: f64)
 pub(crate) const HELP: &str = "points there do not resolve an edge, a wedge, a gap or a layer; take smaller spacings or another order";
 
 /// A place in words.
-pub(crate) fn told((x, y, z): (f64, f64, f64)) -> String {
+pub(crate) fn told(place: Vector) -> String {
+    let [x, y, z] = place;
     format!("most near ({x:.3e}, {y:.3e}, {z:.3e}) m")
 }
 
@@ -69,7 +70,7 @@ impl Ways<'_> {
                 ways.join(", "),
                 100.0 * share,
                 self.gross,
-                told(self.at.into()),
+                told(self.at),
             ),
         })
     }

@@ -7,7 +7,7 @@ use crate::assemble::liquid::matter::{PASSED, RIPPLE, few, lacks, matter, way};
 use crate::liquid::effort::Effort;
 use crate::liquid::fill::Filled;
 use crate::liquid::room::{Room, furnish};
-use crate::liquid::step::{Liquid, Matter};
+use crate::liquid::step::{Liquid, Matter, Step};
 use crate::liquid::vector::{length, spatial};
 use crate::march::steps::Steps;
 use crate::scene::currents::Transient;
@@ -32,7 +32,8 @@ fn wide<const D: usize>(room: &Room<D>, spacing: f64) -> Result<(), Failure> {
 /// The room of a scene and its points.
 pub(crate) fn filled<const D: usize>(
     scene: &Scene,
-    (part, faces): (&Part, &Faces),
+    part: &Part,
+    faces: &Faces,
 ) -> Result<(Room<D>, Filled<D>), Failure> {
     let mut room = faces.room::<D>(&part.shape);
     let spacing = scene.points.spacing_m;
@@ -50,10 +51,10 @@ pub(crate) fn filled<const D: usize>(
 /// The liquid at its start.
 pub(crate) fn start<const D: usize>(
     scene: &Scene,
-    of: (&Part, &Faces),
+    part: &Part,
+    faces: &Faces,
 ) -> Result<Liquid<D>, Failure> {
-    let part = of.0;
-    let (room, filled) = filled::<D>(scene, of)?;
+    let (room, filled) = filled::<D>(scene, part, faces)?;
     let n = filled.position.len();
     let mut velocity = vec![[0.0; D]; n];
     for (k, v) in part.velocity_m_s.iter().flatten().enumerate().take(D) {
@@ -90,7 +91,8 @@ pub(crate) fn fastest<const D: usize>(liquid: &Liquid<D>) -> f64 {
 /// Steps, the longest of which waves, gravity and the liquid allow.
 pub(crate) fn steps<const D: usize>(
     scene: &Scene,
-    (part, march): (&Part, &LiquidMarch),
+    part: &Part,
+    march: &LiquidMarch,
     liquid: &Liquid<D>,
 ) -> Steps {
     let spacing = scene.points.spacing_m;
@@ -124,10 +126,12 @@ pub(crate) fn steps<const D: usize>(
 /// Where the spacing suits the box ill, and of formulas.
 pub(crate) fn plan<const D: usize>(
     scene: &Scene,
-    (of, march): ((&Part, &Faces), &LiquidMarch),
+    part: &Part,
+    faces: &Faces,
+    march: &LiquidMarch,
 ) -> Result<Plan, Failure> {
-    let liquid = start::<D>(scene, of)?;
-    let steps = steps(scene, (of.0, march), &liquid);
+    let liquid = start::<D>(scene, part, faces)?;
+    let steps = steps(scene, part, march, &liquid);
     let points = liquid.position.len() as u64;
     let mut plan = Plan::new()
         .stage("liquid")
@@ -144,7 +148,7 @@ pub(crate) fn plan<const D: usize>(
             .stage("free surface")
             .count("on the surface", surface as u64),
     };
-    Ok(lacks(plan, of.0))
+    Ok(lacks(plan, part))
 }
 
 /// Time of a run, from a step at its start.
@@ -153,13 +157,19 @@ pub(crate) fn plan<const D: usize>(
 /// Those of a step.
 pub(crate) fn estimate<const D: usize>(
     scene: &Scene,
-    (of, march): ((&Part, &Faces), &LiquidMarch),
+    part: &Part,
+    faces: &Faces,
+    march: &LiquidMarch,
 ) -> Result<Estimate, Failure> {
-    let mut liquid = start::<D>(scene, of)?;
-    let steps = steps(scene, (of.0, march), &liquid);
-    let (way, mut effort) = (way(scene, of.0), Effort::default());
+    let mut liquid = start::<D>(scene, part, faces)?;
+    let steps = steps(scene, part, march, &liquid);
+    let (way, mut effort) = (way(scene, part), Effort::default());
     let began = std::time::Instant::now();
-    liquid.advance(&matter(of.0), &way, steps.step(0).1, &mut effort)?;
+    let step = Step {
+        way: &way,
+        dt: steps.step(0).1,
+    };
+    liquid.advance(&matter(part), step, &mut effort)?;
     let each = began.elapsed().as_secs_f64();
     Ok(Estimate {
         seconds: each * steps.count() as f64,

@@ -18,7 +18,7 @@ use crate::liquid::electric::Electric;
 use crate::liquid::fill::{Filled, fill};
 use crate::liquid::magnetic::{Magnetic, outline};
 use crate::liquid::room::Room;
-use crate::liquid::step::{Liquid, Matter, Way};
+use crate::liquid::step::{Liquid, Matter, Step, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
 use crate::march::liquid::acting::electric;
@@ -85,7 +85,7 @@ pub(crate) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure
 }
 
 /// The longest step \[s\].
-fn longest(scene: &Scene, (part, march): (&Part, &LiquidMarch), liquid: &Liquid<3>) -> f64 {
+fn longest(scene: &Scene, part: &Part, march: &LiquidMarch, liquid: &Liquid<3>) -> f64 {
     if let Some(step) = march.step_s {
         return step;
     }
@@ -113,10 +113,10 @@ pub(crate) fn fastest(liquid: &Liquid<3>) -> f64 {
     liquid.velocity.iter().map(length).fold(0.0, f64::max)
 }
 
-pub(crate) fn steps(scene: &Scene, part: (&Part, &LiquidMarch), liquid: &Liquid<3>) -> Steps {
+pub(crate) fn steps(scene: &Scene, part: &Part, march: &LiquidMarch, liquid: &Liquid<3>) -> Steps {
     let transient = Transient {
-        end_s: part.1.end_s,
-        step_s: longest(scene, part, liquid),
+        end_s: march.end_s,
+        step_s: longest(scene, part, march, liquid),
         wave: None,
     };
     Steps::new(&transient, &scene.output)
@@ -137,14 +137,13 @@ pub(crate) fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
             .left_out("points", "no key 'march' of 'liquid'"));
     };
     if let Some(faces) = &part.faces {
-        let of = ((part, faces), march);
         return match scene.geometry {
-            Geometry::Space => between::plan::<3>(scene, of),
-            _ => between::plan::<2>(scene, of),
+            Geometry::Space => between::plan::<3>(scene, part, faces, march),
+            _ => between::plan::<2>(scene, part, faces, march),
         };
     }
     let liquid = start(part, filled(scene, part)?)?;
-    let steps = steps(scene, (part, march), &liquid);
+    let steps = steps(scene, part, march, &liquid);
     let points = liquid.position.len() as u64;
     let mut plan = Plan::new()
         .stage("liquid")
@@ -207,15 +206,14 @@ pub(crate) fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, F
         return Ok(None);
     };
     if let Some(faces) = &part.faces {
-        let of = ((part, faces), march);
         return match scene.geometry {
-            Geometry::Space => between::estimate::<3>(scene, of),
-            _ => between::estimate::<2>(scene, of),
+            Geometry::Space => between::estimate::<3>(scene, part, faces, march),
+            _ => between::estimate::<2>(scene, part, faces, march),
         }
         .map(Some);
     }
     let mut liquid = start(part, filled(scene, part)?)?;
-    let steps = steps(scene, (part, march), &liquid);
+    let steps = steps(scene, part, march, &liquid);
     let (way, mut effort) = (way(scene, part), Effort::default());
     let mut field = electric(part);
     if let Some(field) = &mut field {
@@ -231,7 +229,11 @@ pub(crate) fn estimate(scene: &Scene, part: &Part) -> Result<Option<Estimate>, F
         lift(field, &mut liquid, &way, &mut effort)?;
     }
     let began = std::time::Instant::now();
-    liquid.advance(&matter(part), &way, steps.step(0).1, &mut effort)?;
+    let step = Step {
+        way: &way,
+        dt: steps.step(0).1,
+    };
+    liquid.advance(&matter(part), step, &mut effort)?;
     if let Some(field) = &mut field {
         pull(field, &liquid, &way, &mut effort)?;
     }

@@ -32,7 +32,7 @@ pub(crate) fn weigh(seeds: &mut [Seed], parts: &[Cell], set: &Occupied, spacing:
     let mut weights: Vec<f64> = seeds.iter().map(|s| s.area).collect();
     for (i, part) in parts.iter().enumerate().filter(|(_, p)| p.volume > 0.0) {
         let around = around(seeds, i, set, spacing);
-        let Some(shares) = shares(seeds, (i, part), &around) else {
+        let Some(shares) = shares(seeds, i, part, &around) else {
             continue;
         };
         let whole: f64 = shares.iter().sum();
@@ -72,7 +72,7 @@ fn around(seeds: &[Seed], i: usize, set: &Occupied, spacing: f64) -> Vec<usize> 
 }
 
 /// What the moments of a part weigh the difference of each point from its own by; nothing where they do not tell.
-fn shares(seeds: &[Seed], (i, part): (usize, &Cell), around: &[usize]) -> Option<Vec<f64>> {
+fn shares(seeds: &[Seed], i: usize, part: &Cell, around: &[usize]) -> Option<Vec<f64>> {
     if around.len() < FEWEST {
         return None;
     }

@@ -67,7 +67,7 @@ impl<'a> Conductor<'a> {
         for column in self.columns {
             for side in 0..2 {
                 if column.media[side] == self.medium && !column.side[side].is_empty() {
-                    self.column(cloud, (column, side), cells);
+                    self.column(cloud, column, side, cells);
                 }
             }
         }
@@ -168,7 +168,7 @@ impl<'a> Conductor<'a> {
     }
 
     /// The cells of a column on one side.
-    fn column(&self, cloud: &Cloud, (column, side): (&Column, usize), cells: &mut [Cell]) {
+    fn column(&self, cloud: &Cloud, column: &Column, side: usize, cells: &mut [Cell]) {
         let points = &column.side[side];
         let mut add = |owner: u32, between: [f64; 2]| {
             let owner = owner as usize;

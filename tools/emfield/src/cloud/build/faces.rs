@@ -85,16 +85,22 @@ impl Builder {
         let coarse = surface::seeds(
             &solid.body,
             self.layout.dimensions,
-            (solid.spacing, solid.spacing),
+            solid.spacing,
+            solid.spacing,
             &|_| solid.spacing,
         );
         let least = coarse
             .iter()
             .fold(solid.spacing, |least, seed| least.min(local(seed.place)));
         if least < 0.999 * solid.spacing {
-            let limits = (solid.spacing, least.min(LEAST * solid.spacing));
-            let fine = surface::seeds(&solid.body, self.layout.dimensions, limits, &local);
-            self.on_axis(fine)
+            let least = least.min(LEAST * solid.spacing);
+            self.on_axis(surface::seeds(
+                &solid.body,
+                self.layout.dimensions,
+                solid.spacing,
+                least,
+                &local,
+            ))
         } else {
             self.on_axis(coarse)
         }

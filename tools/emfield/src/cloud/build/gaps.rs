@@ -44,8 +44,8 @@ impl Builder {
             let scale = (column.seed.spacing / solid.spacing).min(1.0);
             for (side, plan) in plans[own].iter().enumerate() {
                 let gap = |first: &f64| {
-                    let from = (column.seed.place, column.way(side));
-                    self.gap((column, side), from, NARROW * scale * first)
+                    let (from, way) = (column.seed.place, column.way(side));
+                    self.gap(column, side, from, way, NARROW * scale * first)
                 };
                 column.gap[side] = plan.first().and_then(gap);
             }
@@ -55,12 +55,14 @@ impl Builder {
     /// The gap on one side of a column, along a way from a place, if it is not wider than `most`.
     fn gap(
         &self,
-        (column, side): (&Column, usize),
-        (from, way): (Vector, Vector),
+        column: &Column,
+        side: usize,
+        from: Vector,
+        way: Vector,
         most: f64,
     ) -> Option<Gap> {
         let own = column.solid?;
-        let (width, other) = self.beyond(own, (from, way), most)?;
+        let (width, other) = self.beyond(own, from, way, most)?;
         // Surfaces that cross leave wedges.
         if width < LEAST * column.seed.spacing || self.cross(from, own, other) {
             return None;
@@ -78,7 +80,7 @@ impl Builder {
 
     /// How far the surface of another body than `own` is along a way from a place, at most `most`, and its number: no step is longer
     /// than the way to it is anywhere.
-    fn beyond(&self, own: usize, (from, way): (Vector, Vector), most: f64) -> Option<(f64, usize)> {
+    fn beyond(&self, own: usize, from: Vector, way: Vector, most: f64) -> Option<(f64, usize)> {
         let others = (0..self.layout.solids.len()).filter(|k| *k != own);
         let reach = |k: usize| {
             let body = &self.layout.solids[k].body;
@@ -139,7 +141,7 @@ impl Builder {
         Some(Strand {
             from,
             way,
-            gap: self.gap((column, side), (from, way), 1.5 * gap.width)?,
+            gap: self.gap(column, side, from, way, 1.5 * gap.width)?,
             medium: column.media[side],
             spacing: seed.spacing,
             foot: column.foot,

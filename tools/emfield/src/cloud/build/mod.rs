@@ -283,11 +283,11 @@ impl Builder {
         if layered {
             spacing = spacing.min(self.layout.spacing);
         }
-        let limits = (spacing, spacing);
         self.on_axis(surface::seeds(
             &body,
             self.layout.dimensions,
-            limits,
+            spacing,
+            spacing,
             &|_| spacing,
         ))
     }

@@ -29,7 +29,8 @@ const CHOICE: f64 = 2.0;
 pub(crate) fn seeds(
     body: &Body,
     dimensions: usize,
-    (spacing, least): (f64, f64),
+    spacing: f64,
+    least: f64,
     local: &dyn Fn(Vector) -> f64,
 ) -> Vec<Seed> {
     let even = least >= spacing;

@@ -18,6 +18,31 @@ const DEGREE: usize = 6;
 /// Largest degree in a plane and about an axis, where a degree is one harmonic or two.
 const DEGREE_FLAT: usize = 8;
 
+/// The largest degree and order of solid harmonics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Largest {
+    degree: usize,
+    order: usize,
+}
+
+/// Those of three coordinates.
+const SPATIAL: Largest = Largest {
+    degree: DEGREE,
+    order: DEGREE,
+};
+/// Those that are even about an axis.
+const COAXIAL: Largest = Largest {
+    degree: DEGREE_FLAT,
+    order: 0,
+};
+
+impl Largest {
+    /// Degree and order of each solid harmonic.
+    fn each(self) -> impl Iterator<Item = (usize, usize)> {
+        (0..=self.degree).flat_map(move |l| (0..=l.min(self.order)).map(move |m| (l, m)))
+    }
+}
+
 /// Which harmonics there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Harmonics {
@@ -43,8 +68,8 @@ impl Harmonics {
     pub(crate) fn regular<const D: usize>(self, p: [f64; D]) -> Vec<(f64, [f64; D])> {
         match self {
             Self::Plane => powers(C::new(p[0], p[1])),
-            Self::Axis => solid([p[0], 0.0, p[1]], (DEGREE_FLAT, 0), 2),
-            Self::Space => solid([p[0], p[1], p[2]], (DEGREE, DEGREE), 1),
+            Self::Axis => solid([p[0], 0.0, p[1]], COAXIAL, 2),
+            Self::Space => solid([p[0], p[1], p[2]], SPATIAL, 1),
         }
     }
 
@@ -52,8 +77,8 @@ impl Harmonics {
     pub(crate) fn decaying<const D: usize>(self, p: [f64; D]) -> Vec<f64> {
         match self {
             Self::Plane => decaying_powers(C::new(p[0], p[1])),
-            Self::Axis => decaying_solid([p[0], 0.0, p[1]], (DEGREE_FLAT, 0)),
-            Self::Space => decaying_solid([p[0], p[1], p[2]], (DEGREE, DEGREE)),
+            Self::Axis => decaying_solid([p[0], 0.0, p[1]], COAXIAL),
+            Self::Space => decaying_solid([p[0], p[1], p[2]], SPATIAL),
         }
     }
 
@@ -69,23 +94,19 @@ impl Harmonics {
     }
 }
 
-/// Degree and order of each solid harmonic up to the largest of both.
-fn each((degree, order): (usize, usize)) -> impl Iterator<Item = (usize, usize)> {
-    (0..=degree).flat_map(move |l| (0..=l.min(order)).map(move |m| (l, m)))
-}
-
 /// Numbers by degree and order.
 #[derive(Default)]
 struct Table([[C; DEGREE_FLAT + 2]; DEGREE_FLAT + 2]);
 
 impl Table {
-    /// Those up to a degree and an order: `own(m, before)` begins each order at degree m with what the order before it began
-    /// with, and `next((l, m), [one, two])` has what stands one and two degrees lower.
+    /// Those up to the largest: `own(m, before)` begins each order at degree m with what the order before it began
+    /// with, and `next(l, m, [one, two])` has what stands one and two degrees lower.
     fn up_to(
-        (degree, order): (usize, usize),
+        largest: Largest,
         own: impl Fn(usize, C) -> C,
-        next: impl Fn((usize, usize), [C; 2]) -> C,
+        next: impl Fn(usize, usize, [C; 2]) -> C,
     ) -> Self {
+        let Largest { degree, order } = largest;
         let mut table = Self::default();
         let mut first = C::default();
         for m in 0..=degree.min(order) {
@@ -94,7 +115,7 @@ impl Table {
             let mut value = first;
             for l in m..=degree {
                 if l > m {
-                    value = next((l, m), lower);
+                    value = next(l, m, lower);
                 }
                 table.0[l][m] = value;
                 lower = [value, lower[0]];
@@ -109,14 +130,18 @@ impl Table {
 }
 
 /// `(l - m)(l + m) R_lm = (2 l - 1) z R_(l-1)m - r^2 R_(l-2)m`, `2 m R_mm = (x + j y) R_(m-1)(m-1)`.
-fn table([x, y, z]: [f64; 3], (degree, order): (usize, usize)) -> Table {
+fn table([x, y, z]: [f64; 3], largest: Largest) -> Table {
     let square = x * x + y * y + z * z;
     let own = |m: usize, before: C| match m {
         0 => C::new(1.0, 0.0),
         _ => before * C::new(x, y) / (2.0 * m as f64),
     };
     // Gradients ask for one order more.
-    Table::up_to((degree, order + 1), own, |(l, m), [one, two]| {
+    let more = Largest {
+        order: largest.order + 1,
+        ..largest
+    };
+    Table::up_to(more, own, |l, m, [one, two]| {
         let next = one * ((2 * l - 1) as f64 * z) - two * square;
         next / ((l - m) * (l + m)) as f64
     })
@@ -125,10 +150,10 @@ fn table([x, y, z]: [f64; 3], (degree, order): (usize, usize)) -> Table {
 /// Regular solid harmonics; the gradient has every part, or with a `step` of two those away from an axis and along it.
 ///
 /// `d/dz R_lm = R_(l-1)m`, `(d/dx + j d/dy) R_lm = -R_(l-1)(m+1)`, `(d/dx - j d/dy) R_lm = R_(l-1)(m-1)`.
-fn solid<const D: usize>(p: [f64; 3], most: (usize, usize), step: usize) -> Vec<(f64, [f64; D])> {
-    let table = table(p, most);
+fn solid<const D: usize>(p: [f64; 3], largest: Largest, step: usize) -> Vec<(f64, [f64; D])> {
+    let table = table(p, largest);
     let mut found = Vec::new();
-    for (l, m) in each(most) {
+    for (l, m) in largest.each() {
         let lower = |m: usize| match l {
             0 => C::default(),
             _ => table.at(l - 1, m),
@@ -149,19 +174,19 @@ fn solid<const D: usize>(p: [f64; 3], most: (usize, usize), step: usize) -> Vec<
 }
 
 /// `r^2 S_lm = (2 l - 1) z S_(l-1)m - ((l - 1)^2 - m^2) S_(l-2)m`, `r^2 S_mm = (2 m - 1) (x + j y) S_(m-1)(m-1)`.
-fn decaying_solid([x, y, z]: [f64; 3], most: (usize, usize)) -> Vec<f64> {
+fn decaying_solid([x, y, z]: [f64; 3], largest: Largest) -> Vec<f64> {
     let square = x * x + y * y + z * z;
     let own = |m: usize, before: C| match m {
         0 => C::new(1.0 / square.sqrt(), 0.0),
         _ => before * C::new(x, y) * ((2 * m - 1) as f64 / square),
     };
-    let table = Table::up_to(most, own, |(l, m), [one, two]| {
+    let table = Table::up_to(largest, own, |l, m, [one, two]| {
         let share = ((l - 1) * (l - 1)) as f64 - (m * m) as f64;
         (one * ((2 * l - 1) as f64 * z) - two * share) / square
     });
     let far = 4.0 * PI;
     let mut found = Vec::new();
-    for (l, m) in each(most) {
+    for (l, m) in largest.each() {
         if m == 0 {
             found.push(table.at(l, 0).re / far);
         } else {

@@ -44,8 +44,10 @@ impl OpenWalls {
     /// Where a body reaches a wall, there is no room between them, or a formula has no value.
     pub(crate) fn new<const D: usize>(
         cloud: &Cloud,
-        (problem, potential): (&Problem, Option<Applied<'_>>),
-        (region, form): (&Region<D>, &Form),
+        problem: &Problem,
+        potential: Option<Applied<'_>>,
+        region: &Region<D>,
+        form: &Form,
         session: &mut Session,
     ) -> Result<Option<Self>, Failure> {
         let Some(potential) = potential.filter(|_| !cloud.surface.is_empty()) else {
@@ -77,7 +79,8 @@ impl OpenWalls {
     /// Charge and dipole moment of all bodies, as seen from afar.
     pub(crate) fn totals(
         &self,
-        (geometry, permittivity): (Geometry, f64),
+        geometry: Geometry,
+        permittivity: f64,
         potential: &[f64],
         found: &mut Found,
     ) {

@@ -27,10 +27,11 @@ use super::vector::{along, difference, direction, length};
 use crate::magnetic::diffusion::{Conductors, shift};
 use crate::magnetic::driven::right::Drive;
 use crate::magnetic::fields::{Fields, Media, Solution, steady_change};
+use crate::magnetic::medium::interface::Acting;
 use crate::magnetic::medium::law::Law;
 use crate::magnetic::open::multipoles::Multipoles;
 use crate::magnetic::source::{MU0, Source};
-use crate::magnetic::totals::{Acting, Totals};
+use crate::magnetic::totals::Totals;
 use crate::magnetic::unknown::Unknown;
 use crate::stencils::region::Region;
 use crate::stencils::sides::{Form, Sides};
@@ -194,14 +195,14 @@ impl Magnetic {
         }
         self.solve(stood, sides, &drive, how, effort)?;
         let flux = self.sources(region, Source::flux);
-        let fields = self.fields((region, sides), &drive.source, &flux);
+        let fields = self.fields(region, sides, &drive.source, &flux);
         let acts = Acting {
             acts: &[false, true],
             laws: &[Law::Constant(MU0), Law::Constant(MU0)],
             permeable: None,
         };
-        let coils = ((&self.applied.source, None), acts);
-        self.totals = Totals::of(region, &fields, weights, coils);
+        let source = &self.applied.source;
+        self.totals = Totals::of(region, &fields, weights, source, None, acts);
         self.out = through(region, &fields);
         let flux = Flux {
             region,
@@ -281,11 +282,11 @@ impl Magnetic {
         effort: &mut Effort,
     ) -> Result<(), Failure> {
         let (region, weights) = (&stood.region, &stood.weights);
-        let at = (region, Unknown::Potential);
-        let rates = self.conductors.rates(region, sides, Unknown::Potential);
-        let mut right = drive.right(&self.conductors, at, &rates);
+        let unknown = Unknown::Potential;
+        let rates = self.conductors.rates(region, sides, unknown);
+        let mut right = drive.right(&self.conductors, region, unknown, &rates);
         let multipoles = Multipoles::new(region, weights);
-        let pairs = drive.pairs(&self.conductors, at, &multipoles, &mut right);
+        let pairs = drive.pairs(&self.conductors, region, unknown, &multipoles, &mut right);
         let Some(system) = &mut self.system else {
             return Ok(());
         };
@@ -301,7 +302,13 @@ impl Magnetic {
         Ok(())
     }
 
-    fn fields(&self, at: (&Region<3>, &Sides<3>), source: &[[C; 3]], flux: &[[C; 3]]) -> Fields {
+    fn fields(
+        &self,
+        region: &Region<3>,
+        sides: &Sides<3>,
+        source: &[[C; 3]],
+        flux: &[[C; 3]],
+    ) -> Fields {
         let change = steady_change(self.applied.omega, &self.state.found, source);
         let solution = Solution {
             found: &self.state.found,
@@ -314,7 +321,7 @@ impl Magnetic {
             laws: &[Law::Constant(MU0), Law::Constant(MU0)],
             flux,
         };
-        Fields::new(at, Unknown::Potential, solution, &media)
+        Fields::new(region, sides, Unknown::Potential, solution, &media)
     }
 }
 

@@ -212,16 +212,16 @@ impl<const D: usize> Liquid<D> {
         let leaves = &change.leaves;
         let places = change.skin.iter().map(|s| s.place);
         let inner = change.inner.iter().copied();
-        let position = rebuilt(&self.position, leaves, surface, (places, inner));
+        let position = rebuilt(&self.position, leaves, surface, places, inner);
         self.velocity = self.carried(&self.velocity, leaves, &fresh);
         self.rate = self.carried(&self.rate, leaves, &fresh);
         let pressure = self.pressure.as_chunks::<1>().0;
         self.pressure = self.carried(pressure, leaves, &fresh).into_flattened();
         let (stress, skin) = (self.stress.as_chunks::<1>().0, &leaves[..surface]);
-        let stress = rebuilt(stress, skin, surface, (fresh.skin(stress), empty()));
+        let stress = rebuilt(stress, skin, surface, fresh.skin(stress), empty());
         self.stress = stress.into_flattened();
         let normals = change.skin.iter().map(|s| s.normal);
-        self.normal = rebuilt(&self.normal, skin, surface, (normals, empty()));
+        self.normal = rebuilt(&self.normal, skin, surface, normals, empty());
         self.position = position;
         Ok(())
     }
@@ -233,25 +233,26 @@ impl<const D: usize> Liquid<D> {
         leaves: &[bool],
         fresh: &Fresh<D>,
     ) -> Vec<[f64; C]> {
-        let new = (fresh.skin(field), fresh.inner(field));
-        rebuilt(field, leaves, self.surface(), new)
+        let (skin, inner) = (fresh.skin(field), fresh.inner(field));
+        rebuilt(field, leaves, self.surface(), skin, inner)
     }
 }
 
-/// What stays of `old` with the new behind it, first of the surface, then inside.
+/// What stays of `old` with the new behind it, first of the surface (`skin`), then inside.
 fn rebuilt<T: Copy>(
     old: &[T],
     leaves: &[bool],
     surface: usize,
-    new: (impl Iterator<Item = T>, impl Iterator<Item = T>),
+    skin: impl Iterator<Item = T>,
+    inner: impl Iterator<Item = T>,
 ) -> Vec<T> {
     let kept = |from: usize, to: usize| {
         let both = old[from..to].iter().zip(&leaves[from..to]);
         both.filter(|(_, leaves)| !**leaves)
             .map(|(value, _)| *value)
     };
-    let skin = kept(0, surface).chain(new.0);
-    skin.chain(kept(surface, old.len())).chain(new.1).collect()
+    let skin = kept(0, surface).chain(skin);
+    skin.chain(kept(surface, old.len())).chain(inner).collect()
 }
 
 /// Values of fits at places among points.

@@ -56,8 +56,8 @@ fn without(liquid: &Liquid<3>, gone: &[usize]) -> Liquid<3> {
     gone.iter().for_each(|i| leaves[*i] = true);
     let surface = liquid.surface();
     let vectors =
-        |old: &[[f64; 3]]| rebuilt(old, &leaves, surface.min(old.len()), (empty(), empty()));
-    let numbers = |old: &[f64]| rebuilt(old, &leaves, surface.min(old.len()), (empty(), empty()));
+        |old: &[[f64; 3]]| rebuilt(old, &leaves, surface.min(old.len()), empty(), empty());
+    let numbers = |old: &[f64]| rebuilt(old, &leaves, surface.min(old.len()), empty(), empty());
     Liquid {
         position: vectors(&liquid.position),
         velocity: vectors(&liquid.velocity),

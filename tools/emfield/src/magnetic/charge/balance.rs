@@ -33,11 +33,7 @@ impl<S: Rate> Balance<S> {
     }
 
     /// Balances the rows of A.
-    pub fn forth<const K: usize>(
-        &self,
-        coupled: &Coupled,
-        (a, phi): (&mut [[[S; K]; 3]], &[[S; K]]),
-    ) {
+    pub fn forth<const K: usize>(&self, coupled: &Coupled, a: &mut [[[S; K]; 3]], phi: &[[S; K]]) {
         for (surface, along) in coupled.surfaces.iter().zip(&self.along) {
             let i = surface.point as usize;
             let (row, charge) = (&mut a[i], &phi[surface.unknown as usize]);
@@ -57,7 +53,7 @@ impl<S: Rate> Balance<S> {
     }
 
     /// Undoes [`Self::forth`].
-    pub fn back(&self, coupled: &Coupled, (a, phi): (&mut [[S; 3]], impl Fn(usize) -> S)) {
+    pub fn back(&self, coupled: &Coupled, a: &mut [[S; 3]], phi: impl Fn(usize) -> S) {
         for (a, even) in a.iter_mut().zip(&self.even) {
             *a = a.map(|a| a.times_real(1.0 / even));
         }

@@ -29,7 +29,8 @@ where
     /// # Errors
     /// Where a coefficient is no number, or the rows are singular.
     pub fn new(
-        (rows, sizes): (&Rows<f64>, &[f64]),
+        rows: &Rows<f64>,
+        sizes: &[f64],
         shift: &[S],
         options: &Options,
     ) -> Result<Self, Error> {

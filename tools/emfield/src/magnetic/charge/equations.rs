@@ -104,7 +104,7 @@ impl Coupled {
         }
         made.potential(parts, &extents);
         if let Some(multipoles) = multipoles {
-            made.pairs = Pair::all(parts, multipoles, (&made.even, made.length));
+            made.pairs = Pair::all(parts, multipoles, &made.even, made.length);
         }
         made.magnetised = Magnetised::of(parts, &made.even);
         if let Some(magnetised) = &made.magnetised {
@@ -147,10 +147,10 @@ impl Coupled {
 
     /// The rows of phi.
     fn potential(&mut self, parts: &Parts<'_>, extents: &[f64]) {
-        let at = (parts.region, parts.conductivity);
+        let (region, conductivity) = (parts.region, parts.conductivity);
         let length = self.length;
         self.poisson = Rows::gathered(self.points.len(), 0.0, |p, row| {
-            parts.charge.row(p, at, row);
+            parts.charge.row(p, region, conductivity, row);
             row.iter_mut().for_each(|(_, w)| *w *= length);
         });
         for (body, extent) in self.bodies.iter().zip(extents) {
@@ -162,7 +162,7 @@ impl Coupled {
                     self.hold[p] = -scale * length / (far * body.len() as f64);
                 }
                 self.skin[p] = 0.5 * scale * length * skin(parts, i);
-                let leaving = parts.charge.leaving(p, at);
+                let leaving = parts.charge.leaving(p, region, conductivity);
                 self.normal[p] = leaving.map(|n| n * scale);
                 if insulated(parts, i) {
                     self.surfaces.push(Surface {
@@ -198,7 +198,8 @@ impl Coupled {
     pub(crate) fn moved<S: Rate, const K: usize>(
         &self,
         i: usize,
-        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
+        a: &[[[S; K]; 3]],
+        phi: &[[S; K]],
     ) -> [[S; K]; 3] {
         let mut sum = [[S::ZERO; K]; 3];
         for (sum, a) in sum.iter_mut().zip(&a[i]) {
@@ -227,7 +228,7 @@ impl Coupled {
                     add(own, a, w);
                 }
             }
-            let moved = self.moved(i, (a, phi));
+            let moved = self.moved(i, a, phi);
             for k in 0..3 {
                 for c in 0..K {
                     out[k][c] = own[k][c] + rate * moved[k][c];
@@ -252,16 +253,11 @@ impl Coupled {
     /// 1, `pull` is what they add to the rows of phi, `given` what currents in coils make in the rows of A, by point, or
     /// nothing.
     #[must_use]
-    pub fn right<S: Rate>(
-        &self,
-        driven: &[S],
-        wave: f64,
-        (pull, given): (&[S], &[[S; 3]]),
-    ) -> Vec<S> {
+    pub fn right<S: Rate>(&self, driven: &[S], wave: f64, pull: &[S], given: &[[S; 3]]) -> Vec<S> {
         let (a, phi) = driven.split_at(3 * self.points());
         let (a, phi) = (ones(a).as_chunks::<3>().0, ones(phi));
         let mut right: Vec<[S; 3]> = (0..self.points())
-            .map(|i| self.moved(i, (a, phi)).map(|[moved]| -moved))
+            .map(|i| self.moved(i, a, phi).map(|[moved]| -moved))
             .collect();
         for ((right, given), even) in right.iter_mut().zip(given).zip(&self.even) {
             for (right, given) in right.iter_mut().zip(given) {
@@ -276,7 +272,7 @@ impl Coupled {
             }
         }
         for pair in &self.pairs {
-            let moment = pair.moment((a, phi));
+            let moment = pair.moment(a, phi);
             for (i, u) in &pair.walls {
                 for (right, [moment]) in right[*i as usize].iter_mut().zip(moment) {
                     *right -= moment.times_real(*u);
@@ -294,7 +290,7 @@ impl Coupled {
         let rates: Vec<f64> = both.map(|(u, driven)| rate * u + driven).collect();
         let (a, phi) = rates.split_at(3 * self.points());
         let (a, phi) = (ones(a).as_chunks::<3>().0, ones(phi));
-        let row = |(i, even): (usize, &f64)| self.moved(i, (a, phi)).map(|[m]| m / even);
+        let row = |(i, even): (usize, &f64)| self.moved(i, a, phi).map(|[m]| m / even);
         self.even.iter().enumerate().flat_map(row).collect()
     }
 

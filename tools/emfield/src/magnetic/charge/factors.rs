@@ -45,7 +45,8 @@ impl<S: Rate> Potential<S> {
             let zeros = || vec![[S::ZERO; 3]; coupled.points()];
             Ok(Along {
                 block: S::block(
-                    (&apart.rows, &apart.sizes),
+                    &apart.rows,
+                    &apart.sizes,
                     &shift(&apart.rates, rate),
                     options,
                 )?,
@@ -54,9 +55,9 @@ impl<S: Rate> Potential<S> {
                 found: zeros(),
             })
         };
-        let rows = (&coupled.rows, &signs(&coupled.rows)[..]);
+        let (rows, shifts) = (&coupled.rows, shift(&coupled.rates, rate));
         Ok(Self {
-            smooth: S::block(rows, &shift(&coupled.rates, rate), options)?,
+            smooth: S::block(rows, &signs(rows), &shifts, options)?,
             along: coupled.magnetised.as_ref().map(along).transpose()?,
         })
     }
@@ -112,7 +113,7 @@ impl<S: Rate> Factors<S> {
         };
         Ok(Self {
             potential: Potential::new(coupled, rate, options)?,
-            charge: Block::new((&coupled.poisson, &signs(&coupled.poisson)), &hold, &own)?,
+            charge: Block::new(&coupled.poisson, &signs(&coupled.poisson), &hold, &own)?,
             a: [(); 2].map(|()| vec![[S::ZERO; 3]; coupled.points()]),
             phi: [(); 2].map(|()| vec![[S::ZERO; 1]; coupled.points.len()]),
         })
@@ -157,7 +158,7 @@ impl<S: Rate, const K: usize> Inverse<S, K> for Approximate<'_, S> {
             for (a, given) in a.iter_mut().zip(rows) {
                 *a = given.map(|g| g[c]);
             }
-            balance.back(coupled, (a, |p| given[start + p][c]));
+            balance.back(coupled, a, |p| given[start + p][c]);
             potential.invert(coupled, self.whole.rate, a, b);
             for (p, rest) in rest.iter_mut().enumerate() {
                 *rest = [given[start + p][c] - coupled.pull(p, b)];

@@ -131,7 +131,7 @@ impl<const D: usize> Problem<'_, D> {
         driven.resize(coupled.len(), C::default());
         let unknowns = 0..coupled.points.len();
         let pull: Vec<C> = unknowns.map(|p| coupled.pull(p, &source)).collect();
-        let right = coupled.right(&driven, 1.0, (&pull, &charges.given));
+        let right = coupled.right(&driven, 1.0, &pull, &charges.given);
         let mut x = vec![C::default(); coupled.len()];
         let stop = session.interrupt();
         let rule = self.parameters.numerics.rule(&*stop);
@@ -139,8 +139,8 @@ impl<const D: usize> Problem<'_, D> {
         let (a, phi) = x.split_at(3 * coupled.points());
         let a = a.as_chunks::<3>().0;
         let size = |i: usize| a[i].iter().map(C::norm_sqr).sum();
-        let at = (self.cloud, size);
-        report(("vector_potential", "V s/m"), &solved, at, session)?;
+        let name = "vector_potential";
+        report(name, "V s/m", &solved, self.cloud, size, session)?;
         Ok((spread(a), coupled.whole(phi)))
     }
 
@@ -148,7 +148,8 @@ impl<const D: usize> Problem<'_, D> {
     pub(crate) fn charged<const K: usize>(
         &self,
         charge: &Charge,
-        (phi, voltage): (&[C], &[C]),
+        phi: &[C],
+        voltage: &[C],
         change: &mut [[C; K]],
     ) -> Voltage {
         let mut written = vec![C::default(); change.len()];

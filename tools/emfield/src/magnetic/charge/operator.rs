@@ -29,7 +29,7 @@ impl<S: Rate, const K: usize> Operator<S, K> for Whole<'_, S> {
         let out_a = out_a.as_chunks_mut::<3>().0;
         coupled.rows_of_a(rate, a, phi, out_a);
         for pair in &coupled.pairs {
-            let mut moment = pair.moment((a, phi)).map(|m| m.map(|m| rate * m));
+            let mut moment = pair.moment(a, phi).map(|m| m.map(|m| rate * m));
             if let Some(still) = pair.still(a) {
                 let sum = moment.as_flattened_mut().iter_mut();
                 sum.zip(still.as_flattened())
@@ -42,7 +42,7 @@ impl<S: Rate, const K: usize> Operator<S, K> for Whole<'_, S> {
             }
         }
         self.charges(a, phi, out_phi);
-        self.balance.forth(coupled, (out_a, out_phi));
+        self.balance.forth(coupled, out_a, out_phi);
     }
 }
 

@@ -189,7 +189,7 @@ impl Charge {
     /// What stands before `A_k` of the point in the row of unknown `p`, whose right side is that times
     /// `-A_s`: the normal of the surface, and between conductors as much as they differ.
     #[must_use]
-    pub fn leaving(&self, p: usize, (region, conductivity): (&Region<3>, &[f64])) -> [f64; 3] {
+    pub fn leaving(&self, p: usize, region: &Region<3>, conductivity: &[f64]) -> [f64; 3] {
         let i = self.points[p] as usize;
         match region.kinds[i] {
             Kind::Inside(_) => [0.0; 3],
@@ -206,7 +206,8 @@ impl Charge {
     pub fn row(
         &self,
         p: usize,
-        (region, conductivity): (&Region<3>, &[f64]),
+        region: &Region<3>,
+        conductivity: &[f64],
         row: &mut Vec<(u32, f64)>,
     ) {
         let i = self.points[p] as usize;

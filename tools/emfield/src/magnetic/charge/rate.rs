@@ -19,7 +19,8 @@ pub trait Rate: Scalar {
     /// # Errors
     /// Where a coefficient is no number, or the rows are singular.
     fn block(
-        rows: (&Rows<f64>, &[f64]),
+        rows: &Rows<f64>,
+        sizes: &[f64],
         shift: &[Self],
         options: &Options,
     ) -> Result<Self::Block, Error>;
@@ -36,11 +37,12 @@ impl Rate for f64 {
     }
 
     fn block(
-        rows: (&Rows<f64>, &[f64]),
+        rows: &Rows<f64>,
+        sizes: &[f64],
         shift: &[Self],
         options: &Options,
     ) -> Result<Self::Block, Error> {
-        Block::new(rows, shift, options)
+        Block::new(rows, sizes, shift, options)
     }
 
     fn invert(block: &mut Block<f64>, given: &[[Self; 1]], found: &mut [[Self; 1]]) {
@@ -56,11 +58,12 @@ impl Rate for Complex<f64> {
     }
 
     fn block(
-        rows: (&Rows<f64>, &[f64]),
+        rows: &Rows<f64>,
+        sizes: &[f64],
         shift: &[Self],
         options: &Options,
     ) -> Result<Self::Block, Error> {
-        Block::new(rows, shift, options)
+        Block::new(rows, sizes, shift, options)
     }
 
     /// Real and imaginary part are two columns.

@@ -88,7 +88,7 @@ impl<S: Rate> AtRate<S> {
     ) -> Solved {
         let (a, phi) = right.split_at_mut(3 * coupled.points());
         let a = a.as_chunks_mut::<1>().0.as_chunks_mut::<3>().0;
-        self.balance.forth(coupled, (a, ones(phi)));
+        self.balance.forth(coupled, a, ones(phi));
         let first = self.run(coupled, &right, x, rule);
         let failed = match first.ending {
             Ending::Stagnated(why) => !matches!(why, Stagnation::Rounding { .. }),

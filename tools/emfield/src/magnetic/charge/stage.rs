@@ -24,8 +24,10 @@ impl<'a> Charged<'a> {
     /// Where a coefficient is no number, or a part is singular.
     pub fn new(
         coupled: &'a Coupled,
-        (source, given): (&[[f64; 3]], Vec<[f64; 3]>),
-        (slope, options): (f64, Options),
+        source: &[[f64; 3]],
+        given: Vec<[f64; 3]>,
+        slope: f64,
+        options: Options,
     ) -> Result<Self, Error> {
         let unknowns = 0..coupled.points.len();
         Ok(Self {
@@ -60,12 +62,13 @@ impl Stage for Charged<'_> {
     fn solve(
         &mut self,
         driven: &[f64],
-        (wave, more): (f64, &[f64]),
+        wave: f64,
+        more: &[f64],
         unknown: &mut [f64],
         rule: Rule,
     ) -> Solved {
-        let given = (&self.pull[..], &self.given[..]);
-        let mut right = self.coupled.right(driven, wave, given);
+        let (pull, given) = (&self.pull, &self.given);
+        let mut right = self.coupled.right(driven, wave, pull, given);
         self.coupled.beside(more, &mut right);
         self.factors.solve(self.coupled, right, unknown, rule)
     }

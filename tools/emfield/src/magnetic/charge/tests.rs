@@ -71,7 +71,7 @@ fn driven(region: &Region<3>, origin: Origin) -> (Vec<[C; 3]>, Vec<C>, Charge) {
     let mut push: Vec<C> = given.as_flattened().iter().map(|a| rate * a).collect();
     push.resize(coupled.len(), C::default());
     let pull: Vec<C> = (0..charge.len()).map(|p| coupled.pull(p, &given)).collect();
-    let right = coupled.right(&push, 1.0, (&pull, &[]));
+    let right = coupled.right(&push, 1.0, &pull, &[]);
     let mut factors = AtRate::new(&coupled, rate, &Options::default()).unwrap();
     let mut x = vec![C::default(); coupled.len()];
     let solved = factors.solve(&coupled, right, &mut x, RULE);
@@ -166,7 +166,8 @@ const END: f64 = 0.2;
 fn marched(
     region: &Region<3>,
     origin: Origin,
-    (steps, wave): (u32, fn(f64) -> f64),
+    steps: u32,
+    wave: fn(f64) -> f64,
 ) -> (Vec<[f64; 3]>, Vec<f64>) {
     let (charge, coupled) = ball(region);
     let given: Vec<[f64; 3]> = applied(region, origin)
@@ -175,8 +176,8 @@ fn marched(
         .collect();
     let time = MU0 * SIGMA;
     let step = END * time / f64::from(steps);
-    let with = (slope(step), Options::default());
-    let stage = Charged::new(&coupled, (&given, Vec::new()), with).unwrap();
+    let (slope, options) = (slope(step), Options::default());
+    let stage = Charged::new(&coupled, &given, Vec::new(), slope, options).unwrap();
     let source = given.into_flattened();
     let mut march = March::new(Box::new(stage), source, coupled.len(), step);
     for k in 0..steps {
@@ -209,9 +210,8 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn a_march_drives_the_same_whatever_the_magnet() {
     let (region, _) = shells(0.2, 0.4);
-    let with = (3, (|_| 1.0) as fn(f64) -> f64);
-    let (round, still) = marched(&region, Origin::Solenoid([0.0; 3]), with);
-    let (flat, voltage) = marched(&region, Origin::Sheets([1.0, 0.0, 0.0]), with);
+    let (round, still) = marched(&region, Origin::Solenoid([0.0; 3]), 3, |_| 1.0);
+    let (flat, voltage) = marched(&region, Origin::Sheets([1.0, 0.0, 0.0]), 3, |_| 1.0);
     let most = apart(round.as_flattened(), &vec![0.0; 3 * round.len()]);
     let far = apart(round.as_flattened(), flat.as_flattened());
     assert!(most > 0.1 && far < 1e-6 * most, "{far:e} of {most:e}");
@@ -224,7 +224,7 @@ fn a_march_drives_the_same_whatever_the_magnet() {
 fn charges_follow_what_rises_with_second_order_in_time() {
     let (region, _) = shells(0.25, 0.5);
     let rises: fn(f64) -> f64 = |t| (5.0 * t).sin();
-    let run = |steps, origin| marched(&region, origin, (steps, rises));
+    let run = |steps, origin| marched(&region, origin, steps, rises);
     let sheets = Origin::Sheets([1.0, 0.0, 0.0]);
     let [a, b, c] = [2, 4, 8].map(|steps| run(steps, sheets));
     // V of the sheets is that of the solenoid less the rate of x y / 2.

@@ -38,7 +38,8 @@ impl Bar {
     pub fn new<const D: usize>(
         region: &Region<D>,
         weights: &[f64],
-        (medium, sigma): (u8, f64),
+        medium: u8,
+        sigma: f64,
         current: C,
     ) -> Self {
         let own = |(i, w): (usize, &f64)| if region.medium(i) == medium { *w } else { 0.0 };
@@ -59,8 +60,10 @@ impl Bar {
     pub fn column<T: Scalar, const D: usize>(
         &self,
         conductors: &Conductors,
-        (region, sides): (&Region<D>, &Sides<D>),
-        (rows, omega): (&Rows<T>, f64),
+        region: &Region<D>,
+        sides: &Sides<D>,
+        rows: &Rows<T>,
+        omega: f64,
     ) -> Vec<C>
     where
         C: From<T>,
@@ -96,7 +99,7 @@ impl Bar {
         region: &Region<D>,
         multipoles: &Multipoles,
     ) {
-        for (field, moment) in right::pairs(conductors, (region, Unknown::Potential), multipoles) {
+        for (field, moment) in right::pairs(conductors, region, Unknown::Potential, multipoles) {
             let own = |(i, v): (usize, &f64)| {
                 if region.medium(i) == self.medium {
                     *v
@@ -116,7 +119,8 @@ impl Bar {
     pub fn pair<const K: usize>(
         &self,
         column: Vec<C>,
-        (omega, source): (f64, &[[C; K]]),
+        omega: f64,
+        source: &[[C; K]],
         right: &mut [[C; K]],
     ) -> Pair<C> {
         let given = self.voltage(omega, source);

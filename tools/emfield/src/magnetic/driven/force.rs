@@ -7,8 +7,7 @@ use rayon::prelude::*;
 
 use crate::magnetic::driven::winding::{self, Windings};
 use crate::magnetic::fields::{Fields, cross_mean};
-use crate::magnetic::medium::interface::Permeable;
-use crate::magnetic::medium::law::Law;
+use crate::magnetic::medium::interface::Acting;
 use crate::magnetic::source::{C, Loop, Source, Wire, cross, minus};
 use crate::stencils::region::Region;
 
@@ -26,13 +25,15 @@ struct Part<const D: usize> {
 
 /// Opposite of the force on the coils \[N\], \[N/m\] in a plane; about an axis only that along it.
 pub(crate) fn force<const D: usize>(
-    (region, weights): (&Region<D>, &[f64]),
+    region: &Region<D>,
+    weights: &[f64],
     fields: &Fields,
-    (source, windings): (&Source, Option<&Windings>),
-    (permeable, laws): (Option<&Permeable>, &[Law]),
+    source: &Source,
+    windings: Option<&Windings>,
+    acting: Acting<'_>,
 ) -> [f64; 3] {
     let currents = on_coils(region, weights, fields, source, windings);
-    let Some(permeable) = permeable else {
+    let Some(permeable) = acting.permeable else {
         return currents;
     };
     let wound = windings.map(|windings| field(region, wound_parts(region, windings)));
@@ -43,7 +44,7 @@ pub(crate) fn force<const D: usize>(
             .map_or([C::default(); 3], |wound| wound(place));
         std::array::from_fn(|k| own[k] + more[k])
     };
-    let magnets = permeable.pull((region, weights), (&fields.flux, laws), &flux);
+    let magnets = permeable.pull(region, weights, &fields.flux, acting.laws, &flux);
     std::array::from_fn(|k| currents[k] + magnets[k])
 }
 

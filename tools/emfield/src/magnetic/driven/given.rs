@@ -70,7 +70,7 @@ impl<const D: usize> Problem<'_, D> {
         };
         let region = &self.region;
         right.resize(region.len(), [C::default(); K]);
-        let magnetised = permeable.right::<D, K>((region, self.parameters.unknown), &self.source);
+        let magnetised = permeable.right::<D, K>(region, self.parameters.unknown, &self.source);
         for (right, more) in right.iter_mut().zip(magnetised) {
             *right = std::array::from_fn(|k| right[k] + more[k]);
         }
@@ -84,7 +84,7 @@ impl<const D: usize> Problem<'_, D> {
         };
         let mu = self.parameters.around;
         let (region, unknown) = (&self.region, self.parameters.unknown);
-        let mut right = windings.right::<D, K>((region, &self.sides), unknown);
+        let mut right = windings.right::<D, K>(region, &self.sides, unknown);
         if self.parameters.open {
             windings.open(region, unknown, &mut right);
         }
@@ -103,8 +103,8 @@ impl<const D: usize> Problem<'_, D> {
             return Vec::new();
         };
         let (region, mu_sigma) = (&self.region, &self.conductors.mu_sigma);
-        let at = (region, &self.sides);
-        let bound = permeable.bound(at, (self.parameters.unknown, mu_sigma), multipoles);
+        let unknown = self.parameters.unknown;
+        let bound = permeable.bound(region, &self.sides, unknown, mu_sigma, multipoles);
         let given = permeable.given(region, multipoles, &self.source);
         for (bound, given) in bound.iter().zip(given) {
             for (right, wall) in right.iter_mut().zip(&bound.walls) {

@@ -26,7 +26,8 @@ impl<const K: usize> Drive<K> {
     pub fn right<const D: usize>(
         &self,
         conductors: &Conductors,
-        (region, unknown): (&Region<D>, Unknown),
+        region: &Region<D>,
+        unknown: Unknown,
         rates: &[f64],
     ) -> Vec<[C; K]> {
         (0..region.len())
@@ -46,12 +47,13 @@ impl<const K: usize> Drive<K> {
     pub fn pairs<const D: usize>(
         &self,
         conductors: &Conductors,
-        (region, unknown): (&Region<D>, Unknown),
+        region: &Region<D>,
+        unknown: Unknown,
         multipoles: &Multipoles,
         right: &mut [[C; K]],
     ) -> Vec<Pair<C>> {
         let mut found = Vec::new();
-        for (u, v) in each_pair(conductors, (region, unknown), multipoles) {
+        for (u, v) in each_pair(conductors, region, unknown, multipoles) {
             let v: Vec<C> = v.iter().map(|v| C::new(0.0, self.omega * v)).collect();
             let mut given = [C::new(0.0, 0.0); K];
             for (v, source) in v.iter().zip(&self.source) {
@@ -95,17 +97,19 @@ impl<const K: usize> Drive<K> {
 #[must_use]
 pub fn pairs<const D: usize>(
     conductors: &Conductors,
-    at: (&Region<D>, Unknown),
+    region: &Region<D>,
+    unknown: Unknown,
     multipoles: &Multipoles,
 ) -> Vec<(Vec<f64>, Vec<f64>)> {
-    let pairs = each_pair(conductors, at, multipoles);
+    let pairs = each_pair(conductors, region, unknown, multipoles);
     pairs.map(|(u, v)| (u.to_vec(), v)).collect()
 }
 
 /// [`pairs`], one after another: there is not room for all at once where there are many points.
 fn each_pair<'a, const D: usize>(
     conductors: &'a Conductors,
-    (region, unknown): (&'a Region<D>, Unknown),
+    region: &'a Region<D>,
+    unknown: Unknown,
     multipoles: &'a Multipoles,
 ) -> impl Iterator<Item = (&'a [f64], Vec<f64>)> {
     let weight = move |(i, moment): (usize, &f64)| {

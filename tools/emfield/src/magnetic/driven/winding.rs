@@ -120,7 +120,8 @@ impl Windings {
     #[must_use]
     pub fn right<const D: usize, const K: usize>(
         &self,
-        (region, sides): (&Region<D>, &Sides<D>),
+        region: &Region<D>,
+        sides: &Sides<D>,
         unknown: Unknown,
     ) -> Vec<[C; K]> {
         let row = |i: usize| {

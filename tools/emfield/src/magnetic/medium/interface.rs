@@ -97,7 +97,8 @@ impl Permeable {
     #[must_use]
     pub fn right<const D: usize, const K: usize>(
         &self,
-        (region, unknown): (&Region<D>, Unknown),
+        region: &Region<D>,
+        unknown: Unknown,
         source: &Source,
     ) -> Vec<[C; K]> {
         let mut right = vec![[C::default(); K]; region.len()];
@@ -136,8 +137,10 @@ impl Permeable {
     #[must_use]
     pub fn bound<const D: usize>(
         &self,
-        (region, sides): (&Region<D>, &Sides<D>),
-        (unknown, mu_sigma): (Unknown, &[f64]),
+        region: &Region<D>,
+        sides: &Sides<D>,
+        unknown: Unknown,
+        mu_sigma: &[f64],
         multipoles: &Multipoles,
     ) -> Vec<Bound> {
         let none = || vec![0.0; region.len()];
@@ -161,8 +164,8 @@ impl Permeable {
                 let (_, flux) = local::<D, 1>(unknown, &region.places[i], &value, &value, &slopes);
                 flux.map(|b| weight * b.re)
             };
-            for (bound, harmonic) in found.iter_mut().zip(multipoles.regular(region, i)) {
-                let curl = curl(region, i, harmonic);
+            for (bound, (value, gradient)) in found.iter_mut().zip(multipoles.regular(region, i)) {
+                let curl = curl(region, i, value, gradient);
                 bound.value[i] += dot(unit(1.0, None), curl);
                 for axis in 0..D {
                     let size = dot(unit(0.0, Some(axis)), curl);
@@ -188,8 +191,8 @@ impl Permeable {
         let mut sums = vec![C::default(); multipoles.fields.len()];
         for (i, weight) in self.magnets(region, &multipoles.weights) {
             let flux = source.flux_at(region.raise(region.places[i]));
-            for (sum, harmonic) in sums.iter_mut().zip(multipoles.regular(region, i)) {
-                let curl = curl(region, i, harmonic);
+            for (sum, (value, gradient)) in sums.iter_mut().zip(multipoles.regular(region, i)) {
+                let curl = curl(region, i, value, gradient);
                 *sum += flux
                     .iter()
                     .zip(curl)
@@ -205,8 +208,10 @@ impl Permeable {
     #[must_use]
     pub fn pull<const D: usize>(
         &self,
-        (region, weights): (&Region<D>, &[f64]),
-        (flux, laws): (&[[C; 3]], &[Law]),
+        region: &Region<D>,
+        weights: &[f64],
+        flux: &[[C; 3]],
+        laws: &[Law],
         source: &(dyn Fn([f64; 3]) -> [C; 3] + Sync),
     ) -> [f64; 3] {
         let had = if region.axial { 2..3 } else { 0..D };
@@ -268,6 +273,17 @@ impl Permeable {
     }
 }
 
+/// Media on which magnetic fields act.
+#[derive(Debug, Clone, Copy)]
+pub struct Acting<'a> {
+    /// Whether a medium conducts, or has another permeability than the surroundings.
+    pub acts: &'a [bool],
+    /// Permeability by medium.
+    pub laws: &'a [Law],
+    /// Where permeability is not uniform.
+    pub permeable: Option<&'a Permeable>,
+}
+
 /// A multipole of bound currents in the rows of walls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bound {
@@ -283,7 +299,8 @@ pub struct Bound {
 pub(crate) fn curl<const D: usize>(
     region: &Region<D>,
     i: usize,
-    (value, gradient): (f64, [f64; D]),
+    value: f64,
+    gradient: [f64; D],
 ) -> [f64; 3] {
     if region.axial {
         let r = region.places[i][0];

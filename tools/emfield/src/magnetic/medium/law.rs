@@ -44,7 +44,7 @@ pub struct Local {
 impl Curve {
     /// Through flux densities \[T\] and fields \[A/m\] that rise from zero; none where they do not.
     #[must_use]
-    pub fn new((b, h): (Vec<f64>, Vec<f64>)) -> Option<Self> {
+    pub fn new(b: Vec<f64>, h: Vec<f64>) -> Option<Self> {
         Odd::new(b, h, 1.0 / MU0).ok().map(Self)
     }
 
@@ -74,7 +74,7 @@ impl Curve {
 
     /// The flux density t along an interface at which `(nu_0 + nu) t` is `wanted`, where through it there is `through`.
     #[must_use]
-    pub fn along(&self, through: f64, (level, wanted): (f64, f64)) -> f64 {
+    pub fn along(&self, through: f64, level: f64, wanted: f64) -> f64 {
         if wanted == 0.0 {
             return 0.0;
         }
@@ -143,7 +143,7 @@ impl Law {
     fn along(&self, through: f64, field: f64) -> f64 {
         match self {
             Self::Constant(mu) => mu * field,
-            Self::Curve(curve) => curve.along(through, (0.0, field)),
+            Self::Curve(curve) => curve.along(through, 0.0, field),
         }
     }
 }
@@ -170,7 +170,8 @@ pub fn jumps<const D: usize>(laws: &[Law], face: &Face<D>) -> bool {
 /// and the field along it.
 #[must_use]
 pub fn beyond<const D: usize>(
-    (laws, face): (&[Law], &Face<D>),
+    laws: &[Law],
+    face: &Face<D>,
     flux: [C; 3],
     normal: [f64; 3],
 ) -> [C; 3] {
@@ -209,7 +210,7 @@ pub fn traction<const D: usize>(
     if let [Law::Constant(a), Law::Constant(b)] = both {
         return traction_one(flux, normal, [*a, *b]);
     }
-    let outside = beyond((laws, face), flux, normal);
+    let outside = beyond(laws, face, flux, normal);
     let stress = |law: &Law, b: [C; 3]| {
         let (through, _) = parts(b, normal);
         let whole = size(&b);
@@ -250,7 +251,7 @@ mod tests {
     fn steel() -> Curve {
         let b = vec![0.0, 0.2, 0.6, 1.0, 1.3, 1.5, 1.7, 2.0];
         let h = vec![0.0, 60.0, 110.0, 190.0, 420.0, 1600.0, 8000.0, 90_000.0];
-        Curve::new((b, h)).unwrap()
+        Curve::new(b, h).unwrap()
     }
 
     fn face() -> Face<3> {
@@ -293,11 +294,11 @@ mod tests {
             [0.0, 0.0, 1.0],
         ] {
             let inside = flux.map(C::from);
-            let air = beyond((&out, &face()), inside, n);
+            let air = beyond(&out, &face(), inside, n);
             assert!((air[2] - inside[2]).norm() < 1e-12);
             let mu = out[1].permeability(size(&inside));
             assert!((air[0] - inside[0] * (MU0 / mu)).norm() < 1e-12);
-            let back = beyond((&into, &face()), air, n);
+            let back = beyond(&into, &face(), air, n);
             for k in 0..3 {
                 assert!((back[k] - inside[k]).norm() < 1e-9, "{flux:?} {back:?}");
             }
@@ -308,7 +309,7 @@ mod tests {
     #[test]
     fn the_traction_of_a_straight_curve_is_that_of_its_permeability() {
         let mu = 50.0 * MU0;
-        let line = Curve::new((vec![0.0, 5.0], vec![0.0, 5.0 / mu])).unwrap();
+        let line = Curve::new(vec![0.0, 5.0], vec![0.0, 5.0 / mu]).unwrap();
         let flux = [0.4, -0.1, 0.8].map(C::from);
         let n = [0.6, 0.0, 0.8];
         let laws = [Law::Constant(MU0), Law::Curve(line)];

@@ -61,7 +61,8 @@ pub(crate) struct Apart {
 impl Apart {
     /// The rows times `even`, with slopes as reluctivities weight them, if they do.
     pub(crate) fn new(
-        (region, sides): (&Region<3>, &Sides<3>),
+        region: &Region<3>,
+        sides: &Sides<3>,
         conductors: &Conductors,
         even: &[f64],
     ) -> Self {
@@ -100,8 +101,10 @@ struct Half<'a> {
 
 /// Both sides of a face.
 fn halves<'a>(
-    (sides, conductors): (&'a Sides<3>, &Conductors),
-    (permeable, face): (&Permeable, &Face<3>),
+    sides: &'a Sides<3>,
+    conductors: &Conductors,
+    permeable: &Permeable,
+    face: &Face<3>,
 ) -> [Half<'a>; 2] {
     let greater = greater(permeable, face);
     let all = [
@@ -166,11 +169,11 @@ impl Magnetised {
             starts: vec![0],
             mixes: Vec::new(),
             rates: Vec::new(),
-            along: Apart::new((region, sides), conductors, &scaled),
+            along: Apart::new(region, sides, conductors, &scaled),
             even: scaled,
         };
         for face in region.faces.iter().filter(jumps) {
-            made.add(face, halves((sides, conductors), (permeable, face)), even);
+            made.add(face, halves(sides, conductors, permeable, face), even);
         }
         Some(made)
     }
@@ -209,7 +212,7 @@ impl Magnetised {
             return None;
         };
         let face = &parts.region.faces[face as usize];
-        let [own, other] = halves((parts.sides, parts.conductors), (permeable, face));
+        let [own, other] = halves(parts.sides, parts.conductors, permeable, face);
         let half = if inner { own } else { other };
         let rate = half.mix(face.normal, half.share(i), even * half.mu_sigma);
         (permeable.jump(face) != 0.0).then_some(move |w: [f64; 3]| {

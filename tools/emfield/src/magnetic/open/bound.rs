@@ -25,7 +25,8 @@ impl Bound {
     /// The moments of the bound currents, by multipole.
     pub(crate) fn of(
         parts: &Parts<'_>,
-        (permeable, multipoles): (&Permeable, &Multipoles),
+        permeable: &Permeable,
+        multipoles: &Multipoles,
         length: f64,
     ) -> Vec<Self> {
         let Parts { region, sides, .. } = *parts;
@@ -81,7 +82,8 @@ impl Bound {
     /// The moment of rates of A and of phi.
     pub(crate) fn moved<S: Rate, const K: usize>(
         &self,
-        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
+        a: &[[[S; K]; 3]],
+        phi: &[[S; K]],
     ) -> [[S; K]; 3] {
         let mut sum = [[S::ZERO; K]; 3];
         for (i, mix) in &self.rate {

@@ -24,10 +24,11 @@ impl Pair {
     pub(crate) fn all(
         parts: &Parts<'_>,
         multipoles: &Multipoles,
-        (even, length): (&[f64], f64),
+        even: &[f64],
+        length: f64,
     ) -> Vec<Self> {
         let permeable = parts.conductors.permeable.as_ref();
-        let bound = permeable.map(|p| Bound::of(parts, (p, multipoles), length));
+        let bound = permeable.map(|p| Bound::of(parts, p, multipoles, length));
         let mut bound = bound.into_iter().flatten();
         let each = multipoles.moments.iter().zip(&multipoles.fields);
         each.map(|(moment, field)| {
@@ -35,13 +36,13 @@ impl Pair {
             let walls = far.map(|(i, f)| (i as u32, f * even[i])).collect();
             Self {
                 bound: bound.next(),
-                ..Self::new(parts, (moment, walls), length)
+                ..Self::new(parts, moment, walls, length)
             }
         })
         .collect()
     }
 
-    fn new(parts: &Parts<'_>, (moment, walls): (&[f64], Vec<(u32, f64)>), length: f64) -> Self {
+    fn new(parts: &Parts<'_>, moment: &[f64], walls: Vec<(u32, f64)>, length: f64) -> Self {
         let Parts {
             region,
             conductors,
@@ -75,7 +76,8 @@ impl Pair {
     /// What stands in the rows of walls of rates of A and of phi.
     pub(crate) fn moment<S: Rate, const K: usize>(
         &self,
-        (a, phi): (&[[[S; K]; 3]], &[[S; K]]),
+        a: &[[[S; K]; 3]],
+        phi: &[[S; K]],
     ) -> [[S; K]; 3] {
         let mut moment = [[S::ZERO; K]; 3];
         for (p, (i, weight)) in self.potential.iter().enumerate() {
@@ -87,7 +89,7 @@ impl Pair {
             }
         }
         if let Some(bound) = &self.bound {
-            less(&mut moment, bound.moved((a, phi)));
+            less(&mut moment, bound.moved(a, phi));
         }
         moment
     }

@@ -31,10 +31,12 @@ impl<const D: usize> Problem<'_, D> {
         let media = session.timed("source", || {
             let multipoles = open.then(|| Multipoles::new(&self.region, &self.weights));
             Saturation::new(
-                (&self.region, &self.sides),
-                (self.parameters.unknown, permeable),
-                (&self.parameters.laws, &conducts),
-                (&self.source, multipoles.as_ref()),
+                self.ground(),
+                permeable,
+                &self.parameters.laws,
+                &conducts,
+                &self.source,
+                multipoles.as_ref(),
             )
         });
         Box::new(Saturated::<D, K>::new(stage, media))

@@ -154,11 +154,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
     /// The field of the reaction `a`, by point, and sources with this wave; `moved` is what rates put into the rows, by
     /// point, or nothing.
     #[must_use]
-    pub fn look<const K: usize>(
-        &self,
-        a: &[[f64; K]],
-        (wave, moved): (f64, &[[f64; K]]),
-    ) -> Seen<K> {
+    pub fn look<const K: usize>(&self, a: &[[f64; K]], wave: f64, moved: &[[f64; K]]) -> Seen<K> {
         let inside = self.points.par_iter().map(|point| {
             let moved = moved.get(point.number).copied().unwrap_or([0.0; K]);
             self.inside(point, a, wave, moved)
@@ -203,8 +199,8 @@ impl<'a, const D: usize> Saturation<'a, D> {
             let rest = add(rest, normal, -dot(rest, normal));
             let kept: [f64; 3] = std::array::from_fn(|k| 2.0 * level * along[k] - rest[k]);
             let length = size(kept);
-            let wanted = (level / medium.around, length / medium.around);
-            let t = medium.curve.along(through, wanted);
+            let [level, wanted] = [level, length].map(|part| part / medium.around);
+            let t = medium.curve.along(through, level, wanted);
             let own = kept.map(|w| if length > 0.0 { w / length * t } else { 0.0 });
             let rest = medium.rest(add(own, normal, through));
             (rest, std::array::from_fn(|k| own[k] - along[k]))

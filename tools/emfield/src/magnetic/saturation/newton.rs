@@ -94,7 +94,7 @@ impl<const D: usize, const K: usize> Operator<f64> for Tangent<'_, '_, '_, D, K>
         };
         let flux = newton
             .media
-            .look::<K>(x.as_chunks::<K>().0, (0.0, &[]))
+            .look::<K>(x.as_chunks::<K>().0, 0.0, &[])
             .largest();
         if flux == 0.0 {
             return;
@@ -106,7 +106,7 @@ impl<const D: usize, const K: usize> Operator<f64> for Tangent<'_, '_, '_, D, K>
         let turned: Vec<f64> = both.map(|(then, now)| (then - now) / step).collect();
         let (none, mut led) = (vec![0.0; x.len()], vec![0.0; x.len()]);
         let rule = newton.rule;
-        let solved = newton.stage.solve(&none, (0.0, &turned), &mut led, rule);
+        let solved = newton.stage.solve(&none, 0.0, &turned, &mut led, rule);
         newton.count(solved.products);
         out.iter_mut().zip(led).for_each(|(out, led)| *out -= led);
     }
@@ -127,8 +127,8 @@ impl<const D: usize> Newton<'_, '_, D> {
 
     fn look<const K: usize>(&self, unknown: &[f64]) -> Seen<K> {
         let moved = self.stage.moved(self.driven, unknown);
-        let at = (self.wave, moved.as_chunks::<K>().0);
-        self.media.look(unknown.as_chunks::<K>().0, at)
+        let (unknown, moved) = (unknown.as_chunks::<K>().0, moved.as_chunks::<K>().0);
+        self.media.look(unknown, self.wave, moved)
     }
 
     /// A field as the media see it, and what they put on the right.
@@ -141,8 +141,9 @@ impl<const D: usize> Newton<'_, '_, D> {
     fn place<const K: usize>(&mut self, unknown: Vec<f64>) -> Place {
         let (seen, right) = self.right::<K>(&unknown);
         let mut next = unknown.clone();
-        let sources = (self.wave, &right[..]);
-        let solved = self.stage.solve(self.driven, sources, &mut next, self.rule);
+        let solved = self
+            .stage
+            .solve(self.driven, self.wave, &right, &mut next, self.rule);
         self.count(solved.products);
         let then = self.look::<K>(&next);
         let inside = then.inside.iter().zip(&seen.inside);

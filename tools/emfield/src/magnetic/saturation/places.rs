@@ -2,14 +2,13 @@
 
 use rayon::prelude::*;
 
+use crate::magnetic::diffusion::Ground;
 use crate::magnetic::medium::interface::{Permeable, curl};
 use crate::magnetic::medium::law::{Curve, Law};
 use crate::magnetic::open::multipoles::Multipoles;
 use crate::magnetic::saturation::equations::{Face, Medium, Point, Saturation};
 use crate::magnetic::source::{MU0, Source};
-use crate::magnetic::unknown::Unknown;
-use crate::stencils::region::{Kind, Region};
-use crate::stencils::sides::Sides;
+use crate::stencils::region::Kind;
 
 /// Step of the gradient of sources, in spacings.
 const STEP: f64 = 0.1;
@@ -25,10 +24,12 @@ impl<'a, const D: usize> Saturation<'a, D> {
     /// Of the media of a scene by their laws; `conducts` tells which conduct.
     #[must_use]
     pub fn new(
-        (region, sides): (&'a Region<D>, &'a Sides<D>),
-        (unknown, permeable): (Unknown, &Permeable),
-        (laws, conducts): (&'a [Law], &[bool]),
-        (source, multipoles): (&Source, Option<&Multipoles>),
+        ground: Ground<'a, D>,
+        permeable: &Permeable,
+        laws: &'a [Law],
+        conducts: &[bool],
+        source: &Source,
+        multipoles: Option<&Multipoles>,
     ) -> Self {
         let medium = |(m, law): (usize, &'a Law)| match law {
             Law::Constant(_) => None,
@@ -39,6 +40,11 @@ impl<'a, const D: usize> Saturation<'a, D> {
                 conducts: conducts[m],
             }),
         };
+        let Ground {
+            region,
+            sides,
+            unknown,
+        } = ground;
         let mut made = Self {
             region,
             sides,
@@ -146,10 +152,10 @@ impl<'a, const D: usize> Saturation<'a, D> {
         let Some(multipoles) = multipoles else {
             return Vec::new();
         };
-        let one = |harmonic: (f64, [f64; D])| -> [f64; 3] {
+        let one = |(value, gradient): (f64, [f64; D])| -> [f64; 3] {
             let seen = match D {
-                3 => self.region.raise(harmonic.1),
-                _ => curl(self.region, i, harmonic),
+                3 => self.region.raise(gradient),
+                _ => curl(self.region, i, value, gradient),
             };
             seen.map(|s| multipoles.weights[i] * s)
         };

@@ -49,7 +49,7 @@ impl<'a, const D: usize, const K: usize> Saturated<'a, D, K> {
 
     /// The field of an unknown as the media see it.
     fn look(&self, wave: f64, unknown: &[f64]) -> Seen<K> {
-        self.media.look(unknown.as_chunks::<K>().0, (wave, &[]))
+        self.media.look(unknown.as_chunks::<K>().0, wave, &[])
     }
 
     /// The same solve where currents flow in such media.
@@ -64,8 +64,9 @@ impl<'a, const D: usize, const K: usize> Saturated<'a, D, K> {
         };
         let ended = newton.solve::<K>(unknown.to_vec());
         let steps = newton.taken.0;
-        let last = (ended.most.0, self.media.place(ended.most.1));
-        self.settled.count(steps, last, ended.found);
+        let (change, entry) = ended.most;
+        let point = self.media.place(entry);
+        self.settled.count(steps, change, point, ended.found);
         unknown.copy_from_slice(&ended.unknown);
         ended.solved
     }
@@ -110,7 +111,8 @@ impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
     fn solve(
         &mut self,
         driven: &[f64],
-        (wave, _): (f64, &[f64]),
+        wave: f64,
+        _: &[f64],
         unknown: &mut [f64],
         rule: Rule,
     ) -> Solved {
@@ -124,8 +126,8 @@ impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
         loop {
             let right = self.media.right(&here, &sheets);
             let mut next = unknown.to_vec();
-            let sources = (wave, right.as_flattened());
-            let solved = self.stage.solve(driven, sources, &mut next, rule);
+            let right = right.as_flattened();
+            let solved = self.stage.solve(driven, wave, right, &mut next, rule);
             (products, steps) = (products + solved.products, steps + 1);
             let then = self.look(wave, &next);
             let step = self.step(&here, &then, &sheets);
@@ -134,8 +136,8 @@ impl<const D: usize, const K: usize> Stage for Saturated<'_, D, K> {
             let broken = !moved.is_finite() || matches!(solved.ending, Ending::BrokenDown(_));
             if found || broken || steps == MOST {
                 unknown.copy_from_slice(&next);
-                let last = (moved, self.media.place(entry));
-                self.settled.count(steps, last, found);
+                let point = self.media.place(entry);
+                self.settled.count(steps, moved, point, found);
                 return Solved { products, ..solved };
             }
             let change = step.change.as_flattened();

@@ -5,10 +5,11 @@ use krylov::{Options, Rule, System};
 use crate::magnetic::diffusion::{Conductors, shift};
 use crate::magnetic::driven::right::Drive;
 use crate::magnetic::fields::{Fields, Media, Solution, steady_change};
+use crate::magnetic::medium::interface::Acting;
 use crate::magnetic::medium::law::Law;
 use crate::magnetic::open::multipoles::Multipoles;
 use crate::magnetic::source::{Loop, MU0, Source};
-use crate::magnetic::totals::{Acting, Totals};
+use crate::magnetic::totals::Totals;
 use crate::magnetic::unknown::Unknown;
 use crate::stencils::quadrature;
 use crate::stencils::sides::{Form, Sides};
@@ -52,12 +53,12 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
         held: [Complex::default(); 3],
     };
     let weights = quadrature::weights(&region, &cells, &form).unwrap();
-    let rates = conductors.rates(&region, &sides, Unknown::Potential);
-    let at = (&region, Unknown::Potential);
-    let mut right = drive.right(&conductors, at, &rates);
+    let unknown = Unknown::Potential;
+    let rates = conductors.rates(&region, &sides, unknown);
+    let mut right = drive.right(&conductors, &region, unknown, &rates);
     let multipoles = Multipoles::new(&region, &weights);
-    let pairs = drive.pairs(&conductors, at, &multipoles, &mut right);
-    let rows = conductors.rows(&region, &sides, Unknown::Potential);
+    let pairs = drive.pairs(&conductors, &region, unknown, &multipoles, &mut right);
+    let rows = conductors.rows(&region, &sides, unknown);
     let shift = shift(&rates, omega);
     let mut system = System::new(rows, shift, Options::default()).unwrap();
     let mut found = vec![[Complex::default(); 3]; region.len()];
@@ -74,8 +75,9 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
         flux: &flux,
     };
     let fields = Fields::new(
-        (&region, &sides),
-        Unknown::Potential,
+        &region,
+        &sides,
+        unknown,
         Solution {
             found: &found,
             source: &drive.source,
@@ -89,7 +91,7 @@ fn levitated(frequency: f64, across: f64, along: f64, order: u8) -> Totals {
         laws: &[Law::Constant(MU0), Law::Constant(MU0)],
         permeable: None,
     };
-    Totals::of(&region, &fields, &weights, ((&source, None), acting))
+    Totals::of(&region, &fields, &weights, &source, None, acting)
 }
 
 #[test]
@@ -126,6 +128,6 @@ fn where_nothing_conducts_nothing_is_driven() {
         source: coils().potential(&region.places),
         held: [Complex::default(); 3],
     };
-    let right = drive.right(&conductors, (&region, Unknown::Potential), &rates);
+    let right = drive.right(&conductors, &region, Unknown::Potential, &rates);
     assert!(right.iter().flatten().all(|r| r.norm() == 0.0));
 }

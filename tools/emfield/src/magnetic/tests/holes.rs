@@ -36,17 +36,16 @@ fn the_law_of_induction_is_exact_for_quadratics() {
     });
     // The mean slope of x^2 + 2 y^2 + x along a circle is half its Laplacian.
     let mut slope = 0.0;
-    let at = (&region, &sides);
-    hole.row(at, without, |j, w| {
+    hole.row(&region, &sides, without, |j, w| {
         let [x, y] = region.places[j];
         slope += w * (x * x + 2.0 * y * y + x);
     });
-    let shares = -hole.rate(at, without);
+    let shares = -hole.rate(&region, &sides, without);
     assert!(
         (slope + 6.0 * shares - 3.0).abs() < 1e-9,
         "{slope} {shares}"
     );
     // A permeability of 3 times the area, over the length.
-    let flux = hole.rate(at, with) + shares;
+    let flux = hole.rate(&region, &sides, with) + shares;
     assert!((flux - 1.5).abs() < 1e-12, "{flux}");
 }

@@ -117,7 +117,7 @@ fn a_march_that_was_rescued_goes_on_with_the_same_bits() {
     let resumed = |way| {
         let mut other = march(&equations, step);
         other
-            .restore((reached.unknown.clone(), reached.total.clone()), way)
+            .restore(reached.unknown.clone(), reached.total.clone(), way)
             .unwrap();
         advance(&mut other, 2..4, step);
         other.state().clone()

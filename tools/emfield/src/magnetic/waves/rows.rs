@@ -7,12 +7,12 @@
 use krylov::Rows;
 use rayon::prelude::*;
 
-use crate::magnetic::diffusion::Conductors;
+use crate::magnetic::diffusion::{Conductors, Ground};
 use crate::magnetic::source::C;
 use crate::magnetic::unknown::Unknown;
 use crate::magnetic::waves::weights::{Target, Waves};
-use crate::stencils::region::{Face, Kind, Region};
-use crate::stencils::sides::{Sides, along_normal};
+use crate::stencils::region::{Face, Kind};
+use crate::stencils::sides::along_normal;
 
 /// Rows with waves, and what belongs to them.
 pub struct WaveRows<const K: usize> {
@@ -27,30 +27,20 @@ pub struct WaveRows<const K: usize> {
 /// One row, and what stands before its rate.
 type Waved = (Vec<(u32, C)>, f64);
 
-/// Conductors and their points.
-pub struct Ground<'a, const D: usize> {
-    /// What conducts.
-    pub conductors: &'a Conductors,
-    /// Points.
-    pub region: &'a Region<D>,
-    /// Stencils.
-    pub sides: &'a Sides<D>,
-    /// What is sought.
-    pub unknown: Unknown,
-}
-
 impl<const D: usize> Ground<'_, D> {
     /// Rows with waves, in place of those without and what stands before their rates.
     #[must_use]
     pub fn rows<const K: usize>(
         &self,
+        conductors: &Conductors,
         waves: &Waves,
-        (plain, mut rates): (&Rows<f64>, Vec<f64>),
+        plain: &Rows<f64>,
+        mut rates: Vec<f64>,
         source: &[[C; K]],
     ) -> WaveRows<K> {
         let all: Vec<Option<Waved>> = (0..plain.len())
             .into_par_iter()
-            .map(|i| self.row(waves, i, plain))
+            .map(|i| self.row(conductors, waves, i, plain))
             .collect();
         for (rate, own) in rates.iter_mut().zip(&all) {
             *rate = own.as_ref().map_or(*rate, |own| own.1);
@@ -75,10 +65,14 @@ impl<const D: usize> Ground<'_, D> {
     }
 
     /// The row of a point; none where it stays.
-    fn row(&self, waves: &Waves, i: usize, plain: &Rows<f64>) -> Option<Waved> {
-        let Self {
-            conductors, region, ..
-        } = *self;
+    fn row(
+        &self,
+        conductors: &Conductors,
+        waves: &Waves,
+        i: usize,
+        plain: &Rows<f64>,
+    ) -> Option<Waved> {
+        let region = self.region;
         if conductors.held(region, self.unknown, i) {
             return None;
         }
@@ -96,7 +90,7 @@ impl<const D: usize> Ground<'_, D> {
         match region.kinds[i] {
             Kind::Inside(medium) => {
                 let base: Vec<(usize, f64)> = plain.pairs(i).collect();
-                let row = waves.weights((region, i, medium), &base, Target::Laplacian)?;
+                let row = waves.weights(region, i, medium, &base, Target::Laplacian)?;
                 Some((row, conductors.mu_sigma[medium as usize]))
             }
             Kind::Interface(number) if self.unknown == Unknown::Axial => {
@@ -135,7 +129,7 @@ impl<const D: usize> Ground<'_, D> {
             next = (next + 1) % base.len();
         });
         let target = Target::Along([way[0], way[1]]);
-        let mut row = waves.weights((self.region, i, medium), &base, target)?;
+        let mut row = waves.weights(self.region, i, medium, &base, target)?;
         row.iter_mut().for_each(|(_, w)| *w *= part);
         Some(row)
     }

@@ -173,7 +173,8 @@ impl Waves {
     pub fn new<const D: usize>(
         conductors: &Conductors,
         region: &Region<D>,
-        (omega, serves): (f64, impl Fn(u8) -> bool),
+        omega: f64,
+        serves: impl Fn(u8) -> bool,
     ) -> Option<Self> {
         let square = |(m, mu_sigma): (usize, &f64)| match serves(m as u8) {
             true => C::new(0.0, omega * mu_sigma),
@@ -187,7 +188,9 @@ impl Waves {
     /// Weights at point `i` from those of polynomials, in a medium; none where polynomials serve.
     pub(crate) fn weights<const D: usize>(
         &self,
-        (region, i, medium): (&Region<D>, usize, u8),
+        region: &Region<D>,
+        i: usize,
+        medium: u8,
         base: &[(usize, f64)],
         target: Target,
     ) -> Option<Vec<(u32, C)>> {
@@ -207,16 +210,18 @@ impl Waves {
     /// Derivatives of a field at a point of a conductor along the coordinates, from the stencils of polynomials there.
     pub(crate) fn slope<const D: usize>(
         &self,
-        at: (&Region<D>, usize, u8),
+        region: &Region<D>,
+        i: usize,
+        medium: u8,
         stencils: &Stencils<D>,
         field: impl Fn(usize) -> C,
     ) -> Option<[C; D]> {
         let mut slopes = [C::new(0.0, 0.0); D];
         for (axis, slope) in slopes.iter_mut().enumerate() {
-            let base: Vec<(usize, f64)> = stencils.derivative(at.1, axis).iter().collect();
+            let base: Vec<(usize, f64)> = stencils.derivative(i, axis).iter().collect();
             let mut way = [0.0; 2];
             way[axis] = 1.0;
-            let weights = self.weights(at, &base, Target::Along(way))?;
+            let weights = self.weights(region, i, medium, &base, Target::Along(way))?;
             *slope = weights.iter().map(|(j, w)| w * field(*j as usize)).sum();
         }
         Some(slopes)
@@ -261,7 +266,7 @@ mod tests {
         };
         let sides = Sides::new(&region, &form).unwrap();
         let conductors = conductors(square);
-        let waves = Waves::new(&conductors, &region, (1.0, |_| true)).unwrap();
+        let waves = Waves::new(&conductors, &region, 1.0, |_| true).unwrap();
         let k = C::new(0.0, square).sqrt();
         let i = region.len() / 2;
         let field = |j: usize| {
@@ -271,11 +276,11 @@ mod tests {
         };
         let base: Vec<(usize, f64)> = sides.own.laplacian(i).iter().collect();
         let weights = waves
-            .weights((&region, i, 1), &base, Target::Laplacian)
+            .weights(&region, i, 1, &base, Target::Laplacian)
             .unwrap();
         let found: C = weights.iter().map(|(j, w)| w * field(*j as usize)).sum();
         let plain = sides.own.laplacian(i).apply_with(field);
-        let slope = waves.slope((&region, i, 1), &sides.own, field).unwrap();
+        let slope = waves.slope(&region, i, 1, &sides.own, field).unwrap();
         let bare = sides.own.derivative(i, 0).apply_with(field);
         let along = k * turn.cos();
         let off = |a: C, b: C, scale: f64| (a - b).norm() / scale;
@@ -321,7 +326,7 @@ mod tests {
     #[test]
     fn what_is_not_asked_for_has_none() {
         let region = patch();
-        let none = |conductors: &Conductors| Waves::new(conductors, &region, (1.0, |_| true));
+        let none = |conductors: &Conductors| Waves::new(conductors, &region, 1.0, |_| true);
         assert!(none(&conductors(0.0)).is_none());
         let waves = none(&conductors(0.5)).unwrap();
         let base = [(region.len() / 2, -1.0), (0, 1.0)];
@@ -329,23 +334,19 @@ mod tests {
             let waves = Waves {
                 squares: waves.squares.iter().map(|k| k * square).collect(),
             };
-            waves.weights(
-                (&region, region.len() / 2, medium),
-                &base,
-                Target::Laplacian,
-            )
+            waves.weights(&region, region.len() / 2, medium, &base, Target::Laplacian)
         };
         assert!(weights(0, 1.0).is_none());
         assert!(weights(1, 1.0).is_some());
         // The skin depth is a small part of the support.
         assert!(weights(1, 1e3).is_none());
-        assert!(Waves::new(&conductors(0.5), &region, (1.0, |_| false)).is_none());
+        assert!(Waves::new(&conductors(0.5), &region, 1.0, |_| false).is_none());
         let space = Region::<3>::default();
-        assert!(Waves::new(&conductors(0.5), &space, (1.0, |_| true)).is_none());
+        assert!(Waves::new(&conductors(0.5), &space, 1.0, |_| true).is_none());
         let about = Region::<2> {
             axial: true,
             ..patch()
         };
-        assert!(Waves::new(&conductors(0.5), &about, (1.0, |_| true)).is_none());
+        assert!(Waves::new(&conductors(0.5), &about, 1.0, |_| true).is_none());
     }
 }

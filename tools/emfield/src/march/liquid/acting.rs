@@ -8,7 +8,7 @@ use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::electric::{Applied, Electric};
 use crate::liquid::magnetic::{Magnetic, outline};
-use crate::liquid::step::{Liquid, Matter, Way};
+use crate::liquid::step::{Liquid, Matter, Step, Way};
 use crate::liquid::vector::along;
 use crate::scene::{Liquid as Part, Scene};
 
@@ -35,7 +35,8 @@ impl Acting {
     /// # Errors
     /// Where the points of a field cannot be made.
     pub(crate) fn new(
-        (scene, part): (&Scene, &Part),
+        scene: &Scene,
+        part: &Part,
         liquid: &Liquid<3>,
         session: &mut Session,
     ) -> Result<Self, Failure> {
@@ -64,18 +65,18 @@ impl Acting {
         self.electric.is_some() || self.magnetic.is_some()
     }
 
-    /// What fields do at the start, with currents as strong as the scene asks for.
+    /// Makes currents so strong that what fields did last holds the liquid, where the scene asks for that.
     ///
     /// # Errors
-    /// Where the field is to hold the liquid and does not lift it, and those of the field.
-    pub(crate) fn begin(
+    /// Where the field does not lift it.
+    pub(crate) fn hold(
         &mut self,
-        (part, matter): (&Part, &Matter<3>),
-        (liquid, way, centre): (&mut Liquid<3>, &Way, [f64; 3]),
-        effort: &mut Effort,
-        session: &mut Session,
+        part: &Part,
+        matter: &Matter<3>,
+        liquid: &mut Liquid<3>,
+        way: &Way,
+        centre: [f64; 3],
     ) -> Result<(), Failure> {
-        self.pull((liquid, way, centre), 0.0, effort, session)?;
         let balanced = part.magnetic.as_ref().is_some_and(|m| m.balanced);
         if let Some(magnetic) = self.magnetic.as_mut().filter(|_| balanced) {
             let skin = Place::of(&liquid.position, &liquid.normal, way.spacing).skin;
@@ -91,17 +92,19 @@ impl Acting {
         Ok(())
     }
 
-    /// What fields do where the liquid is, `passed` after the last time \[s\]; the impulse of it \[N s\].
+    /// What fields do where the liquid is, a step after the last time; the impulse of it \[N s\].
     ///
     /// # Errors
     /// Where the fields cannot be found.
     pub(crate) fn pull(
         &mut self,
-        (liquid, way, centre): (&mut Liquid<3>, &Way, [f64; 3]),
-        passed: f64,
+        liquid: &mut Liquid<3>,
+        step: Step<'_>,
+        centre: [f64; 3],
         effort: &mut Effort,
         session: &mut Session,
     ) -> Result<[f64; 3], Failure> {
+        let Step { way, dt: passed } = step;
         let place = Place::of(&liquid.position, &liquid.normal, way.spacing);
         let rule = way.rule();
         let (traction, force, impulse) = if let Some(electric) = &mut self.electric {
@@ -187,11 +190,7 @@ impl Acting {
             .with("current_out", "1", magnetic.out)
     }
 
-    pub(crate) fn save(
-        &self,
-        (liquid, effort): (&Liquid<3>, &Effort),
-        checkpoint: &mut Checkpoint,
-    ) {
+    pub(crate) fn save(&self, liquid: &Liquid<3>, effort: &Effort, checkpoint: &mut Checkpoint) {
         if let Some(electric) = &self.electric {
             electric.save(checkpoint);
             checkpoint.put_vectors("drag", &liquid.drag);
@@ -216,7 +215,8 @@ impl Acting {
 
     pub(crate) fn restore(
         &mut self,
-        (liquid, effort): (&mut Liquid<3>, &mut Effort),
+        liquid: &mut Liquid<3>,
+        effort: &mut Effort,
         spacing: f64,
         checkpoint: &mut Checkpoint,
     ) -> Result<(), Failure> {

@@ -8,7 +8,7 @@ use crate::assemble::liquid::between::{fastest, start, steps};
 use crate::assemble::liquid::matter::{matter, way};
 
 use crate::liquid::room::level::Level;
-use crate::liquid::step::{Ended, Liquid, Matter, Way};
+use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::surface::Patch;
 use crate::liquid::told;
 use crate::liquid::vector::{along, dot};
@@ -34,11 +34,13 @@ struct March<const D: usize> {
 /// Where fits or equations fail, the user interrupts, or the disk refuses.
 pub(crate) fn between<const D: usize>(
     scene: &Scene,
-    ((part, faces), marched): ((&Part, &Faces), &LiquidMarch),
+    part: &Part,
+    faces: &Faces,
+    marched: &LiquidMarch,
     session: &mut Session,
 ) -> Result<(), Failure> {
-    let mut liquid = session.timed("points", || start::<D>(scene, (part, faces)))?;
-    let steps = steps(scene, (part, marched), &liquid);
+    let mut liquid = session.timed("points", || start::<D>(scene, part, faces))?;
+    let steps = steps(scene, part, marched, &liquid);
     let mut march = March {
         matter: matter(part),
         way: way(scene, part),
@@ -50,7 +52,7 @@ pub(crate) fn between<const D: usize>(
     } else {
         let made = liquid.balance(&march.matter, &march.way, &mut march.course.effort)?;
         march.tell(&mut liquid, 0.0, session)?;
-        march.write(&liquid, (0.0, &made), session)?;
+        march.write(&liquid, 0.0, &made, session)?;
     }
     while march.course.taken < steps.count() {
         let (_, length) = steps.step(march.course.taken);
@@ -59,7 +61,7 @@ pub(crate) fn between<const D: usize>(
         let (time, written) = steps.end(march.course.taken);
         march.tell(&mut liquid, time, session)?;
         if written {
-            march.write(&liquid, (time, &ended.patches), session)?;
+            march.write(&liquid, time, &ended.patches, session)?;
         }
         let speed = fastest(&liquid);
         session.progress(march.course.taken, steps.count(), || {
@@ -96,10 +98,12 @@ impl<const D: usize> March<D> {
         }
         let mut left = parts as u64;
         loop {
-            let (way, dt) = (&self.way, length / parts);
-            let ended = session.timed("step", || {
-                liquid.advance(&self.matter, way, dt, &mut self.course.effort)
-            })?;
+            let step = Step {
+                way: &self.way,
+                dt: length / parts,
+            };
+            let effort = &mut self.course.effort;
+            let ended = session.timed("step", || liquid.advance(&self.matter, step, effort))?;
             if liquid.surface() > 0 {
                 liquid.smooth(&ended.patches, &ended.images);
                 let Ended { rows, images, .. } = &ended;
@@ -175,7 +179,8 @@ impl<const D: usize> March<D> {
     fn write(
         &self,
         liquid: &Liquid<D>,
-        (time, patches): (f64, &[Patch<D>]),
+        time: f64,
+        patches: &[Patch<D>],
         session: &mut Session,
     ) -> Result<(), Failure> {
         let points = told::points(liquid, &self.matter, &[], self.precision);

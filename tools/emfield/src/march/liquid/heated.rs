@@ -10,7 +10,7 @@ use crate::liquid::drift::{self, Fitted};
 use crate::liquid::effort::{Effort, failed};
 use crate::liquid::heat::{Added, Flow, Ground, Melting, Warmth, warmed};
 use crate::liquid::operators::{operators, sloped};
-use crate::liquid::step::{Ended, Liquid, Way};
+use crate::liquid::step::{Ended, Liquid, Step};
 use crate::liquid::surface::Patch;
 use crate::liquid::told::Totals;
 use crate::liquid::vector::{difference, dot, length};
@@ -102,20 +102,22 @@ impl Heated {
         self.enthalpy.iter().any(solid)
     }
 
-    /// Heat flows for `dt` \[s\] in a drop that stands still.
+    /// Heat flows for a step in a drop that stands still.
     ///
     /// # Errors
     /// Where fits or equations cannot be made.
     pub(crate) fn rest(
         &mut self,
-        (liquid, patches): (&Liquid<3>, &[Patch<3>]),
+        liquid: &Liquid<3>,
+        patches: &[Patch<3>],
         acting: &Acting,
-        (way, dt): (&Way, f64),
+        step: Step<'_>,
         effort: &mut Effort,
     ) -> Result<(), Failure> {
         if self.rows.is_none() {
-            let inside = operators(&liquid.position, way).map_err(|e| failed(&e))?;
-            let surface = sloped(&liquid.position, patches, way, false).map_err(|e| failed(&e))?;
+            let inside = operators(&liquid.position, step.way).map_err(|e| failed(&e))?;
+            let surface = sloped(&liquid.position, patches, step.way, false);
+            let surface = surface.map_err(|e| failed(&e))?;
             self.rows = Some([inside, surface]);
         }
         if let Some([inside, surface]) = self.rows.take() {
@@ -125,14 +127,14 @@ impl Heated {
                 surface: &surface,
                 on,
             };
-            let made = self.march(&ground, &[], acting, (way, dt), effort);
+            let made = self.march(&ground, &[], acting, step, effort);
             self.rows = Some([inside, surface]);
             made?;
         }
         Ok(())
     }
 
-    /// Heat flows for `dt` \[s\] in a drop that has moved.
+    /// Heat flows for a step in a drop that has moved.
     ///
     /// # Errors
     /// Where fits or equations cannot be made.
@@ -141,9 +143,10 @@ impl Heated {
         liquid: &Liquid<3>,
         ended: &Ended<3>,
         acting: &Acting,
-        (way, dt): (&Way, f64),
+        step: Step<'_>,
         effort: &mut Effort,
     ) -> Result<(), Failure> {
+        let way = step.way;
         let Ended {
             moved,
             patches,
@@ -168,7 +171,7 @@ impl Heated {
             surface: &surface,
             on: patches.len(),
         };
-        self.march(&ground, drift.as_flattened(), acting, (way, dt), effort)?;
+        self.march(&ground, drift.as_flattened(), acting, step, effort)?;
         self.froze |= self.frozen();
         Ok(())
     }
@@ -178,7 +181,7 @@ impl Heated {
         ground: &Ground<'_, 3>,
         drift: &[f64],
         acting: &Acting,
-        (way, dt): (&Way, f64),
+        step: Step<'_>,
         effort: &mut Effort,
     ) -> Result<(), Failure> {
         let mut heat = acting.heat.clone();
@@ -192,11 +195,11 @@ impl Heated {
         let flow = Flow {
             ground,
             added,
-            rule: way.rule(),
-            dt,
+            rule: step.way.rule(),
+            dt: step.dt,
         };
         self.enthalpy = warmed(&self.warmth, flow, &self.enthalpy, effort)?;
-        self.since += dt;
+        self.since += step.dt;
         Ok(())
     }
 

@@ -19,7 +19,7 @@ use crate::liquid::effort::failed;
 use crate::liquid::operators::{divergence, operators};
 use crate::liquid::outline::Outline;
 use crate::liquid::passing::Passing;
-use crate::liquid::step::{Ended, Liquid, Matter, Way};
+use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference};
@@ -59,19 +59,19 @@ struct March {
 /// Where fits or equations fail, the user interrupts, or the disk refuses.
 pub(crate) fn flow(
     scene: &Scene,
-    (part, marched): (&Part, &LiquidMarch),
+    part: &Part,
+    marched: &LiquidMarch,
     session: &mut Session,
 ) -> Result<(), Failure> {
     if let Some(faces) = &part.faces {
-        let of = ((part, faces), marched);
         return match scene.geometry {
-            Geometry::Space => between::<3>(scene, of, session),
-            _ => between::<2>(scene, of, session),
+            Geometry::Space => between::<3>(scene, part, faces, marched, session),
+            _ => between::<2>(scene, part, faces, marched, session),
         };
     }
     let filled = session.timed("points", || filled(scene, part))?;
     let mut liquid = start(part, filled)?;
-    let steps = steps(scene, (part, marched), &liquid);
+    let steps = steps(scene, part, marched, &liquid);
     let mut march = March {
         matter: matter(part),
         way: way(scene, part),
@@ -79,23 +79,23 @@ pub(crate) fn flow(
         drift: [0.0; 3],
         centre: [0.0; 3],
         course: Course::default(),
-        acting: Acting::new((scene, part), &liquid, session)?,
+        acting: Acting::new(scene, part, &liquid, session)?,
         heat: Heated::new(part, &liquid)?,
         passing: Passing::default(),
     };
     if let Some(mut checkpoint) = session.restored() {
         march.restore(&mut liquid, &mut checkpoint)?;
     } else {
-        march.begin((&mut liquid, part), session)?;
+        march.begin(&mut liquid, part, session)?;
     }
     while march.course.taken < steps.count() {
         let (_, length) = steps.step(march.course.taken);
         let made = march.step(&mut liquid, length, session)?;
         march.course.taken += 1;
         let (time, written) = steps.end(march.course.taken);
-        march.tell(&mut liquid, (time, &made), session)?;
+        march.tell(&mut liquid, time, &made, session)?;
         if written {
-            march.write(&liquid, (time, &made), session)?;
+            march.write(&liquid, time, &made, session)?;
         }
         let speed = fastest(&liquid);
         session.progress(march.course.taken, steps.count(), || {
@@ -117,14 +117,15 @@ impl March {
     /// The liquid at its start: what it is, and its pressure.
     fn begin(
         &mut self,
-        (liquid, part): (&mut Liquid<3>, &Part),
+        liquid: &mut Liquid<3>,
+        part: &Part,
         session: &mut Session,
     ) -> Result<(), Failure> {
         self.centre = liquid.middle();
-        let at = (&mut *liquid, &self.way, self.centre);
-        let weighed = (part, &self.matter);
-        self.acting
-            .begin(weighed, at, &mut self.course.effort, session)?;
+        let (way, centre) = (&self.way, self.centre);
+        let (step, effort) = (Step { way, dt: 0.0 }, &mut self.course.effort);
+        self.acting.pull(liquid, step, centre, effort, session)?;
+        self.acting.hold(part, &self.matter, liquid, way, centre)?;
         let made = liquid.balance(&self.matter, &self.way, &mut self.course.effort)?;
         let rows = operators(&liquid.position, &self.way);
         let rows = rows.map_err(|e| Failure::Other(format!("liquid: {e}")))?;
@@ -142,8 +143,8 @@ impl March {
                 (sources / liquid.position.len() as f64).sqrt()
             ));
         }
-        self.tell(liquid, (0.0, &made), session)?;
-        self.write(liquid, (0.0, &made), session)
+        self.tell(liquid, 0.0, &made, session)?;
+        self.write(liquid, 0.0, &made, session)
     }
 
     /// One step, in parts where points would move too far.
@@ -157,9 +158,10 @@ impl March {
             let surface = &liquid.position[..liquid.surface()];
             let patches = patches(surface, &liquid.normal, self.way.spacing);
             let patches = patches.map_err(|e| failed(&e))?;
-            let (how, effort) = ((&self.way, length), &mut self.course.effort);
+            let (way, dt) = (&self.way, length);
+            let (step, effort) = (Step { way, dt }, &mut self.course.effort);
             session.timed("heat", || {
-                heat.rest((liquid, &patches), &self.acting, how, effort)
+                heat.rest(liquid, &patches, &self.acting, step, effort)
             })?;
             return Ok(patches);
         }
@@ -171,21 +173,17 @@ impl March {
         }
         let mut made = Vec::new();
         for _ in 0..parts as u64 {
-            let (way, dt) = (&self.way, length / parts);
-            let ended = session.timed("step", || {
-                liquid.advance(&self.matter, way, dt, &mut self.course.effort)
-            })?;
+            let step = Step {
+                way: &self.way,
+                dt: length / parts,
+            };
+            let effort = &mut self.course.effort;
+            let ended = session.timed("step", || liquid.advance(&self.matter, step, effort))?;
             if let Some(heat) = &mut self.heat {
-                heat.flow(
-                    liquid,
-                    &ended,
-                    &self.acting,
-                    (way, dt),
-                    &mut self.course.effort,
-                )?;
+                heat.flow(liquid, &ended, &self.acting, step, effort)?;
             }
             if liquid.loose() {
-                let quiet = || liquid.quiet(&self.matter, way, dt);
+                let quiet = || liquid.quiet(&self.matter, step);
                 session.timed("ripples", quiet).map_err(|e| failed(&e))?;
             }
             liquid.smooth(&ended.patches, &ended.images);
@@ -234,10 +232,9 @@ impl March {
         passed: f64,
         session: &mut Session,
     ) -> Result<(), Failure> {
-        let at = (liquid, &self.way, self.centre);
-        let impulse = self
-            .acting
-            .pull(at, passed, &mut self.course.effort, session)?;
+        let (way, dt) = (&self.way, passed);
+        let (step, effort) = (Step { way, dt }, &mut self.course.effort);
+        let impulse = (self.acting).pull(liquid, step, self.centre, effort, session)?;
         if let Some(volume) = self.course.volume {
             let mass = self.matter.density * volume;
             self.drift = along(&self.drift, mass.recip(), &impulse);
@@ -249,7 +246,8 @@ impl March {
     fn tell(
         &mut self,
         liquid: &mut Liquid<3>,
-        (time, patches): (f64, &[Patch<3>]),
+        time: f64,
+        patches: &[Patch<3>],
         session: &mut Session,
     ) -> Result<(), Failure> {
         if let Some(viscosity) = self.stirs(liquid) {
@@ -315,7 +313,8 @@ impl March {
     fn write(
         &self,
         liquid: &Liquid<3>,
-        (time, patches): (f64, &[Patch<3>]),
+        time: f64,
+        patches: &[Patch<3>],
         session: &mut Session,
     ) -> Result<(), Failure> {
         let carried = &self.acting.pressure;
@@ -333,7 +332,7 @@ impl March {
 
     fn save(&self, liquid: &Liquid<3>, checkpoint: &mut Checkpoint) -> artefact::Result<()> {
         self.course.save(liquid, checkpoint);
-        self.acting.save((liquid, &self.course.effort), checkpoint);
+        self.acting.save(liquid, &self.course.effort, checkpoint);
         if let Some(heat) = &self.heat {
             heat.save(checkpoint);
         }
@@ -350,8 +349,8 @@ impl March {
         checkpoint: &mut Checkpoint,
     ) -> Result<(), Failure> {
         self.course.restore(liquid, checkpoint)?;
-        let kept = (&mut *liquid, &mut self.course.effort);
-        self.acting.restore(kept, self.way.spacing, checkpoint)?;
+        let (spacing, effort) = (self.way.spacing, &mut self.course.effort);
+        self.acting.restore(liquid, effort, spacing, checkpoint)?;
         if let Some(heat) = &mut self.heat {
             heat.restore(checkpoint)?;
         }

@@ -14,7 +14,7 @@ use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
 use crate::liquid::magnetic::{Mould, not_round, outline};
 use crate::liquid::outline::Outline;
-use crate::liquid::step::Liquid;
+use crate::liquid::step::{Liquid, Step};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{difference, direction, dot};
 use crate::march::liquid::acting::Acting;
@@ -37,15 +37,16 @@ pub(crate) fn levitated(scene: &Scene, part: &Part, session: &mut Session) -> Re
     let mut shape = outline(skin, ball.middle())?;
     let middle = shape.origin;
     let radius = (0.75 * shape.volume().0 / std::f64::consts::PI).cbrt();
-    let mut acting = Acting::new((scene, part), &liquid, session)?;
+    let mut acting = Acting::new(scene, part, &liquid, session)?;
     let stiff = matter.tension / (matter.density * radius.powi(3));
     let mut moved = f64::INFINITY;
     let (mut rounds, mut left) = (0, [0.0; 3]);
     while rounds < ROUNDS && moved > SETTLED * radius {
         rounds += 1;
         follow(&mut liquid, &ball, &shape, radius);
-        let at = (&mut liquid, &way, middle);
-        acting.begin((part, &matter), at, &mut effort, session)?;
+        let step = Step { way: &way, dt: 0.0 };
+        acting.pull(&mut liquid, step, middle, &mut effort, session)?;
+        acting.hold(part, &matter, &mut liquid, &way, middle)?;
         let solved = session.timed("pressure", || liquid.balance(&matter, &way, &mut effort));
         let patches = solved?;
         let surface = &liquid.position[..patches.len()];
@@ -79,7 +80,7 @@ pub(crate) fn levitated(scene: &Scene, part: &Part, session: &mut Session) -> Re
             "the shape is that of a drop whose centre is held: force and weight leave {lack:.3e} N of {weight:.3e} N; with \"balanced\" the currents are found that leave none along gravity"
         ));
     }
-    write((scene, part), (&liquid, &shape), &acting, session)?;
+    write(scene, part, &liquid, &shape, &acting, session)?;
     session.closing("rounds", "1", rounds as f64);
     session.closing("move", "m", moved);
     acting.close(&effort, session);
@@ -102,8 +103,10 @@ fn follow(liquid: &mut Liquid<3>, ball: &Liquid<3>, shape: &Outline, radius: f64
 }
 
 fn write(
-    (scene, part): (&Scene, &Part),
-    (liquid, shape): (&Liquid<3>, &Outline),
+    scene: &Scene,
+    part: &Part,
+    liquid: &Liquid<3>,
+    shape: &Outline,
     acting: &Acting,
     session: &mut Session,
 ) -> Result<(), Failure> {

@@ -16,7 +16,8 @@ pub(crate) type Carried = (&'static str, &'static str, Vec<f64>);
 pub(crate) fn write(
     scene: &Scene,
     centre: &[f64],
-    (places, turned): (&[[f64; 2]], [f64; 2]),
+    places: &[[f64; 2]],
+    turned: [f64; 2],
     carried: &[Carried],
     session: &mut Session,
 ) -> Result<(), Failure> {

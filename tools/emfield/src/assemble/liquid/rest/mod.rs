@@ -21,7 +21,8 @@ use crate::scene::{Equilibrium, Liquid as Part, Scene};
 /// Where no drop is at rest, or the disk refuses.
 pub(crate) fn rest(
     scene: &Scene,
-    (part, rest): (&Part, &Equilibrium),
+    part: &Part,
+    rest: &Equilibrium,
     session: &mut Session,
 ) -> Result<(), Failure> {
     let Shape::Sphere(sphere) = &part.shape else {
@@ -103,8 +104,8 @@ fn drawn(
         ("curvature", "1/m", bent.collect()),
         ("traction", "Pa", pulled.collect()),
     ];
-    let places = (&places[..], [1.0, -1.0]);
-    meridian::write(scene, &sphere.centre_m, places, &carried, session)?;
+    let (centre, turned) = (&sphere.centre_m, [1.0, -1.0]);
+    meridian::write(scene, centre, &places, turned, &carried, session)?;
     session.closing("deformation", "1", shape.deformation());
     session.closing("residual", "Pa", shape.residual * stress);
     Ok(())

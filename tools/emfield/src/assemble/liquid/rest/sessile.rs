@@ -57,8 +57,8 @@ pub(crate) fn sessile(
         .collect();
     let bent = shape.places.iter().map(|p| p.curvature / radius);
     let carried = [("curvature", "1/m", bent.collect())];
-    let places = (&places[..], [-1.0, 1.0]);
-    meridian::write(scene, &sphere.centre_m, places, &carried, session)?;
+    let (centre, turned) = (&sphere.centre_m, [-1.0, 1.0]);
+    meridian::write(scene, centre, &places, turned, &carried, session)?;
     session.closing("height", "m", shape.height() * radius);
     session.closing("radius_base", "m", shape.base() * radius);
     Ok(())

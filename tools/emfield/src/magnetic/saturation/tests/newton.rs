@@ -1,6 +1,6 @@
 use krylov::{Ending, Error, Options, Rescue, Rule, Solved};
 
-use crate::magnetic::diffusion::Conductors;
+use crate::magnetic::diffusion::{Conductors, Ground};
 use crate::magnetic::medium::interface::Permeable;
 use crate::magnetic::medium::law::{Curve, Law};
 use crate::magnetic::saturation::equations::Saturation;
@@ -32,7 +32,7 @@ struct Decay {
 
 impl Decay {
     /// In a bar of a curve of magnetisation, over one step.
-    fn new((b, h): (Vec<f64>, Vec<f64>), step: f64) -> Self {
+    fn new(curve: Curve, step: f64) -> Self {
         let mut region = rings(0.2);
         region.bent = vec![false, true];
         let form = Form {
@@ -40,7 +40,6 @@ impl Decay {
             ..Form::default()
         };
         let sides = Sides::new(&region, &form).unwrap();
-        let curve = Curve::new((b, h)).unwrap();
         let permeability = [MU0, MU0 / level(&curve, MU0)];
         Self {
             permeable: Permeable::of(&region, &permeability).unwrap(),
@@ -73,11 +72,18 @@ impl Decay {
     }
 
     fn media(&self) -> Saturation<'_, 2> {
+        let ground = Ground {
+            region: &self.region,
+            sides: &self.sides,
+            unknown: Unknown::Potential,
+        };
         Saturation::new(
-            (&self.region, &self.sides),
-            (Unknown::Potential, &self.permeable),
-            (&self.laws, &[false, true]),
-            (&Source::default(), None),
+            ground,
+            &self.permeable,
+            &self.laws,
+            &[false, true],
+            &Source::default(),
+            None,
         )
     }
 
@@ -106,20 +112,20 @@ impl Decay {
     fn led(&self, unknown: &[f64]) -> Vec<f64> {
         let (mut stage, media, driven) = (self.stage(), self.media(), self.driven());
         let moved = stage.moved(&driven, unknown);
-        let seen = media.look::<1>(unknown.as_chunks().0, (1.0, moved.as_chunks().0));
+        let seen = media.look::<1>(unknown.as_chunks().0, 1.0, moved.as_chunks().0);
         let right = media.right(&seen, &media.sheets(&seen)).into_flattened();
         let mut led = unknown.to_vec();
-        stage.solve(&driven, (1.0, &right), &mut led, rule());
+        stage.solve(&driven, 1.0, &right, &mut led, rule());
         led
     }
 }
 
 /// It bends gently at 0.5 T.
-fn gentle() -> (Vec<f64>, Vec<f64>) {
+fn gentle() -> Curve {
     let b: Vec<f64> = (0..=20).map(|k| 0.1 * f64::from(k)).collect();
     let mu = |b: f64| 2.0 + 4.0 / (1.0 + (b / 0.5).powi(2));
     let h = b.iter().map(|b| b / (MU0 * mu(*b))).collect();
-    (b, h)
+    Curve::new(b, h).unwrap()
 }
 
 fn apart(a: &[f64], b: &[f64]) -> f64 {
@@ -158,8 +164,8 @@ fn newton_finds_the_field_to_which_the_plain_iteration_creeps() {
 /// A straight curve is found at once: what is left after one step is what the linear solve leaves.
 #[test]
 fn a_straight_curve_takes_as_many_steps_as_its_linear_solves_ask_for() {
-    let line = (vec![0.0, 10.0], vec![0.0, 10.0 / (20.0 * MU0)]);
-    let decay = Decay::new(line, 0.3);
+    let line = Curve::new(vec![0.0, 10.0], vec![0.0, 10.0 / (20.0 * MU0)]);
+    let decay = Decay::new(line.unwrap(), 0.3);
     let (ended, steps) = decay.solved(&mut decay.stage());
     assert!(ended.found && steps < 60, "{steps}");
     assert!(apart(&decay.led(&ended.unknown), &ended.unknown) < 1e-7);
@@ -185,7 +191,7 @@ impl Stage for Lost {
         driven.to_vec()
     }
 
-    fn solve(&mut self, _: &[f64], _: (f64, &[f64]), unknown: &mut [f64], _: Rule) -> Solved {
+    fn solve(&mut self, _: &[f64], _: f64, _: &[f64], unknown: &mut [f64], _: Rule) -> Solved {
         unknown.fill(f64::NAN);
         Solved {
             ending: Ending::Converged,
