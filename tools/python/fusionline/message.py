@@ -20,6 +20,7 @@ _TYPES = {1: "<u1", 2: "<i1", 3: "<u2", 4: "<i2", 5: "<u4", 6: "<i4", 7: "<f4", 
 #: Units by the end of a key, longest first: a key that tells a dimensional number ends in its unit.
 _ENDINGS = {
     "a_m2_k2": "A/(m2 K2)",
+    "percent": "%",
     "kg_m3_s": "kg/(m3 s)",
     "mol_m_s": "mol/(m s)",
     "j_mol_k": "J/(mol K)",

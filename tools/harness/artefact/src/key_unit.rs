@@ -1,7 +1,7 @@
 //! Units that keys state: a key that tells a dimensional number ends in its unit.
 
 /// Endings of keys with their unit.
-pub const KEY_UNITS: [(&str, &str); 70] = [
+pub const KEY_UNITS: [(&str, &str); 71] = [
     ("w_m2_k", "W/(m2 K)"),
     ("w_m_k", "W/(m K)"),
     ("j_kg_k", "J/(kg K)"),
@@ -64,6 +64,7 @@ pub const KEY_UNITS: [(&str, &str); 70] = [
     ("hz", "Hz"),
     ("rad", "rad"),
     ("deg", "deg"),
+    ("percent", "%"),
     ("j", "J"),
     ("w", "W"),
     ("a", "A"),
