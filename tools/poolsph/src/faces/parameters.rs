@@ -154,7 +154,8 @@ impl Parameters {
                 Some(Side::Periodic) => return Err(fault("is periodic: no surface ends there")),
                 None => return Err(fault("is neither a mirror nor a wall")),
             }
-            let cot = 1.0 / angle.angle_deg.to_radians().tan();
+            // Nothing at a right angle, to the bit.
+            let cot = (90.0 - angle.angle_deg).to_radians().tan();
             if leans[axis][side].replace(cot).is_some() {
                 return Err(fault("has two angles"));
             }

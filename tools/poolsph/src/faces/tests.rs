@@ -315,6 +315,14 @@ fn beyond_a_face_a_surface_goes_on_at_its_contact_angle() {
 }
 
 #[test]
+fn a_right_contact_angle_is_none() {
+    let text = r#"{"min_m": [0, 0, 0], "max_m": [6, 6, 6], "mirror": ["z-"], "contact_angles": [{"face": "z-", "angle_deg": 90}]}"#;
+    let (mut images, mut places) = (Images::default(), vec![[3.0, 3.0, 0.5]]);
+    images.place(&faces(text), 1.0, &mut places);
+    assert!(images.leans().is_empty() && !images.turn(1).unwrap().leans());
+}
+
+#[test]
 fn contact_angles_want_tension_and_a_flow_without_divergence() {
     let text = r#"{"min_m": [0, 0, 0], "max_m": [6, 6, 6], "mirror": ["z-"], "contact_angles": [{"face": "z-", "angle_deg": 60}]}"#;
     let parameters: Parameters = serde_json::from_str(text).unwrap();

@@ -14,7 +14,7 @@ use crate::faces::Lean;
 use crate::near::Near;
 use crate::vector::{minus, plus, squared};
 
-/// Size of -grad C along a face, in 1/h, from which on it tells a direction.
+/// Part of grad C that lies along a face, from which on it tells a direction there.
 const TELLS: f64 = 0.05;
 
 /// What lies beside such faces, with its scratch.
