@@ -205,6 +205,10 @@ impl<'a> Source<'a> {
             Ok(Box::new(Motion::new(flow.clone(), law, scene.metal())))
         })?;
         parts.stages().for_each(|stage| stage.declare(state));
+        if scene.output.heat_received {
+            let ways = scene.heat_ways();
+            ways.iter().for_each(|way| state.metal.declare(way));
+        }
         if state.metal.has(&AREA) {
             let surface = Surface::new(scene.metal()).of_cells(scene.lattice().cell());
             surface.declare(state);

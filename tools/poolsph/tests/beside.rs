@@ -190,6 +190,7 @@ fn an_interrupted_run_ends_in_the_same_bytes() {
     let mut scene = falling();
     scene["time"]["end_s"] = json!(0.06);
     scene["grains"]["bounds"] = json!({"min_m": [-1, -1, -1], "max_m": [1, 1, 2.9e-3]});
+    scene["output"]["heat_received"] = json!(true);
     let whole = finished(&scene, &folder.path().join("whole.mcap"), &[]);
     let (path, out) = (
         folder.path().join("broken.scene.json"),

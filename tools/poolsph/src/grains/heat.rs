@@ -193,7 +193,7 @@ impl Heat {
                 state.metal.column(&TEMPERATURE),
                 &mut rate,
             );
-            exchange.take(bodies, state, step);
+            exchange.take(bodies, set.column(&STATE), state, step);
         }
         if pass.shines() {
             self.lighting.heat(temperature, &mut rate, step);

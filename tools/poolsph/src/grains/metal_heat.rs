@@ -20,11 +20,13 @@ use particles::POSITION;
 use run::property::OutOfRange;
 use shapes::frame::{along, length};
 
+use super::columns::POWDER;
 use super::conducting::{Conducting, Radius};
 use super::metal_pair::{Body, Pair};
 use super::slow::Pass;
 use crate::heat::Caloric;
 use crate::heat::ledger::Sum;
+use crate::heat::received::{self, FROM_POWDER, FROM_SLAG};
 use crate::stage::StageError;
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
@@ -182,14 +184,20 @@ impl Exchange {
         }
     }
 
-    /// Takes from the metal what the grains have got in a step of `step` \[s\].
-    pub(super) fn take(&mut self, bodies: &[Body], state: &mut State, step: f64) {
+    /// Takes from the metal what the grains, by what they are, have got in a step of `step` \[s\].
+    pub(super) fn take(&mut self, bodies: &[Body], grains: &[u8], state: &mut State, step: f64) {
         let mass = state.metal.matter.mass();
-        let (enthalpies, temperatures) = state.metal.columns_mut((&ENTHALPY, &TEMPERATURE));
+        let columns = (&ENTHALPY, &TEMPERATURE, &FROM_POWDER, &FROM_SLAG);
+        let (enthalpies, temperatures, powder, slag) = state.metal.columns_mut(columns);
         for link in &self.links {
             let id = bodies[link.body as usize].id as usize;
             enthalpies[id] -= step * link.rate / mass;
             self.given.add(-step * link.rate);
+            let told = match grains[link.row as usize] {
+                POWDER => &mut *powder,
+                _ => &mut *slag,
+            };
+            received::add(told, id, -step * link.rate);
         }
         for link in &self.links {
             let id = bodies[link.body as usize].id as usize;

@@ -21,6 +21,7 @@ use super::bounds::outside;
 use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::ledger::Sum;
+use super::received::{self, LOST};
 use super::skin::Skin;
 use super::vapour::Evaporation;
 use crate::patch;
@@ -185,8 +186,8 @@ impl Stage for Losses {
         let mut cooled = std::mem::take(&mut self.cooled);
         let skin = Skin::of(&state.metal);
         cooled.fill(&state.exposed, |a| self.cool(&skin, a, dt));
-        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
-        let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE, &LOST);
+        let (places, enthalpies, temperatures, told) = state.metal.columns_mut(columns);
         for one in cooled.drain() {
             let a = one.a as usize;
             if !self.caloric.covers(one.temperature) {
@@ -199,6 +200,7 @@ impl Stage for Losses {
                 ));
             }
             (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
+            received::add(told, a, one.given.iter().sum());
             for (sum, heat) in self.given.iter_mut().zip(one.given) {
                 sum.add(heat);
             }

@@ -15,6 +15,7 @@ mod open;
 mod parameters;
 mod phase;
 mod radial;
+pub mod received;
 mod skin;
 mod torches;
 mod vapour;

@@ -18,6 +18,7 @@ use super::bounds::outside;
 use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::ledger::Sum;
+use super::received::{self, FROM_TORCHES};
 use super::skin::Skin;
 use crate::patch;
 use crate::stage::{Figure, Stage, StageError};
@@ -122,11 +123,12 @@ impl Torches {
 
     /// Gives an energy \[J\] to the particles that were weighed, a part of it for each unit of weight.
     fn give(&self, state: &mut State, energy: f64) -> Result<(), StageError> {
-        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
-        let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE, &FROM_TORCHES);
+        let (places, enthalpies, temperatures, told) = state.metal.columns_mut(columns);
         for (a, weight) in &self.own {
             let a = *a as usize;
             enthalpies[a] += energy * weight / self.metal.mass();
+            received::add(told, a, energy * weight);
             let kelvin = self.caloric.temperature(enthalpies[a]);
             temperatures[a] = kelvin;
             if !self.caloric.covers(kelvin) {

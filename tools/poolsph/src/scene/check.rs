@@ -285,6 +285,11 @@ fn dependences(scene: &Scene) -> Vec<Fault> {
         ("arcs", !scene.arcs.is_empty(), vec![source]),
         ("torches", !scene.torches.is_empty(), vec![heat]),
         ("output/probes", !scene.output.probes.is_empty(), vec![heat]),
+        (
+            "output/heat_received",
+            scene.output.heat_received,
+            vec![heat],
+        ),
         ("losses", scene.losses.is_some(), vec![heat]),
         ("tension", scene.tension.is_some(), vec![flow]),
         ("marangoni", scene.marangoni.is_some(), vec![flow, heat]),

@@ -9,7 +9,7 @@ mod output;
 mod size;
 mod time;
 
-use particles::Matter;
+use particles::{Column, Matter};
 use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,6 +26,7 @@ use crate::domain::{bounds, droplet};
 use crate::forces::{
     arc_pressure, buoyancy, gas_shear, lorentz, marangoni, surface_stress, tension,
 };
+use crate::heat::received;
 use crate::{faces, grains, heat, motion, source};
 
 /// Kind and version of the scenes that this tool reads.
@@ -223,6 +224,22 @@ impl Scene {
     pub fn droplet_period(&self, wire: &Wire) -> Option<f64> {
         let mirror = self.halving(wire).ok()?;
         wire.droplets.period(self.metal().spacing, mirror)
+    }
+
+    /// Columns of the heat that the metal gets and loses, one for each way that there is.
+    #[must_use]
+    pub fn heat_ways(&self) -> Vec<Column<f64>> {
+        let grains = self.grains.as_ref().and_then(|grains| grains.heat.as_ref());
+        let ways = [
+            (self.arc.is_some(), received::FROM_ARC),
+            (!self.torches.is_empty(), received::FROM_TORCHES),
+            (grains.is_some(), received::FROM_POWDER),
+            (grains.is_some(), received::FROM_SLAG),
+            (self.losses.is_some(), received::LOST),
+        ];
+        ways.into_iter()
+            .filter_map(|(there, way)| there.then_some(way))
+            .collect()
     }
 
     /// Number of steps.

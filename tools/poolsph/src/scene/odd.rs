@@ -14,6 +14,7 @@ pub fn notes(scene: &Scene) -> Vec<String> {
     notes.extend(unwritten(scene));
     notes.extend(outside(scene));
     notes.extend(still(scene));
+    notes.extend(unheated(scene));
     notes.extend(apart(scene));
     notes.extend(super::arcs::blurred(scene));
     notes
@@ -73,6 +74,15 @@ fn thin(scene: &Scene) -> Vec<String> {
             )
         })
         .collect()
+}
+
+/// Ways of heat that are asked for where there is none.
+fn unheated(scene: &Scene) -> Option<String> {
+    let none = scene.heat_ways().is_empty();
+    (scene.output.heat_received && none).then(|| {
+        "heat_received: no column is written, for nothing heats or cools the metal: neither arc, torches, losses nor grains with heat"
+            .to_owned()
+    })
 }
 
 /// The source beside the bodies, seen from above.

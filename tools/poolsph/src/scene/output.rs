@@ -51,6 +51,10 @@ pub struct Output {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub probes_interval_s: Option<f64>,
+    /// Columns of the heat that each particle of metal has got since the start: from arcs, torches, powder and slag, and what it has
+    /// lost. They need heat; absent: none.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub heat_received: bool,
     /// Frequent frames around the moving source, for averages; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pool: Option<PoolOutput>,

@@ -30,6 +30,7 @@ use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::flux::Flux;
 use super::ledger::Sum;
+use super::received::{self, FROM_ARC};
 use super::skin::Skin;
 use crate::patch;
 use crate::source::arcs::Burning;
@@ -299,7 +300,8 @@ impl Stage for Arc {
             let spot = self.lit(&skin, a)?;
             Some(self.heat((&skin, a), spot, now))
         });
-        let (enthalpies, temperatures) = state.metal.columns_mut((&ENTHALPY, &TEMPERATURE));
+        let columns = (&ENTHALPY, &TEMPERATURE, &FROM_ARC);
+        let (enthalpies, temperatures, told) = state.metal.columns_mut(columns);
         let mut gain = 0.0;
         self.parts = 1.0;
         for one in heated.drain() {
@@ -308,6 +310,7 @@ impl Stage for Arc {
             self.missed |= !one.found;
             let a = one.a as usize;
             (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
+            received::add(told, a, one.put.iter().sum());
             for ((_, sum), heat) in self.energies.iter_mut().zip(one.put) {
                 sum.add(heat);
                 gain += heat;
