@@ -5,10 +5,12 @@ use thiserror::Error;
 
 use crate::frames::{self, Plate};
 use crate::grid::Section;
+use crate::heat_map::{self, HeatMaps};
 use crate::mean::Smoothing;
 use crate::parts::Parts;
 use crate::phase::{self, Source};
 use crate::profile::{self, Rings};
+use crate::received;
 use crate::scene::{GrainState, Scene};
 
 /// Most grid points of all sections and phases: some 5 GB.
@@ -70,6 +72,22 @@ pub enum AverageError {
         /// Width of a ring \[m\].
         spacing_m: f64,
     },
+    /// A heat map of more cells than a machine holds.
+    #[error("asks for {cells:.1e} cells of {cell_m} m; at most {POINTS_MOST:.0e}")]
+    Cells {
+        /// Cells.
+        cells: f64,
+        /// Side of a cell \[m\].
+        cell_m: f64,
+    },
+    /// A heat map of frames that tell no heat.
+    #[error(
+        "the frames of '{channel}' do not tell what heat metal has got: run poolsph with \"heat_received\": true in its output"
+    )]
+    Untold {
+        /// The channel.
+        channel: String,
+    },
     /// A frame at a moment for which the source has no place.
     #[error(
         "channel '{channel}' does not tell where the source is at {time_s} s, the time of a frame"
@@ -103,6 +121,8 @@ pub struct Plan {
     pub sections: Vec<Section>,
     /// The rings of the profile, where the scene asks for one.
     pub rings: Option<Rings>,
+    /// The maps of heat before the first frame, where the scene asks for some.
+    pub heat_maps: Option<HeatMaps>,
     /// The source over time; empty at rest.
     pub track: Vec<Source>,
     /// Number of phases; 1 without.
@@ -172,6 +192,7 @@ impl Plan {
             smoothing,
             sections: scene.sections(spacing),
             rings: rings(scene, spacing)?,
+            heat_maps: heat_maps(scene, spacing, &first)?,
             parts: parts(&track, &moments),
             phases,
             period: scene.phases.and_then(|_| phase::period(&counted)),
@@ -193,7 +214,11 @@ impl Plan {
         let kinds = self.phases + 1;
         let rings = self.rings.as_ref().map_or(0, |r| r.places.len() + r.len());
         let moments = rings * size_of::<crate::ensemble::Moments>();
-        (points * kinds * size_of::<crate::ensemble::Point>() + moments) as u64
+        let maps = self
+            .heat_maps
+            .as_ref()
+            .map_or(0, |maps| maps.bytes(self.particles));
+        (points * kinds * size_of::<crate::ensemble::Point>() + moments) as u64 + maps
     }
 
     /// Memory of one frame: columns, cells and copies \[byte\].
@@ -238,6 +263,24 @@ fn fits(scene: &Scene, spacing: f64, phases: usize) -> Result<(), AverageError> 
         }
     }
     Ok(())
+}
+
+/// The maps of heat that the scene asks for.
+fn heat_maps(scene: &Scene, spacing: f64, first: &Frame) -> Result<Option<HeatMaps>, AverageError> {
+    let Some(map) = &scene.heat_map else {
+        return Ok(None);
+    };
+    let cell_m = map.cell_m.unwrap_or(spacing);
+    let cells = heat_map::wanted([map.x_m, map.y_m], cell_m);
+    if cells > POINTS_MOST {
+        return Err(AverageError::Cells { cells, cell_m });
+    }
+    let ways = received::ways(first);
+    if ways.is_empty() {
+        let channel = scene.channel.clone();
+        return Err(AverageError::Untold { channel });
+    }
+    Ok(Some(HeatMaps::new(map.layout(spacing), ways)))
 }
 
 /// The rings that the scene asks for.

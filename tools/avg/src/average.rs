@@ -8,15 +8,19 @@ use crate::assemble::{AverageError, Plan};
 use crate::cloud::Cloud;
 use crate::ensemble::Ensemble;
 use crate::frames;
+use crate::heat_map::{HeatMaps, Told};
 use crate::mean::{self, Cells};
 use crate::phase;
 use crate::profile::{self, Profile};
+use crate::received::Received;
 
 /// A frame in the frame of reference of the averages.
 #[derive(Debug)]
 pub struct Seen {
     /// Its particles.
     pub cloud: Cloud,
+    /// Heat that they have got, where maps of it are made.
+    pub received: Option<Received>,
     /// Its time \[s\].
     pub time: f64,
     /// Index of its phase.
@@ -57,6 +61,8 @@ pub struct Averaging<'a> {
     pub(crate) averages: Averages,
     /// Droplet periods in each phase.
     pub(crate) seen: Vec<BTreeSet<i64>>,
+    /// The maps of heat, where the scene asks for some.
+    pub maps: Option<HeatMaps>,
 }
 
 impl<'a> Averaging<'a> {
@@ -76,6 +82,7 @@ impl<'a> Averaging<'a> {
             plan,
             averages,
             seen: vec![BTreeSet::new(); plan.phases],
+            maps: plan.heat_maps.clone(),
         }
     }
 
@@ -87,8 +94,7 @@ impl<'a> Averaging<'a> {
         let frame = reader.frame(&self.plan.channel, self.plan.frames[place])?;
         let mut cloud = frames::cloud(&frame, self.plan.states.as_deref())?;
         let time = frame.time_s;
-        drop(frame);
-        let mut phase = 0;
+        let (mut phase, mut origin) = (0, [0.0; 2]);
         if let Some(follow) = &self.plan.follow {
             let at = frames::entry(&self.plan.track, time).ok_or(AverageError::NoSource {
                 channel: follow.clone(),
@@ -96,26 +102,30 @@ impl<'a> Averaging<'a> {
             })?;
             let source = self.plan.track[at];
             let velocity = phase::velocity(&self.plan.track, at);
-            cloud.follow([source.position[0], source.position[1]], velocity);
-            if let Some(origin) = self.plan.origin {
-                phase = phase::bin(source.phase, origin, self.plan.phases);
+            origin = [source.position[0], source.position[1]];
+            cloud.follow(origin, velocity);
+            if let Some(first) = self.plan.origin {
+                phase = phase::bin(source.phase, first, self.plan.phases);
                 self.seen[phase].insert(source.droplet);
             }
         }
+        let maps = self.plan.heat_maps.as_ref();
+        let received = maps.map(|maps| Received::read(&frame, maps.ways(), origin));
         if let Some(link) = self.plan.landed {
             cloud.land(link);
         }
         let part = self.plan.parts.of(place);
         Ok(Seen {
             cloud,
+            received: received.transpose()?,
             time,
             phase,
             part,
         })
     }
 
-    /// Takes the kernel means of a frame into the ensembles.
-    pub fn take(&mut self, seen: &Seen) {
+    /// Takes the kernel means of a frame into the ensembles, and its heat into the maps; gives a map that is complete.
+    pub fn take(&mut self, seen: &Seen) -> Option<Told> {
         let smoothing = &self.plan.smoothing;
         let reach = (2.0 * smoothing.length).max(smoothing.spacing);
         let cells = Cells::new(&seen.cloud, reach);
@@ -126,6 +136,8 @@ impl<'a> Averaging<'a> {
         if let (Some(rings), Some(profile)) = (&self.plan.rings, &mut self.averages.profile) {
             profile.add(rings, &seen.cloud, &cells, smoothing);
         }
+        let (maps, received) = (self.maps.as_mut()?, seen.received.as_ref()?);
+        maps.take(received, seen.time)
     }
 
     /// The averages of all frames taken in.

@@ -91,7 +91,8 @@ fn placed(plan: &Plan, section: &Section, points: &[Point]) -> Table {
 }
 
 /// A table in the frame of reference of the averages.
-fn at_source(plan: &Plan, table: Table) -> Table {
+#[must_use]
+pub fn at_source(plan: &Plan, table: Table) -> Table {
     if plan.track.is_empty() {
         table
     } else {

@@ -12,6 +12,8 @@
 //! which the standard errors in the output tell ([`parts`]). Near a surface the kernel is cut off, and the mean
 //! is that of the metal inside: half a spacing below the surface, about.
 //!
+//! Heat that metal has got by each way becomes maps of fluxes, interval by interval ([`heat_map`]).
+//!
 //! Grains of flux are averaged in the same way (Komen 2019, figs 5.33 to 5.38): all that lie in a state that counts, powder, slag or
 //! slag that has set, with the room that loose grains take in place of the volume of a particle.
 
@@ -22,11 +24,13 @@ pub mod ensemble;
 pub mod fields;
 pub mod frames;
 pub mod grid;
+pub mod heat_map;
 pub mod mean;
 pub mod parts;
 pub mod phase;
 pub mod profile;
 pub mod program;
+pub mod received;
 pub mod resume;
 pub mod scene;
 pub mod surface;

@@ -8,6 +8,7 @@ use run::{Estimate, Failure, Fault, Input, Inputs, Plan as Shown, Session, Tool}
 use crate::assemble::{AverageError, Plan};
 use crate::average::{Averages, Averaging};
 use crate::fields;
+use crate::heat_map::{HEAT_MAP, HeatMaps, Told};
 use crate::resume;
 use crate::scene::Scene;
 
@@ -37,7 +38,7 @@ impl Tool for Avg {
          --input frames=build/gmaw-300a/pool.mcap --out build/gmaw-300a/mean.mcap";
     const SCENE_KIND: &'static str = "avg.scene";
     const ARTEFACT_KIND: &'static str = "mean-fields";
-    const ARTEFACT_VERSION: Version = Version::new(1, 3);
+    const ARTEFACT_VERSION: Version = Version::new(1, 4);
     const INPUTS: &'static [Input] = &[Input {
         name: "frames",
         what: "particle frames to average (particle-frames 1.x)",
@@ -94,7 +95,8 @@ impl Tool for Avg {
         for done in taken..plan.frames.len() {
             let cloud = session.timed("read", || averaging.read(&reader, done));
             let cloud = cloud.map_err(failure)?;
-            session.timed("mean", || averaging.take(&cloud));
+            let map = session.timed("mean", || averaging.take(&cloud));
+            told(session, &plan, map)?;
             session.progress(done as u64 + 1, total, || {
                 vec![
                     ("time", cloud.time, "s"),
@@ -103,6 +105,11 @@ impl Tool for Avg {
             });
             session.keep(|checkpoint| resume::save(checkpoint, &averaging, done + 1))?;
         }
+        let maps = averaging.maps.take();
+        if let Some(mut maps) = maps {
+            told(session, &plan, maps.rest())?;
+            mean_map(session, &plan, &maps)?;
+        }
         let averages = averaging.finish();
         for (channel, time, table) in fields::tables(&plan, &averages) {
             session.table(&channel, time, &table)?;
@@ -110,6 +117,31 @@ impl Tool for Avg {
         close(session, &plan, &averages);
         Ok(())
     }
+}
+
+/// Writes a map of heat and what is told of its places.
+fn told(session: &mut Session, plan: &Plan, map: Option<Told>) -> Result<(), Failure> {
+    let Some((time, table, places)) = map else {
+        return Ok(());
+    };
+    let table = fields::at_source(plan, table.in_precision(plan.precision));
+    session.table(&format!("/{HEAT_MAP}"), time, &table)?;
+    let mut places = places.iter();
+    places.try_for_each(|(channel, record)| session.record(channel, time, record))
+}
+
+/// Writes the mean map and the heat of each way.
+fn mean_map(session: &mut Session, plan: &Plan, maps: &HeatMaps) -> Result<(), Failure> {
+    let Some(mean) = maps.mean() else {
+        session.warn("heat_map: one frame is no interval, and there is no map".to_owned());
+        return Ok(());
+    };
+    let mean = fields::at_source(plan, mean.in_precision(plan.precision));
+    session.table(&format!("/{HEAT_MAP}/time_mean"), 0.0, &mean)?;
+    for (way, heat) in maps.totals() {
+        session.closing(&format!("map_{way}"), "J", heat);
+    }
+    Ok(())
 }
 
 /// What the scene asked for and the frames do not hold is a fault of the scene.
@@ -124,6 +156,9 @@ fn failure(error: AverageError) -> Failure {
             Fault::at(&format!("/sections/{section}"), text).into()
         }
         AverageError::Rings { .. } => Fault::at("/profile/radius_m", text).into(),
+        AverageError::Cells { .. } | AverageError::Untold { .. } => {
+            Fault::at("/heat_map", text).into()
+        }
         AverageError::NoSource { .. } => Failure::Other(text),
     }
 }
@@ -152,6 +187,15 @@ fn shown(plan: &Plan, scene: &Scene) -> Shown {
         Some(rings) => shown = shown.count("rings of the profile", rings.len() as u64),
         None => shown = shown.left_out("profile", "the scene names no 'profile'"),
     }
+    match &plan.heat_maps {
+        Some(maps) => {
+            let [cells, places] = maps.size();
+            shown = shown
+                .count("cells of the heat map", cells as u64)
+                .count("places of the heat map", places as u64);
+        }
+        None => shown = shown.left_out("heat map", "the scene names no 'heat_map'"),
+    }
     if scene.follow.is_none() {
         shown = shown.left_out("moving frame of reference", "the scene names no 'follow'");
     }
@@ -167,6 +211,7 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
             "no frame has metal in '{name}': look at its place and extent, which are in metres"
         ));
     }
+    session.closing("frames", "1", plan.frames.len() as f64);
     let Some(ensemble) = averages.ensembles.first() else {
         return;
     };
@@ -182,7 +227,6 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
     } else if plan.parts.count < 2 {
         session.note("one frame: its means have no standard error");
     }
-    session.closing("frames", "1", plan.frames.len() as f64);
     if let (Some(rings), Some(profile)) = (&plan.rings, &averages.profile) {
         let [net, below] = profile.volumes(rings);
         session.closing("profile_net_volume", "m3", net);

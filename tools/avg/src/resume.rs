@@ -4,6 +4,7 @@ use artefact::{Checkpoint, Error, Result};
 
 use crate::average::Averaging;
 use crate::ensemble::{Ensemble, Moments, Point};
+use crate::heat_map::Sums;
 use crate::parts::Estimate;
 use crate::profile::Profile;
 
@@ -42,6 +43,15 @@ pub fn save(checkpoint: &mut Checkpoint, averaging: &Averaging<'_>, done: usize)
         checkpoint.put_u64("profile.frames", &[u64::from(profile.frames)]);
         checkpoint.put_u64("profile.counts", &counts);
         checkpoint.put_f64("profile.sums", &sums);
+    }
+    if let Some(maps) = &averaging.maps {
+        let sums = &maps.sums;
+        checkpoint.put_u64("heat.shown", &sums.shown);
+        checkpoint.put_u64("heat.frames", &[sums.frames]);
+        checkpoint.put_f64("heat.times", &sums.times);
+        checkpoint.put_f64("heat.last", &sums.last.concat());
+        checkpoint.put_f64("heat.cells", &sums.cells.concat());
+        checkpoint.put_f64("heat.whole", &sums.whole.concat());
     }
     Ok(())
 }
@@ -86,6 +96,9 @@ pub fn restore(checkpoint: &mut Checkpoint, averaging: &mut Averaging<'_>) -> Re
     }
     if let Some(profile) = &mut averaging.averages.profile {
         restore_profile(checkpoint, profile)?;
+    }
+    if let Some(maps) = &mut averaging.maps {
+        restore_heat(checkpoint, &mut maps.sums)?;
     }
     let done = checkpoint.u64("done")?;
     Ok(done.first().map_or(0, |n| narrow(*n) as usize))
@@ -155,6 +168,41 @@ fn restore_profile(checkpoint: &mut Checkpoint, profile: &mut Profile) -> Result
     for (moments, kept) in own.zip(kept(&counts, &sums)) {
         *moments = kept;
     }
+    Ok(())
+}
+
+fn restore_heat(checkpoint: &mut Checkpoint, sums: &mut Sums) -> Result<()> {
+    let (ways, cells) = (sums.cells.len(), sums.cells.concat().len());
+    let shown = checkpoint.u64("heat.shown")?;
+    let frames = checkpoint.u64("heat.frames")?;
+    let times = checkpoint.f64("heat.times")?;
+    let heats = ["heat.last", "heat.cells", "heat.whole"].map(|name| checkpoint.f64(name));
+    let [last, own, whole] = heats;
+    let (last, own, whole) = (last?, own?, whole?);
+    let found = [
+        frames.len(),
+        times.len(),
+        last.len(),
+        own.len(),
+        whole.len(),
+    ];
+    let expected = [1, sums.times.len(), ways * shown.len(), cells, cells];
+    if found != expected {
+        return Err(Error::Damaged {
+            path: "checkpoint".into(),
+            place: "heat.cells".to_owned(),
+            what: format!("lengths are {found:?}, of the maps {expected:?}"),
+        });
+    }
+    let by_way = |all: &[f64]| -> Vec<Vec<f64>> {
+        let each = all.len() / ways.max(1);
+        (0..ways)
+            .map(|way| all[way * each..(way + 1) * each].to_vec())
+            .collect()
+    };
+    sums.times.copy_from_slice(&times);
+    (sums.frames, sums.shown) = (frames[0], shown);
+    (sums.last, sums.cells, sums.whole) = (by_way(&last), by_way(&own), by_way(&whole));
     Ok(())
 }
 

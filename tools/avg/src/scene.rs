@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::grid::{Cut, Section};
+use crate::heat_map::{HEAT_MAP, Layout};
 use crate::profile::PROFILE;
 
 /// A scene of averages. Lengths are in the frame of reference of the averages: with `follow`, x and
@@ -41,12 +42,16 @@ pub struct Scene {
     #[serde(default)]
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub smoothing_length_m: Option<f64>,
-    /// The sections, each a channel of the output.
-    #[schemars(length(min = 1))]
+    /// The sections, each a channel of the output; none where a heat map alone is wanted.
+    #[serde(default)]
     pub sections: Vec<Cutting>,
     /// The surface over the distance from the source, for an arc above it: the channel `/profile`; absent: none.
     #[serde(default)]
     pub profile: Option<Round>,
+    /// Maps of the heat flux into metal, interval by interval, of frames that tell what each particle has got (`heat_received` of
+    /// the output of `poolsph`); absent: none.
+    #[serde(default)]
+    pub heat_map: Option<HeatMap>,
 }
 
 fn pool() -> String {
@@ -122,6 +127,89 @@ pub struct Round {
     /// Radius of the outermost ring \[m\]; metal should reach as far on all sides.
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub radius_m: f64,
+}
+
+/// Cells seen from above, on which heat fluxes are told: the channel `/heat_map`, and `/heat_map/time_mean` over all frames.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeatMap {
+    /// Extent across the weld \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub x_m: [f64; 2],
+    /// Extent along the weld \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub y_m: [f64; 2],
+    /// Side of a cell \[m\]; absent: the spacing of the averages.
+    #[serde(default)]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    pub cell_m: Option<f64>,
+    /// A map for each interval of so long \[s\]; absent: one from each frame to the next.
+    #[serde(default)]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s"))]
+    pub interval_s: Option<f64>,
+    /// Places whose fluxes are told interval by interval, each in the channel `/heat_map/NAME`.
+    #[serde(default)]
+    pub places: Vec<HeatPlace>,
+}
+
+/// A place of a heat map.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeatPlace {
+    /// Name; becomes the end of the channel.
+    #[schemars(regex(pattern = "^[a-z][a-z0-9_]*$"))]
+    pub name: String,
+    /// Across the weld \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub x_m: f64,
+    /// Along the weld \[m\].
+    #[schemars(extend("x-unit" = "m"))]
+    pub y_m: f64,
+}
+
+impl HeatMap {
+    /// Its cells, as wide as `spacing` \[m\] where it does not say so.
+    #[must_use]
+    pub fn layout(&self, spacing: f64) -> Layout {
+        let side = self.cell_m.unwrap_or(spacing);
+        let interval = self.interval_s.unwrap_or(0.0);
+        let mut layout = Layout::new([self.x_m, self.y_m], side, interval);
+        let places = self.places.iter();
+        layout.places = places.map(|p| (p.name.clone(), [p.x_m, p.y_m])).collect();
+        layout
+    }
+
+    /// What the schema cannot say: JSON pointer and fault.
+    fn faults(&self) -> Vec<(String, String)> {
+        let mut found = Vec::new();
+        for (key, range) in [("x_m", self.x_m), ("y_m", self.y_m)] {
+            if range[1] <= range[0] {
+                let what = format!("[{}, {}] m does not ascend", range[0], range[1]);
+                found.push((format!("/heat_map/{key}"), what));
+            }
+        }
+        for (i, place) in self.places.iter().enumerate() {
+            let at = format!("/heat_map/places/{i}");
+            for (key, value, range) in [("x_m", place.x_m, self.x_m), ("y_m", place.y_m, self.y_m)]
+            {
+                if value < range[0] || value > range[1] {
+                    let what = format!(
+                        "{value} m lies beyond the map, {} to {} m",
+                        range[0], range[1]
+                    );
+                    found.push((format!("{at}/{key}"), what));
+                }
+            }
+            let name = &place.name;
+            if name == "time_mean" || self.places[..i].iter().any(|other| other.name == *name) {
+                found.push((
+                    format!("{at}/name"),
+                    format!("'{name}' is the name of another channel"),
+                ));
+            }
+        }
+        found
+    }
 }
 
 /// A section: a name, how it is cut, and its extent.
@@ -204,6 +292,11 @@ impl Scene {
             let what = "phases are told by the channel of the source: they need 'follow'";
             found.push(("/phases".to_owned(), what.to_owned()));
         }
+        if self.sections.is_empty() && self.profile.is_none() && self.heat_map.is_none() {
+            let what = "nothing is averaged: name sections, a profile or a heat map";
+            found.push(("/sections".to_owned(), what.to_owned()));
+        }
+        found.extend(self.heat_map.iter().flat_map(HeatMap::faults));
         for (i, section) in self.sections.iter().enumerate() {
             for (key, range) in [("first_m", section.first_m), ("second_m", section.second_m)] {
                 if range[1] <= range[0] {
@@ -213,6 +306,10 @@ impl Scene {
             }
             if self.profile.is_some() && section.name == PROFILE {
                 let what = "is the name of the channel that the key 'profile' asks for";
+                found.push((format!("/sections/{i}/name"), what.to_owned()));
+            }
+            if self.heat_map.is_some() && section.name == HEAT_MAP {
+                let what = "is the name of the channel of the heat map";
                 found.push((format!("/sections/{i}/name"), what.to_owned()));
             }
             if self.sections[..i].iter().any(|s| s.name == section.name) {

@@ -52,7 +52,13 @@ fn write_frames(path: &Path) {
                 "K",
                 position.iter().map(|p| 2e3 + 9.0 * wave(p)),
             )
-            .flag("molten", vec![1; position.len()]);
+            .flag("molten", vec![1; position.len()])
+            .scalar(
+                "heat_from_arc",
+                "J",
+                position.iter().map(|p| f64::from(n) + wave(p)),
+            )
+            .id("id", (0..position.len()).map(|i| i as u32));
         writer.frame("/pool", time, &frame).unwrap();
     }
     writer.finish().unwrap();
@@ -78,6 +84,8 @@ fn study() -> tempfile::TempDir {
     let scene = json!({
         "kind": "avg.scene", "version": 1, "follow": {}, "phases": {"count": 4},
         "profile": {"radius_m": 2e-3},
+        "heat_map": {"x_m": [-3e-3, 3e-3], "y_m": [-4e-3, 4e-3], "interval_s": 0.006,
+            "places": [{"name": "middle", "x_m": 0, "y_m": 1e-4}]},
         "sections": [
             {"name": "section_x0", "first_m": [-3e-3, 3e-3], "second_m": [-3e-3, 0.5e-3],
              "cut": {"plane": {"normal": "x", "half_thickness_m": D}}},

@@ -1,0 +1,393 @@
+//! Maps of the heat flux into metal, as seen from above (Komen 2019, figs 5.28 and 5.29).
+//!
+//! ```text
+//! q(cell) = 1/(A (t_2 - t_1)) sum_a w_a (Q_a(t_2) - Q_a(t_1)),      sum over cells of w_a = 1
+//! ```
+//!
+//! Q_a is the heat that particle a has got since the start, by one way. So the flux of a cell is exact in time however far
+//! apart frames are, and a map loses nothing but what lies beyond it. w shares a particle between the four nearest
+//! cells, bilinearly: of an even flux on a lattice as fine as the cells each cell gets its own, and one that is coarser by a
+//! twentieth shows no more than half a per cent. Metal that flows is counted where it lies at the later frame.
+//!
+//! Particles are known by their numbers. One that was in no frame before counts from zero if it came from the wire, and
+//! else from the first frame that shows it: what it has got out of sight is not known.
+
+use artefact::{Record, Table};
+
+use crate::received::Received;
+
+/// Channel of the maps; that of their mean over time has `/time_mean` behind it.
+pub const HEAT_MAP: &str = "heat_map";
+
+/// Cells seen from above, and places whose fluxes are told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layout {
+    /// Centres of the cells across and along the weld \[m\].
+    pub centres: [Vec<f64>; 2],
+    /// Side of a cell \[m\].
+    pub side: f64,
+    /// Least length of an interval \[s\].
+    pub interval: f64,
+    /// Names and places \[m\].
+    pub places: Vec<(String, [f64; 2])>,
+}
+
+/// How many cells a map over `ranges` \[m\] has, before any is made.
+#[must_use]
+pub fn wanted(ranges: [[f64; 2]; 2], side: f64) -> f64 {
+    ranges
+        .iter()
+        .map(|range| (range[1] - range[0]) / side)
+        .product()
+}
+
+impl Layout {
+    /// Cells of `side` \[m\] that fill `ranges` \[m\] from their lower ends on.
+    #[must_use]
+    pub fn new(ranges: [[f64; 2]; 2], side: f64, interval: f64) -> Self {
+        let centres = ranges.map(|[from, to]| {
+            // A millionth of a cell keeps an end that is meant to be that of a cell.
+            let count = ((to - from) / side + 1e-6).floor().max(1.0) as usize;
+            (0..count).map(|i| from + (i as f64 + 0.5) * side).collect()
+        });
+        Self {
+            centres,
+            side,
+            interval,
+            places: Vec::new(),
+        }
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.centres[0].len() * self.centres[1].len()
+    }
+
+    /// True without cells.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The cells around a place and its parts in them, second axis fastest; what lies beyond the map is in none.
+    fn shares(&self, place: [f64; 2]) -> impl Iterator<Item = (usize, f64)> {
+        let axes = [0, 1].map(|k| {
+            let centres = &self.centres[k];
+            let at = (place[k] - centres[0]) / self.side;
+            let (low, part) = (at.floor(), at - at.floor());
+            let within = |i: f64| (i >= 0.0 && i < centres.len() as f64).then_some(i as usize);
+            [(within(low), 1.0 - part), (within(low + 1.0), part)]
+        });
+        let row = self.centres[1].len();
+        axes[0].into_iter().flat_map(move |(i, a)| {
+            let cells = axes[1].into_iter();
+            cells.filter_map(move |(j, b)| Some((i? * row + j?, a * b)))
+        })
+    }
+}
+
+/// Maps of one interval after the other.
+#[derive(Debug, Clone)]
+pub struct HeatMaps {
+    layout: Layout,
+    /// Columns of the frames.
+    ways: Vec<String>,
+    pub(crate) sums: Sums,
+}
+
+/// What maps go on from.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sums {
+    /// Number of the frame, from 1 on, that showed each particle last; 0 for none.
+    pub(crate) shown: Vec<u64>,
+    /// Frames taken in.
+    pub(crate) frames: u64,
+    /// Heat of each particle then \[J\], `[ways][ids]`.
+    pub(crate) last: Vec<Vec<f64>>,
+    /// Heat of each cell in this interval, and since the first frame \[J\], `[ways][cells]`.
+    pub(crate) cells: Vec<Vec<f64>>,
+    pub(crate) whole: Vec<Vec<f64>>,
+    /// Where this interval and the first one begin, and the time of the last frame \[s\].
+    pub(crate) times: [f64; 3],
+}
+
+/// A map with its log time \[s\], and what is told of its places: channel and record.
+pub type Told = (f64, Table, Vec<(String, Record)>);
+
+impl HeatMaps {
+    /// No frame taken in; `ways` are columns of the frames.
+    #[must_use]
+    pub fn new(layout: Layout, ways: Vec<String>) -> Self {
+        let none = vec![vec![0.0; layout.len()]; ways.len()];
+        let sums = Sums {
+            last: vec![Vec::new(); ways.len()],
+            cells: none.clone(),
+            whole: none,
+            ..Sums::default()
+        };
+        Self { layout, ways, sums }
+    }
+
+    /// Takes in a frame at `time` \[s\]; gives the map of the interval that ends there, if one does.
+    pub fn take(&mut self, seen: &Received, time: f64) -> Option<Told> {
+        self.gather(seen);
+        self.sums.frames += 1;
+        if self.sums.frames == 1 {
+            self.sums.times = [time; 3];
+            return None;
+        }
+        self.sums.times[2] = time;
+        // Half a nanosecond: times of frames are whole ones.
+        (time - self.sums.times[0] >= self.layout.interval - 5e-10).then(|| self.told())
+    }
+
+    /// The map of the interval that has begun and is not full, if there is one.
+    pub fn rest(&mut self) -> Option<Told> {
+        let [from, _, last] = self.sums.times;
+        (last > from).then(|| self.told())
+    }
+
+    /// Gives each cell the heat that particles have got since the last frame.
+    fn gather(&mut self, seen: &Received) {
+        let Sums {
+            shown,
+            frames,
+            last,
+            cells,
+            whole,
+            ..
+        } = &mut self.sums;
+        let ids = seen.id.iter().max().map_or(0, |most| most + 1);
+        shown.resize(shown.len().max(ids), 0);
+        last.iter_mut()
+            .for_each(|heat| heat.resize(shown.len(), 0.0));
+        for (n, (id, place)) in seen.id.iter().zip(&seen.place).enumerate() {
+            let born = shown[*id] == 0 && seen.droplet[n];
+            let counts = *frames > 0 && (shown[*id] == *frames || born);
+            shown[*id] = *frames + 1;
+            for (way, heat) in seen.heat.iter().enumerate() {
+                let gained = heat[n] - last[way][*id];
+                last[way][*id] = heat[n];
+                if !counts || gained == 0.0 {
+                    continue;
+                }
+                for (cell, part) in self.layout.shares(*place) {
+                    cells[way][cell] += part * gained;
+                    whole[way][cell] += part * gained;
+                }
+            }
+        }
+    }
+
+    /// The map of the interval up to now, which ends.
+    fn told(&mut self) -> Told {
+        let [from, _, to] = self.sums.times;
+        let table = self.table(&self.sums.cells, [from, to]);
+        let scale = 1.0 / (self.layout.side.powi(2) * (to - from));
+        let places = self.layout.places.iter().map(|(name, place)| {
+            let mut record = Record::new()
+                .with("from_s", "s", from)
+                .with("to_s", "s", to);
+            for (way, cells) in self.ways.iter().zip(&self.sums.cells) {
+                let shares = self.layout.shares(*place);
+                let flux = shares.map(|(cell, part)| part * cells[cell]).sum::<f64>();
+                record = record.with(&named(way), "W/m2", scale * flux);
+            }
+            (format!("/{HEAT_MAP}/{name}"), record)
+        });
+        let places = places.collect();
+        self.sums.cells.iter_mut().for_each(|cells| cells.fill(0.0));
+        self.sums.times[0] = to;
+        (to, table, places)
+    }
+
+    /// Heat of cells \[J\] as fluxes over a span \[s\].
+    fn table(&self, cells: &[Vec<f64>], [from, to]: [f64; 2]) -> Table {
+        let Layout { centres, side, .. } = &self.layout;
+        let scale = 1.0 / (side * side * (to - from));
+        let axes = [("x_m", "m", &centres[0][..]), ("y_m", "m", &centres[1][..])];
+        let mut table = Table::grid(&axes);
+        for (way, cells) in self.ways.iter().zip(cells) {
+            table = table.column(&named(way), "W/m2", cells.iter().map(|heat| scale * heat));
+        }
+        table
+            .attribute("from_s", "s", from)
+            .attribute("to_s", "s", to)
+    }
+
+    /// The mean over all intervals; none before two frames were taken in.
+    #[must_use]
+    pub fn mean(&self) -> Option<Table> {
+        let [_, first, last] = self.sums.times;
+        (last > first).then(|| self.table(&self.sums.whole, [first, last]))
+    }
+
+    /// Each way with the heat that all cells have got \[J\].
+    pub fn totals(&self) -> impl Iterator<Item = (&str, f64)> {
+        let ways = self.ways.iter().map(String::as_str);
+        ways.zip(self.sums.whole.iter().map(|cells| cells.iter().sum()))
+    }
+
+    /// Columns of the frames, one for each way of heat.
+    #[must_use]
+    pub fn ways(&self) -> &[String] {
+        &self.ways
+    }
+
+    /// Number of cells, and of places.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        [self.layout.len(), self.layout.places.len()]
+    }
+
+    /// Least length of an interval \[s\].
+    #[must_use]
+    pub fn interval(&self) -> f64 {
+        self.layout.interval
+    }
+
+    /// Memory of cells and of as many particles as given \[byte\].
+    #[must_use]
+    pub fn bytes(&self, particles: usize) -> u64 {
+        let heat = self.ways.len() * (2 * self.layout.len() + particles);
+        (8 * (heat + particles)) as u64
+    }
+
+    /// Bytes of a map before it is compressed, about.
+    #[must_use]
+    pub fn map_bytes(&self) -> u64 {
+        self.table(&self.sums.cells, [0.0, 1.0]).most_bytes() as u64
+    }
+}
+
+/// Name of the flux of a way of heat.
+fn named(way: &str) -> String {
+    format!("{}_w_m2", way.strip_prefix("heat_").unwrap_or(way))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const D: f64 = 1e-3;
+
+    fn maps(interval: f64) -> HeatMaps {
+        let mut layout = Layout::new([[0.0, 8e-3], [0.0, 6e-3]], D, interval);
+        layout.places = vec![("middle".to_owned(), [4.25e-3, 3.1e-3])];
+        HeatMaps::new(layout, vec!["heat_from_powder".to_owned()])
+    }
+
+    /// Particles `apart` over `reach` \[m\], each with `heat` of its place \[J\].
+    fn frame(apart: f64, reach: [f64; 2], heat: impl Fn([f64; 2]) -> f64) -> Received {
+        let counts = reach.map(|reach| (reach / apart).round() as usize);
+        let place: Vec<[f64; 2]> = (0..counts[0] * counts[1])
+            .map(|n| [n / counts[1], n % counts[1]].map(|i| (i as f64 + 0.5) * apart))
+            .collect();
+        Received {
+            id: (0..place.len()).collect(),
+            droplet: vec![false; place.len()],
+            heat: vec![place.iter().map(|place| heat(*place)).collect()],
+            place,
+        }
+    }
+
+    fn column(table: &Table) -> &[f64] {
+        table.values("from_powder_w_m2").unwrap()
+    }
+
+    #[test]
+    fn an_even_flux_is_even_on_lattices_as_fine_and_a_little_coarser() {
+        let flux = 3e5;
+        for (apart, off) in [
+            (D, 1e-12),
+            (1.05 * D, 6e-3),
+            (0.95 * D, 6e-3),
+            (0.5 * D, 1e-12),
+        ] {
+            // More metal than map, so that cells at its ends have all their neighbours.
+            let reach = [9e-3, 7e-3].map(|reach| (reach / apart).ceil() * apart);
+            let heat = |time: f64| move |_| flux * apart * apart * time;
+            let mut maps = maps(0.0);
+            let first = frame(apart, reach, heat(0.1));
+            assert!(maps.take(&first, 0.1).is_none());
+            let second = frame(apart, reach, heat(0.3));
+            let (time, table, places) = maps.take(&second, 0.3).unwrap();
+            assert!((time - 0.3).abs() < 1e-15);
+            let found = column(&table).chunks(6).skip(1).flat_map(|row| &row[1..]);
+            for value in found {
+                assert!((value / flux - 1.0).abs() < off, "{apart}: {value}");
+            }
+            let (channel, told) = &places[0];
+            assert_eq!(channel, "/heat_map/middle");
+            let value = told.get("from_powder_w_m2").unwrap();
+            assert!((value / flux - 1.0).abs() < off, "{apart}: {value}");
+        }
+    }
+
+    #[test]
+    fn no_heat_is_lost_between_cells_whatever_lies_where() {
+        let mut maps = maps(0.0);
+        let at = |time: f64| {
+            let mut seen = frame(0.37 * D, [6.5e-3, 4.5e-3], |[x, y]| {
+                time * (1.0 + 4e2 * x - 3e2 * y)
+            });
+            for place in &mut seen.place {
+                *place = place.map(|x| x + 0.6e-3);
+            }
+            seen
+        };
+        let all = at(1.0).heat[0].iter().sum::<f64>();
+        for n in 0..4 {
+            maps.take(&at(0.1 * f64::from(n)), 0.1 * f64::from(n));
+        }
+        let (_, found) = maps.totals().next().unwrap();
+        assert!((found / (0.3 * all) - 1.0).abs() < 1e-12, "{found} {all}");
+        let mean = maps.mean().unwrap();
+        let sum = column(&mean).iter().sum::<f64>() * D * D * 0.3;
+        assert!((sum / found - 1.0).abs() < 1e-12, "{sum} {found}");
+    }
+
+    #[test]
+    fn intervals_end_with_the_frame_that_fills_them_and_the_last_with_the_frames() {
+        let mut maps = maps(0.25);
+        let seen = |time: f64| frame(D, [8e-3, 6e-3], move |_| time);
+        let mut ends = Vec::new();
+        for n in 0..6 {
+            let time = 0.1 * f64::from(n);
+            let told = maps.take(&seen(time), time);
+            ends.extend(told.map(|(time, table, _)| (time, column(&table)[7])));
+        }
+        let rest = maps
+            .rest()
+            .map(|(time, table, _)| (time, column(&table)[7]));
+        assert_eq!(ends.len(), 1);
+        for ((time, flux), wanted) in ends.into_iter().chain(rest).zip([0.3, 0.5]) {
+            assert!((time - wanted).abs() < 1e-12, "{time}");
+            assert!((flux * D * D - 1.0).abs() < 1e-12, "{flux}");
+        }
+        assert!(maps.rest().is_none());
+    }
+
+    #[test]
+    fn metal_from_the_wire_counts_from_zero_and_what_comes_into_view_from_there_on() {
+        let mut maps = maps(0.0);
+        let seen = |ids: &[usize], droplets: &[bool], heat: &[f64]| Received {
+            place: vec![[4.5e-3, 3.5e-3]; ids.len()],
+            id: ids.to_vec(),
+            droplet: droplets.to_vec(),
+            heat: vec![heat.to_vec()],
+        };
+        maps.take(&seen(&[0], &[false], &[5.0]), 0.0);
+        // A drop is born, and metal comes into view.
+        maps.take(
+            &seen(&[0, 1, 2], &[false, false, true], &[6.0, 7.0, 0.5]),
+            1.0,
+        );
+        // The drop is out of view and comes back.
+        maps.take(&seen(&[0, 1], &[false, false], &[6.0, 7.25]), 2.0);
+        maps.take(&seen(&[0, 2], &[false, true], &[6.0, 9.0]), 3.0);
+        let (_, found) = maps.totals().next().unwrap();
+        assert!((found - 1.75).abs() < 1e-12, "{found}");
+    }
+}
