@@ -93,7 +93,7 @@ enum Action {
         #[arg(long)]
         pool: Option<PathBuf>,
         /// Arc source; if there are several, each with its name in the targets.
-        #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named)]
+        #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named("arc"))]
         arc: Vec<(String, PathBuf)>,
         /// Published values.
         #[arg(long)]
@@ -206,16 +206,12 @@ impl Action {
         };
         match self {
             Self::Page(f) => {
-                let more = [
-                    ("pool", &f.pool),
-                    ("mean", &f.mean),
-                    ("targets", &f.targets),
-                ];
+                let more = [("pool", &f.pool), ("targets", &f.targets)];
                 let more = more
                     .into_iter()
                     .filter_map(|(name, path)| Some((name.to_owned(), path.clone()?)));
                 let more: Vec<_> = more.collect();
-                named(&[&f.arc, &more])
+                named(&[&f.arc, &f.mean, &more])
             }
             Self::Passes(f) => named(&[&f.arc, &f.pool, &f.mean]),
             Self::Heat(f) => named(&[&f.frames]),
@@ -249,7 +245,7 @@ fn with_record(name: &str, path: PathBuf) -> [(String, PathBuf); 2] {
 fn complete(action: &Action) -> Result<(), Failure> {
     let (wanted, given) = match action {
         Action::Page(f) => {
-            let given = !f.arc.is_empty() || f.pool.is_some() || f.mean.is_some();
+            let given = !f.arc.is_empty() || f.pool.is_some() || !f.mean.is_empty();
             ("--arc, --pool or --mean", given)
         }
         Action::Passes(f) => {

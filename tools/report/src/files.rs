@@ -15,14 +15,14 @@ pub(crate) struct PageFiles {
     #[arg(long)]
     pub(crate) out: PathBuf,
     /// Arc source; of several, what the page calls each.
-    #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named)]
+    #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named("arc"))]
     pub(crate) arc: Vec<(String, PathBuf)>,
     /// Particle frames of the pool.
     #[arg(long)]
     pub(crate) pool: Option<PathBuf>,
-    /// Mean fields.
-    #[arg(long)]
-    pub(crate) mean: Option<PathBuf>,
+    /// Mean fields; of several, what the page calls each.
+    #[arg(long, value_name = "[NAME=]FILE", value_parser = perhaps_named("mean"))]
+    pub(crate) mean: Vec<(String, PathBuf)>,
     /// Published values.
     #[arg(long)]
     pub(crate) targets: Option<PathBuf>,
@@ -309,11 +309,15 @@ fn named(word: &str) -> Result<(String, PathBuf), String> {
 }
 
 /// A file that may have a name; without one it is called as its kind is.
-pub(crate) fn perhaps_named(word: &str) -> Result<(String, PathBuf), String> {
-    if word.is_empty() {
-        return Err("wanted is FILE or NAME=FILE".to_owned());
+pub(crate) fn perhaps_named(
+    name: &'static str,
+) -> impl Fn(&str) -> Result<(String, PathBuf), String> + Clone {
+    move |word| {
+        if word.is_empty() {
+            return Err("wanted is FILE or NAME=FILE".to_owned());
+        }
+        Ok(named(word).unwrap_or_else(|_| (name.to_owned(), PathBuf::from(word))))
     }
-    Ok(named(word).unwrap_or_else(|_| ("arc".to_owned(), PathBuf::from(word))))
 }
 
 /// Writes a page, with the folder that it lies in.

@@ -90,6 +90,32 @@ fn a_whole_study_has_every_section_and_its_measures_are_those_of_the_sample() {
 }
 
 #[test]
+fn heat_maps_are_drawn_with_their_course_and_means_are_called_by_their_names() {
+    let folder = folder("heat-maps");
+    sample::means(&folder.join("mean.mcap"));
+    sample::heat_maps(&folder.join("heat.mcap"), 10);
+    let at = |file: &str| folder.join(file).display().to_string();
+    let (out, flow, heat) = (at("report.html"), at("mean.mcap"), at("heat.mcap"));
+    let (flow, heat) = (format!("--mean=slag={flow}"), format!("--mean=heat={heat}"));
+    let words = ["page", "--study", "sample", "--out", &out, &flow, &heat];
+    let output = report(&words);
+    assert!(output.status.success(), "{output:?}");
+    let html = std::fs::read_to_string(out).unwrap();
+    for heading in ["The flow in the pool: slag", "The heat that metal gets"] {
+        assert!(html.contains(&format!(">{heading}</h2>")), "{heading}");
+    }
+    assert!(!html.contains("The flow in the pool: heat"));
+    // Powder alone brings heat: slag, which brings none, has neither a map nor a line.
+    let told = &html[html.find(">The heat that metal gets</h2>").unwrap()..];
+    assert!(told.contains("0.50 to 1.00 s") && told.contains("4.50 to 5.00 s"));
+    assert!(
+        told.contains("at the place 'middle'") || told.contains("at the place &#39;middle&#39;")
+    );
+    assert!(told.contains("powder") && !told.contains(">slag<"));
+    assert_eq!(told.matches("<figcaption>0.50 s</figcaption>").count(), 1);
+}
+
+#[test]
 fn what_is_absent_has_no_section() {
     let folder = folder("bare");
     sample::weld(&folder.join("pool.mcap"), (8.0, 2), false);

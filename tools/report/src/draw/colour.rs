@@ -20,6 +20,8 @@ pub(crate) enum Map {
     Molten,
     /// Blue to yellow; for speeds.
     Viridis,
+    /// Blue below the middle, white there, red above it; for what goes both ways.
+    BlueRed,
 }
 
 // Ten equidistant samples of matplotlib's maps, which are in the public domain (CC0).
@@ -30,6 +32,12 @@ const INFERNO: [u32; 10] = [
 const VIRIDIS: [u32; 10] = [
     0x44_0154, 0x48_2878, 0x3e_4989, 0x31_688e, 0x26_828e, 0x1f_9e89, 0x35_b779, 0x6e_ce58,
     0xb5_de2b, 0xfd_e725,
+];
+
+/// Blue and red of ColorBrewer's RdBu in ten steps (Brewer 2002), whose two middle ones are next to white.
+const BLUE_RED: [u32; 10] = [
+    0x05_3061, 0x21_66ac, 0x43_93c3, 0x92_c5de, 0xf2_f6f9, 0xfd_f6f2, 0xf4_a582, 0xd6_604d,
+    0xb2_182b, 0x67_001f,
 ];
 
 impl Map {
@@ -44,6 +52,7 @@ impl Map {
             Map::Inferno => between(&INFERNO, t),
             Map::Molten => between(&INFERNO, 0.30 + 0.68 * t),
             Map::Viridis => between(&VIRIDIS, t),
+            Map::BlueRed => between(&BLUE_RED, t),
         }
     }
 }

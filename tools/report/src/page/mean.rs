@@ -2,9 +2,11 @@
 
 use artefact::Reader;
 use run::Failure;
+use serde_json::Value;
 
 use super::encoding;
 use crate::draw::axes::number;
+use crate::flux::GRAINS;
 use crate::html::{escape, figure, picture};
 use crate::picture::mean::{Field, Style, phases, single};
 use crate::plot::{Line, Plot};
@@ -15,26 +17,65 @@ const SECTIONS: [(&str, &str); 3] = [
     ("/section_y0", "Across the weld, under the arc"),
     ("/surface", "The surface, from above"),
 ];
+/// Names of the axes, by which a table tells where its plane stands.
+const AXES: [&str; 3] = ["x", "y", "z"];
 /// Melting point assumed where the frames tell none \[K\].
 const MELTING: f64 = 1750.0;
+
+/// Behind the channel of a section, its mean over time.
+const MEAN: &str = "/time_mean";
+
+/// Whether the means are of grains and not of metal.
+pub(super) fn of_grains(reader: &Reader) -> bool {
+    reader.header().scene.get("channel").and_then(Value::as_str) == Some(GRAINS)
+}
+
+/// Channels and titles of the sections: those that all studies have, then the others.
+fn sections(reader: &Reader) -> artefact::Result<Vec<(String, String)>> {
+    let mut all: Vec<_> = SECTIONS
+        .map(|(channel, title)| (channel.to_owned(), title.to_owned()))
+        .into();
+    for found in reader.channels() {
+        let channel = found.name.strip_suffix(MEAN);
+        let new = channel.filter(|name| all.iter().all(|(known, _)| known != name));
+        let Some(channel) = new else { continue };
+        let table = reader.table(&found.name)?;
+        if table.has("frames_metal") {
+            let stands = AXES.iter().find_map(|axis| {
+                let at = table.scalar(&format!("{axis}_m")).ok()?;
+                Some(format!("The plane {axis} = {} mm", number(1e3 * at)))
+            });
+            all.push((
+                channel.to_owned(),
+                stands.unwrap_or_else(|| channel.to_owned()),
+            ));
+        }
+    }
+    Ok(all)
+}
 
 /// The section; nothing where no liquid was averaged.
 pub(super) fn section(reader: &Reader, melting: Option<f64>) -> Result<String, Failure> {
     let mut out = String::new();
     let mut speeds = Plot::new("phase of the droplet period", "mean speed [m/s]").through(0.0);
-    for (channel, title) in SECTIONS {
-        let time = Field::all(reader, &format!("{channel}/time_mean"))?;
-        let cycle = Field::all(reader, channel)?;
+    let grains = of_grains(reader);
+    for (channel, title) in sections(reader)? {
+        let time = Field::all(reader, &format!("{channel}{MEAN}"))?;
+        let cycle = Field::all(reader, &channel)?;
         let mut every = time.clone();
         every.extend(cycle.iter().cloned());
-        let Some(style) = Style::of(&every, melting.unwrap_or(MELTING)) else {
+        let style = match grains {
+            true => Style::of_all(&every),
+            false => Style::of(&every, melting.unwrap_or(MELTING)),
+        };
+        let Some(style) = style else {
             continue;
         };
-        out += &one(title, time.first(), &cycle, &style)?;
+        out += &one(&title, time.first(), &cycle, &style)?;
         let points = cycle
             .iter()
             .filter_map(|f| Some([f.phase?, f.mean_speed()?]));
-        speeds.add(Line::new(title, points.collect()).marked());
+        speeds.add(Line::new(&title, points.collect()).marked());
     }
     if !speeds.is_empty() {
         out += &figure(
@@ -64,9 +105,10 @@ fn one(
                 number(half)
             )
         });
+        let solid = if style.whole() { "" } else { ", grey is solid" };
         let caption = format!(
             "{title}, mean over {} frames{}. Arrows are the velocity relative to the arc (the arrow below the \
-             picture is {reference} m/s), colour is {colour}, grey is solid.{chance}",
+             picture is {reference} m/s), colour is {colour}{solid}.{chance}",
             field.frames,
             if field.drops > 0.0 {
                 format!(" of {} droplets", field.drops)

@@ -14,6 +14,7 @@ pub(crate) mod field;
 mod flux;
 pub(crate) mod gas;
 pub(crate) mod heat;
+mod heat_map;
 pub(crate) mod jet;
 pub(crate) mod live;
 mod mean;
@@ -24,7 +25,7 @@ mod probes;
 mod runs;
 pub(crate) mod sweep;
 
-use artefact::Reader;
+use artefact::{Reader, Record};
 use run::Failure;
 
 use crate::files::{PageFiles, save};
@@ -36,19 +37,24 @@ use crate::weld::Weld;
 /// A program's record under the name of its artefact.
 type Named = (String, RunRecord);
 
+/// An artefact with what the page calls it.
+type Read = (String, Reader);
+
 /// Writes the page of a study.
 pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     let open = |path: &Option<PathBuf>, kind| match path {
         Some(path) => Reader::open_sound(path, kind, 1).map(Some),
         None => Ok(None),
     };
-    let mut arcs = Vec::new();
-    for (name, path) in &files.arc {
-        arcs.push((name.clone(), Reader::open_sound(path, "arc-source", 1)?));
-    }
+    let all = |files: &[(String, PathBuf)], kind| -> Result<Vec<Read>, Failure> {
+        let each = files.iter();
+        each.map(|(name, path)| Ok((name.clone(), Reader::open_sound(path, kind, 1)?)))
+            .collect()
+    };
+    let arcs = all(&files.arc, "arc-source")?;
     let balances = arcs::balances(&arcs)?;
     let pool = open(&files.pool, "particle-frames")?;
-    let mean = open(&files.mean, "mean-fields")?;
+    let means = all(&files.mean, "mean-fields")?;
     let targets = match &files.targets {
         Some(path) => Some(Targets::read(path, &balances)?),
         None => None,
@@ -71,21 +77,9 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         let body = compare::section(targets, stretch.as_ref(), &balances);
         page.section("Against experiment and simulation", body);
     }
-    if let Some(reader) = &mean {
-        let melting = weld.as_ref().and_then(|w| w.plate.melting_point_k);
-        page.section("The flow in the pool", mean::section(reader, melting)?);
-    }
-    if arcs.len() > 1 {
-        page.section("The arcs beside each other", arcs::section(&balances));
-    }
-    for (name, reader) in &arcs {
-        let title = if arcs.len() > 1 {
-            format!("The arc: {name}")
-        } else {
-            "The arc".to_owned()
-        };
-        page.section(&title, arc::section(reader)?);
-    }
+    let melting = weld.as_ref().and_then(|w| w.plate.melting_point_k);
+    averaged(&mut page, &means, melting)?;
+    burning(&mut page, &arcs, &balances)?;
     let only = match arcs.as_slice() {
         [(_, reader)] => Some(reader),
         _ => None,
@@ -98,6 +92,38 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     page.section("Mass and energy", body);
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
+}
+
+/// Sections of means: flows, and the heat that metal gets.
+fn averaged(page: &mut Page, means: &[Read], melting: Option<f64>) -> Result<(), Failure> {
+    for (name, reader) in means {
+        let flow = match mean::of_grains(reader) {
+            true => "The flow of grains",
+            false => "The flow in the pool",
+        };
+        page.section(&called(flow, name, means), mean::section(reader, melting)?);
+        page.section("The heat that metal gets", heat_map::section(reader)?);
+    }
+    Ok(())
+}
+
+/// Sections of arcs: each, and several beside each other.
+fn burning(page: &mut Page, arcs: &[Read], balances: &[(String, Record)]) -> Result<(), Failure> {
+    if arcs.len() > 1 {
+        page.section("The arcs beside each other", arcs::section(balances));
+    }
+    for (name, reader) in arcs {
+        page.section(&called("The arc", name, arcs), arc::section(reader)?);
+    }
+    Ok(())
+}
+
+/// A title; with the name of its artefact where there are several.
+fn called(title: &str, name: &str, among: &[Read]) -> String {
+    match among.len() > 1 {
+        true => format!("{title}: {name}"),
+        false => title.to_owned(),
+    }
 }
 
 /// What is told of grains beside the metal of a pool; nothing where there are none.
@@ -116,7 +142,9 @@ fn beside(files: &PageFiles) -> Vec<Named> {
         paths.push((name, Some(path)));
     }
     paths.push(("pool", files.pool.as_deref()));
-    paths.push(("mean", files.mean.as_deref()));
+    for (name, path) in &files.mean {
+        paths.push((name, Some(path)));
+    }
     paths
         .into_iter()
         .filter_map(|(name, path)| Some((name.to_owned(), RunRecord::beside(path?)?)))

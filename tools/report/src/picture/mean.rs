@@ -16,6 +16,8 @@ pub(crate) use field::Field;
 pub(crate) struct Style {
     scale: Scale,
     heat: bool,
+    /// All flows, as grains do, whatever their temperature.
+    whole: bool,
     /// Speed of the reference arrow \[m/s\].
     reference: f64,
 }
@@ -66,9 +68,26 @@ impl Style {
         };
         Some(Self {
             heat: hot.is_some(),
+            whole: false,
             scale: hot.map_or(speed, |hot| heat_scale(melting, hot)),
             reference: reference.unwrap_or(power),
         })
+    }
+
+    /// What suits all of `fields` whose every place flows: colours from their coldest place on.
+    pub(crate) fn of_all(fields: &[Field]) -> Option<Self> {
+        let coldest = quantile(fields.iter().flat_map(Field::hottest), 0.0);
+        let mut style = Self::of(fields, coldest.unwrap_or(0.0))?;
+        style.whole = true;
+        if style.heat {
+            "temperature [K]".clone_into(&mut style.scale.title);
+        }
+        Some(style)
+    }
+
+    /// Whether every place flows.
+    pub(crate) fn whole(&self) -> bool {
+        self.whole
     }
 
     /// The speed that the reference arrow stands for \[m/s\].

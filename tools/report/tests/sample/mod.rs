@@ -157,6 +157,45 @@ pub(crate) fn means(path: &Path) {
     );
 }
 
+/// A crescent of flux that cools metal before an arc and heats it behind: `count` maps, and the course at one place.
+#[allow(dead_code, reason = "not every test has maps")]
+pub(crate) fn heat_maps(path: &Path, count: u32) {
+    let mut writer = Writer::create(path, &header("mean-fields", "avg")).unwrap();
+    let across: Vec<f64> = (0..24).map(|i| (f64::from(i) - 11.5) * 2.0 * D).collect();
+    let along: Vec<f64> = (0..50).map(|i| (f64::from(i) + 0.5) * 2.0 * D).collect();
+    let flux = |x: f64, y: f64, time: f64| {
+        let ahead = y - START - SPEED * time;
+        let near = (-(x * x + ahead * ahead) / 6e-5).exp();
+        2e6 * near * (-ahead / 4e-3).tanh()
+    };
+    for n in 0..count {
+        let span = [n, n + 1].map(|n| 0.5 * f64::from(n));
+        let all = across
+            .iter()
+            .flat_map(|x| along.iter().map(|y| flux(*x, *y, span[1])));
+        let table = Table::grid(&[("x_m", "m", &across), ("y_m", "m", &along)])
+            .column("from_powder_w_m2", "W/m2", all)
+            .column(
+                "from_slag_w_m2",
+                "W/m2",
+                vec![0.0; across.len() * along.len()],
+            )
+            .attribute("from_s", "s", span[0])
+            .attribute("to_s", "s", span[1]);
+        writer.table("/heat_map", span[1], &table).unwrap();
+        let record = Record::new()
+            .with("from_s", "s", span[0])
+            .with("to_s", "s", span[1])
+            .with("from_powder_w_m2", "W/m2", flux(0.0, 0.02, span[1]))
+            .with("from_slag_w_m2", "W/m2", 0.0);
+        writer.record("/heat_map/middle", span[1], &record).unwrap();
+        if n + 1 == count {
+            writer.table("/heat_map/time_mean", 0.0, &table).unwrap();
+        }
+    }
+    writer.finish().unwrap();
+}
+
 /// A level pool `depth` below the plate.
 #[allow(dead_code, reason = "not every test has a pool")]
 pub(crate) fn profile(path: &Path, depth: f64) {
