@@ -39,9 +39,14 @@ build/saw-quick/half.mcap: pipelines/saw-600a/weld.json pipelines/saw-quick/weld
 	  --patch pipelines/saw-quick/weld.patch.json --patch pipelines/saw-quick/half.patch.json \
 	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-quick/half-bed.mcap --out $@ $(MACHINE)
 
-build/saw-quick/report.html: build/gmaw-600a/arc.mcap build/saw-quick/weld.mcap $(BIN)/report always
-	$(RERUN) $(BIN)/report page --study saw-quick --out $@ \
-	  --arc build/gmaw-600a/arc.mcap --pool build/saw-quick/weld.mcap
+build/saw-quick/heat.mcap: pipelines/saw-600a/heat.json pipelines/saw-quick/heat.patch.json \
+  build/saw-quick/weld.mcap $(BIN)/avg always
+	$(RERUN) $(BIN)/avg run pipelines/saw-600a/heat.json --patch pipelines/saw-quick/heat.patch.json \
+	  --input frames=build/saw-quick/weld.mcap --out $@ $(MACHINE)
 
-.PRECIOUS: $(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap) build/saw-quick/bed.mcap build/saw-quick/weld.mcap build/saw-quick/report.html \
+build/saw-quick/report.html: build/gmaw-600a/arc.mcap build/saw-quick/weld.mcap build/saw-quick/heat.mcap $(BIN)/report always
+	$(RERUN) $(BIN)/report page --study saw-quick --out $@ \
+	  --arc build/gmaw-600a/arc.mcap --pool build/saw-quick/weld.mcap --mean heat=build/saw-quick/heat.mcap
+
+.PRECIOUS: $(SAW_QUICK_VARIANTS:%=build/saw-quick/%.mcap) build/saw-quick/bed.mcap build/saw-quick/weld.mcap build/saw-quick/heat.mcap build/saw-quick/report.html \
   build/saw-quick/half-bed.mcap build/saw-quick/half.mcap
