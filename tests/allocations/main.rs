@@ -54,7 +54,8 @@ fn spent(mut step: impl FnMut() + Send) -> (f64, f64) {
 }
 
 #[track_caller]
-fn must_be_quiet(name: &str, size: usize, (calls, bytes): (f64, f64)) {
+fn must_be_quiet(name: &str, size: usize, spent: (f64, f64)) {
+    let (calls, bytes) = spent;
     eprintln!("{name} of {size}: {calls:.1} allocations, {bytes:.0} bytes per step");
     let most_bytes = MOST_BYTES.max(MOST_BYTES_EACH * size as f64);
     assert!(

@@ -14,7 +14,7 @@ fn root() -> PathBuf {
 }
 
 /// A profile as `avg` writes it, of rings `d` wide; `height` goes with the radius.
-fn write(path: &Path, (d, rings): (f64, u32), height: impl Fn(f64) -> f64, share: f64) {
+fn write(path: &Path, d: f64, rings: u32, height: impl Fn(f64) -> f64, share: f64) {
     let header = Header {
         kind: "mean-fields".to_owned(),
         version: Version::new(1, 2),
@@ -77,7 +77,7 @@ fn columns(path: &Path) -> Vec<Column> {
 fn a_level_pool_is_the_plate_without_one() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    write(&folder.join("mean.mcap"), (5e-4, 12), |_| 0.0, 1.0);
+    write(&folder.join("mean.mcap"), 5e-4, 12, |_| 0.0, 1.0);
     let output = arcfvm("run", folder, "mean.mcap");
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let plain = folder.join("plain.mcap");
@@ -107,7 +107,7 @@ fn a_pool_holds_its_volume_and_takes_up_all_that_its_surface_does() {
     let folder = folder.path();
     // Middles of cells at -0.2 and -0.6 mm: two rows are open within 2 mm.
     let bowl = |r: f64| (-1e-3 + 250.0 * r * r).min(0.0);
-    write(&folder.join("mean.mcap"), (2e-4, 30), bowl, 0.96);
+    write(&folder.join("mean.mcap"), 2e-4, 30, bowl, 0.96);
     let output = arcfvm("run", folder, "mean.mcap");
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let reader = Reader::open_kind(folder.join("arc.mcap"), "arc-source", 1).unwrap();
@@ -144,7 +144,7 @@ fn the_force_in_a_pool_counts_its_depth_from_the_surface_above() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let bowl = |r: f64| (-1e-3 + 250.0 * r * r).min(0.0);
-    write(&folder.join("mean.mcap"), (2e-4, 30), bowl, 1.0);
+    write(&folder.join("mean.mcap"), 2e-4, 30, bowl, 1.0);
     arcfvm("run", folder, "mean.mcap");
     let reader = Reader::open_kind(folder.join("arc.mcap"), "arc-source", 1).unwrap();
     let (force, plasma) = (
@@ -186,7 +186,7 @@ fn the_arc_of_the_study_stands_over_the_pool_that_it_is_given() {
     let folder = tempfile::tempdir().unwrap();
     let surface = folder.path().join("mean.mcap");
     let pool = |r: f64| if r < 1e-3 { -1.9e-3 } else { 1.1e-3 };
-    write(&surface, (5e-4, 15), pool, 1.0);
+    write(&surface, 5e-4, 15, pool, 1.0);
     let output = Command::new(env!("CARGO_BIN_EXE_arcfvm"))
         .current_dir(root())
         .args(["check", "pipelines/gmaw-300a/arc.json", "--patch"])
@@ -234,7 +234,7 @@ fn what_is_no_pool_of_this_arc_is_refused_with_figures() {
         ("wire.mcap", |_| 4e-3, 1.0, &["overlaps"]),
     ];
     for (name, height, share, wanted) in cases {
-        write(&folder.join(name), (5e-4, 12), height, share);
+        write(&folder.join(name), 5e-4, 12, height, share);
         let output = arcfvm("check", folder, name);
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(!output.status.success(), "{name}");
@@ -287,7 +287,7 @@ fn a_pool_that_no_cell_tells_is_said_to_be_level() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let shallow = |r: f64| (-1.5e-4 + 50.0 * r * r).min(0.0);
-    write(&folder.join("mean.mcap"), (5e-4, 12), shallow, 1.0);
+    write(&folder.join("mean.mcap"), 5e-4, 12, shallow, 1.0);
     let output = arcfvm("check", folder, "mean.mcap");
     let said = String::from_utf8_lossy(&output.stdout).into_owned()
         + &String::from_utf8_lossy(&output.stderr);

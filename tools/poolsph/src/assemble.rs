@@ -177,8 +177,8 @@ impl<'a> Source<'a> {
         let fed = Some(wires).filter(|wires| !wires.is_empty());
         parts.when(Room::Domain, "droplets", fed, |wires| {
             let wire = |wire: &crate::scene::Wire| {
-                let metal = (scene.metal(), scene.halving(wire)?);
-                let made = Wire::new(wire.droplets, metal, self.caloric.as_ref());
+                let (metal, mirror) = (scene.metal(), scene.halving(wire)?);
+                let made = Wire::new(wire.droplets, metal, mirror, self.caloric.as_ref());
                 let made = made.map_err(|fault| fault.within(&wire.at))?;
                 Ok(made.beside(wire.offset_m))
             };

@@ -8,12 +8,12 @@ use std::process::{Command, Output};
 use artefact::Reader;
 use serde_json::{Value, json};
 
-fn run(scene: &Value, (name, folder): (&str, &Path), more: &[&str]) -> Output {
-    let path = folder.join("scene.json");
+fn run(scene: &Value, out: &Path, more: &[&str]) -> Output {
+    let path = out.with_extension("scene.json");
     std::fs::write(&path, scene.to_string()).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_poolsph"));
-    command.arg("run").arg(path).arg("--out");
-    command.arg(folder.join(name)).args(["--progress", "none"]);
+    command.arg("run").arg(path).arg("--out").arg(out);
+    command.args(["--progress", "none"]);
     command.args(more).output().unwrap()
 }
 
@@ -68,17 +68,17 @@ fn gone(artefact: &Path) -> f64 {
 #[test]
 fn grains_lie_on_as_they_lay() {
     let folder = tempfile::tempdir().unwrap();
-    let output = run(&bed(), ("bed.mcap", folder.path()), &[]);
+    let output = run(&bed(), &folder.path().join("bed.mcap"), &[]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let input = format!("bed={}", folder.path().join("bed.mcap").display());
     let input = ["--input", &input];
-    let output = run(&later(), ("later.mcap", folder.path()), &input);
+    let output = run(&later(), &folder.path().join("later.mcap"), &input);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     // On a plate whose particles stand elsewhere the springs of the lowest layer find nothing.
     let mut shifted = later();
     shifted["bodies"][0]["shape"]["box"] =
         json!({"min_m": [-2e-5, 0, -1e-3], "max_m": [5.98e-3, 4e-3, 0]});
-    let output = run(&shifted, ("shifted.mcap", folder.path()), &input);
+    let output = run(&shifted, &folder.path().join("shifted.mcap"), &input);
     assert_eq!(output.status.code(), Some(3), "{}", said(&output));
     assert!(said(&output).contains("metal or walls that are not there"));
     // Nor do those at the walls where these are farther off, or none.
@@ -88,7 +88,7 @@ fn grains_lie_on_as_they_lay() {
     ] {
         let mut open = later();
         open["grains"]["walls"] = walls;
-        let output = run(&open, ("open.mcap", folder.path()), &input);
+        let output = run(&open, &folder.path().join("open.mcap"), &input);
         assert_eq!(output.status.code(), Some(3), "{}", said(&output));
         assert!(said(&output).contains("metal or walls that are not there"));
     }
@@ -103,11 +103,11 @@ fn grains_lie_on_as_they_lay() {
 #[test]
 fn a_bed_sleeps_from_the_start_where_nothing_stirs_it() {
     let folder = tempfile::tempdir().unwrap();
-    let output = run(&bed(), ("bed.mcap", folder.path()), &[]);
+    let output = run(&bed(), &folder.path().join("bed.mcap"), &[]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let input = format!("bed={}", folder.path().join("bed.mcap").display());
     let asleep = |scene: &Value, name: &str| {
-        let output = run(scene, (name, folder.path()), &["--input", &input]);
+        let output = run(scene, &folder.path().join(name), &["--input", &input]);
         assert!(
             matches!(output.status.code(), Some(0 | 3)),
             "{}",

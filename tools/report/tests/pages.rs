@@ -46,7 +46,7 @@ fn page(folder: &Path, inputs: &[(&str, &str)]) -> String {
 #[test]
 fn a_whole_study_has_every_section_and_its_measures_are_those_of_the_sample() {
     let folder = folder("whole");
-    sample::weld(&folder.join("pool.mcap"), (8.0, 5), true);
+    sample::weld(&folder.join("pool.mcap"), 8.0, 5, true);
     sample::means(&folder.join("mean.mcap"));
     sample::arc(&folder.join("arc.mcap"));
     sample::targets(&folder.join("targets.json"), sample::DEEP);
@@ -118,7 +118,7 @@ fn heat_maps_are_drawn_with_their_course_and_means_are_called_by_their_names() {
 #[test]
 fn what_is_absent_has_no_section() {
     let folder = folder("bare");
-    sample::weld(&folder.join("pool.mcap"), (8.0, 2), false);
+    sample::weld(&folder.join("pool.mcap"), 8.0, 2, false);
     let html = page(&folder, &[("pool", "pool.mcap")]);
     assert!(html.contains(">The bead</h2>"));
     for heading in ["The arc", "The flow in the pool", "Against experiment"] {
@@ -132,7 +132,7 @@ fn passes_stand_beside_each_other() {
     let folder = folder("passes");
     for (pass, end) in [("first", 8.0), ("second", 6.0)] {
         let at = |what: &str| folder.join(format!("{pass}-{what}.mcap"));
-        sample::weld(&at("pool"), (end, 2), true);
+        sample::weld(&at("pool"), end, 2, true);
         sample::profile(&at("mean"), 1e-4 * end);
         sample::arc(&at("arc"));
     }
@@ -184,7 +184,7 @@ fn passes_stand_beside_each_other() {
 #[test]
 fn a_young_weld_is_measured_but_not_judged() {
     let folder = folder("young");
-    sample::weld(&folder.join("pool.mcap"), (1.0, 2), true);
+    sample::weld(&folder.join("pool.mcap"), 1.0, 2, true);
     sample::targets(&folder.join("targets.json"), sample::DEEP);
     let html = page(
         &folder,
@@ -202,7 +202,7 @@ fn a_young_weld_is_measured_but_not_judged() {
 fn validation_ends_with_one_where_a_tolerance_is_missed() {
     let folder = folder("validate");
     let pool = folder.join("pool.mcap");
-    sample::weld(&pool, (8.0, 2), true);
+    sample::weld(&pool, 8.0, 2, true);
     let targets = folder.join("targets.json");
     for (depth, code, words) in [
         (sample::DEEP, 0, "agrees within the tolerance"),
@@ -468,7 +468,7 @@ fn what_was_not_run_is_not_judged_and_failing_machines_have_a_table() {
 #[test]
 fn a_live_page_shows_what_a_stage_has_written_and_renews_itself_while_it_runs() {
     let folder = folder("live");
-    sample::weld(&folder.join("whole"), (8.0, 5), true);
+    sample::weld(&folder.join("whole"), 8.0, 5, true);
     let bytes = std::fs::read(folder.join("whole")).unwrap();
     // The end is not written yet.
     let part = folder.join("pool.mcap.part");

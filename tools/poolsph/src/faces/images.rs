@@ -64,14 +64,14 @@ impl Images {
                     let from = if periodic { 1 - side } else { side };
                     let near = planes[from].is_some_and(|plane| (x - plane).abs() < reach);
                     if planes[side].is_some() && near {
-                        self.add(places, k, (axis, side));
+                        self.add(places, k, axis, side);
                     }
                 }
             }
         }
     }
 
-    fn add(&mut self, places: &mut Vec<[f64; 3]>, k: usize, (axis, side): (usize, usize)) {
+    fn add(&mut self, places: &mut Vec<[f64; 3]>, k: usize, axis: usize, side: usize) {
         let before = match k.checked_sub(self.points) {
             None => Image {
                 of: k as u32,

@@ -195,7 +195,8 @@ impl Stage for Marangoni {
         state
             .near
             .temperatures(
-                (&state.faces, state.time),
+                &state.faces,
+                state.time,
                 state.metal.column(&TEMPERATURE),
                 &mut self.temperature,
             )

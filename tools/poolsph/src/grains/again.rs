@@ -28,7 +28,7 @@ impl Again {
     }
 
     /// Finds the chunks of `rows` whose pairs stay, of `grains` that were `listed` \[m\]; `reach` is that of a pair \[m\].
-    pub fn find(&mut self, (grains, listed): (&[Grain], &[Vector]), rows: usize, reach: f64) {
+    pub fn find(&mut self, grains: &[Grain], listed: &[Vector], rows: usize, reach: f64) {
         self.places.clear();
         self.still.clear();
         for (grains, listed) in grains.chunks(rows).zip(listed.chunks(rows)) {
@@ -92,7 +92,7 @@ mod tests {
                 grain.position[2] += 0.3 * ((k + turn) as f64).cos();
             }
             grains[3000].position = [2.0 + 3.0 * turn as f64, 9.0, 3.0];
-            lists.mark_again((&grains, &listed), RADII);
+            lists.mark_again(&grains, &listed, RADII);
             kept += lists.again.stay.iter().filter(|stays| **stays).count();
             lists.list(&grains, RADII, &[]);
             let mut fresh = Lists::new(false);

@@ -50,7 +50,9 @@ impl Heat {
             .conductor
             .sees(set, [set.column(&ENTHALPY), set.column(&TEMPERATURE)]);
         let of_metal = match metal.and_then(Metal::exchange) {
-            Some((exchange, pairs)) => exchange.conduct(pairs, (&grains, pass), state, &mut sum)?,
+            Some((exchange, contacts)) => {
+                exchange.conduct(contacts, &grains, pass, state, &mut sum)?
+            }
             None => 0.0,
         };
         let least = self.caloric.least_heat();

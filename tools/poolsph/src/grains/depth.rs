@@ -1,5 +1,7 @@
 //! How deeply cells of grains sleep, and what that spares.
 
+use contact::Grain;
+
 /// Rows of a cell.
 pub const CELL: usize = 64;
 
@@ -11,6 +13,15 @@ pub(super) const BORDER: u8 = 1;
 pub(super) const EDGE: u8 = 2;
 /// One that sleeps among such as sleep deeper than a border.
 pub(super) const DEEP: u8 = 3;
+
+/// Grains, and which of them are reckoned.
+#[derive(Debug, Clone, Copy)]
+pub struct Reckoned<'a> {
+    /// All grains.
+    pub grains: &'a [Grain],
+    /// Whose forces stay as they are.
+    pub depth: Depth<'a>,
+}
 
 /// How deeply cells sleep, and from which depth on their forces stay as they are.
 ///

@@ -27,9 +27,10 @@ use super::depth::kept;
 use super::light::Lighting;
 use super::lists::{AT_ONCE, Lists, ROWS};
 use super::metal::Metal;
+use super::metal_heat::Contacts;
+use super::neighbours::Neighbours;
 use super::parameters::{ConductanceScene, GrainHeat, Parameters};
 use super::slow::{Busy, Long, Pass, SLOW};
-use super::walls::Walls;
 use crate::heat::Caloric;
 use crate::stage::{Figure, StageError};
 use crate::state::{LIQUID, State};
@@ -58,6 +59,13 @@ pub struct Heat {
     pub(super) alike: bool,
     /// Long steps of what sleeps deep, if it has any.
     slow: Option<Long>,
+}
+
+/// A step of `step` \[s\] to `time` \[s\] of a pass.
+struct Part<'a> {
+    pass: Pass<'a>,
+    time: f64,
+    step: f64,
 }
 
 /// Values of chunks that get heat, changed.
@@ -174,19 +182,22 @@ impl Heat {
         });
     }
 
-    /// One step of `step` \[s\] to `time` \[s\].
+    /// One part of a pass.
     fn step(
         &mut self,
-        (set, state): (&mut Set, &mut State),
-        lists: &Lists,
-        metal: Option<&mut Metal>,
-        (pass, time, step): (Pass<'_>, f64, f64),
+        set: &mut Set,
+        state: &mut State,
+        around: &mut Neighbours<'_>,
+        part: Part<'_>,
     ) -> Result<(), OutOfRange> {
+        let Part { pass, time, step } = part;
         let mut rate = std::mem::take(&mut self.rate);
         rate.resize(set.len(), 0.0);
         let temperature = set.column(&TEMPERATURE);
+        let lists = around.lists;
         self.gather(lists, &mut rate, |a, b| temperature[b] - temperature[a]);
-        if let Some((exchange, (_, bodies))) = metal.and_then(Metal::exchange) {
+        let metal = around.metal.as_deref_mut();
+        if let Some((exchange, Contacts { bodies, .. })) = metal.and_then(Metal::exchange) {
             exchange.flow(
                 bodies,
                 temperature,
@@ -265,32 +276,29 @@ impl Heat {
 }
 
 impl Heat {
-    /// Heat over `dt` \[s\] between grains of `set` that touch by `lists`, and with the metal beside them.
+    /// Heat over `dt` \[s\] between grains of `set` that touch, and with the metal beside them.
     ///
     /// # Errors
     /// A temperature that the properties do not hold.
     pub fn advance(
         &mut self,
         set: &mut Set,
-        (lists, walls, mut metal, depth): (&Lists, &Walls, Option<&mut Metal>, &[u8]),
+        mut around: Neighbours<'_>,
         state: &mut State,
         dt: f64,
     ) -> Result<(), StageError> {
         let mut march = || -> Result<(), OutOfRange> {
-            self.lighting.fall(walls.lit(), state.time)?;
+            self.lighting.fall(around.walls.lit(), state.time)?;
             let Some(slow) = self.slow.as_mut() else {
-                let beside = (lists, metal.as_deref_mut());
-                return self.pass((set, state), beside, (Pass::Every, dt));
+                return self.pass(set, state, &mut around, Pass::Every, dt);
             };
             slow.waited += dt;
             let waited = slow.waited;
             let flags = set.take(&SLOW);
             if slow.due(state.step, state.stride) {
-                let beside = (lists, metal.as_deref_mut());
-                self.pass((set, state), beside, (Pass::Slow(&flags), waited))?;
+                self.pass(set, state, &mut around, Pass::Slow(&flags), waited)?;
             }
-            let beside = (lists, metal.as_deref_mut());
-            let done = self.pass((set, state), beside, (Pass::Quick(&flags), dt));
+            let done = self.pass(set, state, &mut around, Pass::Quick(&flags), dt);
             set.put(&SLOW, flags);
             done
         };
@@ -299,10 +307,12 @@ impl Heat {
             && slow.due(state.step, state.stride)
         {
             slow.waited = 0.0;
+            let depth = around.depth;
             sweep::fill(set.column_mut(&SLOW), |row| u8::from(kept(depth, row)));
         }
         self.change(set);
-        if let Some((exchange, (_, bodies))) = metal.and_then(Metal::exchange) {
+        let metal = around.metal.and_then(Metal::exchange);
+        if let Some((exchange, Contacts { bodies, .. })) = metal {
             exchange.beyond(bodies, state)?;
         }
         self.beyond(set, state.step).map_or(Ok(()), Err)
@@ -311,22 +321,25 @@ impl Heat {
     /// Heat of one pass over `dt` \[s\].
     fn pass(
         &mut self,
-        (set, state): (&mut Set, &mut State),
-        (lists, mut metal): (&Lists, Option<&mut Metal>),
-        (pass, dt): (Pass<'_>, f64),
+        set: &mut Set,
+        state: &mut State,
+        around: &mut Neighbours<'_>,
+        pass: Pass<'_>,
+        dt: f64,
     ) -> Result<(), OutOfRange> {
+        let lists = around.lists;
         self.alike = false;
-        self.conduct(set, state, lists, metal.as_deref_mut(), pass)?;
+        self.conduct(set, state, lists, around.metal.as_deref_mut(), pass)?;
         if self.limit * (1.0 + 1e-9) < dt {
             // In the parts of a divided step heat comes to contacts that had none to pass at its start.
             self.alike = true;
-            self.conduct(set, state, lists, metal.as_deref_mut(), pass)?;
+            self.conduct(set, state, lists, around.metal.as_deref_mut(), pass)?;
         }
         let parts = (dt / self.limit - 1e-9).ceil().max(1.0);
         let step = dt / parts;
         for part in 1..=parts as u64 {
-            let time = (pass, state.time + part as f64 * step, step);
-            self.step((set, state), lists, metal.as_deref_mut(), time)?;
+            let time = state.time + part as f64 * step;
+            self.step(set, state, around, Part { pass, time, step })?;
         }
         Ok(())
     }

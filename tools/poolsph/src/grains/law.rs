@@ -1,6 +1,6 @@
 //! The law by which two grains push each other.
 
-use contact::{Hertz, Linear, Normal};
+use contact::{Contact, Hertz, Linear, Normal, Rolling};
 
 /// The push of two grains.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,6 +9,15 @@ pub enum Law {
     Linear(Linear),
     /// Elastic spheres.
     Hertz(Hertz),
+}
+
+/// What acts at a contact: its push and friction, and what resists rolling.
+#[derive(Debug, Clone, Copy)]
+pub struct Laws<'a, N> {
+    /// Along and across the contact.
+    pub contact: &'a Contact<N>,
+    /// Absent: grains roll freely.
+    pub rolling: Option<Rolling>,
 }
 
 impl Law {

@@ -14,8 +14,8 @@ impl Motion {
 
     /// Lists neighbours afresh; contacts that touch go along.
     pub(super) fn list(&mut self) {
-        let places = (&self.moving.grains[..], &self.moving.listed[..]);
-        self.lists.mark_again(places, self.setting.radii);
+        let (grains, listed) = (&self.moving.grains, &self.moving.listed);
+        self.lists.mark_again(grains, listed, self.setting.radii);
         self.lists.memories(&mut self.memories[0], false);
         self.walls.memories(&mut self.memories[1]);
         self.list_with_memories();
@@ -37,7 +37,7 @@ impl Motion {
         self.lists.list(grains, radii, between);
         let skin = Lists::skin(radii[0]);
         let still = &self.lists.again.still;
-        self.walls.list((grains, still), skin, at_walls);
+        self.walls.list(grains, still, skin, at_walls);
         if let Some(sleep) = &mut self.sleep {
             sleep.list(&self.lists, grains.len());
         }

@@ -135,6 +135,16 @@ impl Part {
     }
 }
 
+/// Where pairs are looked for.
+struct Search<'a> {
+    grains: &'a [Grain],
+    grid: &'a Grid,
+    /// Beyond touching \[m\].
+    skin: f64,
+    /// Radius of the largest grain \[m\].
+    widest: f64,
+}
+
 impl Chunk {
     /// Place of an incoming pair among the pairs of this chunk, which it comes from.
     #[inline]
@@ -143,8 +153,13 @@ impl Chunk {
         self.inner + incoming.number as usize
     }
 
-    fn list(&mut self, first: usize, (grains, grid): (&[Grain], &Grid), skin: (f64, f64)) {
-        let (skin, widest) = skin;
+    fn list(&mut self, first: usize, search: &Search<'_>) {
+        let Search {
+            grains,
+            grid,
+            skin,
+            widest,
+        } = *search;
         self.pairs.clear();
         let end = (first + ROWS).min(grains.len());
         let mut outgoing: Vec<Pair> = Vec::new();
@@ -264,12 +279,18 @@ impl Lists {
         grid.bin(&self.places);
         let count = grains.len().div_ceil(ROWS);
         self.chunks.resize_with(count, Chunk::default);
-        let (grid, rolls) = (&*grid, self.rolls);
+        let rolls = self.rolls;
+        let search = Search {
+            grains,
+            grid,
+            skin,
+            widest,
+        };
         let chunks = self.chunks.par_iter_mut().with_max_len(AT_ONCE).enumerate();
         let listed = chunks.filter(|(c, _)| !self.again.stays(*c));
         listed.for_each(|(c, chunk)| {
             let first = c * ROWS;
-            chunk.list(first, (grains, grid), (skin, widest));
+            chunk.list(first, &search);
             chunk.rolled.clear();
             if rolls {
                 chunk.rolled.resize(chunk.pairs.len(), [0.0; 3]);
@@ -300,9 +321,9 @@ impl Lists {
     }
 
     /// Marks the chunks whose pairs stay, of `grains` that were `listed` \[m\] and whose radii go from `least` to `widest` \[m\].
-    pub fn mark_again(&mut self, places: (&[Grain], &[Vector]), [least, widest]: [f64; 2]) {
+    pub fn mark_again(&mut self, grains: &[Grain], listed: &[Vector], [least, widest]: [f64; 2]) {
         let reach = 2.0 * widest + Self::skin(least);
-        self.again.find(places, ROWS, reach);
+        self.again.find(grains, listed, ROWS, reach);
     }
 
     /// Finds what of each chunk is reckoned where cells sleep by `depth`.

@@ -12,14 +12,15 @@
 //! grains lose metal gets to the last bit that sums keep, whatever the metal has done in between. Metal has no
 //! spin: the moment of a rub goes to the grain alone.
 
-use contact::{Contact, Grain, Normal, Rolling};
+use contact::Normal;
 use neighbours::{Grid, Halo};
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference};
 
-use super::depth::Depth;
+use super::depth::Reckoned;
+use super::law::Laws;
 use super::memory::Memory;
-use super::metal_heat::Exchange;
+use super::metal_heat::{Contacts, Exchange};
 use super::metal_pair::{Body, Pair};
 use crate::stage::Figure;
 use crate::state::State;
@@ -27,8 +28,8 @@ use crate::state::State;
 /// Skin of the list over the least radius.
 const SKIN: f64 = 0.25;
 
-/// The exchange of heat, and pairs and bodies that take part in it.
-pub(super) type Exchanged<'a> = (&'a mut Exchange, (&'a [Pair], &'a [Body]));
+/// The exchange of heat, and the contacts that take part in it.
+pub(super) type Exchanged<'a> = (&'a mut Exchange, Contacts<'a>);
 
 /// The metal that grains touch.
 #[derive(Debug, Clone)]
@@ -95,10 +96,11 @@ impl Metal {
         Self { heat, ..self }
     }
 
-    /// The exchange of heat, and pairs and bodies that take part in it; none without heat.
+    /// The exchange of heat, and the contacts that take part in it; none without heat.
     pub(super) fn exchange(&mut self) -> Option<Exchanged<'_>> {
         let (pairs, bodies) = (&*self.pairs, &*self.bodies);
-        self.heat.as_mut().map(|heat| (heat, (pairs, bodies)))
+        let contacts = Contacts { pairs, bodies };
+        self.heat.as_mut().map(|heat| (heat, contacts))
     }
 
     /// Adds the rows of the grains beside metal that flows, which may not sleep.
@@ -124,11 +126,13 @@ impl Metal {
     /// greatest overlap \[m\].
     pub fn act<N: Normal + Copy + Sync>(
         &mut self,
-        (grains, depth): (&[Grain], Depth<'_>),
-        (contact, rolling): (&Contact<N>, Option<Rolling>),
+        seen: Reckoned<'_>,
+        laws: Laws<'_, N>,
         step: f64,
-        (force, moment): (&mut [Vector], &mut [Vector]),
+        [force, moment]: [&mut [Vector]; 2],
     ) -> f64 {
+        let Reckoned { grains, depth } = seen;
+        let Laws { contact, rolling } = laws;
         let mut own = *contact;
         if let Some(coefficient) = self.friction {
             own.friction = Some(contact::Friction { coefficient });

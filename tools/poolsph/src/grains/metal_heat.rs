@@ -30,6 +30,15 @@ use crate::heat::received::{self, FROM_POWDER, FROM_SLAG};
 use crate::stage::StageError;
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
+/// Contacts of grains with metal.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contacts<'a> {
+    /// By rows of grains.
+    pub(super) pairs: &'a [Pair],
+    /// The metal.
+    pub(super) bodies: &'a [Body],
+}
+
 /// A contact that conducts.
 #[derive(Debug, Clone, Copy)]
 struct Link {
@@ -77,11 +86,13 @@ impl Exchange {
     /// Conductances of all contacts; adds those of each grain to `sums` \[W/K\], and gives the fastest rate of a particle of metal \[1/s\].
     pub(super) fn conduct(
         &mut self,
-        (pairs, bodies): (&[Pair], &[Body]),
-        (grains, pass): (&Conducting<'_>, Pass<'_>),
+        contacts: Contacts<'_>,
+        grains: &Conducting<'_>,
+        pass: Pass<'_>,
         state: &State,
         sums: &mut [f64],
     ) -> Result<f64, OutOfRange> {
+        let Contacts { pairs, bodies } = contacts;
         self.links.clear();
         let rows = pairs.chunk_by(|a, b| a.near.row == b.near.row);
         for row in rows.filter(|row| pass.takes_alone(row[0].near.row as usize)) {
@@ -215,7 +226,8 @@ impl Exchange {
                 let place = state.metal.column(&POSITION)[id];
                 return Err(crate::heat::outside(
                     state.step,
-                    (id, place),
+                    id,
+                    place,
                     value,
                     &self.caloric,
                 ));

@@ -51,6 +51,7 @@ mod mirrors;
 pub mod motion;
 pub mod moving;
 mod near;
+mod neighbours;
 pub mod order;
 mod overlap;
 pub mod pairs;

@@ -2,7 +2,7 @@
 
 use artefact::Frame;
 use contact::{Contact, Friction, Grain, Normal, Rolling};
-use particles::{ID, POSITION, Set};
+use particles::{ID, Set};
 use run::Fault;
 use run::property::OutOfRange;
 use shapes::frame::dot;
@@ -10,14 +10,15 @@ use shapes::frame::dot;
 use super::bounds::{Doing, Setting};
 use super::columns::STATE;
 use super::crowd::{self, Crowd};
-use super::depth::Depth;
+use super::depth::{Depth, Reckoned};
 use super::heat::Heat;
 use super::laid::{self, Laid};
-use super::law::Law;
+use super::law::{Law, Laws};
 use super::lists::Lists;
 use super::memory::Memory;
 use super::metal::Metal;
 use super::moving::Moving;
+use super::neighbours::Neighbours;
 use super::parameters::{BoundsScene, Parameters, RestScene};
 use super::sleep::{Sleep, depth};
 use super::walls::{self, Walls};
@@ -121,19 +122,6 @@ impl Motion {
         Self { metal, ..self }
     }
 
-    /// With contacts that go on, of the grains in `set`.
-    #[must_use]
-    pub fn lying(self, laid: Option<Laid>, set: &Set) -> Self {
-        let (place, radius) = (set.column(&POSITION), set.column(&RADIUS));
-        let skin = Lists::skin(self.setting.radii[0]);
-        let at_wall = |memory: &Memory| {
-            let (row, wall) = (memory.row as usize, memory.other as usize);
-            self.walls.reaches(wall, place[row], radius[row] + skin)
-        };
-        let laid = laid.map(|laid| laid.kept(at_wall, self.metal.is_some()));
-        Self { laid, ..self }
-    }
-
     /// Forces of the start, or lists as they were when a checkpoint was written.
     fn begin(&mut self, set: &mut Set, time: f64) -> Result<(), OutOfRange> {
         self.begun = true;
@@ -169,7 +157,8 @@ impl Motion {
     fn act_by<N: Normal + Copy + Sync>(&mut self, normal: N, step: f64, last: bool) {
         let friction = self.friction;
         let contact = Contact { normal, friction };
-        let laws = (&contact, self.rolling);
+        let (contact, rolling) = (&contact, self.rolling);
+        let laws = Laws { contact, rolling };
         let rows = self.moving.grains.len();
         self.moving.force.resize(rows, [0.0; 3]);
         self.moving.moment.resize(rows, [0.0; 3]);
@@ -180,12 +169,12 @@ impl Motion {
             ..
         } = &mut self.moving;
         let depth = Depth::of(depth(&self.sleep), last);
-        let seen = (&grains[..], depth);
+        let seen = Reckoned { grains, depth };
         pairs::act(&mut self.lists, seen, laws, step, [force, moment]);
         let at_walls = self.walls.act(seen, laws, step);
         self.walls.add([force, moment], depth);
         let in_metal =
-            (self.metal.as_mut()).map_or(0.0, |metal| metal.act(seen, laws, step, (force, moment)));
+            (self.metal.as_mut()).map_or(0.0, |metal| metal.act(seen, laws, step, [force, moment]));
         let overlaps = self.lists.chunks.iter().map(|chunk| chunk.deepest);
         self.doing.deepest = overlaps.fold(at_walls.max(in_metal), f64::max);
     }
@@ -194,7 +183,9 @@ impl Motion {
     /// follows, if its prediction is made, and how far grains have gone with it since neighbours were listed \[m\].
     fn step(
         &mut self,
-        (time, step, left): (f64, f64, f64),
+        time: f64,
+        step: f64,
+        left: f64,
         predicted: Option<f64>,
     ) -> Result<Option<[f64; 2]>, OutOfRange> {
         let far = match predicted {
@@ -247,9 +238,13 @@ impl Motion {
             self.states.clear();
             self.states.extend(set.column(&STATE));
         }
-        let asleep = depth(&self.sleep);
-        let touching = (&self.lists, &self.walls, self.metal.as_mut(), asleep);
-        let warmed = heat.advance(set, touching, state, dt);
+        let around = Neighbours {
+            lists: &self.lists,
+            walls: &self.walls,
+            metal: self.metal.as_mut(),
+            depth: depth(&self.sleep),
+        };
+        let warmed = heat.advance(set, around, state, dt);
         self.stir_changed(set);
         warmed
     }
@@ -305,7 +300,7 @@ impl Stage for Motion {
                 // The last is what is left, to the bit.
                 done = if step < left { done + step } else { dt };
                 let predicted = next.map(|[_, far]| far);
-                next = self.step((state.time + done, step, dt - done), predicted)?;
+                next = self.step(state.time + done, step, dt - done, predicted)?;
             }
             Ok(())
         };

@@ -5,12 +5,13 @@
 //! at once where it is a row of the same chunk, and fetched by the other chunk afterwards where it is not. So every grain
 //! adds in an order that hangs on the list alone, not on threads.
 
-use contact::{Contact, Grain, History, Meeting, Normal, Reply, Rolling};
+use contact::{Contact, Grain, History, Meeting, Normal, Reply};
 use rayon::prelude::*;
 use shapes::frame::{Vector, difference, dot};
 
 use super::block::{Block, LANES};
-use super::depth::{CELL, Depth};
+use super::depth::{CELL, Depth, Reckoned};
+use super::law::Laws;
 use super::lists::{AT_ONCE, Chunk, Incoming, Lists, Push, ROWS, Touch};
 use super::resistance::{Resistance, Sliding, SlidingAndRolling};
 
@@ -18,11 +19,13 @@ use super::resistance::{Resistance, Sliding, SlidingAndRolling};
 /// they are by `depth`.
 pub fn act<N: Normal + Copy + Sync>(
     lists: &mut Lists,
-    (grains, depth): (&[Grain], Depth<'_>),
-    (contact, rolling): (&Contact<N>, Option<Rolling>),
+    seen: Reckoned<'_>,
+    laws: Laws<'_, N>,
     step: f64,
     [force, moment]: [&mut [Vector]; 2],
 ) {
+    let Reckoned { grains, depth } = seen;
+    let Laws { contact, rolling } = laws;
     let sums = force.par_chunks_mut(ROWS).zip(moment.par_chunks_mut(ROWS));
     let chunks = lists.chunks.par_iter_mut().zip(sums).enumerate();
     let chunks = chunks.with_max_len(AT_ONCE);

@@ -1,11 +1,14 @@
-//! What a checkpoint keeps of the motion of grains beside their columns: contacts that touch, walls, metal, and sums.
+//! What a checkpoint keeps of the motion of grains beside their columns: contacts that touch, walls, metal, and sums; and the
+//! contacts that one run hands on to the next.
 
-use particles::POSITION;
+use particles::{POSITION, Set};
 use shapes::frame::Vector;
 
+use super::RADIUS;
 use super::bounds::Doing;
 use super::heat::Heat;
-use super::laid::{Touching, With};
+use super::laid::{Laid, Touching, With};
+use super::lists::Lists;
 use super::memory::Memory;
 use super::metal::Metal;
 use super::motion::Motion;
@@ -49,6 +52,19 @@ impl Motion {
             saved.extend(metal.append());
         }
         saved
+    }
+
+    /// With contacts that go on, of the grains in `set`.
+    #[must_use]
+    pub fn lying(mut self, laid: Option<Laid>, set: &Set) -> Self {
+        let (place, radius) = (set.column(&POSITION), set.column(&RADIUS));
+        let skin = Lists::skin(self.setting.radii[0]);
+        let at_wall = |memory: &Memory| {
+            let (row, wall) = (memory.row as usize, memory.other as usize);
+            self.walls.reaches(wall, place[row], radius[row] + skin)
+        };
+        self.laid = laid.map(|laid| laid.kept(at_wall, self.metal.is_some()));
+        self
     }
 
     /// All contacts that touch, of grains with the numbers `ids` by rows.

@@ -11,7 +11,7 @@ use super::walls::{Wall, Walls};
 
 impl Walls {
     /// Lists the grains within `skin` \[m\] of each wall; `memories`, by walls and rows, go along. Chunks of grains that are `still` are not looked at where the wall is far from them.
-    pub fn list(&mut self, (grains, still): (&[Grain], &[bool]), skin: f64, memories: &[Memory]) {
+    pub fn list(&mut self, grains: &[Grain], still: &[bool], skin: f64, memories: &[Memory]) {
         for (w, wall) in self.walls.iter_mut().enumerate() {
             wall.listed = wall.moved;
             wall.near.clear();

@@ -1,14 +1,15 @@
 //! Walls: faces that grains touch, at rest or moving.
 
-use contact::{Contact, Grain, Meeting, Normal, Rolling};
+use contact::{Grain, Meeting, Normal};
 use rayon::prelude::*;
 use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange, Property};
 use shapes::frame::{Vector, along, difference, length};
 
 use super::Mirrors;
-use super::depth::Depth;
+use super::depth::{Depth, Reckoned};
 use super::faces::Face;
+use super::law::Laws;
 use super::light::Light;
 use super::memory::Memory;
 use super::near::Near;
@@ -170,10 +171,12 @@ impl Walls {
     /// Reckons all contacts but those of grains that sleep deep, after a step of `step` \[s\]; gives the greatest overlap \[m\].
     pub fn act<N: Normal + Copy + Sync>(
         &mut self,
-        (grains, depth): (&[Grain], Depth<'_>),
-        (contact, rolling): (&Contact<N>, Option<Rolling>),
+        seen: Reckoned<'_>,
+        laws: Laws<'_, N>,
         step: f64,
     ) -> f64 {
+        let Reckoned { grains, depth } = seen;
+        let Laws { contact, rolling } = laws;
         let mut deepest = 0.0_f64;
         for wall in &mut self.walls {
             let mut own = *contact;

@@ -10,7 +10,8 @@ use crate::vector::squared;
 /// The error of a temperature beyond the range of the properties, of a particle at a place \[m\].
 pub(crate) fn outside(
     step: u64,
-    (particle, place): (usize, [f64; 3]),
+    particle: usize,
+    place: [f64; 3],
     temperature: f64,
     caloric: &Caloric,
 ) -> StageError {

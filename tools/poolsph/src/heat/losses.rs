@@ -191,13 +191,8 @@ impl Stage for Losses {
         for one in cooled.drain() {
             let a = one.a as usize;
             if !self.caloric.covers(one.temperature) {
-                let particle = (a, places[a]);
-                return Err(outside(
-                    state.step,
-                    particle,
-                    one.temperature,
-                    &self.caloric,
-                ));
+                let (at, value) = (places[a], one.temperature);
+                return Err(outside(state.step, a, at, value, &self.caloric));
             }
             (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
             received::add(told, a, one.given.iter().sum());

@@ -113,11 +113,11 @@ impl Parameters {
     pub fn caloric(&self) -> Result<Arc<Caloric>, Fault> {
         let span = FORMULA_RANGE;
         let property = &self.thermal_conductivity_w_m_k;
-        let of = ("/thermal_conductivity_w_m_k", "W/(m K)");
-        let (conductivity, first) = positive(property, of, span)?;
+        let at = "/thermal_conductivity_w_m_k";
+        let (conductivity, first) = positive(property, at, "W/(m K)", span)?;
         let property = &self.specific_heat_j_kg_k;
-        let of = ("/specific_heat_j_kg_k", "J/(kg K)");
-        let (specific_heat, second) = positive(property, of, span)?;
+        let at = "/specific_heat_j_kg_k";
+        let (specific_heat, second) = positive(property, at, "J/(kg K)", span)?;
         let range = (first.0.max(second.0), first.1.min(second.1));
         if range.0 >= range.1 {
             let what = "has no temperature in common with the thermal conductivity";
@@ -146,7 +146,8 @@ impl Parameters {
 /// As [`table`], for a property above zero; told are its key and unit.
 fn positive(
     property: &Property,
-    (at, unit): (&str, &str),
+    at: &str,
+    unit: &str,
     span: (f64, f64),
 ) -> Result<(Table, (f64, f64)), Fault> {
     property.compile_positive(at, &["T"], unit)?;

@@ -132,7 +132,7 @@ impl Torches {
             let kelvin = self.caloric.temperature(enthalpies[a]);
             temperatures[a] = kelvin;
             if !self.caloric.covers(kelvin) {
-                return Err(outside(state.step, (a, places[a]), kelvin, &self.caloric));
+                return Err(outside(state.step, a, places[a], kelvin, &self.caloric));
             }
         }
         Ok(())

@@ -178,8 +178,8 @@ impl Projection {
             }
         }
         self.pressure.copy_from_slice(&self.tried);
-        let scale = (step, self.scales.force);
-        self.push.apply(near, &self.pressure, predicted, scale);
+        let (pressure, scale) = (&self.pressure, self.scales.force);
+        self.push.apply(near, pressure, predicted, step, scale);
         solved
     }
 

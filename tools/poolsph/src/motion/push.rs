@@ -27,7 +27,8 @@ impl Push {
         near: &mut Near,
         pressure: &[f32],
         predicted: &mut [[f64; 3]],
-        (step, scale): (Step, f64),
+        step: Step,
+        scale: f64,
     ) {
         self.sum(near, pressure);
         let share = step.share * step.metal.density * scale / 6.0;

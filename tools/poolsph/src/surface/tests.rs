@@ -28,12 +28,13 @@ fn turned(x: [f64; 3], axis: [f64; 3], turn: f64) -> [f64; 3] {
     std::array::from_fn(|i| x[i] * cos + across[i] * sin + k[i] * along)
 }
 
+/// The axis about which a lattice is turned, by how much, and how far its points are shaken.
+#[derive(Clone, Copy)]
+struct Lattice([f64; 3], f64, f64);
+
 /// Particles of a lattice turned and shaken, of which `inside` is kept.
-fn cloud(
-    half: i32,
-    (axis, turn, jitter): ([f64; 3], f64, f64),
-    inside: impl Fn([f64; 3]) -> bool,
-) -> State {
+fn cloud(half: i32, lattice: Lattice, inside: impl Fn([f64; 3]) -> bool) -> State {
+    let Lattice(axis, turn, jitter) = lattice;
     let mut state = State::new(METAL);
     patch::declare(&mut state.metal);
     let mut count = 0;
@@ -68,7 +69,7 @@ fn cloud(
 const EDGE: f64 = 11.0;
 
 /// A slab with a wide plane on top.
-fn slab(lattice: ([f64; 3], f64, f64), normal: [f64; 3], level: f64) -> State {
+fn slab(lattice: Lattice, normal: [f64; 3], level: f64) -> State {
     let (u, v) = tangents(normal);
     cloud(22, lattice, |x| {
         dot(x, normal) < level
@@ -100,7 +101,7 @@ fn planes_have_their_area() {
     let tilted = [0.5, 0.0, 0.75_f64.sqrt()];
     for (normal, name) in [(flat, "flat"), (tilted, "tilted by 30 degrees")] {
         for (turn, jitter) in [(0.0, 0.0), (0.0, 0.3), (0.7, 0.0), (1.9, 0.2)] {
-            let state = slab(([1.0, 2.0, 3.0], turn, jitter), normal, 0.0);
+            let state = slab(Lattice([1.0, 2.0, 3.0], turn, jitter), normal, 0.0);
             let found = plane(&state, normal, 0.0);
             assert!(
                 (found - 1.0).abs() < 0.01,
@@ -116,7 +117,7 @@ fn planes_have_their_area() {
 fn planes_keep_their_area_when_their_layers_draw_together() {
     let flat = [0.0, 0.0, 1.0];
     for (turn, jitter) in [(0.0, 0.0), (0.0, 0.3), (0.7, 0.0), (1.9, 0.2)] {
-        let mut state = slab(([1.0, 2.0, 3.0], turn, jitter), flat, 0.0);
+        let mut state = slab(Lattice([1.0, 2.0, 3.0], turn, jitter), flat, 0.0);
         for x in state.metal.column_mut(&POSITION) {
             x[2] -= 0.9 * (x[2] / 1.2).exp();
         }
@@ -130,7 +131,7 @@ fn planes_keep_their_area_when_their_layers_draw_together() {
 }
 
 /// Area, and area projected upwards, over those of a sphere of as many particles.
-fn sphere(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
+fn sphere(radius: f64, lattice: Lattice) -> [f64; 2] {
     let state = cloud(20, lattice, |x| squared(x).sqrt() < radius);
     let real = (state.len() as f64 * 0.75 / std::f64::consts::PI).cbrt();
     let disc = std::f64::consts::PI * real * real;
@@ -147,7 +148,7 @@ fn spheres_have_their_area() {
     // 18 spacings: the radius of 9 mm that a bead has.
     for (radius, bound) in [(18.0, 0.01), (9.0, 0.015)] {
         for (turn, jitter) in [(0.0, 0.0), (0.7, 0.0), (1.9, 0.2)] {
-            let [whole, up] = sphere(radius, ([1.0, 2.0, 3.0], turn, jitter));
+            let [whole, up] = sphere(radius, Lattice([1.0, 2.0, 3.0], turn, jitter));
             let what = format!("radius {radius}, turned {turn}, jitter {jitter}: {whole} {up}");
             assert!((whole - 1.0).abs() < bound, "{what}");
             assert!((up - 1.0).abs() < 2.0 * bound, "{what}");
@@ -157,7 +158,7 @@ fn spheres_have_their_area() {
 
 #[test]
 fn normals_of_a_sphere_point_outwards() {
-    let state = cloud(12, ([3.0, 1.0, 2.0], 0.4, 0.1), |x| {
+    let state = cloud(12, Lattice([3.0, 1.0, 2.0], 0.4, 0.1), |x| {
         squared(x).sqrt() < 10.0
     });
     for (x, patch) in state.metal.column(&POSITION).iter().zip(patches(&state)) {
@@ -170,7 +171,7 @@ fn normals_of_a_sphere_point_outwards() {
 
 #[test]
 fn the_flowing_part_is_measured_as_the_whole_is() {
-    let mut state = cloud(8, ([1.0, 2.0, 3.0], 0.3, 0.1), |x| {
+    let mut state = cloud(8, Lattice([1.0, 2.0, 3.0], 0.3, 0.1), |x| {
         x[2] < 3.0 && x[2] > -5.0
     });
     let whole = state.metal.column(&AREA).to_vec();
@@ -200,7 +201,9 @@ fn the_flowing_part_is_measured_as_the_whole_is() {
 
 #[test]
 fn the_unit_of_length_does_not_matter() {
-    let state = cloud(6, ([1.0, 2.0, 3.0], 0.7, 0.3), |x| squared(x).sqrt() < 5.0);
+    let state = cloud(6, Lattice([1.0, 2.0, 3.0], 0.7, 0.3), |x| {
+        squared(x).sqrt() < 5.0
+    });
     let unit = 5e-4;
     let metal = Matter {
         spacing: unit,
@@ -221,7 +224,7 @@ fn the_unit_of_length_does_not_matter() {
 
 /// Area seen from above and area times the upward normal of a hollow, through the window (1 - (r/a)^2)^2, over
 /// those of the sphere that it is.
-fn hollow(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
+fn hollow(radius: f64, lattice: Lattice) -> [f64; 2] {
     let state = cloud(16, lattice, |x| {
         let within = x[2] < -0.5 * radius && x[2] > -radius - 6.0 && x[0].hypot(x[1]) < 14.0;
         within && squared(x).sqrt() > radius
@@ -244,7 +247,7 @@ fn hollow(radius: f64, lattice: ([f64; 3], f64, f64)) -> [f64; 2] {
 fn hollows_have_their_area() {
     for (radius, bound) in [(6.0, 0.03), (4.0, 0.05)] {
         for (turn, jitter) in [(0.0, 0.0), (0.7, 0.0), (1.9, 0.2)] {
-            let [seen, up] = hollow(radius, ([1.0, 2.0, 3.0], turn, jitter));
+            let [seen, up] = hollow(radius, Lattice([1.0, 2.0, 3.0], turn, jitter));
             let what = format!("radius {radius}, turned {turn}, jitter {jitter}: {seen} {up}");
             assert!((seen - 1.0).abs() < bound, "{what}");
             assert!((up - 1.0).abs() < bound, "{what}");
@@ -261,7 +264,7 @@ fn what_falls_on_cut_edges_is_taken_whole() {
                 let cut = x[0] + under * x[2] / slope < if under > 0.0 { 3.0 } else { 8.0 };
                 x[0] > -9.0 && x[1].abs() < 5.0 && x[2] < 0.0 && x[2] > -5.0 && cut
             };
-            let state = cloud(12, ([0.5, 0.5, 0.5], 0.0, 0.0), inside);
+            let state = cloud(12, Lattice([0.5, 0.5, 0.5], 0.0, 0.0), inside);
             let places = state.metal.column(&POSITION);
             let plan: std::collections::BTreeSet<[i64; 2]> = places
                 .iter()

@@ -122,7 +122,7 @@ fn two_runs_are_compared_by_what_was_changed_numbers_pictures_and_curves() {
         let at = folder.join(run);
         std::fs::create_dir(&at).unwrap();
         sample::arc_of(&at.join("arc.mcap"), current);
-        sample::weld(&at.join("pool.mcap"), (end, 4), true);
+        sample::weld(&at.join("pool.mcap"), end, 4, true);
     }
     sample::means(&folder.join("thick/mean.mcap"));
     let path = |name: &str| folder.join(name).display().to_string();

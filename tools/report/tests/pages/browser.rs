@@ -74,7 +74,7 @@ fn a_browser_shows_pages_as_they_are_meant() {
     let _ = std::fs::remove_dir_all(&folder);
     for run in ["a", "b"] {
         std::fs::create_dir_all(folder.join(run)).unwrap();
-        sample::weld(&folder.join(run).join("pool.mcap"), (8.0, 6), true);
+        sample::weld(&folder.join(run).join("pool.mcap"), 8.0, 6, true);
         sample::arc(&folder.join(run).join("arc.mcap"));
     }
     let at = |name: &str| folder.join(name).display().to_string();

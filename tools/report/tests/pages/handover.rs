@@ -162,7 +162,7 @@ fn nodes_outside_of_the_metal_are_told_and_keep_the_start() {
 fn the_pool_of_a_weld_is_an_ellipsoid_with_the_power_that_it_took() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("pool.mcap");
-    sample::weld(&path, (8.0, 9), true);
+    sample::weld(&path, 8.0, 9, true);
     let output = report(&["goldak", path.to_str().unwrap()]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}");

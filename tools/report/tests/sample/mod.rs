@@ -31,7 +31,7 @@ pub(crate) fn header(kind: &str, tool: &str) -> Header {
 }
 
 /// A weld up to `end` seconds, in `count` frames; with temperature or without.
-pub(crate) fn weld(path: &Path, (end, count): (f64, u32), temperature: bool) {
+pub(crate) fn weld(path: &Path, end: f64, count: u32, temperature: bool) {
     let mut writer = Writer::create(path, &header("particle-frames", "poolsph")).unwrap();
     let plate = json!({"min_m": [-0.009, 0.0, -0.005], "max_m": [0.009, 0.05, 0.0], "spacing_m": D,
         "particle_volume_m3": D.powi(3), "melting_point_k": 1750.0, "direction": [0, 1, 0]});

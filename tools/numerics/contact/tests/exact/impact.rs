@@ -14,7 +14,8 @@ fn impact<N: Normal + Copy>(
     law: N,
     sizes: [(f64, f64); 2],
     speed: f64,
-    (duration, parts): (f64, usize),
+    duration: f64,
+    parts: usize,
 ) -> [f64; 3] {
     let contact = Contact {
         normal: law,
@@ -28,7 +29,7 @@ fn impact<N: Normal + Copy>(
         let (mut history, mut last) = (History::default(), None);
         let (mut pushed, mut deepest) = (0.0, 0.0_f64);
         for _ in 0..4 * parts {
-            advance(&mut grains, &contact, (&mut history, &mut last), step);
+            advance(&mut grains, &contact, &mut history, &mut last, step);
             if last.is_some_and(|r| r.push.abs() > 0.0) {
                 pushed += step;
             }
@@ -56,7 +57,7 @@ fn linear_impacts_have_the_restitution_and_duration_asked_for() {
                 let duration = law.duration(effective);
                 // Shallow at every stiffness: the speed follows the spring.
                 let speed = 0.05 * radius * (stiffness / effective).sqrt();
-                let [found, lasted, _] = impact(law, sizes, speed, (duration, 50));
+                let [found, lasted, _] = impact(law, sizes, speed, duration, 50);
                 assert!(
                     (found - e).abs() < 0.01 * e,
                     "k {stiffness}, e {e}: {found}"
@@ -74,7 +75,7 @@ fn linear_impacts_have_the_restitution_and_duration_asked_for() {
 fn the_overlap_of_an_elastic_impact_is_v_over_omega() {
     let sizes = [(1e-3, 1e-5), (1e-3, 1e-5)];
     let law = Linear::new(1e4, 1e4, 1.0, Ending::ZeroForce);
-    let [_, _, deepest] = impact(law, sizes, 0.1, (law.duration(5e-6), 50));
+    let [_, _, deepest] = impact(law, sizes, 0.1, law.duration(5e-6), 50);
     let exact = 0.1 * (5e-6_f64 / 1e4).sqrt();
     assert!((deepest / exact - 1.0).abs() < 0.01, "{deepest} {exact}");
 }
@@ -85,7 +86,7 @@ fn a_dashpot_that_pulls_ends_where_the_overlap_ends() {
         let law = Linear::new(1e4, 1e4, e, Ending::ZeroOverlap);
         let sizes = [(1e-3, 1e-5), (2e-3, 8e-5)];
         let effective = 8e-10 / 9e-5;
-        let [found, ..] = impact(law, sizes, 0.1, (law.duration(effective), 50));
+        let [found, ..] = impact(law, sizes, 0.1, law.duration(effective), 50);
         assert!((found / e - 1.0).abs() < 0.01, "{found} for {e}");
         let mass_of_one = Ending::ZeroOverlap.restitution(law.damping_ratio() * (2.0_f64).sqrt());
         assert!(mass_of_one < e, "the mass of one grain damps too much");
@@ -97,7 +98,7 @@ fn errors_of_the_restitution_fall_with_the_square_of_the_step() {
     let sizes = [(1e-3, 1e-5), (1e-3, 1e-5)];
     let law = Linear::new(1e4, 1e4, 0.75, Ending::ZeroForce);
     let error = |parts| {
-        let [e, ..] = impact(law, sizes, 0.1, (law.duration(5e-6), parts));
+        let [e, ..] = impact(law, sizes, 0.1, law.duration(5e-6), parts);
         (e - 0.75).abs()
     };
     let order = (error(50) / error(200)).log2() / 2.0;
@@ -122,14 +123,14 @@ fn hertz_impacts_last_as_hertz_says_at_every_speed() {
         for speed in [0.01, 1.0] {
             let law = Hertz::new(pair, 1.0, Ending::ZeroForce);
             let exact = law.elastic_duration(mass, radius, speed);
-            let [e, lasted, deepest] = impact(law, sizes, speed, (exact, 200));
+            let [e, lasted, deepest] = impact(law, sizes, speed, exact, 200);
             assert!((e - 1.0).abs() < 1e-3, "{e}");
             assert!((lasted / exact - 1.0).abs() < 0.01, "{lasted} {exact}");
             let expected = law.deepest(mass, radius, speed);
             assert!((deepest / expected - 1.0).abs() < 1e-3);
             for asked in [0.2, 0.6, 0.9] {
                 let law = Hertz::new(pair, asked, Ending::ZeroForce);
-                let [e, ..] = impact(law, sizes, speed, (exact, 400));
+                let [e, ..] = impact(law, sizes, speed, exact, 400);
                 assert!((e / asked - 1.0).abs() < 0.01, "{e} for {asked} at {speed}");
             }
         }

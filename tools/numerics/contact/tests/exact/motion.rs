@@ -18,7 +18,8 @@ pub(crate) fn approaching([a, b]: [(f64, f64); 2], gap: f64, speed: f64) -> [Gra
 pub(crate) fn advance<N: Normal>(
     grains: &mut [Grain; 2],
     contact: &Contact<N>,
-    (history, last): (&mut History, &mut Option<Reply>),
+    history: &mut History,
+    last: &mut Option<Reply>,
     step: f64,
 ) {
     let kick = |grains: &mut [Grain; 2], reply: &Option<Reply>| {

@@ -24,7 +24,7 @@ fn parameters() -> Parameters {
 }
 
 fn wire() -> Wire {
-    Wire::new(parameters(), (METAL, None), None).unwrap()
+    Wire::new(parameters(), METAL, None, None).unwrap()
 }
 
 fn one() -> Droplets {
@@ -114,7 +114,7 @@ fn droplets_of_any_spacing_carry_the_feed() {
             smoothing_length: spacing,
             ..METAL
         };
-        let stage = Wire::new(parameters, (metal, None), None).unwrap();
+        let stage = Wire::new(parameters, metal, None, None).unwrap();
         let volume = stage.particles() as f64 * spacing.powi(3);
         let supplied = stage.due(10.0) as f64 * volume;
         assert!((supplied - 10.0 * feed).abs() < 1.001 * volume, "{spacing}");
@@ -132,7 +132,7 @@ fn droplets_of_any_spacing_carry_the_feed() {
         feed_m3_s: None,
         ..parameters
     };
-    let fault = Wire::new(silent, (METAL, None), None).err().unwrap();
+    let fault = Wire::new(silent, METAL, None, None).err().unwrap();
     assert!(fault.to_string().contains("feed_m3_s"), "{fault}");
 }
 
@@ -154,7 +154,7 @@ fn half_droplets_and_their_images_carry_the_feed() {
         assert!((both / ball - 1.0).abs() < 0.15, "{}", both / ball);
         let side = if below { -1.0 } else { 1.0 };
         assert!(half.iter().all(|x| side * x[axis] > 2.4e-4));
-        let stage = Wire::new(parameters, (METAL, Some(mirror)), None).unwrap();
+        let stage = Wire::new(parameters, METAL, Some(mirror), None).unwrap();
         let supplied = stage.due(10.0) as f64 * both;
         assert!((supplied - 10.0 * feed).abs() < 1.001 * both);
     }
@@ -237,7 +237,7 @@ fn a_second_wire_feeds_where_it_stands_and_resumes() {
         ..parameters()
     };
     let both = || {
-        let second = Wire::new(slow, (METAL, None), None).unwrap();
+        let second = Wire::new(slow, METAL, None, None).unwrap();
         Droplets::of(vec![wire(), second.beside([0.0, -4e-3, 0.0])])
     };
     let (mut state, mut stage) = (start(), both());

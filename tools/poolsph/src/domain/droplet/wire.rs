@@ -40,7 +40,8 @@ impl Wire {
     /// A fault at the key that is wrong.
     pub fn new(
         parameters: Parameters,
-        (metal, mirror): (Matter, Option<Mirror>),
+        metal: Matter,
+        mirror: Option<Mirror>,
         caloric: Option<&Arc<Caloric>>,
     ) -> Result<Self, Fault> {
         let Some(period) = parameters.period(metal.spacing, mirror) else {

@@ -217,7 +217,8 @@ impl Arc {
     /// Heats particle `a`, in as many parts of the step as it takes.
     fn heat(
         &self,
-        (skin, a): (&Skin<'_>, usize),
+        skin: &Skin<'_>,
+        a: usize,
         spot: Spot,
         now: Moment,
     ) -> Result<Heated, StageError> {
@@ -251,8 +252,8 @@ impl Arc {
             heated.enthalpy += gain / self.metal.mass();
             heated.temperature = self.caloric.temperature(heated.enthalpy);
             if !self.caloric.covers(heated.temperature) {
-                let particle = (a, skin.position[a]);
-                return Err(outside(step, particle, heated.temperature, &self.caloric));
+                let (at, value) = (skin.position[a], heated.temperature);
+                return Err(outside(step, a, at, value, &self.caloric));
             }
         }
         Ok(heated)
@@ -298,7 +299,7 @@ impl Stage for Arc {
         }));
         heated.fill(&state.exposed, |a| {
             let spot = self.lit(&skin, a)?;
-            Some(self.heat((&skin, a), spot, now))
+            Some(self.heat(&skin, a, spot, now))
         });
         let columns = (&ENTHALPY, &TEMPERATURE, &FROM_ARC);
         let (enthalpies, temperatures, told) = state.metal.columns_mut(columns);

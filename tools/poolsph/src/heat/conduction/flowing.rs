@@ -22,8 +22,8 @@ impl Conduction {
         let temperatures = state.metal.column(&TEMPERATURE);
         self.beside.clear();
         if self.walls {
-            let time = (&state.faces, state.time);
-            let found = near.temperatures(time, temperatures, &mut self.beside);
+            let (faces, time, beside) = (&state.faces, state.time, &mut self.beside);
+            let found = near.temperatures(faces, time, temperatures, beside);
             found.map_err(|fault| StageError::Data(format!("temperature of a wall: {fault}")))?;
         }
         let mut exchanged = std::mem::take(&mut self.exchanged);

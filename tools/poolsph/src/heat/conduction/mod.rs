@@ -204,14 +204,14 @@ impl Conduction {
             (self.awake.iter().enumerate()).filter(|(a, awake)| **awake && self.rest.holds(*a));
         self.visited.extend(awake.map(|(a, _)| a as u32));
         let mut exchanged = std::mem::take(&mut self.exchanged);
-        let columns = (state.metal.column(&POSITION), state.metal.column(&ENTHALPY));
+        let (places, enthalpies) = (state.metal.column(&POSITION), state.metal.column(&ENTHALPY));
         let visited = self.visited.par_iter().with_min_len(ROWS);
         visited
-            .map(|&a| self.at_rest(columns, a as usize, dt))
+            .map(|&a| self.at_rest(places, enthalpies, a as usize, dt))
             .collect_into_vec(&mut exchanged);
         let sleepers = self.sleepers(&exchanged);
         let asleep = sleepers.iter();
-        exchanged.extend(asleep.map(|&a| self.at_rest(columns, a as usize, dt)));
+        exchanged.extend(asleep.map(|&a| self.at_rest(places, enthalpies, a as usize, dt)));
         self.visited.extend(sleepers);
         for one in &exchanged {
             self.awake[one.a as usize] = one.busy;
@@ -239,7 +239,7 @@ impl Conduction {
         sleepers
     }
 
-    fn at_rest(&self, (places, enthalpies): (&[[f64; 3]], &[f64]), a: usize, dt: f64) -> Exchanged {
+    fn at_rest(&self, places: &[[f64; 3]], enthalpies: &[f64], a: usize, dt: f64) -> Exchanged {
         let [temperature, resistivity] = self.thermal[a];
         let (mut gain, mut busy, mut wakes) = (0.0, false, false);
         for link in self.rest.row(a) {
@@ -276,7 +276,8 @@ impl Conduction {
             let place = state.metal.column(&POSITION)[a];
             return Err(outside(
                 state.step,
-                (a, place),
+                a,
+                place,
                 one.temperature,
                 &self.caloric,
             ));

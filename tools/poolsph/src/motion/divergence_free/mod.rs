@@ -164,8 +164,9 @@ impl DivergenceFree {
         predicted: &mut [[f64; 3]],
     ) {
         if viscosity.acts() {
-            let with = (viscosity, &self.normals, &self.islands);
-            self.traction.apply(near, with, dt, predicted);
+            let pull = self.traction.pull(near, viscosity, &self.normals);
+            self.islands.balance(pull, |_| [0.0; 3]);
+            self.traction.apply(dt, predicted);
         }
     }
 
@@ -221,11 +222,10 @@ impl DivergenceFree {
 
     /// Moves particles to where they lie evenly, after a step of `dt` \[s\].
     pub fn even(&mut self, near: &mut Near, dt: f64) {
-        self.shift.apply(
-            near,
-            (dt, self.filled),
-            (&self.rows, &self.normals, &self.islands),
-        );
+        let (rows, normals) = (&self.rows, &self.normals);
+        let change = self.shift.find(near, self.filled, rows, normals, dt);
+        self.islands.balance(change, |_| [0.0; 3]);
+        self.shift.apply(near);
         self.cohesion.part(near);
     }
 

@@ -17,7 +17,6 @@
 use rayon::prelude::*;
 
 use super::filled::Filled;
-use super::islands::Islands;
 use super::normals::Normals;
 use super::operators::Sums;
 use crate::near::{Near, Role};
@@ -41,13 +40,16 @@ pub(super) struct Shift {
 }
 
 impl Shift {
-    /// Shifts the liquid by its density at the beginning of the step of `dt` \[s\].
-    pub(super) fn apply(
+    /// Finds ways by the density at the beginning of the step of `dt` \[s\]; gives the changes of velocity \[m/s\], to be balanced over each
+    /// body.
+    pub(super) fn find(
         &mut self,
-        near: &mut Near,
-        (dt, filled): (f64, Filled),
-        (rows, normals, islands): (&[Sums], &Normals, &Islands),
-    ) {
+        near: &Near,
+        filled: Filled,
+        rows: &[Sums],
+        normals: &Normals,
+        dt: f64,
+    ) -> &mut Vec<[f64; 3]> {
         let (d, own) = (filled.spacing, near.kernel.value(0.0));
         let [gain, most] = STRENGTH;
         let reach = d * d * (gain * near.fastest_squared().sqrt() * dt / d).min(most);
@@ -92,7 +94,11 @@ impl Shift {
             std::array::from_fn(|i| x * u[i] + y * v[i] + z * w[i])
         };
         ways.map(along).collect_into_vec(&mut self.change);
-        islands.balance(&mut self.change, |_| [0.0; 3]);
+        &mut self.change
+    }
+
+    /// Shifts the liquid.
+    pub(super) fn apply(&self, near: &mut Near) {
         let points = near.position.par_iter_mut().zip(&mut near.velocity);
         points
             .zip(&self.way)

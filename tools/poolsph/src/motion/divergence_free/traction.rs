@@ -14,7 +14,6 @@
 use particles::Matter;
 use rayon::prelude::*;
 
-use super::islands::Islands;
 use super::normals::Normals;
 use crate::motion::viscosity::Viscosity;
 use crate::near::{Near, Row};
@@ -41,14 +40,13 @@ impl Traction {
         }
     }
 
-    /// Adds to `predicted` what the surface does in `dt` \[s\] with `near.velocity`.
-    pub(super) fn apply(
+    /// What the surface does with `near.velocity` \[N/m3\], to be balanced over each body.
+    pub(super) fn pull(
         &mut self,
         near: &Near,
-        (viscosity, normals, islands): (&Viscosity, &Normals, &Islands),
-        dt: f64,
-        predicted: &mut [[f64; 3]],
-    ) {
+        viscosity: &Viscosity,
+        normals: &Normals,
+    ) -> &mut [[f64; 3]] {
         self.pull.resize(near.len(), [0.0; 3]);
         near.each_row(&mut self.pull, |a, row, pull| {
             let steep = normals.steep(a);
@@ -58,7 +56,11 @@ impl Traction {
                 *pull = turned(near, a, row, steep).map(|x| strength * x);
             }
         });
-        islands.balance(&mut self.pull, |_| [0.0; 3]);
+        &mut self.pull
+    }
+
+    /// Adds it to `predicted` over `dt` \[s\].
+    pub(super) fn apply(&self, dt: f64, predicted: &mut [[f64; 3]]) {
         let rows = predicted.par_iter_mut().zip(&self.pull);
         rows.with_min_len(GRAIN)
             .for_each(|(u, pull)| *u = plus(*u, dt / self.density, *pull));

@@ -44,7 +44,8 @@ impl Near {
     /// When the formula of a wall fails.
     pub(crate) fn temperatures(
         &self,
-        (faces, time): (&Faces, f64),
+        faces: &Faces,
+        time: f64,
         temperature: &[f64],
         out: &mut Vec<f64>,
     ) -> Result<(), OutOfRange> {

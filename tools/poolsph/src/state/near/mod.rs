@@ -17,8 +17,8 @@ use neighbours::{Grid, Halo, Lists};
 use particles::Matter;
 use rayon::prelude::*;
 
-use self::pairs::rows;
 pub use self::pairs::{PairChunk, Row};
+use self::pairs::{RowSums, rows};
 
 use crate::faces::{Faces, Images, Turn};
 use crate::state::{State, VELOCITY};
@@ -313,7 +313,11 @@ impl Near {
         self.mark();
         let (points, support) = (&self.position[..self.len], self.kernel.support());
         let (kernel, role, marks) = (self.kernel, &self.role, &self.marks);
-        let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
+        let sums = RowSums {
+            number: &mut self.number,
+            gradient: &mut self.gradient,
+            squares: &mut self.squares,
+        };
         self.lists.build_with(
             self.grid.search(points, support),
             |a| role[a] != Role::Backing,
@@ -330,7 +334,11 @@ impl Near {
     pub(crate) fn weigh(&mut self) {
         self.mark();
         let (kernel, marks) = (self.kernel, &self.marks);
-        let sums = (&mut self.number, &mut self.gradient, &mut self.squares);
+        let sums = RowSums {
+            number: &mut self.number,
+            gradient: &mut self.gradient,
+            squares: &mut self.squares,
+        };
         rows(&mut self.pairs, sums, self.len)
             .zip(self.lists.chunks())
             .for_each(|(mut row, chunk)| {

@@ -80,12 +80,24 @@ pub(super) struct Rows<'a> {
     squares: &'a mut [f64],
 }
 
+/// Sums over the rows, `[n]`.
+pub(super) struct RowSums<'a> {
+    pub(super) number: &'a mut Vec<f64>,
+    pub(super) gradient: &'a mut Vec<[f64; 3]>,
+    pub(super) squares: &'a mut Vec<f64>,
+}
+
 /// All rows by chunks.
 pub(super) fn rows<'a>(
     pairs: &'a mut Vec<PairChunk>,
-    (number, gradient, squares): (&'a mut Vec<f64>, &'a mut Vec<[f64; 3]>, &'a mut Vec<f64>),
+    sums: RowSums<'a>,
     n: usize,
 ) -> impl IndexedParallelIterator<Item = Rows<'a>> {
+    let RowSums {
+        number,
+        gradient,
+        squares,
+    } = sums;
     pairs.resize_with(n.div_ceil(ROWS), PairChunk::default);
     number.resize(n, 0.0);
     gradient.resize(n, [0.0; 3]);
@@ -155,11 +167,11 @@ impl Rows<'_> {
                 .iter()
                 .zip(slopes.as_chunks::<2>().0);
             for ([b, c], ([v, w], [s, t])) in twos.iter().zip(pairs) {
-                even.add(at, marks[*b as usize], (*v, *s));
-                odd.add(at, marks[*c as usize], (*w, *t));
+                even.add(at, marks[*b as usize], *v, *s);
+                odd.add(at, marks[*c as usize], *w, *t);
             }
             if let ([b], Some(value), Some(slope)) = (last, values.last(), slopes.last()) {
-                even.add(at, marks[*b as usize], (*value, *slope));
+                even.add(at, marks[*b as usize], *value, *slope);
             }
             let [x, y, z, _]: [f64; 4] =
                 std::array::from_fn(|i| even.gradient[i] + odd.gradient[i]);
@@ -185,7 +197,7 @@ struct Sums {
 impl Sums {
     /// Adds the neighbour `to` of `at` with W and (dW/dr)/r.
     #[inline(always)]
-    fn add(&mut self, at: [f64; 4], to: [f64; 4], (value, slope): (f64, f32)) {
+    fn add(&mut self, at: [f64; 4], to: [f64; 4], value: f64, slope: f32) {
         let slope = f64::from(slope);
         for i in 0..4 {
             let pull = slope * (at[i] - to[i]);
