@@ -43,10 +43,11 @@ build/saw-600a/report.html: SAW_RUN := weld
 build/saw-600a/half-report.html: SAW_RUN := half
 build/saw-600a/report.html: $(foreach what,.mcap -flux.mcap -slag.mcap -heat.mcap,build/saw-600a/weld$(what))
 build/saw-600a/half-report.html: $(foreach what,.mcap -flux.mcap -slag.mcap -heat.mcap,build/saw-600a/half$(what))
-build/saw-600a/report.html build/saw-600a/half-report.html: build/gmaw-600a/arc.mcap $(BIN)/report always
+build/saw-600a/report.html build/saw-600a/half-report.html: build/gmaw-600a/arc.mcap pipelines/saw-600a/targets.json $(BIN)/report always
 	$(RERUN) $(BIN)/report page --study saw-600a --out $@ \
 	  --arc build/gmaw-600a/arc.mcap --pool build/saw-600a/$(SAW_RUN).mcap --mean flux=build/saw-600a/$(SAW_RUN)-flux.mcap \
-	  --mean slag=build/saw-600a/$(SAW_RUN)-slag.mcap --mean heat=build/saw-600a/$(SAW_RUN)-heat.mcap
+	  --mean slag=build/saw-600a/$(SAW_RUN)-slag.mcap --mean heat=build/saw-600a/$(SAW_RUN)-heat.mcap \
+	  --targets pipelines/saw-600a/targets.json
 
 .PRECIOUS: $(SAW_600A:%=build/saw-600a/%.mcap) $(SAW_600A:%=build/saw-600a/%-flux.mcap) $(SAW_600A:%=build/saw-600a/%-slag.mcap) \
   $(SAW_600A:%=build/saw-600a/%-heat.mcap) build/saw-600a/bed.mcap build/saw-600a/half-bed.mcap build/saw-600a/weld.mcap \

@@ -3,6 +3,7 @@
 use artefact::Reader;
 use serde_json::Value;
 
+use crate::mirror::Mirror;
 use crate::weld::Weld;
 
 /// Channel of the grains.
@@ -28,6 +29,8 @@ pub(crate) struct Flux {
     pub(crate) position: Vec<[f64; 3]>,
     /// Temperatures of the grains \[K\], where they have any.
     pub(crate) temperature: Option<Vec<f64>>,
+    /// Radii of the grains \[m\].
+    pub(crate) radius: Vec<f64>,
     /// States of the grains; none where they cannot melt.
     pub(crate) state: Vec<u8>,
     /// Where the wire is, if the scene has one.
@@ -61,7 +64,7 @@ impl Flux {
             }
         }
         let melts = frame.has("state");
-        Ok(Some(Self {
+        let mut flux = Self {
             position: frame.position_vectors()?,
             temperature: if frame.has("temperature") {
                 Some(frame.f64("temperature")?)
@@ -73,9 +76,22 @@ impl Flux {
             } else {
                 Vec::new()
             },
+            radius: frame.f64("radius")?,
             wire: wire(scene, weld.time),
             weld,
-        }))
+        };
+        if let Some(mirror) = Mirror::of(scene) {
+            flux.complete(mirror);
+        }
+        Ok(Some(flux))
+    }
+
+    /// Adds the image of the half that was computed.
+    fn complete(&mut self, mirror: Mirror) {
+        mirror.places(&mut self.position);
+        mirror.values(&mut self.radius);
+        mirror.values(&mut self.state);
+        self.temperature.iter_mut().for_each(|t| mirror.values(t));
     }
 
     /// Number of grains in a state.

@@ -19,6 +19,7 @@ mod heat;
 mod html;
 mod index;
 mod measure;
+mod mirror;
 mod page;
 mod picture;
 mod plot;

@@ -55,7 +55,7 @@ pub(crate) enum Bound {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Target {
-    /// Measure: penetration, fused_width, fused_half_width, reinforcement, bead_width, area_above,
+    /// Measure: penetration, fused_width, fused_half_width, reinforcement, bead_width, toe_angle, area_above,
     /// area_below or dilution; or ARC/NAME, a value of the balance of the arc that is called ARC.
     pub(crate) measure: String,
     /// What the measure is called in the source.
@@ -241,6 +241,7 @@ fn people(target: &Target) -> (f64, &str, usize) {
         "m/s" => (1.0, "m/s", 0),
         "W" => (1.0, "W", 0),
         "V" => (1.0, "V", 1),
+        "deg" => (1.0, "\u{b0}", 1),
         "1" => (1.0, "", 2),
         other => (1.0, other, 2),
     }

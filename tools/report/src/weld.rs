@@ -6,6 +6,7 @@ use serde::Deserialize;
 use crate::measure::bead::{self, Bead, measure_of};
 use crate::measure::section::{Metal, Plane, SUPPORT, Section};
 use crate::measure::spatter;
+use crate::mirror::Mirror;
 
 /// Channel of all particles.
 pub(crate) const PARTICLES: &str = "/particles";
@@ -65,6 +66,8 @@ pub(crate) struct Weld {
     pub(crate) source: Option<Source>,
     /// Particles that have left the plate over its edges; they are not among the others.
     pub(crate) lost: usize,
+    /// Half of it was computed, and is shown with its image.
+    pub(crate) mirrored: bool,
 }
 
 impl Weld {
@@ -104,12 +107,16 @@ impl Weld {
             source: source_at(reader, frame.time_s)?,
             joined: Vec::new(),
             lost: 0,
+            mirrored: false,
         };
         if frame.has("wall") {
             let metal: Vec<bool> = frame.u8("wall")?.iter().map(|w| *w == 0).collect();
             weld.retain(&metal);
         }
         weld.leave_out_lost();
+        if let Some(mirror) = Mirror::of(&reader.header().scene) {
+            weld.complete(mirror);
+        }
         let link = LINK * weld.plate.spacing_m;
         let fused: Vec<bool> = (0..weld.position.len())
             .map(|i| weld.was_liquid(i))
@@ -117,6 +124,18 @@ impl Weld {
         let bead = spatter::largest(&weld.position, &fused, link);
         weld.joined = bead.iter().zip(&fused).map(|(b, f)| *b || !f).collect();
         Ok(weld)
+    }
+
+    /// Adds the image of the half that was computed.
+    fn complete(&mut self, mirror: Mirror) {
+        mirror.places(&mut self.position);
+        mirror.values(&mut self.liquid);
+        mirror.values(&mut self.fused);
+        self.temperature.iter_mut().for_each(|t| mirror.values(t));
+        if let (Some(low), Some(high)) = (&mut self.plate.min_m, &mut self.plate.max_m) {
+            mirror.corners(low, high);
+        }
+        self.mirrored = true;
     }
 
     /// Leaves out what is beside or below the plate: it is no part of the bead.

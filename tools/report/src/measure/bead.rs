@@ -9,6 +9,8 @@
 //!   same depths;
 //! - reinforcement: greatest height of the metal's surface (share of metal = 1/2), followed upwards
 //!   from the plate without a gap, so that a drop in flight does not count;
+//! - toe angle: that of the plate's surface and the line from each end of the bead, where the metal stands half a spacing
+//!   high, to where it first stands half as high as its top, in the mean of both sides \[degrees\];
 //! - bead width: greatest horizontal extent of the metal that stands higher than half a spacing;
 //! - areas of fused metal below and of metal above the original surface, of the grid cells whose
 //!   share is at least 1/2; dilution: the fused area below over the sum of both.
@@ -28,6 +30,8 @@ pub(crate) struct Bead {
     pub(crate) reinforcement: f64,
     /// Width of the metal above the original surface \[m\].
     pub(crate) bead_width: f64,
+    /// Angle of the bead's foot \[degrees\]; 0 where the bead is no spacing high.
+    pub(crate) toe_angle: f64,
     /// Area of metal above the original surface \[m2\].
     pub(crate) area_above: f64,
     /// Area of fused metal below the original surface \[m2\].
@@ -64,12 +68,13 @@ impl Named {
 }
 
 /// Every measure of a bead.
-pub(crate) const MEASURES: [Named; 8] = [
+pub(crate) const MEASURES: [Named; 9] = [
     named("penetration", "m", |b| b.penetration),
     named("fused_width", "m", |b| b.fused_width),
     named("fused_half_width", "m", |b| b.fused_half_width),
     named("reinforcement", "m", |b| b.reinforcement),
     named("bead_width", "m", |b| b.bead_width),
+    named("toe_angle", "deg", |b| b.toe_angle),
     named("area_above", "m2", |b| b.area_above),
     named("area_below", "m2", |b| b.area_below),
     named("dilution", "1", Bead::dilution),
@@ -111,6 +116,13 @@ pub(crate) fn measure(section: &Section, centre: f64, spacing: f64) -> Bead {
     }
     if let Some((left, right)) = extent(&section.across, &top, spacing / 2.0) {
         bead.bead_width = right - left;
+        if let Some((inner, far)) = extent(&section.across, &top, bead.reinforcement / 2.0)
+            && bead.reinforcement > spacing
+        {
+            let rise = (bead.reinforcement - spacing) / 2.0;
+            let angles = [inner - left, right - far].map(|run| rise.atan2(run).to_degrees());
+            bead.toe_angle = 0.5 * (angles[0] + angles[1]);
+        }
     }
     for k in (0..rows).filter(|k| section.up[*k] <= -0.5 * spacing + 1e-3 * step) {
         let row: Vec<f64> = (0..section.across.len())
@@ -273,6 +285,37 @@ mod tests {
         for (mean, allowed) in mean.iter().zip([0.1, 0.2, 0.25, 0.25]) {
             assert!(mean.abs() < allowed * D, "mean error {mean} m");
         }
+    }
+
+    #[test]
+    fn the_toe_angle_is_that_of_the_foot() {
+        // A ridge whose sides rise straight: 3 mm over 6 mm.
+        let rise = |half: f64| move |p: [f64; 3]| p[2] < 3e-3 * (1.0 - p[0].abs() / half);
+        for half in [6e-3, 9e-3] {
+            let (mut position, mut fused) = weld(1e-9, 1e-9, 1e-9, 0.0);
+            for i in -20..20 {
+                for (j, k) in (-3..3).flat_map(|j| (0..14).map(move |k| (j, k))) {
+                    let p = [i, j, k].map(|n: i32| (f64::from(n) + 0.5) * D);
+                    if rise(half)(p) {
+                        position.push(p);
+                        fused.push(1.0);
+                    }
+                }
+            }
+            let metal = Metal {
+                position: &position,
+                fused: &fused,
+                spacing: D,
+            };
+            let bead = measure(&Section::cut(&metal, Plane::Across, 0.0), 0.0, D);
+            let exact = (3e-3_f64 / half).atan().to_degrees();
+            assert!(
+                (bead.toe_angle - exact).abs() < 3.0,
+                "{} {exact}",
+                bead.toe_angle
+            );
+        }
+        assert!(found(1e-9, 1e-9, 1e-9, 0.0).toe_angle.abs() < 1e-12);
     }
 
     #[test]

@@ -3,4 +3,5 @@
 pub(crate) mod bead;
 pub(crate) mod heat_affected;
 pub(crate) mod section;
+pub(crate) mod slag;
 pub(crate) mod spatter;

@@ -30,6 +30,11 @@ pub(super) fn section(
             ));
         }
     }
+    if weld.mirrored {
+        body += &note(
+            "Half of this weld was computed, beside its mirror plane. It is shown and measured whole.",
+        );
+    }
     if weld.lost > 0 {
         body += &note(&format!(
             "{} particles have left the plate over its edges; they are neither shown nor measured.",

@@ -7,7 +7,8 @@ use serde_json::Value;
 use super::encoding;
 use crate::flux::{Flux, GRAINS, POWDER, SLAG};
 use crate::html::{figure, picture};
-use crate::picture::flux::{Tells, along, scale};
+use crate::measure::slag::{BEHIND, Slag};
+use crate::picture::flux::{self as sections, Cut, Tells, scale};
 use crate::plot::{Line, Plot};
 use crate::weld::PARTICLES;
 
@@ -38,13 +39,50 @@ pub(super) fn section(reader: &Reader, scene: &Value) -> Result<Option<String>, 
                 "{words} at {:.2} s, in the section along the weld. The arc moves to the right.",
                 moment.weld.time
             );
-            if let Some(canvas) = along(moment, &tells) {
+            if let Some(canvas) = sections::section(moment, Cut::Along, &tells) {
                 let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;
                 body += &figure(&image, &caption);
             }
         }
     }
+    if let Some(last) = moments.last() {
+        body += &behind(last)?;
+    }
     Ok(Some(body + &melted(reader, scene, count)?))
+}
+
+/// The section across the weld some way behind the arc, and how thick the slag lies there; nothing where there is none.
+fn behind(last: &Flux) -> Result<String, Failure> {
+    let (Some(source), Some(slag)) = (last.weld.source, Slag::behind(last)) else {
+        return Ok(String::new());
+    };
+    let place = source.y_m - BEHIND;
+    let words = format!("{:.0} mm behind the arc", 1e3 * BEHIND);
+    let mut body = String::new();
+    let caption = format!("What each particle is in the section across the weld, {words}.");
+    if let Some(canvas) = sections::section(last, Cut::Across(place), &Tells::States) {
+        let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;
+        body += &figure(&image, &caption);
+    }
+    let mut plot = Plot::new(
+        "distance from the centre x [mm]",
+        "thickness of the slag [mm]",
+    )
+    .through(0.0);
+    let points = slag.columns.iter().map(|column| column.map(|v| 1e3 * v));
+    plot.add(Line::new("slag, molten or set", points.collect()).marked());
+    let [middle, beside] = slag.middle_and_beside().map(|h| 1e3 * h);
+    let shape = if middle < beside {
+        "It is hollow there."
+    } else {
+        "It is not hollow there."
+    };
+    let caption = format!(
+        "How thick the slag lies {words}, by the grains in each column as they lie, six tenths of the room filled: at most {:.1} mm, \
+         {middle:.1} mm in the middle, {beside:.1} mm from 2 to 8 mm beside it. {shape}",
+        1e3 * slag.greatest()
+    );
+    Ok(body + &figure(&plot.html(), &caption))
 }
 
 /// Masses over time, by numbers of particles.

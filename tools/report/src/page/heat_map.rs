@@ -7,7 +7,7 @@ use run::Failure;
 use super::encoding;
 use crate::draw::axes::Scale;
 use crate::html::{FRAME_WIDTH, chosen, escape, figure, frames, picture};
-use crate::picture::heat_map::{WAYS, beside, scale};
+use crate::picture::heat_map::{WAYS, Way, beside, scale};
 use crate::plot::{Line, Plot};
 
 /// Channel of the maps; what stands behind it is the mean, or a place.
@@ -17,17 +17,17 @@ const PLACES: &str = "/heat_map/";
 /// Moments that are shown large.
 const MOMENTS: usize = 4;
 
-/// A way of heat with its words and its colours.
-type Way = (&'static str, &'static str, Scale);
+/// A way of heat with its colours.
+type Shown = (Way, Scale);
 
 /// The section; nothing where there are no maps.
 pub(super) fn section(reader: &Reader) -> Result<String, Failure> {
     let maps: Vec<Table> = (0..reader.count(MAPS))
         .map(|i| reader.table_at(MAPS, i))
         .collect::<Result<_, _>>()?;
-    let ways: Vec<Way> = WAYS
-        .iter()
-        .filter_map(|(way, words)| Some((*way, *words, scale(&maps, way)?)))
+    let ways: Vec<Shown> = WAYS
+        .into_iter()
+        .filter_map(|way| Some((way, scale(&maps, way)?)))
         .collect();
     if ways.is_empty() {
         return Ok(String::new());
@@ -39,7 +39,7 @@ pub(super) fn section(reader: &Reader) -> Result<String, Failure> {
         let [from, to] = span(map)?;
         let caption = format!(
             "Heat flux into the metal from above, mean of {from:.2} to {to:.2} s: red where metal is heated, blue where it is \
-             cooled, white where nothing passes. The weld runs upwards."
+             cooled, white where nothing passes. The weld runs to the right."
         );
         out += &drawn(map, &ways, &caption)?;
     }
@@ -62,7 +62,7 @@ fn span(map: &Table) -> Result<[f64; 2], Failure> {
     Ok([map.scalar("from_s")?, map.scalar("to_s")?])
 }
 
-fn drawn(map: &Table, ways: &[Way], caption: &str) -> Result<String, Failure> {
+fn drawn(map: &Table, ways: &[Shown], caption: &str) -> Result<String, Failure> {
     let Some(canvas) = beside(map, ways) else {
         return Ok(String::new());
     };
@@ -71,7 +71,7 @@ fn drawn(map: &Table, ways: &[Way], caption: &str) -> Result<String, Failure> {
 }
 
 /// The maps as a moving picture, where they are more than those shown large.
-fn course(maps: &[Table], ways: &[Way]) -> Result<String, Failure> {
+fn course(maps: &[Table], ways: &[Shown]) -> Result<String, Failure> {
     if maps.len() <= MOMENTS {
         return Ok(String::new());
     }
@@ -85,20 +85,20 @@ fn course(maps: &[Table], ways: &[Way]) -> Result<String, Failure> {
 }
 
 /// The fluxes at a place over time.
-fn place(reader: &Reader, name: &str, ways: &[Way]) -> Result<String, Failure> {
+fn place(reader: &Reader, name: &str, ways: &[Shown]) -> Result<String, Failure> {
     let records = reader.records(&format!("{PLACES}{name}"))?;
     let mut plot = Plot::new("time [s]", "heat flux into the metal [MW/m2]").through(0.0);
-    for (way, words, _) in ways {
+    for (way, _) in ways {
         let point = |record: &artefact::Record| {
             let middle = 0.5 * (record.get("from_s").ok()? + record.get("to_s").ok()?);
-            Some([middle, 1e-6 * record.get(way).ok()?])
+            Some([middle, 1e-6 * way.sign * record.get(way.column).ok()?])
         };
         let points: Vec<_> = records
             .iter()
             .filter_map(|(_, record)| point(record))
             .collect();
         if points.iter().any(|point| point[1] != 0.0) {
-            plot.add(Line::new(words, points).marked());
+            plot.add(Line::new(way.words, points).marked());
         }
     }
     if plot.is_empty() {

@@ -1,4 +1,4 @@
-//! The section along a weld under flux: powder, slag, frozen slag, liquid and solid metal, wire; and temperatures (Komen 2019,
+//! Sections of a weld under flux: powder, slag, frozen slag, liquid and solid metal, wire; and temperatures (Komen 2019,
 //! figs 5.26 and 5.27).
 
 use super::{WIDTH, bar_beside, heat_scale, quantile, scale_bar};
@@ -18,7 +18,7 @@ const WIRE: Rgb = hex(0x20_2226);
 const COLD: Rgb = hex(0xb4_b8bd);
 /// Pixels left and right of the window.
 const SIDES: [f64; 2] = [110.0, 190.0];
-/// Half of what is shown across the weld, over the spacing.
+/// Half of the thickness of what is shown, over the spacing.
 const THICK: f64 = 1.0;
 
 /// What colours tell.
@@ -45,11 +45,39 @@ pub(crate) fn scale(moments: &[Flux]) -> Option<Scale> {
     })
 }
 
-/// Draws a moment; nothing without particles near the centre plane.
-pub(crate) fn along(flux: &Flux, tells: &Tells) -> Option<Canvas> {
+/// Which plane is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Cut {
+    /// The centre plane of the weld, seen from its right side.
+    Along,
+    /// A plane across it at a place \[m\], seen from behind.
+    Across(f64),
+}
+
+impl Cut {
+    /// Right, up and toward the viewer \[mm\], of a place \[m\]; `centre` is that of the weld.
+    fn turn(self, [x, y, z]: [f64; 3], centre: f64) -> [f64; 3] {
+        match self {
+            Self::Along => [y, z, centre - x],
+            Self::Across(place) => [x, z, place - y],
+        }
+        .map(|v| 1e3 * v)
+    }
+
+    /// What stands to the right.
+    fn title(self) -> &'static str {
+        match self {
+            Self::Along => "along the weld y [mm]",
+            Self::Across(_) => "across x [mm]",
+        }
+    }
+}
+
+/// Draws a moment; nothing without particles near the plane.
+pub(crate) fn section(flux: &Flux, cut: Cut, tells: &Tells) -> Option<Canvas> {
     let weld = &flux.weld;
     let d = weld.plate.spacing_m;
-    let discs = discs(flux, tells);
+    let discs = discs(flux, cut, tells);
     let radius = 0.5e3 * d;
     let range = |k: usize| {
         let values = discs.iter().map(|disc: &Disc| disc.at[k]);
@@ -63,8 +91,10 @@ pub(crate) fn along(flux: &Flux, tells: &Tells) -> Option<Canvas> {
     let axes = Axes::equal([SIDES[0], 40.0], scale, x, y);
     let mut canvas = Canvas::new(WIDTH, (axes.area.h + 40.0 + 150.0) as usize);
     draw(&mut canvas, &axes, &discs, radius);
-    wire(&mut canvas, &axes, flux);
-    axes.draw(&mut canvas, "along the weld y [mm]", "height z [mm]");
+    if cut == Cut::Along {
+        wire(&mut canvas, &axes, flux);
+    }
+    axes.draw(&mut canvas, cut.title(), "height z [mm]");
     let time = format!("{:.2} s", weld.time);
     write(
         &mut canvas,
@@ -79,12 +109,12 @@ pub(crate) fn along(flux: &Flux, tells: &Tells) -> Option<Canvas> {
     Some(canvas)
 }
 
-/// Particles near the centre plane, as seen from the side.
-fn discs(flux: &Flux, tells: &Tells) -> Vec<Disc> {
+/// Particles near the plane, as seen from before it.
+fn discs(flux: &Flux, cut: Cut, tells: &Tells) -> Vec<Disc> {
     let weld = &flux.weld;
     let (centre, d) = (weld.centre(), weld.plate.spacing_m);
-    let near = |x: &[f64; 3]| (x[0] - centre).abs() < THICK * d;
-    let at = |x: &[f64; 3]| [1e3 * x[1], 1e3 * x[2], -1e3 * (x[0] - centre)];
+    let at = |x: &[f64; 3]| cut.turn(*x, centre);
+    let near = |x: &[f64; 3]| at(x)[2].abs() < 1e3 * THICK * d;
     let mut discs = Vec::new();
     for (i, x) in weld.position.iter().enumerate().filter(|(_, x)| near(x)) {
         let colour = match tells {
