@@ -24,7 +24,6 @@ build/saw-600a/half.mcap: pipelines/saw-600a/weld.json pipelines/saw-600a/half.p
 
 # Flux and slag around the cavity, averaged on a grid that moves with it; the heat that they bring to the metal, on one that rests.
 SAW_600A := weld half
-build/saw-600a/half-heat.mcap: HEAT_OF_HALF := --patch pipelines/saw-600a/half-heat.patch.json
 
 $(SAW_600A:%=build/saw-600a/%-flux.mcap): build/saw-600a/%-flux.mcap: pipelines/saw-600a/flux.json \
   build/saw-600a/%.mcap $(BIN)/avg always
@@ -36,8 +35,8 @@ $(SAW_600A:%=build/saw-600a/%-slag.mcap): build/saw-600a/%-slag.mcap: pipelines/
 	  --input frames=build/saw-600a/$*.mcap --out $@ $(MACHINE)
 
 $(SAW_600A:%=build/saw-600a/%-heat.mcap): build/saw-600a/%-heat.mcap: pipelines/saw-600a/heat.json \
-  pipelines/saw-600a/half-heat.patch.json build/saw-600a/%.mcap $(BIN)/avg always
-	$(RERUN) $(BIN)/avg run pipelines/saw-600a/heat.json $(HEAT_OF_HALF) --input frames=build/saw-600a/$*.mcap --out $@ $(MACHINE)
+  build/saw-600a/%.mcap $(BIN)/avg always
+	$(RERUN) $(BIN)/avg run pipelines/saw-600a/heat.json --input frames=build/saw-600a/$*.mcap --out $@ $(MACHINE)
 
 build/saw-600a/report.html: SAW_RUN := weld
 build/saw-600a/half-report.html: SAW_RUN := half

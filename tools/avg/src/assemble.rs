@@ -123,6 +123,8 @@ pub struct Plan {
     pub rings: Option<Rings>,
     /// The maps of heat before the first frame, where the scene asks for some.
     pub heat_maps: Option<HeatMaps>,
+    /// x of the mirror beside which half of a weld was computed \[m\].
+    pub mirror: Option<f64>,
     /// The source over time; empty at rest.
     pub track: Vec<Source>,
     /// Number of phases; 1 without.
@@ -193,6 +195,7 @@ impl Plan {
             sections: scene.sections(spacing),
             rings: rings(scene, spacing)?,
             heat_maps: heat_maps(scene, spacing, &first)?,
+            mirror: Plate::read(reader)?.and_then(|plate| plate.mirror_x_m),
             parts: parts(&track, &moments),
             phases,
             period: scene.phases.and_then(|_| phase::period(&counted)),
@@ -224,7 +227,8 @@ impl Plan {
     /// Memory of one frame: columns, cells and copies \[byte\].
     #[must_use]
     pub fn frame_bytes(&self) -> u64 {
-        (self.particles * 2 * (7 * 8 + 4 * 8)) as u64
+        let sides = if self.mirror.is_some() { 2 } else { 1 };
+        (sides * self.particles * 2 * (7 * 8 + 4 * 8)) as u64
     }
 }
 

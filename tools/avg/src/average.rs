@@ -93,6 +93,9 @@ impl<'a> Averaging<'a> {
     pub fn read(&mut self, reader: &Reader, place: usize) -> Result<Seen, AverageError> {
         let frame = reader.frame(&self.plan.channel, self.plan.frames[place])?;
         let mut cloud = frames::cloud(&frame, self.plan.states.as_deref())?;
+        if let Some(x) = self.plan.mirror {
+            cloud.complete(x);
+        }
         let time = frame.time_s;
         let (mut phase, mut origin) = (0, [0.0; 2]);
         if let Some(follow) = &self.plan.follow {
@@ -110,7 +113,8 @@ impl<'a> Averaging<'a> {
             }
         }
         let maps = self.plan.heat_maps.as_ref();
-        let received = maps.map(|maps| Received::read(&frame, maps.ways(), origin));
+        let mirror = self.plan.mirror;
+        let received = maps.map(|maps| Received::read(&frame, maps.ways(), origin, mirror));
         if let Some(link) = self.plan.landed {
             cloud.land(link);
         }

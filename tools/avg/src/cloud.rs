@@ -43,6 +43,22 @@ impl Cloud {
         }
     }
 
+    /// Adds the image of half a weld beyond the plane at `x` \[m\].
+    pub fn complete(&mut self, x: f64) {
+        let images: Vec<_> = self
+            .position
+            .iter()
+            .map(|p| [2.0 * x - p[0], p[1], p[2]])
+            .collect();
+        self.position.extend(images);
+        let turned: Vec<_> = self.velocity.iter().map(|u| [-u[0], u[1], u[2]]).collect();
+        self.velocity.extend(turned);
+        self.liquid.extend_from_within(..);
+        self.temperature
+            .iter_mut()
+            .for_each(|t| t.extend_from_within(..));
+    }
+
     /// Removes what is in flight: liquid that no chain of particles, each closer than `link` \[m\]
     /// to the next, joins to solid metal. Without solid metal nothing is removed.
     pub fn land(&mut self, link: f64) {
@@ -123,6 +139,15 @@ mod tests {
         assert_eq!((c.velocity.len(), c.liquid.len()), (3, 3));
         assert_eq!(c.temperature.as_ref().unwrap().len(), 3);
         assert!(c.position.iter().all(|x| x[2] < 3.0));
+    }
+
+    #[test]
+    fn the_image_of_a_half_moves_the_other_way() {
+        let mut c = cloud(&[([3.0, 7.0, 1.0], true)]);
+        c.complete(1.0);
+        assert_eq!(c.position, vec![[3.0, 7.0, 1.0], [-1.0, 7.0, 1.0]]);
+        assert_eq!(c.velocity, vec![[1.0, 2.0, 3.0], [-1.0, 2.0, 3.0]]);
+        assert_eq!((c.liquid.len(), c.temperature.unwrap().len()), (2, 2));
     }
 
     #[test]

@@ -18,6 +18,9 @@ pub struct Plate {
     /// Volume of a particle \[m3\]; the cube of the spacing when absent.
     #[serde(default)]
     pub particle_volume_m3: Option<f64>,
+    /// x of the mirror beside which half of a weld was computed \[m\].
+    #[serde(default)]
+    pub mirror_x_m: Option<f64>,
 }
 
 impl Plate {
@@ -98,6 +101,7 @@ pub fn grains(frame: &Frame) -> artefact::Result<Option<Plate>> {
     Ok(Some(Plate {
         spacing_m: mean(|d| d),
         particle_volume_m3: Some(ball / PACKED),
+        mirror_x_m: None,
     }))
 }
 

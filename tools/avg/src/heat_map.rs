@@ -162,7 +162,7 @@ impl HeatMaps {
         shown.resize(shown.len().max(ids), 0);
         last.iter_mut()
             .for_each(|heat| heat.resize(shown.len(), 0.0));
-        for (n, (id, place)) in seen.id.iter().zip(&seen.place).enumerate() {
+        for (n, id) in seen.id.iter().enumerate() {
             let born = shown[*id] == 0 && seen.droplet[n];
             let counts = *frames > 0 && (shown[*id] == *frames || born);
             shown[*id] = *frames + 1;
@@ -172,7 +172,7 @@ impl HeatMaps {
                 if !counts || gained == 0.0 {
                     continue;
                 }
-                for (cell, part) in self.layout.shares(*place) {
+                for (cell, part) in seen.places(n).flat_map(|place| self.layout.shares(place)) {
                     cells[way][cell] += part * gained;
                     whole[way][cell] += part * gained;
                 }
@@ -285,6 +285,7 @@ mod tests {
             .map(|n| [n / counts[1], n % counts[1]].map(|i| (i as f64 + 0.5) * apart))
             .collect();
         Received {
+            mirror: None,
             id: (0..place.len()).collect(),
             droplet: vec![false; place.len()],
             heat: vec![place.iter().map(|place| heat(*place)).collect()],
@@ -349,6 +350,33 @@ mod tests {
     }
 
     #[test]
+    fn half_a_weld_has_the_fluxes_of_the_whole() {
+        let heat =
+            |time: f64| move |[x, y]: [f64; 2]| time * (1.0 + (2e3 * (x - 4e-3)).powi(2) + 1e2 * y);
+        let found = |half: bool| {
+            let mut maps = maps(0.0);
+            for time in [0.0, 0.1] {
+                let mut seen = frame(D, [8e-3, 6e-3], heat(time));
+                if half {
+                    // The first rows are those of the lower half of x.
+                    let kept = seen.id.len() / 2;
+                    seen.id.truncate(kept);
+                    seen.mirror = Some(4e-3);
+                }
+                if let Some((_, table, _)) = maps.take(&seen, time) {
+                    return column(&table).to_vec();
+                }
+            }
+            Vec::new()
+        };
+        let (half, whole) = (found(true), found(false));
+        assert_eq!(half.len(), 48);
+        for (half, whole) in half.iter().zip(&whole) {
+            assert!((half / whole - 1.0).abs() < 1e-12, "{half} {whole}");
+        }
+    }
+
+    #[test]
     fn intervals_end_with_the_frame_that_fills_them_and_the_last_with_the_frames() {
         let mut maps = maps(0.25);
         let seen = |time: f64| frame(D, [8e-3, 6e-3], move |_| time);
@@ -374,6 +402,7 @@ mod tests {
         let mut maps = maps(0.0);
         let seen = |ids: &[usize], droplets: &[bool], heat: &[f64]| Received {
             place: vec![[4.5e-3, 3.5e-3]; ids.len()],
+            mirror: None,
             id: ids.to_vec(),
             droplet: droplets.to_vec(),
             heat: vec![heat.to_vec()],

@@ -18,6 +18,8 @@ pub fn ways(frame: &Frame) -> Vec<String> {
 pub struct Received {
     /// x and y in the frame of reference of the averages \[m\], `[n][2]`.
     pub place: Vec<[f64; 2]>,
+    /// x of the plane beyond which each has an image that gets the same, in the same frame of reference \[m\].
+    pub mirror: Option<f64>,
     /// Numbers for life, `[n]`.
     pub id: Vec<usize>,
     /// Whether it has come from the wire, `[n]`.
@@ -27,11 +29,16 @@ pub struct Received {
 }
 
 impl Received {
-    /// Of `frame`, by `ways`, with the source at `origin` \[m\].
+    /// Of `frame`, by `ways`, with the source at `origin` \[m\] and images beyond `mirror` \[m\].
     ///
     /// # Errors
     /// When a column is absent.
-    pub fn read(frame: &Frame, ways: &[String], origin: [f64; 2]) -> artefact::Result<Self> {
+    pub fn read(
+        frame: &Frame,
+        ways: &[String],
+        origin: [f64; 2],
+        mirror: Option<f64>,
+    ) -> artefact::Result<Self> {
         let place = frame.position_vectors()?.into_iter();
         let heat: artefact::Result<_> = ways.iter().map(|way| frame.f64(way)).collect();
         let id: Vec<usize> = frame.u32("id")?.iter().map(|id| *id as usize).collect();
@@ -39,6 +46,7 @@ impl Received {
             place: place
                 .map(|x| [x[0] - origin[0], x[1] - origin[1]])
                 .collect(),
+            mirror: mirror.map(|x| x - origin[0]),
             droplet: if frame.has("droplet") {
                 frame.u8("droplet")?.iter().map(|mark| *mark != 0).collect()
             } else {
@@ -47,5 +55,12 @@ impl Received {
             id,
             heat: heat?,
         })
+    }
+
+    /// Where particle `n` is, and its image, if it has one.
+    pub fn places(&self, n: usize) -> impl Iterator<Item = [f64; 2]> {
+        let [x, y] = self.place[n];
+        let image = self.mirror.map(|at| [2.0 * at - x, y]);
+        std::iter::once([x, y]).chain(image)
     }
 }

@@ -339,6 +339,7 @@ impl<'a> Source<'a> {
             particle_volume_m3: self.scene.metal().volume(),
             melting_point_k: self.caloric.as_ref().and_then(|c| c.melting_point()),
             direction: velocity.and_then(unit).unwrap_or([0.0, 1.0, 0.0]),
+            mirror_x_m: self.scene.faces.as_ref().and_then(|f| f.mirror_x_m()),
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::state::State;
 const SOURCE_SCHEMA: &str = r#"{"type":"object","title":"Place of the heat source and phase of the droplet period","properties":{"time_s":{"type":"number"},"x_m":{"type":"number"},"y_m":{"type":"number"},"z_m":{"type":"number"},"phase":{"type":"number","minimum":0,"maximum":1},"droplet":{"type":"integer"}}}"#;
 
 /// JSON Schema of `/plate`.
-const PLATE_SCHEMA: &str = r#"{"type":"object","title":"The base metal and its particles","properties":{"min_m":{"type":"array","items":{"type":"number"}},"max_m":{"type":"array","items":{"type":"number"}},"spacing_m":{"type":"number"},"particle_volume_m3":{"type":"number"},"melting_point_k":{"type":"number"},"direction":{"type":"array","items":{"type":"number"}}}}"#;
+const PLATE_SCHEMA: &str = r#"{"type":"object","title":"The base metal and its particles","properties":{"min_m":{"type":"array","items":{"type":"number"}},"max_m":{"type":"array","items":{"type":"number"}},"spacing_m":{"type":"number"},"particle_volume_m3":{"type":"number"},"melting_point_k":{"type":"number"},"direction":{"type":"array","items":{"type":"number"}},"mirror_x_m":{"type":"number"}}}"#;
 
 /// Place of the heat source at the time of a frame, as `/source` tells it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -49,6 +49,9 @@ pub struct PlateNote {
     pub melting_point_k: Option<f64>,
     /// Direction in which the source moves.
     pub direction: [f64; 3],
+    /// x of the mirror beside which half of a weld is computed \[m\]; none of the whole.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mirror_x_m: Option<f64>,
 }
 
 /// Columns of the metal in the order of old; others stand behind them, the number last.

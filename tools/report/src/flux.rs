@@ -80,8 +80,8 @@ impl Flux {
             wire: wire(scene, weld.time),
             weld,
         };
-        if let Some(mirror) = Mirror::of(scene) {
-            flux.complete(mirror);
+        if let Some(at) = flux.weld.plate.mirror_x_m {
+            flux.complete(Mirror { at });
         }
         Ok(Some(flux))
     }

@@ -1,31 +1,13 @@
 //! Half a weld beside its mirror plane, shown whole.
 
-use serde_json::Value;
-
 /// The plane x = const beside which half a weld was computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Mirror {
     /// Where it stands \[m\].
-    at: f64,
+    pub(crate) at: f64,
 }
 
 impl Mirror {
-    /// The mirror of a scene across the weld; none where the whole was computed.
-    pub(crate) fn of(scene: &Value) -> Option<Self> {
-        let faces = scene.get("faces")?;
-        let named = |name: &str| {
-            let mirrors = faces.get("mirror").and_then(Value::as_array);
-            mirrors.is_some_and(|all| all.iter().any(|face| face == name))
-        };
-        let side = match (named("x-"), named("x+")) {
-            (true, false) => "/min_m/0",
-            (false, true) => "/max_m/0",
-            _ => return None,
-        };
-        let at = faces.pointer(side).and_then(Value::as_f64)?;
-        Some(Self { at })
-    }
-
     /// Places with their images behind them.
     pub(crate) fn places(self, half: &mut Vec<[f64; 3]>) {
         let images: Vec<_> = half
@@ -49,20 +31,7 @@ impl Mirror {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
-
-    #[test]
-    fn half_a_weld_has_the_mirror_of_its_scene() {
-        let scene = |faces: &[&str]| json!({"faces": {"min_m": [0.5, 0, 0], "max_m": [2, 1, 1], "mirror": faces}});
-        assert_eq!(Mirror::of(&scene(&["x-"])), Some(Mirror { at: 0.5 }));
-        assert_eq!(Mirror::of(&scene(&["z+", "x+"])), Some(Mirror { at: 2.0 }));
-        for whole in [&["y-"][..], &[], &["x-", "x+"]] {
-            assert_eq!(Mirror::of(&scene(whole)), None);
-        }
-        assert_eq!(Mirror::of(&json!({})), None);
-    }
 
     #[test]
     fn images_stand_behind_with_the_values_of_their_originals() {

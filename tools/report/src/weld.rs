@@ -35,6 +35,9 @@ pub(crate) struct Plate {
     /// Melting point \[K\].
     #[serde(default)]
     pub(crate) melting_point_k: Option<f64>,
+    /// x of the mirror beside which half of the weld was computed \[m\].
+    #[serde(default)]
+    pub(crate) mirror_x_m: Option<f64>,
 }
 
 /// Where the source is.
@@ -66,8 +69,6 @@ pub(crate) struct Weld {
     pub(crate) source: Option<Source>,
     /// Particles that have left the plate over its edges; they are not among the others.
     pub(crate) lost: usize,
-    /// Half of it was computed, and is shown with its image.
-    pub(crate) mirrored: bool,
 }
 
 impl Weld {
@@ -107,15 +108,14 @@ impl Weld {
             source: source_at(reader, frame.time_s)?,
             joined: Vec::new(),
             lost: 0,
-            mirrored: false,
         };
         if frame.has("wall") {
             let metal: Vec<bool> = frame.u8("wall")?.iter().map(|w| *w == 0).collect();
             weld.retain(&metal);
         }
         weld.leave_out_lost();
-        if let Some(mirror) = Mirror::of(&reader.header().scene) {
-            weld.complete(mirror);
+        if let Some(at) = weld.plate.mirror_x_m {
+            weld.complete(Mirror { at });
         }
         let link = LINK * weld.plate.spacing_m;
         let fused: Vec<bool> = (0..weld.position.len())
@@ -135,7 +135,6 @@ impl Weld {
         if let (Some(low), Some(high)) = (&mut self.plate.min_m, &mut self.plate.max_m) {
             mirror.corners(low, high);
         }
-        self.mirrored = true;
     }
 
     /// Leaves out what is beside or below the plate: it is no part of the bead.

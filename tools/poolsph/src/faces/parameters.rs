@@ -67,6 +67,16 @@ pub struct WallParameters {
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
 impl Parameters {
+    /// x of the one mirror across which the weld goes on \[m\]; none where there is none, or two.
+    #[must_use]
+    pub fn mirror_x_m(&self) -> Option<f64> {
+        let mut across = self.mirror.iter().filter_map(|face| match face.side() {
+            (0, upper) => Some(if upper { self.max_m[0] } else { self.min_m[0] }),
+            _ => None,
+        });
+        across.next().filter(|_| across.next().is_none())
+    }
+
     /// True if a wall keeps a temperature.
     #[must_use]
     pub fn holds_heat(&self) -> bool {

@@ -22,6 +22,19 @@ fn faces(text: &str) -> Faces {
     parameters.faces(METAL.support(), true).unwrap()
 }
 
+#[test]
+fn half_a_weld_has_one_mirror_across() {
+    let mirror = |faces: &str| {
+        let text = format!(r#"{{"min_m": [0.5, 0, 0], "max_m": [9, 9, 9], "mirror": {faces}}}"#);
+        let parameters: Parameters = serde_json::from_str(&text).unwrap();
+        parameters.mirror_x_m()
+    };
+    assert_eq!(mirror(r#"["x-"]"#), Some(0.5));
+    assert_eq!(mirror(r#"["z-", "x+"]"#), Some(9.0));
+    assert_eq!(mirror(r#"["x-", "x+"]"#), None);
+    assert_eq!(mirror(r#"["y-"]"#), None);
+}
+
 /// Liquid at the places of a box of cells, each moved a little, with velocities of its own.
 fn body(faces: Faces, points: impl IntoIterator<Item = ([f64; 3], [f64; 3])>) -> State {
     let mut state = State::new(METAL);

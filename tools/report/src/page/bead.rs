@@ -30,7 +30,7 @@ pub(super) fn section(
             ));
         }
     }
-    if weld.mirrored {
+    if weld.plate.mirror_x_m.is_some() {
         body += &note(
             "Half of this weld was computed, beside its mirror plane. It is shown and measured whole.",
         );

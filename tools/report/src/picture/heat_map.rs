@@ -56,7 +56,7 @@ pub(crate) fn scale(maps: &[Table], way: Way) -> Option<Scale> {
     Some(Scale {
         map: Map::BlueRed,
         range: [-1e-6 * end, 1e-6 * end],
-        title: "heat flux into the metal [MW/m2]".to_owned(),
+        title: "[MW/m2]".to_owned(),
     })
 }
 
