@@ -81,8 +81,8 @@ fn a_number_out_of_range_is_refused_with_its_range() {
 
 #[test]
 fn a_missing_key_is_named() {
-    let told = refused("\"sections\"", "\"comment\"");
-    told.must(2, &["faulty.json:1:1", "no key 'sections'"]);
+    let told = refused("      \"name\": \"section_x0\",\n", "");
+    told.must(2, &["faulty.json:6:", "/sections/0", "no key 'name'"]);
 }
 
 #[test]
