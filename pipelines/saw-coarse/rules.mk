@@ -11,12 +11,15 @@ build/saw-coarse/weld.mcap: pipelines/saw-600a/weld.json pipelines/saw-coarse/we
 	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/weld.json --patch pipelines/saw-coarse/weld.patch.json \
 	  --input arc=build/gmaw-600a/arc.mcap --input bed=build/saw-coarse/bed.mcap --out $@ $(MACHINE)
 
-build/saw-coarse/flux.mcap: pipelines/saw-600a/flux.json build/saw-coarse/weld.mcap $(BIN)/avg always
-	$(RERUN) $(BIN)/avg run pipelines/saw-600a/flux.json --input frames=build/saw-coarse/weld.mcap --out $@ $(MACHINE)
-
-build/saw-coarse/slag.mcap: pipelines/saw-600a/flux.json pipelines/saw-600a/slag.patch.json \
+build/saw-coarse/flux.mcap: pipelines/saw-600a/flux.json pipelines/saw-coarse/flux.patch.json \
   build/saw-coarse/weld.mcap $(BIN)/avg always
-	$(RERUN) $(BIN)/avg run pipelines/saw-600a/flux.json --patch pipelines/saw-600a/slag.patch.json \
+	$(RERUN) $(BIN)/avg run pipelines/saw-600a/flux.json --patch pipelines/saw-coarse/flux.patch.json \
+	  --input frames=build/saw-coarse/weld.mcap --out $@ $(MACHINE)
+
+build/saw-coarse/slag.mcap: pipelines/saw-600a/flux.json pipelines/saw-coarse/flux.patch.json pipelines/saw-600a/slag.patch.json \
+  build/saw-coarse/weld.mcap $(BIN)/avg always
+	$(RERUN) $(BIN)/avg run pipelines/saw-600a/flux.json --patch pipelines/saw-coarse/flux.patch.json \
+	  --patch pipelines/saw-600a/slag.patch.json \
 	  --input frames=build/saw-coarse/weld.mcap --out $@ $(MACHINE)
 
 build/saw-coarse/heat.mcap: pipelines/saw-600a/heat.json pipelines/saw-coarse/heat.patch.json \

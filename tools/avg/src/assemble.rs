@@ -82,7 +82,8 @@ pub enum AverageError {
     },
     /// A heat map of frames that tell no heat.
     #[error(
-        "the frames of '{channel}' do not tell what heat metal has got: run poolsph with \"heat_received\": true in its output"
+        "the frames of '{channel}' do not tell what heat metal has got: maps are made of metal, from '/particles' or '/pool' of poolsph \
+         with \"heat_received\": true in its output"
     )]
     Untold {
         /// The channel.

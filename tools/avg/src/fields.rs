@@ -15,6 +15,7 @@ use crate::assemble::Plan;
 use crate::average::Averages;
 use crate::ensemble::{Ensemble, Point};
 use crate::grid::{Cut, Section};
+use crate::heat_map::HEAT_MAP;
 use crate::parts::student;
 use crate::profile::{PROFILE, Profile};
 
@@ -59,6 +60,11 @@ pub fn volume(plan: &Plan) -> Vec<(String, u64, u64)> {
             all.push((format!("/{}", section.name), phases, phases * each));
         }
         all.push((format!("/{}/time_mean", section.name), 1, each));
+    }
+    if let Some(maps) = &plan.heat_maps {
+        let number = maps.most(plan.frames.len());
+        all.push((format!("/{HEAT_MAP}"), number, number * maps.map_bytes()));
+        all.push((format!("/{HEAT_MAP}/time_mean"), 1, maps.map_bytes()));
     }
     if let Some(rings) = &plan.rings {
         let empty = Profile::new(rings).table(rings, &plan.smoothing);

@@ -212,6 +212,14 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
         ));
     }
     session.closing("frames", "1", plan.frames.len() as f64);
+    if let (Some(rings), Some(profile)) = (&plan.rings, &averages.profile) {
+        let [net, below] = profile.volumes(rings);
+        session.closing("profile_net_volume", "m3", net);
+        session.closing("profile_depression", "m3", below);
+    }
+    if let Some(period) = plan.period {
+        session.closing("droplet_period", "s", period);
+    }
     let Some(ensemble) = averages.ensembles.first() else {
         return;
     };
@@ -227,17 +235,9 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
     } else if plan.parts.count < 2 {
         session.note("one frame: its means have no standard error");
     }
-    if let (Some(rings), Some(profile)) = (&plan.rings, &averages.profile) {
-        let [net, below] = profile.volumes(rings);
-        session.closing("profile_net_volume", "m3", net);
-        session.closing("profile_depression", "m3", below);
-    }
     if plan.phases > 1 {
         session.closing("frames_least_in_a_phase", "1", f64::from(least));
         session.closing("drops", "1", averages.drops.1 as f64);
-    }
-    if let Some(period) = plan.period {
-        session.closing("droplet_period", "s", period);
     }
 }
 

@@ -80,8 +80,8 @@ impl Flux {
             wire: wire(scene, weld.time),
             weld,
         };
-        if let Some(at) = flux.weld.plate.mirror_x_m {
-            flux.complete(Mirror { at });
+        if let Some(mirror) = flux.weld.mirror {
+            flux.complete(mirror);
         }
         Ok(Some(flux))
     }

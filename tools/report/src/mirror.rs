@@ -1,13 +1,47 @@
 //! Half a weld beside its mirror plane, shown whole.
 
+use artefact::Reader;
+use serde::Deserialize;
+
 /// The plane x = const beside which half a weld was computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Mirror {
     /// Where it stands \[m\].
-    pub(crate) at: f64,
+    at: f64,
+}
+
+/// What the plate tells of it.
+#[derive(Deserialize)]
+struct Told {
+    #[serde(default)]
+    mirror_x_m: Option<f64>,
 }
 
 impl Mirror {
+    /// The mirror of the weld in a file; none where the whole was computed.
+    ///
+    /// # Errors
+    /// When the plate cannot be read.
+    pub(crate) fn read(reader: &Reader) -> artefact::Result<Option<Self>> {
+        if !reader.has("/plate") {
+            return Ok(None);
+        }
+        let told: Told = reader.json_at("/plate", 0)?;
+        Ok(told.mirror_x_m.map(|at| Self { at }))
+    }
+
+    /// How often what a file tells of its metal counts for the whole weld.
+    ///
+    /// # Errors
+    /// When the plate cannot be read.
+    pub(crate) fn times(reader: &Reader) -> artefact::Result<f64> {
+        Ok(if Self::read(reader)?.is_some() {
+            2.0
+        } else {
+            1.0
+        })
+    }
+
     /// Places with their images behind them.
     pub(crate) fn places(self, half: &mut Vec<[f64; 3]>) {
         let images: Vec<_> = half

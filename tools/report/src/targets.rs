@@ -5,6 +5,7 @@
 //! while nothing of the weld has frozen, its measures are shown but nothing is judged.
 
 mod check;
+mod published;
 
 use std::path::Path;
 

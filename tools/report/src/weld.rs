@@ -35,9 +35,6 @@ pub(crate) struct Plate {
     /// Melting point \[K\].
     #[serde(default)]
     pub(crate) melting_point_k: Option<f64>,
-    /// x of the mirror beside which half of the weld was computed \[m\].
-    #[serde(default)]
-    pub(crate) mirror_x_m: Option<f64>,
 }
 
 /// Where the source is.
@@ -69,6 +66,8 @@ pub(crate) struct Weld {
     pub(crate) source: Option<Source>,
     /// Particles that have left the plate over its edges; they are not among the others.
     pub(crate) lost: usize,
+    /// The mirror beside which half of it was computed; its image is among the particles.
+    pub(crate) mirror: Option<Mirror>,
 }
 
 impl Weld {
@@ -108,14 +107,15 @@ impl Weld {
             source: source_at(reader, frame.time_s)?,
             joined: Vec::new(),
             lost: 0,
+            mirror: Mirror::read(reader)?,
         };
         if frame.has("wall") {
             let metal: Vec<bool> = frame.u8("wall")?.iter().map(|w| *w == 0).collect();
             weld.retain(&metal);
         }
         weld.leave_out_lost();
-        if let Some(at) = weld.plate.mirror_x_m {
-            weld.complete(Mirror { at });
+        if let Some(mirror) = weld.mirror {
+            weld.complete(mirror);
         }
         let link = LINK * weld.plate.spacing_m;
         let fused: Vec<bool> = (0..weld.position.len())
@@ -128,6 +128,7 @@ impl Weld {
 
     /// Adds the image of the half that was computed.
     fn complete(&mut self, mirror: Mirror) {
+        self.lost *= 2;
         mirror.places(&mut self.position);
         mirror.values(&mut self.liquid);
         mirror.values(&mut self.fused);

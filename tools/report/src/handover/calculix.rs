@@ -16,6 +16,7 @@ use super::mesh::{Node, nodes};
 use crate::draw::axes::number;
 use crate::files::{CalculixFiles, print, save};
 use crate::heat::{POINTS, Points};
+use crate::mirror::Mirror;
 use crate::weld::{PARTICLES, Plate};
 
 /// Temperatures that change by less are not written again \[K\].
@@ -79,10 +80,15 @@ impl Course {
             count: 0,
             nodes,
         };
+        let mirror = Mirror::read(reader)?;
         let mut last = 0.0;
         for index in (0..reader.count(channel)).step_by(files.every as usize) {
             let frame = reader.frame(channel, index)?;
-            let (places, values) = (frame.position_vectors()?, frame.f64("temperature")?);
+            let (mut places, mut values) = (frame.position_vectors()?, frame.f64("temperature")?);
+            if let Some(mirror) = mirror {
+                mirror.places(&mut places);
+                mirror.values(&mut values);
+            }
             let changed = course.changed(&Field::new(&places, &values, spacing));
             if index == 0 {
                 let head = "*INITIAL CONDITIONS, TYPE=TEMPERATURE";

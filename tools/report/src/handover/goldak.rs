@@ -12,6 +12,7 @@ use run::Failure;
 use serde_json::{Value, json};
 
 use crate::files::print;
+use crate::mirror::Mirror;
 use crate::weld::{PARTICLES, Weld};
 
 /// Part of the frames from which on the pool is taken for grown.
@@ -45,6 +46,7 @@ pub(crate) fn run(pool: &Path) -> Result<ExitCode, Failure> {
     };
     let mean = |of: fn(&Pool) -> f64| pools.iter().map(of).sum::<f64>() / pools.len() as f64;
     let power = power(&reader, from.0, to.0)?.ok_or_else(|| told("tells no balance of heat"))?;
+    let power = power * Mirror::times(&reader)?;
     let way = [to.1[0] - start.1[0], to.1[1] - start.1[1]];
     let speed = way[0].hypot(way[1]) / (to.0 - start.0);
     let place = |at: [f64; 2]| json!([at[0], at[1], 0.0]);

@@ -52,7 +52,7 @@ impl Slag {
     fn of(slag: &[[f64; 2]]) -> Option<Self> {
         let wide = 2.0 * slag.iter().map(|[_, radius]| radius).sum::<f64>() / slag.len() as f64;
         let far = slag.iter().map(|[x, _]| x.abs()).reduce(f64::max)?;
-        let half = (far / wide).ceil().max(1.0) as usize;
+        let half = (far.max(BESIDE) / wide).ceil() as usize;
         let mut columns: Vec<[f64; 2]> = (0..2 * half)
             .map(|k| [(k as f64 + 0.5 - half as f64) * wide, 0.0])
             .collect();
@@ -80,6 +80,12 @@ impl Slag {
     /// Mean thickness in the middle, and beside it \[m\].
     pub(crate) fn middle_and_beside(&self) -> [f64; 2] {
         [self.mean([0.0, MIDDLE]), self.mean([MIDDLE, BESIDE])]
+    }
+
+    /// Whether it is hollow in the middle, by more than a tenth.
+    pub(crate) fn is_hollow(&self) -> bool {
+        let [middle, beside] = self.middle_and_beside();
+        middle < 0.9 * beside
     }
 
     /// Greatest thickness \[m\].
@@ -124,9 +130,14 @@ mod tests {
 
     #[test]
     fn a_hollow_is_seen_and_without_slag_there_is_no_section() {
+        let wide = layer(|x| if x.abs() < 4e-3 { 3e-3 } else { 0.0 });
+        let [middle, beside] = wide.middle_and_beside();
+        assert!((middle / 3e-3 - 1.0).abs() < 0.01 && (beside / 1e-3 - 1.0).abs() < 0.01);
+        assert!(!wide.is_hollow());
         let hollow = layer(|x| if x.abs() < 2e-3 { 1e-3 } else { 2.5e-3 });
         let [middle, beside] = hollow.middle_and_beside();
         assert!((middle / 1e-3 - 1.0).abs() < 0.03 && (beside / 2.5e-3 - 1.0).abs() < 0.03);
+        assert!(hollow.is_hollow());
         assert_eq!(Slag::of(&[]), None);
     }
 }

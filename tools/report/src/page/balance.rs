@@ -4,7 +4,8 @@ use artefact::{Reader, Record};
 use run::Failure;
 
 use super::{Named, program};
-use crate::html::{Rows, beside, escape, figure, side_by_side};
+use crate::html::{Rows, beside, escape, figure, note, side_by_side};
+use crate::mirror::Mirror;
 use crate::plot::{Line, Plot};
 use crate::records::figure as digits;
 
@@ -16,6 +17,11 @@ pub(super) fn section(
 ) -> Result<String, Failure> {
     let mut out = String::new();
     if let Some(reader) = pool.filter(|r| r.has("/balance")) {
+        if Mirror::read(reader)?.is_some() {
+            out += &note(
+                "Half of the weld was computed: its masses and energies are those of the half.",
+            );
+        }
         out += &series(&reader.records("/balance")?);
     }
     if let Some(reader) = arc.filter(|r| r.has("/balance")) {

@@ -6,7 +6,7 @@ use run::Failure;
 use super::{encoding, grouped, tiles};
 use crate::html::{FRAME_WIDTH, chosen, figure, frames, note, picture, side_by_side};
 use crate::picture::bead::{self, Paint, View};
-use crate::picture::cross;
+use crate::picture::cross::{self, Published};
 use crate::plot::{Line, Plot};
 use crate::weld::{PARTICLES, Stretch, Weld};
 
@@ -18,6 +18,7 @@ pub(super) fn section(
     reader: &Reader,
     weld: &Weld,
     stretch: Option<&Stretch>,
+    published: Published,
 ) -> Result<String, Failure> {
     let mut body = String::new();
     if let Some(stretch) = stretch {
@@ -30,7 +31,7 @@ pub(super) fn section(
             ));
         }
     }
-    if weld.plate.mirror_x_m.is_some() {
+    if weld.mirror.is_some() {
         body += &note(
             "Half of this weld was computed, beside its mirror plane. It is shown and measured whole.",
         );
@@ -47,7 +48,7 @@ pub(super) fn section(
     let paint = Paint::of(&all);
     body += &views(weld, &paint)?;
     if let Some(stretch) = stretch {
-        body += &sections(weld, &paint, stretch)?;
+        body += &sections(weld, &paint, stretch, published)?;
         body += &along(stretch);
     }
     body += &growth(&course, weld, &paint)?;
@@ -123,11 +124,16 @@ fn views(weld: &Weld, paint: &Paint) -> Result<String, Failure> {
     Ok(out)
 }
 
-fn sections(weld: &Weld, paint: &Paint, stretch: &Stretch) -> Result<String, Failure> {
+fn sections(
+    weld: &Weld,
+    paint: &Paint,
+    stretch: &Stretch,
+    published: Published,
+) -> Result<String, Failure> {
     let mut out = String::new();
     if let Some(place) = stretch.place() {
         let (section, measures) = weld.section(place);
-        if let Some(canvas) = cross::across(weld, &section, &measures) {
+        if let Some(canvas) = cross::across(weld, &section, &measures, published) {
             let state = if stretch.frozen {
                 "in the middle of the frozen stretch"
             } else {
@@ -135,8 +141,13 @@ fn sections(weld: &Weld, paint: &Paint, stretch: &Stretch) -> Result<String, Fai
             };
             let caption = format!(
                 "Section across the weld at y = {:.1} mm, {state}. The green line encloses all metal that \
-                 has ever been liquid; arrows measure it from the dashed original surface.",
-                1e3 * place
+                 has ever been liquid; arrows measure it from the dashed original surface.{}",
+                1e3 * place,
+                if published == Published::default() {
+                    ""
+                } else {
+                    " Red lines are what was measured."
+                }
             )
             .replace("= -", "= \u{2212}");
             let image = picture(&canvas, &caption).map_err(|e| encoding(&e))?;

@@ -8,6 +8,7 @@ use artefact::{Reader, Record};
 use run::Failure;
 
 use crate::html::{Rows, escape};
+use crate::mirror::Mirror;
 use crate::records::figure as digits;
 
 /// An item: words, name in the balance of the arc, names in that of the pool with their sign as heat of the metal, and
@@ -78,7 +79,9 @@ pub(super) fn section(arc: &Reader, pool: &Reader) -> Result<String, Failure> {
     let Some((seconds, last)) = records.last() else {
         return Ok(String::new());
     };
-    Ok(table(&arc.record("/balance")?, last, *seconds))
+    // Half a weld takes half of the arc's heat.
+    let seconds = seconds / Mirror::times(pool)?;
+    Ok(table(&arc.record("/balance")?, last, seconds))
 }
 
 fn table(arc: &Record, pool: &Record, seconds: f64) -> String {

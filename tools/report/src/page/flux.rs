@@ -72,10 +72,10 @@ fn behind(last: &Flux) -> Result<String, Failure> {
     let points = slag.columns.iter().map(|column| column.map(|v| 1e3 * v));
     plot.add(Line::new("slag, molten or set", points.collect()).marked());
     let [middle, beside] = slag.middle_and_beside().map(|h| 1e3 * h);
-    let shape = if middle < beside {
-        "It is hollow there."
+    let shape = if slag.is_hollow() {
+        "It is hollow in the middle."
     } else {
-        "It is not hollow there."
+        "It is not hollow in the middle."
     };
     let caption = format!(
         "How thick the slag lies {words}, by the grains in each column as they lie, six tenths of the room filled: at most {:.1} mm, \

@@ -45,7 +45,7 @@ pub(super) fn section(reader: &Reader) -> Result<String, Failure> {
     }
     out += &course(&maps, &ways)?;
     if reader.has(MEAN) {
-        let caption = "The same, mean over the whole time. Behind the arc powder and slag give back what they took before it.";
+        let caption = "The same, mean over the whole time.";
         out += &drawn(&reader.table(MEAN)?, &ways, caption)?;
     }
     for channel in reader.channels() {

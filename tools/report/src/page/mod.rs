@@ -65,9 +65,13 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         None => None,
     };
     let stretch = weld.as_ref().and_then(Weld::bead);
+    let published = targets.as_ref().map(Targets::published).unwrap_or_default();
     let mut page = Page::new(&files.study, &lead(&records));
     if let (Some(reader), Some(weld)) = (&pool, &weld) {
-        page.section("The bead", bead::section(reader, weld, stretch.as_ref())?);
+        page.section(
+            "The bead",
+            bead::section(reader, weld, stretch.as_ref(), published)?,
+        );
         page.section("Thermocouples", probes::section(reader)?);
     }
     if let Some(body) = under_flux(pool.as_ref(), &records)? {

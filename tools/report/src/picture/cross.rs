@@ -13,6 +13,9 @@ use crate::weld::Weld;
 
 const FUSION: Rgb = hex(0x00_9e73);
 const GAUGE: Rgb = hex(0x00_3f7d);
+const MEASURED: Rgb = hex(0xd6_2828);
+/// Half of the length of a line of what was measured \[mm\].
+const MARK: f64 = 1.5;
 /// What is higher above the plate is not shown \[mm\].
 const CEILING: f64 = 12.0;
 /// What is smaller gets no gauge \[m\].
@@ -44,11 +47,41 @@ fn view(section: &Section, window: [f64; 2], up: [f64; 2], sides: [f64; 2]) -> V
     }
 }
 
-/// The section across the weld with penetration, width and height marked; nothing without metal.
-pub(crate) fn across(weld: &Weld, section: &Section, bead: &Bead) -> Option<Canvas> {
+/// A section that was measured, as far as it is known \[m\].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Published {
+    /// Depth of the fusion line below the plate's surface.
+    pub(crate) depth: Option<f64>,
+    /// Half of the width.
+    pub(crate) half_width: Option<f64>,
+    /// Height above the plate's surface.
+    pub(crate) height: Option<f64>,
+}
+
+impl Published {
+    /// Lines of its depth, its ends and its height around a centre \[mm\].
+    fn lines(&self, centre: f64) -> Vec<[[f64; 2]; 2]> {
+        let level = |z: f64| [[centre - MARK, 1e3 * z], [centre + MARK, 1e3 * z]];
+        let end = |x: f64| [[centre + 1e3 * x, -MARK], [centre + 1e3 * x, MARK]];
+        let levels = [self.depth.map(|d| -d), self.height];
+        let ends = self.half_width.into_iter().flat_map(|half| [-half, half]);
+        let levels = levels.into_iter().flatten().map(level);
+        levels.chain(ends.map(end)).collect()
+    }
+}
+
+/// The section across the weld with penetration, width and height marked, and those of one that was measured; nothing without metal.
+pub(crate) fn across(
+    weld: &Weld,
+    section: &Section,
+    bead: &Bead,
+    published: Published,
+) -> Option<Canvas> {
     let (across, up) = (extent(section, true)?, extent(section, false)?);
     let centre = 1e3 * weld.centre();
+    let measured = published.half_width.map_or(0.0, |half| 1e3 * half + 1.0);
     let half = (0.75 * 1e3 * bead.bead_width.max(bead.fused_width)).max(9.0);
+    let half = half.max(measured);
     let window = [across[0].max(centre - half), across[1].min(centre + half)];
     let mut v = view(section, window, [up[0], up[1] + 1.6], [120.0, 120.0]);
     let (metal, fused) = (section.metal.as_slice(), section.fused_fraction());
@@ -78,16 +111,24 @@ pub(crate) fn across(weld: &Weld, section: &Section, bead: &Bead) -> Option<Canv
         v.axes.pixel([window[1], 0.0]),
     );
     v.canvas.dashes(a, b, FAINT, 2.0);
+    let lines = published.lines(centre);
+    for [a, b] in &lines {
+        let [a, b] = [a, b].map(|at| v.axes.pixel(*at));
+        v.canvas.dashes(a, b, MEASURED, 4.0);
+    }
     gauges(&mut v.canvas, &v.axes, bead, centre);
     v.axes
         .draw(&mut v.canvas, "across the weld x [mm]", "height z [mm]");
     let below = v.axes.area.y + v.axes.area.h + 100.0;
-    let names = [
+    let mut names = vec![
         (PLATE, "plate"),
         (FROZEN, "fused metal"),
         (FUSION, "fusion line"),
         (FAINT, "original surface"),
     ];
+    if !lines.is_empty() {
+        names.push((MEASURED, "measured"));
+    }
     legend(&mut v.canvas, [120.0, below], &names);
     scale_bar(&mut v.canvas, [WIDTH as f64 - 440.0, below], v.scale);
     Some(v.canvas)

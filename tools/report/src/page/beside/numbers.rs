@@ -4,8 +4,8 @@ use artefact::RECORD;
 use run::Failure;
 
 use super::Member;
+use crate::figures;
 use crate::html::{Rows, escape};
-use crate::measure::bead::MEASURES;
 use crate::page::balance::bare;
 use crate::records::figure as digits;
 
@@ -59,11 +59,8 @@ pub(in crate::page) fn of(member: &Member) -> Result<Vec<Number>, Failure> {
                 value,
             });
         };
-        for measure in &MEASURES {
-            let found = stage.stretch.as_ref().and_then(|s| s.get(measure.name));
-            if let Some(found) = found {
-                take(BEAD, measure.name, measure.unit, found.value);
-            }
+        for measured in figures::of(&stage.reader, stage.stretch.as_ref())? {
+            take(BEAD, measured.name, measured.unit, measured.value);
         }
         for channel in stage.reader.channels() {
             if channel.schema == RECORD && channel.messages > 0 {

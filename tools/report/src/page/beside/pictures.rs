@@ -10,8 +10,9 @@ use crate::html::{figure, picture};
 use crate::page::{encoding, jet};
 use crate::picture::arc::Plasma;
 use crate::picture::bead::{self, Paint, View};
+use crate::picture::cross::{self, Published};
+use crate::picture::heat;
 use crate::picture::mean::{Field, Style, single};
-use crate::picture::{cross, heat};
 use crate::weld::Weld;
 
 /// Width of a picture where there are few \[px\], and where there are more.
@@ -71,7 +72,9 @@ fn welds(own: &[(&str, &Stage)]) -> Vec<Shown> {
         let section = place.map(|y| weld.section(y));
         let pictures = [
             bead::picture(weld, &paint, View::Above),
-            section.and_then(|(section, measures)| cross::across(weld, &section, &measures)),
+            section.and_then(|(section, measures)| {
+                cross::across(weld, &section, &measures, Published::default())
+            }),
             cross::along(weld, &paint),
         ];
         for (kind, canvas) in kinds.iter_mut().zip(pictures) {

@@ -6,6 +6,7 @@ use run::Failure;
 use serde::Deserialize;
 
 use crate::csv::rounded;
+use crate::figures;
 use crate::page::beside::numbers::{BEAD, Number};
 
 /// The record of a sweep.
@@ -128,6 +129,17 @@ impl Points {
             let mut row = Vec::new();
             for figure in &self.figures {
                 let found = figure.of(numbers).map_err(Failure::Other)?;
+                if let Some(name) = figure
+                    .from
+                    .bead
+                    .as_deref()
+                    .filter(|name| !figures::known(name))
+                {
+                    return Err(Failure::Other(format!(
+                        "figure '{}': no measure of a weld is called '{name}'",
+                        figure.name
+                    )));
+                }
                 let there = point.made.iter().any(|made| made.stage == figure.stage);
                 if found.is_none() && there && figure.from.record.is_some() {
                     return Err(Failure::Other(figure.missing(numbers)));
