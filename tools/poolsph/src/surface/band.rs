@@ -106,6 +106,7 @@ impl Band {
         for (&k, area) in self.rows.iter().zip(&self.areas) {
             patches[k as usize].seen = *area;
         }
+        reflect(cloud, patches);
         self.find_edges(cloud, spacing);
         // What stands beyond a face sees its part of the columns there.
         let beyond = |k: &u32| self.within[*k as usize];

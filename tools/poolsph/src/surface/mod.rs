@@ -142,7 +142,9 @@ impl Surface {
             .collect_into_vec(&mut coloured);
         self.band
             .complete(&cloud, self.kernel, self.metal.spacing, &mut coloured);
+        // Images stand behind their originals, under the same numbers, and are no particles of their own.
         let members = near.id.iter().zip(&near.role).zip(&coloured);
+        let members = members.take(near.len());
         let moved = members.filter(|((_, role), _)| **role != Role::Backing);
         let moved = moved.map(|((id, _), patch)| (*id as usize, *patch));
         let exposed = &mut self.exposed;

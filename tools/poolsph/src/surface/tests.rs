@@ -276,3 +276,66 @@ fn what_falls_on_cut_edges_is_taken_whole() {
         }
     }
 }
+
+/// Half of a shaken slab beside a mirror at x = 0, whose first layer stands `off` from it; and the whole of it.
+fn beside_mirror(off: f64) -> [State; 2] {
+    let mut places = Vec::new();
+    let mut count = 0;
+    for i in 0..7 {
+        for j in -6..6 {
+            for k in -5..0 {
+                count += 3;
+                let at = [f64::from(i) + off, f64::from(j) + 0.5, f64::from(k) + 0.5];
+                let shaken: [f64; 3] = std::array::from_fn(|c| at[c] + 0.1 * noise(count + c));
+                places.push([shaken[0].abs(), shaken[1], shaken[2]]);
+            }
+        }
+    }
+    let fill = |places: &[[f64; 3]]| {
+        let mut state = State::new(METAL);
+        patch::declare(&mut state.metal);
+        for position in places {
+            state.push(Particle {
+                position: *position,
+                velocity: [0.0; 3],
+                phase: phase::LIQUID,
+                droplet: false,
+                wall: false,
+                temperature: 0.0,
+                enthalpy: 0.0,
+            });
+        }
+        state
+    };
+    let mut half = fill(&places);
+    let faces: crate::faces::Parameters = serde_json::from_str(
+        r#"{"min_m": [0, -50, -50], "max_m": [50, 50, 50], "mirror": ["x-"]}"#,
+    )
+    .unwrap();
+    half.faces = faces.faces(METAL.support(), false).unwrap();
+    let images = places.iter().map(|[x, y, z]| [-x, *y, *z]);
+    let all: Vec<[f64; 3]> = places.iter().copied().chain(images).collect();
+    [half, fill(&all)]
+}
+
+#[test]
+fn half_beside_a_mirror_is_measured_as_the_whole_is() {
+    for off in [0.5, 0.3, 0.15, 0.05, 0.9] {
+        let [mut half, mut whole] = beside_mirror(off);
+        Surface::new(METAL).advance(&mut whole, 0.0).unwrap();
+        for flows in [false, true] {
+            half.flowing = flows;
+            if flows {
+                half.gather();
+            }
+            Surface::new(METAL).advance(&mut half, 0.0).unwrap();
+            for (a, (own, other)) in patches(&half).zip(patches(&whole)).enumerate() {
+                let what = format!("{off}, flows {flows}, particle {a}: {own:?} {other:?}");
+                assert!((own.area - other.area).abs() < 1e-4, "{what}");
+                assert!((own.seen - other.seen).abs() < 1e-4, "{what}");
+                let turned = dot(own.normal, other.normal) < 0.9999;
+                assert!(own.area <= 0.0 || !turned, "{what}");
+            }
+        }
+    }
+}
