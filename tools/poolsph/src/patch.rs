@@ -17,6 +17,10 @@ pub const AREA: Column<f64> = Column::new("area", "m2", 0.0).saved();
 pub const SEEN: Column<f64> = Column::new("seen", "m2", 0.0).saved();
 /// Distance to the surface along the normal \[m\].
 pub const DEPTH: Column<f64> = Column::new("depth", "m", 0.0).saved();
+/// What a particle claims of the plan before its columns are shared \[m2\].
+const CLAIM: Column<f64> = Column::new("claim", "m2", 0.0).saved();
+/// Sides at which the metal ends, a bit each.
+const SIDES: Column<u8> = Column::new("sides", "1", 0).saved();
 /// grad C \[1/m\].
 const GRADIENT: Column<[f64; 3]> = Column::new("colour_gradient", "1/m", [0.0; 3]).saved();
 
@@ -31,6 +35,10 @@ pub struct Patch {
     pub seen: f64,
     /// [`DEPTH`].
     pub depth: f64,
+    /// [`CLAIM`].
+    pub(crate) claim: f64,
+    /// [`SIDES`].
+    pub(crate) sides: u8,
     /// [`GRADIENT`].
     pub(crate) gradient: [f64; 3],
 }
@@ -73,6 +81,8 @@ pub struct Patches<'a> {
     pub seen: &'a [f64],
     /// [`DEPTH`].
     pub depth: &'a [f64],
+    claim: &'a [f64],
+    sides: &'a [u8],
     gradient: &'a [[f64; 3]],
 }
 
@@ -85,6 +95,8 @@ impl<'a> Patches<'a> {
             area: metal.column(&AREA),
             seen: metal.column(&SEEN),
             depth: metal.column(&DEPTH),
+            claim: metal.column(&CLAIM),
+            sides: metal.column(&SIDES),
             gradient: metal.column(&GRADIENT),
         }
     }
@@ -103,6 +115,8 @@ impl<'a> Patches<'a> {
             area: self.area[a],
             seen: self.seen[a],
             depth: self.depth[a],
+            claim: self.claim[a],
+            sides: self.sides[a],
             gradient: self.gradient[a],
         }
     }
@@ -114,16 +128,19 @@ pub fn declare(metal: &mut Set) {
     metal.declare(&AREA);
     metal.declare(&SEEN);
     metal.declare(&DEPTH);
+    metal.declare(&CLAIM);
+    metal.declare(&SIDES);
     metal.declare(&GRADIENT);
 }
 
 /// Gives particles their patches.
 pub(crate) fn put(metal: &mut Set, patches: impl Iterator<Item = (usize, Patch)>) {
-    let columns = (&NORMAL, &AREA, &SEEN, &DEPTH, &GRADIENT);
-    let (normal, area, seen, depth, gradient) = metal.columns_mut(columns);
+    let columns = (&NORMAL, &AREA, &SEEN, &DEPTH, &CLAIM, &SIDES, &GRADIENT);
+    let (normal, area, seen, depth, claim, sides, gradient) = metal.columns_mut(columns);
     for (a, patch) in patches {
         normal[a] = patch.normal;
         (area[a], seen[a], depth[a]) = (patch.area, patch.seen, patch.depth);
+        (claim[a], sides[a]) = (patch.claim, patch.sides);
         gradient[a] = patch.gradient;
     }
 }

@@ -49,3 +49,5 @@ several!(a a_values A, b b_values B);
 several!(a a_values A, b b_values B, c c_values C);
 several!(a a_values A, b b_values B, c c_values C, d d_values D);
 several!(a a_values A, b b_values B, c c_values C, d d_values D, e e_values E);
+several!(a a_values A, b b_values B, c c_values C, d d_values D, e e_values E, f f_values F);
+several!(a a_values A, b b_values B, c c_values C, d d_values D, e e_values E, f f_values F, g g_values G);

@@ -159,7 +159,7 @@ impl Set {
             .map_or(&mut [], Vec::as_mut_slice)
     }
 
-    /// Values of two to five columns, to be changed side by side; none of one that was not declared.
+    /// Values of two to seven columns, to be changed side by side; none of one that was not declared.
     #[must_use]
     pub fn columns_mut<C: Several>(&mut self, columns: C) -> C::Values<'_> {
         columns.of(&mut self.held)

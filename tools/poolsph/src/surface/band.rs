@@ -73,17 +73,19 @@ impl Band {
         }
     }
 
-    /// Completes the coloured `patches` of a cloud.
+    /// Completes the coloured `patches` of a cloud, but of those that `rest`: nothing around them has moved, and their patches are what
+    /// they were.
     pub(super) fn complete(
         &mut self,
         cloud: &Cloud<'_>,
         kernel: CubicSpline<3>,
         spacing: f64,
         patches: &mut Vec<Patch>,
+        rest: impl Fn(usize) -> bool + Sync,
     ) {
         let volume = spacing * spacing * spacing;
         let own = volume * kernel.value(0.0);
-        self.collect(patches, spacing);
+        self.collect(patches, spacing, &rest);
         self.reflect(cloud, patches);
         self.weigh(cloud, kernel, volume);
         for _ in 0..TURNS {
@@ -106,12 +108,18 @@ impl Band {
         for (&k, area) in self.rows.iter().zip(&self.areas) {
             patches[k as usize].seen = *area;
         }
+        self.find_edges(cloud, spacing, patches, &rest);
+        for &k in &self.rows {
+            let (open, patch) = (self.open[k as usize], &mut patches[k as usize]);
+            // At a sharp lower edge the normal of the last particle of a lattice looks down, though nothing lies above it.
+            let claim = open.claim(self.cell[0] * self.cell[1]);
+            (patch.claim, patch.sides) = (claim.unwrap_or(patch.seen), open.bits());
+        }
         reflect(cloud, patches);
-        self.find_edges(cloud, spacing);
-        // What stands beyond a face sees its part of the columns there.
-        let beyond = |k: &u32| self.within[*k as usize];
-        let images = cloud.places.len() - cloud.images.len()..cloud.places.len();
-        self.rows.extend(images.map(|k| k as u32).filter(beyond));
+        // What rests beside them and what stands beyond a face see their parts of the columns there.
+        let all = (0..cloud.places.len()).filter(|k| self.within[*k]);
+        self.rows.clear();
+        self.rows.extend(all.map(|k| k as u32));
         let stood = Stood {
             places: cloud.places,
             open: &self.open,
@@ -122,14 +130,22 @@ impl Band {
     }
 
     /// Where the metal ends, as seen from above.
-    fn find_edges(&mut self, cloud: &Cloud<'_>, spacing: f64) {
+    fn find_edges(
+        &mut self,
+        cloud: &Cloud<'_>,
+        spacing: f64,
+        patches: &[Patch],
+        rest: impl Fn(usize) -> bool + Sync,
+    ) {
         let own = cloud.places.len() - cloud.images.len();
         let within = &self.within;
         (0..own)
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|k| {
-                if within[k] {
+                if rest(k) {
+                    Open::of_bits(patches[k].sides)
+                } else if within[k] {
                     Open::of(cloud, k, spacing)
                 } else {
                     Open::default()
@@ -140,15 +156,15 @@ impl Band {
         images.complete(&mut self.open, |open, _, turn| open.turned(turn));
     }
 
-    /// The particles of the band, and what all have to begin with.
-    fn collect(&mut self, patches: &[Patch], spacing: f64) {
+    /// The particles of the band that do not rest, and what all have to begin with.
+    fn collect(&mut self, patches: &[Patch], spacing: f64, rest: impl Fn(usize) -> bool) {
         self.rows.clear();
         self.within.clear();
         self.gradients.clear();
         self.depths.clear();
         for (k, patch) in patches.iter().enumerate() {
             let within = patch.depth <= BAND * spacing;
-            if within {
+            if within && !rest(k) {
                 self.rows.push(k as u32);
             }
             self.within.push(within);

@@ -185,9 +185,7 @@ impl Tile {
     fn stand(&mut self, stood: &Stood<'_>, k: usize, patch: &Patch) {
         let ([x, y, z], open, spacing) = (stood.places[k], stood.open[k], stood.spacing);
         let (edge, reach) = (spacing / FINE, REACH * spacing);
-        // At a sharp lower edge the normal of the last particle of a lattice looks down, though nothing lies above it.
-        let claim = open.claim(stood.cell[0] * stood.cell[1]);
-        let claim = claim.unwrap_or(patch.seen);
+        let claim = patch.claim;
         let [west, south] = self.key.map(|key| key * EDGE);
         let here = |at, start: i64| {
             let (first, last) = columns(at, spacing).into_inner();
@@ -240,7 +238,7 @@ mod tests {
                 let patch = Patch {
                     normal: [0.0, 0.0, 1.0],
                     area: 1.0,
-                    seen,
+                    claim: seen,
                     depth: 0.5,
                     ..Patch::default()
                 };

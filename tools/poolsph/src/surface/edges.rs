@@ -37,6 +37,16 @@ const HIGHEST: u8 = 0b10_0000;
 pub(super) struct Open(u8);
 
 impl Open {
+    /// As a patch keeps it.
+    pub(super) fn of_bits(bits: u8) -> Self {
+        Self(bits)
+    }
+
+    /// For a patch to keep.
+    pub(super) fn bits(self) -> u8 {
+        self.0
+    }
+
     /// Those of particle `k` of a cloud.
     pub(super) fn of(cloud: &Cloud<'_>, k: usize, spacing: f64) -> Self {
         let (mut open, mut first, mut askew) = (0b1111, false, false);

@@ -113,8 +113,13 @@ impl Surface {
             .with_min_len(ROWS)
             .map(|k| self.colour(&cloud, k))
             .collect();
-        self.band
-            .complete(&cloud, self.kernel, self.metal.spacing, &mut coloured);
+        self.band.complete(
+            &cloud,
+            self.kernel,
+            self.metal.spacing,
+            &mut coloured,
+            |_| false,
+        );
         let none = (0..state.len()).map(|a| (a, Patch::default()));
         patch::put(&mut state.metal, none);
         patch::put(&mut state.metal, ids.into_iter().zip(coloured));
@@ -140,8 +145,9 @@ impl Surface {
                 _ => self.patch(near.number[k].max(own), near.gradient[k]),
             })
             .collect_into_vec(&mut coloured);
+        let rest = |k: usize| k < near.len() && near.role[k] == Role::Backing;
         self.band
-            .complete(&cloud, self.kernel, self.metal.spacing, &mut coloured);
+            .complete(&cloud, self.kernel, self.metal.spacing, &mut coloured, rest);
         // Images stand behind their originals, under the same numbers, and are no particles of their own.
         let members = near.id.iter().zip(&near.role).zip(&coloured);
         let members = members.take(near.len());

@@ -339,3 +339,44 @@ fn half_beside_a_mirror_is_measured_as_the_whole_is() {
         }
     }
 }
+
+#[test]
+fn what_falls_on_a_pool_within_a_plate_is_taken_whole() {
+    let mut state = State::new(METAL);
+    patch::declare(&mut state.metal);
+    let inside = |x: f64, z: f64| x.abs() < 3.0 && z > -2.0;
+    for i in -9..9 {
+        for j in -9..9 {
+            for k in -6..0 {
+                let position = [i, j, k].map(|n| f64::from(n) + 0.5);
+                state.push(Particle {
+                    position,
+                    velocity: [0.0; 3],
+                    phase: phase::SOLID,
+                    droplet: false,
+                    wall: false,
+                    temperature: 0.0,
+                    enthalpy: 0.0,
+                });
+            }
+        }
+    }
+    let mut stage = Surface::new(METAL);
+    stage.advance(&mut state, 0.0).unwrap();
+    let seen = |state: &State| patches(state).map(|p| p.seen).sum::<f64>();
+    assert!((seen(&state) / 324.0 - 1.0).abs() < 1e-12);
+    // A pool of two layers melts and stirs.
+    for a in 0..state.len() {
+        let [x, y, z] = state.metal.column(&POSITION)[a];
+        if inside(x, z) && inside(y, z) {
+            state.metal.column_mut(&PHASE)[a] = phase::LIQUID;
+            let shaken = [x, y, z].map(|c| c + 0.3 * noise(a + (7.0 * c) as usize));
+            state.metal.column_mut(&POSITION)[a] = shaken;
+        }
+    }
+    state.flowing = true;
+    state.gather();
+    stage.advance(&mut state, 0.0).unwrap();
+    let part = seen(&state) / 324.0;
+    assert!((part - 1.0).abs() < 2e-3, "{part}");
+}
