@@ -6,11 +6,14 @@
 //!
 //! Q_a is the heat that particle a has got since the start, by one way. So the flux of a cell is exact in time however far
 //! apart frames are, and a map loses nothing but what lies beyond it. w shares a particle between the four nearest
-//! cells, bilinearly, and in the outer half of a cell at the end between those along it: of an even flux on a lattice as fine as the cells each cell gets its own, and one that is coarser by a
-//! twentieth shows no more than half a per cent. Metal that flows is counted where it lies at the later frame.
+//! cells, bilinearly, and in the outer half of a cell at the end between those along it. Of an even flux on a lattice as fine
+//! as the cells each cell gets its own; one that is coarser by a twentieth shows no more than half a per cent, but for the
+//! cells at the end. Metal that flows is counted where it lies at the later frame.
 //!
 //! Particles are known by their numbers. One that was in no frame before counts from zero if it came from the wire, and
 //! else from the first frame that shows it: what it has got out of sight is not known.
+
+use std::collections::HashMap;
 
 use artefact::{Record, Table};
 
@@ -100,16 +103,20 @@ pub struct HeatMaps {
     /// Columns of the frames.
     ways: Vec<String>,
     pub(crate) sums: Sums,
+    /// Row of each particle among the sums, by its number.
+    rows: HashMap<u32, usize>,
 }
 
 /// What maps go on from.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Sums {
-    /// Number of the frame, from 1 on, that showed each particle last; 0 for none.
+    /// Numbers of the particles, in the order in which they were first seen, `[n]`.
+    pub(crate) ids: Vec<u32>,
+    /// Number of the frame, from 1 on, that showed each last, `[n]`.
     pub(crate) shown: Vec<u64>,
     /// Frames taken in.
     pub(crate) frames: u64,
-    /// Heat of each particle then \[J\], `[ways][ids]`.
+    /// Heat of each then \[J\], `[ways][n]`.
     pub(crate) last: Vec<Vec<f64>>,
     /// Heat of each cell in this interval, and since the first frame \[J\], `[ways][cells]`.
     pub(crate) cells: Vec<Vec<f64>>,
@@ -132,7 +139,18 @@ impl HeatMaps {
             whole: none,
             ..Sums::default()
         };
-        Self { layout, ways, sums }
+        Self {
+            layout,
+            ways,
+            sums,
+            rows: HashMap::new(),
+        }
+    }
+
+    /// Goes on from `sums` of an earlier run.
+    pub(crate) fn go_on(&mut self, sums: Sums) {
+        self.rows = sums.ids.iter().copied().zip(0..).collect();
+        self.sums = sums;
     }
 
     /// Takes in a frame at `time` \[s\]; gives the map of the interval that ends there, if one does.
@@ -157,6 +175,7 @@ impl HeatMaps {
     /// Gives each cell the heat that particles have got since the last frame.
     fn gather(&mut self, seen: &Received) {
         let Sums {
+            ids,
             shown,
             frames,
             last,
@@ -164,17 +183,20 @@ impl HeatMaps {
             whole,
             ..
         } = &mut self.sums;
-        let ids = seen.id.iter().max().map_or(0, |most| most + 1);
-        shown.resize(shown.len().max(ids), 0);
-        last.iter_mut()
-            .for_each(|heat| heat.resize(shown.len(), 0.0));
         for (n, id) in seen.id.iter().enumerate() {
-            let born = shown[*id] == 0 && seen.droplet[n];
-            let counts = *frames > 0 && (shown[*id] == *frames || born);
-            shown[*id] = *frames + 1;
+            let row = *self.rows.entry(*id).or_insert(ids.len());
+            let new = row == ids.len();
+            if new {
+                ids.push(*id);
+                shown.push(0);
+                last.iter_mut().for_each(|heat| heat.push(0.0));
+            }
+            let born = new && seen.droplet[n];
+            let counts = *frames > 0 && (shown[row] == *frames || born);
+            shown[row] = *frames + 1;
             for (way, heat) in seen.heat.iter().enumerate() {
-                let gained = heat[n] - last[way][*id];
-                last[way][*id] = heat[n];
+                let gained = heat[n] - last[way][row];
+                last[way][row] = heat[n];
                 if !counts || gained == 0.0 {
                     continue;
                 }
@@ -257,7 +279,8 @@ impl HeatMaps {
     #[must_use]
     pub fn bytes(&self, particles: usize) -> u64 {
         let heat = self.ways.len() * (2 * self.layout.len() + particles);
-        (8 * (heat + particles)) as u64
+        // Each particle's number, row and frame.
+        (8 * heat + 28 * particles) as u64
     }
 
     /// Bytes of a map before it is compressed, about.
@@ -292,7 +315,7 @@ mod tests {
             .collect();
         Received {
             mirror: None,
-            id: (0..place.len()).collect(),
+            id: (0..place.len() as u32).collect(),
             droplet: vec![false; place.len()],
             heat: vec![place.iter().map(|place| heat(*place)).collect()],
             place,
@@ -432,7 +455,7 @@ mod tests {
     #[test]
     fn metal_from_the_wire_counts_from_zero_and_what_comes_into_view_from_there_on() {
         let mut maps = maps(0.0);
-        let seen = |ids: &[usize], droplets: &[bool], heat: &[f64]| Received {
+        let seen = |ids: &[u32], droplets: &[bool], heat: &[f64]| Received {
             place: vec![[4.5e-3, 3.5e-3]; ids.len()],
             mirror: None,
             id: ids.to_vec(),

@@ -21,7 +21,7 @@ pub struct Received {
     /// x of the plane beyond which each has an image that gets the same, in the same frame of reference \[m\].
     pub mirror: Option<f64>,
     /// Numbers for life, `[n]`.
-    pub id: Vec<usize>,
+    pub id: Vec<u32>,
     /// Whether it has come from the wire, `[n]`.
     pub droplet: Vec<bool>,
     /// Heat since the start \[J\], `[ways][n]`.
@@ -41,7 +41,7 @@ impl Received {
     ) -> artefact::Result<Self> {
         let place = frame.position_vectors()?.into_iter();
         let heat: artefact::Result<_> = ways.iter().map(|way| frame.f64(way)).collect();
-        let id: Vec<usize> = frame.u32("id")?.iter().map(|id| *id as usize).collect();
+        let id = frame.u32("id")?.to_vec();
         Ok(Self {
             place: place
                 .map(|x| [x[0] - origin[0], x[1] - origin[1]])

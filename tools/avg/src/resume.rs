@@ -46,6 +46,8 @@ pub fn save(checkpoint: &mut Checkpoint, averaging: &Averaging<'_>, done: usize)
     }
     if let Some(maps) = &averaging.maps {
         let sums = &maps.sums;
+        let ids: Vec<u64> = sums.ids.iter().map(|id| u64::from(*id)).collect();
+        checkpoint.put_u64("heat.ids", &ids);
         checkpoint.put_u64("heat.shown", &sums.shown);
         checkpoint.put_u64("heat.frames", &[sums.frames]);
         checkpoint.put_f64("heat.times", &sums.times);
@@ -98,7 +100,8 @@ pub fn restore(checkpoint: &mut Checkpoint, averaging: &mut Averaging<'_>) -> Re
         restore_profile(checkpoint, profile)?;
     }
     if let Some(maps) = &mut averaging.maps {
-        restore_heat(checkpoint, &mut maps.sums)?;
+        let sums = restore_heat(checkpoint, &maps.sums)?;
+        maps.go_on(sums);
     }
     let done = checkpoint.u64("done")?;
     Ok(done.first().map_or(0, |n| narrow(*n) as usize))
@@ -171,22 +174,24 @@ fn restore_profile(checkpoint: &mut Checkpoint, profile: &mut Profile) -> Result
     Ok(())
 }
 
-fn restore_heat(checkpoint: &mut Checkpoint, sums: &mut Sums) -> Result<()> {
-    let (ways, cells) = (sums.cells.len(), sums.cells.concat().len());
+fn restore_heat(checkpoint: &mut Checkpoint, fresh: &Sums) -> Result<Sums> {
+    let (ways, cells) = (fresh.cells.len(), fresh.cells.concat().len());
+    let ids = checkpoint.u64("heat.ids")?;
     let shown = checkpoint.u64("heat.shown")?;
     let frames = checkpoint.u64("heat.frames")?;
     let times = checkpoint.f64("heat.times")?;
-    let heats = ["heat.last", "heat.cells", "heat.whole"].map(|name| checkpoint.f64(name));
-    let [last, own, whole] = heats;
-    let (last, own, whole) = (last?, own?, whole?);
+    let last = checkpoint.f64("heat.last")?;
+    let own = checkpoint.f64("heat.cells")?;
+    let whole = checkpoint.f64("heat.whole")?;
     let found = [
+        shown.len(),
         frames.len(),
         times.len(),
         last.len(),
         own.len(),
         whole.len(),
     ];
-    let expected = [1, sums.times.len(), ways * shown.len(), cells, cells];
+    let expected = [ids.len(), 1, 3, ways * ids.len(), cells, cells];
     if found != expected {
         return Err(Error::Damaged {
             path: "checkpoint".into(),
@@ -200,10 +205,15 @@ fn restore_heat(checkpoint: &mut Checkpoint, sums: &mut Sums) -> Result<()> {
             .map(|way| all[way * each..(way + 1) * each].to_vec())
             .collect()
     };
-    sums.times.copy_from_slice(&times);
-    (sums.frames, sums.shown) = (frames[0], shown);
-    (sums.last, sums.cells, sums.whole) = (by_way(&last), by_way(&own), by_way(&whole));
-    Ok(())
+    Ok(Sums {
+        ids: ids.into_iter().map(narrow).collect(),
+        shown,
+        frames: frames[0],
+        last: by_way(&last),
+        cells: by_way(&own),
+        whole: by_way(&whole),
+        times: [times[0], times[1], times[2]],
+    })
 }
 
 /// Moments from their counts and their pairs of mean and squares.
