@@ -246,14 +246,18 @@ mod tests {
         (position, fused)
     }
 
-    fn found(half: f64, deep: f64, high: f64, shift: f64) -> Bead {
-        let (position, fused) = weld(half, deep, high, shift);
+    fn of(position: &[[f64; 3]], fused: &[f64]) -> Bead {
         let metal = Metal {
-            position: &position,
-            fused: &fused,
+            position,
+            fused,
             spacing: D,
         };
         measure(&Section::cut(&metal, Plane::Across, 0.0), 0.0, D)
+    }
+
+    fn found(half: f64, deep: f64, high: f64, shift: f64) -> Bead {
+        let (position, fused) = weld(half, deep, high, shift);
+        of(&position, &fused)
     }
 
     #[test]
@@ -302,12 +306,7 @@ mod tests {
                     }
                 }
             }
-            let metal = Metal {
-                position: &position,
-                fused: &fused,
-                spacing: D,
-            };
-            let bead = measure(&Section::cut(&metal, Plane::Across, 0.0), 0.0, D);
+            let bead = of(&position, &fused);
             let exact = (3e-3_f64 / half).atan().to_degrees();
             assert!(
                 (bead.toe_angle - exact).abs() < 3.0,
@@ -340,12 +339,7 @@ mod tests {
         let (mut position, mut fused) = weld(1e-9, 1e-9, 1e-9, 0.0);
         position.push([0.0, 0.0, 4e-3]);
         fused.push(1.0);
-        let metal = Metal {
-            position: &position,
-            fused: &fused,
-            spacing: D,
-        };
-        let bead = measure(&Section::cut(&metal, Plane::Across, 0.0), 0.0, D);
+        let bead = of(&position, &fused);
         assert!(
             bead.penetration == 0.0 && bead.fused_width == 0.0,
             "{bead:?}"
@@ -358,12 +352,6 @@ mod tests {
 
     #[test]
     fn nothing_measures_nothing() {
-        let metal = Metal {
-            position: &[],
-            fused: &[],
-            spacing: D,
-        };
-        let bead = measure(&Section::cut(&metal, Plane::Across, 0.0), 0.0, D);
-        assert_eq!(bead, Bead::default());
+        assert_eq!(of(&[], &[]), Bead::default());
     }
 }

@@ -20,6 +20,9 @@ const LONG: f64 = 4e-3;
 const MIDDLE: f64 = 2e-3;
 const BESIDE: f64 = 8e-3;
 
+/// More columns to either side than this are of grains that are none.
+const COLUMNS_MOST: f64 = 1e5;
+
 /// Slag in a section across the weld.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Slag {
@@ -52,7 +55,11 @@ impl Slag {
     fn of(slag: &[[f64; 2]]) -> Option<Self> {
         let wide = 2.0 * slag.iter().map(|[_, radius]| radius).sum::<f64>() / slag.len() as f64;
         let far = slag.iter().map(|[x, _]| x.abs()).reduce(f64::max)?;
-        let half = (far.max(BESIDE) / wide).ceil() as usize;
+        let half = (far.max(BESIDE) / wide).ceil();
+        if half > COLUMNS_MOST {
+            return None;
+        }
+        let half = half as usize;
         let mut columns: Vec<[f64; 2]> = (0..2 * half)
             .map(|k| [(k as f64 + 0.5 - half as f64) * wide, 0.0])
             .collect();
@@ -139,5 +146,6 @@ mod tests {
         assert!((middle / 1e-3 - 1.0).abs() < 0.03 && (beside / 2.5e-3 - 1.0).abs() < 0.03);
         assert!(hollow.is_hollow());
         assert_eq!(Slag::of(&[]), None);
+        assert_eq!(Slag::of(&[[1e-3, 0.0]]), None);
     }
 }

@@ -5,8 +5,7 @@ use artefact::Table;
 use super::{WIDTH, bar_beside, quantile, scale_bar};
 use crate::draw::axes::{Axes, Scale};
 use crate::draw::canvas::Canvas;
-use crate::draw::colour::INK;
-use crate::draw::colour::Map;
+use crate::draw::colour::{INK, Map};
 use crate::draw::letters::{Hand, Stand, write};
 
 /// A way of heat.
@@ -41,6 +40,8 @@ const fn way(column: &'static str, words: &'static str, sign: f64) -> Way {
 const TOLD: f64 = 0.97;
 /// Pixels left of a map, and right of it with its colours.
 const SIDES: [f64; 2] = [110.0, 180.0];
+/// Most pixels across the weld.
+const HIGH: f64 = 900.0;
 /// Pixels above and below a map.
 const ENDS: [f64; 2] = [56.0, 104.0];
 
@@ -85,16 +86,18 @@ impl Cells<'_> {
 /// A moment of several ways, two beside each other, each with its colours. Nothing without cells.
 pub(crate) fn beside(map: &Table, shown: &[(Way, Scale)]) -> Option<Canvas> {
     let centres = [map.axis("x_m").ok()?, map.axis("y_m").ok()?];
-    let [[first, second, ..], [along, ..]] = centres else {
+    let [[first, ..], [along, ..]] = centres else {
         return None;
     };
-    let side = 1e3 * (second - first);
+    let step = |centres: &[f64]| Some(centres.get(1)? - centres[0]);
+    // A map of one cell has no side.
+    let side = 1e3 * step(centres[0]).or_else(|| step(centres[1]))?;
     let corner = [first, along].map(|centre| 1e3 * centre - 0.5 * side);
     let size = centres.map(<[f64]>::len);
     let [x, y] = [0, 1].map(|k| [corner[k], corner[k] + size[k] as f64 * side]);
     let columns = shown.len().min(2);
     let wide = WIDTH as f64 / columns as f64 - SIDES[0] - SIDES[1];
-    let scale = wide / (y[1] - y[0]);
+    let scale = (wide / (y[1] - y[0])).min(HIGH / (x[1] - x[0]));
     let pitch = scale * (x[1] - x[0]) + ENDS[0] + ENDS[1];
     let rows = shown.len().div_ceil(2);
     let mut canvas = Canvas::new(WIDTH, (rows as f64 * pitch + 60.0) as usize);
@@ -159,10 +162,13 @@ mod tests {
         let maps = [map([0.0, 3e5, -3e5, 0.0])];
         let shown = [(WAYS[0], scale(&maps, WAYS[0]).unwrap())];
         let canvas = beside(&maps[0], &shown).unwrap();
-        // 735 pixels each: along the weld to the right, x downwards. The second value lies further along, the third further across.
-        let [gain, loss] = [[1212, 423], [477, 1158]].map(|[x, y]| canvas.get(x, y).unwrap());
+        // 450 pixels each: along the weld to the right, x downwards. The second value lies further along, the third further across.
+        let [gain, loss] = [[785, 281], [335, 731]].map(|[x, y]| canvas.get(x, y).unwrap());
         assert!(gain[0] > gain[2] + 0.3, "{gain:?}");
         assert!(loss[2] > loss[0] + 0.3, "{loss:?}");
         assert!(beside(&Table::new(2), &shown).is_none());
+        let row = Table::grid(&[("x_m", "m", &[0.0]), ("y_m", "m", &[0.5e-3, 1.5e-3])]);
+        let row = row.column("from_powder_w_m2", "W/m2", [1e5, 2e5]);
+        assert!(beside(&row, &shown).is_some());
     }
 }
