@@ -37,9 +37,11 @@ enum Scene {
     Liquid,
     /// A liquid that swings between faces.
     Basin,
+    /// Two drops that become one.
+    Drops,
 }
 
-const SCENES: [Scene; 8] = [
+const SCENES: [Scene; 9] = [
     Scene::Drop,
     Scene::Weld,
     Scene::Heat,
@@ -48,6 +50,7 @@ const SCENES: [Scene; 8] = [
     Scene::Charges,
     Scene::Liquid,
     Scene::Basin,
+    Scene::Drops,
 ];
 
 impl Scene {
@@ -61,6 +64,7 @@ impl Scene {
             Self::Charges => "charges.json",
             Self::Liquid => "liquid.json",
             Self::Basin => "basin.json",
+            Self::Drops => "drops.json",
         };
         Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("resume")
@@ -71,7 +75,7 @@ impl Scene {
         match self {
             Self::Drop | Self::Weld => "poolsph",
             Self::Heat | Self::Rod => "heatsph",
-            Self::Field | Self::Charges | Self::Liquid | Self::Basin => "emfield",
+            Self::Field | Self::Charges | Self::Liquid | Self::Basin | Self::Drops => "emfield",
         }
     }
 
@@ -128,6 +132,7 @@ impl Scene {
                 Self::Field | Self::Charges => enters(&reader),
                 Self::Liquid => swings(&reader),
                 Self::Basin => sloshes(&reader),
+                Self::Drops => meet(&reader),
             }
             Straight {
                 bytes,
@@ -169,6 +174,13 @@ fn swings(reader: &Reader) {
     let last = rows.len() - 1;
     assert!(at(0, "axis_ratio") - at(last, "axis_ratio") > 0.01);
     assert!(at(last, "centre_z") < -1e-5);
+}
+
+/// The drops must become one.
+fn meet(reader: &Reader) {
+    let rows = reader.records("/liquid").unwrap();
+    let drops = |i: usize| rows[i].1.get("drops").unwrap() as u32;
+    assert_eq!((drops(0), drops(rows.len() - 1)), (2, 1));
 }
 
 /// The surface must rise and fall.

@@ -106,7 +106,7 @@ impl Case for LiquidStretched {
 }
 
 /// Greatest rise of an energy above what it was before, over the first.
-fn back(energy: &[f64]) -> f64 {
+pub(super) fn back(energy: &[f64]) -> f64 {
     let (mut least, mut most) = (energy[0], 0.0_f64);
     for e in energy {
         least = least.min(*e);

@@ -81,6 +81,7 @@ mod liquid_leaky;
 mod liquid_levitation;
 mod liquid_rest;
 mod liquid_sessile;
+mod liquid_split;
 mod liquid_stretched;
 mod pool_dimple;
 mod pool_drop_oscillation;
@@ -245,5 +246,6 @@ fn liquids() -> Vec<Box<dyn Case>> {
         Box::new(liquid_levitation::LiquidLevitation),
         Box::new(liquid_sessile::LiquidSessile),
         Box::new(liquid_stretched::LiquidStretched),
+        Box::new(liquid_split::LiquidSplit),
     ]
 }

@@ -4,6 +4,7 @@
 
 pub mod air;
 pub mod balance;
+mod cell;
 mod chart;
 pub mod drift;
 pub mod effort;
@@ -12,6 +13,7 @@ pub mod equilibrium;
 pub mod fill;
 pub mod follow;
 pub mod friction;
+pub mod groups;
 pub mod heat;
 pub mod magnetic;
 pub mod matter;

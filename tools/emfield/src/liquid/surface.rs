@@ -3,6 +3,7 @@
 use neighbours::Tree;
 use rayon::prelude::*;
 
+use super::cell::{Bisector, cell, twice};
 use super::chart::{Chart, Frame, Near, exponents};
 use super::vector::{along, difference, direction, dot, length, spatial};
 
@@ -281,38 +282,11 @@ fn area<const D: usize>(
         }
         return 0.5 * (ahead + behind);
     }
-    let mut neighbours: Vec<[f64; 2]> = flat.collect();
-    neighbours.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
-    let far = neighbours.last().map_or(0.0, |p| p[0].hypot(p[1]));
-    let mut cell = vec![[-far, -far], [far, -far], [far, far], [-far, far]];
-    let mut next = Vec::new();
-    for p in &neighbours {
-        let half = 0.5 * (p[0] * p[0] + p[1] * p[1]);
-        let beyond = |q: &[f64; 2]| q[0] * p[0] + q[1] * p[1] - half;
-        next.clear();
-        for (k, a) in cell.iter().enumerate() {
-            let b = cell[(k + 1) % cell.len()];
-            let (u, v) = (beyond(a), beyond(&b));
-            if u <= 0.0 {
-                next.push(*a);
-            }
-            if (u < 0.0) != (v < 0.0) && (u > 0.0) != (v > 0.0) {
-                let t = u / (u - v);
-                next.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
-            }
-        }
-        std::mem::swap(&mut cell, &mut next);
-        if cell.is_empty() {
-            return 0.0;
-        }
-    }
-    let twice: f64 = (0..cell.len())
-        .map(|k| {
-            let (a, b) = (cell[k], cell[(k + 1) % cell.len()]);
-            a[0] * b[1] - a[1] * b[0]
-        })
-        .sum();
-    0.5 * twice
+    let bisectors = flat.map(|way| Bisector {
+        way,
+        half: 0.5 * (way[0] * way[0] + way[1] * way[1]),
+    });
+    0.5 * twice(&cell(bisectors.collect()))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use shapes::Shape;
 use shapes::check::{self, Misfit};
 
 use super::faults::PLACE;
-use super::{Domain, Faces, Geometry, LiquidHeat, MagneticField, Scene};
+use super::{Domain, Faces, Geometry, Groups, LiquidHeat, MagneticField, Scene};
 
 /// How the liquid moves in time.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
@@ -98,6 +98,8 @@ pub struct Liquid {
     #[serde(default = "order")]
     #[schemars(range(min = 2, max = 3))]
     pub order: u8,
+    /// Drops that meet and part; none do when it is absent.
+    pub groups: Option<Groups>,
     /// Electric field in which it moves; none when it is absent.
     pub electric: Option<ElectricField>,
     /// Alternating magnetic field in which it moves or rests; none when it is absent.
@@ -151,6 +153,9 @@ impl Liquid {
                 let what = "\"march\" and \"equilibrium\" exclude each other";
                 misfits.push(Misfit::at("/liquid/equilibrium", what));
             }
+        }
+        if self.groups.is_some() {
+            Groups::check(self, misfits);
         }
         if let Some(electric) = &self.electric {
             self.check_electric(electric, misfits);

@@ -1,6 +1,7 @@
 //! The scene: a domain, bodies in it, points, and what acts: electrostatics, eddy currents or both.
 
 pub(crate) mod faults;
+mod groups;
 
 pub mod alternating;
 pub mod currents;
@@ -21,6 +22,7 @@ pub use alternating::MagneticField;
 pub use currents::{Amplitude, Coil, EddyCurrents, ElectricPotential, Magnet};
 pub use domain::{BodyScene, Domain, Geometry, Medium};
 pub use faces::Faces;
+pub use groups::Groups;
 pub use liquid::{ElectricField, Equilibrium, Liquid, LiquidMarch};
 pub use method::{Interfaces, Method, Solver};
 pub use output::Output;

@@ -6,6 +6,7 @@ mod between;
 mod field;
 mod heat;
 mod lifted;
+mod meet;
 mod stretched;
 
 use std::f64::consts::PI;

@@ -26,10 +26,14 @@ mod runs;
 pub(crate) mod sweep;
 
 use artefact::{Reader, Record};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use run::Failure;
 
+use crate::draw::canvas::Canvas;
+use crate::draw::film::film;
 use crate::files::{PageFiles, save};
-use crate::html::{Page, escape, paragraph};
+use crate::html::{Page, enlarging, escape, paragraph};
 use crate::records::RunRecord;
 use crate::targets::Targets;
 use crate::weld::Weld;
@@ -39,6 +43,24 @@ type Named = (String, RunRecord);
 
 /// An artefact with what the page calls it.
 type Read = (String, Reader);
+
+/// Each picture of a film is shown so long \[ms\].
+const SHOWN: u16 = 100;
+
+/// Pictures as one that moves, and what they show in words.
+fn moving(pictures: &[Canvas], words: &str) -> Result<String, Failure> {
+    let Some(first) = pictures.first() else {
+        return Ok(String::new());
+    };
+    let data = film(pictures, SHOWN).map_err(|e| encoding(&e))?;
+    Ok(enlarging(&format!(
+        "<img class=\"picture\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
+        first.width,
+        first.height,
+        escape(words),
+        STANDARD.encode(data)
+    )))
+}
 
 /// Writes the page of a study.
 pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {

@@ -3,6 +3,7 @@
 pub(crate) mod arc;
 pub(crate) mod bead;
 pub(crate) mod cross;
+pub(crate) mod drops;
 pub(crate) mod field;
 pub(crate) mod flux;
 pub(crate) mod heat;

@@ -57,6 +57,7 @@ pub(crate) fn lacks(mut plan: Plan, part: &Part) -> Plan {
             "surface_tension_n_m",
         ),
         (part.gravity_m_s2.is_none(), "gravity", "gravity_m_s2"),
+        (part.groups.is_none(), "drops that meet", "groups"),
     ] {
         if absent {
             plan = plan.left_out(name, &format!("no key '{key}' of 'liquid'"));

@@ -2,6 +2,7 @@
 
 pub(crate) mod alternating;
 pub(crate) mod between;
+pub(crate) mod groups;
 pub(crate) mod matter;
 pub(crate) mod rest;
 
@@ -177,6 +178,10 @@ pub(crate) fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
         None => plan.left_out("magnetic field", "no key 'magnetic' of 'liquid'"),
     };
     plan = warmed(plan, part.heat.as_ref());
+    if part.groups.is_some() {
+        let drops = groups::start(scene, part)?.drops.len();
+        plan = plan.stage("groups").count("drops", drops as u64);
+    }
     Ok(lacks(plan, part))
 }
 

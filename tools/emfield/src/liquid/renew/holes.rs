@@ -21,8 +21,8 @@ const HOPELESS: f64 = 0.55;
 const ROUNDS: usize = 4;
 
 /// A search for holes.
-pub(super) struct Holes {
-    pub(super) spacing: f64,
+pub(in crate::liquid) struct Holes {
+    pub(in crate::liquid) spacing: f64,
 }
 
 /// A place and the room about it.
@@ -74,7 +74,7 @@ impl Holes {
     }
 
     /// Those inside, of the points of the surface and the others.
-    pub(super) fn inside<const D: usize>(
+    pub(in crate::liquid) fn inside<const D: usize>(
         &self,
         skin: &[Seat<D>],
         inner: &[[f64; D]],

@@ -8,7 +8,7 @@
 //! Differences from (2.56) to (2.59): a pair is not told by its distance alone, which any even lattice has at its diagonals, but by the
 //! room about its middle; and one of two is not removed, but both are replaced.
 
-mod holes;
+pub(super) mod holes;
 
 #[cfg(test)]
 mod tests;
@@ -133,7 +133,7 @@ impl<const D: usize> Liquid<D> {
         change
     }
 
-    fn seat(&self, i: usize) -> Seat<D> {
+    pub(super) fn seat(&self, i: usize) -> Seat<D> {
         Seat {
             place: self.position[i],
             normal: self.normal[i],
@@ -256,7 +256,7 @@ fn rebuilt<T: Copy>(
 }
 
 /// Values of fits at places among points.
-fn valued<const D: usize>(
+pub(super) fn valued<const D: usize>(
     points: &[[f64; D]],
     places: &[[f64; D]],
     way: &Way,

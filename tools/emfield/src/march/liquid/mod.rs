@@ -3,6 +3,7 @@
 pub(crate) mod acting;
 pub(crate) mod between;
 mod course;
+mod groups;
 pub(crate) mod heated;
 
 use artefact::{Checkpoint, Precision};
@@ -11,6 +12,7 @@ use run::{Failure, Session};
 use self::acting::Acting;
 use self::between::between;
 use self::course::Course;
+use self::groups::groups;
 use self::heated::Heated;
 use crate::assemble::liquid::matter::{matter, way};
 use crate::assemble::liquid::{fastest, filled, start, steps};
@@ -68,6 +70,9 @@ pub(crate) fn flow(
             Geometry::Space => between::<3>(scene, part, faces, marched, session),
             _ => between::<2>(scene, part, faces, marched, session),
         };
+    }
+    if let Some(given) = &part.groups {
+        return groups(scene, part, given, marched, session);
     }
     let filled = session.timed("points", || filled(scene, part))?;
     let mut liquid = start(part, filled)?;

@@ -1,20 +1,15 @@
 //! Films of the runs, and pictures out of them.
 
 use ::run::Failure;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 
 use super::run::Run;
 use crate::draw::canvas::Canvas;
-use crate::draw::film::film;
-use crate::html::{FRAME_WIDTH, chosen, enlarging, escape, figure, frames};
-use crate::page::encoding;
+use crate::html::{FRAME_WIDTH, chosen, escape, figure, frames};
+use crate::page::{encoding, moving};
 use crate::picture::jet;
 
 /// Most pictures of a film.
 const MOST: usize = 60;
-/// Each is shown so long \[ms\].
-const SHOWN: u16 = 100;
 
 /// The section.
 pub(super) fn section(runs: &[Run]) -> Result<String, Failure> {
@@ -30,21 +25,13 @@ pub(super) fn section(runs: &[Run]) -> Result<String, Failure> {
             .iter()
             .map(|index| one(run, *index))
             .collect::<Result<Vec<_>, _>>()?;
-        let data = film(&pictures, SHOWN).map_err(|e| encoding(&e))?;
         let words = format!(
             "{}: water green, solid red, broken blue, plate yellow",
             run.name
         );
-        let moving = format!(
-            "<img class=\"picture\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
-            pictures[0].width,
-            pictures[0].height,
-            escape(&words),
-            STANDARD.encode(data)
-        );
         body += &format!("<h3>{}</h3>\n", escape(&run.name));
         body += &figure(
-            &enlarging(&moving),
+            &moving(&pictures, &words)?,
             &format!("{words}; {} pictures.", pictures.len()),
         );
         let still = chosen(pictures.len()).into_iter().map(|i| {

@@ -1,5 +1,7 @@
 //! The page of a study of drops: their motion, radii, modes and energies over time, and shapes at rest.
 
+mod groups;
+
 use std::f64::consts::PI;
 
 use artefact::{Reader, Record};
@@ -88,6 +90,8 @@ fn curves(runs: &[Run]) -> String {
     let mut figures = Vec::new();
     for (title, names, unit) in [
         ("radii", &["radius_x", "radius_y", "radius_z"][..], "m"),
+        ("lengths", &["extent_x", "extent_y", "extent_z"][..], "m"),
+        ("drops", &["drops", "parcels"][..], "1"),
         ("modes", &["mode_2", "mode_3", "mode_4"][..], "m"),
         ("energies", &["kinetic_energy", "surface_energy"][..], "J"),
         ("height of the centre", &["centre_z"][..], "m"),
@@ -148,6 +152,10 @@ fn outlines(runs: &[Run]) -> Result<String, Failure> {
 fn motion(runs: &[Run]) -> Result<String, Failure> {
     let mut figures = Vec::new();
     for run in runs {
+        if let Some(film) = groups::film(&run.name, &run.reader)? {
+            figures.push(film);
+            continue;
+        }
         let count = run.reader.count("/surface");
         if count < 3 {
             continue;

@@ -1,0 +1,131 @@
+//! Drops that have become too thin part.
+
+use run::Failure;
+
+use super::hull::HALF;
+use super::level::{Level, Rim, both};
+use super::necks::{Pieces, pieces};
+use super::reshape::reshaped;
+use super::{Group, Groups, Parcel, Rule};
+use crate::liquid::effort::failed;
+use crate::liquid::matter::Way;
+use crate::liquid::points::Liquid;
+use crate::liquid::vector::{along, difference};
+
+/// The same where the cap of a part goes over into its old surface.
+const EDGE: f64 = 0.4;
+/// Spacings that caps reach beyond the deep points of their part, and that the caps of two parts keep from each other.
+const CAP: f64 = 1.6;
+const GAP: f64 = 1.0;
+
+impl Groups {
+    /// Lets drops part; how many parts and parcels came of them.
+    ///
+    /// # Errors
+    /// Where surfaces or what new points carry cannot be fitted.
+    pub fn part(&mut self, rule: &Rule, way: &Way) -> Result<u64, Failure> {
+        let mut all = Groups::default();
+        let mut parted = 0;
+        for group in std::mem::take(&mut self.drops) {
+            match group.parts(rule, way)? {
+                None => all.drops.push(group),
+                Some(parts) => {
+                    parted += (parts.drops.len() + parts.parcels.len()) as u64;
+                    all.drops.extend(parts.drops);
+                    self.parcels.extend(parts.parcels);
+                }
+            }
+        }
+        self.drops = all.drops;
+        Ok(parted)
+    }
+}
+
+impl Group {
+    /// What it parts into; none where it holds together.
+    fn parts(&self, rule: &Rule, way: &Way) -> Result<Option<Groups>, Failure> {
+        let spacing = way.spacing;
+        let patches = self.liquid.skin(spacing).map_err(|e| failed(&e))?;
+        let level = Level::new(&self.liquid.position[..patches.len()], &patches, spacing);
+        let Some(pieces) = pieces(&self.liquid, &level, rule.part, spacing) else {
+            return Ok(None);
+        };
+        let mut parts = Groups::default();
+        let mut loose = pieces.between.clone();
+        for piece in 0..pieces.cores.len() {
+            let rim = Rim {
+                height: |x: &[f64; 3]| {
+                    let cap = cap(&pieces, piece, x, spacing);
+                    both(level.height(x), cap, EDGE * spacing)
+                },
+                spacing,
+            };
+            let liquid = reshaped(&self.liquid, &rim)?;
+            match liquid.and_then(|l| Group::new(l, spacing)) {
+                Some(group) => parts.drops.push(group),
+                None => loose.push(pieces.about(piece, &self.liquid)),
+            }
+        }
+        let surface = self.liquid.surface();
+        parts.parcels = loose
+            .iter()
+            .map(|points| Parcel::of(&self.liquid, points, surface, spacing))
+            .collect();
+        self.share(&mut parts);
+        Ok(Some(parts))
+    }
+
+    /// Gives parts the volume, the centre and the momentum that there were.
+    fn share(&self, parts: &mut Groups) {
+        let strewn: f64 = parts.parcels.iter().map(|p| p.volume).sum();
+        let rest: f64 = parts.drops.iter().map(|g| g.volume).sum();
+        let larger = if rest > 0.0 {
+            (self.volume - strewn) / rest
+        } else {
+            1.0
+        };
+        parts.drops.iter_mut().for_each(|g| g.volume *= larger);
+        let mut whole = (0.0, [0.0; 3], [0.0; 3]);
+        let drops = parts.drops.iter().map(|g| (g.volume, g.centre, g.drift));
+        let strewn = parts.parcels.iter().map(|p| (p.volume, p.centre, p.drift));
+        for (v, x, u) in drops.chain(strewn) {
+            whole.0 += v;
+            whole.1 = along(&whole.1, v, &x);
+            whole.2 = along(&whole.2, v, &u);
+        }
+        let [aside, lack] = [(self.centre, whole.1), (self.drift, whole.2)]
+            .map(|(kept, sum)| difference(&kept, &sum.map(|c| c / whole.0)));
+        for group in &mut parts.drops {
+            group.centre = along(&group.centre, 1.0, &aside);
+            group.drift = along(&group.drift, 1.0, &lack);
+        }
+        for parcel in &mut parts.parcels {
+            parcel.centre = along(&parcel.centre, 1.0, &aside);
+            parcel.drift = along(&parcel.drift, 1.0, &lack);
+        }
+    }
+}
+
+/// How far a place lies beyond the cap of a piece \[m\]: from its deep points, and from the middle between it and the others.
+fn cap(pieces: &Pieces, piece: usize, x: &[f64; 3], spacing: f64) -> f64 {
+    let [own, others] = pieces.far(piece, x);
+    let reach = own - CAP * spacing;
+    reach.max(0.5 * (own - others + GAP * spacing))
+}
+
+impl Parcel {
+    /// What some points of a liquid stand for.
+    fn of(liquid: &Liquid<3>, points: &[usize], surface: usize, spacing: f64) -> Self {
+        let share = |i: usize| if i < surface { HALF } else { 1.0 };
+        let whole: f64 = points.iter().map(|&i| share(i)).sum();
+        let mean = |field: &[[f64; 3]]| {
+            let each = points.iter();
+            each.fold([0.0; 3], |sum, &i| along(&sum, share(i) / whole, &field[i]))
+        };
+        Self {
+            volume: whole * spacing.powi(3),
+            centre: mean(&liquid.position),
+            drift: mean(&liquid.velocity),
+        }
+    }
+}
