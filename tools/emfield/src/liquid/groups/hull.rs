@@ -17,10 +17,15 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::liquid::cell::{Bisector, cell, twice};
 use crate::liquid::surface::{Patch, tangents};
-use crate::liquid::vector::{along, difference, dot};
+use crate::liquid::vector::{along, difference, dot, length};
 
 /// Volume of a surface point over that of one inside, about.
 pub const HALF: f64 = 0.35;
+
+/// Ways with a shadow shorter than this part of them cross a crease: their bisectors stand across the way along the surface.
+const STEEP: f64 = 0.9;
+/// J/A^2 of a long part at most; that of a square is 1/6.
+const LONG: f64 = 0.5;
 
 /// What surface points enclose.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +50,12 @@ struct Shadow {
 
 impl Shadow {
     fn of(corners: &[[f64; 2]]) -> Self {
+        let mut sum = Self::integrals(corners);
+        sum.second = sum.second.min(LONG * sum.area * sum.area);
+        sum
+    }
+
+    fn integrals(corners: &[[f64; 2]]) -> Self {
         let mut sum = Self {
             area: 0.5 * twice(corners),
             ..Self::default()
@@ -152,10 +163,11 @@ impl Hull {
 fn shadow(x: &[f64; 3], points: &[[f64; 3]], patch: &Patch<3>, axes: [[f64; 3]; 2]) -> Shadow {
     let ways = patch.neighbours.iter().filter_map(|&j| {
         let d = difference(&points[j as usize], x);
-        let far = dot(&d, &d);
+        let way = axes.map(|a| dot(&d, &a));
+        let (far, shadow) = (length(&d), way[0].hypot(way[1]));
         (far > 0.0).then(|| Bisector {
-            way: [dot(&d, &axes[0]), dot(&d, &axes[1])],
-            half: 0.5 * far,
+            way,
+            half: 0.5 * far * far.min(shadow / STEEP),
         })
     });
     Shadow::of(&cell(ways.collect()))

@@ -33,7 +33,14 @@ use super::surface::Patch;
 use super::vector::{along, difference};
 
 /// Moves that give a liquid its volume.
-const SWELLS: usize = 6;
+const SWELLS: usize = 2;
+/// Part of its volume below which they leave it to a change of its size.
+const EVEN: f64 = 1e-6;
+/// Such changes, and what of its size counts as rounding.
+const SCALES: usize = 3;
+const ROUNDING: f64 = 1e-13;
+/// Part of its volume beyond which it is lost.
+const LOST: f64 = 1e-3;
 
 /// When groups meet and part.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,6 +151,25 @@ impl Group {
         sum.map(|c| c / seen.hull.volume)
     }
 
+    /// Gives it what is left of its volume by a change of its size alone, which no fit bends.
+    fn scale(&mut self, seen: &mut Seen, spacing: f64) -> Result<(), Failure> {
+        for _ in 0..SCALES {
+            let larger = (self.volume / seen.hull.volume).cbrt();
+            if (larger - 1.0).abs() < ROUNDING {
+                break;
+            }
+            let centre = seen.hull.centre;
+            for x in &mut self.liquid.position {
+                *x = along(&centre, larger, &difference(x, &centre));
+            }
+            *seen = self.seen(spacing)?;
+        }
+        if (seen.hull.volume / self.volume - 1.0).abs() > LOST {
+            return Err(failed(&"its points no longer enclose its volume"));
+        }
+        Ok(())
+    }
+
     /// Gives its points its volume, its centre and its momentum; its surface then.
     ///
     /// # Errors
@@ -152,12 +178,13 @@ impl Group {
         let mut seen = self.seen(spacing)?;
         for _ in 0..SWELLS {
             let lack = self.volume - seen.hull.volume;
-            if lack.abs() <= f64::EPSILON * self.volume {
+            if lack.abs() < EVEN * self.volume {
                 break;
             }
             self.liquid.swell(lack / seen.hull.area);
             seen = self.seen(spacing)?;
         }
+        self.scale(&mut seen, spacing)?;
         let aside = difference(&self.centre, &seen.hull.centre);
         for x in &mut self.liquid.position {
             *x = along(x, 1.0, &aside);

@@ -18,6 +18,9 @@ const EDGE: f64 = 0.4;
 const CAP: f64 = 1.6;
 const GAP: f64 = 1.0;
 
+/// Cubes of a spacing below which a drop has too few points for the fits of its surface: those of a sphere of two spacings.
+const SMALL: f64 = 34.0;
+
 impl Groups {
     /// Lets drops part; how many parts and parcels came of them.
     ///
@@ -27,6 +30,11 @@ impl Groups {
         let mut all = Groups::default();
         let mut parted = 0;
         for group in std::mem::take(&mut self.drops) {
+            if group.volume < SMALL * way.spacing.powi(3) {
+                self.parcels.push(group.parcel());
+                parted += 1;
+                continue;
+            }
             match group.parts(rule, way)? {
                 None => all.drops.push(group),
                 Some(parts) => {
@@ -42,6 +50,16 @@ impl Groups {
 }
 
 impl Group {
+    /// All of it, without its shape.
+    #[must_use]
+    pub fn parcel(&self) -> Parcel {
+        Parcel {
+            volume: self.volume,
+            centre: self.centre,
+            drift: self.drift,
+        }
+    }
+
     /// What it parts into; none where it holds together.
     fn parts(&self, rule: &Rule, way: &Way) -> Result<Option<Groups>, Failure> {
         let spacing = way.spacing;
@@ -61,16 +79,17 @@ impl Group {
                 spacing,
             };
             let liquid = reshaped(&self.liquid, &rim)?;
+            let small = |group: &Group| group.volume < SMALL * spacing.powi(3);
             match liquid.and_then(|l| Group::new(l, spacing)) {
+                Some(group) if small(&group) => parts.parcels.push(group.parcel()),
                 Some(group) => parts.drops.push(group),
                 None => loose.push(pieces.about(piece, &self.liquid)),
             }
         }
         let surface = self.liquid.surface();
-        parts.parcels = loose
-            .iter()
-            .map(|points| Parcel::of(&self.liquid, points, surface, spacing))
-            .collect();
+        let strewn = loose.iter();
+        let strewn = strewn.map(|points| Parcel::of(&self.liquid, points, surface, spacing));
+        parts.parcels.extend(strewn);
         self.share(&mut parts);
         Ok(Some(parts))
     }
@@ -85,16 +104,15 @@ impl Group {
             1.0
         };
         parts.drops.iter_mut().for_each(|g| g.volume *= larger);
-        let mut whole = (0.0, [0.0; 3], [0.0; 3]);
-        let drops = parts.drops.iter().map(|g| (g.volume, g.centre, g.drift));
-        let strewn = parts.parcels.iter().map(|p| (p.volume, p.centre, p.drift));
-        for (v, x, u) in drops.chain(strewn) {
-            whole.0 += v;
-            whole.1 = along(&whole.1, v, &x);
-            whole.2 = along(&whole.2, v, &u);
-        }
-        let [aside, lack] = [(self.centre, whole.1), (self.drift, whole.2)]
-            .map(|(kept, sum)| difference(&kept, &sum.map(|c| c / whole.0)));
+        let all = parts.drops.iter().map(Group::parcel);
+        let all: Vec<Parcel> = all.chain(parts.parcels.iter().copied()).collect();
+        let volume: f64 = all.iter().map(|p| p.volume).sum();
+        let mean = |of: fn(&Parcel) -> &[f64; 3]| {
+            let each = all.iter();
+            each.fold([0.0; 3], |sum, p| along(&sum, p.volume / volume, of(p)))
+        };
+        let aside = difference(&self.centre, &mean(|p| &p.centre));
+        let lack = difference(&self.drift, &mean(|p| &p.drift));
         for group in &mut parts.drops {
             group.centre = along(&group.centre, 1.0, &aside);
             group.drift = along(&group.drift, 1.0, &lack);

@@ -2,7 +2,7 @@
 
 use artefact::{Frame, Precision, Record};
 
-use super::{Groups, Parcel, Seen};
+use super::{Group, Groups, Parcel, Seen};
 use crate::liquid::matter::Matter;
 use crate::liquid::vector::{along, dot};
 
@@ -71,11 +71,7 @@ impl Groups {
     /// A frame with a point for each drop and each parcel.
     #[must_use]
     pub fn frame(&self, precision: Precision) -> Frame {
-        let drops = self.drops.iter().map(|g| Parcel {
-            volume: g.volume,
-            centre: g.centre,
-            drift: g.drift,
-        });
+        let drops = self.drops.iter().map(Group::parcel);
         let all: Vec<Parcel> = drops.chain(self.parcels.iter().copied()).collect();
         let shaped = (0..all.len()).map(|k| u8::from(k < self.drops.len()));
         Frame::new(precision)

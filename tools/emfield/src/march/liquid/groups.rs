@@ -4,11 +4,11 @@ use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
 
 use super::course::Course;
+use super::ledger::{Counts, Ledger};
 use crate::assemble::liquid::groups::{rule, start};
 use crate::assemble::liquid::matter::{matter, way};
 use crate::assemble::liquid::{fastest, filled, start as whole, steps};
 use crate::liquid::effort::failed;
-use crate::liquid::groups::told::Totals;
 use crate::liquid::groups::{Group, Groups, Parcel, Rule, Seen, chosen};
 use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::told;
@@ -36,53 +36,6 @@ struct March {
     groups: Groups,
     counts: Counts,
     ledger: Ledger,
-}
-
-/// How often groups have changed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Counts {
-    /// Drops that met another.
-    joined: u64,
-    /// Times that sheets of a drop met and closed.
-    closed: u64,
-    /// Parts and parcels of drops that parted.
-    parted: u64,
-    /// Parcels that drops took up.
-    taken: u64,
-}
-
-/// What never rises, and what is lost from sight.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Ledger {
-    /// Kinetic and surface energy at the start \[J\].
-    first: f64,
-    /// Least sum of the energies so far, and greatest rise above it \[J\].
-    least: f64,
-    rise: f64,
-    /// Greatest share of the volume that was parcels.
-    strewn: f64,
-}
-
-impl Ledger {
-    fn look(&mut self, totals: &Totals) {
-        let energy = totals.energy();
-        if self.first == 0.0 {
-            self.first = totals.kinetic + totals.surface;
-            self.least = energy;
-        }
-        self.least = self.least.min(energy);
-        self.rise = self.rise.max(energy - self.least);
-        self.strewn = self.strewn.max(totals.volume[1] / totals.volume[0]);
-    }
-
-    /// Rise of the energy over that at the start.
-    fn risen(&self) -> f64 {
-        if self.first > 0.0 {
-            self.rise / self.first
-        } else {
-            0.0
-        }
-    }
 }
 
 /// Moves the drops of a scene from their start to the end.
@@ -298,9 +251,11 @@ impl March {
             strewn,
         } = self.ledger;
         checkpoint.put_f64("ledger", &[first, least, rise, strewn]);
-        let kept = drops.iter().map(|g| (g.volume, g.centre, g.drift));
-        let kept = kept.chain(parcels.iter().map(|p| (p.volume, p.centre, p.drift)));
-        let numbers = kept.flat_map(|(v, [x, y, z], [a, b, c])| [v, x, y, z, a, b, c]);
+        let kept = drops.iter().map(Group::parcel);
+        let numbers = kept.chain(parcels.iter().copied()).flat_map(|p| {
+            let ([x, y, z], [a, b, c]) = (p.centre, p.drift);
+            [p.volume, x, y, z, a, b, c]
+        });
         checkpoint.put_f64("kept", &numbers.collect::<Vec<_>>());
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod between;
 mod course;
 mod groups;
 pub(crate) mod heated;
+mod ledger;
 
 use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
@@ -132,8 +133,7 @@ impl March {
         self.acting.pull(liquid, step, centre, effort, session)?;
         self.acting.hold(part, &self.matter, liquid, way, centre)?;
         let made = liquid.balance(&self.matter, &self.way, &mut self.course.effort)?;
-        let rows = operators(&liquid.position, &self.way);
-        let rows = rows.map_err(|e| Failure::Other(format!("liquid: {e}")))?;
+        let rows = operators(&liquid.position, &self.way).map_err(|e| failed(&e))?;
         let (mut sources, mut slopes) = (0.0_f64, 0.0_f64);
         for i in 0..liquid.position.len() {
             sources += divergence(&rows, &liquid.velocity, i).powi(2);

@@ -1,0 +1,50 @@
+//! What a march of drops counts, and what must never rise.
+
+use crate::liquid::groups::told::Totals;
+
+/// How often groups have changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Counts {
+    /// Drops that met another.
+    pub(super) joined: u64,
+    /// Times that sheets of a drop met and closed.
+    pub(super) closed: u64,
+    /// Parts and parcels of drops that parted.
+    pub(super) parted: u64,
+    /// Parcels that drops took up.
+    pub(super) taken: u64,
+}
+
+/// What never rises, and what is lost from sight.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Ledger {
+    /// Kinetic and surface energy at the start \[J\].
+    pub(super) first: f64,
+    /// Least sum of the energies so far, and greatest rise above it \[J\].
+    pub(super) least: f64,
+    pub(super) rise: f64,
+    /// Greatest share of the volume that was parcels.
+    pub(super) strewn: f64,
+}
+
+impl Ledger {
+    pub(super) fn look(&mut self, totals: &Totals) {
+        let energy = totals.energy();
+        if self.first == 0.0 {
+            self.first = totals.kinetic + totals.surface;
+            self.least = energy;
+        }
+        self.least = self.least.min(energy);
+        self.rise = self.rise.max(energy - self.least);
+        self.strewn = self.strewn.max(totals.volume[1] / totals.volume[0]);
+    }
+
+    /// Rise of the energy over that at the start.
+    pub(super) fn risen(&self) -> f64 {
+        if self.first > 0.0 {
+            self.rise / self.first
+        } else {
+            0.0
+        }
+    }
+}
