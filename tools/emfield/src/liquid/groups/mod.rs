@@ -42,6 +42,9 @@ const ROUNDING: f64 = 1e-13;
 /// Part of its volume beyond which it is lost.
 const LOST: f64 = 1e-3;
 
+/// Part of all below which a drop is little.
+const LITTLE: f64 = 0.1;
+
 /// When groups meet and part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rule {
@@ -247,6 +250,28 @@ impl Groups {
             liquid: (others.iter()).fold(first.liquid.clone(), |all, g| beside(&all, &g.liquid)),
             group: on.chain(inside).collect(),
         })
+    }
+
+    /// Does something with each drop. A little one that its points no longer hold becomes a parcel.
+    ///
+    /// # Errors
+    /// Those of what is done, where the drop is not little.
+    pub fn each(
+        &mut self,
+        mut act: impl FnMut(&mut Group) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let little = LITTLE * self.volume();
+        let mut k = 0;
+        while let Some(group) = self.drops.get_mut(k) {
+            match act(group) {
+                Ok(()) => k += 1,
+                Err(Failure::Other(_)) if group.volume < little => {
+                    self.parcels.push(self.drops.remove(k).parcel());
+                }
+                Err(why) => return Err(why),
+            }
+        }
+        Ok(())
     }
 
     /// Volume of all \[m3\].

@@ -130,17 +130,22 @@ impl March {
         self.groups.fly(&gravity, length);
         session.timed("groups", || self.regroup(length))?;
         let spacing = self.way.spacing;
-        let drops = self.groups.drops.iter_mut();
-        drops.map(|group| group.keep(spacing)).collect()
+        let mut seen = Vec::new();
+        self.groups.each(|group| {
+            seen.push(group.keep(spacing)?);
+            Ok(())
+        })?;
+        Ok(seen)
     }
 
     /// Moves each drop, in parts where its points would move too far.
     fn flow(&mut self, length: f64, session: &mut Session) -> Result<(), Failure> {
-        for group in &mut self.groups.drops {
+        let (course, matter) = (&mut self.course, &self.matter);
+        self.groups.each(|group| {
             let far = fastest(&group.liquid) * length / (FARTHEST * self.way.spacing);
             let parts = far.ceil().max(1.0);
             if parts > 1.0 {
-                self.course.divided += 1;
+                course.divided += 1;
                 session.substepped();
             }
             let step = Step {
@@ -148,15 +153,14 @@ impl March {
                 dt: length / parts,
             };
             for _ in 0..parts as u64 {
-                let advanced = || moved(&mut group.liquid, &self.matter, step, &mut self.course);
+                let advanced = || moved(&mut group.liquid, matter, step, course);
                 session.timed("step", advanced)?;
             }
-            let gravity = &self.matter.gravity;
-            let mean = along(&group.drift, 0.5 * length, gravity);
+            let mean = along(&group.drift, 0.5 * length, &matter.gravity);
             group.centre = along(&group.centre, length, &mean);
-            group.drift = along(&group.drift, length, gravity);
-        }
-        Ok(())
+            group.drift = along(&group.drift, length, &matter.gravity);
+            Ok(())
+        })
     }
 
     /// Lets drops meet, take up parcels and part. The flow of those that met becomes free of divergence.
@@ -170,13 +174,14 @@ impl March {
                 way: &self.way,
                 dt: SHORT * length,
             };
-            for group in &mut self.groups.drops {
-                group.keep(self.way.spacing)?;
+            let (effort, matter) = (&mut self.course.effort, &self.matter);
+            self.groups.each(|group| {
+                group.keep(step.way.spacing)?;
                 for _ in 0..SETTLES {
-                    let effort = &mut self.course.effort;
-                    group.liquid.advance(&self.matter, step, effort)?;
+                    group.liquid.advance(matter, step, effort)?;
                 }
-            }
+                Ok(())
+            })?;
         }
         self.counts.parted += self.groups.part(&self.rule, &self.way)?;
         Ok(())
