@@ -37,10 +37,10 @@ const SWELLS: usize = 2;
 /// Part of its volume below which they leave it to a change of its size.
 const EVEN: f64 = 1e-6;
 /// Such changes, and what of its size counts as rounding.
-const SCALES: usize = 3;
+const SCALES: usize = 6;
 const ROUNDING: f64 = 1e-13;
 /// Part of its volume beyond which it is lost.
-const LOST: f64 = 1e-3;
+const LOST: f64 = 0.02;
 
 /// Part of all below which a drop is little.
 const LITTLE: f64 = 0.1;
@@ -167,8 +167,12 @@ impl Group {
             }
             *seen = self.seen(spacing)?;
         }
-        if (seen.hull.volume / self.volume - 1.0).abs() > LOST {
-            return Err(failed(&"its points no longer enclose its volume"));
+        let enclosed = seen.hull.volume / self.volume;
+        if (enclosed - 1.0).abs() > LOST {
+            let (count, [x, y, z]) = (self.liquid.surface(), self.centre);
+            return Err(failed(&format!(
+                "{count} points about [{x:.6e}, {y:.6e}, {z:.6e}] m enclose {enclosed:.4} of what is theirs; take a smaller spacing"
+            )));
         }
         Ok(())
     }
