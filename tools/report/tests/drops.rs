@@ -125,7 +125,7 @@ fn drops_that_meet_have_a_film_and_a_picture_for_each_frame() {
     assert!(command.status().unwrap().success());
     let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
     assert!(
-        page.contains("a colour for each; parcels grey; 4 pictures"),
+        page.contains("numbered anew in each frame; parcels grey; 4 pictures"),
         "{page}"
     );
     assert_eq!(page.matches("data:image/png").count(), 5);

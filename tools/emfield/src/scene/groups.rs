@@ -17,7 +17,7 @@ pub struct Groups {
     pub join_within: f64,
     /// Depth beneath the surface, over the spacing, at which a drop holds together. A neck parts that is nowhere so deep, and thin edges become parcels without a shape.
     #[serde(default = "part")]
-    #[schemars(range(min = 0.6, max = 1.2), extend("x-unit" = "1"))]
+    #[schemars(range(min = 0.6, max = 1.5), extend("x-unit" = "1"))]
     pub part_below: f64,
 }
 
@@ -26,7 +26,7 @@ fn join() -> f64 {
 }
 
 fn part() -> f64 {
-    0.75
+    1.2
 }
 
 impl Groups {

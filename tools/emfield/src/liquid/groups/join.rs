@@ -27,9 +27,8 @@ impl Groups {
     pub fn join(&mut self, rule: &Rule, way: &Way) -> Result<u64, Failure> {
         let mut joined = 0;
         while let Some([a, b]) = self.meeting(rule, way)? {
-            let b = self.drops.remove(b);
-            let a = &mut self.drops[a];
-            *a = a.with(&b, way)?;
+            self.drops[a] = self.drops[a].with(&self.drops[b], way)?;
+            self.drops.remove(b);
             joined += 1;
         }
         Ok(joined)

@@ -29,8 +29,9 @@ use self::hull::Hull;
 use self::necks::{LINK, clusters};
 use super::effort::failed;
 use super::points::Liquid;
+use super::room::Room;
 use super::surface::Patch;
-use super::vector::{along, difference};
+use super::vector::{along, difference, length};
 
 /// Moves that give a liquid its volume.
 const SWELLS: usize = 2;
@@ -224,10 +225,12 @@ impl Groups {
         }
         let tree = Tree::new(inner);
         let skin = liquid.position[..surface].iter();
-        let skin: Vec<usize> = skin
-            .filter_map(|x| tree.nearest(*x))
-            .map(|i| of[i])
-            .collect();
+        let skin = skin.map(|x| {
+            let near = tree.nearest(*x)?;
+            let far = length(&difference(x, &inner[near]));
+            (far < LINK * spacing).then(|| of[near])
+        });
+        let skin: Vec<usize> = skin.collect::<Option<_>>()?;
         let drops = (0..clusters.len()).map(|k| {
             let on = (0..surface).filter(|&i| skin[i] == k);
             let inside = clusters[k].iter().map(|i| surface + i);
@@ -239,10 +242,9 @@ impl Groups {
         })
     }
 
-    /// All points; none where there is no drop.
+    /// All points.
     #[must_use]
-    pub fn together(&self) -> Option<Together> {
-        let (first, others) = self.drops.split_first()?;
+    pub fn together(&self) -> Together {
         let each = |k: usize, count: usize| std::iter::repeat_n(k as u32, count);
         let numbered = self.drops.iter().zip(0..);
         let on = numbered
@@ -250,10 +252,11 @@ impl Groups {
             .flat_map(|(g, k)| each(k, g.liquid.surface()));
         let inside =
             numbered.flat_map(|(g, k)| each(k, g.liquid.position.len() - g.liquid.surface()));
-        Some(Together {
-            liquid: (others.iter()).fold(first.liquid.clone(), |all, g| beside(&all, &g.liquid)),
+        let liquids = self.drops.iter().map(|g| &g.liquid);
+        Together {
+            liquid: liquids.fold(nothing(), |all, liquid| beside(&all, liquid)),
             group: on.chain(inside).collect(),
-        })
+        }
     }
 
     /// Does something with each drop. A little one that its points no longer hold becomes a parcel.
@@ -292,6 +295,23 @@ impl Groups {
             parcel.centre = along(&parcel.centre, dt, &mean);
             parcel.drift = along(&parcel.drift, dt, gravity);
         }
+    }
+}
+
+/// A liquid without points.
+fn nothing() -> Liquid<3> {
+    Liquid {
+        position: Vec::new(),
+        velocity: Vec::new(),
+        pressure: Vec::new(),
+        rate: Vec::new(),
+        follow: Vec::new(),
+        normal: Vec::new(),
+        stress: Vec::new(),
+        pull: [Vec::new(), Vec::new()],
+        drag: Vec::new(),
+        force: [Vec::new(), Vec::new()],
+        room: Room::default(),
     }
 }
 

@@ -8,7 +8,7 @@ use neighbours::Tree;
 
 use super::level::Level;
 use crate::liquid::points::Liquid;
-use crate::liquid::vector::{along, difference, length};
+use crate::liquid::vector::{along, difference, dot, length};
 
 /// Deep places nearer than so many spacings hang together.
 pub(super) const LINK: f64 = 1.6;
@@ -16,6 +16,9 @@ pub(super) const LINK: f64 = 1.6;
 const BETWEEN: f64 = 1.6;
 /// Where any is farther than so many, a drop is too thin there.
 const THIN: f64 = 1.9;
+/// Cores nearer than so many spacings have a neck between them, and about each end of it so many tell how the liquid moves.
+const ACROSS: f64 = 5.0;
+const NECK: f64 = 2.0;
 /// Depths, in spacings, at which a deep place is looked for beneath a point of the surface.
 const PROBES: [f64; 5] = [0.8, 1.0, 1.25, 1.5, 1.8];
 /// Points between pieces nearer than so many spacings fly on together.
@@ -84,10 +87,9 @@ pub(super) fn pieces(
         level.height(&middle) < 0.0
     };
     let clusters = clusters(&deep, LINK * spacing, linked);
-    let places: Vec<Vec<[f64; 3]>> = clusters
-        .iter()
-        .map(|c| c.iter().map(|&i| deep[i]).collect())
-        .collect();
+    let clusters = clusters.into_iter();
+    let cores = clusters.map(|c| c.into_iter().map(|i| deep[i]).collect());
+    let places = leaving(cores.collect(), liquid, spacing);
     let mut pieces = Pieces {
         cores: places.iter().map(|p| Tree::new(p)).collect(),
         places,
@@ -103,12 +105,63 @@ pub(super) fn pieces(
         .filter(|[_, far]| *far > BETWEEN * spacing)
         .collect();
     let thin = far.iter().any(|[_, far]| *far > THIN * spacing);
-    if pieces.cores.is_empty() || (pieces.cores.len() < 2 && !thin) {
+    if pieces.cores.len() < 2 && !thin {
         return None;
     }
     let strewn: Vec<usize> = far.iter().map(|[i, _]| *i as usize).collect();
     pieces.between = handfuls(&liquid.position, strewn, TOGETHER * spacing);
     Some(pieces)
+}
+
+/// Cores of a liquid, of which those that are near each other without leaving each other are one: the neck between them grows.
+fn leaving(mut cores: Vec<Vec<[f64; 3]>>, liquid: &Liquid<3>, spacing: f64) -> Vec<Vec<[f64; 3]>> {
+    let mut k = 1;
+    while k < cores.len() {
+        let grows = (0..k).find(|&i| {
+            let [a, b] = closest(&cores[i], &cores[k]);
+            let apart = difference(&b, &a);
+            let [u, v] = [a, b].map(|x| velocity(liquid, &x, NECK * spacing));
+            length(&apart) < ACROSS * spacing && dot(&difference(&v, &u), &apart) <= 0.0
+        });
+        match grows {
+            Some(i) => {
+                let core = cores.remove(k);
+                cores[i].extend(core);
+                // What was apart from both may be near them together.
+                k = 1;
+            }
+            None => k += 1,
+        }
+    }
+    cores
+}
+
+/// The two places of two cores that are nearest to each other.
+fn closest(a: &[[f64; 3]], b: &[[f64; 3]]) -> [[f64; 3]; 2] {
+    let tree = Tree::new(a);
+    let mut best = [a[0], b[0]];
+    let mut least = f64::INFINITY;
+    for x in b {
+        if let Some(near) = tree.nearest(*x) {
+            let far = length(&difference(x, &a[near]));
+            if far < least {
+                (least, best) = (far, [a[near], *x]);
+            }
+        }
+    }
+    best
+}
+
+/// Mean velocity of the points about a place.
+fn velocity(liquid: &Liquid<3>, x: &[f64; 3], reach: f64) -> [f64; 3] {
+    let all = liquid.position.iter().zip(&liquid.velocity);
+    let near = all.filter(|(y, _)| length(&difference(x, y)) < reach);
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for (_, u) in near {
+        sum = along(&sum, 1.0, u);
+        count += 1.0;
+    }
+    sum.map(|c| c / f64::max(count, 1.0))
 }
 
 /// Points by the first of them, in order, that is nearer than `reach`.

@@ -12,7 +12,7 @@ use crate::liquid::matter::Way;
 use crate::liquid::points::Liquid;
 use crate::liquid::vector::{along, difference};
 
-/// The same where the cap of a part goes over into its old surface.
+/// Width over which the cap of a part goes over into its old surface, in spacings.
 const EDGE: f64 = 0.4;
 /// Spacings that caps reach beyond the deep points of their part, and that the caps of two parts keep from each other.
 const CAP: f64 = 1.6;
@@ -29,22 +29,23 @@ impl Groups {
     pub fn part(&mut self, rule: &Rule, way: &Way) -> Result<u64, Failure> {
         let mut all = Groups::default();
         let mut parted = 0;
-        for group in std::mem::take(&mut self.drops) {
+        for group in &self.drops {
             if group.volume < SMALL * way.spacing.powi(3) {
-                self.parcels.push(group.parcel());
+                all.parcels.push(group.parcel());
                 parted += 1;
                 continue;
             }
             match group.parts(rule, way)? {
-                None => all.drops.push(group),
+                None => all.drops.push(group.clone()),
                 Some(parts) => {
                     parted += (parts.drops.len() + parts.parcels.len()) as u64;
                     all.drops.extend(parts.drops);
-                    self.parcels.extend(parts.parcels);
+                    all.parcels.extend(parts.parcels);
                 }
             }
         }
         self.drops = all.drops;
+        self.parcels.extend(all.parcels);
         Ok(parted)
     }
 }
@@ -98,12 +99,9 @@ impl Group {
     fn share(&self, parts: &mut Groups) {
         let strewn: f64 = parts.parcels.iter().map(|p| p.volume).sum();
         let rest: f64 = parts.drops.iter().map(|g| g.volume).sum();
-        let larger = if rest > 0.0 {
-            (self.volume - strewn) / rest
-        } else {
-            1.0
-        };
+        let larger = self.volume / (strewn + rest);
         parts.drops.iter_mut().for_each(|g| g.volume *= larger);
+        parts.parcels.iter_mut().for_each(|p| p.volume *= larger);
         let all = parts.drops.iter().map(Group::parcel);
         let all: Vec<Parcel> = all.chain(parts.parcels.iter().copied()).collect();
         let volume: f64 = all.iter().map(|p| p.volume).sum();

@@ -12,7 +12,7 @@ use crate::liquid::room::Room;
 const SPACING: f64 = 0.2;
 const RULE: Rule = Rule {
     join: 0.5,
-    part: 0.75,
+    part: 1.2,
 };
 
 fn way() -> Way {

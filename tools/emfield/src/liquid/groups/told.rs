@@ -57,13 +57,12 @@ impl Groups {
         sum.potential = -mass * dot(&matter.gravity, &sum.centre);
         let skins = self.drops.iter();
         let skins = skins.flat_map(|g| &g.liquid.position[..g.liquid.surface()]);
-        let places: Vec<[f64; 3]> = skins
-            .copied()
-            .chain(self.parcels.iter().map(|p| p.centre))
-            .collect();
+        let places: Vec<[f64; 3]> = skins.copied().collect();
         sum.extent = std::array::from_fn(|k| {
             let along = places.iter().map(|x| x[k]);
-            along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+            let high = along.clone().fold(f64::NEG_INFINITY, f64::max);
+            let low = along.fold(f64::INFINITY, f64::min);
+            (high - low).max(0.0)
         });
         sum
     }

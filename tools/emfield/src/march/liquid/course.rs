@@ -84,7 +84,7 @@ impl Course {
 
     /// Tells steps, solves and the volume, in its unit, at the end.
     pub(super) fn close(&self, steps: &Steps, unit: &'static str, session: &mut Session) {
-        session.steps(steps.count());
+        session.steps(self.taken);
         session.closing("step", "s", steps.longest());
         session.closing("products", "1", self.effort.products as f64);
         session.closing("residual", "1", self.effort.residual);

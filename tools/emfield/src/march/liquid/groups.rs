@@ -18,6 +18,8 @@ use crate::scene::{Groups as Given, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that a point may move in a step; longer ones are divided.
 const FARTHEST: f64 = 0.5;
+/// Parts into which a step is divided at most.
+const MOST: f64 = 500.0;
 /// Steps, and their length over that of others, in which the flow of drops that have met becomes free of divergence.
 const SETTLES: usize = 8;
 const SHORT: f64 = 1e-3;
@@ -72,7 +74,8 @@ pub(crate) fn groups(
             Ok(seen) => seen,
             // What is written stays; what would follow is not known.
             Err(Failure::Other(why)) => {
-                let (time, _) = steps.end(march.course.taken);
+                let taken = march.course.taken;
+                let time = if taken == 0 { 0.0 } else { steps.end(taken).0 };
                 session.warn(format!("the march ended at {time:.6e} s: {why}"));
                 break;
             }
@@ -125,40 +128,49 @@ impl March {
 
     /// One step: drops move, meet, take up and part; the surfaces then.
     fn step(&mut self, length: f64, session: &mut Session) -> Result<Vec<Seen>, Failure> {
-        let gravity = self.matter.gravity;
-        self.flow(length, session)?;
-        self.groups.fly(&gravity, length);
-        session.timed("groups", || self.regroup(length))?;
         let spacing = self.way.spacing;
-        let mut seen = Vec::new();
-        self.groups.each(|group| {
-            seen.push(group.keep(spacing)?);
-            Ok(())
-        })?;
+        let parts = (self.fastest() * length / (FARTHEST * spacing))
+            .ceil()
+            .max(1.0);
+        if parts > MOST {
+            return Err(failed(&format!(
+                "points would pass {:.0} spacings in a step; take a smaller spacing",
+                parts * FARTHEST
+            )));
+        }
+        if parts > 1.0 {
+            self.course.divided += 1;
+            session.substepped();
+        }
+        let (mut seen, part) = (Vec::new(), length / parts);
+        for _ in 0..parts as u64 {
+            self.flow(part, session)?;
+            self.groups.fly(&self.matter.gravity, part);
+            session.timed("groups", || self.regroup(part))?;
+            seen.clear();
+            self.groups.each(|group| {
+                seen.push(group.keep(spacing)?);
+                Ok(())
+            })?;
+        }
         Ok(seen)
     }
 
-    /// Moves each drop, in parts where its points would move too far.
-    fn flow(&mut self, length: f64, session: &mut Session) -> Result<(), Failure> {
+    /// Moves each drop.
+    fn flow(&mut self, dt: f64, session: &mut Session) -> Result<(), Failure> {
         let (course, matter) = (&mut self.course, &self.matter);
+        let step = Step { way: &self.way, dt };
         self.groups.each(|group| {
-            let far = fastest(&group.liquid) * length / (FARTHEST * self.way.spacing);
-            let parts = far.ceil().max(1.0);
-            if parts > 1.0 {
-                course.divided += 1;
-                session.substepped();
-            }
-            let step = Step {
-                way: &self.way,
-                dt: length / parts,
-            };
-            for _ in 0..parts as u64 {
-                let advanced = || moved(&mut group.liquid, matter, step, course);
-                session.timed("step", advanced)?;
-            }
-            let mean = along(&group.drift, 0.5 * length, &matter.gravity);
-            group.centre = along(&group.centre, length, &mean);
-            group.drift = along(&group.drift, length, &matter.gravity);
+            let advanced = || moved(&mut group.liquid, matter, step, course);
+            session.timed("step", advanced)?;
+            // What comes next needs its surface.
+            group
+                .liquid
+                .skin(step.way.spacing)
+                .map_err(|e| failed(&e))?;
+            let mean = along(&group.drift, 0.5 * dt, &matter.gravity);
+            group.centre = along(&group.centre, dt, &mean);
+            group.drift = along(&group.drift, dt, &matter.gravity);
             Ok(())
         })
     }
@@ -201,7 +213,8 @@ impl March {
     }
 
     fn write(&self, seen: &[Seen], time: f64, session: &mut Session) -> Result<(), Failure> {
-        if let Some(all) = self.groups.together() {
+        if !self.groups.drops.is_empty() {
+            let all = self.groups.together();
             let points = told::points(&all.liquid, &self.matter, &[], self.precision);
             session.frame("/points", time, &points.id("group", all.group))?;
             let patches: Vec<_> = seen.iter().flat_map(|s| s.patches.clone()).collect();
@@ -236,9 +249,8 @@ fn moved(
 impl March {
     fn save(&self, checkpoint: &mut Checkpoint) {
         let Groups { drops, parcels } = &self.groups;
-        if let Some(all) = self.groups.together() {
-            self.course.save(&all.liquid, checkpoint);
-        }
+        let all = self.groups.together();
+        self.course.save(&all.liquid, checkpoint);
         let sizes = drops.iter().map(|g| &g.liquid);
         let sizes = sizes.flat_map(|l| [l.surface() as u64, l.position.len() as u64]);
         checkpoint.put_u64("sizes", &sizes.collect::<Vec<_>>());
@@ -333,7 +345,7 @@ impl March {
         session.closing("strewn", "1", strewn);
         if strewn > 0.0 {
             session.warn(format!(
-                "up to {:.2} % of the liquid were parcels without a shape: it had become thinner than about {} spacings; a smaller spacing resolves more of it",
+                "up to {:.2} % of the liquid were parcels without a shape: drops too small for points, or what had become thinner than about {} spacings; a smaller spacing resolves more of it",
                 100.0 * strewn,
                 2.0 * self.rule.part
             ));

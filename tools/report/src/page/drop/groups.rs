@@ -33,15 +33,24 @@ pub(super) fn film(name: &str, reader: &Reader) -> Result<Option<String>, Failur
     let every = count.div_ceil(MOST).max(1);
     let scenes = (0..count).step_by(every).map(|k| Scene::read(reader, k));
     let scenes: Vec<Scene> = scenes.collect::<Result<_, _>>()?;
+    let widest = scenes.iter().map(|s| s.radius).fold(0.0, f64::max);
     let window = window(&scenes);
     let pictures: Vec<Canvas> = scenes
         .iter()
         .map(|scene| {
             let title = format!("{name}: {:.3} ms", 1e3 * scene.time);
-            picture(window, &scene.dots, scene.radius, &title)
+            // Parcels without any drop have no points that tell a radius.
+            let radius = if scene.radius > 0.0 {
+                scene.radius
+            } else {
+                widest
+            };
+            picture(window, &scene.dots, radius, &title)
         })
         .collect();
-    let words = format!("{name}: drops from the side, a colour for each; parcels grey");
+    let words = format!(
+        "{name}: drops from the side, a colour for each, numbered anew in each frame; parcels grey"
+    );
     let mut body = figure(
         &moving(&pictures, &words)?,
         &escape(&format!("{words}; {} pictures.", pictures.len())),
