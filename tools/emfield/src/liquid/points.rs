@@ -7,7 +7,7 @@ use super::room::Room;
 use super::vector::along;
 
 /// Points of the liquid, those of the surface first, then those on walls, and what they carry.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Liquid<const D: usize> {
     /// Places \[m\].
     pub position: Vec<[f64; D]>,

@@ -3,20 +3,19 @@
 use run::{Failure, Fault};
 use shapes::Body;
 
-use super::{filled, start as whole};
 use crate::liquid::groups::{Groups, Rule};
+use crate::liquid::points::Liquid;
 use crate::liquid::vector::spatial;
 use crate::scene::{Groups as Given, Liquid as Part, Scene};
 
-/// The drops of a scene at their start.
+/// The drops of a scene, of its liquid at the start.
 ///
 /// # Errors
-/// Where the spacing suits the shape ill.
-pub(crate) fn start(scene: &Scene, part: &Part) -> Result<Groups, Failure> {
-    let liquid = whole(part, filled(scene, part)?)?;
+/// Where a drop has too few points.
+pub(crate) fn groups(scene: &Scene, part: &Part, liquid: &Liquid<3>) -> Result<Groups, Failure> {
     let (body, spacing) = (Body::new(&part.shape, 3), scene.points.spacing_m);
     let within = |x: &[f64; 3]| body.distance(spatial(x)) < 0.0;
-    Groups::new(&liquid, spacing, within).ok_or_else(|| {
+    Groups::new(liquid, spacing, within).ok_or_else(|| {
         let what = format!("{spacing} m: a drop has too few points");
         vec![Fault::at("/points/spacing_m", what)].into()
     })

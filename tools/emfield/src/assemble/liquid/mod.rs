@@ -179,7 +179,7 @@ pub(crate) fn plan(scene: &Scene, part: &Part) -> Result<Plan, Failure> {
     };
     plan = warmed(plan, part.heat.as_ref());
     if part.groups.is_some() {
-        let drops = groups::start(scene, part)?.drops.len();
+        let drops = groups::groups(scene, part, &liquid)?.drops.len();
         plan = plan.stage("groups").count("drops", drops as u64);
     }
     Ok(lacks(plan, part))

@@ -21,6 +21,12 @@ const STEP: f64 = 0.1;
 const FACING: f64 = 0.3;
 /// Least radius of the spheres, in spacings.
 const ROUND: f64 = 1.0;
+/// Rounds of Newton's method.
+const ROUNDS: usize = 5;
+/// Square of a slope that is none.
+const FLAT: f64 = 0.01;
+/// Spacings from the zero that count as on it.
+const NEAR: f64 = 0.01;
 
 /// A surface of points.
 pub(super) struct Level<'a> {
@@ -120,7 +126,7 @@ pub(super) struct Rim<H> {
 
 impl<H: Fn(&[f64; 3]) -> f64> Rim<H> {
     /// The slope of the height at a place.
-    pub(super) fn slope(&self, place: &[f64; 3]) -> [f64; 3] {
+    fn slope(&self, place: &[f64; 3]) -> [f64; 3] {
         let step = STEP * self.spacing;
         std::array::from_fn(|k| {
             let mut ends = [*place; 2];
@@ -151,13 +157,6 @@ impl<H: Fn(&[f64; 3]) -> f64> Rim<H> {
         (left < NEAR * self.spacing).then_some(place)
     }
 }
-
-/// Rounds of Newton's method.
-const ROUNDS: usize = 5;
-/// Square of a slope that is none.
-const FLAT: f64 = 0.01;
-/// Spacings from the zero that count as on it.
-const NEAR: f64 = 0.01;
 
 /// The lesser of two heights, rounded off where they differ by less than `width` \[m\].
 pub(super) fn either(a: f64, b: f64, width: f64) -> f64 {

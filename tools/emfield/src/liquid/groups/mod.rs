@@ -29,7 +29,6 @@ use self::hull::Hull;
 use self::necks::{LINK, clusters};
 use super::effort::failed;
 use super::points::Liquid;
-use super::room::Room;
 use super::surface::Patch;
 use super::vector::{along, difference, length};
 
@@ -254,7 +253,7 @@ impl Groups {
             numbered.flat_map(|(g, k)| each(k, g.liquid.position.len() - g.liquid.surface()));
         let liquids = self.drops.iter().map(|g| &g.liquid);
         Together {
-            liquid: liquids.fold(nothing(), |all, liquid| beside(&all, liquid)),
+            liquid: liquids.fold(Liquid::default(), |all, liquid| beside(&all, liquid)),
             group: on.chain(inside).collect(),
         }
     }
@@ -295,23 +294,6 @@ impl Groups {
             parcel.centre = along(&parcel.centre, dt, &mean);
             parcel.drift = along(&parcel.drift, dt, gravity);
         }
-    }
-}
-
-/// A liquid without points.
-fn nothing() -> Liquid<3> {
-    Liquid {
-        position: Vec::new(),
-        velocity: Vec::new(),
-        pressure: Vec::new(),
-        rate: Vec::new(),
-        follow: Vec::new(),
-        normal: Vec::new(),
-        stress: Vec::new(),
-        pull: [Vec::new(), Vec::new()],
-        drag: Vec::new(),
-        force: [Vec::new(), Vec::new()],
-        room: Room::default(),
     }
 }
 

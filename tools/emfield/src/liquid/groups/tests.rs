@@ -7,7 +7,6 @@ use super::level::Level;
 use super::*;
 use crate::liquid::fill::fill;
 use crate::liquid::matter::Way;
-use crate::liquid::room::Room;
 
 const SPACING: f64 = 0.2;
 const RULE: Rule = Rule {
@@ -32,13 +31,9 @@ fn filled(shape: &Shape, moves: impl Fn(&[f64; 3]) -> [f64; 3]) -> Liquid<3> {
         rate: vec![[0.0; 3]; filled.position.len()],
         pressure: vec![0.0; filled.position.len()],
         stress: vec![0.0; filled.normal.len()],
-        follow: Vec::new(),
-        pull: [Vec::new(), Vec::new()],
-        drag: Vec::new(),
-        force: [Vec::new(), Vec::new()],
         position: filled.position,
         normal: filled.normal,
-        room: Room::default(),
+        ..Liquid::default()
     }
 }
 

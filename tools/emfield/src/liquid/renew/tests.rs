@@ -6,7 +6,6 @@ use shapes::shape::{EllipsoidShape, Shape};
 use super::*;
 use crate::liquid::fill::fill;
 use crate::liquid::outline::Outline;
-use crate::liquid::room::Room;
 
 /// Spacings in the radius of the sphere that is as large.
 const PARTS: f64 = 5.0;
@@ -41,13 +40,9 @@ fn spheroid(ratio: f64) -> Liquid<3> {
         pressure: velocity.iter().map(|u| u[0]).collect(),
         stress: vec![0.0; filled.normal.len()],
         velocity,
-        follow: Vec::new(),
-        pull: [Vec::new(), Vec::new()],
-        drag: Vec::new(),
-        force: [Vec::new(), Vec::new()],
         position: filled.position,
         normal: filled.normal,
-        room: Room::default(),
+        ..Liquid::default()
     }
 }
 

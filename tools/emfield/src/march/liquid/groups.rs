@@ -5,9 +5,9 @@ use run::{Failure, Session};
 
 use super::course::Course;
 use super::ledger::{Counts, Ledger};
-use crate::assemble::liquid::groups::{rule, start};
+use crate::assemble::liquid::groups::{groups as drops, rule};
 use crate::assemble::liquid::matter::{matter, way};
-use crate::assemble::liquid::{fastest, filled, start as whole, steps};
+use crate::assemble::liquid::{fastest, filled, start, steps};
 use crate::liquid::effort::failed;
 use crate::liquid::groups::{Group, Groups, Parcel, Rule, Seen, chosen};
 use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
@@ -51,15 +51,16 @@ pub(crate) fn groups(
     marched: &LiquidMarch,
     session: &mut Session,
 ) -> Result<(), Failure> {
-    let groups = session.timed("points", || start(scene, part))?;
-    let steps = steps(scene, part, marched, &whole(part, filled(scene, part)?)?);
+    let filled = session.timed("points", || filled(scene, part))?;
+    let liquid = start(part, filled)?;
+    let steps = steps(scene, part, marched, &liquid);
     let mut march = March {
         matter: matter(part),
         way: way(scene, part),
         rule: rule(given),
         precision: scene.output.precision.into(),
         course: Course::default(),
-        groups,
+        groups: drops(scene, part, &liquid)?,
         counts: Counts::default(),
         ledger: Ledger::default(),
     };
