@@ -31,7 +31,7 @@ impl Case for FractureEnergy {
     }
 
     fn levels(&self, method: &str, asked: &[u32]) -> Vec<u32> {
-        let most = if method == "shaken" { 1 } else { 3 };
+        let most = if method == "shaken" { 2 } else { 3 };
         asked.iter().copied().filter(|l| *l <= most).collect()
     }
 
@@ -44,8 +44,11 @@ impl Case for FractureEnergy {
             ]
             .map(|(what, most)| Target::error(what, most).at_level(level))
         });
-        let shaken = Target::error("energy_unclosed", 0.02).at_level(1);
-        each.chain([shaken.of("shaken")]).collect()
+        let shaken = [1, 2].into_iter().flat_map(|level| {
+            [("spread", 0.1), ("energy_unclosed", 0.02)]
+                .map(|(what, most)| Target::error(what, most).at_level(level).of("shaken"))
+        });
+        each.chain(shaken).collect()
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {

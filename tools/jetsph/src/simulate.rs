@@ -158,6 +158,9 @@ impl<'a> Simulation<'a> {
         for (name, unit, value) in balance.closing(&self.start) {
             session.closing(name, unit, value);
         }
+        for figure in march.stages.iter().flat_map(|stage| stage.closing(state)) {
+            session.closing(&figure.name, figure.unit, figure.value);
+        }
         if let Some(warning) = balance.unclosed(&self.start) {
             session.warn(warning);
         }

@@ -202,6 +202,11 @@ pub trait Stage: Send {
         Vec::new()
     }
 
+    /// What the end of a run tells beside the totals.
+    fn closing(&self, _state: &State) -> Vec<Figure> {
+        Vec::new()
+    }
+
     /// Bytes that the stage holds beside the columns.
     fn bytes(&self) -> usize {
         0

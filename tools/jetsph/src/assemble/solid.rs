@@ -13,11 +13,11 @@ use crate::matter::solid::bound::{self, Anchor, Load};
 use crate::matter::solid::cell::Cell;
 use crate::matter::solid::elastic::REST;
 use crate::matter::solid::law::Law;
-use crate::matter::solid::shocks::Shocks;
+use crate::matter::solid::shocks::{ShockViscosity, Shocks};
 use crate::matter::solid::tensor::Matrix;
 use crate::matter::solid::updated::{Hooke, Updated};
 use crate::matter::solid::{Body, Elastic};
-use crate::matter::water::friction::{Artificial, ArtificialViscosity};
+use crate::matter::water::friction::{Artificial, BothWays};
 use crate::scene::{Scene, Solid, UpdatedForm};
 use crate::stage::Stage;
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
@@ -95,9 +95,9 @@ fn solid(scene: &Scene, solid: &Solid, state: &mut State) -> Result<(Box<dyn Sta
             Vec::new(),
         )
     } else if dimensions == 2 {
-        staged::<2, 5>(body, &set, solid, axes(&lattice))
+        staged::<2, 5>(body, &set, solid, &lattice)
     } else {
-        staged::<4, 9>(body, &set, solid, axes(&lattice))
+        staged::<4, 9>(body, &set, solid, &lattice)
     };
     if let Some(a) = loose.first() {
         let what = format!(
@@ -158,7 +158,7 @@ fn staged<const L: usize, const T: usize>(
     body: Body,
     set: &Set,
     solid: &Solid,
-    axes: Matrix,
+    lattice: &Lattice,
 ) -> (Box<dyn Stage>, Vec<usize>) {
     let (stage, loose) = Elastic::<L, T>::new(body, set);
     let stage = match solid.plasticity {
@@ -166,7 +166,10 @@ fn staged<const L: usize, const T: usize>(
         None => stage,
     };
     let stage = match solid.fracture {
-        Some(criterion) => stage.breaking(criterion, set, axes),
+        Some(criterion) => {
+            let middles = lattice.middles(if T == 5 { 2 } else { 3 });
+            stage.breaking(criterion, set, &middles, axes(lattice))
+        }
         None => stage,
     };
     (Box::new(stage), loose)
@@ -237,24 +240,17 @@ pub(super) fn contact(scene: &Scene, solids: &[Made]) -> Box<dyn Stage> {
 }
 
 /// The stage of a solid's artificial viscosity.
-fn shocks(of: &ArtificialViscosity, made: &Made, state: &State) -> Box<dyn Stage> {
+fn shocks(of: &ShockViscosity, made: &Made, state: &State) -> Box<dyn Stage> {
     let set = &state.sets[made.set];
     let h = SMOOTHING * spacing(made.size, state.dimensions);
-    let friction = Artificial::new(of, set.matter.density, made.sound, h);
-    if state.dimensions == 2 {
-        Box::new(Shocks::new(
-            made.set,
-            set,
-            friction,
-            CubicSpline::<2>::new(h),
-        ))
-    } else {
-        Box::new(Shocks::new(
-            made.set,
-            set,
-            friction,
-            CubicSpline::<3>::new(h),
-        ))
+    let artificial = Artificial::new(&of.terms(), set.matter.density, made.sound, h);
+    let tension = of.in_tension.then_some(BothWays(artificial));
+    let (plane, space) = (CubicSpline::<2>::new(h), CubicSpline::<3>::new(h));
+    match (state.dimensions, tension) {
+        (2, None) => Box::new(Shocks::new(made.set, set, artificial, artificial, plane)),
+        (2, Some(both)) => Box::new(Shocks::new(made.set, set, artificial, both, plane)),
+        (_, None) => Box::new(Shocks::new(made.set, set, artificial, artificial, space)),
+        (_, Some(both)) => Box::new(Shocks::new(made.set, set, artificial, both, space)),
     }
 }
 

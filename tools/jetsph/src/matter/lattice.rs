@@ -28,6 +28,8 @@ pub struct Lattice {
     pub frame: Frame,
     /// Size of a cell along them \[m\]; 1 across the plane.
     pub cell: [f64; 3],
+    /// Corner where the cells begin, along them \[m\].
+    pub low: [f64; 3],
     /// Whether the cells end where the body does.
     pub fits: bool,
     /// Places of the particles, the middles of cells \[m\].
@@ -73,6 +75,7 @@ impl Lattice {
         let mut lattice = Self {
             frame,
             cell,
+            low: half.map(|half| -half),
             fits: boxed.is_some(),
             places: Vec::new(),
             cells: Vec::new(),
@@ -114,6 +117,21 @@ impl Lattice {
                 }
             }
         }
+    }
+
+    /// Middles of the cells, where no particle is shaken, along the axes of the lattice \[m\].
+    #[must_use]
+    pub fn middles(&self, dimensions: usize) -> Vec<[f64; 3]> {
+        let middle = |at: &[u32; 3]| {
+            [0, 1, 2].map(|k| {
+                if k < dimensions {
+                    (f64::from(at[k]) + 0.5) * self.cell[k] + self.low[k]
+                } else {
+                    0.0
+                }
+            })
+        };
+        self.cells.iter().map(middle).collect()
     }
 
     /// A place along the axes of the lattice \[m\].

@@ -8,7 +8,7 @@ use shapes::Shape;
 use crate::matter::solid::fracture::Criterion;
 use crate::matter::solid::law::Elastic;
 use crate::matter::solid::plastic::Plasticity;
-use crate::matter::water::friction::ArtificialViscosity;
+use crate::matter::solid::shocks::ShockViscosity;
 
 /// A solid body.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -33,8 +33,8 @@ pub struct Solid {
     pub plasticity: Option<Plasticity>,
     /// When it breaks; never if absent.
     pub fracture: Option<Criterion>,
-    /// Artificial viscosity of what approaches in it (38); none if absent.
-    pub artificial_viscosity: Option<ArtificialViscosity>,
+    /// Artificial viscosity (38); none if absent.
+    pub artificial_viscosity: Option<ShockViscosity>,
     /// By the rates of its present state (32)-(37), as in the source, for comparison: a free, elastic body, whose particles water sees
     /// as they stand. By its deformation since rest (total Lagrangian) if absent.
     pub updated_form: Option<UpdatedForm>,

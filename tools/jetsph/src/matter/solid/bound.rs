@@ -3,7 +3,7 @@
 use neighbours::Grid;
 use shapes::surface::{Piece, names, pieces};
 
-use super::links::terms;
+use super::quadratic::terms;
 use crate::matter::lattice::Lattice;
 
 /// A piece of surface has its particle within so many cells.

@@ -7,7 +7,7 @@ use super::breaking::Breaking;
 use super::cell::{Derivatives, gradient};
 use super::elastic::Elastic;
 use super::fracture::{BROKEN, Criterion};
-use super::links::second;
+use super::quadratic::second;
 use super::stiffness::stiffness;
 use super::tensor::determinant;
 use super::trial::Trial;
@@ -60,7 +60,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     }
 
     /// Those that the criterion breaks.
-    fn due(&mut self) -> Vec<usize> {
+    fn due(&mut self, set: &Set) -> Vec<usize> {
         let Some(mut breaking) = self.breaking.take() else {
             return Vec::new();
         };
@@ -72,7 +72,9 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let all = (0..breaking.broken.len()).into_par_iter().with_min_len(32);
         let mut due: Vec<usize> = all.filter(is_due).collect();
         if let Criterion::Energy(limit) = breaking.criterion {
-            due.extend(self.released(&mut breaking, limit));
+            let (acceleration, mass) = (set.column(&ACCELERATION), set.column(&MASS));
+            let pushed = |a: usize| acceleration[a].map(|x| mass[a] * x);
+            due.extend(self.released(&mut breaking, limit, pushed));
             due.sort_unstable();
             due.dedup();
         }
@@ -82,6 +84,12 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
 
     /// Breaks some particles and what they held, and books the energy that goes with their links.
     fn break_all(&mut self, mut fresh: Vec<usize>, set: &mut Set, time: f64) {
+        if let Some(breaking) = self.breaking.as_mut().filter(|b| b.first[0].is_nan()) {
+            let place = set.column(&POSITION);
+            let mean =
+                |k: usize| fresh.iter().map(|a| place[*a][k]).sum::<f64>() / fresh.len() as f64;
+            breaking.first = [time, mean(0), mean(1), mean(2)];
+        }
         let before = self.stored() - self.load_potential(set.column(&POSITION), time);
         // What is left of a fit, from one side, can be turned inside out where the whole was not.
         while !fresh.is_empty() {
@@ -110,7 +118,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     /// Breaks what is due between two steps: the last one ends with the forces of the whole solid, the next begins with
     /// those of what is left, so that each step has one energy.
     pub(super) fn break_between(&mut self, state: &mut State, dt: f64) {
-        let fresh = self.due();
+        let fresh = self.due(&state.sets[self.body.set]);
         if fresh.is_empty() {
             return;
         }
@@ -172,7 +180,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         self.body.loads.retain(|load| !broken[load.particle]);
         let moment = self.body.cell.moment;
         for a in fresh.iter().chain(&touched) {
-            breaking.stiffness.0[*a] = stiffness(&self.links.row(*a), moment);
+            breaking.stiffness.0[*a] = stiffness(self.links.row(*a).weight, moment);
         }
         let (now, rest) = &breaking.stiffness;
         let most = now.iter().fold(0.0, |most: f64, x| most.max(*x));
@@ -199,7 +207,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             for of in trials.as_chunks::<3>().0 {
                 let (a, size) = (of[0] as usize, self.body.size);
                 let (cracks, broken) = (&breaking.cracks, &breaking.broken);
-                let mut trial = Trial::new(&self.links, cracks, a, broken, size);
+                let mut trial = Trial::new(cracks, a, broken, size);
                 (trial.ratio, trial.asked) = (of[1], of[2]);
                 breaking.trials.insert(a, trial);
             }
@@ -208,16 +216,29 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         rest
     }
 
-    /// Takes up what was broken when a checkpoint was written.
-    pub(super) fn take_up(&mut self, flags: &[u8], [energy, released]: [f64; 2]) {
-        let Some(mut breaking) = self.breaking.take() else {
-            return;
+    /// What a checkpoint keeps of cracks.
+    pub(super) fn saved_cracks(&self) -> [f64; 6] {
+        let Some(breaking) = &self.breaking else {
+            return [0.0; 6];
         };
-        (breaking.energy, breaking.released) = (energy, released);
-        breaking.broken = flags.iter().map(|flag| *flag > 0).collect();
-        let fresh: Vec<usize> = (0..flags.len()).filter(|a| flags[*a] > 0).collect();
-        let _ = self.cut(&mut breaking, &fresh);
-        self.breaking = Some(breaking);
+        let [time, x, y, z] = breaking.first;
+        [breaking.energy, breaking.released, time, x, y, z]
+    }
+
+    /// Takes up what was broken when a checkpoint was written; gives the rest.
+    pub(super) fn take_up<'a>(&mut self, flags: &[u8], saved: &'a [f64]) -> &'a [f64] {
+        let [energy, released, time, x, y, z, rest @ ..] = saved else {
+            return saved;
+        };
+        if let Some(mut breaking) = self.breaking.take() {
+            (breaking.energy, breaking.released) = (*energy, *released);
+            breaking.first = [*time, *x, *y, *z];
+            breaking.broken = flags.iter().map(|flag| *flag > 0).collect();
+            let fresh: Vec<usize> = (0..flags.len()).filter(|a| flags[*a] > 0).collect();
+            let _ = self.cut(&mut breaking, &fresh);
+            self.breaking = Some(breaking);
+        }
+        rest
     }
 
     /// Shows the water how the cells are deformed and move; broken ones keep their shape.
@@ -269,6 +290,25 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             }
         }
         sum
+    }
+
+    /// When and where the solid first broke.
+    pub(super) fn first_break(&self, state: &State) -> Vec<Figure> {
+        let Some(first) = self.breaking.as_ref().map(|breaking| breaking.first) else {
+            return Vec::new();
+        };
+        let name = state.sets[self.body.set].name();
+        let each = [("s", "s"), ("x_m", "m"), ("y_m", "m"), ("z_m", "m")];
+        let told = first
+            .into_iter()
+            .zip(each)
+            .filter(|(value, _)| value.is_finite());
+        told.map(|(value, (what, unit))| Figure {
+            name: format!("{name}_first_break_{what}"),
+            unit,
+            value,
+        })
+        .collect()
     }
 
     /// Numbers of the cracks.

@@ -23,6 +23,8 @@ pub struct Breaking<const T: usize> {
     pub(super) energy: f64,
     /// Energy that the body was to release for them \[J\], by the criterion of the energy.
     pub(super) released: f64,
+    /// Time \[s\] and place \[m\] where it first broke; no numbers before.
+    pub(super) first: [f64; 4],
     /// What is left around those that may break next, where the criterion asks.
     pub(super) trials: BTreeMap<usize, Trial<T>>,
     /// How stiff each cell is for its neighbours \[1/m2\], 0 of broken ones, and the most that any was at rest.
@@ -50,6 +52,7 @@ impl<const T: usize> Breaking<T> {
             list: Vec::new(),
             energy: 0.0,
             released: 0.0,
+            first: [f64::NAN; 4],
             trials: BTreeMap::new(),
             stiffness: (stiffness, most),
         }

@@ -13,8 +13,8 @@
 //! incompressible solid from locking: volume is then kept per cell, not in every part of it.
 
 use super::law::Law;
-use super::links::second;
-use super::tensor::{Matrix, UNIT, determinant, product};
+use super::quadratic::second;
+use super::tensor::{Matrix, UNIT, determinant, product, transposed_times};
 
 /// lambda' is at most so many shear moduli.
 const LAME_MOST: f64 = 2.0;
@@ -89,24 +89,20 @@ impl Cell {
     /// e_k and C' : e_k.
     #[inline(always)]
     fn varying(&self, f: &Matrix, slope: &Matrix, d: usize) -> (Matrix, Matrix) {
-        let strain = Self::bending(f, slope, d);
+        let strain = Self::bending(f, slope);
         (strain, self.bent(&strain, d))
     }
 
-    /// e_k = sym(F^T dF/dX_k).
+    /// e_k = sym(F^T dF/dX_k). In the plane the slope is 0 across it.
     #[inline(always)]
-    pub(super) fn bending(f: &Matrix, slope: &Matrix, d: usize) -> Matrix {
-        let part = |i: usize, j: usize| (0..d).map(|a| f[a][i] * slope[a][j]).sum::<f64>();
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let inside = i < d && j < d;
-                if inside {
-                    0.5 * (part(i, j) + part(j, i))
-                } else {
-                    0.0
-                }
-            })
-        })
+    pub(super) fn bending(f: &Matrix, slope: &Matrix) -> Matrix {
+        let both = transposed_times(f, slope);
+        let mean = |i: usize, j: usize| 0.5 * (both[i][j] + both[j][i]);
+        [
+            [mean(0, 0), mean(0, 1), mean(0, 2)],
+            [mean(1, 0), mean(1, 1), mean(1, 2)],
+            [mean(2, 0), mean(2, 1), mean(2, 2)],
+        ]
     }
 
     /// C' : e_k.

@@ -6,8 +6,9 @@ use neighbours::Grid;
 use particles::Rows;
 use rayon::prelude::*;
 
+use super::fit::{SUPPORT, fit};
 use super::fracture::crossed;
-use super::links::{Links, SUPPORT, fit};
+use super::links::Links;
 
 /// What may stand between two linked places is nearer than this to either \[cells\].
 pub(super) const AROUND: f64 = SUPPORT + 0.5;
@@ -17,14 +18,17 @@ pub(super) const AROUND: f64 = SUPPORT + 0.5;
 pub struct Cracks {
     /// Places at rest in cells, anchors behind the particles.
     places: Vec<[f64; 3]>,
+    /// Middles of their cells, in cells: what breaks are cells, wherever in them particles stand.
+    middles: Vec<[f64; 3]>,
     rows: Rows,
     around: Rows,
 }
 
 impl Cracks {
-    /// Of places at rest \[m\], the first `particles` of which may break.
+    /// Of places at rest \[m\], particles before anchors, and the middles of the cells that may break \[m\].
     #[must_use]
-    pub fn new(rest: &[[f64; 3]], particles: usize, cell: [f64; 3]) -> Self {
+    pub fn new(rest: &[[f64; 3]], middles: &[[f64; 3]], cell: [f64; 3]) -> Self {
+        let particles = middles.len();
         let scaled = |x: &[f64; 3]| [0, 1, 2].map(|k| x[k] / cell[k]);
         let places: Vec<[f64; 3]> = rest.iter().map(scaled).collect();
         let within = |radius: f64| {
@@ -36,6 +40,11 @@ impl Cracks {
         Self {
             rows: within(SUPPORT),
             around: within(AROUND),
+            middles: middles
+                .iter()
+                .map(scaled)
+                .chain(places[particles..].iter().copied())
+                .collect(),
             places,
         }
     }
@@ -89,11 +98,11 @@ impl Cracks {
             .row(a)
             .iter()
             .filter(|b| is_broken(b))
-            .map(|b| self.places[*b as usize])
+            .map(|b| self.middles[*b as usize])
             .collect();
         let is_left = |b: &&u32| {
-            let to = self.places[**b as usize];
-            !is_broken(b) && !crossed(self.places[a], to, between.iter().copied())
+            let to = self.middles[**b as usize];
+            !is_broken(b) && !crossed(self.middles[a], to, between.iter().copied())
         };
         self.rows.row(a).iter().filter(is_left).copied().collect()
     }
@@ -101,14 +110,14 @@ impl Cracks {
     /// Weights in cells of the neighbours `row` that are left to particle `a`, and whether they hold it.
     pub(super) fn refit<const T: usize>(&self, a: usize, row: &[u32]) -> (Vec<[f64; T]>, bool) {
         let fewest = if T == 5 { 4 } else { 7 };
-        let (weights, held) = fit::<T>(&self.places, self.rows.len(), a, row);
-        (weights, held && row.len() >= fewest)
+        let fit = fit::<T>(&self.places, self.rows.len(), a, row);
+        (fit.weights, fit.held && fit.soft && row.len() >= fewest)
     }
 
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.rows.bytes() + self.around.bytes() + 24 * self.places.len()
+        self.rows.bytes() + self.around.bytes() + 48 * self.places.len()
     }
 }
 
@@ -140,7 +149,7 @@ impl<const T: usize> Links<T> {
         let new = found
             .into_iter()
             .map(|(a, row, weights, _)| (a, (row, weights)));
-        self.replace(new.collect(), cell);
+        self.replace(&new.collect(), cell);
         loose
     }
 }
@@ -155,7 +164,7 @@ mod tests {
             .map(|i| [f64::from(i % 9), f64::from(i / 9), 0.0])
             .collect();
         let (mut links, _) = Links::<5>::new(&places, 81, [1.0; 3]);
-        let cracks = Cracks::new(&places, 81, [1.0; 3]);
+        let cracks = Cracks::new(&places, &places, [1.0; 3]);
         // A column of broken particles.
         let fresh: Vec<usize> = (0..9).map(|j| 9 * j + 4).collect();
         let broken: Vec<bool> = (0..81).map(|a| fresh.contains(&a)).collect();

@@ -1,7 +1,6 @@
 //! The stage of an elastic solid.
 
 use particles::{Column, POSITION, Set, sweep};
-use rayon::prelude::*;
 
 use super::body::Body;
 use super::breaking::Breaking;
@@ -83,9 +82,15 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         (stage, loose)
     }
 
-    /// With fracture; `axes` are those of the lattice.
+    /// With fracture; `middles` are those of the cells \[m\] and `axes` those of the lattice.
     #[must_use]
-    pub fn breaking(mut self, criterion: Criterion, set: &Set, axes: Matrix) -> Self {
+    pub fn breaking(
+        mut self,
+        criterion: Criterion,
+        set: &Set,
+        middles: &[[f64; 3]],
+        axes: Matrix,
+    ) -> Self {
         let mut rest = set.column(&REST).to_vec();
         let n = rest.len();
         rest.extend_from_slice(&self.body.anchor_rest);
@@ -94,9 +99,9 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             .cell
             .volume
             .powf(if T == 5 { 0.5 } else { 1.0 / 3.0 });
-        let cracks = Cracks::new(&rest, n, self.body.size);
+        let cracks = Cracks::new(&rest, middles, self.body.size);
         let moment = self.body.cell.moment;
-        let stiffness = (0..n).map(|a| stiffness(&self.links.row(a), moment));
+        let stiffness = (0..n).map(|a| stiffness(self.links.row(a).weight, moment));
         let stiffness = stiffness.collect();
         self.breaking = Some(Breaking::new(criterion, cracks, size, stiffness, axes));
         self
@@ -116,98 +121,6 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         for (place, anchor) in anchors.zip(&self.body.anchors) {
             (0..L.min(3)).for_each(|k| place[k] = anchor.place[k] + time * anchor.velocity[k]);
         }
-    }
-
-    /// Derivatives of the deformation of cell `a`.
-    #[inline(always)]
-    pub(super) fn derivatives(&self, a: usize) -> Derivatives<L, T> {
-        let row = self.links.row(a);
-        let own = self.places[a];
-        let mut sum = [[0.0; L]; T];
-        for (b, weight) in row.other.iter().zip(row.weight) {
-            let other = self.places[*b as usize];
-            let dx: [f64; L] = std::array::from_fn(|k| other[k] - own[k]);
-            for (column, w) in sum.iter_mut().zip(weight) {
-                (0..L).for_each(|k| column[k] += w * dx[k]);
-            }
-        }
-        sum
-    }
-
-    /// Slopes of the energy of all cells that are elastic.
-    fn answer_whole(&self, answers: &mut [Derivatives<L, T>], stiffer: &mut [f64]) {
-        let each = answers
-            .par_chunks_mut(GRAIN)
-            .zip(stiffer.par_chunks_mut(GRAIN));
-        each.enumerate().for_each(|(chunk, (answers, stiffer))| {
-            sweep::wide(|| {
-                let all = answers.iter_mut().zip(stiffer.iter_mut()).enumerate();
-                for (k, (answer, stiffer)) in all {
-                    let derivatives = self.derivatives(chunk * GRAIN + k);
-                    (*answer, *stiffer) = self.body.cell.answer(&derivatives);
-                }
-            });
-        });
-    }
-
-    /// Slopes of the energy of all cells, less the work of the loads at a time \[s\].
-    pub(super) fn answer(&mut self, time: f64) {
-        let mut answers = std::mem::take(&mut self.answers);
-        let mut stiffer = std::mem::take(&mut self.stiffer);
-        if let Some(mut plastic) = self.plastic.take() {
-            self.answer_flowing(&mut plastic, &mut answers, &mut stiffer);
-            self.plastic = Some(plastic);
-        } else {
-            self.answer_whole(&mut answers, &mut stiffer);
-        }
-        self.body.part(&mut answers);
-        for load in &self.body.loads {
-            let parts: [f64; T] = load.parts();
-            let (force, columns) = (load.at(time), answers[load.particle].iter_mut().zip(parts));
-            columns.for_each(|(column, part)| {
-                (0..L.min(3)).for_each(|k| column[k] -= force[k] * part);
-            });
-        }
-        self.answers = answers;
-        self.stiffer = stiffer;
-        self.let_go();
-    }
-
-    /// Adds the accelerations of all particles: what their own cell does to them, less what those of the others do.
-    pub(super) fn accelerate(&self, acceleration: &mut [[f64; 3]], mass: &[f64]) {
-        let n = self.answers.len();
-        let each = acceleration.par_chunks_mut(GRAIN).enumerate();
-        each.for_each(|(chunk, acceleration)| {
-            sweep::wide(|| {
-                for (k, own) in acceleration.iter_mut().enumerate() {
-                    let a = chunk * GRAIN + k;
-                    let row = self.links.row(a);
-                    let mut force = [0.0; L];
-                    add(&mut force, &self.answers[a], row.total);
-                    let mut others = [0.0; L];
-                    for (b, back) in row.other.iter().zip(row.back) {
-                        let b = *b as usize;
-                        if b < n {
-                            add(&mut others, &self.answers[b], back);
-                        }
-                    }
-                    let inverse = 1.0 / mass[a];
-                    (0..L.min(3)).for_each(|i| own[i] += inverse * (force[i] - others[i]));
-                }
-            });
-        });
-    }
-}
-
-/// sum += slopes of the energy . weights.
-#[inline(always)]
-pub(super) fn add<const L: usize, const T: usize>(
-    sum: &mut [f64; L],
-    answer: &Derivatives<L, T>,
-    weight: &[f64; T],
-) {
-    for (column, w) in answer.iter().zip(weight) {
-        (0..L).for_each(|k| sum[k] += w * column[k]);
     }
 }
 
@@ -345,6 +258,10 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         figures
     }
 
+    fn closing(&self, state: &State) -> Vec<Figure> {
+        self.first_break(state)
+    }
+
     fn bytes(&self) -> usize {
         let vectors = self.places.len() * L * 8 + self.answers.len() * (L * T * 8 + 8);
         self.links.bytes() + vectors + self.breaking.as_ref().map_or(0, Breaking::bytes)
@@ -352,12 +269,11 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
 
     fn save(&self) -> Vec<f64> {
         let (force, power) = self.held;
-        let breaking = self.breaking.as_ref();
-        let [energy, released] = breaking.map_or([0.0; 2], |b| [b.energy, b.released]);
         let mut saved = [
             &self.entry.save()[..],
             &force,
-            &[power, energy, released],
+            &[power],
+            &self.saved_cracks(),
             &self.rising.last(),
         ]
         .concat();
@@ -368,10 +284,9 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
     }
 
     fn restore(&mut self, state: &State, saved: &[f64]) {
-        if let [fx, fy, fz, power, energy, released, rest @ ..] = self.entry.restore(saved) {
+        if let [fx, fy, fz, power, rest @ ..] = self.entry.restore(saved) {
             self.held = ([*fx, *fy, *fz], *power);
-            let flags = state.sets[self.body.set].column(&BROKEN);
-            self.take_up(flags, [*energy, *released]);
+            let rest = self.take_up(state.sets[self.body.set].column(&BROKEN), rest);
             let rest = self.rising.restore(rest);
             let histories = self.take_trials(rest);
             if let Some(plastic) = &mut self.plastic {

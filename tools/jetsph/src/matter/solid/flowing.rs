@@ -31,7 +31,7 @@ pub(super) fn answer<const L: usize, const T: usize>(
     let back = inverse(&f);
     let mut varying = [[[0.0; 3]; 3]; 3];
     for (k, stress) in varying.iter_mut().enumerate().take(d) {
-        let strain = elastic(&f, &slope(derivatives, k), d, &history.bent[k]);
+        let strain = elastic(&f, &slope(derivatives, k), &history.bent[k]);
         let away = deviator(&strain, d);
         let flown = away.map(|row| row.map(|e| (1.0 - kept) * e));
         if kept < 1.0 {
@@ -57,15 +57,15 @@ pub(super) fn energy<const L: usize, const T: usize>(
     let f = gradient(derivatives);
     let mut energy = law.flow(&cell.law, &f, &mut history.clone()).energy;
     for k in 0..d {
-        let strain = elastic(&f, &slope(derivatives, k), d, &history.bent[k]);
+        let strain = elastic(&f, &slope(derivatives, k), &history.bent[k]);
         energy += 0.5 * cell.moment[k] * inner(&strain, &cell.bent(&strain, d));
     }
     cell.volume * energy
 }
 
 /// The elastic part of the strain that varies along an axis.
-fn elastic(f: &Matrix, slope: &Matrix, d: usize, bent: &Matrix) -> Matrix {
-    sum(&Cell::bending(f, slope, d), bent, -1.0)
+fn elastic(f: &Matrix, slope: &Matrix, bent: &Matrix) -> Matrix {
+    sum(&Cell::bending(f, slope), bent, -1.0)
 }
 
 /// a + factor b.

@@ -3,8 +3,9 @@
 use particles::{POSITION, Set, sweep};
 
 use super::bound::Load;
-use super::elastic::{Elastic, add};
-use super::links::second;
+use super::elastic::Elastic;
+use super::forces::add;
+use super::quadratic::second;
 use crate::matter::meeting::faces::{BEND, MIXED, PULL, TWIST, WARP};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
@@ -18,6 +19,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let [x, y, z, power] = sweep::sum(n, |a| {
             let row = self.links.row(a);
             let mut sum = [0.0; 4];
+            // Neighbours are in order, anchors behind particles.
+            if row.other.last().is_none_or(|b| (*b as usize) < n) {
+                return sum;
+            }
             for (b, weight) in row.other.iter().zip(row.weight) {
                 if let Some(anchor) = (*b as usize).checked_sub(n) {
                     let mut force = [0.0; L];

@@ -70,7 +70,12 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     }
 
     /// Those that break because a crack of an energy \[J/m2\] would be paid: of neighbours the one that gives most.
-    pub(super) fn released(&self, breaking: &mut Breaking<T>, limit: f64) -> Vec<usize> {
+    pub(super) fn released(
+        &self,
+        breaking: &mut Breaking<T>,
+        limit: f64,
+        pushed: impl Fn(usize) -> [f64; 3] + Sync,
+    ) -> Vec<usize> {
         let cell = &self.body.cell;
         let area = cell.volume / breaking.size;
         let is_near = |a: &usize| {
@@ -82,7 +87,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let near: Vec<usize> = all.filter(is_near).collect();
         let of = |a: &usize| {
             let (cracks, broken) = (&breaking.cracks, &breaking.broken);
-            let trial = Trial::new(&self.links, cracks, *a, broken, self.body.size);
+            let trial = Trial::new(cracks, *a, broken, self.body.size);
             (*a, trial)
         };
         let is_new = |a: &&usize| !breaking.trials.contains_key(a);
@@ -95,7 +100,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             let (own, part) = self.own(*a);
             let wanted = own * trial.ratio >= limit * area || own >= GROWN * trial.asked;
             let gone = wanted.then(|| {
-                let all = self.links_alone(trial) + self.relief(breaking, trial);
+                let all = self.links_alone(trial) + self.relief(breaking, trial, &pushed);
                 part * all / WITHIN
             });
             Some((*a, own, gone))
@@ -172,7 +177,7 @@ mod tests {
             set.column_mut(&MASS)[row] = 1e-3;
         }
         let (stage, _) = Elastic::<2, 5>::new(body, &set);
-        let mut stage = stage.breaking(Criterion::Energy(1.0), &set, UNIT);
+        let mut stage = stage.breaking(Criterion::Energy(1.0), &set, set.column(&REST), UNIT);
         for (place, rest) in stage.places.iter_mut().zip(set.column(&REST)) {
             *place = [rest[0], (1.0 + pull) * rest[1]];
         }
@@ -187,7 +192,7 @@ mod tests {
         let breaking = stage.breaking.as_ref().unwrap();
         let broken = vec![false; 81];
         let trial = |stage: &Elastic<2, 5>, broken: &[bool]| {
-            let trial = Trial::new(&stage.links, &breaking.cracks, 40, broken, stage.body.size);
+            let trial = Trial::new(&breaking.cracks, 40, broken, stage.body.size);
             stage.own(40).1 * stage.links_alone(&trial)
         };
         let alone = trial(&stage, &broken);
@@ -207,14 +212,43 @@ mod tests {
             place[1] += if i % 9 < 5 && i >= 45 { 1e-6 } else { 0.0 };
         }
         let mut breaking = stage.breaking.take().unwrap();
-        let told = stage.released(&mut breaking, 0.0);
+        let told = stage.released(&mut breaking, 0.0, |_| [0.0; 3]);
         let (cracks, broken) = (&breaking.cracks, &breaking.broken);
-        let trial = Trial::new(&stage.links, cracks, 40, broken, stage.body.size);
+        let trial = Trial::new(cracks, 40, broken, stage.body.size);
         stage.breaking = Some(breaking);
         assert!(!told.is_empty());
         let (release, before) = (stage.links_alone(&trial), stage.stored());
         assert!(stage.break_up(&[40], &mut set).is_empty());
         let gone = before - stage.stored();
         assert!((release / gone - 1.0).abs() < 1e-9, "{release} {gone}");
+    }
+
+    #[test]
+    fn what_swings_gives_no_more_than_what_rests() {
+        let (mut stage, mut set) = sheet(1e-3);
+        set.declare(&BROKEN);
+        let loose = stage.break_up(&[36, 37, 38, 39], &mut set);
+        assert!(loose.is_empty());
+        let breaking = stage.breaking.take().unwrap();
+        let mass = set.column(&MASS);
+        let mut gone = || {
+            stage.answer(0.0);
+            let mut pushed = vec![[0.0; 3]; mass.len()];
+            stage.accelerate(&mut pushed, mass);
+            let pushed = |a: usize| pushed[a].map(|x| mass[a] * x);
+            let (cracks, broken) = (&breaking.cracks, &breaking.broken);
+            let trial = Trial::new(cracks, 40, broken, stage.body.size);
+            let gone = stage.links_alone(&trial) + stage.relief(&breaking, &trial, pushed);
+            // Those around the break swing.
+            for a in [31, 32, 41, 50] {
+                stage.places[a][1] += 2e-7 * (a as f64).sin();
+            }
+            gone
+        };
+        let (rests, swings) = (gone(), gone());
+        assert!(
+            rests > 0.0 && (swings / rests - 1.0).abs() < 0.03,
+            "{swings} {rests}"
+        );
     }
 }

@@ -1,18 +1,20 @@
 //! What the neighbourhood of a break gives when it comes to rest.
 //!
 //! ```text
-//! df = f(without a) - f(whole),      K u = df,      energy = df.u/2
+//! f = m a + f(without a) - f(whole),      K u = f,      energy = f.u/2 - that of m a in the whole neighbourhood
 //! ```
 //!
-//! u moves those around the break, all beyond stand still, and K is the stiffness of what is left where it is now. What
-//! moves or waves already is in both forces and counts for nothing. By conjugate gradients, whose energy grows with each
+//! u moves those around the break, all beyond stand still, and K is the stiffness of what is left where it is now. What is
+//! pushed from outside is pushed on; what waves already would come to rest without the break, too, and counts for
+//! nothing. By conjugate gradients, whose energy grows with each
 //! iteration towards that of rest (Hestenes and Stiefel 1952).
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::breaking::Breaking;
 use super::cell::Derivatives;
-use super::elastic::{Elastic, add};
+use super::elastic::Elastic;
+use super::forces::add;
 use super::trial::{Left, Trial};
 
 /// Those that move are nearer than so many cells: beyond, a crack is felt as one of any other lattice.
@@ -33,8 +35,14 @@ struct Region<'a, const T: usize> {
 }
 
 impl<const L: usize, const T: usize> Elastic<L, T> {
-    /// Energy that the neighbourhood of a break gives beside that of the links \[J\].
-    pub(super) fn relief(&self, breaking: &Breaking<T>, trial: &Trial<T>) -> f64 {
+    /// Energy that the neighbourhood of a break gives beside that of the links \[J\]; `pushed` are the forces on all
+    /// particles that nothing balances now \[N\].
+    pub(super) fn relief(
+        &self,
+        breaking: &Breaking<T>,
+        trial: &Trial<T>,
+        pushed: impl Fn(usize) -> [f64; 3],
+    ) -> f64 {
         let Some(own) = trial.left.first().map(|left| left.particle) else {
             return 0.0;
         };
@@ -42,14 +50,31 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let still = vec![[0.0; L]; region.moving.len()];
         let whole = self.slopes(&region, &still, false);
         let without = self.slopes(&region, &still, true);
+        let mut moving = vec![[0.0; L]; region.moving.len()];
+        for (a, k) in &region.moving {
+            let force = pushed(*a as usize);
+            (0..L.min(3)).for_each(|i| moving[*k][i] = force[i]);
+        }
         // Forces are slopes of the energy, downwards.
-        let mut rest: Vec<[f64; L]> = whole
-            .iter()
-            .zip(&without)
-            .map(|(a, b)| minus(a, b))
-            .collect();
-        let force = rest.clone();
-        let mut motion = still.clone();
+        let change = whole.iter().zip(&without).map(|(a, b)| minus(a, b));
+        let mut all = moving.clone();
+        for (force, change) in all.iter_mut().zip(change) {
+            (0..L).for_each(|i| force[i] += change[i]);
+        }
+        self.given(&region, &all, &without, true) - self.given(&region, &moving, &whole, false)
+    }
+
+    /// Energy that a neighbourhood gives when it comes to rest under forces that nothing balances \[J\]; `slopes` are those of
+    /// its energy where it is.
+    fn given(
+        &self,
+        region: &Region<'_, T>,
+        force: &[[f64; L]],
+        slopes: &[[f64; L]],
+        without: bool,
+    ) -> f64 {
+        let mut motion = vec![[0.0; L]; force.len()];
+        let mut rest = force.to_vec();
         let mut way = rest.clone();
         let begun = dot(&rest, &rest);
         let mut square = begun;
@@ -60,10 +85,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             }
             let small = SMALL * self.body.size[0] / most;
             let tried: Vec<[f64; L]> = way.iter().map(|p| p.map(|x| small * x)).collect();
-            let there = self.slopes(&region, &tried, true);
+            let there = self.slopes(region, &tried, without);
             let stiff: Vec<[f64; L]> = there
                 .iter()
-                .zip(&without)
+                .zip(slopes)
                 .map(|(a, b)| minus(a, b).map(|x| x / small))
                 .collect();
             let along = dot(&way, &stiff);
@@ -80,7 +105,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             });
             square = next;
         }
-        0.5 * dot(&force, &motion)
+        0.5 * dot(force, &motion)
     }
 
     fn region<'a>(&self, breaking: &Breaking<T>, trial: &'a Trial<T>, own: usize) -> Region<'a, T> {

@@ -1,7 +1,7 @@
 //! What would be left around a particle if it broke.
 
 use super::cracks::Cracks;
-use super::links::{Links, scale};
+use super::quadratic::scale;
 
 /// A particle whose fit changes, and what is left of it: nothing where it breaks, too.
 #[derive(Debug, Clone)]
@@ -24,20 +24,14 @@ pub struct Trial<const T: usize> {
 
 impl<const T: usize> Trial<T> {
     /// Of a particle, from those that are broken already.
-    pub(super) fn new(
-        links: &Links<T>,
-        cracks: &Cracks,
-        a: usize,
-        broken: &[bool],
-        cell: [f64; 3],
-    ) -> Self {
+    pub(super) fn new(cracks: &Cracks, a: usize, broken: &[bool], cell: [f64; 3]) -> Self {
         let mut all = broken.to_vec();
         all[a] = true;
         let scale = scale::<T>(cell);
         let touched = cracks.touched(&[a], &all).into_iter();
         let refit = |b: usize| {
             let row = cracks.left(b, &all);
-            (row.len() != links.row(b).other.len()).then(|| {
+            (row.len() != cracks.left(b, broken).len()).then(|| {
                 let (weights, held) = cracks.refit::<T>(b, &row);
                 let scaled = weights
                     .iter()

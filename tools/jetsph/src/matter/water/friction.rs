@@ -82,6 +82,18 @@ impl Friction for Artificial {
     }
 }
 
+/// Artificial viscosity between particles that approach and, with the opposite sign, between those that part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BothWays(pub Artificial);
+
+impl Friction for BothWays {
+    #[inline(always)]
+    fn pressure<N: Number>(&self, approach: N, square: N) -> N {
+        let parting = square.of(0.0) - approach;
+        self.0.pressure(approach, square) - self.0.pressure(parting, square)
+    }
+}
+
 /// True viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Viscous {
@@ -133,6 +145,11 @@ mod tests {
         );
         assert!(both.0.pressure(-1e-3, 1e-6) > 0.0);
         assert!(both.0.pressure(1e-3, 1e-6).abs() <= 0.0);
+        let tension = BothWays(both.0);
+        for approach in [-1e-3, 1e-3] {
+            let [one, other] = [approach, -approach].map(|a| tension.pressure(a, 1e-6));
+            assert!(one * approach < 0.0 && (one + other).abs() <= 0.0);
+        }
         assert!(both.1.pressure(1e-3, 1e-6) < 0.0 && both.pressure(-1e-3, 1e-6) > 0.0);
     }
 }
