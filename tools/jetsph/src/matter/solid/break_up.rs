@@ -4,17 +4,15 @@ use particles::{POSITION, Set, sweep};
 use rayon::prelude::*;
 
 use super::breaking::Breaking;
-use super::cell::{Derivatives, gradient};
+use super::cell::gradient;
 use super::elastic::Elastic;
 use super::fracture::{BROKEN, Criterion};
-use super::quadratic::second;
 use super::stiffness::stiffness;
 use super::tensor::determinant;
 use super::trial::Trial;
-use crate::matter::meeting::faces::{BEND_RATE, DEFORMATION_RATE, MIXED, WARP_RATE};
 use crate::matter::meeting::skin::DEFORMATION;
 use crate::stage::Figure;
-use crate::state::{ACCELERATION, MASS, State, VELOCITY};
+use crate::state::{ACCELERATION, MASS, State};
 
 /// A broken cell keeps its shape for the water, if it has at least this part of its volume and at most its inverse.
 const SHAPE: f64 = 0.5;
@@ -239,57 +237,6 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             self.breaking = Some(breaking);
         }
         rest
-    }
-
-    /// Shows the water how the cells are deformed and move; broken ones keep their shape.
-    pub(super) fn show_shape(&mut self, set: &mut Set) {
-        let d = L.min(3);
-        let mut rates = [&DEFORMATION_RATE, &BEND_RATE, &WARP_RATE].map(|c| set.take(c));
-        let velocity = set.column(&VELOCITY);
-        let [first, bend, warp] = &mut rates;
-        let all = first.par_iter_mut().zip(bend).zip(warp).enumerate();
-        all.with_min_len(32).for_each(|(a, ((first, bend), warp))| {
-            let rate = if self.is_whole(a) {
-                self.rates(a, velocity)
-            } else {
-                [[0.0; L]; T]
-            };
-            for i in 0..d {
-                for k in 0..d {
-                    first[i][k] = rate[k][i];
-                    bend[i][k] = rate[second(d, k, k)][i];
-                }
-                for (column, (k, l)) in MIXED.into_iter().enumerate().filter(|(_, p)| p.1 < d) {
-                    warp[i][column] = rate[second(d, k, l)][i];
-                }
-            }
-        });
-        for (column, rates) in [&DEFORMATION_RATE, &BEND_RATE, &WARP_RATE]
-            .into_iter()
-            .zip(rates)
-        {
-            set.put(column, rates);
-        }
-        sweep::change(set.column_mut(&DEFORMATION), |a, shape| {
-            if self.is_whole(a) {
-                *shape = gradient(&self.derivatives(a));
-            }
-        });
-    }
-
-    /// Rates of the derivatives of cell `a`.
-    fn rates(&self, a: usize, velocity: &[[f64; 3]]) -> Derivatives<L, T> {
-        let (row, own) = (self.links.row(a), velocity[a]);
-        let mut sum = [[0.0; L]; T];
-        for (b, weight) in row.other.iter().zip(row.weight) {
-            let b = *b as usize;
-            let other = velocity.get(b).copied();
-            let other = other.unwrap_or_else(|| self.body.anchors[b - velocity.len()].velocity);
-            for (column, w) in sum.iter_mut().zip(weight) {
-                (0..L.min(3)).for_each(|k| column[k] += w * (other[k] - own[k]));
-            }
-        }
-        sum
     }
 
     /// When and where the solid first broke.

@@ -10,11 +10,17 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     /// Derivatives of the deformation of cell `a`.
     #[inline(always)]
     pub(super) fn derivatives(&self, a: usize) -> Derivatives<L, T> {
+        self.derivatives_of(&self.places, a)
+    }
+
+    /// Derivatives in cell `a` of what all particles and anchors have.
+    #[inline(always)]
+    pub(super) fn derivatives_of(&self, field: &[[f64; L]], a: usize) -> Derivatives<L, T> {
         let row = self.links.row(a);
-        let own = self.places[a];
+        let own = field[a];
         let mut sum = [[0.0; L]; T];
         for (b, weight) in row.other.iter().zip(row.weight) {
-            let other = self.places[*b as usize];
+            let other = field[*b as usize];
             let dx: [f64; L] = std::array::from_fn(|k| other[k] - own[k]);
             for (column, w) in sum.iter_mut().zip(weight) {
                 (0..L).for_each(|k| column[k] += w * dx[k]);

@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::law::{Law, equivalent_strain};
-use super::tensor::{Matrix, eigenvalues, transposed_times};
+use super::tensor::{Matrix, eigenvalues, inner, transposed_times};
 
 /// Whether a particle is broken.
 pub const BROKEN: Column<u8> = Column::new("broken", "1", 0).saved().shown();
@@ -47,11 +47,42 @@ impl Criterion {
             return true;
         }
         match *self {
-            Self::Strain(limit) => equivalent_strain(deformation) >= limit,
-            Self::Stress(limit) => eigenvalues(&law.cauchy(deformation))[0] >= limit,
+            Self::Strain(limit) => {
+                let may = (2.0_f64 / 3.0).sqrt() * strain_most(deformation) >= limit;
+                may && equivalent_strain(deformation) >= limit
+            }
+            Self::Stress(limit) => {
+                let stress = law.cauchy(deformation);
+                let may = BOUND * inner(&stress, &stress).sqrt() >= limit;
+                may && eigenvalues(&stress)[0] >= limit
+            }
             Self::Energy(_) => false,
         }
     }
+}
+
+/// Bounds are taken greater by this part, for the sake of rounding.
+const BOUND: f64 = 1.0 + 1e-9;
+
+/// What the length of the logarithmic principal strains e_i is at most, without a search for them: with C = F^T F and D the
+/// length of C - 1, `|ln c_i| <= -ln(1 - D) <= D/(1 - D)` and `e_i = ln(c_i)/2`.
+fn strain_most(deformation: &Matrix) -> f64 {
+    let mut off = transposed_times(deformation, deformation);
+    (0..3).for_each(|k| off[k][k] -= 1.0);
+    let length = inner(&off, &off).sqrt();
+    if length < 1.0 {
+        BOUND * 0.5 * length / (1.0 - length)
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// What [`stretched`] is at most \[J/m3\], without a search for principal strains.
+#[must_use]
+pub fn stretched_most(law: &Law, deformation: &Matrix) -> f64 {
+    let strain = strain_most(deformation);
+    // The sum of three is at most sqrt(3) of their length.
+    (law.shear + 1.5 * law.lame.max(0.0)) * strain * strain
 }
 
 /// Energy of what is stretched, by the logarithmic principal strains \[J/m3\]: `mu sum <e_i>^2 + lambda/2 <sum e_i>^2`.
@@ -116,6 +147,28 @@ mod tests {
         assert!(stretched(&law, &pulled(-0.1)) <= 0.0);
         let energy = 0.5 * 1e5 * 0.01 * 0.01;
         assert!((stretched(&law, &pulled(0.01)) / energy - 1.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn bounds_hold_and_are_near_where_little_is_strained() {
+        let young = Young {
+            youngs_modulus_pa: 1e5,
+            poisson_ratio: 0.3,
+        };
+        let law = Law::new(&Elastic::Young(young), None);
+        for k in 0..200 {
+            let size = 10.0_f64.powi(-(k % 5));
+            let mut f = UNIT;
+            let entries = f.iter_mut().flatten().enumerate();
+            entries.for_each(|(m, x)| *x += 0.3 * size * f64::from(9 * k + m as i32).sin());
+            let length = 1.5_f64.sqrt() * equivalent_strain(&f);
+            assert!(length <= strain_most(&f) && stretched(&law, &f) <= stretched_most(&law, &f));
+            // Volume is no part of the equivalent strain.
+            assert!(
+                size > 0.01 || strain_most(&f) < 5.0 * length,
+                "{length} {k}"
+            );
+        }
     }
 
     #[test]

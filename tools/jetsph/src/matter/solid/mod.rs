@@ -26,6 +26,7 @@ pub mod quadratic;
 pub mod release;
 mod relief;
 pub mod shocks;
+mod shown;
 mod sides;
 mod sound;
 mod stencils;

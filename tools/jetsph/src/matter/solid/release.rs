@@ -15,7 +15,7 @@ use super::breaking::Breaking;
 use super::cell::{Derivatives, gradient};
 use super::cracks::AROUND;
 use super::elastic::Elastic;
-use super::fracture::stretched;
+use super::fracture::{stretched, stretched_most};
 use super::trial::{Left, Trial};
 
 /// Cells whose own energy is less than this part of that of a crack are not tried: at the tip of a crack it is a fifth.
@@ -80,8 +80,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let area = cell.volume / breaking.size;
         let is_near = |a: &usize| {
             let deformation = cell.law.completed(gradient(&self.derivatives(*a)));
+            let is_enough = |energy: f64| energy * breaking.size >= TRIED * limit;
             !breaking.broken[*a]
-                && stretched(&cell.law, &deformation) * breaking.size >= TRIED * limit
+                && is_enough(stretched_most(&cell.law, &deformation))
+                && is_enough(stretched(&cell.law, &deformation))
         };
         let all = (0..breaking.broken.len()).into_par_iter().with_min_len(32);
         let near: Vec<usize> = all.filter(is_near).collect();

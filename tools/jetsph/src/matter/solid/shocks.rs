@@ -4,17 +4,21 @@
 //! cracks excite and the solid itself would keep for ever. Fronts of tension overshoot as those of pressure do: between
 //! what parts, it damps them alike.
 
-use kernels::Kernel;
+use kernels::{Kernel, Number};
 use neighbours::Grid;
 use particles::{POSITION, Rows, Set, sweep};
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::elastic::REST;
+use crate::matter::four::{Lanes, Work, on_this_machine};
 use crate::matter::water::friction::{Artificial, ArtificialViscosity, Friction};
 use crate::stage::{Course, Entry, Limit, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
+/// Particles per unit of parallel work.
+const GRAIN: usize = 64;
 /// Part of the time in which friction evens out a kernel that a step may take.
 const PART: f64 = 0.2;
 
@@ -84,6 +88,66 @@ impl<K: Kernel, F: Friction> Shocks<K, F> {
     }
 }
 
+/// Pulls of a chunk of particles \[N\], and half of the power that they take \[W\].
+struct Pulls<'a, K, F> {
+    shocks: &'a Shocks<K, F>,
+    /// Places \[m\] and masses \[kg\].
+    places: &'a [[f64; 4]],
+    speeds: &'a [[f64; 4]],
+    /// Number of the first particle.
+    first: usize,
+    forces: &'a mut [[f64; 4]],
+}
+
+impl<K: Kernel, F: Friction> Work for Pulls<'_, K, F> {
+    /// Four neighbours at once; the last four of a row are filled up with the particle, which does not pull itself.
+    #[inline(always)]
+    fn run(self, lanes: impl Lanes) {
+        let (kernel, friction) = (&self.shocks.kernel, &self.shocks.friction);
+        let none = lanes.take([0.0; 4]);
+        let limit = none.of(kernel.support().powi(2));
+        for (k, force) in self.forces.iter_mut().enumerate() {
+            let a = self.first + k;
+            let ([x, y, z, mass], [u, v, w, _]) = (self.places[a], self.speeds[a]);
+            let volume = none.of(mass / (self.shocks.density * self.shocks.density));
+            let [x, y, z] = [none.of(x), none.of(y), none.of(z)];
+            let [u, v, w] = [none.of(u), none.of(v), none.of(w)];
+            let [mut along_x, mut along_y, mut along_z, mut power] = [none; 4];
+            for four in self.shocks.rows.row(a).chunks(4) {
+                let other = |k: usize| four.get(k).map_or(a, |b| *b as usize);
+                let [b, c, d, e] = [other(0), other(1), other(2), other(3)];
+                let [bx, by, bz, masses] = lanes.turn([
+                    lanes.take(self.places[b]),
+                    lanes.take(self.places[c]),
+                    lanes.take(self.places[d]),
+                    lanes.take(self.places[e]),
+                ]);
+                let [bu, bv, bw, _] = lanes.turn([
+                    lanes.take(self.speeds[b]),
+                    lanes.take(self.speeds[c]),
+                    lanes.take(self.speeds[d]),
+                    lanes.take(self.speeds[e]),
+                ]);
+                let (dx, dy, dz) = (x - bx, y - by, z - bz);
+                let square = dx * dx + dy * dy + dz * dz;
+                let approach = (u - bu) * dx + (v - bv) * dy + (w - bw) * dz;
+                let q = friction.pressure(approach, square);
+                let scale = volume * masses * q * kernel.slope(square.root());
+                let scale = square.below(limit, scale, none);
+                along_x = along_x - scale * dx;
+                along_y = along_y - scale * dy;
+                along_z = along_z - scale * dz;
+                power = power + scale * approach;
+            }
+            let all = |four| {
+                let [b, c, d, e] = lanes.give(four);
+                b + c + d + e
+            };
+            *force = [all(along_x), all(along_y), all(along_z), 0.5 * all(power)];
+        }
+    }
+}
+
 impl<K: Kernel, F: Friction + Send> Stage for Shocks<K, F> {
     fn name(&self) -> &'static str {
         "shocks"
@@ -108,27 +172,25 @@ impl<K: Kernel, F: Friction + Send> Stage for Shocks<K, F> {
         let mut acceleration = set.take(&ACCELERATION);
         let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
         let mass = set.column(&MASS);
-        let limit = self.kernel.support().powi(2);
-        let pairs = |a: usize| {
-            let mut sum = [0.0; 4];
-            for b in self.rows.row(a) {
-                let b = *b as usize;
-                let dx = [0, 1, 2].map(|k| position[a][k] - position[b][k]);
-                let du = [0, 1, 2].map(|k| velocity[a][k] - velocity[b][k]);
-                let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
-                let approach = du[0] * dx[0] + du[1] * dx[1] + du[2] * dx[2];
-                let q = self.friction.pressure(approach, square);
-                if q != 0.0 && square < limit {
-                    let volumes = mass[a] * mass[b] / (self.density * self.density);
-                    let scale = volumes * q * self.kernel.slope(square.sqrt());
-                    (0..3).for_each(|k| sum[k] -= scale * dx[k]);
-                    sum[3] += 0.5 * scale * approach;
-                }
-            }
-            sum
-        };
-        let mut forces = vec![[0.0; 4]; position.len()];
-        sweep::fill(&mut forces, pairs);
+        let rows = 0..position.len();
+        let places: Vec<[f64; 4]> = rows
+            .clone()
+            .map(|a| [position[a][0], position[a][1], position[a][2], mass[a]])
+            .collect();
+        let speeds: Vec<[f64; 4]> = rows
+            .map(|a| [velocity[a][0], velocity[a][1], velocity[a][2], 0.0])
+            .collect();
+        let mut forces = vec![[0.0; 4]; places.len()];
+        let each = forces.par_chunks_mut(GRAIN).enumerate();
+        each.for_each(|(chunk, forces)| {
+            on_this_machine(Pulls {
+                shocks: self,
+                places: &places,
+                speeds: &speeds,
+                first: chunk * GRAIN,
+                forces,
+            });
+        });
         sweep::change(&mut acceleration, |a, own| {
             (0..3).for_each(|k| own[k] += forces[a][k] / mass[a]);
         });

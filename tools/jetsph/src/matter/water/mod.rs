@@ -13,7 +13,7 @@
 //!
 //! - [`tait`] is the equation of state, [`friction`] artificial and true viscosity, [`diffusion`] that of density;
 //! - [`divergence_free`] is the other stage, of water without sound;
-//! - [`near`] keeps neighbours, `pairs` sums over them, `four` by four, [`images`] are plain walls, [`flow`] is the stage, `sums`
+//! - [`near`] keeps neighbours, `pairs` sums over them, [`images`] are plain walls, [`flow`] is the stage, `sums`
 //!   what it sums;
 //! - [`nozzle`] brings water in, [`outlet`] takes it away.
 
@@ -22,7 +22,6 @@ pub mod diffusion;
 pub mod divergence_free;
 mod exchange;
 pub mod flow;
-mod four;
 pub mod friction;
 pub mod images;
 pub mod near;

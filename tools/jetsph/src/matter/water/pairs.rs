@@ -10,9 +10,9 @@ use particles::{Rows, sweep};
 use rayon::prelude::*;
 
 use super::exchange::{Exchange, Pair, Side};
-use super::four::{Lanes, Work, on_this_machine};
 use super::near::Lists;
 use super::seen::Seen;
+use crate::matter::four::{Lanes, Work, on_this_machine};
 
 /// Rows that are listed at once; a block has some of these.
 const ROWS: usize = 256;
