@@ -84,6 +84,27 @@ fn two_drops_become_one_at_any_scale() {
 }
 
 #[test]
+fn the_pressure_of_drops_that_have_met_is_that_of_their_tension() {
+    let radius = 1e-3;
+    let ball = |z: f64| json!({"sphere": {"centre_m": [0, 0, z], "radius_m": radius}});
+    let shape = json!({"union": [ball(-1.15e-3), ball(1.12e-3)]});
+    let mut scene = moving(radius, &shape, "if(z, -0.2, 0.2)", 0.1);
+    // So few points that what a short step takes away is large.
+    scene["points"]["spacing_m"] = json!(3.1e-4);
+    scene["liquid"]["march"]["end_s"] = json!(8e-4);
+    let folder = tempfile::tempdir().unwrap();
+    let reader = run(folder.path(), &scene);
+    assert_eq!(counted(&reader).last().unwrap().1, 1);
+    let met = reader
+        .frame("/points", reader.count("/points") - 1)
+        .unwrap();
+    let alone = 2.0 * 0.072 / radius;
+    for p in met.f64("pressure").unwrap() {
+        assert!(p.abs() < 3.0 * alone, "{p}");
+    }
+}
+
+#[test]
 fn a_drop_that_is_pulled_apart_becomes_two() {
     let radius = 1e-3;
     let tip = |z: f64| {

@@ -193,6 +193,8 @@ impl March {
                 for _ in 0..SETTLES {
                     group.liquid.advance(matter, step, effort)?;
                 }
+                // What a short step takes away at once is no rate for a long one.
+                group.liquid.balance(matter, step.way, effort)?;
                 Ok(())
             })?;
         }
