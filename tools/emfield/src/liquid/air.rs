@@ -19,7 +19,7 @@ use wls::Metric;
 
 /// Layers.
 const LAYERS: usize = 2;
-/// Media: the air, the liquid, points that sleep.
+/// Media: the air, the liquid, points that sleep, and behind them other drops of the liquid.
 const AIR: u8 = 0;
 const LIQUID: u8 = 1;
 pub(super) const ASLEEP: u8 = 2;
@@ -61,6 +61,8 @@ pub struct Place<'a> {
     pub skin: Skin<'a>,
     /// Points inside \[m\].
     pub inside: &'a [[f64; 3]],
+    /// Numbers of the drops of all points, those of the surface first; nothing where all are of one.
+    pub of: &'a [u32],
 }
 
 impl<'a> Place<'a> {
@@ -73,7 +75,19 @@ impl<'a> Place<'a> {
             normal,
             spacing,
         };
-        Self { skin, inside }
+        Self {
+            skin,
+            inside,
+            of: &[],
+        }
+    }
+
+    /// The medium of a point: drops have media of their own, so that no fit reaches from one into another.
+    fn medium(&self, i: usize) -> u8 {
+        match self.of.get(i) {
+            None | Some(0) => LIQUID,
+            Some(drop) => u8::try_from(*drop).map_or(u8::MAX, |k| ASLEEP.saturating_add(k)),
+        }
     }
 }
 
@@ -289,8 +303,8 @@ impl Standing {
             push(*x, skin.spacing, kind);
         }
         if !conducts {
-            for x in place.inside {
-                push(*x, skin.spacing, Kind::Inside(LIQUID));
+            for (x, i) in place.inside.iter().zip(skin.place.len()..) {
+                push(*x, skin.spacing, Kind::Inside(place.medium(i)));
             }
         }
         let inside = |awake: bool| Kind::Inside(if awake { AIR } else { ASLEEP });
@@ -312,7 +326,7 @@ impl Standing {
         if !conducts {
             let face = |(i, n): (usize, &[f64; 3])| Face {
                 point: i as u32,
-                inner: LIQUID,
+                inner: place.medium(i),
                 outer: AIR,
                 normal: *n,
                 area: skin.spacing * skin.spacing,

@@ -82,6 +82,7 @@ mod tests {
             stress: Vec::new(),
             pull: [Vec::new(), Vec::new()],
             drag: Vec::new(),
+            charge: Vec::new(),
             force: [Vec::new(), Vec::new()],
             room: Room::default(),
         }

@@ -28,6 +28,8 @@ pub struct Liquid<const D: usize> {
     pub pull: [Vec<f64>; 2],
     /// Traction of a field along the surface \[Pa\]; nothing where there is none.
     pub drag: Vec<[f64; D]>,
+    /// Charge of the surface of a conductor \[C/m2\]; nothing where there is none.
+    pub charge: Vec<f64>,
     /// Force density of fields beside that traction, which stirs alone (see [`super::stirred`]), by point, and how fast it
     /// changes \[N/m3, N/(m3 s)\]; none where there is none.
     pub force: [Vec<[f64; D]>; 2],

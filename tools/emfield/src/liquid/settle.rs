@@ -19,8 +19,8 @@ const CALM: f64 = 0.03;
 const YIELD: f64 = 0.3;
 
 impl<const D: usize> Liquid<D> {
-    /// Lets velocities of points that go with the liquid go over into the values of fits, by `dt (1/T + |u|/h)`: T is
-    /// `sqrt(rho h^3/gamma)`, the time of a ripple as long as the spacing h, and u the fastest.
+    /// Lets velocities of points that go with the liquid go over into the values of fits, by `dt (1/T + |u|/h)`, and by `least` at
+    /// least: T is `sqrt(rho h^3/gamma)`, the time of a ripple as long as the spacing h, and u the fastest.
     ///
     /// Fits through their own points see waves of two spacings. One-sided gradients and divergences of them are no pair, and let
     /// such waves grow beneath the surface: without this a drop of 5 spacings a radius broke after 1.5 periods at Oh 0.005 and
@@ -28,12 +28,12 @@ impl<const D: usize> Liquid<D> {
     ///
     /// # Errors
     /// Where points coincide.
-    pub fn quiet(&mut self, matter: &Matter<D>, step: Step<'_>) -> Result<(), Error> {
+    pub fn quiet(&mut self, matter: &Matter<D>, step: Step<'_>, least: f64) -> Result<(), Error> {
         let Step { way, dt } = step;
         let h = way.spacing;
         let fastest = self.velocity.iter().map(length).fold(0.0, f64::max);
         let ripples = (matter.tension / (matter.density * h.powi(3))).sqrt();
-        let share = (dt * (ripples + fastest / h)).min(1.0);
+        let share = (dt * (ripples + fastest / h)).clamp(least, 1.0);
         let points = Points {
             all: &self.position,
             own: self.position.len(),

@@ -18,7 +18,9 @@ impl<const D: usize> Liquid<D> {
     /// The traction of fields after some time, as it changes now \[Pa\].
     pub(super) fn pulled(&self, time: f64) -> Vec<f64> {
         let [now, rate] = &self.pull;
-        now.iter().zip(rate).map(|(p, r)| p + time * r).collect()
+        let rate = |i: usize| rate.get(i).copied().unwrap_or(0.0);
+        let each = now.iter().enumerate();
+        each.map(|(i, p)| p + time * rate(i)).collect()
     }
 
     /// Acceleration by the force of fields after some time \[m/s2\].

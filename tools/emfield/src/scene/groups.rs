@@ -7,7 +7,8 @@ use shapes::check::Misfit;
 use super::Liquid;
 
 /// Groups of points (Matsuzawa 2017, chapter 2.2.5): drops that meet become one, and one that becomes too thin parts. What is apart in
-/// `shape` are drops of their own from the start. Nothing between the drops delays that they meet.
+/// `shape` are drops of their own from the start. Nothing between the drops delays that they meet. In an electric field each conductor
+/// keeps its charge, joined or parted, and has a potential of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Groups {
@@ -33,14 +34,13 @@ impl Groups {
     pub(super) fn check(liquid: &Liquid, misfits: &mut Vec<Misfit>) {
         for (given, key) in [
             (liquid.faces.is_some(), "faces"),
-            (liquid.electric.is_some(), "electric"),
             (liquid.magnetic.is_some(), "magnetic"),
             (liquid.heat.is_some(), "heat"),
             (liquid.equilibrium.is_some(), "equilibrium"),
         ] {
             if given {
                 let what = format!(
-                    "drops meet and part in the open, without fields and heat: leave \"{key}\" or \"groups\" away"
+                    "drops meet and part in the open, in an electric field at most: leave \"{key}\" or \"groups\" away"
                 );
                 misfits.push(Misfit::at("/liquid/groups", what));
             }

@@ -57,7 +57,7 @@ pub struct ElectricField {
     /// leaks when it is absent.
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_conductivity: Option<f64>,
-    /// Charge of a conductor.
+    /// Charge of a conductor; of several drops each has its part by volume at the start.
     #[schemars(extend("x-unit" = "C"))]
     pub charge_c: Option<f64>,
     /// Degree of the polynomials of potentials.

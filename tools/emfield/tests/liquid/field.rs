@@ -1,12 +1,11 @@
 //! Drops that move in an electric field.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use artefact::Reader;
 use serde_json::{Value, json};
 
-use super::{column, drop, run, said};
+use super::{bytes, column, drop, resumed, run, said};
 
 const EPS0: f64 = 8.854_187_812_8e-12;
 const TENSION: f64 = 0.072;
@@ -28,12 +27,6 @@ fn drawn(radius: f64, along: [f64; 3], steps: u32) -> Value {
         json!({"field_v_m": along.map(|c| c * field), "relative_permittivity": 80}),
     );
     scene
-}
-
-fn bytes(folder: &Path, scene: &Value, threads: &str) -> Vec<u8> {
-    let (code, text, out) = said(folder, scene, threads);
-    assert_eq!(code, 0, "{text}");
-    std::fs::read(out).unwrap()
 }
 
 /// How far a mode of degree 2 in any direction has come, over the radius.
@@ -89,25 +82,7 @@ fn a_resumed_drop_in_a_field_is_a_straight_one() {
     // A conductor has two potentials to keep.
     scene["liquid"]["electric"]["relative_permittivity"] = Value::Null;
     let straight = bytes(folder.path(), &scene, "2");
-    let file = folder.path().join("scene.json");
-    let out = folder.path().join("broken.mcap");
-    let command = |more: &[&str]| {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"));
-        command.arg("run").arg(&file).arg("--out").arg(&out);
-        command.args(["--threads", "2", "-q"]).args(more);
-        command
-    };
-    let mut child = command(&["--checkpoint-s", "0.02"]).spawn().unwrap();
-    let checkpoint = folder.path().join("broken.mcap.checkpoint");
-    let start = Instant::now();
-    while !checkpoint.exists() && start.elapsed() < Duration::from_secs(60) {
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    child.kill().unwrap();
-    let code = child.wait().unwrap().code();
-    assert_eq!(code, None, "the run must be killed before its end");
-    assert!(command(&["--resume"]).status().unwrap().success());
-    assert!(straight == std::fs::read(&out).unwrap());
+    assert!(straight == resumed(folder.path(), &scene));
 }
 
 #[test]

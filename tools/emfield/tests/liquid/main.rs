@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod between;
+mod drawn;
 mod field;
 mod heat;
 mod lifted;
@@ -11,6 +12,7 @@ mod stretched;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use artefact::Reader;
 use serde_json::{Value, json};
@@ -27,6 +29,36 @@ fn said(folder: &Path, scene: &Value, threads: &str) -> (i32, String, PathBuf) {
         .unwrap();
     let text = String::from_utf8_lossy(&output.stderr).into_owned();
     (output.status.code().unwrap(), text, out)
+}
+
+fn bytes(folder: &Path, scene: &Value, threads: &str) -> Vec<u8> {
+    let (code, text, out) = said(folder, scene, threads);
+    assert_eq!(code, 0, "{text}");
+    std::fs::read(out).unwrap()
+}
+
+/// The bytes of a run that was killed after its first checkpoint and resumed.
+fn resumed(folder: &Path, scene: &Value) -> Vec<u8> {
+    let file = folder.join("scene.json");
+    std::fs::write(&file, scene.to_string()).unwrap();
+    let out = folder.join("broken.mcap");
+    let command = |more: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_emfield"));
+        command.arg("run").arg(&file).arg("--out").arg(&out);
+        command.args(["--threads", "2", "-q"]).args(more);
+        command
+    };
+    let mut child = command(&["--checkpoint-s", "0.02"]).spawn().unwrap();
+    let checkpoint = folder.join("broken.mcap.checkpoint");
+    let start = Instant::now();
+    while !checkpoint.exists() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    let code = child.wait().unwrap().code();
+    assert_eq!(code, None, "the run must be killed before its end");
+    assert!(command(&["--resume"]).status().unwrap().success());
+    std::fs::read(&out).unwrap()
 }
 
 fn run(folder: &Path, scene: &Value) -> Reader {

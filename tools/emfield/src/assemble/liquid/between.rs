@@ -73,6 +73,7 @@ pub(crate) fn start<const D: usize>(
         stress: vec![0.0; surface + room.held.len()],
         pull: [Vec::new(), Vec::new()],
         drag: Vec::new(),
+        charge: Vec::new(),
         force: [Vec::new(), Vec::new()],
         position: filled.position,
         velocity,

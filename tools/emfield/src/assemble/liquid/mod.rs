@@ -75,6 +75,7 @@ pub(crate) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure
         stress: vec![0.0; filled.normal.len()],
         pull: [Vec::new(), Vec::new()],
         drag: Vec::new(),
+        charge: Vec::new(),
         force: [Vec::new(), Vec::new()],
         position: filled.position,
         velocity,

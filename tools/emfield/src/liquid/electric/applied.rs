@@ -19,7 +19,9 @@ pub struct Applied {
 }
 
 impl Applied {
-    pub(super) fn conducts(&self) -> bool {
+    /// Whether the liquid is a conductor.
+    #[must_use]
+    pub fn conducts(&self) -> bool {
         self.permittivity.is_none()
     }
 
@@ -39,10 +41,18 @@ impl Applied {
             Kind::Wall { .. } => Some(Held::Potential(0.0)),
             _ => None,
         };
+        let liquid = self.leak.or(self.permittivity).unwrap_or(1.0);
+        let mut permittivity = vec![1.0, liquid, 1.0];
         let mut electrodes = vec![None; usize::from(ASLEEP)];
         electrodes.push(Some(0.0));
+        // Other drops.
+        if let Some(last) = region.faces.iter().map(|face| face.inner).max() {
+            let media = permittivity.len().max(usize::from(last) + 1);
+            permittivity.resize(media, liquid);
+            electrodes.resize(media, None);
+        }
         Problem {
-            permittivity: vec![1.0, self.leak.or(self.permittivity).unwrap_or(1.0), 1.0],
+            permittivity,
             electrodes,
             held: region.kinds.iter().zip(&region.places).map(held).collect(),
         }

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A conductor has the potential that its charge Q asks for: V = V_0 + U V_1, V_1 of unit potential on it and none far away.
-//! There is no tangential traction in either case.
+//! There is no tangential traction in either case. Several conductors have potentials of their own (`electric/several.rs`).
 //!
 //! Where charges leak faster than the liquid moves (Taylor 1966, Melcher and Taylor 1969), `div(sigma grad V) = 0` and the charge of the
 //! surface is `q = eps0 (E_n - S E_n,in)`: with the ratio R of the conductivities `E_n = R E_n,in`, and the surface is pulled by
@@ -21,6 +21,7 @@
 
 mod applied;
 mod kept;
+mod several;
 mod state;
 
 #[cfg(test)]
@@ -32,6 +33,8 @@ use run::Failure;
 pub use applied::Applied;
 pub use kept::Fitted;
 use kept::{Kept, awake};
+pub use several::Drops;
+use several::outward;
 pub use state::State;
 
 use super::air::{Air, Place};
@@ -50,15 +53,20 @@ pub struct Stood {
 
 /// The field, with what it keeps from one place of the liquid to the next.
 pub struct Electric {
-    applied: Applied,
+    /// What acts, and on what.
+    pub applied: Applied,
     form: Form,
     kept: Option<Kept>,
     /// What a resumed run goes on from.
     state: State,
-    /// Potential of the conductor \[V\].
-    pub height: f64,
+    /// Potential of each conductor \[V\].
+    pub heights: Vec<f64>,
+    /// Drops apart from each other; none where all is one.
+    pub drops: Option<Drops>,
     /// Traction along the surface \[Pa\]; nothing where nothing leaks.
     pub drag: Vec<[f64; 3]>,
+    /// Charge of the surface of a conductor \[C/m2\].
+    pub charge: Vec<f64>,
     /// Points that were awake in the last solve.
     pub awake: u64,
 }
@@ -76,8 +84,10 @@ impl Electric {
             form: form.for_harmonics(3),
             kept: None,
             state: State::default(),
-            height: 0.0,
+            heights: Vec::new(),
+            drops: None,
             drag: Vec::new(),
+            charge: Vec::new(),
             awake: 0,
         }
     }
@@ -100,7 +110,8 @@ impl Electric {
     /// # Errors
     /// Where fits or equations cannot be made.
     pub fn stand(&mut self, place: Place<'_>) -> Result<Stood, Failure> {
-        let serves = |kept: &Kept| !kept.worn && !kept.air.outrun(place.skin);
+        let same = self.state.fits(place, self.units());
+        let serves = |kept: &Kept| same && !kept.worn && !kept.air.outrun(place.skin);
         let served = self.kept.take().filter(serves);
         let fresh = served.is_none();
         let kept = match served {
@@ -112,7 +123,7 @@ impl Electric {
         if fresh {
             // First guess: the applied field alone.
             let guess = self.applied.potential(&region, &kept.air);
-            self.state.begin(place, guess);
+            self.state.begin(place, guess, self.units());
         }
         self.kept = Some(kept);
         Ok(Stood { region, fresh })
@@ -150,6 +161,10 @@ impl Electric {
         let potential = self.potential(stood, fitted, how, effort)?;
         let (pulls, drag) = self.pulls(&stood.region, &fitted.sides, &potential);
         self.drag = drag;
+        if self.applied.conducts() {
+            let field = |i| outward(&fitted.sides, &stood.region, &potential, i);
+            self.charge = (0..pulls.len()).map(|i| EPS0 * field(i)).collect();
+        }
         Ok(pulls)
     }
 
@@ -162,6 +177,7 @@ impl Electric {
         effort: &mut Effort,
     ) -> Result<Vec<f64>, Failure> {
         let region = &stood.region;
+        let units: Vec<_> = (0..self.units()).map(|k| self.unit(region, k)).collect();
         let (kept, last) = (
             self.kept.as_mut().ok_or_else(unmade)?,
             &mut self.state.potential,
@@ -173,17 +189,19 @@ impl Electric {
         let mut products = kept.solve(fitted, &right, &mut last[0], how, effort)?;
         let mut potential = last[0].clone();
         if self.applied.conducts() {
-            let on = |kind: &Kind| f64::from(u8::from(matches!(kind, Kind::Wall { wall: 1, .. })));
-            let unit: Vec<[f64; 1]> = region.kinds.iter().map(|kind| [on(kind)]).collect();
-            products += kept.solve(fitted, &unit, &mut last[1], how, effort)?;
-            let flux = |v: &[f64]| fitted.open.flux(v);
-            let wanted = self.applied.charge / EPS0;
-            self.height = (wanted - flux(&last[0]) + flux(&without)) / flux(&last[1]);
-            for (v, unit) in potential.iter_mut().zip(&last[1]) {
-                *v += self.height * unit;
+            for (unit, last) in units.iter().zip(&mut last[1..]) {
+                products += kept.solve(fitted, unit, last, how, effort)?;
             }
         }
         kept.judge(stood.fresh, products);
+        if self.applied.conducts() {
+            self.heights = self.heights(stood, fitted, &without)?;
+            for (height, unit) in self.heights.iter().zip(&self.state.potential[1..]) {
+                for (v, unit) in potential.iter_mut().zip(unit) {
+                    *v += height * unit;
+                }
+            }
+        }
         Ok(potential)
     }
 

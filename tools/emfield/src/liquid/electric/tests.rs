@@ -99,7 +99,7 @@ fn a_charged_conductor_is_pulled_along_the_field() {
         3,
     );
     let (pull, _) = pulled(&mut electric, place);
-    assert!((electric.height / height - 1.0).abs() < 2e-3);
+    assert!((electric.heights[0] / height - 1.0).abs() < 2e-3);
     let wanted = |cosine: f64| 0.5 * EPS0 * (3.0 * FIELD * cosine + height / radius).powi(2);
     let [most, p2] = lack(&pull, place, wanted);
     assert!(most < 1.5e-2 && p2 < 1e-2, "{most:e} {p2:e}");
@@ -112,6 +112,112 @@ fn a_charged_conductor_is_pulled_along_the_field() {
     let force = along / pull.len() as f64 * 4.0 * std::f64::consts::PI * radius * radius;
     let exact = electric.force()[2];
     assert!((force / exact - 1.0).abs() < 1e-2, "{force:e} {exact:e}");
+}
+
+/// Potentials over Q/(4 pi eps0 R) of two spheres of which one has the charge Q, with `apart` between their centres over R, by the
+/// image charges of each (Maxwell 1891, section 173): the capacities are `sinh b sum 1/sinh((2n - 1) b)` and `-sinh b sum
+/// 1/sinh(2n b)`, with `cosh b` half of `apart`.
+fn beside(apart: f64) -> [f64; 2] {
+    let b = (0.5 * apart).acosh();
+    let sum = |first: u32| -> f64 {
+        let each = (0..60).map(|n| f64::from(2 * n + first));
+        b.sinh() * each.map(|k| (k * b).sinh().recip()).sum::<f64>()
+    };
+    let (own, other) = (sum(1), -sum(2));
+    let whole = own * own - other * other;
+    [own / whole, -other / whole]
+}
+
+/// One has a charge and the other none. The neutral one is attracted as the energy says.
+#[test]
+fn two_conductors_have_potentials_of_their_own() {
+    let (radius, apart, charge) = (5e-5, 3.0, 1e-12);
+    let one = filled(radius, 5.0);
+    let surface = one.normal.len();
+    let both: Vec<[f64; 3]> = [-0.5, 0.5]
+        .iter()
+        .flat_map(|side| {
+            let skin = one.position[..surface].iter();
+            skin.map(move |x| [x[0], x[1], x[2] + side * apart * radius])
+        })
+        .collect();
+    let normals = [one.normal.as_slice(), &one.normal].concat();
+    let place = Place::of(&both, &normals, radius / 5.0);
+    let area = 4.0 * std::f64::consts::PI * radius * radius / surface as f64;
+    let mut electric = Electric::new(
+        Applied {
+            field: [0.0; 3],
+            ..applied(None)
+        },
+        3,
+    );
+    electric.drops = Some(Drops {
+        of: (0..2 * surface).map(|i| u32::from(i >= surface)).collect(),
+        area: vec![area; 2 * surface],
+        charge: vec![charge, 0.0],
+    });
+    let (pull, _) = pulled(&mut electric, place);
+    let scale = charge / (4.0 * std::f64::consts::PI * EPS0 * radius);
+    let wanted = beside(apart);
+    for (height, wanted) in electric.heights.iter().zip(wanted) {
+        let lack = height / (scale * wanted) - 1.0;
+        assert!(lack.abs() < 1e-2, "{lack:e}");
+    }
+    let sums = [0..surface, surface..2 * surface].map(|own| {
+        let force: f64 = own.clone().map(|i| pull[i] * normals[i][2]).sum();
+        let held: f64 = electric.charge[own].iter().sum();
+        [force * area, held * area]
+    });
+    assert!((sums[0][1] / charge - 1.0).abs() < 2e-2, "{sums:?}");
+    assert!((sums[1][1] / charge).abs() < 2e-2, "{sums:?}");
+    // F = -Q^2/2 dp/d(apart).
+    let step = 1e-4;
+    let slope = (beside(apart + step)[0] - beside(apart - step)[0]) / (2.0 * step);
+    let force = 0.5 * charge * scale * slope / radius;
+    for (found, wanted) in [(sums[0][0], force), (sums[1][0], -force)] {
+        assert!((found / wanted - 1.0).abs() < 5e-2, "{found:e} {wanted:e}");
+    }
+}
+
+/// Two drops of permittivity 80 and unlike size, nearer to each other than fits reach, attract each other alike. Where fits of one reach
+/// into the other they are found to repel.
+#[test]
+fn drops_near_each_other_pull_alike() {
+    let (radius, parts) = (5e-5, 5.0);
+    let spacing = radius / parts;
+    let large = filled(radius, parts);
+    let small = filled(0.7 * radius, 0.7 * parts);
+    let rise = 1.7 * radius + 0.8 * spacing;
+    let up = |x: &[f64; 3]| [x[0], x[1], x[2] + rise];
+    let (m, n) = (large.normal.len(), small.normal.len());
+    let positions = |a: &[[f64; 3]], b: &[[f64; 3]]| -> Vec<[f64; 3]> {
+        a.iter().copied().chain(b.iter().map(up)).collect()
+    };
+    let skin = positions(&large.position[..m], &small.position[..n]);
+    let all = [skin, positions(&large.position[m..], &small.position[n..])].concat();
+    let normals = [large.normal.as_slice(), &small.normal].concat();
+    let inside = [large.position.len() - m, small.position.len() - n];
+    let counts = [m, n, inside[0], inside[1]].into_iter().zip([0, 1, 0, 1]);
+    let of: Vec<u32> = counts
+        .flat_map(|(count, k)| std::iter::repeat_n(k, count))
+        .collect();
+    let mut place = Place::of(&all, &normals, spacing);
+    let forces = |place: Place<'_>| {
+        let (pull, _) = pulled(&mut Electric::new(applied(Some(80.0)), 3), place);
+        let force = |own: std::ops::Range<usize>, area: f64| -> f64 {
+            own.map(|i| area * pull[i] * normals[i][2]).sum()
+        };
+        [
+            force(0..m, 1.0 / m as f64),
+            force(m..m + n, 0.49 / n as f64),
+        ]
+    };
+    let [a, b] = forces(place);
+    assert!(a < 0.0 && b > 0.0, "{a:e} {b:e}");
+    place.of = &of;
+    let [a, b] = forces(place);
+    assert!(a > 0.0 && b < 0.0, "{a:e} {b:e}");
+    assert!((a + b).abs() < 5e-2 * (a - b), "{a:e} {b:e}");
 }
 
 /// A drop that has moved by a part of a spacing keeps its air, its far rows and its factors; the field is that of one that

@@ -178,12 +178,15 @@ impl Group {
             volume,
             centre: mean(&self.centre, &other.centre),
             drift: mean(&self.drift, &other.drift),
+            charge: self.charge + other.charge,
+            met: true,
         })
     }
 
-    /// Takes up a parcel: volume, centre and momentum.
+    /// Takes up a parcel: volume, centre, momentum and charge.
     fn take(&mut self, parcel: &Parcel) {
         self.volume += parcel.volume;
+        self.charge += parcel.charge;
         let share = parcel.volume / self.volume;
         let toward = |a: &[f64; 3], b: &[f64; 3]| along(a, share, &difference(b, a));
         self.centre = toward(&self.centre, &parcel.centre);

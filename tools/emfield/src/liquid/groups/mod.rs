@@ -9,8 +9,9 @@
 //!   between the parts, thin edges, and parts too small for fits fly on as parcels without a shape, until a drop takes them up
 //!   ([`Groups::take_up`]).
 //!
-//! Volume and momentum of all are kept: what comes of a change shares what there was before.
+//! Volume, momentum and charge of all are kept: what comes of a change shares what there was before.
 
+mod drawn;
 pub mod hull;
 mod join;
 mod level;
@@ -65,6 +66,10 @@ pub struct Group {
     pub centre: [f64; 3],
     /// Its velocity: momentum over mass \[m/s\].
     pub drift: [f64; 3],
+    /// Charge of a conductor \[C\].
+    pub charge: f64,
+    /// It has become one of two, and its flow is not yet free of divergence.
+    pub met: bool,
 }
 
 /// Liquid that is too small to have a shape.
@@ -76,6 +81,8 @@ pub struct Parcel {
     pub centre: [f64; 3],
     /// Its velocity \[m/s\].
     pub drift: [f64; 3],
+    /// Charge of a conductor \[C\].
+    pub charge: f64,
 }
 
 /// The points of all drops as those of one liquid.
@@ -116,6 +123,8 @@ impl Group {
             volume: 0.0,
             centre: [0.0; 3],
             drift: [0.0; 3],
+            charge: 0.0,
+            met: false,
         };
         let seen = group.seen(spacing).ok()?;
         group.starts(&seen);
@@ -287,12 +296,13 @@ impl Groups {
         drops.chain(self.parcels.iter().map(|p| p.volume)).sum()
     }
 
-    /// Moves parcels under gravity for `dt` \[s\].
-    pub fn fly(&mut self, gravity: &[f64; 3], dt: f64) {
+    /// Moves parcels for `dt` \[s\] at the acceleration that each has \[m/s2\].
+    pub fn fly(&mut self, pulled: impl Fn(&Parcel) -> [f64; 3], dt: f64) {
         for parcel in &mut self.parcels {
-            let mean = along(&parcel.drift, 0.5 * dt, gravity);
+            let rate = pulled(parcel);
+            let mean = along(&parcel.drift, 0.5 * dt, &rate);
             parcel.centre = along(&parcel.centre, dt, &mean);
-            parcel.drift = along(&parcel.drift, dt, gravity);
+            parcel.drift = along(&parcel.drift, dt, &rate);
         }
     }
 }
@@ -314,6 +324,9 @@ fn beside(a: &Liquid<3>, b: &Liquid<3>) -> Liquid<3> {
         .concat(),
         normal: [a.normal.as_slice(), &b.normal].concat(),
         stress: [a.stress.as_slice(), &b.stress].concat(),
+        pull: std::array::from_fn(|k| [a.pull[k].as_slice(), &b.pull[k]].concat()),
+        drag: [a.drag.as_slice(), &b.drag].concat(),
+        charge: [a.charge.as_slice(), &b.charge].concat(),
         ..a.clone()
     }
 }
@@ -325,6 +338,11 @@ pub fn chosen(liquid: &Liquid<3>, on: Vec<usize>, inside: Vec<usize>) -> Liquid<
     let all = [on, inside].concat();
     let vectors = |field: &[[f64; 3]]| all.iter().map(|&i| field[i]).collect();
     let numbers = |field: &[f64], count: usize| all[..count].iter().map(|&i| field[i]).collect();
+    // What fields do, where there are any.
+    let told = |field: &[f64]| {
+        let each = all[..surface].iter();
+        each.filter_map(|&i| field.get(i).copied()).collect()
+    };
     Liquid {
         position: vectors(&liquid.position),
         velocity: vectors(&liquid.velocity),
@@ -332,6 +350,12 @@ pub fn chosen(liquid: &Liquid<3>, on: Vec<usize>, inside: Vec<usize>) -> Liquid<
         pressure: numbers(&liquid.pressure, all.len()),
         normal: all[..surface].iter().map(|&i| liquid.normal[i]).collect(),
         stress: numbers(&liquid.stress, surface),
+        pull: liquid.pull.each_ref().map(|field| told(field)),
+        drag: all[..surface]
+            .iter()
+            .filter_map(|&i| liquid.drag.get(i).copied())
+            .collect(),
+        charge: told(&liquid.charge),
         ..liquid.clone()
     }
 }

@@ -10,6 +10,7 @@ use super::{Group, Groups, Parcel, Rule};
 use crate::liquid::effort::failed;
 use crate::liquid::matter::Way;
 use crate::liquid::points::Liquid;
+use crate::liquid::surface::Patch;
 use crate::liquid::vector::{along, difference};
 
 /// Width over which the cap of a part goes over into its old surface, in spacings.
@@ -58,6 +59,7 @@ impl Group {
             volume: self.volume,
             centre: self.centre,
             drift: self.drift,
+            charge: self.charge,
         }
     }
 
@@ -71,6 +73,7 @@ impl Group {
         };
         let mut parts = Groups::default();
         let mut loose = pieces.between.clone();
+        let borne = |points: &[usize]| self.borne(points, &patches);
         for piece in 0..pieces.cores.len() {
             let rim = Rim {
                 height: |x: &[f64; 3]| {
@@ -81,21 +84,37 @@ impl Group {
             };
             let liquid = reshaped(&self.liquid, &rim)?;
             let small = |group: &Group| group.volume < SMALL * spacing.powi(3);
-            match liquid.and_then(|l| Group::new(l, spacing)) {
-                Some(group) if small(&group) => parts.parcels.push(group.parcel()),
-                Some(group) => parts.drops.push(group),
-                None => loose.push(pieces.about(piece, &self.liquid)),
+            let about = pieces.about(piece, &self.liquid);
+            let Some(mut group) = liquid.and_then(|l| Group::new(l, spacing)) else {
+                loose.push(about);
+                continue;
+            };
+            group.charge = borne(&about);
+            if small(&group) {
+                parts.parcels.push(group.parcel());
+            } else {
+                parts.drops.push(group);
             }
         }
-        let surface = self.liquid.surface();
         let strewn = loose.iter();
-        let strewn = strewn.map(|points| Parcel::of(&self.liquid, points, surface, spacing));
-        parts.parcels.extend(strewn);
+        parts.parcels.extend(strewn.map(|points| Parcel {
+            charge: borne(points),
+            ..Parcel::of(&self.liquid, points, spacing)
+        }));
         self.share(&mut parts);
         Ok(Some(parts))
     }
 
-    /// Gives parts the volume, the centre and the momentum that there were.
+    /// Charge that the surface has at some points \[C\].
+    fn borne(&self, points: &[usize], patches: &[Patch<3>]) -> f64 {
+        let charge = &self.liquid.charge;
+        let each = points
+            .iter()
+            .filter_map(|&i| Some((charge.get(i)?, patches.get(i)?)));
+        each.map(|(charge, patch)| charge * patch.area).sum()
+    }
+
+    /// Gives parts the volume, the centre, the momentum and the charge that there were.
     fn share(&self, parts: &mut Groups) {
         let strewn: f64 = parts.parcels.iter().map(|p| p.volume).sum();
         let rest: f64 = parts.drops.iter().map(|g| g.volume).sum();
@@ -111,11 +130,15 @@ impl Group {
         };
         let aside = difference(&self.centre, &mean(|p| &p.centre));
         let lack = difference(&self.drift, &mean(|p| &p.drift));
+        // What integrals over the surface leave of the charge.
+        let left = self.charge - all.iter().map(|p| p.charge).sum::<f64>();
         for group in &mut parts.drops {
+            group.charge += left * group.volume / volume;
             group.centre = along(&group.centre, 1.0, &aside);
             group.drift = along(&group.drift, 1.0, &lack);
         }
         for parcel in &mut parts.parcels {
+            parcel.charge += left * parcel.volume / volume;
             parcel.centre = along(&parcel.centre, 1.0, &aside);
             parcel.drift = along(&parcel.drift, 1.0, &lack);
         }
@@ -131,7 +154,8 @@ fn cap(pieces: &Pieces, piece: usize, x: &[f64; 3], spacing: f64) -> f64 {
 
 impl Parcel {
     /// What some points of a liquid stand for.
-    fn of(liquid: &Liquid<3>, points: &[usize], surface: usize, spacing: f64) -> Self {
+    fn of(liquid: &Liquid<3>, points: &[usize], spacing: f64) -> Self {
+        let surface = liquid.surface();
         let share = |i: usize| if i < surface { HALF } else { 1.0 };
         let whole: f64 = points.iter().map(|&i| share(i)).sum();
         let mean = |field: &[[f64; 3]]| {
@@ -142,6 +166,7 @@ impl Parcel {
             volume: whole * spacing.powi(3),
             centre: mean(&liquid.position),
             drift: mean(&liquid.velocity),
+            charge: 0.0,
         }
     }
 }

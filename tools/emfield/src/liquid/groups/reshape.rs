@@ -2,10 +2,12 @@
 //!
 //! Points of the old surface that lie on the new one stay, and so do those inside that are deep enough. Where the old surface
 //! is left, new points are strewn on the new one, from what stays outward, and the gaps inside are filled. What new points carry is the value
-//! of a linear fit over all old points: it lies between theirs, so that no velocity grows where two streams meet.
+//! of a linear fit over all old points: it lies between theirs, so that no velocity grows where two streams meet. What fields do on
+//! the surface is that of the nearest old point, until they are found anew.
 
 use std::collections::BTreeSet;
 
+use neighbours::Tree;
 use run::Failure;
 use wls::Stencils;
 
@@ -69,7 +71,11 @@ pub(super) fn reshaped<H: Fn(&[f64; 3]) -> f64>(
         within,
     };
     let pressure = old.pressure.as_chunks::<1>().0;
+    let beside = Beside::new(old, &skin);
     Ok(Some(Liquid {
+        pull: [beside.carried(&old.pull[0]), Vec::new()],
+        drag: beside.carried(&old.drag),
+        charge: beside.carried(&old.charge),
         velocity: from.carried(&old.velocity),
         rate: from.carried(&old.rate),
         pressure: from.carried(pressure).into_flattened(),
@@ -78,6 +84,23 @@ pub(super) fn reshaped<H: Fn(&[f64; 3]) -> f64>(
         position: skin.iter().map(|s| s.place).chain(inner).collect(),
         ..old.clone()
     }))
+}
+
+/// The point of the old surface that is nearest to each of the new one.
+struct Beside(Vec<usize>);
+
+impl Beside {
+    fn new(old: &Liquid<3>, skin: &[Seat<3>]) -> Self {
+        let tree = Tree::new(&old.position[..old.surface()]);
+        let nearest = skin.iter().filter_map(|s| tree.nearest(s.place));
+        Self(nearest.collect())
+    }
+
+    /// What fields do there; nothing where there is none.
+    fn carried<T: Copy>(&self, field: &[T]) -> Vec<T> {
+        let each = self.0.iter();
+        each.filter_map(|&i| field.get(i).copied()).collect()
+    }
 }
 
 /// Linear fits over old points at new places.

@@ -80,6 +80,13 @@ fn drops_that_approach_become_one_and_others_do_not() {
     let mut leaving = pair(-1.0);
     assert_eq!(leaving.join(&RULE, &way()).unwrap(), 0);
     let mut groups = pair(1.0);
+    for (group, charge) in groups.drops.iter_mut().zip([2.0, -1.5]) {
+        let skin = group.liquid.position[..group.liquid.surface()].iter();
+        let heights: Vec<f64> = skin.map(|x| x[2]).collect();
+        group.charge = charge;
+        group.liquid.charge.clone_from(&heights);
+        group.liquid.pull = [heights.clone(), heights];
+    }
     let before = totals(&groups);
     let area = |g: &Group| g.seen(SPACING).unwrap().hull.area;
     let areas: f64 = groups.drops.iter().map(area).sum();
@@ -87,6 +94,14 @@ fn drops_that_approach_become_one_and_others_do_not() {
     let [one] = &mut groups.drops[..] else {
         panic!("{}", groups.drops.len())
     };
+    assert!(one.met && (one.charge - 0.5).abs() < 1e-12);
+    // What fields do is that of the nearest old point.
+    let surface = one.liquid.surface();
+    assert!([one.liquid.pull[0].len(), one.liquid.charge.len()] == [surface; 2]);
+    assert!(one.liquid.pull[1].is_empty());
+    for (x, pull) in one.liquid.position.iter().zip(&one.liquid.pull[0]) {
+        assert!((x[2] - pull).abs() < SPACING, "{x:?} {pull}");
+    }
     let raw = one.seen(SPACING).unwrap();
     assert!(
         (raw.hull.volume / one.volume - 1.0).abs() < 0.02,
@@ -122,7 +137,10 @@ fn a_drop_without_a_waist_parts_and_keeps_what_it_has() {
     let body = Body::new(&shape, 3);
     assert!(body.distance([0.0; 3]) < 0.0);
     let liquid = filled(&shape, |x| [0.0, 0.0, x[2]]);
-    let group = Group::new(liquid, SPACING).unwrap();
+    let mut group = Group::new(liquid, SPACING).unwrap();
+    let skin = group.liquid.position[..group.liquid.surface()].iter();
+    group.liquid.charge = skin.map(|x| x[2]).collect();
+    group.charge = 0.3;
     let mut groups = Groups {
         drops: vec![group],
         parcels: Vec::new(),
@@ -137,6 +155,14 @@ fn a_drop_without_a_waist_parts_and_keeps_what_it_has() {
         assert!(left.abs() < 1e-6, "{left:e} {}", group.liquid.surface());
     }
     assert!(groups.drops[0].drift[2] * groups.drops[1].drift[2] < 0.0);
+    // Each takes the charge of its side with it, and together they have what there was.
+    let charges = [groups.drops[0].charge, groups.drops[1].charge];
+    let whole: f64 = charges.iter().sum();
+    assert!((whole - 0.3).abs() < 1e-12, "{charges:?}");
+    let side = groups.drops[0].centre[2].signum();
+    // The area of a half is 9.8, and the mean height of its places 1.2.
+    let apart = side * (charges[0] - charges[1]);
+    assert!((apart - 23.0).abs() < 3.0, "{charges:?}");
     assert_eq!(groups.part(&RULE, &way()).unwrap(), 0);
     assert_eq!(groups.join(&RULE, &way()).unwrap(), 0);
 }
@@ -148,11 +174,12 @@ fn parcels_fall() {
             volume: 1.0,
             centre: [0.0; 3],
             drift: [1.0, 0.0, 2.0],
+            charge: 0.0,
         }],
         ..Groups::default()
     };
-    groups.fly(&[0.0, 0.0, -10.0], 0.1);
-    groups.fly(&[0.0, 0.0, -10.0], 0.1);
+    groups.fly(|_| [0.0, 0.0, -10.0], 0.1);
+    groups.fly(|_| [0.0, 0.0, -10.0], 0.1);
     let [parcel] = groups.parcels[..] else {
         panic!()
     };

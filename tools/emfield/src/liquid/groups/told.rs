@@ -67,17 +67,22 @@ impl Groups {
         sum
     }
 
-    /// A frame with a point for each drop and each parcel.
+    /// A frame with a point for each drop and each parcel, with charges where they are conductors.
     #[must_use]
-    pub fn frame(&self, precision: Precision) -> Frame {
+    pub fn frame(&self, charged: bool, precision: Precision) -> Frame {
         let drops = self.drops.iter().map(Group::parcel);
         let all: Vec<Parcel> = drops.chain(self.parcels.iter().copied()).collect();
         let shaped = (0..all.len()).map(|k| u8::from(k < self.drops.len()));
-        Frame::new(precision)
+        let frame = Frame::new(precision)
             .positions(all.iter().map(|p| p.centre))
             .vector("velocity", "m/s", all.iter().map(|p| p.drift))
             .scalar("volume", "m3", all.iter().map(|p| p.volume))
-            .flag("shaped", shaped)
+            .flag("shaped", shaped);
+        if charged {
+            frame.scalar("charge", "C", all.iter().map(|p| p.charge))
+        } else {
+            frame
+        }
     }
 }
 

@@ -217,9 +217,18 @@ impl<const D: usize> Liquid<D> {
         self.rate = self.carried(&self.rate, leaves, &fresh);
         let pressure = self.pressure.as_chunks::<1>().0;
         self.pressure = self.carried(pressure, leaves, &fresh).into_flattened();
-        let (stress, skin) = (self.stress.as_chunks::<1>().0, &leaves[..surface]);
-        let stress = rebuilt(stress, skin, surface, fresh.skin(stress), empty());
-        self.stress = stress.into_flattened();
+        let skin = &leaves[..surface];
+        let [now, rate] = &mut self.pull;
+        for field in [&mut self.stress, &mut self.charge, now, rate] {
+            if !field.is_empty() {
+                let old = field.as_chunks::<1>().0;
+                *field = rebuilt(old, skin, surface, fresh.skin(old), empty()).into_flattened();
+            }
+        }
+        if !self.drag.is_empty() {
+            let old = &self.drag;
+            self.drag = rebuilt(old, skin, surface, fresh.skin(old), empty());
+        }
         let normals = change.skin.iter().map(|s| s.normal);
         self.normal = rebuilt(&self.normal, skin, surface, normals, empty());
         self.position = position;

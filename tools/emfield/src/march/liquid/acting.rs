@@ -6,7 +6,7 @@ use run::{Failure, Session};
 use crate::assemble::liquid::alternating::{alternating, hold};
 use crate::liquid::air::Place;
 use crate::liquid::effort::Effort;
-use crate::liquid::electric::{Applied, Electric};
+use crate::liquid::electric::{Applied, Drops, Electric};
 use crate::liquid::magnetic::{Magnetic, outline};
 use crate::liquid::step::{Liquid, Matter, Step, Way};
 use crate::liquid::vector::along;
@@ -27,6 +27,8 @@ pub(crate) struct Acting {
     pub(crate) heat: Vec<f64>,
     /// Greatest current through the surface so far, over that along it.
     through: f64,
+    /// Numbers of the drops of the points of the liquid; nothing where it is one.
+    of: Vec<u32>,
 }
 
 impl Acting {
@@ -57,12 +59,26 @@ impl Acting {
             pressure: Vec::new(),
             heat: Vec::new(),
             through: 0.0,
+            of: Vec::new(),
         })
     }
 
     /// Whether there is any.
     pub(crate) fn any(&self) -> bool {
         self.electric.is_some() || self.magnetic.is_some()
+    }
+
+    /// Lets an electric field know which drops its liquid is.
+    pub(crate) fn part(&mut self, drops: Drops) {
+        self.of.clone_from(&drops.of);
+        if let Some(electric) = &mut self.electric {
+            electric.drops = Some(drops);
+        }
+    }
+
+    /// What acts of an electric field.
+    pub(crate) fn applied(&self) -> Option<Applied> {
+        self.electric.as_ref().map(|electric| electric.applied)
     }
 
     /// Makes currents so strong that what fields did last holds the liquid, where the scene asks for that.
@@ -105,7 +121,8 @@ impl Acting {
         session: &mut Session,
     ) -> Result<[f64; 3], Failure> {
         let Step { way, dt: passed } = step;
-        let place = Place::of(&liquid.position, &liquid.normal, way.spacing);
+        let mut place = Place::of(&liquid.position, &liquid.normal, way.spacing);
+        place.of = &self.of;
         let rule = way.rule();
         let (traction, force, impulse) = if let Some(electric) = &mut self.electric {
             let stood = session.timed("points of the field", || electric.stand(place))?;
@@ -114,6 +131,7 @@ impl Acting {
                 electric.traction(&stood, &sides, rule, effort)
             })?;
             liquid.drag.clone_from(&electric.drag);
+            liquid.charge.clone_from(&electric.charge);
             (now, Vec::new(), electric.force().map(|f| passed * f))
         } else if let Some(magnetic) = &mut self.magnetic {
             let about = outline(place.skin, centre)?;
@@ -194,6 +212,7 @@ impl Acting {
         if let Some(electric) = &self.electric {
             electric.save(checkpoint);
             checkpoint.put_vectors("drag", &liquid.drag);
+            checkpoint.put_f64("surface_charge", &liquid.charge);
         } else if let Some(magnetic) = &self.magnetic {
             magnetic.save(checkpoint);
             checkpoint.put_vectors("force", &liquid.force[0]);
@@ -223,6 +242,7 @@ impl Acting {
         if let Some(electric) = &mut self.electric {
             electric.restore(checkpoint, spacing)?;
             liquid.drag = checkpoint.vectors("drag")?;
+            liquid.charge = checkpoint.f64("surface_charge")?;
         } else if let Some(magnetic) = &mut self.magnetic {
             if let [factor, through] = checkpoint.f64("currents")?[..] {
                 (self.factor, self.through) = (factor, through);

@@ -1,15 +1,16 @@
 //! The march of drops that meet and part.
 
-use artefact::{Checkpoint, Precision};
+use artefact::Precision;
 use run::{Failure, Session};
 
+use super::acting::Acting;
 use super::course::Course;
 use super::ledger::{Counts, Ledger};
 use crate::assemble::liquid::groups::{groups as drops, rule};
 use crate::assemble::liquid::matter::{matter, way};
 use crate::assemble::liquid::{fastest, filled, start, steps};
 use crate::liquid::effort::failed;
-use crate::liquid::groups::{Group, Groups, Parcel, Rule, Seen, chosen};
+use crate::liquid::groups::{Groups, Parcel, Rule, Seen};
 use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::told;
 use crate::liquid::vector::along;
@@ -24,20 +25,25 @@ const MOST: f64 = 500.0;
 const SETTLES: usize = 8;
 const SHORT: f64 = 1e-3;
 
+/// Least share of their fits that velocities take over in a step: what it damps grows by a part in each step, however short it is.
+const QUIET: f64 = 0.4;
+
 /// Rise of the energy, over that at the start, that is told, and that ends a march.
 const RISEN: f64 = 0.01;
 const BURST: f64 = 1.0;
 
 /// Drops that are marched.
-struct March {
+pub(super) struct March {
     matter: Matter<3>,
-    way: Way,
+    pub(super) way: Way,
     rule: Rule,
     precision: Precision,
-    course: Course,
-    groups: Groups,
-    counts: Counts,
-    ledger: Ledger,
+    pub(super) course: Course,
+    pub(super) groups: Groups,
+    pub(super) counts: Counts,
+    pub(super) ledger: Ledger,
+    /// Fields that act on them.
+    pub(super) acting: Acting,
 }
 
 /// Moves the drops of a scene from their start to the end.
@@ -63,6 +69,7 @@ pub(crate) fn groups(
         groups: drops(scene, part, &liquid)?,
         counts: Counts::default(),
         ledger: Ledger::default(),
+        acting: Acting::new(scene, part, &liquid, session)?,
     };
     if let Some(mut checkpoint) = session.restored() {
         march.restore(&mut checkpoint)?;
@@ -123,6 +130,14 @@ impl March {
             group.starts(&first);
             seen.push(first);
         }
+        if let Some(applied) = self.acting.applied() {
+            self.groups.charge(applied.charge);
+            self.pull(&seen, 0.0, session)?;
+            for group in &mut self.groups.drops {
+                let effort = &mut self.course.effort;
+                group.liquid.balance(&self.matter, &self.way, effort)?;
+            }
+        }
         self.tell(&seen, 0.0, session)?;
         self.write(&seen, 0.0, session)
     }
@@ -146,15 +161,45 @@ impl March {
         let (mut seen, part) = (Vec::new(), length / parts);
         for _ in 0..parts as u64 {
             self.flow(part, session)?;
-            self.groups.fly(&self.matter.gravity, part);
+            self.fly(part);
             session.timed("groups", || self.regroup(part))?;
             seen.clear();
             self.groups.each(|group| {
                 seen.push(group.keep(spacing)?);
                 Ok(())
             })?;
+            self.pull(&seen, part, session)?;
         }
         Ok(seen)
+    }
+
+    /// Moves parcels under gravity and in the applied field.
+    fn fly(&mut self, dt: f64) {
+        let Matter {
+            density, gravity, ..
+        } = self.matter;
+        let field = self.acting.applied().map_or([0.0; 3], |a| a.field);
+        let pulled = |p: &Parcel| along(&gravity, p.charge / (density * p.volume), &field);
+        self.groups.fly(pulled, dt);
+    }
+
+    /// What a field does where the drops are, `passed` after the last time \[s\].
+    fn pull(&mut self, seen: &[Seen], passed: f64, session: &mut Session) -> Result<(), Failure> {
+        let Some(applied) = self.acting.applied().filter(|_| !seen.is_empty()) else {
+            return Ok(());
+        };
+        let together = self.groups.together();
+        let mut all = together.liquid;
+        let patches = seen.iter().flat_map(|s| &s.patches);
+        all.normal = patches.map(|p| p.normal).collect();
+        self.acting.part(self.groups.surfaces(together.group, seen));
+        let (way, effort) = (&self.way, &mut self.course.effort);
+        let (step, density) = (Step { way, dt: passed }, self.matter.density);
+        (self.acting).pull(&mut all, step, [0.0; 3], effort, session)?;
+        self.groups.feel(&all);
+        let power = (self.groups).drive(seen, &applied.field, density, passed);
+        self.ledger.work(power, passed);
+        Ok(())
     }
 
     /// Moves each drop.
@@ -178,26 +223,26 @@ impl March {
 
     /// Lets drops meet, take up parcels and part. The flow of those that met becomes free of divergence.
     fn regroup(&mut self, length: f64) -> Result<(), Failure> {
-        let before = self.counts;
         self.counts.joined += self.groups.join(&self.rule, &self.way)?;
         self.counts.closed += self.groups.close(&self.rule, &self.way)?;
         self.counts.taken += self.groups.take_up(&self.way)?;
-        if self.counts.joined > before.joined {
-            let step = Step {
-                way: &self.way,
-                dt: SHORT * length,
-            };
-            let (effort, matter) = (&mut self.course.effort, &self.matter);
-            self.groups.each(|group| {
-                group.keep(step.way.spacing)?;
-                for _ in 0..SETTLES {
-                    group.liquid.advance(matter, step, effort)?;
-                }
-                // What a short step takes away at once is no rate for a long one.
-                group.liquid.balance(matter, step.way, effort)?;
-                Ok(())
-            })?;
-        }
+        let step = Step {
+            way: &self.way,
+            dt: SHORT * length,
+        };
+        let (effort, matter) = (&mut self.course.effort, &self.matter);
+        self.groups.each(|group| {
+            if !std::mem::take(&mut group.met) {
+                return Ok(());
+            }
+            group.keep(step.way.spacing)?;
+            for _ in 0..SETTLES {
+                group.liquid.advance(matter, step, effort)?;
+            }
+            // What a short step takes away at once is no rate for a long one.
+            group.liquid.balance(matter, step.way, effort)?;
+            Ok(())
+        })?;
         self.counts.parted += self.groups.part(&self.rule, &self.way)?;
         Ok(())
     }
@@ -211,7 +256,11 @@ impl March {
     fn tell(&mut self, seen: &[Seen], time: f64, session: &mut Session) -> Result<(), Failure> {
         let totals = self.groups.totals(seen, &self.matter);
         self.ledger.look(&totals);
-        session.record("/liquid", time, &totals.row())?;
+        let mut row = totals.row();
+        if self.acting.any() {
+            row = row.with("field_work", "J", self.ledger.work);
+        }
+        session.record("/liquid", time, &row)?;
         Ok(())
     }
 
@@ -224,7 +273,9 @@ impl March {
             let surface = told::surface(&all.liquid, &patches, self.precision);
             session.frame("/surface", time, &surface)?;
         }
-        session.frame("/groups", time, &self.groups.frame(self.precision))
+        let charged = self.acting.applied().is_some_and(|a| a.conducts());
+        let frame = self.groups.frame(charged, self.precision);
+        session.frame("/groups", time, &frame)
     }
 }
 
@@ -236,7 +287,9 @@ fn moved(
     course: &mut Course,
 ) -> Result<(), Failure> {
     let ended = liquid.advance(matter, step, &mut course.effort)?;
-    liquid.quiet(matter, step).map_err(|e| failed(&e))?;
+    if liquid.loose() {
+        liquid.quiet(matter, step, QUIET).map_err(|e| failed(&e))?;
+    }
     let Ended {
         rows,
         images,
@@ -250,92 +303,9 @@ fn moved(
 }
 
 impl March {
-    fn save(&self, checkpoint: &mut Checkpoint) {
-        let Groups { drops, parcels } = &self.groups;
-        let all = self.groups.together();
-        self.course.save(&all.liquid, checkpoint);
-        let sizes = drops.iter().map(|g| &g.liquid);
-        let sizes = sizes.flat_map(|l| [l.surface() as u64, l.position.len() as u64]);
-        checkpoint.put_u64("sizes", &sizes.collect::<Vec<_>>());
-        let Counts {
-            joined,
-            closed,
-            parted,
-            taken,
-        } = self.counts;
-        checkpoint.put_u64("groups", &[joined, closed, parted, taken]);
-        let Ledger {
-            first,
-            least,
-            rise,
-            strewn,
-        } = self.ledger;
-        checkpoint.put_f64("ledger", &[first, least, rise, strewn]);
-        let kept = drops.iter().map(Group::parcel);
-        let numbers = kept.chain(parcels.iter().copied()).flat_map(|p| {
-            let ([x, y, z], [a, b, c]) = (p.centre, p.drift);
-            [p.volume, x, y, z, a, b, c]
-        });
-        checkpoint.put_f64("kept", &numbers.collect::<Vec<_>>());
-    }
-
-    fn restore(&mut self, checkpoint: &mut Checkpoint) -> Result<(), Failure> {
-        let Some(first) = self.groups.drops.first() else {
-            return Ok(());
-        };
-        let mut all = first.liquid.clone();
-        self.course.restore(&mut all, checkpoint)?;
-        if let [joined, closed, parted, taken] = checkpoint.u64("groups")?[..] {
-            self.counts = Counts {
-                joined,
-                closed,
-                parted,
-                taken,
-            };
-        }
-        if let [first, least, rise, strewn] = checkpoint.f64("ledger")?[..] {
-            self.ledger = Ledger {
-                first,
-                least,
-                rise,
-                strewn,
-            };
-        }
-        let sizes = checkpoint.u64("sizes")?;
-        let kept = checkpoint.f64("kept")?;
-        self.groups = Groups::default();
-        let parcels = kept.as_chunks::<7>().0.iter();
-        let parcels = parcels.map(|&[volume, x, y, z, a, b, c]| Parcel {
-            volume,
-            centre: [x, y, z],
-            drift: [a, b, c],
-        });
-        let (mut on, mut inside) = (0, all.surface());
-        let sizes = sizes.as_chunks::<2>().0;
-        for (k, parcel) in parcels.enumerate() {
-            let Some(&[surface, count]) = sizes.get(k) else {
-                self.groups.parcels.push(parcel);
-                continue;
-            };
-            let (surface, inner) = (surface as usize, (count - surface) as usize);
-            let liquid = chosen(
-                &all,
-                (on..on + surface).collect(),
-                (inside..inside + inner).collect(),
-            );
-            (on, inside) = (on + surface, inside + inner);
-            self.groups.drops.push(Group {
-                liquid,
-                volume: parcel.volume,
-                centre: parcel.centre,
-                drift: parcel.drift,
-            });
-        }
-        Ok(())
-    }
-
     fn close(&self, steps: &Steps, session: &mut Session) {
         self.course.close(steps, "m3", session);
+        self.acting.close(&self.course.effort, session);
         session.closing("drops", "1", self.groups.drops.len() as f64);
         session.closing("parcels", "1", self.groups.parcels.len() as f64);
         session.closing("drops_joined", "1", self.counts.joined as f64);

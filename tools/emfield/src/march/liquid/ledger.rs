@@ -15,7 +15,7 @@ pub(super) struct Counts {
     pub(super) taken: u64,
 }
 
-/// What never rises, and what is lost from sight.
+/// What never rises but by the work of fields, and what is lost from sight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Ledger {
     /// Kinetic and surface energy at the start \[J\].
@@ -25,11 +25,14 @@ pub(super) struct Ledger {
     pub(super) rise: f64,
     /// Greatest share of the volume that was parcels.
     pub(super) strewn: f64,
+    /// Work of fields so far \[J\], and their power \[W\].
+    pub(super) work: f64,
+    pub(super) power: f64,
 }
 
 impl Ledger {
     pub(super) fn look(&mut self, totals: &Totals) {
-        let energy = totals.energy();
+        let energy = totals.energy() - self.work;
         if self.first == 0.0 {
             self.first = totals.kinetic + totals.surface;
             self.least = energy;
@@ -37,6 +40,12 @@ impl Ledger {
         self.least = self.least.min(energy);
         self.rise = self.rise.max(energy - self.least);
         self.strewn = self.strewn.max(totals.volume[1] / totals.volume[0]);
+    }
+
+    /// Adds what fields do at some power `dt` \[s\] after the last one.
+    pub(super) fn work(&mut self, power: f64, dt: f64) {
+        self.work += 0.5 * dt * (self.power + power);
+        self.power = power;
     }
 
     /// Rise of the energy over that at the start.

@@ -6,6 +6,7 @@ mod course;
 mod groups;
 pub(crate) mod heated;
 mod ledger;
+mod stored;
 
 use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
@@ -188,7 +189,7 @@ impl March {
                 heat.flow(liquid, &ended, &self.acting, step, effort)?;
             }
             if liquid.loose() {
-                let quiet = || liquid.quiet(&self.matter, step);
+                let quiet = || liquid.quiet(&self.matter, step, 0.0);
                 session.timed("ripples", quiet).map_err(|e| failed(&e))?;
             }
             liquid.smooth(&ended.patches, &ended.images);
@@ -387,13 +388,8 @@ impl March {
         if self.stirs(liquid).is_some() {
             session.closing("cell_reynolds", "1", self.passing.greatest);
         }
-        for doubt in self
-            .course
-            .effort
-            .doubts()
-            .into_iter()
-            .chain(self.passing.doubt())
-        {
+        let doubts = self.course.effort.doubts().into_iter();
+        for doubt in doubts.chain(self.passing.doubt()) {
             session.warn(doubt);
         }
     }
