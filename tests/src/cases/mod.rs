@@ -73,6 +73,7 @@ mod jet_still;
 mod jet_threshold;
 mod liquid_charge;
 mod liquid_drop;
+mod liquid_field_breakup;
 mod liquid_field_drop;
 mod liquid_field_march;
 mod liquid_flow;
@@ -237,6 +238,7 @@ fn liquids() -> Vec<Box<dyn Case>> {
         Box::new(liquid_drop::LiquidDrop),
         Box::new(liquid_drop::LiquidDropViscous),
         Box::new(liquid_rest::LiquidRest),
+        Box::new(liquid_field_breakup::LiquidFieldBreakup),
         Box::new(liquid_field_drop::LiquidFieldDrop),
         Box::new(liquid_field_march::LiquidFieldMarch),
         Box::new(liquid_charge::LiquidCharge),
