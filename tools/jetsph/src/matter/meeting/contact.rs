@@ -9,7 +9,8 @@
 //! k is the stiffness of a cell under compression, M V/d^2. At a plain wall delta = d/2 - s. Different bodies that cannot break
 //! touch by the balls of `balls`: `(d_a + d_b)/2` is the sum of their radii, k is weighted. Neighbours at rest of one
 //! unbroken piece are no contact: what holds them keeps them apart. A particle that broke bears compression alone
-//! (Shinohara et al. 2004, section 2.3): it is one of these.
+//! (Shinohara et al. 2004, section 2.3): it is one of these. Within a body two touch at their distance at rest where that
+//! is less: on disturbed lattices, and where cells are no cubes.
 
 use neighbours::Grid;
 use particles::{POSITION, Rows, sweep};
@@ -131,13 +132,10 @@ impl Contact {
         });
     }
 
-    /// Whether two particles belong to one unbroken piece, side by side.
-    fn joined(&self, a: &Seen, b: &Seen) -> bool {
-        let same = a.party == b.party && !a.broken && !b.broken;
-        same && {
-            let square: f64 = (0..3).map(|k| (a.rest[k] - b.rest[k]).powi(2)).sum();
-            square < (JOINED * self.parties[a.party as usize].spacing).powi(2)
-        }
+    /// Whether two particles of a body belong to one unbroken piece, side by side at a distance at rest \[m\].
+    fn joined(&self, a: &Seen, b: &Seen, apart: f64) -> bool {
+        let whole = !a.broken && !b.broken;
+        whole && apart < JOINED * self.parties[a.party as usize].spacing
     }
 
     /// Force \[N\] along the normal, energy stored \[J\] and power lost \[W\] at an overlap \[m\] and a speed apart \[m/s\].
@@ -154,8 +152,13 @@ impl Contact {
         let party = &self.parties[own.party as usize];
         let mut sum = [0.0; 5];
         for other in self.rows.row(a).iter().map(|b| &self.seen[*b as usize]) {
-            if own.party == other.party && !self.joined(own, other) {
-                let push = self.pair(own, other, party.spacing, party.stiffness);
+            if own.party != other.party {
+                continue;
+            }
+            let apart = distance(&own.rest, &other.rest);
+            if !self.joined(own, other, apart) {
+                // What stood nearer before it broke touches no sooner: nothing may push where nothing is strained.
+                let push = self.pair(own, other, party.spacing.min(apart), party.stiffness);
                 (0..5).for_each(|k| sum[k] += push[k]);
             }
         }
@@ -256,6 +259,10 @@ impl Contact {
         let [x, y, z] = normal.map(|n| force * n);
         [x, y, z, stored, lost]
     }
+}
+
+fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }
 
 impl Stage for Contact {

@@ -28,20 +28,22 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         }
     }
 
-    /// Energy of the cells that are whole \[J\]; one that is turned inside out has none that can be told.
+    /// Energy of the cells that are whole \[J\].
     pub(super) fn stored(&self) -> f64 {
-        sweep::sum(self.answers.len(), |a| {
-            let energy = if self.is_whole(a) {
-                self.cell_energy(a)
-            } else {
-                0.0
-            };
-            [if energy.is_finite() || self.breaking.is_none() {
-                energy
-            } else {
-                0.0
-            }]
-        })[0]
+        sweep::sum(self.answers.len(), |a| [self.stored_in(a)])[0]
+    }
+
+    /// Energy of a cell if it is whole \[J\]; one that is turned inside out has none that can be told.
+    fn stored_in(&self, a: usize) -> f64 {
+        if !self.is_whole(a) {
+            return 0.0;
+        }
+        let energy = self.cell_energy(a);
+        if energy.is_finite() || self.breaking.is_none() {
+            energy
+        } else {
+            0.0
+        }
     }
 
     /// Cells that a step turned inside out: nothing can be reckoned with them.
@@ -88,19 +90,36 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
                 |k: usize| fresh.iter().map(|a| place[*a][k]).sum::<f64>() / fresh.len() as f64;
             breaking.first = [time, mean(0), mean(1), mean(2)];
         }
-        let before = self.stored() - self.load_potential(set.column(&POSITION), time);
-        // What is left of a fit, from one side, can be turned inside out where the whole was not.
+        let mut before = vec![0.0; self.answers.len()];
+        sweep::fill(&mut before, |a| self.stored_in(a));
+        let loads = self.load_potential(set.column(&POSITION), time);
+        // What is left of a fit, from one side, can be turned inside out where the whole was not, or store more than all did.
         while !fresh.is_empty() {
             fresh = self.break_up(&fresh, set);
             if fresh.is_empty() {
                 fresh = self.inside_out();
             }
+            if fresh.is_empty() {
+                fresh = self.torn(&before);
+            }
         }
-        let after = self.stored() - self.load_potential(set.column(&POSITION), time);
-        self.entry.spent += before - after;
+        let [freed] = sweep::sum(before.len(), |a| [before[a] - self.stored_in(a)]);
+        let spent = freed + self.load_potential(set.column(&POSITION), time) - loads;
+        self.entry.spent += spent;
         if let Some(breaking) = &mut self.breaking {
-            breaking.energy += before - after;
+            breaking.energy += spent;
         }
+    }
+
+    /// Where a break would give energy, the cell that gains most: what is left around it tells nothing of its strain.
+    fn torn(&self, before: &[f64]) -> Vec<usize> {
+        let gain = |a: usize| self.stored_in(a) - before[a];
+        let [gained] = sweep::sum(before.len(), |a| [gain(a)]);
+        if gained <= 0.0 {
+            return Vec::new();
+        }
+        let most = sweep::greatest(before.len(), gain);
+        most.map(|(a, _)| a).into_iter().collect()
     }
 
     /// Breaks what a step has turned inside out, before its forces; tells whether anything broke.

@@ -106,3 +106,42 @@ fn who_does_not_touch_is_not_pushed() {
         assert!(force[0].abs() + force[1].abs() + stored <= 0.0);
     }
 }
+
+#[test]
+fn what_breaks_at_rest_does_not_push_on_lattices_that_are_no_squares() {
+    let mut state = State::new(2);
+    let matter = Matter {
+        density: 1.0,
+        spacing: D,
+        smoothing_length: 1.5 * D,
+    };
+    let mut set = Set::new("crushed", matter);
+    set.declare(&VELOCITY);
+    set.declare(&ACCELERATION);
+    set.declare(&MASS);
+    set.declare(&REST);
+    set.declare(&BROKEN);
+    for i in 0..36 {
+        let place = [0.8 * D * f64::from(i % 6), 1.25 * D * f64::from(i / 6), 0.0];
+        let row = set.push(&mut state.ids);
+        set.column_mut(&POSITION)[row] = place;
+        set.column_mut(&REST)[row] = place;
+        set.column_mut(&MASS)[row] = 1.0;
+        set.column_mut(&BROKEN)[row] = 1;
+    }
+    state.sets.push(set);
+    let party = Party {
+        set: 0,
+        spacing: D,
+        stiffness: K,
+        depths: Vec::new(),
+    };
+    let mut contact = Contact::new(vec![party], Vec::new(), 0.0);
+    contact.act(&mut state, 0.0).unwrap();
+    let pushed = state.sets[0].column(&ACCELERATION).iter().flatten();
+    assert!(pushed.fold(contact.entry(&state).stored, |sum, a| sum + a.abs()) <= 0.0);
+    // Pressed together they push.
+    state.sets[0].column_mut(&POSITION)[7][0] += 0.1 * D;
+    contact.act(&mut state, 0.0).unwrap();
+    assert!(contact.entry(&state).stored > 0.0);
+}
