@@ -36,19 +36,15 @@ impl Case for FractureEnergy {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let each = [1, 2, 3].into_iter().flat_map(|level| {
-            [
-                ("crack_energy", 0.1),
-                ("spread", 0.1),
-                ("energy_unclosed", 0.02),
-            ]
-            .map(|(what, most)| Target::error(what, most).at_level(level))
-        });
-        let shaken = [1, 2].into_iter().flat_map(|level| {
-            [("spread", 0.1), ("energy_unclosed", 0.02)]
-                .map(|(what, most)| Target::error(what, most).at_level(level).of("shaken"))
-        });
-        each.chain(shaken).collect()
+        let of = |method: &'static str, most: u32| {
+            (1..=most).flat_map(move |level| {
+                let spread = (level > 1).then_some(("spread", 0.1));
+                let all = [("crack_energy", 0.1), ("energy_unclosed", 0.02)];
+                let all = all.into_iter().chain(spread);
+                all.map(move |(what, most)| Target::error(what, most).at_level(level).of(method))
+            })
+        };
+        of("straight", 3).chain(of("shaken", 2)).collect()
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {

@@ -1,7 +1,7 @@
 //! Four numbers side by side, as the machine holds them.
 //!
-//! All machines give the same bits: each of the four is computed as it would be alone, and sums over pairs do not run over
-//! the four but in the order of the pairs.
+//! All machines give the same bits: each of the four is computed as it would be alone, and sums run in the order of the
+//! pairs, or each of the four in its own and all four in their order.
 
 use std::ops::{Add, Div, Mul, Sub};
 

@@ -14,6 +14,8 @@ use crate::matter::meeting::skin::DEFORMATION;
 use crate::stage::Figure;
 use crate::state::{ACCELERATION, MASS, State};
 
+/// Part of the energy that sums may gain by rounding.
+const ROUNDING: f64 = 1e-12;
 /// A broken cell keeps its shape for the water, if it has at least this part of its volume and at most its inverse.
 const SHAPE: f64 = 0.5;
 
@@ -114,11 +116,12 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
     /// Where a break would give energy, the cell that gains most: what is left around it tells nothing of its strain.
     fn torn(&self, before: &[f64]) -> Vec<usize> {
         let gain = |a: usize| self.stored_in(a) - before[a];
-        let [gained] = sweep::sum(before.len(), |a| [gain(a)]);
-        if gained <= 0.0 {
+        let [gained, all] = sweep::sum(before.len(), |a| [gain(a), before[a]]);
+        if gained <= ROUNDING * all {
             return Vec::new();
         }
-        let most = sweep::greatest(before.len(), gain);
+        let of_whole = |a: usize| if self.is_whole(a) { gain(a) } else { 0.0 };
+        let most = sweep::greatest(before.len(), of_whole).filter(|(_, gain)| *gain > 0.0);
         most.map(|(a, _)| a).into_iter().collect()
     }
 

@@ -133,12 +133,18 @@ impl<const T: usize> Links<T> {
         fresh: &[usize],
         touched: &[usize],
     ) -> Vec<usize> {
+        let mut before = broken.to_vec();
+        fresh.iter().for_each(|a| before[*a] = false);
+        // Rows that lose nothing keep their fits.
         let refit = |a: &usize| {
             let row = cracks.left(*a, broken);
-            let (weights, held) = cracks.refit::<T>(*a, &row);
-            (*a, row, weights, held)
+            let is_changed = row.len() != cracks.left(*a, &before).len();
+            is_changed.then(|| {
+                let (weights, held) = cracks.refit::<T>(*a, &row);
+                (*a, row, weights, held)
+            })
         };
-        let mut found: Vec<_> = touched.par_iter().map(refit).collect();
+        let mut found: Vec<_> = touched.par_iter().filter_map(refit).collect();
         found.extend(fresh.iter().map(|a| (*a, Vec::new(), Vec::new(), true)));
         found.sort_by_key(|(a, ..)| *a);
         let loose = found

@@ -10,7 +10,8 @@
 //! of a step. Among them the nearest lead by far, so that a held face, half a cell from the first row, is met the better.
 //! Where places are disturbed, from one side above all, such shares find the curvature in what the nearest differ by, and
 //! not in the rows behind them: a cell is then many times as stiff as any of the lattice. So shares fall as steeply as the
-//! places allow, and a curvature that none of them finds without such weights is left out.
+//! places allow. Where none is as soft, the softest is taken if it has all terms and bounded weights; if there is none,
+//! curvatures are left out.
 
 use nalgebra::DMatrix;
 
@@ -47,7 +48,7 @@ pub(super) struct Fit<const T: usize> {
     pub(super) weights: Vec<[f64; T]>,
     /// Linear fields are exact.
     pub(super) held: bool,
-    /// The cell is not stiffer for its neighbours than those of a lattice.
+    /// Its slopes, before the balance at a held face, are not too stiff for its neighbours.
     pub(super) soft: bool,
 }
 

@@ -134,6 +134,7 @@ impl<const T: usize> Links<T> {
                 }
             }
         }
+        links.stencils.tidy(&mut links.kind);
         *self = links;
     }
 

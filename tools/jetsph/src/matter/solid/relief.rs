@@ -22,6 +22,8 @@ const AROUND: f64 = 4.0;
 /// Iterations, and the part of the forces that may be left.
 const ITERATIONS: usize = 20;
 const REST: f64 = 1e-2;
+/// What is so many times softer than the stiffest motion is loose.
+const LOOSE: f64 = 1e-7;
 /// A small motion, in cells.
 const SMALL: f64 = 1e-5;
 
@@ -78,6 +80,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let mut way = rest.clone();
         let begun = dot(&rest, &rest);
         let mut square = begun;
+        let mut stiffest = 0.0_f64;
         for _ in 0..ITERATIONS {
             let most = way.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
             if most <= 0.0 || square <= REST * REST * begun {
@@ -92,8 +95,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
                 .map(|(a, b)| minus(a, b).map(|x| x / small))
                 .collect();
             let along = dot(&way, &stiff);
-            // What is left may be loose, and then gives no more.
-            if along.is_nan() || along <= 0.0 {
+            // What is left may be loose, and then gives no more: what rounding leaves of its stiffness is none.
+            let stiffness = along / dot(&way, &way);
+            stiffest = stiffest.max(stiffness);
+            if along.is_nan() || along <= 0.0 || stiffness <= LOOSE * stiffest {
                 break;
             }
             let step = square / along;

@@ -12,6 +12,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::elastic::REST;
+use super::fracture::BROKEN;
 use crate::matter::four::{Lanes, Work, on_this_machine};
 use crate::matter::water::friction::{Artificial, ArtificialViscosity, Friction};
 use crate::stage::{Course, Entry, Limit, Stage, StageError};
@@ -37,7 +38,8 @@ pub struct ShockViscosity {
     #[serde(default = "ArtificialViscosity::usual_guard")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub guard: f64,
-    /// Whether it acts between what parts, too: without, fronts of tension overshoot. In the source it does not.
+    /// Whether it acts between what parts, too, unless it is broken: without, fronts of tension overshoot. In the source it does not.
+    /// Across a thin crack it brakes the faces that part.
     #[serde(default)]
     pub in_tension: bool,
 }
@@ -93,6 +95,7 @@ struct Pulls<'a, K, F> {
     shocks: &'a Shocks<K, F>,
     /// Places \[m\] and masses \[kg\].
     places: &'a [[f64; 4]],
+    /// Velocities \[m/s\], and 1 where a particle is broken.
     speeds: &'a [[f64; 4]],
     /// Number of the first particle.
     first: usize,
@@ -108,10 +111,10 @@ impl<K: Kernel, F: Friction> Work for Pulls<'_, K, F> {
         let limit = none.of(kernel.support().powi(2));
         for (k, force) in self.forces.iter_mut().enumerate() {
             let a = self.first + k;
-            let ([x, y, z, mass], [u, v, w, _]) = (self.places[a], self.speeds[a]);
+            let ([x, y, z, mass], [u, v, w, broken]) = (self.places[a], self.speeds[a]);
             let volume = none.of(mass / (self.shocks.density * self.shocks.density));
             let [x, y, z] = [none.of(x), none.of(y), none.of(z)];
-            let [u, v, w] = [none.of(u), none.of(v), none.of(w)];
+            let [u, v, w, broken] = [none.of(u), none.of(v), none.of(w), none.of(broken)];
             let [mut along_x, mut along_y, mut along_z, mut power] = [none; 4];
             for four in self.shocks.rows.row(a).chunks(4) {
                 let other = |k: usize| four.get(k).map_or(a, |b| *b as usize);
@@ -122,7 +125,7 @@ impl<K: Kernel, F: Friction> Work for Pulls<'_, K, F> {
                     lanes.take(self.places[d]),
                     lanes.take(self.places[e]),
                 ]);
-                let [bu, bv, bw, _] = lanes.turn([
+                let [bu, bv, bw, flags] = lanes.turn([
                     lanes.take(self.speeds[b]),
                     lanes.take(self.speeds[c]),
                     lanes.take(self.speeds[d]),
@@ -132,6 +135,8 @@ impl<K: Kernel, F: Friction> Work for Pulls<'_, K, F> {
                 let square = dx * dx + dy * dy + dz * dz;
                 let approach = (u - bu) * dx + (v - bv) * dy + (w - bw) * dz;
                 let q = friction.pressure(approach, square);
+                // What is broken bears compression alone.
+                let q = none.below(broken + flags, q.greatest(none), q);
                 let scale = volume * masses * q * kernel.slope(square.root());
                 let scale = square.below(limit, scale, none);
                 along_x = along_x - scale * dx;
@@ -172,13 +177,18 @@ impl<K: Kernel, F: Friction + Send> Stage for Shocks<K, F> {
         let mut acceleration = set.take(&ACCELERATION);
         let (position, velocity) = (set.column(&POSITION), set.column(&VELOCITY));
         let mass = set.column(&MASS);
+        let broken = set.column(&BROKEN);
         let rows = 0..position.len();
         let places: Vec<[f64; 4]> = rows
             .clone()
             .map(|a| [position[a][0], position[a][1], position[a][2], mass[a]])
             .collect();
         let speeds: Vec<[f64; 4]> = rows
-            .map(|a| [velocity[a][0], velocity[a][1], velocity[a][2], 0.0])
+            .map(|a| {
+                let is_broken = broken.get(a).is_some_and(|b| *b > 0);
+                let [u, v, w] = velocity[a];
+                [u, v, w, f64::from(u8::from(is_broken))]
+            })
             .collect();
         let mut forces = vec![[0.0; 4]; places.len()];
         let each = forces.par_chunks_mut(GRAIN).enumerate();

@@ -60,6 +60,26 @@ impl<const T: usize> Stencils<T> {
         kind
     }
 
+    /// Keeps the kinds in use alone where they are less than half, and numbers them anew.
+    pub(super) fn tidy(&mut self, kinds: &mut [u32]) {
+        let mut used = kinds.to_vec();
+        used.sort_unstable();
+        used.dedup();
+        if 2 * used.len() >= self.total.len() {
+            return;
+        }
+        let mut kept = Self::default();
+        let new: HashMap<u32, u32> = used
+            .iter()
+            .map(|kind| {
+                let stencil = self.stencil(*kind);
+                (*kind, kept.kind(stencil.weight, stencil.back))
+            })
+            .collect();
+        kinds.iter_mut().for_each(|kind| *kind = new[kind]);
+        *self = kept;
+    }
+
     /// A kind.
     #[inline(always)]
     pub(super) fn stencil(&self, kind: u32) -> Stencil<'_, T> {
@@ -89,6 +109,13 @@ mod tests {
         let kinds = [&one, &other, &one].map(|weight| stencils.kind(weight, &other));
         assert_eq!(kinds, [0, 1, 0]);
         assert!((stencils.stencil(0).total[4] - 3.0).abs() <= 0.0);
-        assert!((stencils.stencil(1).weight[1][4] - 3.0).abs() <= 0.0);
+        for k in 0..3 {
+            stencils.kind(&[[10.0 + f64::from(k); 5]; 2], &other);
+        }
+        let mut kinds = [1, 1, 3];
+        stencils.tidy(&mut kinds);
+        assert_eq!(kinds, [0, 0, 1], "what is in use is kept");
+        assert!((stencils.stencil(1).weight[0][4] - 11.0).abs() <= 0.0);
+        assert_eq!(stencils.kind(&other, &other), 0);
     }
 }
