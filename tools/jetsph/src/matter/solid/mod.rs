@@ -1,10 +1,12 @@
 //! An elastic solid by total Lagrangian particles.
 //!
-//! The deformation is a function of the places at rest; its derivatives are those of quadratics fitted to the neighbours
-//! at rest ([`links`]), the energy is that of cells whose strain varies across them ([`cell`]), and forces are the slopes
-//! of that energy, so that they keep momentum, angular momentum and energy, and a solid at rest stays so. Faces are the
-//! true ones: rows of particles stand half a cell inside them, free faces need nothing, held and loaded ones are
-//! [`bound`] where they are. Where a scene has it break, [`fracture`] says when, [`cracks`] what is left, [`breaking`] does it.
+//! The deformation is a function of the places at rest; its derivatives are those of quadratics ([`quadratic`]) that are
+//! fitted (`fit`) to the neighbours at rest ([`links`], seen from both `sides`, with weights that particles share in
+//! `stencils`). `forces` has the loops over them, and `shown` tells the water what moves. The energy is that of cells whose
+//! strain varies across them ([`cell`]), and forces are the slopes of that energy, so that they keep momentum, angular
+//! momentum and energy, and a solid at rest stays so. Faces are the true ones: rows of particles stand half a cell inside
+//! them, free faces need nothing, held and loaded ones are [`bound`] where they are. Where a scene has it break,
+//! [`fracture`] says when, [`cracks`] what is left, [`breaking`] does it.
 //! [`updated`] is the form of Shinohara et al. (2004), for comparison.
 
 pub mod body;
