@@ -17,6 +17,9 @@ SOURCES := $(shell find tools tests -name '*.rs' -o -name Cargo.toml) Cargo.toml
 RERUN = @pipelines/rerun $@ $(filter-out always,$^) --
 .PHONY: always
 MACHINE := --threads $(THREADS) --progress $(PROGRESS)
+# The numerical bands of a study, where it keeps them, and the option of its page that shows them.
+certificate = $(wildcard pipelines/$(1)/certificate.json)
+certified = $(addprefix --certificate ,$(call certificate,$(1)))
 
 .PHONY: all help programs
 all: programs gmaw-quick ## build and run the default study to build/gmaw-quick/report.html
@@ -176,7 +179,8 @@ STUDY ?=
 validate: ## published values beside computed ones (STUDY=name; all take an hour, gmaw-300a three quarters of it)
 	+@$(MAKE) --no-print-directory --keep-going $(patsubst %,validate-%,$(or $(STUDY),$(VALIDATED)))
 
-# The plan of a study is pipelines/STUDY/certify.json; without a study, problems with exact answers are certified.
+# The plan of a study is pipelines/STUDY/certify.json; without a study, problems with exact answers are certified. What is kept as
+# pipelines/STUDY/certificate.json stands on the study's page: rules name it by $(call certificate,STUDY) and its option.
 BUDGET ?= 30min
 TOLERANCE ?=
 .PHONY: certify

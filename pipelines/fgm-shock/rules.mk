@@ -17,9 +17,9 @@ build/fgm-shock/disc-1123.mcap: pipelines/fgm-shock/disc-1023.json pipelines/fgm
 	  --patch pipelines/fgm-shock/disc-1123.patch.json --out $@ $(MACHINE)
 
 build/fgm-shock/report.html: build/fgm-shock/disc-1023.mcap build/fgm-shock/disc-1073.mcap \
-  build/fgm-shock/disc-1123.mcap $(BIN)/report always
+  build/fgm-shock/disc-1123.mcap $(call certificate,fgm-shock) $(BIN)/report always
 	$(RERUN) $(BIN)/report heat --study fgm-shock --out $@ \
 	  --frames 1023=build/fgm-shock/disc-1023.mcap --frames 1073=build/fgm-shock/disc-1073.mcap \
-	  --frames 1123=build/fgm-shock/disc-1123.mcap
+	  --frames 1123=build/fgm-shock/disc-1123.mcap $(call certified,fgm-shock)
 
 .PRECIOUS: build/fgm-shock/disc-1023.mcap build/fgm-shock/disc-1073.mcap build/fgm-shock/disc-1123.mcap build/fgm-shock/report.html

@@ -16,14 +16,14 @@ build/gmaw-300a/mean.mcap: pipelines/gmaw-300a/avg.json build/gmaw-300a/pool.mca
 	  --input frames=build/gmaw-300a/pool.mcap --out $@ $(MACHINE)
 
 build/gmaw-300a/report.html: build/gmaw-300a/arc.mcap build/gmaw-300a/pool.mcap build/gmaw-300a/mean.mcap \
-  pipelines/gmaw-300a/targets.json $(BIN)/report always
+  pipelines/gmaw-300a/targets.json $(call certificate,gmaw-300a) $(BIN)/report always
 	$(RERUN) $(BIN)/report page --study gmaw-300a --out $@ \
 	  --arc build/gmaw-300a/arc.mcap --pool build/gmaw-300a/pool.mcap --mean build/gmaw-300a/mean.mcap \
-	  --targets pipelines/gmaw-300a/targets.json
+	  --targets pipelines/gmaw-300a/targets.json $(call certified,gmaw-300a)
 
 VALIDATED += gmaw-300a
 .PHONY: validate-gmaw-300a
 validate-gmaw-300a: build/gmaw-300a/report.html ## the weld against published beads (three quarters of an hour)
-	$(BIN)/report validate --pool build/gmaw-300a/pool.mcap --targets pipelines/gmaw-300a/targets.json
+	$(BIN)/report validate --pool build/gmaw-300a/pool.mcap --targets pipelines/gmaw-300a/targets.json $(call certified,gmaw-300a)
 
 .PRECIOUS: build/gmaw-300a/arc.mcap build/gmaw-300a/pool.mcap build/gmaw-300a/mean.mcap build/gmaw-300a/report.html

@@ -16,9 +16,9 @@ build/gmaw-quick/mean.mcap: pipelines/gmaw-300a/avg.json pipelines/gmaw-quick/av
 	  --input frames=build/gmaw-quick/pool.mcap --out $@ $(MACHINE)
 
 build/gmaw-quick/report.html: build/gmaw-300a/arc.mcap build/gmaw-quick/pool.mcap build/gmaw-quick/mean.mcap \
-  pipelines/gmaw-300a/targets.json $(BIN)/report always
+  pipelines/gmaw-300a/targets.json $(call certificate,gmaw-quick) $(BIN)/report always
 	$(RERUN) $(BIN)/report page --study gmaw-quick --out $@ \
 	  --arc build/gmaw-300a/arc.mcap --pool build/gmaw-quick/pool.mcap --mean build/gmaw-quick/mean.mcap \
-	  --targets pipelines/gmaw-300a/targets.json
+	  --targets pipelines/gmaw-300a/targets.json $(call certified,gmaw-quick)
 
 .PRECIOUS: build/gmaw-quick/pool.mcap build/gmaw-quick/mean.mcap build/gmaw-quick/report.html

@@ -10,8 +10,8 @@ build/jet-tofu-5/half.mcap: pipelines/jet-tofu-5/scene.json pipelines/jet-tofu-5
 	$(RERUN) $(BIN)/jetsph run pipelines/jet-tofu-5/scene.json --patch pipelines/jet-tofu-5/half.patch.json \
 	  --out $@ $(MACHINE)
 
-build/jet-tofu-5/report.html: build/jet-tofu-5/half.mcap build/jet-tofu-5/jet.mcap $(BIN)/report always
+build/jet-tofu-5/report.html: build/jet-tofu-5/half.mcap build/jet-tofu-5/jet.mcap $(call certificate,jet-tofu-5) $(BIN)/report always
 	$(RERUN) $(BIN)/report jet --study jet-tofu-5 --out $@ --frames half=build/jet-tofu-5/half.mcap \
-	  --frames source=build/jet-tofu-5/jet.mcap
+	  --frames source=build/jet-tofu-5/jet.mcap $(call certified,jet-tofu-5)
 
 .PRECIOUS: build/jet-tofu-5/jet.mcap build/jet-tofu-5/half.mcap build/jet-tofu-5/report.html

@@ -9,8 +9,8 @@ build/levitation/rest.mcap: pipelines/levitation/scene.json pipelines/levitation
 build/levitation/drop.mcap: pipelines/levitation/scene.json $(BIN)/emfield always
 	$(RERUN) $(BIN)/emfield run pipelines/levitation/scene.json --out $@ $(MACHINE)
 
-build/levitation/report.html: build/levitation/rest.mcap build/levitation/drop.mcap $(BIN)/report always
+build/levitation/report.html: build/levitation/rest.mcap build/levitation/drop.mcap $(call certificate,levitation) $(BIN)/report always
 	$(RERUN) $(BIN)/report drop --study levitation --out $@ --drop rest=build/levitation/rest.mcap \
-	  --drop released=build/levitation/drop.mcap
+	  --drop released=build/levitation/drop.mcap $(call certified,levitation)
 
 .PRECIOUS: build/levitation/rest.mcap build/levitation/drop.mcap build/levitation/report.html

@@ -20,13 +20,13 @@ SAW_ARCS := dcep=build/saw-600a-arc/dcep.mcap dcep-400=build/saw-600a-arc/dcep-4
   even=build/saw-600a-arc/even.mcap cells-0.4=build/saw-600a-arc/cells-0.4.mcap cells-0.2=build/saw-600a-arc/cells-0.2.mcap
 
 build/saw-600a-arc/report.html: build/saw-600a-arc/dcep.mcap $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap) \
-  $(SAW)/targets.json $(BIN)/report always
+  $(SAW)/targets.json $(call certificate,saw-600a-arc) $(BIN)/report always
 	$(RERUN) $(BIN)/report page --study saw-600a-arc --out $@ \
-	  $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json
+	  $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json $(call certified,saw-600a-arc)
 
 VALIDATED += saw-600a-arc
 .PHONY: validate-saw-600a-arc
 validate-saw-600a-arc: build/saw-600a-arc/report.html ## the submerged arc against published values, row by row
-	$(BIN)/report validate $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json
+	$(BIN)/report validate $(SAW_ARCS:%=--arc %) --targets $(SAW)/targets.json $(call certified,saw-600a-arc)
 
 .PRECIOUS: build/saw-600a-arc/dcep.mcap $(SAW_VARIANTS:%=build/saw-600a-arc/%.mcap) build/saw-600a-arc/report.html

@@ -87,7 +87,12 @@ fn run(arguments: &Arguments) -> Result<ExitCode, (String, u8)> {
     let told = certify::certify(&lab, &plan, arguments.budget, tolerance.as_ref())
         .map_err(|e| failed(e.to_string()))?;
     print!("{}", table(&told));
-    keep(&lab.out.join(format!("{study}.json")), &told).map_err(failed)?;
+    let record = lab.out.join(format!("{study}.json"));
+    keep(&record, &told).map_err(failed)?;
+    let record = record.display();
+    println!(
+        "to show these bands on the study's page: cp {record} pipelines/{study}/certificate.json"
+    );
     let whole = told.figures.values().all(|f| f.not_judged.is_empty());
     Ok(if whole {
         ExitCode::SUCCESS
@@ -145,6 +150,9 @@ fn table(told: &Certificate) -> String {
             (None, time) => format!("{:.1} s", time.unwrap_or(f64::NAN)),
         };
         text += &format!("  {:<24} {words}\n", point.name);
+        for warning in &point.warnings {
+            text += &format!("    {warning}\n");
+        }
     }
     if let Some(least) = &told.least {
         text += &match (&least.point, least.run_time_s) {

@@ -8,7 +8,7 @@
 //!
 //! fitted by least squares with weights 1/h_i over p between 1/2 and the formal order (Eca and Hoekstra 2014). The band about
 //! f(h) is the grid convergence index (Roache 1994): 1.25 |f(h) - f_0| where three or more sizes approach one value, and three
-//! times where the order is assumed, or the values swing or barely approach; twice the standard deviation of the fit is added.
+//! times where the order is assumed, or the values swing or barely approach (then the order is assumed too); twice the standard deviation of the fit is added.
 //! It is never below what the values cannot be told apart by.
 
 use serde::Serialize;
@@ -110,8 +110,17 @@ pub fn band(sizes: &[f64], values: &[f64], base: f64, formal: f64) -> Option<Ban
         });
     }
     let p = order(sizes, values, formal);
+    let found = p > LEAST_ORDER + 1e-3;
+    let approaches = monotone(sizes, values) && found;
+    // Values that barely approach anything lead a fit of their own order far away: it takes that of the method, or 1.
+    let p = if found {
+        p
+    } else {
+        let left = |p: &f64| fitted(sizes, values, *p)[2];
+        let known = [formal, formal.min(1.0)];
+        (known.into_iter().min_by(|a, b| left(a).total_cmp(&left(b)))).unwrap_or(formal)
+    };
     let [f0, _, left] = fitted(sizes, values, p);
-    let approaches = monotone(sizes, values) && p > LEAST_ORDER + 1e-3;
     // A fit of every order passes through no noise: where more is left than a twentieth of the difference, it is no law.
     let trusted = approaches && left < 0.05 * apart;
     let error = (value - f0).abs();
@@ -122,7 +131,7 @@ pub fn band(sizes: &[f64], values: &[f64], base: f64, formal: f64) -> Option<Ban
         (SAFETY[1] * error).min(SAFETY[1] * apart).max(apart) + 2.0 * left
     };
     Some(Band {
-        order: Some(p),
+        order: found.then_some(p),
         extrapolated: f0,
         half_width: half_width.max(noise),
         trusted,
@@ -200,6 +209,14 @@ mod tests {
     fn values_that_swing_get_a_wide_band() {
         let band = band(&[0.4, 0.2, 0.1], &[1.0, 1.4, 1.1], 0.1, 2.0).unwrap();
         assert!(!band.trusted && band.half_width >= 0.4, "{band:?}");
+    }
+
+    #[test]
+    fn values_that_barely_approach_are_not_led_far_away() {
+        let band = band(&[2.0, 1.33, 1.0, 0.8], &[115.0, 95.0, 90.0, 78.0], 1.0, 1.0).unwrap();
+        assert!(!band.trusted && band.order.is_none(), "{band:?}");
+        assert!((40.0..70.0).contains(&band.extrapolated), "{band:?}");
+        assert!(band.half_width > 37.0);
     }
 
     #[test]

@@ -5,10 +5,11 @@
 //! by chance alone give a scatter apart from it. The least run that meets a tolerance is named with its patch.
 //!
 //! - [`plan`] is what `pipelines/STUDY/certify.json` says, [`runs`] makes its points (cheap ones first, within a budget, taken up
-//!   again where they were left), [`figures`] reads numbers from what they wrote, [`verdict`] puts the record together;
+//!   again where they were left), [`figures`] reads numbers from what they wrote ([`course`] those of a course in time), [`verdict`] puts the record together;
 //! - [`proof`] is the same over cases whose answers are exact: how often the true value lies in the band.
 
 pub mod band;
+pub mod course;
 pub mod figures;
 pub mod plan;
 pub mod proof;
@@ -51,4 +52,46 @@ pub fn plan_of(root: &Path, study: &str) -> Result<Plan, LabError> {
     plan.check()
         .map_err(|what| LabError::Content { path, what })?;
     Ok(plan)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_plan_fits_its_study() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+        let mut seen = 0;
+        for entry in std::fs::read_dir(root.join("pipelines")).unwrap() {
+            let folder = entry.unwrap().path();
+            if !folder.join("certify.json").is_file() {
+                continue;
+            }
+            let study = folder.file_name().unwrap().to_str().unwrap();
+            let plan = plan_of(root, study).unwrap();
+            assert_eq!(plan.study, study);
+            for stage in &plan.stages {
+                for file in stage.patches.iter().chain([&stage.scene]) {
+                    assert!(root.join(file).is_file(), "{study}: {file}");
+                }
+                // What is taken as made must be what a rule makes.
+                for made in stage
+                    .made
+                    .iter()
+                    .chain(stage.inputs.iter().filter_map(|i| i.file.as_ref()))
+                {
+                    let owner = Path::new(made).parent().and_then(Path::file_name).unwrap();
+                    let rules = root.join("pipelines").join(owner).join("rules.mk");
+                    let rules = std::fs::read_to_string(rules).unwrap();
+                    let pattern = format!("{}/%.mcap", Path::new(made).parent().unwrap().display());
+                    assert!(
+                        rules.contains(made.as_str()) || rules.contains(&pattern),
+                        "{study}: {made}"
+                    );
+                }
+            }
+            seen += 1;
+        }
+        assert!(seen >= 7, "{seen} plans");
+    }
 }

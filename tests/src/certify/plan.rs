@@ -37,6 +37,9 @@ pub struct Stage {
     /// Inputs by name.
     #[serde(default)]
     pub inputs: Vec<Input>,
+    /// What the study makes of it, from the repository root: the base is not run a second time.
+    #[serde(default)]
+    pub made: Option<String>,
 }
 
 /// An input of a stage.
@@ -78,6 +81,43 @@ pub enum From {
         /// Name of the value.
         value: String,
     },
+    /// The mean of a value over the records of a channel between two times.
+    Mean {
+        /// Channel.
+        channel: String,
+        /// Name of the value.
+        value: String,
+        /// From when on.
+        from_s: f64,
+        /// Until when; the end where it is not said.
+        #[serde(default)]
+        until_s: Option<f64>,
+    },
+    /// The time at which a value falls below a limit for the first time.
+    FallsBelow {
+        /// Channel.
+        channel: String,
+        /// Name of the value.
+        value: String,
+        /// The limit, in the unit of the value.
+        limit: f64,
+    },
+    /// The period of a value that swings, by its turning points.
+    Period {
+        /// Channel.
+        channel: String,
+        /// Name of the value.
+        value: String,
+    },
+    /// The greatest value of a column of a table.
+    Greatest {
+        /// Channel.
+        channel: String,
+        /// Name of the column.
+        column: String,
+    },
+    /// A closing value of the run record.
+    Closing(String),
     /// A measure of the bead at the end of a weld, as `report figures` tells it.
     Bead(String),
     /// A column of the last frame of a channel at the point that stands at a place.

@@ -37,6 +37,10 @@ pub struct Point {
     pub points: Option<u64>,
     /// Why it was not run, or what failed.
     pub missing: Option<String>,
+    /// What its stages warned of: a figure of such a run may be worth less than its band says.
+    pub warnings: Vec<String>,
+    /// Hashes of the scenes of its stages.
+    pub scenes: BTreeMap<String, String>,
 }
 
 /// A point to be run.
@@ -54,6 +58,8 @@ struct Wanted<'a> {
 const SPACING_POWER: f64 = -4.0;
 /// As many steps.
 const STEP_POWER: f64 = -1.0;
+/// A tolerance: steps of an order of two or so, or iterations that gain a digit each few.
+const TOLERANCE_POWER: f64 = -0.5;
 
 /// Runs what the budget allows; the base is always run.
 ///
@@ -118,10 +124,10 @@ fn wanted(plan: &Plan) -> Vec<Wanted<'_>> {
                 knob: Some(own),
                 size: Some(p.size),
                 base: *base,
-                power: if unit == "s" {
-                    STEP_POWER
-                } else {
-                    SPACING_POWER
+                power: match unit.as_str() {
+                    "s" => STEP_POWER,
+                    "m" => SPACING_POWER,
+                    _ => TOLERANCE_POWER,
                 },
                 patch: p.patch.clone(),
             })),
@@ -178,6 +184,8 @@ impl Wanted<'_> {
             peak_memory_bytes: None,
             points: None,
             missing: Some(why),
+            warnings: Vec::new(),
+            scenes: BTreeMap::new(),
         }
     }
 
@@ -195,8 +203,11 @@ impl Wanted<'_> {
     }
 }
 
-/// Where a stage of a point writes.
+/// Where the artefact of a stage of a point is, or will be.
 fn place(lab: &Lab, plan: &Plan, point: &Wanted<'_>, stage: &Stage) -> PathBuf {
+    if let Some(made) = made_by_study(lab, plan, point, stage) {
+        return made;
+    }
     let name = if point.reaches(plan, stage) {
         point.name.as_str()
     } else {
@@ -206,6 +217,13 @@ fn place(lab: &Lab, plan: &Plan, point: &Wanted<'_>, stage: &Stage) -> PathBuf {
         .join(&plan.study)
         .join(name)
         .join(format!("{}.mcap", stage.name))
+}
+
+/// What the study itself has made of a stage that no knob reaches.
+fn made_by_study(lab: &Lab, plan: &Plan, point: &Wanted<'_>, stage: &Stage) -> Option<PathBuf> {
+    let base = point.knob.is_none() || !point.reaches(plan, stage);
+    let made = lab.root.join(stage.made.as_ref().filter(|_| base)?);
+    made.is_file().then_some(made)
 }
 
 fn is_made(lab: &Lab, plan: &Plan, point: &Wanted<'_>) -> bool {
@@ -231,12 +249,26 @@ fn one(
         time += record["wall_s"].as_f64().unwrap_or(0.0);
         memory = memory.max(record["peak_memory_bytes"].as_u64());
         found.points = record["points"].as_u64().or(record["particles"].as_u64());
+        if let Some(hash) = record["scene_hash"].as_str() {
+            found.scenes.insert(stage.name.clone(), hash.to_owned());
+        }
+        let warnings = record["warnings"].as_array().into_iter().flatten();
+        let words = warnings.filter_map(Value::as_str);
+        (found.warnings).extend(words.map(|w| format!("{}: {w}", stage.name)));
     }
     for figure in &plan.figures {
         let stage = plan.stages.iter().find(|s| s.name == figure.stage);
         let Some(stage) = stage else { continue };
-        let value = figures::read(lab, figure, &place(lab, plan, point, stage))?;
-        found.figures.insert(figure.name.clone(), value);
+        match figures::read(lab, figure, &place(lab, plan, point, stage)) {
+            Ok(value) => {
+                found.figures.insert(figure.name.clone(), value);
+            }
+            // A coarse run may not have what the study has: a block that is never in two.
+            Err(LabError::Content { what, .. }) if point.knob.is_some() => {
+                found.warnings.push(format!("no {}: {what}", figure.name));
+            }
+            Err(error) => return Err(error),
+        }
     }
     found.run_time_s = Some(time);
     found.peak_memory_bytes = memory;
@@ -252,63 +284,77 @@ fn make(
     left: Option<Duration>,
 ) -> Result<Value, LabError> {
     let out = place(lab, plan, point, stage);
-    let folder = out.parent().unwrap_or(Path::new(".")).to_owned();
-    let io = |path: &Path| {
-        let path = path.to_owned();
-        move |source| LabError::Io { path, source }
-    };
-    std::fs::create_dir_all(&folder).map_err(io(&folder))?;
+    if made_by_study(lab, plan, point, stage).is_some() {
+        return read_json(&out.with_extension("run.json"));
+    }
+    let line = Line::of(lab, plan, point, stage)?;
     let program = lab.programs.join(&stage.tool);
-    let mut needs: Vec<PathBuf> = vec![lab.root.join(&stage.scene), program.clone()];
-    let mut words: Vec<String> = vec!["run".into(), stage.scene.clone()];
-    let mut patches: Vec<PathBuf> = stage.patches.iter().map(PathBuf::from).collect();
-    if point.knob.is_some_and(|(_, turned)| turned == stage.name) {
-        let patch = folder.join(format!("{}.patch.json", stage.name));
-        std::fs::write(&patch, point.patch.to_string()).map_err(io(&patch))?;
-        patches.push(patch);
-    }
-    for patch in patches {
-        words.extend(["--patch".to_owned(), patch.display().to_string()]);
-        needs.push(patch);
-    }
-    for input in &stage.inputs {
-        let of = input.stage.as_deref();
-        let file = match plan.stages.iter().find(|s| Some(s.name.as_str()) == of) {
-            Some(earlier) => place(lab, plan, point, earlier),
-            None => PathBuf::from(input.file.clone().unwrap_or_default()),
-        };
-        words.extend([
-            "--input".to_owned(),
-            format!("{}={}", input.name, file.display()),
-        ]);
-        needs.push(file);
-    }
     let mut command = Command::new(lab.root.join("pipelines/rerun"));
     command
         .current_dir(&lab.root)
         .arg(&out)
-        .args(&needs)
+        .arg(&program)
+        .args(&line.reads)
         .arg("--");
     if let Some(left) = left {
         // An interrupted stage writes its checkpoint.
         command.args(["timeout", "--signal=INT", "--kill-after=60"]);
         command.arg(format!("{}", left.as_secs().max(1)));
     }
-    command.arg(&program).args(&words).arg("--out").arg(&out);
-    command.args([
-        "--threads",
-        &lab.threads.to_string(),
-        "--progress",
-        "none",
-        "-q",
-    ]);
+    command.arg(&program).args(&line.words);
+    command.arg("--out").arg(&out);
+    let threads = lab.threads.to_string();
+    command.args(["--threads", &threads, "--progress", "none", "-q"]);
     let output = command.output().map_err(io(&program))?;
     if !output.status.success() {
         return Err(LabError::Tool {
-            command: format!("{} {}", program.display(), words.join(" ")),
+            command: format!("{} {}", program.display(), line.words.join(" ")),
             code: output.status.code(),
             stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
         });
     }
     read_json(&out.with_extension("run.json"))
+}
+
+/// What a stage of a point is told, and the files that it reads.
+struct Line {
+    words: Vec<String>,
+    reads: Vec<PathBuf>,
+}
+
+impl Line {
+    /// Scene, patches and inputs; the patch of the point is written beside its output.
+    fn of(lab: &Lab, plan: &Plan, point: &Wanted<'_>, stage: &Stage) -> Result<Self, LabError> {
+        let out = place(lab, plan, point, stage);
+        let folder = out.parent().unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder).map_err(io(folder))?;
+        let mut patches: Vec<PathBuf> = stage.patches.iter().map(PathBuf::from).collect();
+        if point.knob.is_some_and(|(_, turned)| turned == stage.name) {
+            let patch = folder.join(format!("{}.patch.json", stage.name));
+            std::fs::write(&patch, point.patch.to_string()).map_err(io(&patch))?;
+            patches.push(patch);
+        }
+        let mut words: Vec<String> = vec!["run".into(), stage.scene.clone()];
+        let mut reads: Vec<PathBuf> = vec![lab.root.join(&stage.scene)];
+        for patch in patches {
+            words.extend(["--patch".to_owned(), patch.display().to_string()]);
+            reads.push(patch);
+        }
+        for input in &stage.inputs {
+            let of = input.stage.as_deref();
+            let file = match plan.stages.iter().find(|s| Some(s.name.as_str()) == of) {
+                Some(earlier) => place(lab, plan, point, earlier),
+                None => PathBuf::from(input.file.clone().unwrap_or_default()),
+            };
+            let named = format!("{}={}", input.name, file.display());
+            words.extend(["--input".to_owned(), named]);
+            reads.push(file);
+        }
+        Ok(Self { words, reads })
+    }
+}
+
+fn io(path: &Path) -> impl FnOnce(std::io::Error) -> LabError {
+    let path = path.to_owned();
+    move |source| LabError::Io { path, source }
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::band::{Band, band, scatter};
-use super::plan::{Knob, Plan, Series};
+use super::plan::{Figure, Knob, Plan, Series};
 use super::runs::Point;
 
 /// What a user asks of a figure.
@@ -68,6 +68,8 @@ impl Tolerance {
 /// The figure with its band.
 #[derive(Debug, Clone, Serialize)]
 pub struct Certified {
+    /// The stage that it comes from.
+    pub stage: String,
     /// Unit.
     pub unit: String,
     /// Value of the study as it is.
@@ -124,7 +126,7 @@ pub fn conclude(plan: &Plan, points: &[Point], tolerance: Option<&Tolerance>) ->
     let figures: BTreeMap<String, Certified> = plan
         .figures
         .iter()
-        .filter_map(|f| Some((f.name.clone(), certified(plan, points, &f.name, &f.unit)?)))
+        .filter_map(|f| Some((f.name.clone(), certified(plan, points, f)?)))
         .collect();
     let least = tolerance.and_then(|t| Some(least(plan, points, figures.get(&t.figure)?, t)));
     Certificate {
@@ -156,7 +158,13 @@ fn series(knob: &Knob, points: &[Point], figure: &str) -> Option<(Vec<f64>, Vec<
     Some((sizes, values, *base, *order))
 }
 
-fn certified(plan: &Plan, points: &[Point], figure: &str, unit: &str) -> Option<Certified> {
+fn certified(plan: &Plan, points: &[Point], figure: &Figure) -> Option<Certified> {
+    let Figure {
+        name: figure,
+        unit,
+        stage,
+        ..
+    } = figure;
     let value = *points.first()?.figures.get(figure)?;
     let mut knobs = BTreeMap::new();
     let mut not_judged = Vec::new();
@@ -180,7 +188,8 @@ fn certified(plan: &Plan, points: &[Point], figure: &str, unit: &str) -> Option<
     let refined: Vec<&Band> = knobs.values().collect();
     let judged = !refined.is_empty();
     Some(Certified {
-        unit: unit.to_owned(),
+        stage: stage.clone(),
+        unit: unit.clone(),
         value,
         extrapolated: judged
             .then(|| value + refined.iter().map(|b| b.extrapolated - value).sum::<f64>()),
@@ -277,6 +286,8 @@ mod tests {
             peak_memory_bytes: None,
             points: None,
             missing: None,
+            warnings: Vec::new(),
+            scenes: BTreeMap::new(),
         }
     }
 

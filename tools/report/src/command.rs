@@ -98,6 +98,9 @@ enum Action {
         /// Published values.
         #[arg(long)]
         targets: PathBuf,
+        /// Numerical bands of the study's figures, as `make certify` writes them.
+        #[arg(long)]
+        certificate: Option<PathBuf>,
     },
     /// Writes shell completions and manual pages.
     #[command(hide = true)]
@@ -206,7 +209,11 @@ impl Action {
         };
         match self {
             Self::Page(f) => {
-                let more = [("pool", &f.pool), ("targets", &f.targets)];
+                let more = [
+                    ("pool", &f.pool),
+                    ("targets", &f.targets),
+                    ("certificate", &f.certificate),
+                ];
                 let more = more
                     .into_iter()
                     .filter_map(|(name, path)| Some((name.to_owned(), path.clone()?)));
@@ -214,10 +221,10 @@ impl Action {
                 named(&[&f.arc, &f.mean, &more])
             }
             Self::Passes(f) => named(&[&f.arc, &f.pool, &f.mean]),
-            Self::Heat(f) => named(&[&f.frames]),
-            Self::Jet(f) => named(&[&f.frames]),
+            Self::Heat(f) => named(&[&f.frames, &certificate(f.certificate.as_ref())]),
+            Self::Jet(f) => named(&[&f.frames, &certificate(f.certificate.as_ref())]),
             Self::Field(f) => named(&[&f.fields, &f.exact]),
-            Self::Drop(f) => named(&[&f.drops]),
+            Self::Drop(f) => named(&[&f.drops, &certificate(f.certificate.as_ref())]),
             Self::Gas(f) => named(&[&f.table, &f.reference, &f.variant]),
             Self::Sweep(f) => vec![("the points".to_owned(), f.points.clone())],
             Self::Preview(f) => named(&[&f.looks]),
@@ -232,6 +239,13 @@ impl Action {
             | Self::Manual(_) => Vec::new(),
         }
     }
+}
+
+/// The certificate of a study, where one is given.
+fn certificate(path: Option<&PathBuf>) -> Vec<(String, PathBuf)> {
+    path.map(|path| ("certificate".to_owned(), path.clone()))
+        .into_iter()
+        .collect()
 }
 
 /// A file, and the record beside it.
@@ -313,7 +327,12 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
             curves,
             isotherm_k,
         } => probes::run(file, *curves, *isotherm_k),
-        Action::Validate { pool, arc, targets } => validate::run(pool.as_deref(), arc, targets),
+        Action::Validate {
+            pool,
+            arc,
+            targets,
+            certificate,
+        } => validate::run(pool.as_deref(), arc, targets, certificate.as_deref()),
         Action::Manual(wanted) => run::explain(&Line::command(), wanted),
     }
 }

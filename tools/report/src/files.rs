@@ -26,6 +26,9 @@ pub(crate) struct PageFiles {
     /// Published values.
     #[arg(long)]
     pub(crate) targets: Option<PathBuf>,
+    /// Numerical bands of the study's figures, as `make certify` writes them.
+    #[arg(long)]
+    pub(crate) certificate: Option<PathBuf>,
 }
 
 /// Files of a page about passes.
@@ -60,6 +63,9 @@ pub(crate) struct HeatFiles {
     /// Points of a run, and what the page calls it; once for each run.
     #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
     pub(crate) frames: Vec<(String, PathBuf)>,
+    /// Numerical bands of the study's figures, as `make certify` writes them.
+    #[arg(long)]
+    pub(crate) certificate: Option<PathBuf>,
 }
 
 /// Files of a page about jets.
@@ -74,6 +80,9 @@ pub(crate) struct JetFiles {
     /// Frames of a run, and what the page calls it; once for each run.
     #[arg(long, required = true, value_name = "NAME=FILE", value_parser = named)]
     pub(crate) frames: Vec<(String, PathBuf)>,
+    /// Numerical bands of the study's figures, as `make certify` writes them.
+    #[arg(long)]
+    pub(crate) certificate: Option<PathBuf>,
 }
 
 /// Files of a page about electric and magnetic fields.
@@ -105,6 +114,9 @@ pub(crate) struct DropFiles {
     /// A drop, and what the page calls it; once for each run.
     #[arg(long = "drop", required = true, value_name = "NAME=FILE", value_parser = named)]
     pub(crate) drops: Vec<(String, PathBuf)>,
+    /// Numerical bands of the study's figures, as `make certify` writes them.
+    #[arg(long)]
+    pub(crate) certificate: Option<PathBuf>,
 }
 
 /// Files of a page about gases.

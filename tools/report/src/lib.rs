@@ -6,6 +6,7 @@
 //! values. Every input is optional: a page shows what there is, and a study without an arc has no section about one. Pages are
 //! single files: pictures are embedded, nothing is fetched from anywhere.
 
+mod certified;
 pub mod command;
 mod csv;
 mod draw;

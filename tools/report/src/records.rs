@@ -80,6 +80,7 @@ pub(crate) struct RunRecord {
     pub(crate) closing: Vec<Total>,
     pub(crate) history: Vec<History>,
     pub(crate) scene: Value,
+    pub(crate) scene_hash: String,
 }
 
 impl RunRecord {

@@ -14,6 +14,7 @@ use run::Failure;
 use run::scene::{Merged, located};
 use serde::Deserialize;
 
+use crate::certified::Bands;
 use crate::weld::Stretch;
 
 /// Balances of arcs, each with the name of its arc.
@@ -127,6 +128,15 @@ pub(crate) struct Row {
     pub(crate) range: Option<[f64; 2]>,
     /// What became of it.
     pub(crate) verdict: Verdict,
+    /// Half the width of its numerical band, where the study is certified.
+    pub(crate) band: Option<f64>,
+}
+
+/// Gives rows their numerical bands.
+pub(crate) fn with_bands(rows: &mut [Row], bands: &Bands) {
+    for row in rows {
+        row.band = bands.get(&row.target.measure).copied();
+    }
 }
 
 /// Compares every target with a stretch of weld, `None` where there is no weld, and with arcs.
@@ -145,6 +155,7 @@ pub(crate) fn compare(targets: &Targets, stretch: Option<&Stretch>, arcs: &Balan
             measured,
             range: bead.map(|m| m.range),
             verdict: judge(target, measured, settled),
+            band: None,
         }
     };
     targets.targets.iter().map(row).collect()
@@ -184,6 +195,33 @@ impl Row {
         text.replace('-', "\u{2212}")
     }
 
+    /// A numerical band in the unit for people, with two digits.
+    pub(crate) fn fine(&self, half: f64) -> String {
+        let (factor, _, digits) = people(&self.target);
+        let scaled = factor * half;
+        // Two digits that count, and no fewer than the value has.
+        let first = 1 - scaled.log10().floor() as i32;
+        let digits = digits.max(usize::try_from(first).unwrap_or(0)).min(6);
+        format!("{scaled:.digits$}")
+    }
+
+    /// What the tolerance has left, below 0 where it is missed; none where nothing is judged.
+    fn room(&self) -> Option<f64> {
+        let off = self.measured? - self.target.value;
+        let tolerance = self.target.tolerance?;
+        Some(match self.target.bound {
+            Bound::Within => tolerance - off.abs(),
+            Bound::AtMost => tolerance - off,
+            Bound::AtLeast => tolerance + off,
+        })
+    }
+
+    /// Whether the numerical band reaches over the edge of the tolerance: another spacing might give another verdict.
+    pub(crate) fn is_open(&self) -> bool {
+        let reach = self.band.zip(self.room());
+        reach.is_some_and(|(band, room)| band > room.abs())
+    }
+
     /// The unit for people.
     pub(crate) fn unit(&self) -> &str {
         people(&self.target).1
@@ -217,6 +255,14 @@ impl Row {
     /// The verdict in plain words, and whether the target holds where it is judged.
     pub(crate) fn words(&self) -> (String, Option<bool>) {
         match self.verdict {
+            Verdict::Holds if self.is_open() => {
+                let words = "agrees within the tolerance, but its numerical band reaches beyond";
+                (words.to_owned(), None)
+            }
+            Verdict::Missed if self.is_open() => {
+                let words = "misses the tolerance by less than its numerical band";
+                (words.to_owned(), None)
+            }
             Verdict::Holds => ("agrees within the tolerance".to_owned(), Some(true)),
             Verdict::Missed => {
                 let large = self.measured.is_some_and(|m| m > self.target.value);
@@ -387,5 +433,29 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_numerical_band_may_leave_a_verdict_open() {
+        let targets = Targets {
+            targets: vec![target(Bound::Within, Some(0.5e-3))],
+        };
+        let row = |depth: f64, band: f64| {
+            let mut rows = compare(&targets, Some(&stretch(depth, true)), &[]);
+            let bands = [("penetration".to_owned(), band)].into();
+            with_bands(&mut rows, &bands);
+            rows.remove(0)
+        };
+        // 3.2 mm lies 0.2 mm within 2.9 +- 0.5 mm, 3.5 mm 0.1 mm beyond.
+        assert_eq!(row(3.2e-3, 0.1e-3).words().1, Some(true));
+        assert_eq!(row(3.2e-3, 0.3e-3).words().1, None);
+        assert_eq!(row(3.5e-3, 0.05e-3).words().1, Some(false));
+        assert!(
+            row(3.5e-3, 0.2e-3)
+                .words()
+                .0
+                .contains("less than its numerical band")
+        );
+        assert_eq!(row(3.5e-3, 0.2e-3).fine(0.234e-3), "0.23");
     }
 }

@@ -3,7 +3,6 @@
 mod absence;
 mod bench;
 mod cards;
-mod certified;
 mod cost;
 mod faults;
 mod map;
@@ -19,6 +18,7 @@ use serde_json::Value;
 
 use self::cards::{Card, cards};
 use self::cost::{Cost, Prices};
+use crate::certified;
 use crate::files::{Folders, save};
 use crate::html::{Page, escape, note, paragraph};
 use crate::records::RunRecord;

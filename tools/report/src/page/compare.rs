@@ -1,12 +1,10 @@
 //! The comparison with published values.
 
 use crate::html::{Rows, escape, paragraph, verdict};
-use crate::targets::{Balances, Row, Targets, Verdict, compare};
-use crate::weld::Stretch;
+use crate::targets::{Row, Verdict};
 
 /// The section.
-pub(super) fn section(targets: &Targets, stretch: Option<&Stretch>, arcs: &Balances) -> String {
-    let rows = compare(targets, stretch, arcs);
+pub(super) fn section(rows: &[Row]) -> String {
     let mut table = Rows::new(&[
         "Measure",
         "#Published",
@@ -16,10 +14,10 @@ pub(super) fn section(targets: &Targets, stretch: Option<&Stretch>, arcs: &Balan
         "Tolerance",
         "Verdict",
     ]);
-    for row in &rows {
+    for row in rows {
         table.row(cells(row));
     }
-    paragraph(&summary(&rows)) + &table.render()
+    paragraph(&(summary(rows) + &hanging(rows))) + &table.render()
 }
 
 fn cells(row: &Row) -> [String; 7] {
@@ -28,6 +26,9 @@ fn cells(row: &Row) -> [String; 7] {
         || "\u{2013}".to_owned(),
         |m| format!("{} {unit}", row.shown(m)),
     );
+    let band = row.band.map_or_else(String::new, |half| {
+        format!(" \u{b1} {} {unit}", row.fine(half))
+    });
     let range = row.range.map_or_else(String::new, |[low, high]| {
         let span = format!("{} to {} along the weld", row.shown(low), row.shown(high));
         format!("<br><small>{span}</small>")
@@ -38,11 +39,20 @@ fn cells(row: &Row) -> [String; 7] {
         escape(&row.target.title),
         format!("{} {unit}", row.shown(row.target.value)),
         format!("{kind}<br><small>{}</small>", escape(&row.target.source)),
-        found + &range,
+        found + &band + &range,
         row.difference(),
         row.tolerance(),
         verdict(&words, holds),
     ]
+}
+
+/// How many verdicts hang on the numerical error.
+fn hanging(rows: &[Row]) -> String {
+    match rows.iter().filter(|row| row.is_open()).count() {
+        0 => String::new(),
+        1 => " Of one the numerical band reaches over the edge of its tolerance.".to_owned(),
+        n => format!(" Of {n} the numerical band reaches over the edge of its tolerance."),
+    }
 }
 
 fn summary(rows: &[Row]) -> String {

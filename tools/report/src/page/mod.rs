@@ -30,12 +30,13 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use run::Failure;
 
+use crate::certified::{Certificate, Ran};
 use crate::draw::canvas::Canvas;
 use crate::draw::film::film;
 use crate::files::{PageFiles, save};
 use crate::html::{Page, enlarging, escape, paragraph};
 use crate::records::RunRecord;
-use crate::targets::Targets;
+use crate::targets::{self, Targets};
 use crate::weld::Weld;
 
 /// A program's record under the name of its artefact.
@@ -88,6 +89,7 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     };
     let stretch = weld.as_ref().and_then(Weld::bead);
     let published = targets.as_ref().map(Targets::published).unwrap_or_default();
+    let certificate = certificate(files.certificate.as_deref())?;
     let mut page = Page::new(&files.study, &lead(&records));
     if let (Some(reader), Some(weld)) = (&pool, &weld) {
         page.section(
@@ -100,9 +102,13 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
         page.section("Powder, slag and metal", body);
     }
     if let Some(targets) = &targets {
-        let body = compare::section(targets, stretch.as_ref(), &balances);
-        page.section("Against experiment and simulation", body);
+        let mut rows = targets::compare(targets, stretch.as_ref(), &balances);
+        if let Some(certificate) = &certificate {
+            targets::with_bands(&mut rows, &certificate.bands(&ran(&records)));
+        }
+        page.section("Against experiment and simulation", compare::section(&rows));
     }
+    page.section("Numerical error", errors(certificate.as_ref(), &records));
     let melting = weld.as_ref().and_then(|w| w.plate.melting_point_k);
     averaged(&mut page, &means, melting)?;
     burning(&mut page, &arcs, &balances)?;
@@ -118,6 +124,23 @@ pub(crate) fn write(files: &PageFiles) -> Result<(), Failure> {
     page.section("Mass and energy", body);
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
+}
+
+/// The certificate of a study, where it is given.
+fn certificate(path: Option<&Path>) -> Result<Option<Certificate>, Failure> {
+    path.map(Certificate::read).transpose()
+}
+
+/// Scenes that ran.
+fn ran(records: &[Named]) -> Vec<Ran> {
+    let each = records.iter();
+    each.map(|(name, record)| (name.clone(), record.scene_hash.clone()))
+        .collect()
+}
+
+/// Bands of the study's figures; nothing where it is not certified.
+fn errors(certificate: Option<&Certificate>, records: &[Named]) -> String {
+    certificate.map_or_else(String::new, |c| c.of_study(&ran(records)))
 }
 
 /// Sections of means: flows, and the heat that metal gets.

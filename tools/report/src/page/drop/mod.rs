@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use artefact::{Reader, Record};
 use run::Failure;
 
-use super::{Named, lead, runs};
+use super::{Named, certificate, errors, lead, runs};
 use crate::field::columns::prefixed;
 use crate::files::{DropFiles, save};
 use crate::html::{Page, Rows, figure, paragraph, side_by_side};
@@ -55,6 +55,8 @@ pub(crate) fn write(files: &DropFiles) -> Result<(), Failure> {
     page.section("At the end", ends(&all));
     page.section("Radii, modes and energies", curves(&all));
     page.section("Shapes at rest", outlines(&all)?);
+    let certificate = certificate(files.certificate.as_deref())?;
+    page.section("Numerical error", errors(certificate.as_ref(), &records));
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
 }

@@ -8,7 +8,7 @@ pub(super) mod totals;
 use artefact::Reader;
 use run::Failure;
 
-use super::{Named, lead, probes, runs};
+use super::{Named, certificate, errors, lead, probes, runs};
 use crate::files::{HeatFiles, save};
 use crate::heat::Points;
 use crate::html::Page;
@@ -56,6 +56,8 @@ pub(crate) fn write(files: &HeatFiles) -> Result<(), Failure> {
     page.section("Heat through the surface", surface::section(&all)?);
     let body = surface::balance(&all)? + &totals::table(&records);
     page.section("The balance of heat", body);
+    let certificate = certificate(files.certificate.as_deref())?;
+    page.section("Numerical error", errors(certificate.as_ref(), &records));
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
 }

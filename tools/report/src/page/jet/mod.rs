@@ -8,7 +8,7 @@ use std::path::Path;
 
 use ::run::Failure;
 
-use super::{Named, lead, runs};
+use super::{Named, certificate, errors, lead, runs};
 use crate::draw::canvas::Canvas;
 use crate::files::{JetFiles, save};
 use crate::html::Page;
@@ -42,6 +42,8 @@ pub(crate) fn write(files: &JetFiles) -> Result<(), Failure> {
     page.section("Forces over time", curves::forces(&all)?);
     page.section("Energies over time", curves::energies(&all)?);
     page.section("The balance", totals::table(&records));
+    let certificate = certificate(files.certificate.as_deref())?;
+    page.section("Numerical error", errors(certificate.as_ref(), &records));
     page.section("How it was computed", runs::section(&records));
     save(&files.out, &page.render())
 }

@@ -1,7 +1,9 @@
 //! Figures of studies with their numerical bands: error against run time of the study itself.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
+use run::Failure;
 use serde::Deserialize;
 
 use crate::html::{Rows, escape, figure, note, paragraph, side_by_side};
@@ -10,7 +12,7 @@ use crate::records::{bytes, figure as digits};
 
 /// What `make certify STUDY=name` writes.
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Certificate {
+pub(crate) struct Certificate {
     study: String,
     figures: BTreeMap<String, Certified>,
     points: Vec<Point>,
@@ -18,14 +20,22 @@ pub(super) struct Certificate {
 
 /// What `make certify` writes of problems with exact answers.
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Proof {
+pub(crate) struct Proof {
     judged: u64,
     held: u64,
 }
 
+/// A scene that was run: the name of its run, and its hash.
+pub(crate) type Ran = (String, String);
+
+/// Half widths of numerical bands by measure.
+pub(crate) type Bands = BTreeMap<String, f64>;
+
 /// A figure with its band.
 #[derive(Debug, Clone, Deserialize)]
 struct Certified {
+    #[serde(default)]
+    stage: String,
     unit: String,
     value: f64,
     extrapolated: Option<f64>,
@@ -54,10 +64,63 @@ struct Point {
     run_time_s: Option<f64>,
     peak_memory_bytes: Option<u64>,
     missing: Option<String>,
+    #[serde(default)]
+    warnings: Vec<String>,
+    #[serde(default)]
+    scenes: BTreeMap<String, String>,
+}
+
+impl Certificate {
+    /// Reads the certificate of a study (kind `certificate`, version 1).
+    ///
+    /// # Errors
+    /// When the file cannot be read or is of another kind or version.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        Ok(artefact::json_artefact(path, "certificate", 1)?)
+    }
+
+    /// What a figure may be off, by numbers and by chance, where its scene is among those that ran: under its name, and under
+    /// NAME/figure with the name of the run.
+    pub(crate) fn bands(&self, ran: &[Ran]) -> Bands {
+        let mut bands = Bands::new();
+        for (figure, told) in &self.figures {
+            let hash = self.hash(&told.stage);
+            let own = ran.iter().find(|(_, other)| Some(other) == hash);
+            if let (Some((run, _)), Some(half)) = (own, told.half_width) {
+                let whole = half + told.scatter.map_or(0.0, |[by_chance, _]| by_chance);
+                bands.insert(figure.clone(), whole);
+                bands.insert(format!("{run}/{figure}"), whole);
+            }
+        }
+        bands
+    }
+
+    /// The hash of the scene of a stage, as the study has it.
+    fn hash(&self, stage: &str) -> Option<&String> {
+        let base = self.points.iter().find(|p| p.knob.is_none())?;
+        base.scenes.get(stage)
+    }
+
+    /// The part of a study's page, which says where what is shown is not what was certified.
+    pub(crate) fn of_study(&self, ran: &[Ran]) -> String {
+        let base = self.points.iter().filter(|p| p.knob.is_none());
+        let stages = base.flat_map(|p| &p.scenes);
+        let strange = stages.filter(|(_, hash)| ran.iter().all(|(_, own)| own != *hash));
+        let names: Vec<&str> = strange.map(|(stage, _)| stage.as_str()).collect();
+        let mut out = String::new();
+        if !names.is_empty() {
+            out += &note(&format!(
+                "These bands were found with other scenes than those of this page ({}): `make certify STUDY={}` finds them anew.",
+                names.join(", "),
+                self.study
+            ));
+        }
+        out + &told(self)
+    }
 }
 
 /// How often the truth lay in the band.
-pub(super) fn proved(proof: &Proof) -> String {
+pub(crate) fn proved(proof: &Proof) -> String {
     paragraph(&format!(
         "On problems with exact answers the truth lies in {} of {} bands.",
         proof.held, proof.judged
@@ -65,10 +128,13 @@ pub(super) fn proved(proof: &Proof) -> String {
 }
 
 /// Figures with bands, error over run time by knob, and every run.
-pub(super) fn section(certificate: &Certificate) -> String {
+pub(crate) fn section(certificate: &Certificate) -> String {
     let name = escape(&certificate.study);
-    let mut out = format!("<h3 id=\"certified-{name}\">{name}</h3>\n");
-    out += &figures(certificate);
+    format!("<h3 id=\"certified-{name}\">{name}</h3>\n") + &told(certificate)
+}
+
+fn told(certificate: &Certificate) -> String {
+    let mut out = figures(certificate);
     let plots: Vec<String> = certificate
         .figures
         .iter()
@@ -79,6 +145,9 @@ pub(super) fn section(certificate: &Certificate) -> String {
     for point in &certificate.points {
         if let Some(why) = &point.missing {
             out += &note(&format!("{} was not run: {why}", point.name));
+        }
+        for warning in &point.warnings {
+            out += &note(&format!("{}, {warning}", point.name));
         }
     }
     out
@@ -172,12 +241,13 @@ mod tests {
     fn certificate() -> Certificate {
         let point = |name: &str, knob: Option<&str>, size: f64, value: f64, seconds: f64| {
             serde_json::json!({"name": name, "knob": knob, "size": size, "patch": {},
-                "figures": {"depth": value}, "run_time_s": seconds, "peak_memory_bytes": 1000, "missing": null})
+                "figures": {"depth": value}, "run_time_s": seconds, "peak_memory_bytes": 1000, "missing": null,
+                "scenes": {"pool": "abc"}})
         };
         let missing = serde_json::json!({"name": "spacing 3", "knob": "spacing", "size": 0.25, "patch": {},
             "figures": {}, "run_time_s": null, "peak_memory_bytes": null, "missing": "over the budget"});
         serde_json::from_value(serde_json::json!({"kind": "certificate", "version": "1.0", "study": "weld",
-            "figures": {"depth": {"unit": "m", "value": 3.8, "extrapolated": 4.0, "half_width": 0.25,
+            "figures": {"depth": {"stage": "pool", "unit": "m", "value": 3.8, "extrapolated": 4.0, "half_width": 0.25,
                 "scatter": null, "not_judged": ["step"], "knobs": {"spacing": {"order": 1.0,
                     "extrapolated": 4.0, "half_width": 0.25, "trusted": false}}}},
             "points": [point("base", None, 1.0, 3.8, 8.0), point("spacing 1", Some("spacing"), 2.0, 3.6, 1.0), missing]}))
@@ -197,6 +267,21 @@ mod tests {
             assert!(html.contains(told), "{told} in {html}");
         }
         assert!(html.contains("<svg") && html.contains("error of depth [m]"));
+    }
+
+    #[test]
+    fn bands_belong_to_the_scenes_that_were_certified() {
+        let ran = |hash: &str| [("weld".to_owned(), hash.to_owned())];
+        let own = certificate();
+        let bands = own.bands(&ran("abc"));
+        assert_eq!(bands.get("depth"), Some(&0.25));
+        assert_eq!(bands.get("weld/depth"), Some(&0.25));
+        assert!(own.bands(&ran("other")).is_empty());
+        assert!(
+            own.of_study(&ran("other"))
+                .contains("other scenes than those of this page (pool)")
+        );
+        assert!(!own.of_study(&ran("abc")).contains("other scenes"));
     }
 
     #[test]

@@ -1,0 +1,99 @@
+//! What the course of a value in time says: its mean, when it falls below a limit, its period.
+
+use std::ops::RangeInclusive;
+
+use artefact::Reader;
+
+use crate::lab::LabError;
+
+/// Values of a record over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Course {
+    /// Times \[s\].
+    pub time_s: Vec<f64>,
+    /// Values.
+    pub value: Vec<f64>,
+}
+
+/// A value of the records of a channel.
+///
+/// # Errors
+/// When the artefact does not hold it.
+pub fn of(reader: &Reader, channel: &str, value: &str) -> Result<Course, LabError> {
+    let mut course = Course::default();
+    for (time, record) in reader.records(channel)? {
+        course.time_s.push(time);
+        course.value.push(record.get(value)?);
+    }
+    Ok(course)
+}
+
+/// The mean over the records of a time; not a number where there are none.
+#[must_use]
+pub fn mean(course: &Course, during_s: &RangeInclusive<f64>) -> f64 {
+    let all = course.time_s.iter().zip(&course.value);
+    let own: Vec<f64> = all
+        .filter(|(t, _)| during_s.contains(t))
+        .map(|(_, v)| *v)
+        .collect();
+    own.iter().sum::<f64>() / own.len() as f64
+}
+
+/// When the value falls below a limit for the first time, between two records by a straight line; none where it never does.
+#[must_use]
+pub fn falls_below(course: &Course, limit: f64) -> Option<f64> {
+    let first = course.value.iter().position(|v| *v < limit)?;
+    let before = first.checked_sub(1)?;
+    let [t0, t1] = [course.time_s[before], course.time_s[first]];
+    let [v0, v1] = [course.value[before], course.value[first]];
+    Some(t0 + (t1 - t0) * (v0 - limit) / (v0 - v1))
+}
+
+/// Twice the mean time between turning points, each that of the parabola through three records; none with fewer than two.
+#[must_use]
+pub fn period(course: &Course) -> Option<f64> {
+    let (t, v) = (&course.time_s, &course.value);
+    let turns: Vec<f64> = (1..v.len().saturating_sub(1))
+        .filter(|k| (v[k - 1] < v[*k]) != (v[*k] < v[k + 1]))
+        .map(|k| {
+            // Slopes in the middles of both intervals; between them the slope is straight.
+            let before = (v[k] - v[k - 1]) / (t[k] - t[k - 1]);
+            let after = (v[k + 1] - v[k]) / (t[k + 1] - t[k]);
+            let [from, to] = [0.5 * (t[k - 1] + t[k]), 0.5 * (t[k] + t[k + 1])];
+            from + (to - from) * before / (before - after)
+        })
+        .collect();
+    let between = turns.len().checked_sub(1).filter(|n| *n > 0)?;
+    Some(2.0 * (turns[between] - turns[0]) / between as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn course(of: impl Fn(f64) -> f64) -> Course {
+        let time_s: Vec<f64> = (0..=100).map(|k| 0.01 * f64::from(k)).collect();
+        let value = time_s.iter().map(|t| of(*t)).collect();
+        Course { time_s, value }
+    }
+
+    #[test]
+    fn a_swing_has_its_period() {
+        let swing = course(|t| 3.0 + (2.0 * std::f64::consts::PI * t / 0.27 + 0.4).cos());
+        assert!((period(&swing).unwrap() / 0.27 - 1.0).abs() < 1e-3);
+        assert_eq!(period(&course(|t| t)), None);
+    }
+
+    #[test]
+    fn a_limit_is_met_between_two_records() {
+        let falling = course(|t| 1.0 - t);
+        assert!((falls_below(&falling, 0.755).unwrap() - 0.245).abs() < 1e-12);
+        assert_eq!(falls_below(&falling, -1.0), None);
+    }
+
+    #[test]
+    fn a_mean_leaves_out_other_times() {
+        assert!((mean(&course(|t| t), &(0.895..=0.985)) - 0.94).abs() < 1e-12);
+        assert!(mean(&course(|t| t), &(2.0..=3.0)).is_nan());
+    }
+}
