@@ -202,6 +202,11 @@ build/others/.installed: pipelines/bench/others/requirements.txt
 	build/others/bin/pip install --quiet --disable-pip-version-check -r $<
 	@touch $@
 
+.PHONY: flow-spot-reference
+flow-spot-reference: build/others/.installed ## scikit-fem on the scene of the case flow-spot, anew (an hour on a core)
+	build/others/bin/python pipelines/bench/others/skfem_spot.py reference \
+	  pipelines/verify/flow-spot/scene.json pipelines/verify/flow-spot/reference.json
+
 .PHONY: bench-em
 bench-em: programs build/em/.installed ## NGSolve beside emfield: error and run time (installs it into build/)
 	$(BIN)/bench --em build/em/bin/python --threads $(THREADS) --out build/bench

@@ -35,4 +35,5 @@ mod solid;
 pub mod special;
 pub mod speed;
 mod spot;
+mod spot_pool;
 pub mod study;

@@ -51,6 +51,7 @@ mod flow_mirror;
 mod flow_pressure;
 mod flow_sessile;
 mod flow_sloshing;
+mod flow_spot;
 mod flow_taylor_green;
 mod fracture_energy;
 mod fracture_pull;
@@ -177,6 +178,7 @@ fn pools() -> Vec<Box<dyn Case>> {
         Box::new(flow_drop::FlowDrop),
         Box::new(flow_sessile::FlowSessile),
         Box::new(flow_mirror::FlowMirror),
+        Box::new(flow_spot::FlowSpot),
         Box::new(flow_invariance::FlowInvariance),
     ]
 }

@@ -296,8 +296,9 @@ impl<'a> Source<'a> {
                 .map_err(|fault| fault.within("/gas_shear"))?;
             Ok(Box::new(stage))
         })?;
-        parts.when(Room::Forces, "lorentz", scene.lorentz, |_| {
-            Ok(Box::new(Lorentz::new(self.arcs.lorentz()?, metal)))
+        let pulled = scene.lorentz.as_ref();
+        parts.when(Room::Forces, "lorentz", pulled, |pulled| {
+            Ok(Box::new(Lorentz::new(self.arcs.lorentz(pulled)?, metal)))
         })?;
         let pressed = scene.arc_pressure.as_ref();
         parts.when(Room::Forces, "arc_pressure", pressed, |pressed| {

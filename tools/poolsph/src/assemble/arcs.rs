@@ -6,9 +6,10 @@ use run::{Failure, Fault, Inputs};
 
 use crate::forces::arc_pressure::{self, Pressure};
 use crate::forces::gas_shear::Gas;
+use crate::forces::lorentz::{self, Force};
 use crate::heat::{self, ArcParameters, Caloric};
 use crate::scene::Scene;
-use crate::source::arc::{ArcSource, Lorentz};
+use crate::source::arc::ArcSource;
 use crate::source::arcs::{Burning, OneArc};
 
 /// An arc: where it burns, its own heat, and its tables where they are there.
@@ -28,8 +29,9 @@ impl Arcs {
     /// Reads the inputs of a scene.
     pub(super) fn read(scene: &Scene, inputs: &Inputs) -> Result<Self, Failure> {
         let pressed = scene.arc_pressure.as_ref();
+        let pulled = scene.lorentz.as_ref();
         let wanted = scene.gas_shear.is_some()
-            || scene.lorentz.is_some()
+            || pulled.is_some_and(|pulled| pulled.force_n_m3.is_none())
             || pressed.is_some_and(|pressed| pressed.pressure_pa.is_none());
         let alone = [OneArc::default()];
         let arcs = match scene.arcs.as_slice() {
@@ -85,13 +87,24 @@ impl Arcs {
         })
     }
 
-    /// The Lorentz force of each.
-    pub(super) fn lorentz(&self) -> Result<Vec<(Lorentz, Burning)>, Failure> {
-        self.each(|tables, input| {
-            let what = || format!("the input '{input}' holds no Lorentz force");
-            let table = tables.lorentz()?;
-            Ok(table.ok_or_else(|| Fault::at("/lorentz", what()))?)
-        })
+    /// The Lorentz force of each, by its tables or by formulas.
+    pub(super) fn lorentz(
+        &self,
+        pulled: &lorentz::Parameters,
+    ) -> Result<Vec<(Force, Burning)>, Failure> {
+        if pulled.force_n_m3.is_none() {
+            return self.each(|tables, input| {
+                let what = || format!("the input '{input}' holds no Lorentz force");
+                let table = tables.lorentz()?.map(Force::Table);
+                Ok(table.ok_or_else(|| Fault::at("/lorentz", what()))?)
+            });
+        }
+        let mut forces = Vec::new();
+        for one in &self.0 {
+            let formula = pulled.formula().map_err(|fault| fault.within("/lorentz"))?;
+            forces.extend(formula.map(|force| (force, one.burning.clone())));
+        }
+        Ok(forces)
     }
 
     /// The pressure of each, by its tables or by a formula.

@@ -6,6 +6,7 @@
 //! ```text
 //! periodic   x' = x +- P e          u' = u                         T' = T
 //! mirror     x' = x - 2 (x - f).e e  u' = u - 2 (u.e) e             T' = T            slip, insulated
+//! lid        as a mirror, and it is the free surface
 //! wall       as a mirror             u' = 2 U - u for viscosity     T' = 2 T_w - T    where T_w is held, else T
 //! ```
 //!

@@ -27,6 +27,10 @@ pub struct Parameters {
     /// the liquid slips is the same.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mirror: Vec<Face>,
+    /// Planes that hold the free surface flat, as rigid lids: the liquid slips along them and does not leave them. Heat, losses and
+    /// stresses of the surface act there as on any other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lid: Vec<Face>,
     /// Walls to which the liquid sticks, in the plane of the face itself.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wall: Vec<WallParameters>,
@@ -112,6 +116,9 @@ impl Parameters {
         for (i, face) in self.mirror.iter().enumerate() {
             claim(format!("/mirror/{i}"), face.side(), Side::Mirror)?;
         }
+        for (i, face) in self.lid.iter().enumerate() {
+            claim(format!("/lid/{i}"), face.side(), Side::Lid)?;
+        }
         for (i, wall) in self.wall.iter().enumerate() {
             let at = format!("/wall/{i}");
             claim(at.clone(), wall.face.side(), wall.side(&at, heat)?)?;
@@ -149,6 +156,20 @@ impl Parameters {
         Some(Fault::at("/contact_angles", what))
     }
 
+    /// What means nothing where a lid holds the surface flat, of the keys of a scene that are there.
+    pub fn under_lids<'a>(&self, there: impl Iterator<Item = &'a str>) -> Vec<Fault> {
+        if self.lid.is_empty() {
+            return Vec::new();
+        }
+        let fault = |key: &str| {
+            let what = format!(
+                "holds the surface flat, beside which '{key}' does nothing: leave one of them out"
+            );
+            Fault::at("/lid", what)
+        };
+        there.map(fault).collect()
+    }
+
     /// cot theta at each face.
     fn leans(&self, sides: &[[Option<Side>; 2]; 3]) -> Result<[[f64; 2]; 3], Fault> {
         let mut leans = [[None; 2]; 3];
@@ -162,6 +183,7 @@ impl Parameters {
             match sides[axis][side] {
                 Some(Side::Mirror | Side::Wall { .. }) => {}
                 Some(Side::Periodic) => return Err(fault("is periodic: no surface ends there")),
+                Some(Side::Lid) => return Err(fault("is a lid, which the surface lies in")),
                 None => return Err(fault("is neither a mirror nor a wall")),
             }
             // Nothing at a right angle, to the bit.

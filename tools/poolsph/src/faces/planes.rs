@@ -11,6 +11,8 @@ pub(super) enum Side {
     Periodic,
     /// The same, turned over.
     Mirror,
+    /// As a mirror, and the free surface lies in it.
+    Lid,
     /// A wall to which the liquid sticks.
     Wall {
         /// U \[m/s\].
@@ -216,6 +218,18 @@ impl Faces {
         leans.filter(|lean| lean.cot != 0.0).collect()
     }
 
+    /// The same for the free surface, beyond which nothing stands: without lids. None where there is no lid.
+    #[must_use]
+    pub fn without_lids(&self) -> Option<Self> {
+        let is_lid = |side: &Option<Side>| matches!(side, Some(Side::Lid));
+        if !self.sides.iter().flatten().any(is_lid) {
+            return None;
+        }
+        let kept = |side: &Option<Side>| side.clone().filter(|side| !matches!(side, Side::Lid));
+        let sides = [0, 1, 2].map(|axis| [0, 1].map(|side| kept(&self.sides[axis][side])));
+        Some(Self::new(self.min, self.max, sides).leaning(self.leans))
+    }
+
     /// True if there is a face.
     #[must_use]
     pub fn any(&self) -> bool {
@@ -241,10 +255,10 @@ impl Faces {
         [0, 1].map(|side| self.sides[axis][side].as_ref().map(|_| at[side]))
     }
 
-    /// True if the face of an `axis`, lower (0) or upper (1), is a mirror.
+    /// True if the face of an `axis`, lower (0) or upper (1), turns over what lies at it: a mirror or a lid.
     #[must_use]
     pub fn is_mirror(&self, axis: usize, side: usize) -> bool {
-        matches!(self.sides[axis][side], Some(Side::Mirror))
+        matches!(self.sides[axis][side], Some(Side::Mirror | Side::Lid))
     }
 
     pub(super) fn turns(&self) -> &[Turn] {

@@ -182,6 +182,31 @@ fn half_a_body_beside_a_mirror_moves_as_the_whole() {
 }
 
 #[test]
+fn a_lid_is_a_mirror_of_the_flow_and_none_of_the_surface() {
+    let with = |rest: &str| {
+        let text = format!(r#"{{"min_m": [0, 0, 0], "max_m": [9, 9, 5], {rest}}}"#);
+        body(faces(&text), disordered([5, 5, 5]))
+    };
+    let mut lidded = with(r#""mirror": ["x-"], "lid": ["z+"]"#);
+    let mut mirrored = with(r#""mirror": ["x-", "z+"]"#);
+    let (found, expected) = (sums(&mut lidded, 125), sums(&mut mirrored, 125));
+    assert_eq!(found, expected);
+    let open = lidded.faces.without_lids().unwrap();
+    assert!(open.is_mirror(0, 0) && open.planes(2) == [None; 2]);
+    assert!(mirrored.faces.without_lids().is_none());
+}
+
+#[test]
+fn what_a_lid_makes_idle_is_told() {
+    let text = r#"{"min_m": [0, 0, 0], "max_m": [9, 9, 9], "lid": ["z+"]}"#;
+    let parameters: Parameters = serde_json::from_str(text).unwrap();
+    let told = parameters.under_lids(["tension"].into_iter());
+    assert!(told[0].to_string().contains("'tension'"), "{told:?}");
+    let none: Parameters = serde_json::from_str(&text.replace("lid", "mirror")).unwrap();
+    assert!(none.under_lids(["tension"].into_iter()).is_empty());
+}
+
+#[test]
 fn walls_hold_speed_and_temperature_in_their_planes() {
     let text = r#"{"min_m": [0, 0, 0], "max_m": [4, 4, 4],
         "wall": [{"face": "z+", "velocity_m_s": [2, 0, 0], "temperature_k": 400}, {"face": "z-", "temperature_k": 300}]}"#;

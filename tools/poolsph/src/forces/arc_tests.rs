@@ -8,7 +8,7 @@ use run::property::Property;
 
 use super::arc_pressure::{ArcPressure, Pressure};
 use super::gas_shear::{Gas, GasShear, Parameters};
-use super::lorentz::Lorentz;
+use super::lorentz::{Force, Lorentz};
 use crate::motion::Law;
 use crate::near::Role;
 use crate::patch;
@@ -228,7 +228,7 @@ fn pulled_by(state: &mut State, arcs: &[Burning]) -> [f64; 2] {
     // Radial -2 r, axial -3 depth, both exact between the rows.
     let (radial, axial) = (vec![0.0, 0.0, -80.0, -80.0], vec![0.0, -120.0, 0.0, -120.0]);
     let table = arc::Lorentz::new(axes, radial, axial);
-    let own = |burning: &Burning| (table.clone(), burning.clone());
+    let own = |burning: &Burning| (Force::Table(table.clone()), burning.clone());
     let arcs = arcs.iter().map(own).collect();
     let mut stage = Lorentz::new(arcs, METAL);
     stage.advance(state, 1e-4).unwrap();

@@ -253,6 +253,14 @@ fn beside(scene: &Scene) -> Vec<Fault> {
         let what = format!("carries heat of liquid only, and body {i} is none");
         faults.extend(at.map(|at| Fault::at(&at, what)));
     }
+    let idle = [
+        ("tension", scene.tension.is_some()),
+        ("arc_pressure", scene.arc_pressure.is_some()),
+        ("droplets", scene.wires().next().is_some()),
+    ];
+    let there = idle.into_iter().filter_map(|(key, is)| is.then_some(key));
+    let lids = faces.under_lids(there).into_iter();
+    faults.extend(lids.map(|fault| fault.within("/faces")));
     faults
 }
 

@@ -20,6 +20,7 @@ mod columns;
 pub mod curvature;
 mod depth;
 mod edges;
+mod flat;
 
 use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
@@ -28,6 +29,7 @@ use rayon::prelude::*;
 
 use self::band::Band;
 use self::depth::Depth;
+use self::flat::Flat;
 use crate::faces::Images;
 use crate::near::Role;
 use crate::patch::{self, AREA, Patch, Patches};
@@ -46,6 +48,8 @@ pub struct Surface {
     kernel: CubicSpline<3>,
     depth: Depth,
     band: Band,
+    /// What the surface in a lid is measured by; empty without lids.
+    flat: Flat,
     coloured: Vec<Patch>,
     /// Which particles have an area.
     exposed: Vec<bool>,
@@ -77,6 +81,7 @@ impl Surface {
             kernel,
             depth: Depth::new(kernel),
             band: Band::of([metal.spacing; 2]),
+            flat: Flat::default(),
             coloured: Vec::new(),
             exposed: Vec::new(),
             resting: 0,
@@ -99,7 +104,8 @@ impl Surface {
         let mut places: Vec<[f64; 3]> = ids.iter().map(|a| all[*a]).collect();
         let (mut grid, mut lists) = (Grid::new(self.metal.support()), Lists::new());
         let (support, mut images) = (self.metal.support(), Images::default());
-        images.place(&state.faces, support, &mut places);
+        let open = state.faces.without_lids();
+        images.place(open.as_ref().unwrap_or(&state.faces), support, &mut places);
         grid.bin(&places);
         let points = &places[..ids.len()];
         lists.build(grid.search(points, support), |_| true, |_, _| true);
@@ -129,10 +135,14 @@ impl Surface {
     /// Measures the particles within reach of the flow.
     fn near(&mut self, state: &mut State) {
         let near = &state.near;
-        let cloud = Cloud {
-            places: &near.position,
-            images: near.images(),
-            lists: &near.lists,
+        let own_lists = self.flat.gather(&state.faces, near, self.metal.support());
+        let cloud = match own_lists {
+            true => self.flat.cloud(),
+            false => Cloud {
+                places: &near.position,
+                images: near.images(),
+                lists: &near.lists,
+            },
         };
         let (own, before) = (self.kernel.value(0.0), Patches::of(&state.metal));
         let mut coloured = std::mem::take(&mut self.coloured);
@@ -142,6 +152,7 @@ impl Surface {
             .map(|k| match near.role[k] {
                 // Nothing around it has moved.
                 Role::Backing => before.at(near.id[k] as usize),
+                _ if own_lists => self.colour(&cloud, k),
                 _ => self.patch(near.number[k].max(own), near.gradient[k]),
             })
             .collect_into_vec(&mut coloured);
@@ -260,6 +271,10 @@ impl Stage for Surface {
             unit: "m2",
             value: self.total,
         }]
+    }
+
+    fn bytes(&self) -> usize {
+        self.flat.bytes()
     }
 
     fn save(&self) -> Vec<f64> {

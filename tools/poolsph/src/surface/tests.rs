@@ -341,6 +341,34 @@ fn half_beside_a_mirror_is_measured_as_the_whole_is() {
 }
 
 #[test]
+fn a_lid_is_the_surface_of_what_lies_beneath_it() {
+    for flows in [false, true] {
+        let [mut lidded, _] = beside_mirror(0.5);
+        let [mut bare, _] = beside_mirror(0.5);
+        let faces: crate::faces::Parameters = serde_json::from_str(
+            r#"{"min_m": [0, -50, -50], "max_m": [50, 50, 0], "mirror": ["x-"], "lid": ["z+"]}"#,
+        )
+        .unwrap();
+        lidded.faces = faces.faces(METAL.support(), false).unwrap();
+        for state in [&mut lidded, &mut bare] {
+            state.flowing = flows;
+            if flows {
+                state.gather();
+            }
+            Surface::new(METAL).advance(state, 0.0).unwrap();
+        }
+        let total: f64 = patches(&lidded).map(|own| own.area).sum();
+        assert!(total > 80.0, "{total}");
+        for (a, (own, other)) in patches(&lidded).zip(patches(&bare)).enumerate() {
+            let what = format!("flows {flows}, particle {a}: {own:?} {other:?}");
+            assert!((own.area - other.area).abs() < 1e-4, "{what}");
+            assert!((own.seen - other.seen).abs() < 1e-4, "{what}");
+            assert!((own.depth - other.depth).abs() < 1e-4, "{what}");
+        }
+    }
+}
+
+#[test]
 fn what_falls_on_a_pool_within_a_plate_is_taken_whole() {
     let mut state = State::new(METAL);
     patch::declare(&mut state.metal);
