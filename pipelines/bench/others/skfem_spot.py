@@ -323,8 +323,13 @@ def reference(scene, out):
         others = {key: run(**other) for key, other in OTHERS.items()}
         keep = ("cell_m", "step_s", "energy_off", "at_end")
         methods[name] = {**finest, "others": {key: {k: r[k] for k in keep} for key, r in others.items()}}
+    written(scene, methods, out)
+
+
+def written(scene, methods, out):
+    """Writes what the case reads."""
+    made = "pipelines/bench/others/skfem_spot.py"
     with open(out, "w") as file:
-        made = "pipelines/bench/others/skfem_spot.py"
         json.dump({"made_by": made, "scene": digest(scene), "methods": methods}, file, indent=1)
         file.write("\n")
 
