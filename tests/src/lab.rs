@@ -112,6 +112,15 @@ impl Finished {
         }
     }
 
+    /// A number of the closing block of the record; not a number where there is none.
+    #[must_use]
+    pub fn closing(&self, name: &str) -> f64 {
+        let rows = self.record["closing"].as_array().into_iter().flatten();
+        let value = rows.rev().find(|row| row["name"] == name);
+        let value = value.and_then(|row| row["value"].as_f64());
+        value.unwrap_or(f64::NAN)
+    }
+
     /// Whether there is a program to run again.
     pub(crate) fn repeatable(&self) -> bool {
         !self.command.is_empty()

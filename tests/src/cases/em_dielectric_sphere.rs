@@ -106,7 +106,7 @@ impl Case for EmDielectricSphere {
         let points = Points::read(&run)?;
         let mut errors = errors(&points, &beyond(&run)?, &exact, spacing)?;
         errors.insert("traction_linf".to_owned(), traction(&run, &exact)?);
-        let iterations = closing(&run, "products_potential");
+        let iterations = run.closing("products_potential");
         let count = points.count();
         let costs = [("iterations", iterations), ("points", count as f64)];
         Ok(Measurement::of(run, count, spacing, errors).at_costs(costs))
@@ -219,16 +219,4 @@ fn traction(run: &Finished, exact: &Sphere) -> Result<f64, LabError> {
         worst = greater(worst, far / pole);
     }
     Ok(worst)
-}
-
-/// A number of the closing block of a run.
-fn closing(run: &Finished, name: &str) -> f64 {
-    let closing = run.record["closing"].as_array();
-    let entry = closing
-        .into_iter()
-        .flatten()
-        .find(|entry| entry["name"] == name);
-    entry
-        .and_then(|entry| entry["value"].as_f64())
-        .unwrap_or(f64::NAN)
 }

@@ -51,14 +51,10 @@ impl Case for FracturePull {
         let frames = frames(&run.artefact, "bar")?;
         let first = frames.first().ok_or_else(|| fault(&run, "has no frame"))?;
         let points = first.len() as u64;
-        let told = |what: &str| {
-            let all = run.record["closing"].as_array().into_iter().flatten();
-            let mut found = all.filter(|of| of["name"].as_str() == Some(what));
-            found.next().and_then(|of| of["value"].as_f64())
-        };
-        let [Some(time), Some(x)] = ["bar_first_break_s", "bar_first_break_x_m"].map(told) else {
+        let [time, x] = ["bar_first_break_s", "bar_first_break_x_m"].map(|what| run.closing(what));
+        if time.is_nan() {
             return Err(fault(&run, "does not break"));
-        };
+        }
         let exact = passes * length / sound;
         let errors = Errors::from([
             ("time".to_owned(), (time / exact - 1.0).abs()),

@@ -94,21 +94,12 @@ impl Case for HeatCT {
             };
             errors.insert(key.to_owned(), error);
             let balance = errors.entry("energy_balance".to_owned()).or_insert(0.0);
-            *balance = greater(*balance, closing(&run, "energy_balance"));
+            *balance = greater(*balance, run.closing("energy_balance"));
             points = points.max(frames.points());
             all.push(run);
         }
         Ok(Measurement::over(all, points, spacing, errors))
     }
-}
-
-/// A number of the closing block.
-fn closing(run: &Finished, name: &str) -> f64 {
-    let rows = run.record["closing"].as_array().into_iter().flatten();
-    let value = rows.rev().find(|row| row["name"] == name);
-    value
-        .and_then(|row| row["value"].as_f64())
-        .unwrap_or(f64::NAN)
 }
 
 /// Largest error where `k = K exp(aT)` and `rho c = C exp(aT)`: `U = exp(aT)` obeys `U_t = K/C U_xx`.

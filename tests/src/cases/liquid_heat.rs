@@ -211,11 +211,7 @@ fn melting(
     }
     let [_, surface] = ends(reader)?;
     let last = told[told.len() - 1];
-    let closing = |name: &str| {
-        let all = run.record["closing"].as_array();
-        let told = all.and_then(|all| all.iter().find(|c| c["name"] == name));
-        told.map_or(f64::NAN, |c| number(&c["value"]))
-    };
+    let closing = |name: &str| run.closing(name);
     Ok(Errors::from([
         ("molten".to_owned(), molten),
         (

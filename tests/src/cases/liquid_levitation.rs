@@ -184,9 +184,7 @@ fn rest(run: &Finished, scene: &Value, row: &Record) -> Result<Errors, LabError>
         let wanted = share * radius.powi(1 - l) * work / stiff;
         errors.insert(name.to_owned(), (row.get(name)? / wanted - 1.0).abs());
     }
-    let closing = run.record["closing"].as_array();
-    let told = closing.and_then(|all| all.iter().find(|c| c["name"] == "current_factor"));
-    let found = told.map_or(f64::NAN, |c| number(&c["value"]));
+    let found = run.closing("current_factor");
     errors.insert("factor".to_owned(), (found / factor - 1.0).abs());
     Ok(errors)
 }

@@ -41,7 +41,13 @@ impl Conduction {
             })
             .collect_into_vec(&mut exchanged);
         if !self.beside.is_empty() {
-            exchanged.iter().for_each(|one| self.out_walls.add(one.out));
+            // What walls give and what they take are told apart: between a hot and a cold wall their sum says nothing.
+            for one in &exchanged {
+                match one.out < 0.0 {
+                    true => self.in_walls.add(-one.out),
+                    false => self.out_walls.add(one.out),
+                }
+            }
         }
         let stored = self.store(state, &exchanged);
         self.exchanged = exchanged;

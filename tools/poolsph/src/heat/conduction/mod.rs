@@ -100,6 +100,8 @@ pub struct Conduction {
     out_open: Sum,
     out_held: Sum,
     out_walls: Sum,
+    /// Heat that walls of held temperature gave.
+    in_walls: Sum,
     /// Faces of the flow hold a temperature.
     walls: bool,
 }
@@ -142,6 +144,7 @@ impl Conduction {
             out_open: Sum::default(),
             out_held: Sum::default(),
             out_walls: Sum::default(),
+            in_walls: Sum::default(),
             walls: false,
             caloric,
             metal,
@@ -361,6 +364,7 @@ impl Stage for Conduction {
             figures.push(figure("energy_out_held_j", "J", self.out_held.value()));
         }
         if self.walls {
+            figures.push(figure("energy_in_walls_j", "J", self.in_walls.value()));
             figures.push(figure("energy_out_walls_j", "J", self.out_walls.value()));
         }
         figures
@@ -374,6 +378,7 @@ impl Stage for Conduction {
         let mut saved = Vec::from(self.out_open.save());
         saved.extend(self.out_held.save());
         saved.extend(self.out_walls.save());
+        saved.extend(self.in_walls.save());
         saved.extend(self.rest.save());
         saved
     }
@@ -382,6 +387,7 @@ impl Stage for Conduction {
         self.out_open = Sum::restored(saved);
         self.out_held = Sum::restored(&saved[2.min(saved.len())..]);
         self.out_walls = Sum::restored(&saved[4.min(saved.len())..]);
-        self.saved = Some(saved[6.min(saved.len())..].to_vec());
+        self.in_walls = Sum::restored(&saved[6.min(saved.len())..]);
+        self.saved = Some(saved[8.min(saved.len())..].to_vec());
     }
 }
