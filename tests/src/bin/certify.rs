@@ -147,7 +147,11 @@ fn table(told: &Certificate) -> String {
     for point in &told.points {
         let words = match (&point.missing, point.run_time_s) {
             (Some(why), _) => format!("not run: {why}"),
-            (None, time) => format!("{:.1} s", time.unwrap_or(f64::NAN)),
+            (None, time) => {
+                let work = point.processor_s;
+                let work = work.map_or(String::new(), |s| format!(", {s:.1} s of processors"));
+                format!("{:.1} s{work}", time.unwrap_or(f64::NAN))
+            }
         };
         text += &format!("  {:<24} {words}\n", point.name);
         for warning in &point.warnings {

@@ -31,6 +31,8 @@ pub struct Point {
     pub figures: BTreeMap<String, f64>,
     /// Wall time of its own stages \[s\], whenever they were run; of all stages for the base.
     pub run_time_s: Option<f64>,
+    /// Processor time of the same; none where a record does not tell it.
+    pub processor_s: Option<f64>,
     /// Greatest resident memory of its stages \[byte\].
     pub peak_memory_bytes: Option<u64>,
     /// Points, cells or particles of the stage that was turned, where its record tells.
@@ -181,6 +183,7 @@ impl Wanted<'_> {
             patch: self.patch.clone(),
             figures: BTreeMap::new(),
             run_time_s: None,
+            processor_s: None,
             peak_memory_bytes: None,
             points: None,
             missing: Some(why),
@@ -242,11 +245,12 @@ fn one(
     let begin = Instant::now();
     let mut found = point.left_out(String::new());
     found.missing = None;
-    let (mut time, mut memory) = (0.0, None);
+    let (mut time, mut work, mut memory) = (0.0, Some(0.0), None);
     for stage in plan.stages.iter().filter(|s| point.reaches(plan, s)) {
         let left = limit.map(|l| l.saturating_sub(begin.elapsed()));
         let record = make(lab, plan, point, stage, left)?;
         time += record["wall_s"].as_f64().unwrap_or(0.0);
+        work = work.zip(record["processor_s"].as_f64()).map(|(a, b)| a + b);
         memory = memory.max(record["peak_memory_bytes"].as_u64());
         found.points = record["points"].as_u64().or(record["particles"].as_u64());
         if let Some(hash) = record["scene_hash"].as_str() {
@@ -271,6 +275,7 @@ fn one(
         }
     }
     found.run_time_s = Some(time);
+    found.processor_s = work;
     found.peak_memory_bytes = memory;
     Ok(found)
 }

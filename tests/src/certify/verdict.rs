@@ -283,6 +283,7 @@ mod tests {
             patch: Value::Null,
             figures: [("depth".to_owned(), depth)].into(),
             run_time_s: Some(time),
+            processor_s: None,
             peak_memory_bytes: None,
             points: None,
             missing: None,

@@ -27,6 +27,8 @@ pub(super) fn exponents(variables: usize) -> Vec<[i32; 2]> {
 pub(super) struct Near {
     pub(super) points: Vec<u32>,
     pub(super) radius: f64,
+    /// How far points of the surface stand apart, about \[m\].
+    pub(super) spacing: f64,
 }
 
 /// The axes of a point: its normal, and those along the surface; the sphere that touches it there.

@@ -166,6 +166,7 @@ fn support<const D: usize>(
             return Ok(Near {
                 points: near,
                 radius,
+                spacing,
             });
         }
         radius *= GROWTH;
@@ -241,7 +242,7 @@ fn fit<const D: usize>(
             curvature: -bent / steep.powf(1.5),
             squares: xx * xx + 2.0 * xy * xy + yy * yy,
             offset,
-            area: area(&seat.place, points, &near.points, axes),
+            area: area(&seat.place, points, near, axes),
             value: local.weights[0].clone(),
             laplace: (0..near.points.len())
                 .map(|m| local.weights[3][m] + local.weights[5][m])
@@ -256,10 +257,13 @@ fn fit<const D: usize>(
 fn area<const D: usize>(
     place: &[f64; D],
     points: &[[f64; D]],
-    near: &[u32],
+    near: &Near,
     axes: [[f64; D]; 2],
 ) -> f64 {
-    let ways = near.iter().map(|&j| difference(&points[j as usize], place));
+    let ways = near
+        .points
+        .iter()
+        .map(|&j| difference(&points[j as usize], place));
     let flat = ways.filter(|d| dot(d, d) > 0.0).map(|d| {
         let (x, y) = (dot(&d, &axes[0]), dot(&d, &axes[1]));
         // A step along the surface is as long as the way there, not as its shadow.
@@ -286,7 +290,7 @@ fn area<const D: usize>(
         way,
         half: 0.5 * (way[0] * way[0] + way[1] * way[1]),
     });
-    0.5 * twice(&cell(bisectors.collect()))
+    0.5 * twice(&cell(bisectors.collect(), near.spacing))
 }
 
 #[cfg(test)]

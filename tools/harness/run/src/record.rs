@@ -35,6 +35,8 @@ pub(crate) struct RunRecord {
     exit_code: u8,
     start: String,
     pub(crate) wall_s: f64,
+    /// Time that processors spent on it, which other work on the machine hardly changes; none of a run that was resumed.
+    processor_s: Option<f64>,
     resumed: u32,
     pub(crate) stages: Vec<Spent>,
     memory: Vec<Bytes>,
@@ -75,7 +77,7 @@ impl RunRecord {
         let wall_s = ledger.earlier_s;
         Self {
             kind: "run-record",
-            version: "1.2",
+            version: "1.3",
             tool: header.tool.clone(),
             tool_version: header.tool_version.clone(),
             artefact: out.to_owned(),
@@ -85,6 +87,7 @@ impl RunRecord {
             exit_code,
             start,
             wall_s,
+            processor_s: machine::work_s().filter(|_| ledger.resumed == 0),
             resumed: ledger.resumed,
             stages: shares(&ledger.stages, wall_s),
             memory: ledger.memory,

@@ -73,16 +73,17 @@ impl Shadow {
 }
 
 impl Hull {
-    /// That of surface points with their patches; none where they enclose nothing.
+    /// That of surface points with their patches, some spacing apart; none where they enclose nothing.
     #[must_use]
-    pub fn new(points: &[[f64; 3]], patches: &[Patch<3>]) -> Option<Self> {
+    pub fn new(points: &[[f64; 3]], patches: &[Patch<3>], spacing: f64) -> Option<Self> {
         let share = (points.len() as f64).recip();
         let origin = points.iter().fold([0.0; 3], |o, x| along(&o, share, x));
         let (mut volume, mut area) = (0.0, 0.0);
         let (mut first, mut squares) = ([0.0; 3], [[0.0; 3]; 3]);
         for (x, patch) in points.iter().zip(patches) {
             let axes = tangents(&patch.normal);
-            let shadow = shadow(x, points, patch, axes);
+            let bisectors = bisectors(x, points, patch, axes);
+            let shadow = Shadow::of(&cell(bisectors, spacing));
             if shadow.area <= 0.0 {
                 continue;
             }
@@ -160,7 +161,13 @@ impl Hull {
     }
 }
 
-fn shadow(x: &[f64; 3], points: &[[f64; 3]], patch: &Patch<3>, axes: [[f64; 3]; 2]) -> Shadow {
+/// Where the part of a point ends, in the plane of its axes.
+fn bisectors(
+    x: &[f64; 3],
+    points: &[[f64; 3]],
+    patch: &Patch<3>,
+    axes: [[f64; 3]; 2],
+) -> Vec<Bisector> {
     let ways = patch.neighbours.iter().filter_map(|&j| {
         let d = difference(&points[j as usize], x);
         let way = axes.map(|a| dot(&d, &a));
@@ -170,7 +177,7 @@ fn shadow(x: &[f64; 3], points: &[[f64; 3]], patch: &Patch<3>, axes: [[f64; 3]; 
             half: 0.5 * far * far.min(shadow / STEEP),
         })
     });
-    Shadow::of(&cell(ways.collect()))
+    ways.collect()
 }
 
 /// 1, x, y, z, xx, xy, xz, yy, yz, zz.
@@ -199,7 +206,12 @@ mod tests {
         let filled = fill::<3>(&Body::new(&shape, 3), spacing);
         let surface = filled.normal.len();
         let skin = &filled.position[..surface];
-        let hull = Hull::new(skin, &patches(skin, &filled.normal, spacing).unwrap()).unwrap();
+        let hull = Hull::new(
+            skin,
+            &patches(skin, &filled.normal, spacing).unwrap(),
+            spacing,
+        )
+        .unwrap();
         let volumes = hull.volumes(&filled.position, surface).unwrap();
         (hull, volumes, filled.position)
     }

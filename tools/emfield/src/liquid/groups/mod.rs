@@ -146,8 +146,8 @@ impl Group {
         let patches = self.liquid.skin(spacing).map_err(|e| failed(&e))?;
         let surface = self.liquid.surface();
         let skin = &self.liquid.position[..surface];
-        let hull =
-            Hull::new(skin, &patches).ok_or_else(|| failed(&"a surface encloses nothing"))?;
+        let hull = Hull::new(skin, &patches, spacing)
+            .ok_or_else(|| failed(&"a surface encloses nothing"))?;
         let volumes = hull.volumes(&self.liquid.position, surface);
         Ok(Seen {
             volumes: volumes.ok_or_else(|| failed(&"points lie in a plane"))?,
