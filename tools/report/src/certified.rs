@@ -186,7 +186,7 @@ fn figures(certificate: &Certificate) -> String {
                 .map(|k| format!("{k}: not judged, its sizes were not run")),
         );
         table.row([
-            escape(&name.replace('_', " ")),
+            escape(&title(name, &told.unit)),
             digits(told.value),
             told.half_width.map_or("not judged".to_owned(), half),
             told.extrapolated.map_or_else(dash, digits),
@@ -198,9 +198,15 @@ fn figures(certificate: &Certificate) -> String {
     table.render()
 }
 
+/// A name for people: without underscores, and without the unit that stands beside it.
+fn title(name: &str, unit: &str) -> String {
+    let ending = format!("_{}", unit.to_lowercase().replace(['/', ' '], "_"));
+    name.strip_suffix(&ending).unwrap_or(name).replace('_', " ")
+}
+
 /// Distance of each run from what its knob tends to, over its time; nothing where no knob was refined.
 fn plot(name: &str, told: &Certified, points: &[Point]) -> Option<String> {
-    let title = format!("error of {} [{}]", name.replace('_', " "), told.unit);
+    let title = format!("error of {} [{}]", title(name, &told.unit), told.unit);
     // Other work on the machine hardly changes the time of processors.
     let ran = || points.iter().filter(|p| p.missing.is_none());
     let told_by_processors = ran().all(|p| p.processor_s.is_some());
@@ -282,6 +288,13 @@ mod tests {
             assert!(html.contains(told), "{told} in {html}");
         }
         assert!(html.contains("<svg") && html.contains("error of depth [m]"));
+    }
+
+    #[test]
+    fn names_leave_their_unit_to_its_column() {
+        assert_eq!(title("base_total_w", "W"), "base total");
+        assert_eq!(title("wire_feed_m_s", "m/s"), "wire feed");
+        assert_eq!(title("penetration", "m"), "penetration");
     }
 
     #[test]
