@@ -420,6 +420,12 @@ fn faces_off_the_bodies_are_refused_by_name() {
         said.contains("/faces/min_m/0") && said.contains("the mirror 'x-'"),
         "{said}"
     );
+    let high = json!({"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 5e-3], "lid": ["z+"]});
+    let said = told(high, json!({"tension": null}));
+    assert!(
+        said.contains("/faces/max_m/2") && said.contains("the lid 'z+'"),
+        "{said}"
+    );
     let held = json!({"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 1], "wall": [{"face": "z-", "temperature_k": 300}]});
     let solid = json!({"shape": {"box": {"min_m": [5e-3, 0, 0], "max_m": [6e-3, 1e-3, 1e-3]}}, "state": "solid",
         "temperature_k": 300});

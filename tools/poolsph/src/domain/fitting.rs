@@ -44,8 +44,12 @@ pub fn fitting(state: &State) -> Result<(), Fault> {
             }
             let edge = ends[side] + [-0.5, 0.5][side] * d;
             if faces.is_mirror(axis, side) && (gap / d - 0.5).abs() > OFF {
+                let which = match faces.is_lid(axis, side) {
+                    true => "lid",
+                    false => "mirror",
+                };
                 let what = format!(
-                    "{plane} m of the mirror or lid '{name}' is not the edge of the bodies, which is at {edge} m"
+                    "{plane} m of the {which} '{name}' is not the edge of the bodies, which is at {edge} m"
                 );
                 return Err(Fault::at(&at, what));
             }

@@ -261,6 +261,12 @@ impl Faces {
         matches!(self.sides[axis][side], Some(Side::Mirror | Side::Lid))
     }
 
+    /// True if the face of an `axis`, lower (0) or upper (1), holds the free surface flat.
+    #[must_use]
+    pub fn is_lid(&self, axis: usize, side: usize) -> bool {
+        matches!(self.sides[axis][side], Some(Side::Lid))
+    }
+
     pub(super) fn turns(&self) -> &[Turn] {
         &self.turns
     }
