@@ -70,7 +70,15 @@ fn errors(lab: &Lab, run: &Finished, frames: &Frames) -> Result<Errors, LabError
     let ratio = number(run, "/bodies/0/shape/box/max_m/2")? / wide;
     let gravity = -number(run, "/flow/gravity_m_s2/2")?;
     let spacing = number(run, "/spacing_m")?;
-    let name = if ratio > 1.5 { "front_2" } else { "front_1" };
+    let name = if (ratio - 2.0).abs() < 1e-9 {
+        "front_2"
+    } else if (ratio - 1.0).abs() < 1e-9 {
+        "front_1"
+    } else {
+        let path = run.artefact.clone();
+        let what = format!("is {ratio} times as high as wide; fronts of 1 and 2 are known");
+        return Err(LabError::Content { path, what });
+    };
     let unit = (wide / gravity).sqrt() / ratio.sqrt();
     let front = frames.position.iter().map(|places| {
         let farthest = places.iter().map(|x| x[0]).fold(0.0, f64::max);

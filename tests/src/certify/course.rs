@@ -4,34 +4,26 @@ use std::ops::RangeInclusive;
 
 use artefact::Reader;
 
+use crate::drop::Series;
 use crate::lab::LabError;
-
-/// Values of a record over time.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Course {
-    /// Times \[s\].
-    pub time_s: Vec<f64>,
-    /// Values.
-    pub value: Vec<f64>,
-}
 
 /// A value of the records of a channel.
 ///
 /// # Errors
 /// When the artefact does not hold it.
-pub fn of(reader: &Reader, channel: &str, value: &str) -> Result<Course, LabError> {
-    let mut course = Course::default();
-    for (time, record) in reader.records(channel)? {
-        course.time_s.push(time);
-        course.value.push(record.get(value)?);
-    }
-    Ok(course)
+pub fn of(reader: &Reader, channel: &str, value: &str) -> Result<Series, LabError> {
+    let records = reader.records(channel)?;
+    let values = records.iter().map(|(_, record)| record.get(value));
+    Ok(Series {
+        value: values.collect::<Result<_, _>>()?,
+        time: records.iter().map(|(time, _)| *time).collect(),
+    })
 }
 
 /// The mean over the records of a time; not a number where there are none.
 #[must_use]
-pub fn mean(course: &Course, during_s: &RangeInclusive<f64>) -> f64 {
-    let all = course.time_s.iter().zip(&course.value);
+pub fn mean(course: &Series, during_s: &RangeInclusive<f64>) -> f64 {
+    let all = course.time.iter().zip(&course.value);
     let own: Vec<f64> = all
         .filter(|(t, _)| during_s.contains(t))
         .map(|(_, v)| *v)
@@ -41,18 +33,18 @@ pub fn mean(course: &Course, during_s: &RangeInclusive<f64>) -> f64 {
 
 /// When the value falls below a limit for the first time, between two records by a straight line; none where it never does.
 #[must_use]
-pub fn falls_below(course: &Course, limit: f64) -> Option<f64> {
+pub fn falls_below(course: &Series, limit: f64) -> Option<f64> {
     let first = course.value.iter().position(|v| *v < limit)?;
     let before = first.checked_sub(1)?;
-    let [t0, t1] = [course.time_s[before], course.time_s[first]];
+    let [t0, t1] = [course.time[before], course.time[first]];
     let [v0, v1] = [course.value[before], course.value[first]];
     Some(t0 + (t1 - t0) * (v0 - limit) / (v0 - v1))
 }
 
 /// Twice the mean time between turning points, each that of the parabola through three records; none with fewer than two.
 #[must_use]
-pub fn period(course: &Course) -> Option<f64> {
-    let (t, v) = (&course.time_s, &course.value);
+pub fn period(course: &Series) -> Option<f64> {
+    let (t, v) = (&course.time, &course.value);
     let turns: Vec<f64> = (1..v.len().saturating_sub(1))
         .filter(|k| (v[k - 1] < v[*k]) != (v[*k] < v[k + 1]))
         .map(|k| {
@@ -71,10 +63,10 @@ pub fn period(course: &Course) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn course(of: impl Fn(f64) -> f64) -> Course {
-        let time_s: Vec<f64> = (0..=100).map(|k| 0.01 * f64::from(k)).collect();
-        let value = time_s.iter().map(|t| of(*t)).collect();
-        Course { time_s, value }
+    fn course(of: impl Fn(f64) -> f64) -> Series {
+        let time: Vec<f64> = (0..=100).map(|k| 0.01 * f64::from(k)).collect();
+        let value = time.iter().map(|t| of(*t)).collect();
+        Series { time, value }
     }
 
     #[test]
