@@ -60,16 +60,16 @@ impl Unbalanced {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stop {
-    /// Charge.
+    /// Greatest sum of the currents that are not balanced in the cells; absent: the tolerance decides.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub charge_a: Option<f64>,
-    /// Momentum.
+    /// Greatest sum of the forces that are not balanced; absent: the tolerance decides.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub force_n: Option<f64>,
-    /// Mass.
+    /// Greatest sum of the mass flows that are not balanced; absent: the tolerance decides.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub mass_kg_s: Option<f64>,
-    /// Heat.
+    /// Greatest sum of the heat flows that are not balanced; absent: the tolerance decides.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub heat_w: Option<f64>,
 }

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sample {
-    /// Height of the velocity.
+    /// Height at which the velocity of the gas is sampled, for its shear on a pool.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub velocity_height_m: f64,
-    /// Height of the temperature.
+    /// Height at which the temperature of the gas is sampled, for the heat that it gives to a pool.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub temperature_height_m: f64,
 }

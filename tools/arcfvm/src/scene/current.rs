@@ -14,14 +14,14 @@ pub struct Current {
     pub edges: Sides<CurrentEdge>,
     /// Given source of current in r, z; manufactured solutions only \[A/m3\].
     pub source_a_m3: Option<Property>,
-    /// Gas within this distance of an electrode conducts as the gas just beyond (Komen 2019, section
-    /// 5.2.3); absent: as its own temperature says.
+    /// Sheath: gas within this distance of an electrode has the electric conductivity of the gas just beyond (Komen 2019,
+    /// section 5.2.3). Absent: no sheath, the conductivity follows the temperature of the gas itself.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub sheath_m: Option<f64>,
-    /// At which electrodes; absent: at both.
+    /// Electrodes that have a sheath.
     #[serde(default)]
     pub sheath_at: SheathAt,
-    /// What gas there has in common with the gas beyond.
+    /// Quantity in which the gas of the sheath equals the gas just beyond.
     #[serde(default)]
     pub sheath_keeps: SheathKeeps,
 }

@@ -27,13 +27,14 @@ pub struct Cathode {
     /// Ionisation voltage of the gas.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub ionisation_voltage_v: f64,
-    /// Richardson constant of a thermionic cathode (Komen 2019, eq. 5.20); or `fall_v`.
+    /// Richardson constant of a thermionic cathode (Komen 2019, eq. 5.20). Exactly one of it and `fall_v` is given.
     #[schemars(range(min = 0.0))]
     pub richardson_a_m2_k2: Option<f64>,
     /// What ions give a thermionic cathode; absent: their whole ionisation voltage.
     pub ions: Option<Ions>,
-    /// Cathode fall of a metal that does not emit by heat alone: the energy of the layer in front of it
-    /// tells electrons from ions (Benilov and Marotta 1995); or `richardson_a_m2_k2`.
+    /// Cathode fall of a metal that does not emit by heat alone: the energy balance of the layer in front of it gives the
+    /// shares of electrons and ions in the current (Benilov and Marotta 1995). Exactly one of `fall_v` and
+    /// `richardson_a_m2_k2` is given.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub fall_v: Option<f64>,
     /// Emissivity.
@@ -68,7 +69,7 @@ pub struct Evaporation {
     /// Molar mass.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub molar_mass_kg_mol: f64,
-    /// Saturation pressure p0, a scene with `vapour` only; absent: by Clausius and Clapeyron from the
+    /// Saturation pressure p0, only in a scene with `vapour`; absent: by Clausius and Clapeyron's equation from the
     /// boiling point.
     pub saturation: Option<Saturation>,
 }
@@ -77,9 +78,9 @@ pub struct Evaporation {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Saturation {
-    /// The constant a.
+    /// a in log10(p0/atm) = a - b/T.
     pub a: f64,
-    /// The constant b.
+    /// b in log10(p0/atm) = a - b/T.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub b_k: f64,
 }
@@ -92,19 +93,20 @@ pub struct Electrode {
     /// Work function.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub work_function_v: f64,
-    /// Work function of what emits, where it is the cathode: its oxide may emit more easily than the
-    /// metal; absent: the same.
+    /// Work function of the emitting surface, used where this is the cathode: an oxide may emit more easily than the metal.
+    /// Absent: that of the metal.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub emission_work_function_v: Option<f64>,
-    /// Ionisation voltage of the gas, where it is the cathode.
+    /// Ionisation voltage of the gas, used where this is the cathode.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub ionisation_voltage_v: f64,
-    /// Richardson constant, where it is a thermionic cathode; or `fall_v`.
+    /// Richardson constant, used where this is a thermionic cathode. Exactly one of it and `fall_v` is given.
     #[schemars(range(min = 0.0))]
     pub richardson_a_m2_k2: Option<f64>,
     /// What ions give a thermionic cathode; absent: their whole ionisation voltage.
     pub ions: Option<Ions>,
-    /// Cathode fall, where it is a cathode that does not emit by heat alone; or `richardson_a_m2_k2`.
+    /// Cathode fall, used where this is a cathode that does not emit by heat alone. Exactly one of it and
+    /// `richardson_a_m2_k2` is given.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub fall_v: Option<f64>,
     /// Emissivity.

@@ -17,24 +17,24 @@ pub struct Heat {
     pub edges: Sides<HeatEdge>,
     /// Given source of heat in r, z \[W/m3\].
     pub source_w_m3: Option<Property>,
-    /// Part of all radiation of the gas that the base metal, the lowest electrode, takes up; absent:
+    /// Part of all radiation of the gas that the base metal, the lowest electrode, absorbs; absent:
     /// none.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub absorbed_radiation: Option<f64>,
-    /// Temperature of the metal at which electrodes emit, shine and evaporate.
+    /// Temperature of the metal at which electrodes emit electrons, radiate and evaporate.
     #[serde(default)]
     pub electrode_at: ElectrodeAt,
-    /// Way of the heat from the gas into an electrode.
+    /// Length of the path by which heat is conducted from the gas into an electrode.
     #[serde(default)]
     pub film: Film,
-    /// Thickness of the film: the gas at this distance from an electrode heats it and, by its iron, tells the
+    /// Thickness of the film: the gas at this distance from an electrode heats it, and its iron fraction gives the
     /// ionisation voltage (Komen 2019: 5e-5 m on its grid); absent: half a gas cell, on any grid.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub film_m: Option<f64>,
-    /// Conductivity of the way from one cell to the next, and through a film.
+    /// Thermal conductivity between one cell and the next, and of a film.
     #[serde(default)]
     pub conduction: Conduction,
-    /// What electrons carry through the gas; absent: no heat (Komen 2019, eq. 5.8).
+    /// Heat that electrons carry with the current through the gas; absent: none (Komen 2019, eq. 5.8).
     pub electrons: Option<Electrons>,
 }
 

@@ -11,17 +11,17 @@ pub struct Iterate {
     /// Most iterations.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub most: usize,
-    /// Every residual is below this part of its scale at the end: force, mass flow, power, current.
+    /// The iteration has converged when every residual is below this part of its scale: of force, mass flow, power, current.
     #[schemars(range(min = 1e-14, max = 0.1))]
     pub tolerance: f64,
     /// Limits of single equations in their own units, in place of the tolerance.
     pub stop: Stop,
-    /// Currents that are followed first; absent: that of the scene from the start.
+    /// Currents for which the arc is computed first, on the way to that of the scene; absent: the current of the scene from the start.
     pub continuation: Option<Continuation>,
     /// Under-relaxation of the velocities; absent: 0.95, with SIMPLE 0.9.
     #[schemars(range(min = 0.01, max = 0.99))]
     pub velocity_relaxation: Option<f64>,
-    /// Under-relaxation of the pressure; absent: 1, with SIMPLE what that of the velocities leaves of 1.
+    /// Under-relaxation of the pressure; absent: 1, with SIMPLE 1 less that of the velocities.
     #[schemars(range(min = 0.01, max = 1.0))]
     pub pressure_relaxation: Option<f64>,
     /// Under-relaxation of the temperature.

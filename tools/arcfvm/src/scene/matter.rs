@@ -22,7 +22,7 @@ pub enum Gas {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GasTable {
-    /// What a converged temperature above the end of the table means.
+    /// What happens where the converged gas is hotter than the end of the table.
     #[serde(default)]
     pub beyond_table: BeyondTable,
 }
@@ -55,7 +55,7 @@ pub struct GivenGas {
     pub thermal_conductivity_w_m_k: Option<Property>,
     /// Electric conductivity.
     pub electric_conductivity_s_m: Option<Property>,
-    /// Radiation that leaves a volume.
+    /// Net emission: power that a volume radiates; absent: none.
     pub net_emission_w_m3: Option<Property>,
     /// Diffusion coefficient of iron.
     pub iron_diffusion_m2_s: Option<Property>,
@@ -120,10 +120,10 @@ pub struct Metal {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Melting {
-    /// Middle of the range.
+    /// Middle of the range of temperature in which it melts.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub point_k: f64,
-    /// Half of the range.
+    /// Half of the width of this range: it melts from `point_k` less this to `point_k` plus this.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub half_range_k: f64,
     /// Latent heat.
@@ -157,10 +157,10 @@ pub struct Moving {
     /// Welding speed.
     #[schemars(range(min = 0.0))]
     pub speed_m_s: f64,
-    /// Distance ahead at which the plate is compared.
+    /// How far ahead the metal comes from: it enters a ring with the temperature of the body this much farther from the axis.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub ahead_m: f64,
-    /// How much of the plate a ring sweeps.
+    /// How much of the body a ring of the grid sweeps in its motion.
     #[serde(default)]
     pub swept: Swept,
 }

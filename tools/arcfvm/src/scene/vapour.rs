@@ -20,14 +20,14 @@ pub struct Vapour {
     /// What becomes of the mass of the vapour.
     #[serde(default)]
     pub mass: VapourMass,
-    /// How warm it comes back to metal.
+    /// Temperature with which vapour comes back to metal.
     #[serde(default)]
     pub returns: Returns,
-    /// Ionisation voltage of iron: that of cathodes goes with the fraction of iron from their own to this
-    /// one; absent: it stays their own.
+    /// Ionisation voltage of iron: with the fraction of iron in the gas, the ionisation voltage at a cathode changes from the
+    /// cathode's own value to this one. Absent: it stays the cathode's own.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub ionisation_voltage_v: Option<f64>,
-    /// Which fraction of iron the ionisation voltage goes with.
+    /// The fraction of iron that the ionisation voltage follows.
     #[serde(default)]
     pub ionisation_by: Amount,
     /// Mass fraction of iron at the start in r, z.

@@ -19,7 +19,7 @@ pub struct Parameters {
     /// beta \[1/K\].
     #[schemars(extend("x-unit" = "1/K"), range(min = 0.0, max = 0.1))]
     pub expansion_1_k: f64,
-    /// T_ref: liquid of this temperature has the density of the scene \[K\].
+    /// T_ref \[K\]: at this temperature the liquid has the density of the scene, and no buoyancy acts.
     #[schemars(extend("x-unit" = "K"), range(min = 0.0, max = 1e4))]
     pub reference_k: f64,
 }

@@ -26,7 +26,8 @@ use crate::vector::{dot, minus, plus};
 #[schemars(rename = "Marangoni")]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// d gamma/d T, a number or that of the temperature T; positive pulls towards the hot.
+    /// Slope d gamma/dT of the surface tension, a number or a function of the temperature T; positive: the surface is pulled towards
+    /// hotter places.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "N/(m K)"))]
     pub slope_n_m_k: Option<Property>,
@@ -34,7 +35,7 @@ pub struct Parameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "%"))]
     pub sulphur_percent: Option<f64>,
-    /// In place of the slope: oxygen, likewise.
+    /// In place of the slope: oxygen that liquid iron has at its surface, in per cent by weight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "%"))]
     pub oxygen_percent: Option<f64>,

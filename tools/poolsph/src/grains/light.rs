@@ -27,10 +27,10 @@ const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LightScene {
-    /// P that falls on the wall, a number or a formula in t.
+    /// Power P of the light that falls on the wall, a number or a formula in t.
     #[schemars(extend("x-unit" = "W"))]
     pub power_w: Property,
-    /// Where it comes from at the start; it moves with the wall.
+    /// Place from which the light comes at the start; it moves with the wall.
     #[schemars(extend("x-unit" = "m"))]
     pub from_m: [f64; 3],
     /// eps of the grains.

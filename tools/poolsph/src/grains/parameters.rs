@@ -18,35 +18,37 @@ use crate::heat::{self, Caloric};
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// rho of a grain.
+    /// Density rho of the grains.
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
     pub density_kg_m3: f64,
     /// Inertia factor I / (m r^2): 2/5 for a solid sphere, 2/3 for a hollow one.
     #[serde(default = "solid_sphere")]
     #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub inertia_factor: f64,
-    /// g; absent: grains weigh nothing.
+    /// Gravity g that acts on the grains; absent: none.
     #[schemars(extend("x-unit" = "m/s2"))]
     pub gravity_m_s2: Option<[f64; 3]>,
     /// What grains that touch do to each other.
     pub contact: ContactScene,
-    /// Grains at the start, in order.
+    /// Grains at the start.
     #[schemars(length(min = 1, max = 250))]
     pub bodies: Vec<GrainBody>,
-    /// Walls. Each makes one contact with a grain: corners that grains lie in are made of several.
+    /// Walls. A grain has one contact with each wall: a corner in which grains lie needs several walls, or a hollow one.
     #[serde(default)]
     pub walls: Vec<WallScene>,
     /// Grains are followed within this box and forgotten outside; absent: everywhere.
     pub bounds: Option<BoundsScene>,
     /// Heat between grains that touch; absent: no temperatures.
     pub heat: Option<GrainHeat>,
-    /// What metal is to grains, where a scene has both; absent: it rubs as grains do, and is as hard as steel.
+    /// How metal acts on grains, where a scene has both; absent: with the friction of grains on each other and the elasticity of
+    /// steel.
     pub metal: Option<MetalScene>,
-    /// The run ends when the grains have come to rest; absent: at its time.
+    /// The run ends as soon as the grains have come to rest; absent: at `end_s`.
     pub until: Option<RestScene>,
-    /// What rests sleeps: it is not moved until it is stirred; absent: all that moves is followed.
+    /// Grains at rest sleep, which saves time: they are not moved until something disturbs them; absent: all grains are moved in
+    /// each step.
     pub sleep: Option<SleepScene>,
-    /// Steps in the duration of a contact of two of the lightest grains, at least; stability may ask for more.
+    /// Least number of steps in the duration of a contact between two of the lightest grains; stability may require more.
     #[serde(default = "twenty")]
     #[schemars(range(min = 5.0, max = 10000.0), extend("x-unit" = "1"))]
     pub steps_per_contact: f64,
@@ -64,15 +66,15 @@ fn twenty() -> f64 {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactScene {
-    /// Law of the push.
+    /// Law of the normal force.
     pub law: LawScene,
     /// Coefficient of restitution e.
     #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub restitution: f64,
-    /// Where a contact ends.
+    /// When a contact ends.
     #[serde(default)]
     pub ending: EndingScene,
-    /// Coefficient of friction; absent: grains only push.
+    /// Coefficient of friction; absent: contacts have no friction.
     #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
     pub friction: Option<f64>,
     /// Resistance to rolling; absent: none.
@@ -83,18 +85,19 @@ pub struct ContactScene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SleepScene {
-    /// Grains of the cell and of those beside it have gone no farther than at this speed in the mean, nor their surfaces by their
-    /// turning.
+    /// A cell falls asleep where, over `held_s`, the grains of it and of the cells beside it have moved on average no farther than at
+    /// this speed; surfaces of grains that rotate count likewise.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub speed_m_s: f64,
-    /// Within so long.
+    /// Time over which the movement of the grains is measured.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub held_s: f64,
-    /// Single grains may go so many times as far: those that rattle in a cage of others and bear nothing.
+    /// A single grain may move this many times as far: one that rattles between others and bears no load.
     #[serde(default = "one")]
     #[schemars(range(min = 1.0, max = 1000.0), extend("x-unit" = "1"))]
     pub rattle: f64,
-    /// Heat between grains that sleep deep, and from metal into these, goes once in so many steps of the run.
+    /// Heat between grains that sleep, away from awake ones, and from metal into them is computed once in this number of steps of
+    /// the run, over all of their time.
     #[serde(default = "each")]
     #[schemars(range(min = 1, max = 10000), extend("x-unit" = "1"))]
     pub heat_interval_steps: u64,
@@ -118,10 +121,10 @@ pub enum LawScene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LinearScene {
-    /// k.
+    /// Stiffness k of the normal spring.
     #[schemars(extend("x-unit" = "N/m", "exclusiveMinimum" = 0.0))]
     pub stiffness_n_m: f64,
-    /// k_t / k.
+    /// Stiffness of the tangential spring over that of the normal one, k_t/k.
     #[serde(default = "one")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub tangential_ratio: f64,
@@ -146,10 +149,10 @@ pub enum EndingScene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RollingScene {
-    /// Coefficient: the moment is at most this times the push and the effective radius.
+    /// The moment against rolling is at most this coefficient times the normal force and the effective radius.
     #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
     pub coefficient: f64,
-    /// Stiffness over that of the tangential spring.
+    /// Stiffness of the rolling spring over that of the tangential spring.
     #[serde(default = "one")]
     #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub stiffness_ratio: f64,
@@ -159,26 +162,26 @@ pub struct RollingScene {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrainBody {
-    /// Places of single grains; or the key `shape`, or `bed`.
+    /// Places of single grains. A body has exactly one of `places_m`, `shape` and `bed`.
     #[serde(default)]
     #[schemars(extend("x-unit" = "m"))]
     pub places_m: Vec<[f64; 3]>,
-    /// A shape filled with grains that lie wholly in it, on a cubic lattice; or the key `places_m`.
+    /// A shape that is filled with grains on a cubic lattice; each grain lies wholly inside.
     pub shape: Option<Shape>,
     /// The grains of the input `bed`, where they lay at its end.
     #[serde(default)]
     pub bed: bool,
-    /// Radius of a grain; those of a bed have theirs.
+    /// Radius of a grain; not needed for a bed, whose grains have their own radii.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub radius_m: Option<f64>,
     /// Spacing of the lattice; a diameter if absent.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: Option<f64>,
-    /// Places in a shape are shaken by up to this part of the spacing along each axis.
+    /// Grains in a shape are shifted at random by up to this part of the spacing along each axis.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.5), extend("x-unit" = "1"))]
     pub jitter: f64,
-    /// rho of these grains, if it is another.
+    /// Density of these grains; that of the key `grains` if absent.
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
     pub density_kg_m3: Option<f64>,
     /// u at the start; rest if absent.
@@ -190,13 +193,13 @@ pub struct GrainBody {
     /// T at the start, a number or a formula in x, y, z, r; needed with heat.
     #[schemars(extend("x-unit" = "K"))]
     pub temperature_k: Option<Property>,
-    /// T that the grains keep, a number or a formula in t. Free if absent.
+    /// T that the grains keep, a number or a formula in t. Absent: their temperature changes freely.
     #[schemars(extend("x-unit" = "K"))]
     pub held_temperature_k: Option<Property>,
     /// The grains are glued: they move as one rigid body under the sum of their forces and moments. Free of each other if absent.
     #[serde(default)]
     pub glued: bool,
-    /// Velocity that the grains are held to, numbers or formulas in t; they do not turn. Free if absent.
+    /// Prescribed velocity of the grains, numbers or formulas in t; they do not rotate. Absent: they move freely.
     #[schemars(extend("x-unit" = "m/s"))]
     pub driven_m_s: Option<[Property; 3]>,
 }
@@ -211,7 +214,7 @@ pub struct GrainHeat {
     /// c(T).
     #[schemars(extend("x-unit" = "J/(kg K)"))]
     pub specific_heat_j_kg_k: Property,
-    /// How wide a contact conducts.
+    /// How wide the area is through which a contact conducts.
     #[serde(default)]
     pub contact: ConductanceScene,
     /// kappa(T) of the gas around contacts; absent: it conducts nothing.
@@ -264,7 +267,7 @@ pub struct GrainMelting {
     /// L.
     #[schemars(extend("x-unit" = "J/kg"), range(min = 0.0, max = 1e8))]
     pub latent_heat_j_kg: f64,
-    /// Conductivity of slag over that of the grain, for its convection.
+    /// Thermal conductivity of slag over that of the grain; above 1 to allow for the convection in slag.
     #[serde(default = "three")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub slag_conductivity_ratio: f64,
@@ -302,10 +305,10 @@ impl GrainHeat {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RestScene {
-    /// No grain is faster.
+    /// Speed that no grain exceeds while they rest.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub speed_m_s: f64,
-    /// For so long.
+    /// Time for which no grain may be faster.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub held_s: f64,
 }

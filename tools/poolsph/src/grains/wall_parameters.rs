@@ -15,19 +15,21 @@ use super::light::LightScene;
 pub struct WallScene {
     /// What it looks like.
     pub shape: Shape,
-    /// The wall is all that is outside of the shape: a box that grains lie in, each side a contact of its own.
+    /// The wall is all that lies outside the shape, for example a box in which grains lie; each side of the box is a contact of
+    /// its own.
     #[serde(default)]
     pub hollow: bool,
     /// Velocity, numbers or formulas in t; at rest if absent.
     #[schemars(extend("x-unit" = "m/s"))]
     pub velocity_m_s: Option<[Property; 3]>,
-    /// Velocity at which its surface goes along itself, beside that of the wall: a wire that is fed. Numbers or formulas in t.
+    /// Velocity of the surface along itself, in addition to that of the wall: for a wire that is fed. Numbers or formulas in t; none
+    /// if absent.
     #[schemars(extend("x-unit" = "m/s"))]
     pub surface_m_s: Option<[Property; 3]>,
     /// Pressure of its surface on the grains beside it: a cavity. Absent: none.
     #[schemars(extend("x-unit" = "Pa"))]
     pub pressure_pa: Option<f64>,
-    /// Light of an arc on the grains behind its surface, and what they give off; absent: none.
+    /// Radiation of an arc that the grains behind this surface absorb, and what they radiate; absent: none.
     pub light: Option<LightScene>,
     /// Coefficient of friction on this wall, if it is another.
     #[schemars(range(min = 0.0), extend("x-unit" = "1"))]

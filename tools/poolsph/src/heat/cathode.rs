@@ -22,10 +22,10 @@ const KELVIN_PER_VOLT: f64 = 1.602_176_634e-19 / 1.380_649e-23;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cathode {
-    /// phi.
+    /// Work function phi of the metal.
     #[schemars(extend("x-unit" = "V"), range(min = 0.1, max = 20.0))]
     pub work_function_v: f64,
-    /// A_R.
+    /// Richardson constant A_R.
     #[schemars(extend("x-unit" = "A/(m2 K2)"), range(min = 0.0, max = 1e8))]
     pub richardson_a_m2_k2: f64,
 }

@@ -37,14 +37,14 @@ const PARTS_MOST: f64 = 1e4;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LossParameters {
-    /// T_0 of the surroundings.
+    /// Temperature T_0 of the surroundings.
     #[schemars(extend("x-unit" = "K"), range(min = 0.0, max = 1e4))]
     pub surroundings_k: f64,
-    /// eps; absent: no radiation.
+    /// Emissivity eps, for radiation to the surroundings; absent: no radiation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "1"), range(min = 0.0, max = 1.0))]
     pub emissivity: Option<f64>,
-    /// Psi; absent: no heat transfer to gas.
+    /// Heat transfer coefficient Psi to the gas around; absent: no heat transfer to gas.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "W/(m2 K)"), range(min = 0.0, max = 1e6))]
     pub transfer_w_m2_k: Option<f64>,

@@ -32,12 +32,12 @@ pub struct Parameters {
     /// Melting; absent: the metal never melts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub melting: Option<MeltingParameters>,
-    /// Resting metal conducts once in so many steps, over all of them at once.
+    /// Metal at rest conducts heat only once in this number of steps, over the time of all of them.
     #[serde(default = "every_step")]
     #[schemars(range(min = 1, max = 64))]
     pub rest_interval_steps: u32,
-    /// Pairs of resting particles whose temperatures differ by no more exchange no heat, and
-    /// particles with no other pairs are passed over.
+    /// Two particles at rest whose temperatures differ by no more than this exchange no heat; a particle that has only such
+    /// neighbours is skipped.
     #[serde(default = "exchange_tolerance")]
     #[schemars(extend("x-unit" = "K"), range(min = 0.0, max = 1.0))]
     pub exchange_tolerance_k: f64,

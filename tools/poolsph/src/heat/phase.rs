@@ -20,7 +20,7 @@ use crate::state::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FlowStart {
-    /// Number of liquid particles with which it starts; 120 in Komen (2019), section 4.3.
+    /// The flow starts when this number of particles is liquid; 120 in Komen (2019), section 4.3.
     #[schemars(range(min = 1))]
     pub liquid_particles: usize,
 }

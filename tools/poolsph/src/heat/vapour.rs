@@ -31,13 +31,13 @@ const CLOSE: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Evaporation {
-    /// T_b at 1 atm.
+    /// Boiling point T_b at 1 atm.
     #[schemars(extend("x-unit" = "K"), range(min = 100.0, max = 1e4))]
     pub boiling_point_k: f64,
-    /// H_v.
+    /// Latent heat of evaporation H_v.
     #[schemars(extend("x-unit" = "J/kg"), range(min = 1.0, max = 1e8))]
     pub latent_heat_j_kg: f64,
-    /// M.
+    /// Molar mass M of the vapour.
     #[schemars(extend("x-unit" = "kg/mol"), range(min = 1e-3, max = 1.0))]
     pub molar_mass_kg_mol: f64,
     /// Gas that the vapour has to pass; absent: it leaves into a vacuum.
@@ -49,10 +49,10 @@ pub struct Evaporation {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GasLayer {
-    /// p.
+    /// Pressure p of the gas.
     #[schemars(extend("x-unit" = "Pa"), range(min = 1.0, max = 1e8))]
     pub pressure_pa: f64,
-    /// delta.
+    /// Thickness delta of the layer.
     #[schemars(extend("x-unit" = "m"), range(min = 1e-7, max = 1.0))]
     pub thickness_m: f64,
     /// c D, molar density times diffusion coefficient, at the mean temperature of the layer.

@@ -41,13 +41,13 @@ pub(crate) const CARRIED: Column<f64> = Column::new("pressure_carried", "Pa", 0.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// [`super::divergence_free`]: no divergence of the velocity, on particles that are kept even. Flows as a liquid does
-    /// where the others bear a stress.
+    /// The velocity has no divergence, and particles are kept evenly spaced. Flows like a liquid under any stress; the other two
+    /// methods bear small shear stresses.
     #[default]
     DivergenceFree,
-    /// [`super::projection`]: no compression at the end of the step. Holds splashes of few particles together best.
+    /// No particle becomes denser than the metal. Holds splashes of few particles together best.
     Projection,
-    /// [`super::homogenising`]: Komen (2019), section 3.3.4.
+    /// Density homogenising, the method of Komen (2019), section 3.3.4.
     Homogenising,
 }
 
@@ -62,18 +62,18 @@ pub struct Parameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s2"))]
     pub gravity_m_s2: Option<[f64; 3]>,
-    /// How the density is kept.
+    /// How the liquid is kept incompressible.
     #[serde(default)]
     pub method: Method,
-    /// Mean relative density error at which the pressure is good enough.
+    /// Mean relative error of the density at which the iteration for the pressure ends.
     #[serde(default = "default_tolerance")]
     #[schemars(range(min = 1e-9, max = 0.1))]
     pub density_tolerance: f64,
-    /// Fewest pressure sweeps per substep.
+    /// Fewest iterations for the pressure in a substep.
     #[serde(default = "default_sweeps_min")]
     #[schemars(range(min = 1, max = 1000))]
     pub sweeps_min: u32,
-    /// Most pressure sweeps per substep.
+    /// Most iterations for the pressure in a substep.
     #[serde(default = "default_sweeps_max")]
     #[schemars(range(min = 1, max = 100_000))]
     pub sweeps_max: u32,

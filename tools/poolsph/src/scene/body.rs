@@ -50,7 +50,7 @@ pub struct BodyScene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "K"))]
     pub temperature_k: Option<Property>,
-    /// T that it keeps \[K\], a number or a formula in x, y, z, r, t: a boundary value. Free if absent.
+    /// T that the body keeps \[K\], a boundary value: a number or a formula in x, y, z, r, t. Absent: its temperature changes freely.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "K"))]
     pub held_temperature_k: Option<Property>,

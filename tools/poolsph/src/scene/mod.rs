@@ -48,16 +48,16 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub smoothing_length_m: Option<f64>,
-    /// Step and end.
+    /// Length of the steps, and end of the run.
     pub time: Time,
     /// rho of the metal \[kg/m3\]; needed where there are bodies of metal.
     #[serde(default)]
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
     pub density_kg_m3: f64,
-    /// Metal at the start, in order: a later body gives way to an earlier one. None where there are grains alone.
+    /// Metal at the start. Where two bodies overlap, the earlier one of the list fills the place. Empty in a scene of grains alone.
     #[serde(default)]
     pub bodies: Vec<BodyScene>,
-    /// Begins with the metal of an earlier run, of the input `start`; absent: with that of the bodies.
+    /// The run begins with the metal of an earlier run, the input `start`; absent: with that of the bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<source::start::Parameters>,
     /// Motion of the liquid; absent: nothing moves.
@@ -69,7 +69,7 @@ pub struct Scene {
     /// Surface tension; absent: the surface pulls nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension: Option<tension::Parameters>,
-    /// Pull of the surface towards greater tension; absent: none.
+    /// Marangoni stress: the surface is pulled towards greater surface tension; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marangoni: Option<marangoni::Parameters>,
     /// A given stress on the surface; absent: none.
@@ -81,7 +81,7 @@ pub struct Scene {
     /// The moving axis of the arc; absent: no arc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<source::Parameters>,
-    /// Several arcs, or one that pulses or alternates; absent: one, of the input `arc`, upon the axis of the source.
+    /// Several arcs, or one that pulses or alternates; absent: one arc, from the input `arc`, on the axis of the source.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 64))]
     pub arcs: Vec<source::arcs::OneArc>,
@@ -94,7 +94,7 @@ pub struct Scene {
     /// Pressure of the arc on the surface, of the input `arc` or of a formula; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_pressure: Option<arc_pressure::Parameters>,
-    /// Flat faces beside which the flow goes on: periodic, mirrors, walls; absent: none.
+    /// Flat faces at which the flow ends or repeats: periodic faces, mirrors, lids, walls; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub faces: Option<faces::Parameters>,
     /// Box in which metal is followed; absent: everywhere.

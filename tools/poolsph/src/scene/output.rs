@@ -51,8 +51,8 @@ pub struct Output {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub probes_interval_s: Option<f64>,
-    /// Columns of the heat that each particle of metal has got since the start: from arcs, torches, powder and slag, and what it has
-    /// lost. They need heat; absent: none.
+    /// Whether frames have columns of the heat that each particle of metal has received since the start, from arcs, torches, powder
+    /// and slag, and of what it has lost. It needs heat.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub heat_received: bool,
     /// Frequent frames around the moving source, for averages; absent: none.
@@ -107,7 +107,7 @@ impl Output {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PoolOutput {
-    /// First frame not before \[s\].
+    /// Time before which no frame is written \[s\].
     #[schemars(range(min = 0.0), extend("x-unit" = "s"))]
     pub from_s: f64,
     /// This often \[s\].

@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// Longest step dt \[s\]; where whole ones do not end at `end_s`, all are as much shorter as it takes. A stage that
-    /// cannot take it whole divides it within itself.
+    /// Longest step dt \[s\]. All steps are slightly shorter where that lets them end exactly at `end_s`. A stage whose limit is
+    /// shorter divides the step within itself.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub step_s: f64,
     /// End of the run \[s\].
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub end_s: f64,
-    /// Steps that grow where the flow allows; absent: all are alike.
+    /// Steps that grow where the flow allows; absent: all steps have one length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<Adaptive>,
 }
@@ -25,7 +25,7 @@ pub struct Time {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
-    /// No step is longer \[s\].
+    /// Longest step to which they may grow \[s\].
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub greatest_s: f64,
 }

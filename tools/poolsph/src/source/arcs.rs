@@ -46,17 +46,18 @@ pub struct OneArc {
     /// The input that holds its tables.
     #[serde(default)]
     pub input: ArcInput,
-    /// Its axis, from that of the source on \[m\].
+    /// Its axis, relative to that of the source \[m\].
     #[serde(default)]
     #[schemars(extend("x-unit" = "m"))]
     pub offset_m: [f64; 3],
-    /// Its level over time, again and again: 1 is what its tables say; 1 at all times if absent.
+    /// Its level over time, repeated every period: 1 means the values of its tables. Always 1 if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waveform: Option<Waveform>,
-    /// Its heat, in place of the key `arc` of the scene, as where the plate is cathode and anode in turn.
+    /// Its heat, in place of the key `arc` of the scene; for example where the plate is cathode and anode in turn. Absent: as the key
+    /// `arc` says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat: Option<ArcParameters>,
-    /// Droplets of a wire of its own, beside those of the scene.
+    /// Droplets of its own wire, besides those of the scene; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub droplets: Option<droplet::Parameters>,
 }

@@ -15,7 +15,8 @@ use crate::state::{DROPLET, FUSED, LIQUID, Particle, State, phase};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Parameters {
-    /// T to which all of it has cooled since, so that it is solid and rests; absent: it goes on as it was.
+    /// Temperature \[K\] to which all metal has cooled between the two runs: it is then solid and at rest. Absent: temperatures and
+    /// velocities are those at the end of the earlier run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "K", "exclusiveMinimum" = 0.0))]
     pub cooled_to_k: Option<f64>,

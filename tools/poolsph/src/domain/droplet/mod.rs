@@ -35,8 +35,8 @@ pub struct Parameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub period_s: Option<f64>,
-    /// Volume of wire that melts in a second \[m3/s\]: droplets come as often as they carry it, however many particles
-    /// they are at the spacing. Left aside where there is `period_s`.
+    /// Volume of wire that melts per second \[m3/s\]: the time between droplets is their volume over this, whatever the number of
+    /// particles in a droplet. Ignored where `period_s` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m3/s", "exclusiveMinimum" = 0.0))]
     pub feed_m3_s: Option<f64>,

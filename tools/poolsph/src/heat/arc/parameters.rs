@@ -27,7 +27,7 @@ pub struct ArcParameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "W/m2"))]
     pub flux_w_m2: Option<Property>,
-    /// Parts of the arc input that are taken as they are; absent: all that `cathode` and `gas` leave.
+    /// Parts of the heat flux of the arc input that are used unchanged; absent: all parts that `cathode` and `gas` do not replace.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parts: Option<Vec<Part>>,
     /// Electrons and ions by the temperature of the metal, from the current density of the arc
