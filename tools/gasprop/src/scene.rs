@@ -78,11 +78,11 @@ pub struct Radiation {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Uncertain {
-    /// Momentum transfer of electrons by iron atoms, a cross-section of no dependence on energy \[m2\].
+    /// Cross-section of the momentum transfer from electrons to iron atoms, the same at all energies \[m2\].
     #[serde(default)]
     #[schemars(range(min = 1e-21, max = 1e-17), extend("x-unit" = "m2"))]
     pub electron_iron_cross_section_m2: Option<f64>,
-    /// The same by rare neutral species without data of their own \[m2\].
+    /// The same cross-section for rare neutral species that have no data of their own \[m2\].
     #[serde(default)]
     #[schemars(range(min = 1e-21, max = 1e-17), extend("x-unit" = "m2"))]
     pub electron_other_cross_section_m2: Option<f64>,
@@ -94,13 +94,13 @@ pub struct Uncertain {
     #[serde(default)]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub iron_charge_exchange_factor: Option<f64>,
-    /// Excited shells of neutral atoms are filled up to the one of this principal quantum number, those of ions
-    /// accordingly farther, and no level lies above; absent: up to the last one that fields of ions leave where charges
+    /// Principal quantum number of the last shell of neutral atoms: levels that lists lack are filled up to it, for ions
+    /// accordingly farther, and no level lies above. Absent: the last shell that the fields of ions allow where charges
     /// are densest, the sixth of argon at 1 atm (Inglis and Teller 1939).
     #[serde(default)]
     #[schemars(range(min = 5, max = 30))]
     pub filled_to_shell: Option<u32>,
-    /// Which levels atoms and ions have; absent: filled shells.
+    /// Excited levels of atoms and ions; absent: filled shells.
     #[serde(default)]
     pub levels: Option<Levels>,
 }

@@ -33,7 +33,7 @@ pub struct MagneticField {
     /// Coils: loops and segments.
     #[schemars(length(min = 1))]
     pub coils: Vec<Coil>,
-    /// What their currents mean.
+    /// Whether currents are given as root mean square or as peak values.
     #[serde(default)]
     pub amplitude: Amplitude,
     /// Whether all currents are multiplied by one factor so that the lift at the start equals the weight; the factor is

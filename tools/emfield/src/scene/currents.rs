@@ -60,16 +60,16 @@ pub struct Loop {
     /// Radius.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub radius_m: f64,
-    /// Radius of the wire, for what lies within it; a thin wire when it is absent.
+    /// Radius of the wire, over whose section the current is spread; a thin wire when it is absent.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub wire_radius_m: Option<f64>,
     /// Current.
     #[schemars(extend("x-unit" = "A"))]
     pub current_a: f64,
-    /// Lead of the current.
+    /// Phase by which the current leads, in degrees.
     #[serde(default)]
     pub phase_deg: f64,
-    /// Turns.
+    /// Number of turns.
     #[serde(default = "one")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub turns: f64,
@@ -88,7 +88,7 @@ pub struct Segments {
     /// Current.
     #[schemars(extend("x-unit" = "A"))]
     pub current_a: f64,
-    /// Lead of the current.
+    /// Phase by which the current leads, in degrees.
     #[serde(default)]
     pub phase_deg: f64,
 }
@@ -103,7 +103,7 @@ pub struct Wire {
     /// Current along z.
     #[schemars(extend("x-unit" = "A"))]
     pub current_a: f64,
-    /// Lead of the current.
+    /// Phase by which the current leads, in degrees.
     #[serde(default)]
     pub phase_deg: f64,
 }
@@ -131,13 +131,13 @@ pub struct RegionCoil {
     /// Axis around which the current flows, in space; that of the scene where it is axisymmetric. In a plane it flows
     /// along z.
     pub axis: Option<Axis>,
-    /// Current through the section, of one turn.
+    /// Current of one turn; `turns` times this flows through the section.
     #[schemars(extend("x-unit" = "A"))]
     pub current_a: f64,
-    /// Lead of the current.
+    /// Phase by which the current leads, in degrees.
     #[serde(default)]
     pub phase_deg: f64,
-    /// Turns.
+    /// Number of turns.
     #[serde(default = "one")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub turns: f64,
@@ -238,14 +238,14 @@ pub struct EddyCurrents {
     pub applied_flux_density_t: Option<Vec<f64>>,
     /// What the uniform field comes from, in space; a solenoid about the origin when it is absent.
     pub magnet: Option<Magnet>,
-    /// What currents and applied field mean in a sinusoidal steady state.
+    /// Whether currents and the applied field of a sinusoidal steady state are given as root mean square or as peak values.
     #[serde(default)]
     pub amplitude: Amplitude,
-    /// What holds at the walls.
+    /// Condition at the walls of the domain.
     #[serde(default)]
     pub outer: OuterReaction,
-    /// Charges on the surfaces of conductors; when it is absent, computed in space. In a plane and about an axis none
-    /// gather.
+    /// Charges on the surfaces of conductors; when it is absent, they are computed in space. In a plane and about an axis there
+    /// are none.
     pub potential: Option<ElectricPotential>,
 }
 

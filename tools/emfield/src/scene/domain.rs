@@ -55,15 +55,15 @@ impl Default for Domain {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Medium {
-    /// Permittivity over that of vacuum.
+    /// Permittivity over that of vacuum; 1 when it is absent.
     #[serde(default = "one")]
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_permittivity: f64,
-    /// Permeability over that of vacuum.
+    /// Permeability over that of vacuum; 1 when it is absent.
     #[serde(default = "one")]
     #[schemars(range(max = 1e7), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_permeability: f64,
-    /// Conductivity.
+    /// Electric conductivity; 0 when it is absent: it does not conduct.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e12), extend("x-unit" = "S/m"))]
     pub conductivity_s_m: f64,
@@ -91,29 +91,30 @@ pub struct BodyScene {
     pub name: String,
     /// Its shape; in an axisymmetric scene the section in r and z: a disc on the axis is a ball.
     pub shape: Shape,
-    /// Permittivity over that of vacuum.
+    /// Permittivity over that of vacuum; 1 when it is absent.
     #[serde(default = "one")]
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_permittivity: f64,
-    /// Permeability over that of vacuum: a number, or a curve of magnetisation in a static scene and in a march in time.
+    /// Permeability over that of vacuum: a number, or a curve of magnetisation in a static scene and in a march in time. 1 when it
+    /// is absent.
     #[serde(default)]
     #[schemars(extend("x-unit" = "1"))]
     pub relative_permeability: Permeability,
-    /// Conductivity.
+    /// Electric conductivity; 0 when it is absent: it does not conduct.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e12), extend("x-unit" = "S/m"))]
     pub conductivity_s_m: f64,
-    /// Potential at which electrostatics holds the body: an electrode.
+    /// Potential of the body as an electrode in electrostatics; when it is absent the body is a dielectric.
     #[schemars(extend("x-unit" = "V"))]
     pub potential_v: Option<f64>,
-    /// Net current along z of the body as a bar in a plane, in a sinusoidal steady state: 0 of one that nothing joins to others.
-    /// When it is absent its ends are joined to those of other bars far away.
+    /// Net current along z of a bar in a plane scene, in a sinusoidal steady state; 0 for a bar that is joined to no other. When it
+    /// is absent the ends of the bar are joined to those of the other bars far away.
     #[schemars(extend("x-unit" = "A"))]
     pub net_current_a: Option<f64>,
-    /// Lead of the net current; 0 when it is absent.
+    /// Phase by which the net current leads; 0 when it is absent.
     pub net_current_phase_deg: Option<f64>,
-    /// Distance of points along its surface; that of `points` when it is absent. Towards a body with finer points it falls as
-    /// the spacing of the lattice does.
+    /// Distance of points along its surface; that of `points` when it is absent. Near a body with finer points it decreases as the
+    /// spacing of the lattice does.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: Option<f64>,
 }

@@ -31,7 +31,7 @@ pub struct Equilibrium {
     /// Electric field far away; absent in a magnetic field.
     #[schemars(extend("x-unit" = "V/m", "exclusiveMinimum" = 0.0))]
     pub field_v_m: Option<f64>,
-    /// Angle between the outline of the liquid and a wall on which it stands, within the liquid. The wall is horizontal and passes
+    /// Contact angle of a drop on a wall, measured within the liquid; no wall when it is absent. The wall is horizontal and passes
     /// through the centre of the sphere; gravity is along z, and upward where the drop hangs.
     #[schemars(range(min = 1.0, max = 179.0), extend("x-unit" = "deg"))]
     pub contact_angle_deg: Option<f64>,
@@ -57,7 +57,7 @@ pub struct ElectricField {
     /// leaks when it is absent.
     #[schemars(range(max = 1e12), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub relative_conductivity: Option<f64>,
-    /// Charge of a conductor; of several drops each has its part by volume at the start.
+    /// Charge of a conductor, none when it is absent; several drops share it by their volumes at the start.
     #[schemars(extend("x-unit" = "C"))]
     pub charge_c: Option<f64>,
     /// Degree of the polynomials of potentials.

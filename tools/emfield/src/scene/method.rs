@@ -33,8 +33,8 @@ impl Default for Interfaces {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Method {
-    /// Degree of the polynomials; with 1 slopes at interfaces and walls are linear, bowed as the equation says, and
-    /// second derivatives those of quadratics.
+    /// Degree of the polynomials. With 1, slopes at interfaces and walls are linear with one quadratic term from the equation, and
+    /// second derivatives are those of quadratics.
     #[serde(default = "order")]
     #[schemars(range(min = 1, max = 4))]
     pub order: usize,
@@ -87,14 +87,14 @@ pub enum Way {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
-    /// Way.
+    /// Method for the linear equations.
     #[serde(default)]
     pub way: Way,
-    /// Largest residual over that of zero.
+    /// Largest residual at which the iteration ends, relative to the residual of a solution of zeros.
     #[serde(default = "tolerance")]
     #[schemars(range(min = 1e-15, max = 1e-2), extend("x-unit" = "1"))]
     pub tolerance: f64,
-    /// Most iterations.
+    /// Greatest number of iterations.
     #[serde(default = "iterations")]
     #[schemars(range(min = 1))]
     pub iterations: usize,

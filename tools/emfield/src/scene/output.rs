@@ -27,7 +27,7 @@ pub struct Line {
     /// Last place.
     #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
     pub to_m: Vec<f64>,
-    /// Places in all.
+    /// Number of places on the line, both ends included.
     #[schemars(range(min = 2, max = 1_000_000))]
     pub points: usize,
 }

@@ -17,11 +17,12 @@ pub struct Layers {
     #[serde(default = "growth")]
     #[schemars(range(min = 1.0, max = 2.0), extend("x-unit" = "1"))]
     pub growth: f64,
-    /// Layers inside; as many as it takes to reach the distance of points along the surface, and at least 2, when it
-    /// is absent.
+    /// Number of layers inside; when it is absent, as many as are needed until their distance is that of points along the surface,
+    /// at least 2.
     #[schemars(range(max = 200))]
     pub inside: Option<usize>,
-    /// Layers outside, likewise.
+    /// Number of layers outside; when it is absent, as many as are needed until their distance is that of points along the surface,
+    /// at least 2.
     #[schemars(range(max = 200))]
     pub outside: Option<usize>,
 }
@@ -90,9 +91,9 @@ pub struct Points {
     /// Arrangement inside bodies.
     #[serde(default)]
     pub arrangement: Arrangement,
-    /// How much the spacing of the lattice rises per distance from the bodies, outside. When it is absent: the spacing of each
-    /// body over half its least width, at most 0.25, and so for regions with finer points; points far away then draw
-    /// together as those at the bodies do.
+    /// Growth of the spacing of the lattice per distance from the bodies, outside of them. When it is absent: the spacing of each
+    /// body over half its least width, at most 0.25, and likewise for regions with finer points; then a smaller `spacing_m` refines
+    /// the points far away as well.
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
     pub outward: Option<f64>,
     /// The same inside bodies.
@@ -102,13 +103,13 @@ pub struct Points {
     /// Greatest spacing of a lattice; an eighth of the domain when it is absent.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub largest_m: Option<f64>,
-    /// How lattices follow each other.
+    /// By which steps the spacing grows from one lattice to the next, away from the bodies.
     #[serde(default)]
     pub steps: Steps,
     /// Regions with finer points.
     #[serde(default)]
     pub refinements: Vec<Refinement>,
-    /// Further points inside, wherever they come to lie.
+    /// Further points at given places inside the domain.
     #[serde(default)]
     #[schemars(extend("x-unit" = "m"))]
     pub extra_m: Vec<Vec<f64>>,

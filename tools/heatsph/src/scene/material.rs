@@ -24,7 +24,8 @@ pub struct Constituent {
 pub struct Material {
     /// Name.
     pub name: String,
-    /// Where it is: the first material whose region holds a place. The last may have none: it is elsewhere.
+    /// Region of the material. A place has the first material of the list whose region contains it; the last material needs no
+    /// region and fills the rest.
     pub region: Option<Shape>,
     /// Density: a number, a table over temperature, or a formula in x, y, z, r, T. Cells keep their volume: density
     /// times specific heat is what they store.

@@ -58,7 +58,7 @@ pub struct Explicit {
     /// Step; 0.9 of the limit when it is absent.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub step_s: Option<f64>,
-    /// What becomes of a step beyond the limit.
+    /// What happens to a step beyond the stability limit.
     #[serde(default)]
     pub beyond_limit: Beyond,
 }
@@ -67,12 +67,11 @@ pub struct Explicit {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Controlled {
-    /// Largest error of a step over the range of temperature.
+    /// Largest error of a step, relative to the range of temperature.
     #[serde(default = "tolerance")]
     #[schemars(range(min = 1e-12, max = 0.1), extend("x-unit" = "1"))]
     pub tolerance: f64,
-    /// Error of a step that is always accepted, for any range of temperature; 1e-10 of the greatest temperature when it
-    /// is absent.
+    /// Error of a step that is accepted whatever the range of temperature; 1e-10 of the greatest temperature when it is absent.
     #[schemars(extend("x-unit" = "K", "exclusiveMinimum" = 0.0))]
     pub floor_k: Option<f64>,
     /// Steps of this length in place of error control.
@@ -114,11 +113,11 @@ pub struct Time {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Steady {
-    /// Largest residual over the heat that passes.
+    /// Largest residual at which Newton's method ends, relative to the heat that flows.
     #[serde(default = "steady_tolerance")]
     #[schemars(range(min = 1e-15, max = 1e-2), extend("x-unit" = "1"))]
     pub tolerance: f64,
-    /// Most Newton steps.
+    /// Greatest number of Newton steps.
     #[serde(default = "newton_steps")]
     #[schemars(range(min = 1))]
     pub newton_steps: usize,

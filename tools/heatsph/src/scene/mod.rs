@@ -37,10 +37,10 @@ pub struct Scene {
     /// Resistances between materials.
     #[serde(default)]
     pub contacts: Vec<Contact>,
-    /// Temperature at the start, a function of x, y, z, r; the first guess of a steady solve.
+    /// Temperature at the start, a function of x, y, z, r. A steady solve takes it as its first guess.
     #[schemars(extend("x-unit" = "K"))]
     pub initial_temperature_k: Property,
-    /// Heat source, a function of x, y, z, r, T, t.
+    /// Heat source in the volume, a function of x, y, z, r, T, t; none when it is absent.
     #[schemars(extend("x-unit" = "W/m3"))]
     pub source_w_m3: Option<Property>,
     /// Torches of welding that move along paths; in space, with a march in time.
@@ -52,9 +52,9 @@ pub struct Scene {
     /// How the divergence of the heat flux is formed.
     #[serde(default)]
     pub operator: Operator,
-    /// March in time; this or `steady`.
+    /// March in time. Exactly one of `time` and `steady` is given.
     pub time: Option<Time>,
-    /// Steady state; this or `time`.
+    /// Steady state. Exactly one of `time` and `steady` is given.
     pub steady: Option<Steady>,
     /// What is written.
     #[serde(default)]

@@ -40,7 +40,7 @@ pub struct Points {
     /// Distance of neighbouring points; a fitted arrangement takes the nearest that divides the body evenly.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: f64,
-    /// Arrangement.
+    /// How points are arranged in the body.
     #[serde(default)]
     pub arrangement: Arrangement,
     /// Random shift of each inner point along each axis, at most this part of the spacing.
@@ -50,7 +50,7 @@ pub struct Points {
     /// Seed of the random shifts.
     #[serde(default)]
     pub seed: u64,
-    /// Graded spacing.
+    /// Spacing that changes along an axis; even if absent.
     #[serde(default)]
     pub grading: Grading,
     /// Further points inside the body, wherever they lie.

@@ -29,9 +29,9 @@ pub struct Scene {
     /// 2: a plane scene, per metre of depth; 3: in space.
     #[schemars(range(min = 2, max = 3))]
     pub dimensions: usize,
-    /// What solids of a plane scene do across the plane; no strain there if absent.
+    /// Plane strain or plane stress of the solids of a plane scene; plane strain if absent.
     pub plane: Option<Plane>,
-    /// Step and end.
+    /// Length of the steps, and end of the run.
     pub time: Time,
     /// Solid bodies.
     #[serde(default)]
@@ -41,9 +41,9 @@ pub struct Scene {
     /// Rigid walls.
     #[serde(default)]
     pub walls: Vec<WallScene>,
-    /// How solids push each other where they touch; without loss if absent.
+    /// Contact of solids with each other and with plain walls; without loss of energy if absent.
     pub contact: Option<ContactScene>,
-    /// g; none if absent.
+    /// Gravity g; none if absent.
     #[schemars(extend("x-unit" = "m/s2"), length(min = 2, max = 3))]
     pub gravity_m_s2: Option<Vec<f64>>,
     /// What is written, and when.

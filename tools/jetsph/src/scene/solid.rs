@@ -22,7 +22,7 @@ pub struct Solid {
     /// Spacing d of its particles; cells fit a box exactly.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: f64,
-    /// How the particles stand; along the axes, or along those of a turned box, if absent.
+    /// How the lattice of the particles is turned or disturbed; along the axes, or along those of a turned box, if absent.
     pub lattice: Option<LatticeScene>,
     /// rho at rest.
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
@@ -35,8 +35,8 @@ pub struct Solid {
     pub fracture: Option<Criterion>,
     /// Artificial viscosity (38); none if absent.
     pub artificial_viscosity: Option<ShockViscosity>,
-    /// By the rates of its present state (32)-(37), as in the source, for comparison: a free, elastic body, whose particles water sees
-    /// as they stand. By its deformation since rest (total Lagrangian) if absent.
+    /// The updated Lagrangian form of the source, eqs 32 to 37, for comparison: only for a free, elastic body; water meets its
+    /// particles and not its faces. The total Lagrangian form if absent.
     pub updated_form: Option<UpdatedForm>,
     /// Velocity at the start: a number or a formula in x, y, z for each axis; rest if absent.
     #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
@@ -47,7 +47,7 @@ pub struct Solid {
     /// Faces that are loaded.
     #[serde(default)]
     pub loads: Vec<LoadScene>,
-    /// Rate at which velocities die away, to find states of rest; nothing damps them if absent.
+    /// Rate of a damping of all velocities, to find states of rest; no damping if absent.
     #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0))]
     pub damping_1_s: Option<f64>,
 }
@@ -56,7 +56,7 @@ pub struct Solid {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UpdatedForm {
-    /// s: the artificial stress over that which pulls (Gray, Monaghan and Swift 2001); with 0 it breaks where nothing should.
+    /// Artificial stress over the tensile stress (Gray, Monaghan and Swift 2001); with 0 the body breaks in tension without reason.
     #[serde(default = "usual_artificial_stress")]
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
     pub artificial_stress: f64,
@@ -73,7 +73,7 @@ pub struct LatticeScene {
     /// Angle of the lattice about z; the body does not turn with it.
     #[serde(default)]
     pub turned_deg: f64,
-    /// Particles are shaken by up to this part of the spacing along each axis.
+    /// Particles are shifted at random by up to this part of the spacing along each axis.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.4), extend("x-unit" = "1"))]
     pub jitter: f64,
@@ -102,10 +102,10 @@ pub struct LoadScene {
     pub on: Vec<String>,
     /// Only the part of the faces within this shape.
     pub within: Option<Shape>,
-    /// Force on the area at rest, along each axis.
+    /// Traction along each axis, per area at rest. Either this or `pressure_pa`.
     #[schemars(extend("x-unit" = "Pa"), length(min = 2, max = 3))]
     pub traction_pa: Option<Vec<f64>>,
-    /// In place of it a pressure on the area at rest, into the body.
+    /// Pressure into the body, per area at rest, in place of `traction_pa`.
     #[schemars(extend("x-unit" = "Pa"))]
     pub pressure_pa: Option<f64>,
     /// Time in which it rises from nothing; it is there from the start if absent.
@@ -117,7 +117,7 @@ pub struct LoadScene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactScene {
-    /// zeta: 0 loses nothing, 1 does not bounce.
+    /// Damping ratio zeta: at 0 no energy is lost, at 1 bodies do not bounce.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0), extend("x-unit" = "1"))]
     pub damping: f64,

@@ -13,49 +13,49 @@ use crate::matter::water::tait::Tension;
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WaterScene {
-    /// rho0.
+    /// Density rho0 at rest.
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0))]
     pub density_kg_m3: f64,
     /// Spacing d of its particles.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub spacing_m: f64,
-    /// Whether it has sound.
+    /// How water keeps its volume: with or without sound.
     #[serde(default)]
     pub method: Method,
-    /// Kernel.
+    /// Smoothing kernel.
     #[serde(default)]
     pub kernel: KernelScene,
-    /// h over d.
+    /// Smoothing length over spacing, h/d.
     #[serde(default = "usual_smoothing")]
     #[schemars(range(min = 1.0, max = 2.5), extend("x-unit" = "1"))]
     pub smoothing: f64,
-    /// c, in place of ten times the reference speed.
+    /// Speed of sound c; ten times the reference speed if absent.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub sound_speed_m_s: Option<f64>,
-    /// V: c is 10 V (18). Where neither is given it is the greatest speed of the nozzles and bodies at the start.
+    /// Reference speed V, with c = 10 V (eq. 18); the greatest speed of the nozzles and bodies at the start if absent.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0))]
     pub reference_speed_m_s: Option<f64>,
-    /// n of the equation of state (15).
+    /// Exponent n of the equation of state (eq. 15).
     #[serde(default = "usual_exponent")]
     #[schemars(range(min = 1.5, max = 15.0), extend("x-unit" = "1"))]
     pub exponent: f64,
-    /// What it does below its density at rest.
+    /// Pressure of water below its density at rest.
     #[serde(default)]
     pub tension: Tension,
-    /// Artificial viscosity (38).
+    /// Artificial viscosity (eq. 38); none if absent.
     pub artificial_viscosity: Option<ArtificialViscosity>,
-    /// mu.
+    /// Viscosity mu; none if absent.
     #[schemars(extend("x-unit" = "Pa s", "exclusiveMinimum" = 0.0))]
     pub viscosity_pa_s: Option<f64>,
-    /// Diffusion of density.
+    /// Diffusion of the density, which smooths the pressure; none if absent.
     pub density_diffusion: Option<DensityDiffusion>,
     /// Water that is there at the start.
     #[serde(default)]
     pub bodies: Vec<WaterBody>,
-    /// Where water comes in.
+    /// Nozzles where water comes in.
     #[serde(default)]
     pub nozzles: Vec<NozzleScene>,
-    /// Where it leaves.
+    /// Outlets where water leaves.
     #[serde(default)]
     pub outlets: Vec<OutletScene>,
 }
@@ -145,11 +145,12 @@ pub struct OutletScene {
     /// Name of its figures.
     #[schemars(regex(pattern = "^[a-z][a-z0-9_-]*$"))]
     pub name: String,
-    /// It takes what is in this shape.
+    /// Water inside this shape is removed.
     pub within: Option<Shape>,
-    /// It takes what is outside of this shape.
+    /// Water outside this shape is removed.
     pub beyond: Option<Shape>,
-    /// It takes only what moves along this direction faster than its length: backflow, in the plane (fig. 7).
+    /// Only water that moves along this vector faster than its length is removed; all water if absent. It removes the backflow of
+    /// plane jets (fig. 7).
     #[schemars(extend("x-unit" = "m/s"), length(min = 2, max = 3))]
     pub moving_m_s: Option<Vec<f64>>,
 }
@@ -163,7 +164,7 @@ pub struct WallScene {
     pub name: String,
     /// Its shape.
     pub body: Shape,
-    /// It pushes away what comes near (43); a plain wall if absent.
+    /// Repulsion by the wall (eq. 43); a plain wall if absent.
     pub repulsion: Option<RepulsionScene>,
 }
 
@@ -171,17 +172,17 @@ pub struct WallScene {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RepulsionScene {
-    /// D, of the order of the square of the speed.
+    /// Strength D, of the order of the square of the speed.
     #[schemars(extend("x-unit" = "m2/s2", "exclusiveMinimum" = 0.0))]
     pub strength_m2_s2: f64,
-    /// d0: it acts nearer than this; the spacing of what comes near if absent.
+    /// Range d0 within which it acts; the spacing of the particles that come near if absent.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub range_m: Option<f64>,
-    /// n1.
+    /// Exponent n1.
     #[serde(default = "four")]
     #[schemars(range(min = 1.0, max = 20.0), extend("x-unit" = "1"))]
     pub exponent_near: f64,
-    /// n2, less than n1.
+    /// Exponent n2, less than n1.
     #[serde(default = "two")]
     #[schemars(range(min = 0.5, max = 19.0), extend("x-unit" = "1"))]
     pub exponent_far: f64,

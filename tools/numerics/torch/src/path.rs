@@ -20,7 +20,7 @@ pub struct Weave {
     /// Greatest distance from the path \[m\]: half of the width of the weave.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub amplitude_m: f64,
-    /// Whole turns in a second.
+    /// Periods of the weave per second.
     #[schemars(range(max = 1e5), extend("x-unit" = "Hz", "exclusiveMinimum" = 0.0))]
     pub frequency_hz: f64,
 }
@@ -30,7 +30,7 @@ pub struct Weave {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "TorchPath")]
 pub struct Path {
-    /// Corners \[m\]; a single one: the torch stands there.
+    /// Corners of the path \[m\]; with a single one the torch stands still there.
     #[schemars(extend("x-unit" = "m"), length(min = 1))]
     pub points_m: Vec<[f64; 3]>,
     /// Speed along it \[m/s\]; needed where there is more than one corner.
@@ -41,7 +41,7 @@ pub struct Path {
     #[serde(default)]
     #[schemars(range(min = 0.0), extend("x-unit" = "s"))]
     pub start_s: f64,
-    /// End of the arc \[s\]; when the torch has come to the end of its path if absent, and never where it stands.
+    /// End of the arc \[s\]. Absent: when the torch reaches the end of its path; never for a torch that stands still.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub end_s: Option<f64>,

@@ -43,7 +43,7 @@ pub struct DoubleEllipsoid {
     /// c_r: length behind it \[m\].
     #[schemars(range(min = 1e-9), extend("x-unit" = "m"))]
     pub rear_m: f64,
-    /// f_f, of which half is the part of the heat ahead; 2 c_f/(c_f + c_r) if absent, with which q is continuous.
+    /// f_f: half of it is the share of the heat ahead of the torch. 2 c_f/(c_f + c_r) if absent, which makes q continuous.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 2.0), extend("x-unit" = "1"))]
     pub front_fraction: Option<f64>,

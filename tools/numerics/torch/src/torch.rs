@@ -32,7 +32,7 @@ pub struct Torch {
     #[serde(default = "whole")]
     #[schemars(range(max = 1.0), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub efficiency: f64,
-    /// The part of its power over time, again and again; the whole at all times if absent.
+    /// Factor on its power over time, repeated every period; always 1 if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub waveform: Option<Waveform>,
     /// Where it goes, and when it burns.
@@ -43,7 +43,7 @@ pub struct Torch {
     pub points_to: [f64; 3],
     /// How its heat is distributed.
     pub shape: Shape,
-    /// What becomes of the part of the distribution outside the body.
+    /// What happens to the part of the heat that falls outside the body.
     #[serde(default)]
     pub beyond: Beyond,
 }

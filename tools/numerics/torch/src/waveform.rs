@@ -25,7 +25,7 @@ pub struct Waveform {
     /// Corners within the period \[s\], rising; two at the same time are a jump.
     #[schemars(extend("x-unit" = "s"), length(min = 1, max = 10000), inner(range(min = 0.0)))]
     pub times_s: Vec<f64>,
-    /// Levels at the corners: parts of what has the waveform.
+    /// Levels at the corners: factors on the quantity that has the waveform.
     #[schemars(extend("x-unit" = "1"), length(min = 1, max = 10000), inner(range(min = 0.0)))]
     pub levels: Vec<f64>,
     /// When a period begins \[s\].

@@ -20,10 +20,10 @@ use super::tensor::{Matrix, UNIT, determinant, eigenvectors, product, times_tran
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plasticity {
-    /// Y, in uniaxial tension.
+    /// Yield stress Y in uniaxial tension.
     #[schemars(extend("x-unit" = "Pa", "exclusiveMinimum" = 0.0))]
     pub yield_stress_pa: f64,
-    /// H: rise of the yield stress with the plastic strain.
+    /// Hardening H: increase of the yield stress per plastic strain.
     #[serde(default)]
     #[schemars(range(min = 0.0), extend("x-unit" = "Pa"))]
     pub hardening_pa: f64,

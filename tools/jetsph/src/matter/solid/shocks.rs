@@ -34,12 +34,12 @@ pub struct ShockViscosity {
     #[serde(default)]
     #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
     pub quadratic: f64,
-    /// C, which keeps near pairs from counting too much.
+    /// C in r^2 + C h^2 (eq. 39), which limits the viscosity of particles that nearly coincide.
     #[serde(default = "ArtificialViscosity::usual_guard")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub guard: f64,
-    /// Whether it acts between what parts, too, unless it is broken: without, fronts of tension overshoot. In the source it does not.
-    /// Across a thin crack it brakes the faces that part.
+    /// Whether it also acts between unbroken particles that move apart, as they do not in the source. Without it fronts of tension
+    /// overshoot; with it the faces of a thin crack are braked.
     #[serde(default)]
     pub in_tension: bool,
 }

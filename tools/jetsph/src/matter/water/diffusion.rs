@@ -25,9 +25,9 @@ pub enum Form {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DensityDiffusion {
-    /// Which form.
+    /// Formula of the diffusion.
     pub form: Form,
-    /// delta.
+    /// Coefficient delta.
     #[serde(default = "usual")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0), range(max = 0.5))]
     pub delta: f64,

@@ -23,7 +23,7 @@ pub struct ArtificialViscosity {
     #[serde(default)]
     #[schemars(range(min = 0.0), extend("x-unit" = "1"))]
     pub quadratic: f64,
-    /// C, which keeps near pairs from counting too much.
+    /// C in r^2 + C h^2 (eq. 39), which limits the viscosity of particles that nearly coincide.
     #[serde(default = "ArtificialViscosity::usual_guard")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub guard: f64,
