@@ -65,7 +65,7 @@ impl Face {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxShape {
-    /// Name, which its faces carry in front: `plate.x-`.
+    /// Name, put before the names of its faces: `plate.x-`; none if absent.
     pub name: Option<String>,
     /// Lower corner; two numbers in a plane scene.
     #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
@@ -79,7 +79,7 @@ pub struct BoxShape {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
-    /// Name, which its faces carry in front.
+    /// Name, put before the names of its faces; none if absent.
     pub name: Option<String>,
     /// Centre of the bar.
     #[schemars(extend("x-unit" = "m"), length(min = 3, max = 3))]
@@ -103,7 +103,7 @@ fn along_z() -> Axis {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
-    /// Name, which its faces carry in front.
+    /// Name, put before the names of its faces; none if absent.
     pub name: Option<String>,
     /// Centre.
     #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
@@ -117,7 +117,7 @@ pub struct Disc {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
-    /// Name, which its faces carry in front.
+    /// Name, put before the names of its faces; none if absent.
     pub name: Option<String>,
     /// Centre.
     #[schemars(extend("x-unit" = "m"), length(min = 3, max = 3))]
@@ -132,7 +132,7 @@ pub struct Sphere {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EllipsoidShape {
-    /// Name, which its faces carry in front.
+    /// Name, put before the names of its faces; none if absent.
     pub name: Option<String>,
     /// Centre; two numbers in a plane scene.
     #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
@@ -146,7 +146,7 @@ pub struct EllipsoidShape {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpace {
-    /// Name, which its faces carry in front.
+    /// Name, put before the names of its faces; none if absent.
     pub name: Option<String>,
     /// A place on the plane.
     #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
@@ -174,13 +174,13 @@ pub enum LengthUnit {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stl {
-    /// Name, which its face carries in front.
+    /// Name, put before the name of its face; none if absent.
     pub name: Option<String>,
     /// The file, beside the scene.
     pub file: String,
-    /// Unit of its lengths: the file does not say it.
+    /// Unit of the lengths in the file; the file itself does not say it.
     pub unit: LengthUnit,
-    /// Where its origin is; the scene's when it is absent.
+    /// Place of the origin of the file; the origin of the scene when it is absent.
     #[schemars(extend("x-unit" = "m"), length(min = 3, max = 3))]
     pub at_m: Option<Vec<f64>>,
     /// Hash of the file as it was read; only in artefacts.
@@ -196,7 +196,7 @@ pub struct Stl {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Turned {
-    /// What is turned.
+    /// The shape that is turned.
     pub shape: Box<Shape>,
     /// Axis of the turn.
     #[serde(default = "along_z")]

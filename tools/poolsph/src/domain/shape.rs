@@ -62,7 +62,7 @@ pub struct Ellipsoid {
     /// Centre \[m\].
     #[schemars(extend("x-unit" = "m"))]
     pub centre_m: [f64; 3],
-    /// Half of its extent along x, y, z \[m\], each above zero.
+    /// Half of its length along x, y, z \[m\], each above zero.
     #[schemars(extend("x-unit" = "m"))]
     pub half_m: [f64; 3],
 }
