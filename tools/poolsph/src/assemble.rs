@@ -32,7 +32,7 @@ use crate::forces::tension::Tension;
 use crate::frames::PlateNote;
 use crate::heat::{self, Caloric, Conduction};
 use crate::march::March;
-use crate::motion::{self, Law, Motion};
+use crate::motion::{self, Law, Motion, OnColdMetal};
 use crate::patch::AREA;
 use crate::scene::{Scene, StartState};
 use crate::source::Path;
@@ -270,7 +270,9 @@ impl<'a> Source<'a> {
                 .find(|b| b.state == StartState::Solid && !backed);
             let underside = base.map(|b| b.shape.bounds().0[2]);
             let stage = heat::Phase::new(caloric.clone(), start).above(underside);
-            Ok(Box::new(stage))
+            let flow = self.scene.flow.as_ref();
+            let sticks = flow.is_some_and(|flow| flow.on_cold_metal == OnColdMetal::Sticks);
+            Ok(Box::new(if sticks { stage.sticking() } else { stage }))
         })
     }
 

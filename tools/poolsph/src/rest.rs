@@ -1,6 +1,6 @@
 //! Resting particles and their neighbours: rows that change only where something melts or sets.
 //!
-//! A particle rests while it is solid, or liquid before the flow starts. Its distances to other
+//! A particle rests while it is solid or held, or liquid before the flow starts. Its distances to other
 //! resting particles never change, so rows and kernel values are kept and only the rows around a
 //! particle that changes its part are touched. Rows are ascending in index: they follow from the
 //! membership alone, and a resumed run repeats them.
@@ -221,9 +221,9 @@ impl Rest {
     }
 }
 
-/// A particle rests while it is solid, or liquid before the flow starts.
+/// A particle rests while it is solid or held, or liquid before the flow starts.
 fn rests(phase: u8, flowing: bool) -> bool {
-    phase == phase::SOLID || (phase == phase::LIQUID && !flowing)
+    matches!(phase, phase::SOLID | phase::HELD) || (phase == phase::LIQUID && !flowing)
 }
 
 /// Cell of a place; a search looks into 27 of them.

@@ -6,6 +6,7 @@ pub mod caloric;
 mod cathode;
 mod chunks;
 mod conduction;
+mod contact;
 mod film;
 mod flux;
 mod held;

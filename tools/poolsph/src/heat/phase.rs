@@ -1,6 +1,8 @@
 //! Melting and solidification (Komen 2019, fig. 4.7): a particle is liquid from half of the
 //! latent heat on, and the flow starts with enough liquid particles (section 4.3).
 //!
+//! Where the scene says so, liquid that freezes on contact with colder metal is held there (`contact`).
+//!
 //! What a particle has held of its latent heat at most is kept, liquid or not: it tells how far into
 //! the particle the front of melting has come, and so the fusion line to a part of a particle.
 
@@ -11,6 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::caloric::Caloric;
+use super::contact::Contact;
 use crate::stage::{Figure, Stage, StageError};
 use crate::state::{
     DROPLET, ENTHALPY, FUSED, LIQUID, PHASE, State, TEMPERATURE, VELOCITY, WALL, marked, phase,
@@ -29,7 +32,10 @@ pub struct FlowStart {
 pub struct Phase {
     caloric: Arc<Caloric>,
     start: Option<usize>,
+    /// What freezes on contact; none where liquid slides on cold metal.
+    contact: Option<Contact>,
     liquid: usize,
+    held: usize,
     /// Height of the underside of the base metal \[m\].
     underside: Option<f64>,
     /// When and where the base metal was first molten down to it \[s, m\].
@@ -43,10 +49,19 @@ impl Phase {
         Self {
             caloric,
             start: start.map(|s| s.liquid_particles),
+            contact: None,
             liquid: 0,
+            held: 0,
             underside: None,
             through: None,
         }
+    }
+
+    /// Holds liquid that freezes where it touches colder metal.
+    #[must_use]
+    pub fn sticking(mut self) -> Self {
+        self.contact = Some(Contact::default());
+        self
     }
 
     /// Looks out for base metal that melts down to its underside at this height \[m\].
@@ -78,7 +93,10 @@ impl Stage for Phase {
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
-        self.liquid = 0;
+        (self.liquid, self.held) = (0, 0);
+        if let Some(contact) = &mut self.contact {
+            contact.look(state, &self.caloric);
+        }
         let (mut phases, mut fused) = (state.metal.take(&PHASE), state.metal.take(&FUSED));
         let mut velocities = state.metal.take(&VELOCITY);
         let (enthalpies, wall) = (state.metal.column(&ENTHALPY), state.metal.column(&WALL));
@@ -90,16 +108,19 @@ impl Stage for Phase {
             fused[a] = fused[a].max(molten);
             let liquid = molten >= LIQUID;
             self.liquid += usize::from(liquid);
-            match (*phase, liquid) {
-                (phase::SOLID, true) => {
-                    *phase = phase::LIQUID;
-                    self.melts(state, a);
-                }
-                (phase::LIQUID, false) => {
-                    *phase = phase::SOLID;
-                    velocities[a] = [0.0; 3];
-                }
-                _ => {}
+            let contact = self.contact.as_ref().filter(|_| liquid);
+            let now = match (liquid, contact.is_some_and(|c| c.holds(&state.near, a))) {
+                (false, _) => phase::SOLID,
+                (true, true) => phase::HELD,
+                (true, false) => phase::LIQUID,
+            };
+            self.held += usize::from(now == phase::HELD);
+            let before = std::mem::replace(phase, now);
+            if before == phase::SOLID && liquid {
+                self.melts(state, a);
+            }
+            if before == phase::LIQUID && now != before {
+                velocities[a] = [0.0; 3];
             }
         }
         state.metal.put(&PHASE, phases);
@@ -112,11 +133,22 @@ impl Stage for Phase {
     }
 
     fn figures(&self) -> Vec<Figure> {
-        vec![Figure {
-            name: "liquid_particles",
+        let figure = |name, count: usize| Figure {
+            name,
             unit: "1",
-            value: self.liquid as f64,
-        }]
+            value: count as f64,
+        };
+        let held = self
+            .contact
+            .iter()
+            .map(|_| figure("held_particles", self.held));
+        std::iter::once(figure("liquid_particles", self.liquid))
+            .chain(held)
+            .collect()
+    }
+
+    fn bytes(&self) -> usize {
+        self.contact.as_ref().map_or(0, Contact::bytes)
     }
 
     fn warnings(&self) -> Vec<String> {

@@ -3,15 +3,13 @@
 
 use particles::{Column, Matter, POSITION};
 use rayon::prelude::*;
-use run::property::Property;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use super::around::Around;
 use super::divergence_free::{Closing, DivergenceFree};
 use super::homogenising::Homogenising;
 use super::law::Law;
 use super::noise::Noise;
+use super::parameters::{Method, Parameters};
 use super::projection::Projection;
 use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
@@ -36,60 +34,6 @@ pub(crate) const PRESSURE: Column<f64> = Column::new("pressure", "Pa", 0.0).show
 /// the contacts of grains, so that frames show [`Near::liquid_mean`]. That of the last step is even where the flow is
 /// without divergence, and shown as it is.
 pub(crate) const CARRIED: Column<f64> = Column::new("pressure_carried", "Pa", 0.0).saved();
-
-/// How the liquid is kept incompressible.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Method {
-    /// The velocity has no divergence, and particles are kept evenly spaced. Flows like a liquid under any stress; the other two
-    /// methods bear small shear stresses.
-    #[default]
-    DivergenceFree,
-    /// No particle becomes denser than the metal. Holds splashes of few particles together best.
-    Projection,
-    /// Density homogenising, the method of Komen (2019), section 3.3.4.
-    Homogenising,
-}
-
-/// How the liquid moves.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Parameters {
-    /// Dynamic viscosity mu \[Pa s\], a number or that of the temperature T.
-    #[schemars(extend("x-unit" = "Pa s"))]
-    pub viscosity_pa_s: Property,
-    /// Acceleration of gravity \[m/s2\]; z points up.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m/s2"))]
-    pub gravity_m_s2: Option<[f64; 3]>,
-    /// How the liquid is kept incompressible.
-    #[serde(default)]
-    pub method: Method,
-    /// Mean relative error of the density at which the iteration for the pressure ends.
-    #[serde(default = "default_tolerance")]
-    #[schemars(range(min = 1e-9, max = 0.1))]
-    pub density_tolerance: f64,
-    /// Fewest iterations for the pressure in a substep.
-    #[serde(default = "default_sweeps_min")]
-    #[schemars(range(min = 1, max = 1000))]
-    pub sweeps_min: u32,
-    /// Most iterations for the pressure in a substep.
-    #[serde(default = "default_sweeps_max")]
-    #[schemars(range(min = 1, max = 100_000))]
-    pub sweeps_max: u32,
-}
-
-fn default_tolerance() -> f64 {
-    5e-5
-}
-
-fn default_sweeps_min() -> u32 {
-    2
-}
-
-fn default_sweeps_max() -> u32 {
-    100
-}
 
 /// The stage that moves the liquid.
 pub struct Motion {

@@ -7,13 +7,15 @@ pub mod integration;
 pub mod lattice;
 pub mod law;
 pub mod noise;
+pub mod parameters;
 pub mod projection;
 pub mod push;
 pub mod step;
 pub mod viscosity;
 
-pub use integration::{Method, Motion, Parameters};
+pub use integration::Motion;
 pub use law::Law;
+pub use parameters::{Method, OnColdMetal, Parameters};
 
 #[cfg(test)]
 mod tests;

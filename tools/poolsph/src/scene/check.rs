@@ -8,7 +8,7 @@ use shapes::frame::{difference, length};
 use super::{Scene, StartState, Wire};
 use crate::domain::shape::Shape;
 use crate::grains;
-use crate::motion::Method;
+use crate::motion::{Method, OnColdMetal};
 
 /// Most steps of a run: more is a slip of the pen.
 const STEPS_MAX: f64 = 1e9;
@@ -63,7 +63,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
         );
         faults.push(Fault::at("/smoothing_length_m", what));
     }
-    faults.extend(dependences(scene));
+    faults.extend(dependences(scene).into_iter().chain(sticking(scene)));
     faults.extend(hollows(scene));
     faults.extend(twice(scene));
     faults.extend(beside(scene));
@@ -282,6 +282,18 @@ fn hollows(scene: &Scene) -> Vec<Fault> {
     .collect()
 }
 
+/// Metal that is to freeze on contact, and does not melt.
+fn sticking(scene: &Scene) -> Option<Fault> {
+    let flow = scene.flow.as_ref()?;
+    let melts = scene
+        .heat
+        .as_ref()
+        .is_some_and(|heat| heat.melting.is_some());
+    let what = "nothing freezes without the key 'melting' in 'heat'";
+    (flow.on_cold_metal == OnColdMetal::Sticks && !melts)
+        .then(|| Fault::at("/flow/on_cold_metal", what))
+}
+
 /// Keys that mean nothing without another.
 fn dependences(scene: &Scene) -> Vec<Fault> {
     let flow = ("flow", scene.flow.is_some());
@@ -360,6 +372,29 @@ mod tests {
         });
         let scene: Scene = serde_json::from_value(scene).unwrap();
         faults(&scene).first().map(ToString::to_string)
+    }
+
+    #[test]
+    fn liquid_sticks_only_to_metal_that_melts() {
+        let told = |heat: serde_json::Value| {
+            let scene = json!({
+                "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 2.0}, "density_kg_m3": 7850,
+                "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.005]}}, "state": "liquid"}],
+                "flow": {"viscosity_pa_s": 0.004, "on_cold_metal": "sticks"},
+                "heat": heat,
+                "output": {"particles_interval_s": 0.1}
+            });
+            let scene: Scene = serde_json::from_value(scene).unwrap();
+            sticking(&scene).map(|fault| fault.to_string())
+        };
+        let mut heat = json!({"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700});
+        let fault = told(heat.clone()).unwrap();
+        assert!(
+            fault.contains("/flow/on_cold_metal") && fault.contains("'melting'"),
+            "{fault}"
+        );
+        heat["melting"] = json!({"point_k": 1750, "latent_heat_j_kg": 250e3});
+        assert_eq!(told(heat), None);
     }
 
     #[test]

@@ -38,6 +38,8 @@ pub mod phase {
     pub const LIQUID: u8 = 1;
     /// Part of a droplet on its prescribed way down; meets nobody.
     pub const FLYING: u8 = 2;
+    /// Molten, and frozen to colder metal that it touches: rests.
+    pub const HELD: u8 = 3;
 }
 
 /// A particle is liquid from this part of its latent heat on (Komen 2019, section 4.2.2).

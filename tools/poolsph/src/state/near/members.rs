@@ -7,20 +7,22 @@ use super::{GRAIN, MARGIN, NONE, Near, Role};
 use crate::state::{PHASE, State, phase};
 
 impl Near {
-    /// Liquid particles, and solid ones within two reaches of a liquid one.
+    /// Liquid particles, molten ones that are held, and solid ones within two reaches of these.
     pub(super) fn collect(&mut self, state: &State) {
         let (places, phases) = (state.metal.column(&POSITION), state.metal.column(&PHASE));
         for (id, phase) in phases.iter().enumerate() {
-            if *phase == phase::LIQUID {
-                self.enter(places[id], id, Role::Liquid);
+            match *phase {
+                phase::LIQUID => self.enter(places[id], id, Role::Liquid),
+                phase::HELD => self.enter(places[id], id, Role::Wet),
+                _ => {}
             }
         }
         let [wet, backing] = [1.0, 2.0].map(|reaches| self.kernel.support() * (reaches + MARGIN));
-        let liquid = self.places.len();
+        let molten = self.places.len();
         self.beyond.place(&state.faces, backing, &mut self.places);
         let (grid, halo) = (&mut self.liquid_grid, &mut self.halo);
         rayon::join(|| grid.bin(&self.places), || halo.mark(&self.places));
-        self.places.truncate(liquid);
+        self.places.truncate(molten);
         let (grid, halo) = (&self.liquid_grid, &self.halo);
         let mut solid = std::mem::take(&mut self.solid);
         solid.resize(state.len(), None);

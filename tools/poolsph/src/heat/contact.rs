@@ -1,0 +1,193 @@
+//! Liquid that freezes where it touches cold metal, and no longer slides on it.
+//!
+//! Where a liquid of T_l meets a solid of T_s of the same metal, the contact takes at once the temperature
+//!
+//! ```text
+//! T_c = (T_l + T_s)/2        (Carslaw and Jaeger 1959, section 2.15, with equal sqrt(k rho c) on both sides)
+//! ```
+//!
+//! Below the melting point a skin freezes there from the first moment on, and what lies on it is arrested (Schiaffino and
+//! Sonin 1997, for the edge of a drop that spreads). The skin of the first milliseconds is some tenths of a millimetre
+//! thick, no more than a particle: so the particle that touches is held as a whole, and what comes after it flows over it.
+//! Of the flow this takes at most one layer of particles, less as these become finer. What is held keeps its heat, and
+//! flows again as soon as the metal beneath it is warm.
+
+use crate::near::{Near, Role};
+use crate::state::{ENTHALPY, State, TEMPERATURE, WALL, marked};
+use crate::vector::{minus, squared};
+
+use super::caloric::Caloric;
+
+/// Distance in spacings up to which particles touch: between the first and the second neighbours of a lattice.
+const TOUCHING: f64 = 1.2;
+
+/// Which particles freeze on contact, with its scratch.
+#[derive(Debug, Default)]
+pub(super) struct Contact {
+    /// Of each member of [`Near`].
+    cold: Vec<bool>,
+}
+
+impl Contact {
+    /// Looks at all molten particles among the members of `state.near`.
+    pub(super) fn look(&mut self, state: &State, caloric: &Caloric) {
+        let near = &state.near;
+        self.cold.clear();
+        self.cold.resize(near.len(), false);
+        let Some(point) = caloric.melting_point() else {
+            return;
+        };
+        let (enthalpy, temperature) = (
+            state.metal.column(&ENTHALPY),
+            state.metal.column(&TEMPERATURE),
+        );
+        let wall = state.metal.column(&WALL);
+        let reach = (TOUCHING * state.metal.matter.spacing).powi(2);
+        let molten = |id: usize| caloric.is_liquid(enthalpy[id]);
+        near.each_row(&mut self.cold, |a, row, cold| {
+            let id = near.id[a] as usize;
+            if near.role[a] == Role::Backing || !molten(id) || marked(wall, id) {
+                return;
+            }
+            let chills = |b: usize| {
+                let other = near.id[b] as usize;
+                let solid = !near.role[b].flows() && !marked(wall, other) && !molten(other);
+                solid
+                    && 0.5 * (temperature[id] + temperature[other]) < point
+                    && squared(minus(near.position[a], near.position[b])) < reach
+            };
+            *cold = row.index.iter().any(|b| chills(*b as usize));
+        });
+    }
+
+    /// Whether the particle `id` freezes to what it touches.
+    pub(super) fn holds(&self, near: &Near, id: usize) -> bool {
+        near.member(id).is_some_and(|a| self.cold[a])
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        self.cold.capacity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use particles::Matter;
+
+    use super::*;
+    use crate::heat::Phase;
+    use crate::heat::caloric::tests::steel;
+    use crate::stage::Stage;
+    use crate::state::{PHASE, Particle, VELOCITY, phase};
+
+    const METAL: Matter = Matter {
+        density: 7850.0,
+        spacing: 1e-3,
+        smoothing_length: 1e-3,
+    };
+    /// Cells of the plate along x and y, of three layers beneath z = 0.
+    const PLATE: i32 = 8;
+
+    /// A layer of liquid two particles thick that slides on the middle of a plate, each of its temperature \[K\].
+    fn sliding(liquid: f64, plate: f64, sticks: bool) -> (State, Phase) {
+        let caloric = Arc::new(steel());
+        let mut phase = Phase::new(caloric.clone(), None);
+        if sticks {
+            phase = phase.sticking();
+        }
+        let mut state = State::new(METAL);
+        phase.declare(&mut state);
+        state.flowing = true;
+        let mut put = |[i, j, k]: [i32; 3], moves: bool| {
+            let temperature = if moves { liquid } else { plate };
+            let moving = if moves { phase::LIQUID } else { phase::SOLID };
+            state.push(Particle {
+                position: [i, j, k].map(|i| (f64::from(i) + 0.5) * METAL.spacing),
+                velocity: [if moves { 0.3 } else { 0.0 }, 0.0, 0.0],
+                phase: moving,
+                droplet: false,
+                wall: false,
+                temperature,
+                enthalpy: caloric.enthalpy(temperature),
+            });
+        };
+        for cell in 0..3 * PLATE * PLATE {
+            put(
+                [cell % PLATE, cell / PLATE % PLATE, -1 - cell / PLATE.pow(2)],
+                false,
+            );
+        }
+        for cell in 0..2 * 16 {
+            put([2 + cell % 4, 2 + cell / 4 % 4, cell / 16], true);
+        }
+        state.gather();
+        (state, phase)
+    }
+
+    /// Numbers of moving and of held particles after a step; what rests has no speed.
+    fn stepped(state: &mut State, phase: &mut Phase) -> [usize; 2] {
+        state.gather();
+        phase.advance(state, 1e-4).unwrap();
+        let phases = state.metal.column(&PHASE);
+        let speeds = state.metal.column(&VELOCITY);
+        let rests = |a: usize| {
+            !matches!(phases[a], phase::SOLID | phase::HELD) || squared(speeds[a]) <= 0.0
+        };
+        assert!((0..state.len()).all(rests));
+        [phase::LIQUID, phase::HELD].map(|of| phases.iter().filter(|p| **p == of).count())
+    }
+
+    #[test]
+    fn the_lowest_layer_of_a_liquid_is_held_on_cold_metal() {
+        let (mut state, mut phase) = sliding(2100.0, 300.0, true);
+        assert_eq!(stepped(&mut state, &mut phase), [16, 16]);
+        assert_eq!(stepped(&mut state, &mut phase), [16, 16]);
+        let figures = phase.figures();
+        assert_eq!(figures[1].name, "held_particles");
+        assert!((figures[1].value - 16.0).abs() < 0.5);
+    }
+
+    #[test]
+    fn a_contact_at_the_melting_point_decides() {
+        let point = steel().melting_point().unwrap();
+        for (plate, held) in [(point - 400.0, 16), (point - 200.0, 0)] {
+            let (mut state, mut phase) = sliding(point + 300.0, plate, true);
+            assert_eq!(stepped(&mut state, &mut phase), [32 - held, held]);
+        }
+    }
+
+    #[test]
+    fn what_is_held_flows_again_when_the_metal_beneath_is_warm() {
+        let (mut state, mut phase) = sliding(2100.0, 300.0, true);
+        stepped(&mut state, &mut phase);
+        let caloric = steel();
+        let plate = 3 * (PLATE * PLATE) as usize;
+        state.metal.column_mut(&TEMPERATURE)[..plate].fill(1700.0);
+        state.metal.column_mut(&ENTHALPY)[..plate].fill(caloric.enthalpy(1700.0));
+        assert_eq!(stepped(&mut state, &mut phase), [32, 0]);
+    }
+
+    #[test]
+    fn what_is_held_is_looked_at_where_nothing_flows_any_more() {
+        let (mut state, mut phase) = sliding(2100.0, 300.0, true);
+        let plate = 3 * (PLATE * PLATE) as usize;
+        // The upper layer is gone.
+        state.metal.column_mut(&PHASE)[plate + 16..].fill(phase::FLYING);
+        assert_eq!(stepped(&mut state, &mut phase), [0, 16]);
+        let caloric = steel();
+        state.metal.column_mut(&TEMPERATURE)[..plate].fill(1700.0);
+        state.metal.column_mut(&ENTHALPY)[..plate].fill(caloric.enthalpy(1700.0));
+        assert_eq!(stepped(&mut state, &mut phase), [16, 0]);
+    }
+
+    #[test]
+    fn liquid_slides_unless_the_scene_says_otherwise() {
+        let (mut state, mut phase) = sliding(2100.0, 300.0, false);
+        assert_eq!(stepped(&mut state, &mut phase), [32, 0]);
+        assert_eq!(phase.figures().len(), 1);
+        assert_eq!(phase.bytes(), 0);
+    }
+}
