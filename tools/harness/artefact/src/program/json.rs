@@ -10,7 +10,7 @@ use super::sheet::{Sheet, short};
 use super::trouble::{Trouble, file_error};
 
 /// Schemas of our JSON files by kind.
-const SCHEMAS: [(&str, &str); 10] = [
+const SCHEMAS: [(&str, &str); 11] = [
     (
         "run-record",
         include_str!("../../../../../schemas/run-record.v1.json"),
@@ -46,6 +46,10 @@ const SCHEMAS: [(&str, &str); 10] = [
     (
         "absence",
         include_str!("../../../../../schemas/absence.v1.json"),
+    ),
+    (
+        "certificate",
+        include_str!("../../../../../schemas/certificate.v1.json"),
     ),
     (
         "others",
