@@ -24,6 +24,8 @@ const OUT: &str = "pool.mcap";
 enum Scene {
     /// A drop of molten steel falls on a plate: the least that moves, melts and sets.
     Drop,
+    /// The same on a cold plate to which it sticks, as a flow without divergence.
+    Cold,
     /// A short weld: all the physics there is, with an arc.
     Weld,
     /// Conduction on a random cloud, in implicit steps that follow their error.
@@ -42,8 +44,9 @@ enum Scene {
     Drops,
 }
 
-const SCENES: [Scene; 9] = [
+const SCENES: [Scene; 10] = [
     Scene::Drop,
+    Scene::Cold,
     Scene::Weld,
     Scene::Heat,
     Scene::Rod,
@@ -58,6 +61,7 @@ impl Scene {
     fn file(self) -> PathBuf {
         let name = match self {
             Self::Drop => "drop.json",
+            Self::Cold => "cold.json",
             Self::Weld => "weld.json",
             Self::Heat => "heat.json",
             Self::Rod => "rod.json",
@@ -74,7 +78,7 @@ impl Scene {
 
     fn tool(self) -> &'static str {
         match self {
-            Self::Drop | Self::Weld => "poolsph",
+            Self::Drop | Self::Cold | Self::Weld => "poolsph",
             Self::Heat | Self::Rod => "heatsph",
             Self::Field | Self::Charges | Self::Liquid | Self::Basin | Self::Drops => "emfield",
         }
@@ -83,7 +87,7 @@ impl Scene {
     /// Channel of the frames.
     fn frames(self) -> &'static str {
         match self {
-            Self::Drop | Self::Weld => "/particles",
+            Self::Drop | Self::Cold | Self::Weld => "/particles",
             _ => "/points",
         }
     }
@@ -128,7 +132,7 @@ impl Scene {
             let bytes = finish(&mut self.command(folder.path(), 1), folder.path());
             let reader = Reader::open(folder.path().join(OUT)).unwrap();
             match self {
-                Self::Drop | Self::Weld => happens::happens(&reader),
+                Self::Drop | Self::Cold | Self::Weld => happens::happens(&reader),
                 Self::Heat | Self::Rod => happens::warms(&reader),
                 Self::Field | Self::Charges => happens::enters(&reader),
                 Self::Liquid => happens::swings(&reader),
