@@ -250,9 +250,9 @@ impl Layout {
 
     /// The medium at a place: 0 the surroundings, `k + 1` body `k`; the first body that holds it counts.
     #[must_use]
-    pub fn medium(&self, x: Vector) -> u8 {
+    pub fn medium(&self, x: Vector) -> u16 {
         let inside = self.solids.iter().position(|s| s.body.distance(x) < 0.0);
-        inside.map_or(0, |k| k as u8 + 1)
+        inside.map_or(0, |k| k as u16 + 1)
     }
 
     /// Distance of the nearest surface of a body \[m\], and its number; infinite without bodies.

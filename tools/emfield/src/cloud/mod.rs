@@ -24,18 +24,18 @@ use shapes::frame::{Vector, difference, dot};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Class {
     /// Inside a medium: 0 the surroundings, `k + 1` body `k` of the scene.
-    Inside(u8),
+    Inside(u16),
     /// On the surface of a body.
     Interface {
         /// The body's medium.
-        inner: u8,
+        inner: u16,
         /// The medium around it.
-        outer: u8,
+        outer: u16,
     },
     /// On the wall of the domain.
     Outer {
         /// The medium there.
-        medium: u8,
+        medium: u16,
         /// Number of the wall, in [`crate::scene::Domain::walls`].
         face: u8,
     },
@@ -76,9 +76,9 @@ pub struct SurfacePoint {
     /// The point.
     pub point: u32,
     /// Medium of the body.
-    pub inner: u8,
+    pub inner: u16,
     /// Medium around it.
-    pub outer: u8,
+    pub outer: u16,
     /// From the inner medium to the outer one.
     pub normal: Vector,
     /// Area \[m2\]; length per metre of depth in a plane; of the full turn where the scene is axisymmetric. In space, where
@@ -228,7 +228,7 @@ impl Cloud {
 
     /// Whether a point lies in a medium or on its edge: whether a stencil of that medium may use it.
     #[must_use]
-    pub fn touches(&self, point: usize, medium: u8) -> bool {
+    pub fn touches(&self, point: usize, medium: u16) -> bool {
         match self.class[point] {
             Class::Inside(m) | Class::Outer { medium: m, .. } => m == medium,
             Class::Interface { inner, outer } => inner == medium || outer == medium,

@@ -268,7 +268,7 @@ fn pair(first: &str, other: &str, second: f64) -> Cloud {
 }
 
 /// Areas of the surface between two media, and the finest spacing there.
-fn between(cloud: &Cloud, inner: u8, outer: u8) -> (f64, f64) {
+fn between(cloud: &Cloud, inner: u16, outer: u16) -> (f64, f64) {
     let all = cloud.surface.iter();
     let own = all.filter(|s| (s.inner, s.outer) == (inner, outer));
     own.fold((0.0, f64::INFINITY), |(area, finest), s| {

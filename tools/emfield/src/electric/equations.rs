@@ -45,7 +45,7 @@ impl Problem {
         if let Some(Held::Potential(v)) = self.held[i] {
             return Some(v);
         }
-        let electrode = |m: u8| self.electrodes.get(m as usize).copied().flatten();
+        let electrode = |m: u16| self.electrodes.get(m as usize).copied().flatten();
         match region.kinds[i] {
             Kind::Inside(m) => electrode(m),
             Kind::Wall { medium, .. } => electrode(medium),

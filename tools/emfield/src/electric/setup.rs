@@ -221,7 +221,7 @@ pub(crate) fn shorts(
 }
 
 /// Potential and name of a medium that is an electrode.
-fn electrode(scene: &Scene, medium: u8) -> Option<(f64, &str)> {
+fn electrode(scene: &Scene, medium: u16) -> Option<(f64, &str)> {
     let body = &scene.bodies[(medium as usize).checked_sub(1)?];
     Some((body.potential_v?, &body.name))
 }

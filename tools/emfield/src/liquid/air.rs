@@ -20,9 +20,9 @@ use wls::Metric;
 /// Layers.
 const LAYERS: usize = 2;
 /// Media: the air, the liquid, points that sleep, and behind them other drops of the liquid.
-const AIR: u8 = 0;
-const LIQUID: u8 = 1;
-pub(super) const ASLEEP: u8 = 2;
+const AIR: u16 = 0;
+const LIQUID: u16 = 1;
+pub(super) const ASLEEP: u16 = 2;
 /// Multipoles are counted on a ball so far from the middle, over the wall's distance.
 const COUNTED: f64 = 0.6;
 /// Distance of places there over the radius of the ball.
@@ -83,10 +83,10 @@ impl<'a> Place<'a> {
     }
 
     /// The medium of a point: drops have media of their own, so that no fit reaches from one into another.
-    fn medium(&self, i: usize) -> u8 {
+    fn medium(&self, i: usize) -> u16 {
         match self.of.get(i) {
             None | Some(0) => LIQUID,
-            Some(drop) => u8::try_from(*drop).map_or(u8::MAX, |k| ASLEEP.saturating_add(k)),
+            Some(drop) => u16::try_from(*drop).map_or(u16::MAX, |k| ASLEEP.saturating_add(k)),
         }
     }
 }
@@ -334,5 +334,24 @@ impl Standing {
             region.faces = skin.normal.iter().enumerate().map(face).collect();
         }
         region
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn each_of_hundreds_of_drops_is_a_medium_of_its_own() {
+        let of: Vec<u32> = (0..1000).collect();
+        let place = Place {
+            of: &of,
+            ..Place::of(&[], &[], 1.0)
+        };
+        let media: BTreeSet<u16> = (0..of.len()).map(|i| place.medium(i)).collect();
+        assert_eq!(media.len(), of.len());
+        assert!(!media.contains(&AIR));
     }
 }

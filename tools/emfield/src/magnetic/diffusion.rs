@@ -52,7 +52,7 @@ pub struct Axial {
 
 impl Conductors {
     /// What the slope on the side of a medium is multiplied by at its interfaces.
-    pub(crate) fn weight(&self, medium: u8) -> f64 {
+    pub(crate) fn weight(&self, medium: u16) -> f64 {
         match (&self.axial, &self.permeable) {
             (Some(axial), _) => axial.resistivity[medium as usize],
             (None, Some(permeable)) => permeable.weight(medium),
@@ -72,7 +72,7 @@ impl Conductors {
     /// `mu sigma` of a medium with the permeability of the surroundings: what a rate makes of current, in potentials far
     /// away \[s/m2\].
     #[must_use]
-    pub fn current(&self, medium: u8) -> f64 {
+    pub fn current(&self, medium: u16) -> f64 {
         let own = self.mu_sigma[medium as usize];
         let permeable = self.permeable.as_ref();
         permeable.map_or(own, |permeable| permeable.weight(medium) * own)
@@ -116,7 +116,7 @@ impl Conductors {
             Kind::Wall { .. } => 0.0,
             Kind::Interface(face) => {
                 let face = &region.faces[face as usize];
-                let side = |medium: u8, stencils| {
+                let side = |medium: u16, stencils| {
                     self.weight(medium)
                         * self.mu_sigma[medium as usize]
                         * share_along(stencils, i, face.normal)
@@ -207,7 +207,7 @@ impl Conductors {
         if self.hole(i).is_some() {
             return false;
         }
-        let conducts = |m: u8| self.mu_sigma[m as usize] > 0.0;
+        let conducts = |m: u16| self.mu_sigma[m as usize] > 0.0;
         match region.kinds[i] {
             Kind::Wall { .. } => true,
             Kind::Inside(m) => unknown == Unknown::Axial && !conducts(m),

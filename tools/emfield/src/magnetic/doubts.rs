@@ -82,7 +82,7 @@ impl<const D: usize> Problem<'_, D> {
     /// Whether a wall counts as a part of what is acted on, whose surface lacks that.
     fn walled(&self) -> bool {
         let acting = self.acting();
-        let acts = |m: u8| acting.acts[m as usize];
+        let acts = |m: u16| acting.acts[m as usize];
         let walled = |class: &Class| matches!(class, Class::Outer { medium, .. } if acts(*medium));
         self.cloud.class.iter().any(walled)
     }

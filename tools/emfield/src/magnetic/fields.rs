@@ -82,7 +82,7 @@ pub struct Media<'a> {
 
 impl Media<'_> {
     /// The permeability of a medium \[H/m\]; zero where it depends on the field.
-    fn permeability(&self, medium: u8) -> f64 {
+    fn permeability(&self, medium: u16) -> f64 {
         self.laws[medium as usize].constant().unwrap_or(0.0)
     }
 }

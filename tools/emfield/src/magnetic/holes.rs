@@ -53,7 +53,7 @@ impl Holes {
     pub fn of<const D: usize>(
         region: &Region<D>,
         sides: &Sides<D>,
-        conducts: impl Fn(u8) -> bool,
+        conducts: impl Fn(u16) -> bool,
     ) -> Self {
         let empty = |i: usize| match region.kinds[i] {
             Kind::Inside(m) | Kind::Wall { medium: m, .. } => !conducts(m),
@@ -138,11 +138,11 @@ impl Hole {
         &'a self,
         region: &'a Region<D>,
         media: Media<'a>,
-    ) -> impl Iterator<Item = (&'a Face<D>, f64, u8, [f64; D])> {
+    ) -> impl Iterator<Item = (&'a Face<D>, f64, u16, [f64; D])> {
         let length = self.length(region, media);
         self.faces(region).filter_map(move |face| {
             let part = face.area / length;
-            let conducts = |m: u8| media.mu_sigma[m as usize] > 0.0;
+            let conducts = |m: u16| media.mu_sigma[m as usize] > 0.0;
             if conducts(face.outer) {
                 Some((face, part, face.outer, face.normal))
             } else if conducts(face.inner) {
@@ -159,8 +159,8 @@ impl Hole {
         region: &'a Region<D>,
         sides: &'a Sides<D>,
         media: Media<'a>,
-    ) -> impl Iterator<Item = (&'a Face<D>, f64, u8, &'a Stencils<D>, [f64; D])> {
-        let stencils = |(face, part, medium, normal): (&'a Face<D>, f64, u8, [f64; D])| {
+    ) -> impl Iterator<Item = (&'a Face<D>, f64, u16, &'a Stencils<D>, [f64; D])> {
+        let stencils = |(face, part, medium, normal): (&'a Face<D>, f64, u16, [f64; D])| {
             let inner = medium != face.outer;
             let stencils = if inner { &sides.inner } else { &sides.outer };
             (face, part, medium, stencils, normal)
@@ -191,7 +191,7 @@ impl Hole {
         sides: &Sides<D>,
         media: Media<'_>,
     ) -> f64 {
-        let shares = |(face, part, medium, stencils, normal): (&Face<D>, f64, u8, _, _)| {
+        let shares = |(face, part, medium, stencils, normal): (&Face<D>, f64, u16, _, _)| {
             let m = medium as usize;
             let share = share_along(stencils, face.point as usize, normal);
             part * media.resistivity[m] * media.mu_sigma[m] * share
@@ -206,7 +206,7 @@ impl Hole {
         let flux = |face: &Face<D>| {
             let place = &region.places[face.point as usize];
             let out: f64 = (0..D).map(|a| place[a] * face.normal[a]).sum();
-            let mu = |m: u8| {
+            let mu = |m: u16| {
                 let empty = media.mu_sigma[m as usize] == 0.0;
                 if empty { media.mu[m as usize] } else { 0.0 }
             };

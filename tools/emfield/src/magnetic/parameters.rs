@@ -33,8 +33,8 @@ pub(crate) struct Parameters {
     /// Coils that are regions of points.
     pub(crate) coils: Vec<Winding>,
     /// Media of bars with their net current \[A\].
-    pub(crate) bars: Vec<(u8, Complex<f64>)>,
+    pub(crate) bars: Vec<(u16, Complex<f64>)>,
     /// Media through which a wire runs.
-    pub(crate) run: Vec<u8>,
+    pub(crate) run: Vec<u16>,
     pub(crate) numerics: Numerics,
 }

@@ -75,7 +75,7 @@ impl<'a, const D: usize> Problem<'a, D> {
         if D == 2 && unknown == Unknown::Potential {
             centre(&mut source, &region, &weights, &conductors);
         }
-        let bar = |(medium, current): &(u8, C)| {
+        let bar = |(medium, current): &(u16, C)| {
             let sigma = parameters.conductivity[*medium as usize];
             Bar::new(&region, &weights, *medium, sigma, *current)
         };

@@ -50,7 +50,7 @@ pub(crate) fn parameters(
 }
 
 /// Media through which wires run.
-fn run(scene: &Scene, currents: &EddyCurrents) -> Vec<u8> {
+fn run(scene: &Scene, currents: &EddyCurrents) -> Vec<u16> {
     let place = Layout::new(scene);
     let wire = |coil: &Coil| match coil {
         Coil::Wire(wire) => Some(place.medium(vector(&wire.place_m))),

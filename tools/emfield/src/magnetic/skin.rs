@@ -38,7 +38,7 @@ impl<const D: usize> Problem<'_, D> {
             if *mu_sigma > 0.0 {
                 let skin = (2.0 / (omega * mu_sigma)).sqrt();
                 let name = &self.cloud.media[m];
-                if let Some(what) = self.unresolved(m as u8, skin) {
+                if let Some(what) = self.unresolved(m as u16, skin) {
                     session.warn(format!(
                         "unresolved: skin depth {skin:.3e} m in {name}, {what}"
                     ));
@@ -54,7 +54,7 @@ impl<const D: usize> Problem<'_, D> {
     }
 
     /// What of a conductor's surface does not resolve its skin.
-    fn unresolved(&self, medium: u8, skin: f64) -> Option<String> {
+    fn unresolved(&self, medium: u16, skin: f64) -> Option<String> {
         let support = self.support();
         let Widest { across, bow, along } = self.widest(medium, support);
         if across > skin {
@@ -71,7 +71,7 @@ impl<const D: usize> Problem<'_, D> {
         })
     }
 
-    fn widest(&self, medium: u8, support: f64) -> Widest {
+    fn widest(&self, medium: u16, support: f64) -> Widest {
         let mut widest = Widest::default();
         for i in 0..self.cloud.len() {
             let inside = matches!(self.cloud.class[i], Class::Inside(_));
@@ -103,7 +103,7 @@ impl<const D: usize> Problem<'_, D> {
         if !self.parameters.open {
             return;
         }
-        let conducts = |m: u8| self.conductors.mu_sigma[m as usize] > 0.0;
+        let conducts = |m: u16| self.conductors.mu_sigma[m as usize] > 0.0;
         for (class, [x, y, z]) in self.cloud.class.iter().zip(&self.cloud.position) {
             if let Class::Outer { medium, face } = class
                 && conducts(*medium)

@@ -173,8 +173,8 @@ fn points(scene: &Scene, cloud: &Cloud, found: &Found) -> Frame {
     let mut frame = frame(scene)
         .positions(cloud.position.iter().copied())
         .scalar("spacing", "m", cloud.spacing.iter().copied())
-        .flag("kind", cloud.class.iter().map(kind))
-        .flag("medium", cloud.class.iter().map(medium));
+        .flag("kind", cloud.class.iter().map(kind));
+    frame = media(frame, "medium", cloud.class.iter().map(medium));
     if scene.eddy_currents.is_some() {
         frame = frame.scalar(
             "volume",
@@ -186,6 +186,15 @@ fn points(scene: &Scene, cloud: &Cloud, found: &Found) -> Frame {
         frame = frame.scalar(&column.name, column.unit, column.values.iter().copied());
     }
     frame
+}
+
+/// Adds a column of media, in a byte where their numbers fit.
+fn media(frame: Frame, name: &str, of: impl Iterator<Item = u16> + Clone) -> Frame {
+    let small: Result<Vec<u8>, _> = of.clone().map(u8::try_from).collect();
+    match small {
+        Ok(small) => frame.flag(name, small),
+        Err(_) => frame.id(name, of.map(u32::from)),
+    }
 }
 
 /// Units of area and volume: per metre of depth in a plane.
@@ -206,9 +215,9 @@ fn surface(scene: &Scene, cloud: &Cloud, found: &Found) -> Frame {
         .positions(places)
         .vector("normal", "1", cloud.surface.iter().map(|s| s.normal))
         .scalar("area", units(scene).0, cloud.surface.iter().map(|s| s.area))
-        .id("point", cloud.surface.iter().map(|s| s.point))
-        .flag("inner", cloud.surface.iter().map(|s| s.inner))
-        .flag("outer", cloud.surface.iter().map(|s| s.outer));
+        .id("point", cloud.surface.iter().map(|s| s.point));
+    frame = media(frame, "inner", cloud.surface.iter().map(|s| s.inner));
+    frame = media(frame, "outer", cloud.surface.iter().map(|s| s.outer));
     for column in &found.surface {
         frame = frame.scalar(&column.name, column.unit, column.values.iter().copied());
     }

@@ -36,7 +36,7 @@ pub struct Samples {
 /// Points of the medium in which a place lies.
 struct Within<'a, const D: usize> {
     region: &'a Region<D>,
-    media: &'a [u8],
+    media: &'a [u16],
     harmonic: bool,
 }
 
@@ -98,7 +98,7 @@ impl Samples {
             return Err(faults.into());
         }
         let region = region::<D>(scene, cloud, &|_| false);
-        let media: Vec<u8> = own.iter().map(|x| layout.medium(*x)).collect();
+        let media: Vec<u16> = own.iter().map(|x| layout.medium(*x)).collect();
         let flat: Vec<[f64; D]> = own.iter().map(|x| std::array::from_fn(|k| x[k])).collect();
         let about = wls::Cloud {
             points: &region.places,
@@ -159,7 +159,7 @@ impl Samples {
 }
 
 /// Points and weights of places in `media`.
-fn shares<const D: usize>(cloud: &Cloud, media: &[u8], stencils: &Stencils<D>) -> Vec<Vec<Share>> {
+fn shares<const D: usize>(cloud: &Cloud, media: &[u16], stencils: &Stencils<D>) -> Vec<Vec<Share>> {
     let mut on_surface = vec![None; cloud.len()];
     for (k, s) in cloud.surface.iter().enumerate() {
         on_surface[s.point as usize] = Some(k as u32);

@@ -6,13 +6,13 @@ use wls::{Condition, Metric, Rules};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Inside a medium.
-    Inside(u8),
+    Inside(u16),
     /// On an interface; the number is that of its [`Face`].
     Interface(u32),
     /// On a wall of the domain, in a medium.
     Wall {
         /// The medium.
-        medium: u8,
+        medium: u16,
         /// Which wall.
         wall: u8,
     },
@@ -24,9 +24,9 @@ pub struct Face<const D: usize> {
     /// The point.
     pub point: u32,
     /// Medium that the normal leaves.
-    pub inner: u8,
+    pub inner: u16,
     /// Medium that it enters.
-    pub outer: u8,
+    pub outer: u16,
     /// Unit normal.
     pub normal: [f64; D],
     /// Area \[m2\].
@@ -69,7 +69,7 @@ impl<const D: usize> Region<D> {
 
     /// The medium in which point `i` is counted: on an interface the inner one.
     #[must_use]
-    pub fn medium(&self, i: usize) -> u8 {
+    pub fn medium(&self, i: usize) -> u16 {
         match self.kinds[i] {
             Kind::Inside(medium) | Kind::Wall { medium, .. } => medium,
             Kind::Interface(face) => self.faces[face as usize].inner,
@@ -78,7 +78,7 @@ impl<const D: usize> Region<D> {
 
     /// Does point `i` lie in or on this medium?
     #[must_use]
-    pub fn touches(&self, i: usize, medium: u8) -> bool {
+    pub fn touches(&self, i: usize, medium: u16) -> bool {
         match self.kinds[i] {
             Kind::Inside(own) | Kind::Wall { medium: own, .. } => own == medium,
             Kind::Interface(face) => {
@@ -210,7 +210,7 @@ pub(crate) struct Side<'a, const D: usize> {
 }
 
 impl<const D: usize> Side<'_, D> {
-    fn medium(&self, i: usize) -> Option<u8> {
+    fn medium(&self, i: usize) -> Option<u16> {
         let Kind::Interface(face) = self.region.kinds[i] else {
             return None;
         };
@@ -221,7 +221,7 @@ impl<const D: usize> Side<'_, D> {
     /// Whether polynomials are harmonic where the potential is, on this side: slopes of other quartics lean on neighbours on
     /// the surface beside layers around a ball, in place of their own point. Beside thin layers they do not hold.
     fn still(&self, i: usize) -> bool {
-        let still = |m: u8| self.region.still.get(m as usize).copied();
+        let still = |m: u16| self.region.still.get(m as usize).copied();
         let metric = &self.region.metrics[i];
         let thick = !metric.follows() && metric.width() < WIDE;
         self.still && thick && self.medium(i).and_then(still).unwrap_or(false)
@@ -229,7 +229,7 @@ impl<const D: usize> Side<'_, D> {
 
     /// Whether the permeability of the medium on this side depends on the field.
     fn bent(&self, i: usize) -> bool {
-        let bent = |m: u8| self.region.bent.get(m as usize).copied();
+        let bent = |m: u16| self.region.bent.get(m as usize).copied();
         self.medium(i).and_then(bent).unwrap_or(false)
     }
 

@@ -33,7 +33,7 @@ pub(crate) fn rings(spacing: f64) -> Region<2> {
             } else if k == 3 * inside {
                 Kind::Wall { medium: 0, wall: 6 }
             } else {
-                Kind::Inside(u8::from(k < inside))
+                Kind::Inside(u16::from(k < inside))
             });
         }
     }
@@ -129,7 +129,7 @@ pub(crate) fn shells(across: f64, along: f64) -> (Region<3>, Vec<Moments<3>>) {
             } else if (r - 4.0).abs() < 1e-12 {
                 Kind::Wall { medium: 0, wall: 6 }
             } else {
-                Kind::Inside(u8::from(r < 1.0))
+                Kind::Inside(u16::from(r < 1.0))
             });
         }
     }

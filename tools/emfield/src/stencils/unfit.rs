@@ -56,7 +56,7 @@ fn further(cloud: &Cloud, i: usize) -> Option<usize> {
 
 /// Where a point stands.
 fn stands(cloud: &Cloud, i: usize) -> String {
-    let name = |m: u8| &cloud.media[m as usize];
+    let name = |m: u16| &cloud.media[m as usize];
     let place = match cloud.class[i] {
         Class::Inside(m) => format!("inside {}", name(m)),
         Class::Interface { inner, outer } => {

@@ -24,7 +24,7 @@ pub struct Enclosing {
     /// Areas \[m2; m in a plane; of the full turn about an axis\].
     pub areas: Vec<f64>,
     /// The medium in which it lies.
-    pub medium: u8,
+    pub medium: u16,
     /// Whether points of the cloud lie within.
     pub within: Vec<bool>,
 }

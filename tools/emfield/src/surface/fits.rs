@@ -85,7 +85,7 @@ struct About<'a, const D: usize> {
     region: &'a Region<D>,
     origin: &'a [u32],
     places: &'a [[f64; D]],
-    medium: u8,
+    medium: u16,
     /// How many times `1/r d/dr` the equation has about an axis.
     around: f64,
 }

@@ -138,7 +138,7 @@ impl Finder<'_> {
     }
 
     /// The one medium in which all of the surface lies.
-    fn medium(&self, pieces: &[Piece], spacing: f64) -> Result<u8, String> {
+    fn medium(&self, pieces: &[Piece], spacing: f64) -> Result<u16, String> {
         let told = |x: Vector| match self.scene.geometry {
             Geometry::Space => format!("({:.4e}, {:.4e}, {:.4e}) m", x[0], x[1], x[2]),
             _ => format!("({:.4e}, {:.4e}) m", x[0], x[1]),
@@ -148,9 +148,9 @@ impl Finder<'_> {
             let at = told(piece.place);
             return Err(format!("the surface leaves the domain at {at}"));
         }
-        let media: Vec<u8> = pieces.iter().map(|p| self.layout.medium(p.place)).collect();
+        let media: Vec<u16> = pieces.iter().map(|p| self.layout.medium(p.place)).collect();
         let first = media[0];
-        let name = |m: u8| self.scene.medium_name(m as usize);
+        let name = |m: u16| self.scene.medium_name(m as usize);
         if let Some(n) = media.iter().position(|m| *m != first) {
             let body = if first == 0 { media[n] } else { first };
             let (body, at) = (name(body), told(pieces[n].place));
@@ -182,7 +182,7 @@ impl Finder<'_> {
     }
 
     /// Whether the surface passes between bodies: all points of the surface of each lie on one side.
-    fn bodies(&self, body: &Body, medium: u8) -> Result<(), String> {
+    fn bodies(&self, body: &Body, medium: u16) -> Result<(), String> {
         let geometry = self.scene.geometry;
         let mut sides = vec![[false; 2]; self.cloud.media.len()];
         for s in &self.cloud.surface {

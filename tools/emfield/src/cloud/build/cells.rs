@@ -29,7 +29,7 @@ pub(crate) fn fill(scene: &Scene, layout: &Layout, columns: &[Column], cloud: &m
             || scene.magnetic(medium)
             || scene.carries(medium)
         {
-            Conductor::new(layout, columns, medium as u8).share_out(cloud, &mut cells);
+            Conductor::new(layout, columns, medium as u16).share_out(cloud, &mut cells);
         }
     }
     cloud.cells = cells;
@@ -41,13 +41,13 @@ type Row = (f64, Vec<(u32, f64, Vector)>);
 /// A medium that conducts.
 struct Conductor<'a> {
     layout: &'a Layout,
-    medium: u8,
+    medium: u16,
     columns: &'a [Column],
     standing: Vec<(Option<usize>, Standing<'a>)>,
 }
 
 impl<'a> Conductor<'a> {
-    fn new(layout: &'a Layout, columns: &'a [Column], medium: u8) -> Self {
+    fn new(layout: &'a Layout, columns: &'a [Column], medium: u16) -> Self {
         let standing = columns
             .chunk_by(|a, b| a.solid == b.solid)
             .map(|group| {
@@ -381,7 +381,7 @@ impl<'a> Conductor<'a> {
 }
 
 /// Whether a point takes a share of a medium.
-fn owns(class: Class, medium: u8) -> bool {
+fn owns(class: Class, medium: u16) -> bool {
     match class {
         Class::Inside(m) | Class::Outer { medium: m, .. } => m == medium,
         Class::Interface { inner, .. } => inner == medium,

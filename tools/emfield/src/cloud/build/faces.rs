@@ -117,10 +117,10 @@ impl Builder {
     }
 
     /// The media that a surface point parts, if it parts any, lies in the domain and is its body's to place.
-    fn parts(&self, seed: &Seed, k: usize) -> Option<[u8; 2]> {
+    fn parts(&self, seed: &Seed, k: usize) -> Option<[u16; 2]> {
         let step = SAME * seed.spacing;
         let sides = [-step, step].map(|s| self.layout.medium(along(seed.place, s, seed.normal)));
-        let own = k as u8 + 1;
+        let own = k as u16 + 1;
         let shared = sides[0] == sides[1] || sides[0] != own;
         let outside = self.layout.depth(seed.place) < 0.3 * seed.spacing
             || self.layout.axisymmetric && seed.place[0] < 0.0;
@@ -131,7 +131,7 @@ impl Builder {
 
     /// Whether the point lies on a face that the body around it places: of two the one with the finer points, or the
     /// first.
-    fn others_face(&self, seed: &Seed, k: usize, around: u8) -> bool {
+    fn others_face(&self, seed: &Seed, k: usize, around: u16) -> bool {
         let Some(other) = (around as usize).checked_sub(1) else {
             return false;
         };
@@ -181,7 +181,7 @@ impl Builder {
     }
 
     /// Gives the area of points that are not placed to the nearest of the same face.
-    fn give(&mut self, crowded: &[(Seed, [u8; 2])], columns: &mut [Column]) {
+    fn give(&mut self, crowded: &[(Seed, [u16; 2])], columns: &mut [Column]) {
         for (seed, media) in crowded {
             let square = |column: &Column| {
                 let away = shapes::frame::difference(column.seed.place, seed.place);
@@ -197,7 +197,7 @@ impl Builder {
         }
     }
 
-    fn interface(&mut self, seed: &Seed, [inner, outer]: [u8; 2]) -> u32 {
+    fn interface(&mut self, seed: &Seed, [inner, outer]: [u16; 2]) -> u32 {
         self.occupied.push(seed.place);
         self.sizes.push(seed.spacing);
         let class = Class::Interface { inner, outer };

@@ -29,7 +29,7 @@ struct Strand {
     from: Vector,
     way: Vector,
     gap: Gap,
-    medium: u8,
+    medium: u16,
     /// Distance to the next one \[m\].
     spacing: f64,
     foot: u32,

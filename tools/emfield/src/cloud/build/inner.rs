@@ -102,7 +102,7 @@ impl Builder {
             })
             .collect();
         let packed = arrangement == Arrangement::Hexagonal;
-        let mut kept: Vec<(Node, u8)> = nodes
+        let mut kept: Vec<(Node, u16)> = nodes
             .par_iter()
             .filter(|node| node.face.is_none())
             .filter_map(|node| Some((*node, self.room(node, &standing)?)))
@@ -116,7 +116,7 @@ impl Builder {
                     && solid.body.distance(node.place) < 0.0
                     && !(self.layout.axisymmetric && node.place[0] < 0.3 * node.spacing);
                 let medium = within.then(|| self.room(node, &standing)).flatten()?;
-                (medium == k as u8 + 1).then_some((*node, medium))
+                (medium == k as u16 + 1).then_some((*node, medium))
             }));
         }
         self.cloud.counts.lattice = kept.len();
@@ -131,7 +131,7 @@ impl Builder {
     }
 
     /// The medium of a node that neither lies within layers nor comes too close to a point placed before.
-    fn room(&self, node: &Node, standing: &[(Option<usize>, Standing<'_>)]) -> Option<u8> {
+    fn room(&self, node: &Node, standing: &[(Option<usize>, Standing<'_>)]) -> Option<u16> {
         let x = node.place;
         for (solid, columns) in standing {
             let (d, normal) = match (solid, &self.layout.wall) {

@@ -52,7 +52,7 @@ pub(crate) struct Column {
     /// The body, or `None` for the wall of the domain.
     pub(crate) solid: Option<usize>,
     /// Media inside and outside.
-    pub(crate) media: [u8; 2],
+    pub(crate) media: [u16; 2],
     /// Numbers and distances of its points inside and outside.
     pub(crate) side: [Vec<(u32, f64)>; 2],
     /// Narrow gaps inside and outside, in place of layers.
@@ -61,7 +61,7 @@ pub(crate) struct Column {
 
 impl Column {
     /// A column without points but that of the surface.
-    pub(crate) fn bare(seed: Seed, point: u32, solid: Option<usize>, media: [u8; 2]) -> Self {
+    pub(crate) fn bare(seed: Seed, point: u32, solid: Option<usize>, media: [u16; 2]) -> Self {
         Self {
             seed,
             point,
@@ -105,7 +105,7 @@ impl Column {
 pub(crate) struct Layered {
     pub(crate) place: Vector,
     pub(crate) normal: Vector,
-    pub(crate) medium: u8,
+    pub(crate) medium: u16,
     pub(crate) across: f64,
     pub(crate) along: f64,
     /// Where its column stands, among those of the cloud.

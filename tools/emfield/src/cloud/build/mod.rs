@@ -251,7 +251,7 @@ impl Builder {
         }
     }
 
-    fn medium_at_wall(&self, seed: &Seed) -> u8 {
+    fn medium_at_wall(&self, seed: &Seed) -> u16 {
         self.layout
             .medium(along(seed.place, -1e-4 * seed.spacing, seed.normal))
     }

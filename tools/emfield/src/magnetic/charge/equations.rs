@@ -125,7 +125,7 @@ impl Coupled {
                 self.drag.push((q as u32, all));
             }
         };
-        let mu_sigma = |m: u8| parts.conductors.mu_sigma[m as usize];
+        let mu_sigma = |m: u16| parts.conductors.mu_sigma[m as usize];
         match parts.region.kinds[i] {
             Kind::Inside(m) => add(Side::Inner, mu_sigma(m)),
             Kind::Wall { .. } => {}
@@ -318,7 +318,7 @@ impl Coupled {
 
 /// Does one side alone conduct at point `i`?
 fn insulated(parts: &Parts<'_>, i: usize) -> bool {
-    let conducts = |m: u8| parts.conductivity[m as usize] > 0.0;
+    let conducts = |m: u16| parts.conductivity[m as usize] > 0.0;
     match parts.region.kinds[i] {
         Kind::Interface(face) => {
             let face = &parts.region.faces[face as usize];
@@ -330,7 +330,7 @@ fn insulated(parts: &Parts<'_>, i: usize) -> bool {
 
 /// `sqrt(mu sigma)` on a surface, with the sign of its row: between conductors as much as charges matter there.
 fn skin(parts: &Parts<'_>, i: usize) -> f64 {
-    let wave = |m: u8| parts.conductors.mu_sigma[m as usize].sqrt();
+    let wave = |m: u16| parts.conductors.mu_sigma[m as usize].sqrt();
     match parts.region.kinds[i] {
         Kind::Inside(_) => 0.0,
         Kind::Wall { medium, .. } => wave(medium),

@@ -189,7 +189,7 @@ impl<const D: usize> Problem<'_, D> {
         if self.in_space().is_none() {
             return lack;
         }
-        let conducts = |m: u8| self.conductors.mu_sigma[m as usize] > 0.0;
+        let conducts = |m: u16| self.conductors.mu_sigma[m as usize] > 0.0;
         for face in &self.region.faces {
             let i = face.point as usize;
             if !conducts(face.inner) || conducts(face.outer) {

@@ -47,7 +47,7 @@ struct Conducting<'a> {
 
 impl Conducting<'_> {
     /// The conductor in which row `i` is made, if there is one.
-    fn medium(&self, i: usize) -> Option<u8> {
+    fn medium(&self, i: usize) -> Option<u16> {
         let found = match (self.region.kinds[i], self.part) {
             (Kind::Inside(m), Part::Within) => m,
             (Kind::Wall { medium, .. }, Part::Inner) => medium,

@@ -22,7 +22,7 @@ use crate::stencils::sides::Sides;
 #[derive(Debug, Clone)]
 pub struct Bar {
     /// Its medium.
-    pub medium: u8,
+    pub medium: u16,
     /// Its net current over its conductivity \[V m\].
     drop: C,
     /// By point: its part of the section, over the whole.
@@ -38,7 +38,7 @@ impl Bar {
     pub fn new<const D: usize>(
         region: &Region<D>,
         weights: &[f64],
-        medium: u8,
+        medium: u16,
         sigma: f64,
         current: C,
     ) -> Self {

@@ -84,7 +84,7 @@ impl Finder<'_> {
         let section = section(&body, BESIDE * spacing, flow, &pieces)?;
         let current = self.currents.rms(coil.current_a * coil.turns);
         Ok(Winding {
-            medium: number as u8 + 1,
+            medium: number as u16 + 1,
             density: C::from_polar(current / section, coil.phase_deg.to_radians()),
             flow,
         })
@@ -99,7 +99,7 @@ impl Finder<'_> {
         pieces: &[Piece],
     ) -> Result<(), String> {
         let name = &self.scene.bodies[number].name;
-        let own = number as u8 + 1;
+        let own = number as u16 + 1;
         for piece in pieces {
             let inside = along(piece.place, -BESIDE * spacing, piece.normal);
             if self.layout.depth(inside) < 0.0 {
@@ -166,12 +166,12 @@ pub(crate) fn bars(
     scene: &Scene,
     currents: &EddyCurrents,
     cloud: &Cloud,
-) -> Result<Vec<(u8, C)>, Fault> {
-    let given = |m: u8| {
+) -> Result<Vec<(u16, C)>, Fault> {
+    let given = |m: u16| {
         let body = (m as usize).checked_sub(1).map(|k| &scene.bodies[k]);
         body.is_some_and(|b| b.net_current_a.is_some())
     };
-    let conducts = |m: u8| scene.medium(m as usize).conductivity_s_m > 0.0;
+    let conducts = |m: u16| scene.medium(m as usize).conductivity_s_m > 0.0;
     for face in &cloud.surface {
         let (a, b) = (face.inner, face.outer);
         if conducts(a) && conducts(b) && (given(a) || given(b)) {
@@ -190,7 +190,7 @@ pub(crate) fn bars(
         if let Some(current) = body.net_current_a {
             let lead = body.net_current_phase_deg.unwrap_or(0.0).to_radians();
             let current = C::from_polar(currents.rms(current), lead);
-            bars.push((k as u8 + 1, current));
+            bars.push((k as u16 + 1, current));
         }
     }
     Ok(bars)

@@ -39,7 +39,7 @@ pub enum Flow {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Winding {
     /// The medium.
-    pub medium: u8,
+    pub medium: u16,
     /// Current density \[A/m2\], rms.
     pub density: C,
     /// Where it flows.
@@ -81,7 +81,7 @@ impl Windings {
         windings: &[Winding],
         weights: &mut [f64],
     ) -> Self {
-        let density = |medium: u8, i: usize| {
+        let density = |medium: u16, i: usize| {
             let mut sum = [ZERO; 3];
             for winding in windings.iter().filter(|w| w.medium == medium) {
                 let here = winding.at(region.raise(region.places[i]));

@@ -72,13 +72,13 @@ impl Permeable {
 
     /// What the slope on the side of a medium is multiplied by at its interfaces.
     #[must_use]
-    pub fn weight(&self, medium: u8) -> f64 {
+    pub fn weight(&self, medium: u16) -> f64 {
         self.reluctivity[medium as usize]
     }
 
     /// Whether a medium differs from the surroundings.
     #[must_use]
-    pub fn differs(&self, medium: u8) -> bool {
+    pub fn differs(&self, medium: u16) -> bool {
         (self.weight(medium) - 1.0).abs() > ALIKE
     }
 

@@ -61,7 +61,7 @@ impl<const D: usize> Problem<'_, D> {
     /// The medium at a point that has a curve of magnetisation.
     fn curved(&self, i: usize) -> usize {
         let own = self.region.medium(i) as usize;
-        let touched = (0..self.parameters.laws.len()).filter(|m| self.region.touches(i, *m as u8));
+        let touched = (0..self.parameters.laws.len()).filter(|m| self.region.touches(i, *m as u16));
         let curved = touched
             .into_iter()
             .find(|m| self.parameters.laws[*m].constant().is_none());

@@ -13,7 +13,7 @@ use crate::stencils::region::Kind;
 impl<const D: usize> Saturation<'_, D> {
     /// Puts `-curl P / nu_0` into the rows of points where currents flow.
     pub(crate) fn flow<const K: usize>(&self, seen: &mut Seen<K>) {
-        let rest = |medium: u8, flux: [f64; 3]| match &self.media[medium as usize] {
+        let rest = |medium: u16, flux: [f64; 3]| match &self.media[medium as usize] {
             Some(medium) => medium.rest(flux),
             None => [0.0; 3],
         };

@@ -61,7 +61,7 @@ pub(crate) struct Medium<'a> {
 /// A point inside such a medium.
 pub(crate) struct Point<const D: usize> {
     pub(crate) number: usize,
-    pub(crate) medium: u8,
+    pub(crate) medium: u16,
     /// Flux density of the sources where their wave is 1 \[T\], and its derivatives along the coordinates.
     pub(crate) source: [f64; 3],
     pub(crate) slopes: [[f64; 3]; D],

@@ -36,7 +36,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
             Law::Curve(curve) => Some(Medium {
                 curve,
                 around: permeable.around(),
-                level: permeable.weight(m as u8),
+                level: permeable.weight(m as u16),
                 conducts: conducts[m],
             }),
         };
@@ -55,7 +55,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
             walls: multipoles.map_or(Vec::new(), |m| m.fields.clone()),
             slots: Vec::new(),
         };
-        let curved = |m: u8| made.media[m as usize].is_some();
+        let curved = |m: u16| made.media[m as usize].is_some();
         let point = |number: usize| match region.kinds[number] {
             Kind::Inside(m) if curved(m) => Some(made.point(number, m, source, multipoles)),
             _ => None,
@@ -80,7 +80,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
     fn point(
         &self,
         number: usize,
-        medium: u8,
+        medium: u16,
         source: &Source,
         multipoles: Option<&Multipoles>,
     ) -> Point<D> {
@@ -107,7 +107,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
     }
 
     /// Whether currents flow at a point inside a medium, the neighbours of which are inside it or on its interfaces.
-    fn flows(&self, number: usize, medium: u8) -> bool {
+    fn flows(&self, number: usize, medium: u16) -> bool {
         let conducts = self.media[medium as usize]
             .as_ref()
             .is_some_and(|m| m.conducts);

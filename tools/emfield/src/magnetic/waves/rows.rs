@@ -111,7 +111,7 @@ impl<const D: usize> Ground<'_, D> {
         &self,
         waves: &Waves,
         face: &Face<D>,
-        medium: u8,
+        medium: u16,
         way: [f64; D],
         part: f64,
     ) -> Option<Vec<(u32, C)>> {

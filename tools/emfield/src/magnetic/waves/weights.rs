@@ -174,9 +174,9 @@ impl Waves {
         conductors: &Conductors,
         region: &Region<D>,
         omega: f64,
-        serves: impl Fn(u8) -> bool,
+        serves: impl Fn(u16) -> bool,
     ) -> Option<Self> {
-        let square = |(m, mu_sigma): (usize, &f64)| match serves(m as u8) {
+        let square = |(m, mu_sigma): (usize, &f64)| match serves(m as u16) {
             true => C::new(0.0, omega * mu_sigma),
             false => C::new(0.0, 0.0),
         };
@@ -190,7 +190,7 @@ impl Waves {
         &self,
         region: &Region<D>,
         i: usize,
-        medium: u8,
+        medium: u16,
         base: &[(usize, f64)],
         target: Target,
     ) -> Option<Vec<(u32, C)>> {
@@ -212,7 +212,7 @@ impl Waves {
         &self,
         region: &Region<D>,
         i: usize,
-        medium: u8,
+        medium: u16,
         stencils: &Stencils<D>,
         field: impl Fn(usize) -> C,
     ) -> Option<[C; D]> {
