@@ -89,6 +89,45 @@ fn what_lies_on_held_metal_flows_over_its_edge_and_sliding_liquid_goes_farther()
     assert!(sticks > 9e-3 && slides > sticks + 1e-3, "{sticks} {slides}");
 }
 
+/// A drop of five spacings of radius, set down on a cold plate without gravity.
+fn drop(sticks: &str) -> Value {
+    json!({
+        "kind": "poolsph.scene", "version": 1, "title": "A drop on a cold plate", "spacing_m": 5e-4,
+        "time": {"step_s": 1e-4, "end_s": 0.03}, "density_kg_m3": 7850,
+        "bodies": [{"shape": {"box": {"min_m": [-6e-3, -6e-3, -1.5e-3], "max_m": [6e-3, 6e-3, 0]}},
+            "state": "solid", "temperature_k": 300},
+            {"shape": {"sphere": {"centre_m": [0, 0, 2.5e-3], "radius_m": 2.5e-3}},
+            "state": "liquid", "velocity_m_s": [0, 0, -0.05], "temperature_k": 2600}],
+        "flow": {"viscosity_pa_s": 0.004, "on_cold_metal": sticks},
+        "tension": {"surface_tension_n_m": 1.0},
+        "heat": {"thermal_conductivity_w_m_k": 34, "specific_heat_j_kg_k": 750,
+            "melting": {"point_k": 1750, "latent_heat_j_kg": 250e3}},
+        "output": {"particles_interval_s": 0.03}
+    })
+}
+
+#[test]
+fn the_edge_of_a_drop_is_arrested_on_a_cold_plate() {
+    let folder = tempfile::tempdir().unwrap();
+    let radius = |sticks: &str| {
+        let frame = last(
+            &drop(sticks),
+            &folder.path().join(sticks).with_extension("mcap"),
+            &[],
+        );
+        let [x, y, z] = ["x", "y", "z"].map(|name| numbers(&frame, name));
+        let plate = 24 * 24 * 3;
+        let lowest = (plate..x.len()).filter(|a| z[*a] < 5e-4);
+        // Half a spacing more than the outermost middles.
+        let far = lowest.map(|a| x[a].hypot(y[a])).fold(0.0_f64, f64::max);
+        (far + 2.5e-4) / 2.5e-3
+    };
+    let (sticks, slides) = (radius("sticks"), radius("slides"));
+    // Wider than it was, and no wider than half a ball, which meets the plate at a right angle.
+    assert!(sticks > 0.5 && sticks < 2.0_f64.cbrt() + 0.1, "{sticks}");
+    assert!(slides > 1.7, "{slides}");
+}
+
 #[test]
 fn threads_change_no_bit() {
     let folder = tempfile::tempdir().unwrap();

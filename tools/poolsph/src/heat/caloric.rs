@@ -125,6 +125,15 @@ impl Caloric {
         }
     }
 
+    /// What metal of this enthalpy lacks to begin to melt, over its latent heat: the Stefan number of a solid; zero where it does
+    /// not melt.
+    #[must_use]
+    #[inline]
+    pub fn stefan(&self, enthalpy: f64) -> f64 {
+        self.melting
+            .map_or(0.0, |m| ((m.solidus - enthalpy) / m.latent_heat).max(0.0))
+    }
+
     /// True from half of the latent heat on.
     #[must_use]
     #[inline]

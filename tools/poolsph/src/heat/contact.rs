@@ -12,8 +12,10 @@
 //! Of the flow this takes at most one layer of particles, less as these become finer. What is held keeps its heat, and
 //! flows again as soon as the metal beneath it is warm.
 
+use particles::Set;
+
 use crate::near::{Near, Role};
-use crate::state::{ENTHALPY, State, TEMPERATURE, WALL, marked};
+use crate::state::{ENTHALPY, TEMPERATURE, WALL, marked};
 use crate::vector::{minus, squared};
 
 use super::caloric::Caloric;
@@ -21,28 +23,29 @@ use super::caloric::Caloric;
 /// Distance in spacings up to which particles touch: between the first and the second neighbours of a lattice.
 const TOUCHING: f64 = 1.2;
 
+/// Stefan numbers of a solid, what it lacks to melt over the latent heat, up to which its liquid wets it, and from which on it does not.
+const DRY: [f64; 2] = [0.5, 1.0];
+
 /// Which particles freeze on contact, with its scratch.
 #[derive(Debug, Default)]
 pub(super) struct Contact {
     /// Of each member of [`Near`].
     cold: Vec<bool>,
+    /// Of each member that its liquid touches: how little it would wet it.
+    chilled: Vec<f64>,
 }
 
 impl Contact {
-    /// Looks at all molten particles among the members of `state.near`.
-    pub(super) fn look(&mut self, state: &State, caloric: &Caloric) {
-        let near = &state.near;
+    /// Looks at all molten particles among the members of `near`, and at the solid ones beside them.
+    pub(super) fn look(&mut self, near: &mut Near, metal: &Set, caloric: &Caloric) {
         self.cold.clear();
         self.cold.resize(near.len(), false);
         let Some(point) = caloric.melting_point() else {
             return;
         };
-        let (enthalpy, temperature) = (
-            state.metal.column(&ENTHALPY),
-            state.metal.column(&TEMPERATURE),
-        );
-        let wall = state.metal.column(&WALL);
-        let reach = (TOUCHING * state.metal.matter.spacing).powi(2);
+        let (enthalpy, temperature) = (metal.column(&ENTHALPY), metal.column(&TEMPERATURE));
+        let wall = metal.column(&WALL);
+        let reach = (TOUCHING * metal.matter.spacing).powi(2);
         let molten = |id: usize| caloric.is_liquid(enthalpy[id]);
         near.each_row(&mut self.cold, |a, row, cold| {
             let id = near.id[a] as usize;
@@ -58,6 +61,41 @@ impl Contact {
             };
             *cold = row.index.iter().any(|b| chills(*b as usize));
         });
+        self.dry(near, metal, caloric);
+    }
+
+    /// Finds how little each solid member of `near` is wetted: bare cold ones beside cold ones that are touched.
+    fn dry(&mut self, near: &mut Near, metal: &Set, caloric: &Caloric) {
+        let (enthalpy, wall) = (metal.column(&ENTHALPY), metal.column(&WALL));
+        let reach = (TOUCHING * metal.matter.spacing).powi(2);
+        let molten = |b: &u32| caloric.is_liquid(enthalpy[near.id[*b as usize] as usize]);
+        self.chilled.clear();
+        self.chilled.resize(near.len(), 0.0);
+        near.each_row(&mut self.chilled, |a, row, chilled| {
+            let id = near.id[a] as usize;
+            let touched = |b: &u32| {
+                let apart = minus(near.position[a], near.position[*b as usize]);
+                molten(b) && squared(apart) < reach
+            };
+            if !marked(wall, id) && row.index.iter().any(touched) {
+                *chilled = within(caloric.stefan(enthalpy[id]));
+            }
+        });
+        let chilled = &self.chilled;
+        let mut dry = std::mem::take(&mut near.dry);
+        dry.resize(near.len(), 0.0);
+        near.each_row(&mut dry, |a, row, dry| {
+            let id = near.id[a] as usize;
+            let own = within(caloric.stefan(enthalpy[id]));
+            let beside = |b: &u32| chilled[near.images().original(*b as usize)] > 0.0;
+            let bare = chilled[a] <= 0.0 && !marked(wall, id);
+            *dry = if bare && row.index.iter().any(beside) {
+                own
+            } else {
+                0.0
+            };
+        });
+        near.dry = dry;
     }
 
     /// Whether the particle `id` freezes to what it touches.
@@ -67,8 +105,14 @@ impl Contact {
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.cold.capacity()
+        self.cold.capacity() + 8 * self.chilled.capacity()
     }
+}
+
+/// How little metal of this Stefan number is wetted.
+fn within(stefan: f64) -> f64 {
+    let [from, to] = DRY;
+    ((stefan - from) / (to - from)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -81,7 +125,7 @@ mod tests {
     use crate::heat::Phase;
     use crate::heat::caloric::tests::steel;
     use crate::stage::Stage;
-    use crate::state::{PHASE, Particle, VELOCITY, phase};
+    use crate::state::{PHASE, Particle, State, VELOCITY, phase};
 
     const METAL: Matter = Matter {
         density: 7850.0,
@@ -156,6 +200,35 @@ mod tests {
         for (plate, held) in [(point - 400.0, 16), (point - 200.0, 0)] {
             let (mut state, mut phase) = sliding(point + 300.0, plate, true);
             assert_eq!(stepped(&mut state, &mut phase), [32 - held, held]);
+        }
+    }
+
+    #[test]
+    fn bare_cold_metal_beside_liquid_is_dry() {
+        let lacks = |kelvin: f64| {
+            let (mut state, mut phase) = sliding(2100.0, kelvin, true);
+            stepped(&mut state, &mut phase);
+            let near = &state.near;
+            // Of the upper layer of the plate: beneath the liquid, and one and three cells beside it.
+            [4.5, 1.5, 7.5].map(|x| {
+                let at = |a: &usize| {
+                    let [p, q, r] = near.position[*a].map(|x| x / METAL.spacing);
+                    (p - x).abs() < 0.1 && (q - 2.5).abs() < 0.1 && (r + 0.5).abs() < 0.1
+                };
+                (0..near.len()).find(at).map(|a| near.dry[a])
+            })
+        };
+        let caloric = steel();
+        for kelvin in [300.0, 1500.0, 1700.0] {
+            let stefan = caloric.stefan(caloric.enthalpy(kelvin));
+            let exact = ((stefan - 0.5) / 0.5).clamp(0.0, 1.0);
+            let [beneath, beside, farther] = lacks(kelvin);
+            assert_eq!(beneath, Some(0.0));
+            assert!(
+                (beside.unwrap() - exact).abs() < 1e-12,
+                "{beside:?} {exact}"
+            );
+            assert!(farther.unwrap_or(0.0) <= 0.0);
         }
     }
 

@@ -95,7 +95,7 @@ impl Stage for Phase {
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
         (self.liquid, self.held) = (0, 0);
         if let Some(contact) = &mut self.contact {
-            contact.look(state, &self.caloric);
+            contact.look(&mut state.near, &state.metal, &self.caloric);
         }
         let (mut phases, mut fused) = (state.metal.take(&PHASE), state.metal.take(&FUSED));
         let mut velocities = state.metal.take(&VELOCITY);

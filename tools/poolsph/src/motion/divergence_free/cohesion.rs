@@ -100,7 +100,7 @@ impl Cohesion {
                 let gamma = if flows {
                     0.5 * (near.tension[a] + near.tension[of])
                 } else {
-                    near.tension[a]
+                    near.tension[a] * (1.0 - near.dry.get(of).copied().unwrap_or(0.0))
                 };
                 let far = square.sqrt();
                 let apart = dot(minus(near.velocity[b], near.velocity[a]), way) / far;

@@ -80,6 +80,9 @@ pub struct Near {
     /// Share of the room around each liquid particle that grains take, `[m]`; empty without. Empty after gathering, a stage of grains
     /// may fill it.
     pub taken: Vec<f64>,
+    /// How little the liquid wets each solid particle, 0 to 1, `[m]`; empty where it wets all. Empty after gathering, the melting may
+    /// fill it.
+    pub dry: Vec<f64>,
     /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
     /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
     pub virial: Vec<f64>,
@@ -127,6 +130,7 @@ impl Near {
             outer: Vec::new(),
             tension: Vec::new(),
             taken: Vec::new(),
+            dry: Vec::new(),
             virial: Vec::new(),
             number: Vec::new(),
             gradient: Vec::new(),
@@ -174,7 +178,10 @@ impl Near {
             .pairs
             .iter()
             .map(|chunk| 8 * chunk.value.capacity() + 4 * chunk.slope.capacity());
-        (4 + 1 + 3 * 8 + 4 * 24) * self.id.capacity() + self.lists.bytes() + pairs.sum::<usize>()
+        (4 + 1 + 3 * 8 + 4 * 24) * self.id.capacity()
+            + self.lists.bytes()
+            + pairs.sum::<usize>()
+            + 8 * self.dry.capacity()
     }
 
     /// Collects members, sorts them by cell and finds their neighbours.
@@ -220,6 +227,7 @@ impl Near {
         self.outer.clear();
         self.tension.clear();
         self.taken.clear();
+        self.dry.clear();
         self.virial.clear();
         self.virial.resize(self.len, 0.0);
         if state.faces.any() {

@@ -25,7 +25,7 @@ pub use self::quadric::{Sample, Shape, shape};
 use super::depth::Depth;
 use crate::faces::Images;
 use crate::near::{Near, Role};
-use crate::vector::{plus, squared};
+use crate::vector::{minus, plus, squared};
 
 /// Distance up to which places are fitted, in smoothing lengths.
 const REACH: f64 = 3.0;
@@ -119,9 +119,14 @@ impl Curvature {
         let volume = self.volume;
         self.gradient.clear();
         self.gradient.extend_from_slice(&near.gradient);
-        if let Some(askew) = &mut self.askew {
+        if self.askew.is_some() || !near.dry.is_empty() {
             self.number.clone_from(&near.number);
+        }
+        if let Some(askew) = &mut self.askew {
             askew.correct(near, &mut self.number, &mut self.gradient);
+        }
+        if !near.dry.is_empty() {
+            self.bare(near);
         }
         for gradient in &mut self.gradient {
             *gradient = gradient.map(|x| volume * x);
@@ -143,6 +148,29 @@ impl Curvature {
         });
     }
 
+    /// Takes what the liquid does not wet out of the sums of W and grad W: to its surface that is no metal.
+    fn bare(&mut self, near: &Near) {
+        let kernel = &near.kernel;
+        let mut sums: Vec<[f64; 4]> = vec![[0.0; 4]; near.len()];
+        near.each_row(&mut sums, |a, row, sums| {
+            for b in row.index.iter().map(|b| *b as usize) {
+                let dry = near.dry[near.images().original(b)];
+                if dry > 0.0 {
+                    let way = minus(near.position[a], near.position[b]);
+                    let sample = kernel.sample(squared(way).sqrt());
+                    let [x, y, z] = way.map(|x| dry * sample.slope * x);
+                    let more = [dry * sample.value, x, y, z];
+                    *sums = std::array::from_fn(|i| sums[i] + more[i]);
+                }
+            }
+        });
+        let rows = self.number.iter_mut().zip(&mut self.gradient).zip(sums);
+        for ((number, gradient), [value, x, y, z]) in rows {
+            *number -= value;
+            *gradient = minus(*gradient, [x, y, z]);
+        }
+    }
+
     /// What the particles along the surface tell of it.
     fn sample(&mut self, near: &Near) {
         let [from, to] = STEEP;
@@ -150,7 +178,7 @@ impl Curvature {
         self.members.clear();
         self.places.clear();
         self.samples.clear();
-        let number = if self.askew.is_some() {
+        let number = if self.askew.is_some() || !near.dry.is_empty() {
             &self.number
         } else {
             &near.number
@@ -159,7 +187,8 @@ impl Curvature {
             let (slope, turned) = (squared(self.gradient[a]).sqrt(), self.turned[a]);
             let steep = slope * self.smoothing_length;
             let size = squared(turned).sqrt();
-            if near.role[a] == Role::Backing || steep <= from || size <= 0.0 {
+            let wetted = 1.0 - near.dry.get(a).copied().unwrap_or(0.0);
+            if near.role[a] == Role::Backing || steep <= from || size <= 0.0 || wetted <= 0.0 {
                 continue;
             }
             let colour = self.volume * number.max(own);
@@ -174,7 +203,7 @@ impl Curvature {
             self.samples.push(Sample {
                 place,
                 normal,
-                trust: ((steep - from) / (to - from)).min(1.0),
+                trust: wetted * ((steep - from) / (to - from)).min(1.0),
             });
         }
     }

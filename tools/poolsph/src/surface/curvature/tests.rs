@@ -291,3 +291,56 @@ fn a_cap_on_a_mirror_has_the_curvature_of_its_ball() {
         }
     }
 }
+
+/// Means of the curvature at the foot of a hemisphere of the radius 8 on solid metal, within its lowest layer, of which the
+/// liquid does not wet the part `dry`; and near its top.
+fn on_solid(dry: f64) -> [f64; 2] {
+    let metal = Matter {
+        density: 7850.0,
+        spacing: 1.0,
+        smoothing_length: 1.0,
+    };
+    let mut state = State::new(metal);
+    state.flowing = true;
+    let cap = |x: [f64; 3]| squared(x) < 64.0 && x[2] > 0.0;
+    let cloud = lattice(14, |x| cap(x) || (x[2] < 0.0 && x[2] > -4.0));
+    for x in &cloud {
+        state.push(Particle {
+            position: *x,
+            velocity: [0.0; 3],
+            phase: if cap(*x) { phase::LIQUID } else { phase::SOLID },
+            droplet: false,
+            wall: false,
+            temperature: 0.0,
+            enthalpy: 0.0,
+        });
+    }
+    state.gather();
+    if dry > 0.0 {
+        let of = |role: &Role| f64::from(u8::from(!role.flows())) * dry;
+        state.near.dry = state.near.role.iter().map(of).collect();
+    }
+    let mut curvature = Curvature::new(metal);
+    curvature.measure(&state.near);
+    [[0.0, 1.0], [6.0, 9.0]].map(|[from, to]| {
+        let places = state.near.position.iter().zip(&curvature.mean);
+        let between = places.filter(|(x, _)| x[2] > from && x[2] < to);
+        let known: Vec<f64> = between.filter_map(|(_, kappa)| *kappa).collect();
+        known.iter().sum::<f64>() / known.len() as f64
+    })
+}
+
+#[test]
+fn metal_that_is_not_wetted_does_not_draw_the_edge_of_a_drop_outwards() {
+    let [wet, half, dry] = [0.0, 0.5, 1.0].map(on_solid);
+    // A wetted plate makes the foot hollow; where it is no metal to the surface, the foot bulges as the edge of a drop does.
+    assert!(wet[0] < 0.0, "{wet:?}");
+    assert!(
+        half[0] > wet[0] && dry[0] > half[0],
+        "{wet:?} {half:?} {dry:?}"
+    );
+    assert!(dry[0] > 0.25, "{dry:?}");
+    for [_, top] in [wet, half, dry] {
+        assert!((top / 0.25 - 1.0).abs() < 0.1, "{top}");
+    }
+}
