@@ -19,7 +19,7 @@ use self::parts::{Parts, Room};
 use crate::domain::bodies::{Body, Filled};
 use crate::domain::bounds::Bounds;
 use crate::domain::droplet::{Droplets, Wire};
-use crate::domain::fitting::fitting;
+use crate::domain::fitting::{along_heat_faces, fitting};
 use crate::faces::{self, Faces};
 use crate::forces::arc_pressure::ArcPressure;
 use crate::forces::buoyancy::Buoyancy;
@@ -96,6 +96,14 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     )?;
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
+    if let Some(heat) = &scene.heat {
+        let (mirrors, open) = heat.planes();
+        let named = mirrors.into_iter().map(|plane| ("mirror", plane));
+        let named: Vec<_> = named
+            .chain(open.into_iter().map(|plane| ("open", plane)))
+            .collect();
+        along_heat_faces(&state, &named).map_err(|fault| fault.within("/heat/faces"))?;
+    }
     let grains = match &scene.grains {
         Some(grains) => Some(source.grains(grains, inputs, &state)?),
         None => None,

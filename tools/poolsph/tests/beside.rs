@@ -21,10 +21,16 @@ fn said(output: &Output) -> String {
 }
 
 fn finished(scene: &Value, out: &Path, more: &[&str]) -> Vec<u8> {
+    ended(scene, out, more, 0)
+}
+
+/// Runs a scene that ends with an exit code.
+fn ended(scene: &Value, out: &Path, more: &[&str], code: i32) -> Vec<u8> {
     let path = out.with_extension("scene.json");
     std::fs::write(&path, scene.to_string()).unwrap();
     let output = command(&path, out, more).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    assert_eq!(output.status.code(), Some(code), "{}", said(&output));
+    assert_eq!(code == 3, said(&output).contains("have left the bounds"));
     std::fs::read(out).unwrap()
 }
 
@@ -191,7 +197,8 @@ fn an_interrupted_run_ends_in_the_same_bytes() {
     scene["time"]["end_s"] = json!(0.06);
     scene["grains"]["bounds"] = json!({"min_m": [-1, -1, -1], "max_m": [1, 1, 2.9e-3]});
     scene["output"]["heat_received"] = json!(true);
-    let whole = finished(&scene, &folder.path().join("whole.mcap"), &[]);
+    // The upper grains leave, and their heat.
+    let whole = ended(&scene, &folder.path().join("whole.mcap"), &[], 3);
     let (path, out) = (
         folder.path().join("broken.scene.json"),
         folder.path().join("broken.mcap"),
@@ -211,7 +218,7 @@ fn an_interrupted_run_ends_in_the_same_bytes() {
         None,
         "the run must be killed before its end"
     );
-    let resumed = finished(&scene, &out, &["--resume"]);
+    let resumed = ended(&scene, &out, &["--resume"], 3);
     assert!(whole == resumed, "the resumed run differs");
 }
 

@@ -3,6 +3,7 @@
 use particles::POSITION;
 use run::Fault;
 
+use crate::rest::Plane;
 use crate::state::State;
 
 /// A first layer that is off its place by more than this part of a spacing does not end at the face.
@@ -73,6 +74,37 @@ pub fn fitting(state: &State) -> Result<(), Fault> {
                 return Err(Fault::at(&format!("/max_m/{axis}"), what));
             }
         }
+    }
+    Ok(())
+}
+
+/// Checks that metal stands along the faces of the plate that heat knows: `planes` with the key that names each.
+///
+/// # Errors
+/// A fault that names the face.
+pub fn along_heat_faces(state: &State, planes: &[(&str, Plane)]) -> Result<(), Fault> {
+    let d = state.metal.matter.spacing;
+    let places = state.metal.column(&POSITION);
+    for (key, plane) in planes {
+        let depth = |x: &[f64; 3]| plane.outward * (plane.at - x[plane.axis]) / d;
+        let beside = |x: &[f64; 3]| (-OFF..=1.0 + OFF).contains(&depth(x));
+        if state.is_empty() || places.iter().any(beside) {
+            continue;
+        }
+        let ends = places.iter().map(|x| plane.outward * x[plane.axis]);
+        let edge = plane.outward * (ends.fold(f64::NEG_INFINITY, f64::max) + 0.5 * d);
+        let what = format!(
+            "{} m of the {key} face '{}{}' has no metal beside it: the bodies end at {edge} m",
+            plane.at,
+            ["x", "y", "z"][plane.axis],
+            if plane.outward > 0.0 { '+' } else { '-' }
+        );
+        let corner = if plane.outward > 0.0 {
+            "max_m"
+        } else {
+            "min_m"
+        };
+        return Err(Fault::at(&format!("/{corner}/{}", plane.axis), what));
     }
     Ok(())
 }

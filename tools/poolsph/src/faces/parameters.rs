@@ -210,7 +210,9 @@ impl WallParameters {
         let key = format!("{at}/temperature_k");
         let temperature: Option<Curve> = match (&self.temperature_k, heat) {
             (None, _) => None,
-            (Some(property), true) => Some(property.compile(&key, &["x", "y", "z", "t"])?),
+            (Some(property), true) => {
+                Some(property.compile_temperature(&key, &["x", "y", "z", "t"])?)
+            }
             (Some(_), false) => {
                 return Err(Fault::at(&key, "means nothing without the key 'heat'"));
             }

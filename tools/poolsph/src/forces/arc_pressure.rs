@@ -60,17 +60,17 @@ pub enum Pressure {
 }
 
 impl Pressure {
-    /// The pressure at the distance `r` \[m\] \[Pa\].
-    fn at(&self, r: f64, time: f64, dt: f64) -> Result<f64, StageError> {
+    /// The mean pressure at the distance `r` \[m\] \[Pa\], and whether all of it was found.
+    fn at(&self, r: f64, time: f64, dt: f64) -> Result<(f64, bool), StageError> {
         match self {
-            Self::Table(table) => Ok(table.at(r)),
+            Self::Table(table) => Ok((table.at(r), true)),
             Self::Formula(curve) => {
                 let at = Arguments {
                     r,
                     time,
                     ..Arguments::default()
                 };
-                let mean = curve.mean_in_time(&at, dt).map(|(mean, _)| mean);
+                let mean = curve.mean_in_time(&at, dt);
                 mean.map_err(|fault| StageError::Data(format!("pressure of the arc: {fault}")))
             }
         }
@@ -87,6 +87,8 @@ pub struct ArcPressure {
     /// The pressure is a condition at the surface, not a force.
     bound: bool,
     pressed: f64,
+    /// Whether something of a pressure that varies in time may have been missed.
+    missed: bool,
 }
 
 impl ArcPressure {
@@ -99,20 +101,22 @@ impl ArcPressure {
             volume: metal.volume(),
             bound,
             pressed: 0.0,
+            missed: false,
         }
     }
 }
 
 impl ArcPressure {
-    /// The pressure of all arcs at a place \[Pa\].
-    fn above(&self, x: [f64; 3], time: f64, dt: f64) -> Result<f64, StageError> {
-        let mut sum = 0.0;
+    /// The pressure of all arcs at a place \[Pa\], and whether all of it was found.
+    fn above(&self, x: [f64; 3], time: f64, dt: f64) -> Result<(f64, bool), StageError> {
+        let (mut sum, mut all) = (0.0, true);
         for ((pressure, _), (axis, level)) in self.arcs.iter().zip(&self.stands) {
             if *level > 0.0 {
-                sum += level * pressure.at(axis.around(x).0, time, dt)?;
+                let (mean, found) = pressure.at(axis.around(x).0, time, dt)?;
+                (sum, all) = (sum + level * mean, all && found);
             }
         }
-        Ok(sum)
+        Ok((sum, all))
     }
 }
 
@@ -138,10 +142,15 @@ impl Stage for ArcPressure {
         if self.bound {
             near.outer.resize(near.len(), 0.0);
         }
+        let mut missed = false;
         for k in 0..near.len() {
             let patch = surface.at(near.id[k] as usize);
             let x = near.position[k];
-            let pressure = |x| self.above(x, state.time, dt);
+            let mut pressure = |x| {
+                let (mean, found) = self.above(x, state.time, dt)?;
+                missed |= !found;
+                Ok::<f64, StageError>(mean)
+            };
             if self.bound && near.role[k] == Role::Liquid {
                 // What lies hidden is reached as far as its surface is; hollows inside have no surface.
                 let hidden = patch.area > 0.0 && patch.seen <= 0.0;
@@ -165,7 +174,21 @@ impl Stage for ArcPressure {
             );
             self.pressed += down;
         }
+        self.missed |= missed;
         Ok(())
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let missed = "pressure_pa of the arc changes faster in time than could be followed: impulse may be missed";
+        self.missed.then(|| missed.to_owned()).into_iter().collect()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        vec![f64::from(u8::from(self.missed))]
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.missed = saved.first().is_some_and(|missed| *missed > 0.0);
     }
 
     fn figures(&self) -> Vec<Figure> {

@@ -60,6 +60,7 @@ fn liquid(half: [i32; 3], axis: f64, inside: impl Fn([f64; 3]) -> bool) -> State
     state.flowing = true;
     state.source = Some(Place {
         position: [axis, 0.0, 0.0],
+        way: [0.0; 3],
         phase: 0.0,
         droplets: 0,
     });

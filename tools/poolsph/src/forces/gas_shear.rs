@@ -66,9 +66,11 @@ impl GasShear {
         viscosity: Law,
         metal: Matter,
     ) -> Result<Self, Fault> {
-        let gas_viscosity = parameters
-            .gas_viscosity_pa_s
-            .compile("/gas_viscosity_pa_s", &["T"])?;
+        let gas_viscosity = parameters.gas_viscosity_pa_s.compile_positive(
+            "/gas_viscosity_pa_s",
+            &["T"],
+            "Pa s",
+        )?;
         Ok(Self {
             arcs,
             gas_viscosity,

@@ -30,6 +30,8 @@ pub struct Parameters {
 pub struct SurfaceStress {
     stress: [Curve; 3],
     volume: f64,
+    /// Whether something of a stress that varies in time may have been missed.
+    missed: bool,
 }
 
 impl SurfaceStress {
@@ -45,18 +47,21 @@ impl SurfaceStress {
         Ok(Self {
             stress: [compiled(0)?, compiled(1)?, compiled(2)?],
             volume: metal.volume(),
+            missed: false,
         })
     }
 
-    fn at(&self, x: [f64; 3], time: f64) -> Result<[f64; 3], StageError> {
+    /// Its mean at a place from a time on over `dt` \[s\], and whether all of it was found.
+    fn at(&self, x: [f64; 3], time: f64, dt: f64) -> Result<([f64; 3], bool), StageError> {
         let at = Arguments::at(x, time);
-        let mut stress = [0.0; 3];
+        let (mut stress, mut all) = ([0.0; 3], true);
         for (component, curve) in stress.iter_mut().zip(&self.stress) {
-            *component = curve
-                .value(&at)
+            let (mean, found) = curve
+                .mean_in_time(&at, dt)
                 .map_err(|fault| StageError::Data(format!("stress on the surface: {fault}")))?;
+            (*component, all) = (mean, all && found);
         }
-        Ok(stress)
+        Ok((stress, all))
     }
 }
 
@@ -69,7 +74,7 @@ impl Stage for SurfaceStress {
         patch::declare(&mut state.metal);
     }
 
-    fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
+    fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let (near, surface) = (&mut state.near, Patches::of(&state.metal));
         for k in 0..near.len() {
             let a = near.id[k] as usize;
@@ -77,11 +82,26 @@ impl Stage for SurfaceStress {
                 continue;
             }
             let patch = surface.at(a);
-            let stress = self.at(patch.foot(near.position[k]), state.time)?;
+            let (stress, found) = self.at(patch.foot(near.position[k]), state.time, dt)?;
+            self.missed |= !found;
             let along = plus(stress, -dot(stress, patch.normal), patch.normal);
             near.force[k] = plus(near.force[k], patch.area / self.volume, along);
         }
         Ok(())
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let missed =
+            "stress_pa changes faster in time than could be followed: impulse may be missed";
+        self.missed.then(|| missed.to_owned()).into_iter().collect()
+    }
+
+    fn save(&self) -> Vec<f64> {
+        vec![f64::from(u8::from(self.missed))]
+    }
+
+    fn restore(&mut self, saved: &[f64]) {
+        self.missed = saved.first().is_some_and(|missed| *missed > 0.0);
     }
 }
 
@@ -101,10 +121,27 @@ mod tests {
         stage.advance(&mut state, 1e-4).unwrap();
         let area: f64 = Patches::of(&state.metal).area.iter().sum();
         let volume = state.metal.matter.volume();
-        for (k, expected) in [3.0, -2.0, 0.0].into_iter().enumerate() {
+        // The mean over the step.
+        for (k, expected) in [3.0, -2.0 + 0.5e-4, 0.0].into_iter().enumerate() {
             let total: f64 = state.near.force.iter().map(|f| f[k] * volume).sum();
             assert!((total - expected * area).abs() < 1e-12 * area, "{total}");
         }
+    }
+
+    #[test]
+    fn a_stress_that_turns_within_a_step_acts_with_its_mean() {
+        let mut state = pool(|_| 1800.0);
+        let d = state.metal.matter.spacing;
+        on_top(&mut state, d * d);
+        let text = r#"{"stress_pa": [{"expr": "3 + 50*cos(2*pi*1000*t)"}, 0, 0]}"#;
+        let parameters: Parameters = serde_json::from_str(text).unwrap();
+        let mut stage = SurfaceStress::new(&parameters, state.metal.matter).unwrap();
+        stage.advance(&mut state, 1e-3).unwrap();
+        let area: f64 = Patches::of(&state.metal).area.iter().sum();
+        let volume = state.metal.matter.volume();
+        let total: f64 = state.near.force.iter().map(|f| f[0] * volume).sum();
+        assert!((total - 3.0 * area).abs() < 1e-2 * area, "{total}");
+        assert!(stage.warnings().is_empty());
     }
 
     #[test]

@@ -21,6 +21,7 @@ pub(crate) fn pool(temperature: impl Fn([f64; 3]) -> f64) -> State {
     state.flowing = true;
     state.source = Some(Place {
         position: [0.0; 3],
+        way: [0.0; 3],
         phase: 0.0,
         droplets: 0,
     });

@@ -288,7 +288,7 @@ impl Heat {
         dt: f64,
     ) -> Result<(), StageError> {
         let mut march = || -> Result<(), OutOfRange> {
-            self.lighting.fall(around.walls.lit(), state.time)?;
+            self.lighting.fall(around.walls.lit(), [state.time, dt])?;
             let Some(slow) = self.slow.as_mut() else {
                 return self.pass(set, state, &mut around, Pass::Every, dt);
             };
@@ -360,17 +360,17 @@ impl Heat {
     }
 
     /// Sums, the longest step and the time of a long one, for a checkpoint.
-    pub(super) fn saved(&self) -> [f64; 8] {
-        let [taken, given, through, left] = self.lighting.sums;
-        let own = [self.brought, self.limit, self.boiled];
+    pub(super) fn saved(&self) -> [f64; 9] {
         let waited = self.slow.as_ref().map_or(0.0, |slow| slow.waited);
-        [own[0], own[1], own[2], waited, taken, given, through, left]
+        let [a, b, c, d, e] = self.lighting.saved();
+        let (brought, limit, boiled) = (self.brought, self.limit, self.boiled);
+        [brought, limit, boiled, waited, a, b, c, d, e]
     }
 
     /// Takes back what [`Heat::saved`] gave.
-    pub(super) fn take_back(&mut self, [brought, limit, boiled, waited, sums @ ..]: [f64; 8]) {
+    pub(super) fn take_back(&mut self, [brought, limit, boiled, waited, light @ ..]: [f64; 9]) {
         (self.brought, self.limit, self.boiled) = (brought, limit, boiled);
-        self.lighting.sums = sums;
+        self.lighting.take_back(light);
         if let Some(slow) = &mut self.slow {
             slow.waited = waited;
         }

@@ -94,6 +94,8 @@ pub(super) struct Lighting {
     lit: Vec<Lit>,
     /// Light that falls on grains, and where there are none \[W\].
     falls: [f64; 2],
+    /// Whether something of a light that varies in time may have been missed.
+    pub(super) missed: bool,
     /// Taken up, given off, fallen where no grain is, and not taken up \[J\].
     pub(super) sums: [f64; 4],
 }
@@ -107,16 +109,35 @@ impl Lighting {
         }
     }
 
-    /// Finds what falls on whom at `time` \[s\].
+    /// What a checkpoint keeps.
+    pub(super) fn saved(&self) -> [f64; 5] {
+        let [taken, given, through, left] = self.sums;
+        [
+            f64::from(u8::from(self.missed)),
+            taken,
+            given,
+            through,
+            left,
+        ]
+    }
+
+    /// Takes it back.
+    pub(super) fn take_back(&mut self, [missed, sums @ ..]: [f64; 5]) {
+        (self.missed, self.sums) = (missed > 0.0, sums);
+    }
+
+    /// Finds what falls on whom from `time` on, in the mean over `dt` \[s\].
     pub(super) fn fall<'a>(
         &mut self,
         walls: impl Iterator<Item = (&'a Light, &'a Pressed)>,
-        time: f64,
+        [time, dt]: [f64; 2],
     ) -> Result<(), OutOfRange> {
         self.lit.clear();
         self.falls = [0.0; 2];
         for (light, wall) in walls {
-            let power = light.power.value(&Arguments::at([0.0; 3], time))?;
+            let at = Arguments::at([0.0; 3], time);
+            let (power, found) = light.power.mean_in_time(&at, dt)?;
+            self.missed |= !found;
             let borne = || {
                 let pieces = wall.pieces();
                 pieces.filter_map(|(piece, bearer)| bearer.map(|row| (piece, row)))

@@ -30,6 +30,7 @@ pub mod cover;
 mod crowd;
 pub mod depth;
 pub mod displaced;
+mod doubts;
 pub mod faces;
 pub mod fill;
 mod glued;

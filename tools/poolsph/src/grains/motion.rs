@@ -344,12 +344,7 @@ impl Stage for Motion {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let lost = self.laid.as_ref().map(|laid| laid.lost);
-        let lost = lost.filter(|lost| *lost > 0);
-        let told = lost.map(|lost| {
-            format!("{lost} contacts of the bed are with metal or walls that are not there: their grains begin to slip")
-        });
-        told.into_iter().collect()
+        self.told()
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -360,6 +355,11 @@ impl Stage for Motion {
             figure("grain_steps", "1", self.steps),
             figure("grain_contacts", "1", self.contacts()),
         ];
+        if self.bounds.is_some() {
+            let [left, mass] = self.lost;
+            figures.push(figure("grains_left", "1", left));
+            figures.push(figure("grains_left_kg", "kg", mass));
+        }
         if let Some(sleep) = &self.sleep {
             let asleep = sleep.sleeping(self.moving.grains.len());
             figures.push(figure("grain_asleep", "1", asleep as f64));

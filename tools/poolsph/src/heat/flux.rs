@@ -93,6 +93,14 @@ impl Flux {
         Ok((sum / f64::from(PARTS * PARTS), whole))
     }
 
+    /// Its table, if it follows one.
+    pub(super) fn table(&self) -> Option<&Table> {
+        match &self.law {
+            Law::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
     /// Distance beyond which there is nothing \[m\].
     pub(super) fn reach(&self) -> f64 {
         match &self.law {

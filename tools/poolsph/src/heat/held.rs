@@ -5,6 +5,7 @@ use std::ops::Range;
 use particles::POSITION;
 use run::property::{Arguments, Curve};
 
+use super::bounds::outside;
 use super::caloric::Caloric;
 use super::ledger::Sum;
 use crate::stage::StageError;
@@ -27,13 +28,16 @@ impl Held {
         caloric: &Caloric,
         out: &mut Sum,
     ) -> Result<(), StageError> {
-        let mass = state.metal.matter.mass();
+        let (mass, step) = (state.metal.matter.mass(), state.step);
         let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
         let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
         for a in self.particles.clone() {
             let at = Arguments::at(places[a], state.time);
-            let temperature = (self.temperature.value(&at))
+            let temperature = (self.temperature.kelvin(&at))
                 .map_err(|fault| StageError::Data(format!("held temperature: {fault}")))?;
+            if !caloric.covers(temperature) {
+                return Err(outside(step, a, places[a], temperature, caloric));
+            }
             let enthalpy = caloric.enthalpy(temperature);
             out.add(mass * (enthalpies[a] - enthalpy));
             (enthalpies[a], temperatures[a]) = (enthalpy, temperature);

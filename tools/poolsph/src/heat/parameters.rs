@@ -188,12 +188,34 @@ pub(crate) fn table(
                 .map(|t| curve.value(&Arguments::at_temperature(*t)))
                 .collect();
             let values = values.map_err(|fault| Fault::at(at, fault.to_string()))?;
+            if let Some(t) = hidden(&curve, &nodes, &values) {
+                let what = format!(
+                    "varies within {step:.3} K about {t} K by more than its table shows, which has a row each {step:.3} K: \
+                     a wider peak, or \"melting\" for a latent heat"
+                );
+                return Err(Fault::at(&format!("{at}/expr"), what));
+            }
             (nodes, values, span)
         }
     };
     Table::new(nodes, values)
         .map(|table| (table, range))
         .map_err(|fault| Fault::at(at, fault.to_string()))
+}
+
+/// How much more a formula may vary between two rows than they do, in parts of its values and of their difference.
+const HIDDEN: [f64; 2] = [0.05, 2.0];
+
+/// A temperature \[K\] about which the formula varies between two rows by more than these tell.
+fn hidden(curve: &Curve, nodes: &[f64], values: &[f64]) -> Option<f64> {
+    let rows = nodes.windows(2).zip(values.windows(2));
+    let hides = |(t, v): &(&[f64], &[f64])| {
+        let [from, to] = [t[0], t[1]].map(Arguments::at_temperature);
+        let most = v[0].abs().max(v[1].abs());
+        let allowed = HIDDEN[0] * most + HIDDEN[1] * (v[1] - v[0]).abs();
+        curve.bounds(&from, &to).width() > allowed
+    };
+    rows.into_iter().find(hides).map(|(t, _)| t[0])
 }
 
 #[cfg(test)]
@@ -225,5 +247,20 @@ mod tests {
         let text =
             r#"{"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 600, "latent": 1}"#;
         assert!(serde_json::from_str::<Parameters>(text).is_err());
+    }
+
+    #[test]
+    fn a_peak_between_two_rows_is_refused() {
+        let given = |expr: &str| {
+            let text = format!(
+                r#"{{"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": {{"expr": "{expr}"}}}}"#
+            );
+            let parameters: Parameters = serde_json::from_str(&text).unwrap();
+            parameters.caloric()
+        };
+        let narrow = given("700 + 1.4e6*exp(-((T - 1750.5)/0.1)^2)").unwrap_err();
+        assert!(narrow.to_string().contains("1750 K"), "{narrow}");
+        assert!(given("700 + 1.4e4*exp(-((T - 1750.5)/10)^2)").is_ok());
+        assert!(given("if(T - 1000, 800, 500 + 0.2*T)").is_ok());
     }
 }

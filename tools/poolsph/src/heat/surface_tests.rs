@@ -282,6 +282,7 @@ fn a_formula_narrower_than_the_spacing_delivers_its_heat_wherever_its_axis_is() 
             let mut state = body([8, 8, 4], |x| x[2] < 0.0);
             state.source = Some(crate::source::Place {
                 position: [axis[0], axis[1], 0.0],
+                way: [0.0; 3],
                 phase: 0.0,
                 droplets: 0,
             });
@@ -313,6 +314,7 @@ fn a_formula_too_narrow_for_parts_of_a_spacing_is_told() {
     let mut state = body([8, 8, 4], |x| x[2] < 0.0);
     state.source = Some(crate::source::Place {
         position: [0.56, 0.44, 0.0],
+        way: [0.0; 3],
         phase: 0.0,
         droplets: 0,
     });

@@ -11,6 +11,7 @@ use super::law::Law;
 use super::noise::Noise;
 use super::parameters::{Method, Parameters};
 use super::projection::Projection;
+use super::settled::Settled;
 use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::forces::capillary;
@@ -49,6 +50,7 @@ pub struct Motion {
     /// Pressure that keeps the density, by index in [`State`]: where the next solution starts.
     multiplier: Vec<f64>,
     solved: Solved,
+    settled: Settled,
     /// Step in which a particle at rest falls by COURANT d \[s\].
     fall: f64,
     substeps: u32,
@@ -72,6 +74,7 @@ impl Motion {
             predicted: Vec::new(),
             multiplier: Vec::new(),
             solved: Solved::default(),
+            settled: Settled::default(),
             fall: (COURANT * metal.spacing / squared(gravity).sqrt()).sqrt(),
             substeps: 0,
             speed: 0.0,
@@ -120,6 +123,7 @@ impl Motion {
                 .divergence_free
                 .solve(near, predicted, borne, step, tolerance),
         };
+        (self.settled).note(solved.density_error, self.parameters.density_tolerance);
         self.solved.sweeps += solved.sweeps;
         self.solved.density_error = self.solved.density_error.max(solved.density_error);
         std::mem::swap(&mut near.velocity, &mut self.predicted);
@@ -324,11 +328,18 @@ impl Stage for Motion {
             + 8 * self.multiplier.capacity()
     }
 
+    fn warnings(&self) -> Vec<String> {
+        let told = self.settled.warning(self.parameters.sweeps_max);
+        told.into_iter().collect()
+    }
+
     fn save(&self) -> Vec<f64> {
-        self.multiplier.clone()
+        let multiplier = self.multiplier.iter().copied();
+        self.settled.save().into_iter().chain(multiplier).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) {
-        self.multiplier = saved.to_vec();
+        let (settled, multiplier) = Settled::restored(saved);
+        (self.settled, self.multiplier) = (settled, multiplier.to_vec());
     }
 }

@@ -10,6 +10,7 @@ pub mod noise;
 pub mod parameters;
 pub mod projection;
 pub mod push;
+mod settled;
 pub mod step;
 pub mod viscosity;
 

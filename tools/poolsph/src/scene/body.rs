@@ -84,9 +84,8 @@ impl BodyScene {
     pub fn body(&self, at: &str, lattice: &Lattice, heat: bool) -> Result<Body, Fault> {
         self.check(at)?;
         let temperature = match (&self.temperature_k, heat) {
-            (Some(property), _) => {
-                property.compile(&format!("{at}/temperature_k"), &["x", "y", "z", "r"])?
-            }
+            (Some(property), _) => property
+                .compile_temperature(&format!("{at}/temperature_k"), &["x", "y", "z", "r"])?,
             (None, false) => Curve::Constant(0.0),
             (None, true) => {
                 let what = "has no key 'temperature_k' in K, which a scene with heat needs";
@@ -97,7 +96,7 @@ impl BodyScene {
             (None, _) => None,
             (Some(property), true) => {
                 let at = format!("{at}/held_temperature_k");
-                Some(property.compile(&at, &["x", "y", "z", "r", "t"])?)
+                Some(property.compile_temperature(&at, &["x", "y", "z", "r", "t"])?)
             }
             (Some(_), false) => {
                 let at = format!("{at}/held_temperature_k");

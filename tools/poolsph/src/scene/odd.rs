@@ -1,7 +1,9 @@
 //! What a scene may say and hardly means, told before it runs.
 
 use super::Scene;
+use super::Wire;
 use super::body::{BodyScene, StartState};
+use crate::domain::droplet::shape;
 use crate::domain::shape::Shape;
 use crate::motion::Method;
 
@@ -34,6 +36,7 @@ fn shortened(scene: &Scene) -> Option<String> {
 pub fn doubts(scene: &Scene) -> Vec<String> {
     let mut doubts = thin(scene);
     doubts.extend(roomless(scene));
+    doubts.extend(lumpy(scene));
     doubts
 }
 
@@ -45,6 +48,31 @@ fn roomless(scene: &Scene) -> Option<String> {
         "grains take no room in this liquid, and what floats lies too deep: \"method\": \"projection\" of the flow knows it"
             .to_owned()
     })
+}
+
+/// Part of its volume by which a droplet may differ from a ball of its radius.
+const LUMPY: f64 = 0.1;
+
+/// Droplets that come as often as the scene says and hold another volume than balls of their radius.
+fn lumpy(scene: &Scene) -> Vec<String> {
+    let spacing = scene.metal().spacing;
+    let told = |wire: &Wire| {
+        let droplets = wire.droplets;
+        droplets.period_s?;
+        let particles = shape(droplets.radius_m, spacing, None).len();
+        let (held, ball) = (
+            particles as f64 * spacing.powi(3),
+            4.0 / 3.0 * std::f64::consts::PI * droplets.radius_m.powi(3),
+        );
+        ((held / ball - 1.0).abs() > LUMPY).then(|| {
+            format!(
+                "{}: {particles} particles of a droplet are {held:.3e} m3, a ball of its radius {ball:.3e} m3, and so are \
+                 mass and heat: \"feed_m3_s\" in place of \"period_s\" keeps what is fed",
+                wire.at
+            )
+        })
+    };
+    scene.wires().filter_map(|wire| told(&wire)).collect()
 }
 
 /// Fewest layers of particles that carry what lies on them: the kernel reaches over two spacings.

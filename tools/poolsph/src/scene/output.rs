@@ -134,6 +134,9 @@ pub fn due(step: u64, dt: f64, interval: f64) -> bool {
 
 /// The first step after `step` at which it is due.
 fn next_due(step: u64, dt: f64, interval: f64) -> u64 {
+    if interval <= dt {
+        return step + 1;
+    }
     let mut turn = (step as f64 * dt / interval).floor();
     loop {
         let next = nearest(turn, dt, interval);
@@ -165,7 +168,7 @@ mod tests {
 
     #[test]
     fn the_next_one_is_the_first_that_is_due() {
-        for interval in [1.25e-3, 1e-4, 3.7e-5, 0.02, 1.0 / 3.0] {
+        for interval in [1.25e-3, 1e-4, 3.7e-5, 1e-20, 0.02, 1.0 / 3.0] {
             let mut next = next_due(0, 1e-4, interval);
             for step in 1..20_000 {
                 // Of intervals shorter than a step, turns between two steps are passed over.

@@ -103,6 +103,12 @@ impl Burning {
         waveform.map_or(1.0, |wave| wave.mean(time, time + dt))
     }
 
+    /// The period of its waveform \[s\], if it has one.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        self.waveform.as_ref().map(|wave| wave.period_s)
+    }
+
     /// Its greatest level.
     #[must_use]
     pub fn most(&self) -> f64 {

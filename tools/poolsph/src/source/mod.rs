@@ -13,6 +13,8 @@ pub use path::{Parameters, Path};
 pub struct Place {
     /// Axis of the arc on the plate's original surface \[m\].
     pub position: [f64; 3],
+    /// The way that it goes in the step \[m\].
+    pub way: [f64; 3],
     /// Part of the droplet's period that has passed, 0 to 1; 0 when a droplet is born.
     pub phase: f64,
     /// Droplets born so far.

@@ -31,11 +31,15 @@ impl Parameters {
     pub fn place(&self, time: f64) -> Place {
         Place {
             position: self.position(time),
+            way: [0.0; 3],
             phase: 0.0,
             droplets: 0,
         }
     }
 }
+
+/// Part of a spacing that an axis goes in a step where steps are adaptive.
+const FOLLOWED: f64 = 0.5;
 
 /// The stage that moves the axis.
 #[derive(Debug, Clone, Copy)]
@@ -46,11 +50,17 @@ impl Stage for Path {
         "source"
     }
 
+    fn follows(&self, state: &State) -> f64 {
+        let [x, y, _] = self.0.velocity_m_s;
+        FOLLOWED * state.metal.matter.spacing / x.hypot(y)
+    }
+
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let end = state.end(dt);
         let place = state.source.unwrap_or(self.0.place(end));
         state.source = Some(Place {
             position: self.0.position(end),
+            way: self.0.velocity_m_s.map(|u| u * dt),
             ..place
         });
         Ok(())

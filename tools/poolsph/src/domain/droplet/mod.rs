@@ -185,6 +185,11 @@ impl Stage for Droplets {
         ]
     }
 
+    fn warnings(&self) -> Vec<String> {
+        let wires = self.0.iter().enumerate();
+        wires.filter_map(|(k, wire)| wire.warning(k)).collect()
+    }
+
     /// What is kept of each wire, with its length before it where there are several.
     fn save(&self) -> Vec<f64> {
         if let [wire] = self.0.as_slice() {

@@ -37,6 +37,7 @@ fn start() -> State {
     state.flowing = true;
     state.source = Some(Place {
         position: [0.0; 3],
+        way: [0.0; 3],
         phase: 0.0,
         droplets: 0,
     });

@@ -31,6 +31,10 @@ pub struct Wire {
     born: u64,
     energy: Sum,
     flying: Vec<usize>,
+    /// Height of the lowest metal at the start \[m\].
+    floor: f64,
+    /// Particles that have fallen past all metal.
+    past: u64,
 }
 
 impl Wire {
@@ -48,6 +52,13 @@ impl Wire {
             let what = "has neither 'period_s' in s nor 'feed_m3_s' in m3/s, which say how often droplets come";
             return Err(Fault::at("", what));
         };
+        if parameters.height_m < parameters.radius_m {
+            let what = format!(
+                "{} m is less than radius_m, {} m: droplets would be born in the metal below",
+                parameters.height_m, parameters.radius_m
+            );
+            return Err(Fault::at("/height_m", what));
+        }
         let shape = shape(parameters.radius_m, metal.spacing, mirror);
         let (temperature, enthalpy) = match (parameters.temperature_k, caloric) {
             (_, None) => (0.0, 0.0),
@@ -79,6 +90,8 @@ impl Wire {
             born: 0,
             energy: Sum::default(),
             flying: Vec::new(),
+            floor: f64::NAN,
+            past: 0,
         })
     }
 
@@ -123,11 +136,21 @@ impl Wire {
     /// has passed since the last was born.
     pub(super) fn advance(&mut self, state: &mut State, source: [f64; 3], dt: f64) -> f64 {
         let fall = self.parameters.speed_m_s * dt;
+        if self.floor.is_nan() {
+            let heights = state
+                .metal
+                .column(&POSITION)
+                .iter()
+                .map(|x| x[2])
+                .reduce(f64::min);
+            self.floor = heights.unwrap_or(f64::NEG_INFINITY);
+        }
         let places = state.metal.column_mut(&POSITION);
         for &a in &self.flying {
             places[a][2] -= fall;
         }
         self.land(state, fall);
+        self.pass(state);
         // The end of the step is what frames show.
         let end = state.end(dt);
         let due = self.due(end);
@@ -172,6 +195,36 @@ impl Wire {
         self.flying = flying;
     }
 
+    /// Droplets that are below all metal have missed it: they are followed no farther.
+    fn pass(&mut self, state: &mut State) {
+        let below = self.floor - state.metal.matter.support();
+        let (places, velocities) = state.metal.columns_mut((&POSITION, &VELOCITY));
+        let particles = self.shape.len();
+        let gone = |droplet: &&[usize]| droplet.iter().all(|a| places[*a][2] < below);
+        let (mut past, mut flying) = (Vec::new(), Vec::with_capacity(self.flying.len()));
+        for droplet in self.flying.chunks(particles) {
+            let to = if gone(&droplet) {
+                &mut past
+            } else {
+                &mut flying
+            };
+            to.extend_from_slice(droplet);
+        }
+        for a in &past {
+            velocities[*a] = [0.0; 3];
+        }
+        self.past += past.len() as u64;
+        self.flying = flying;
+    }
+
+    /// What a reader of the run must be told of wire `number`.
+    pub(super) fn warning(&self, number: usize) -> Option<String> {
+        let mass = self.mass * self.past as f64;
+        (self.past > 0).then(|| {
+            format!("droplets of wire {number}: {mass:.3e} kg have fallen past the metal; see where their axis is")
+        })
+    }
+
     /// How long a step follows the fall \[s\].
     pub(super) fn follows(&self, state: &State) -> f64 {
         let (places, phases) = (state.metal.column(&POSITION), state.metal.column(&PHASE));
@@ -203,15 +256,18 @@ impl Wire {
 
     pub(super) fn save(&self) -> Vec<f64> {
         let [total, lost] = self.energy.save();
-        let mut saved = vec![self.born as f64, total, lost];
+        let mut saved = vec![self.born as f64, total, lost, self.floor, self.past as f64];
         saved.extend(self.flying.iter().map(|a| *a as f64));
         saved
     }
 
     pub(super) fn restore(&mut self, saved: &[f64]) {
-        let [born, energy @ ..] = saved else { return };
-        self.born = *born as u64;
-        self.energy = Sum::restored(energy);
-        self.flying = saved.iter().skip(3).map(|a| *a as usize).collect();
+        let [born, total, lost, floor, past, flying @ ..] = saved else {
+            return;
+        };
+        (self.born, self.past) = (*born as u64, *past as u64);
+        self.energy = Sum::restored(&[*total, *lost]);
+        self.floor = *floor;
+        self.flying = flying.iter().map(|a| *a as usize).collect();
     }
 }

@@ -19,6 +19,8 @@
 //! nothing. The cross-section pi d^2/4 of eq. 4.10 would pass on 78.5 % of every flux.
 
 mod parameters;
+mod reached;
+mod stands;
 
 use std::sync::Arc as Shared;
 
@@ -39,6 +41,11 @@ use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 use parameters::ENERGIES;
 pub use parameters::{ArcParameters, Onto, Part};
+use reached::{Reached, held};
+use stands::{Stand, stands};
+
+/// Fewest steps in a period of a waveform, where steps are adaptive.
+const STEPS: f64 = 8.0;
 
 /// An arc that heats.
 struct Burner {
@@ -48,6 +55,9 @@ struct Burner {
     energies: Vec<usize>,
     /// Distance beyond which there is no heat \[m\].
     reach: f64,
+    /// What its tables hold \[W\].
+    held: f64,
+    reached: Reached,
 }
 
 impl Burner {
@@ -78,21 +88,6 @@ pub struct Arc {
     /// Where each arc stands in this step, and how strongly it burns.
     stands: Vec<Stand>,
     heated: Chunks<Result<Heated, StageError>>,
-}
-
-/// An arc in a step.
-#[derive(Debug, Clone, Copy)]
-struct Stand {
-    axis: [f64; 3],
-    level: f64,
-}
-
-impl Stand {
-    /// Square of the distance of a place from the axis \[m2\].
-    fn square(&self, [x, y]: [f64; 2]) -> f64 {
-        let (dx, dy) = (x - self.axis[0], y - self.axis[1]);
-        dx * dx + dy * dy
-    }
 }
 
 /// A step of a particle: its number, its time and its length \[s\].
@@ -188,6 +183,8 @@ impl Arc {
         self.arcs.push(Burner {
             burning,
             reach: fluxes.iter().map(Flux::reach).fold(0.0, f64::max),
+            held: held(&fluxes),
+            reached: Reached::default(),
             fluxes,
             energies,
         });
@@ -209,8 +206,9 @@ impl Arc {
             Onto::Area if patch.normal[2] > 0.0 => (patch.foot(skin.position[a]), patch.area),
             Onto::Area => return None,
         };
-        let mut arcs = self.arcs.iter().zip(&self.stands);
-        let reached = arcs.any(|(arc, stand)| stand.square([x, y]) <= arc.reach * arc.reach);
+        let reach = |stand: &Stand| self.arcs[stand.arc].reach;
+        let mut stands = self.stands.iter();
+        let reached = stands.any(|stand| stand.square([x, y]) <= reach(stand) * reach(stand));
         (reached && area > 0.0).then_some(Spot { at: [x, y], area })
     }
 
@@ -234,8 +232,8 @@ impl Arc {
         let parts = heated.parts;
         for _ in 0..parts as u64 {
             let mut gain = 0.0;
-            for (arc, stand) in self.arcs.iter().zip(&self.stands) {
-                let square = stand.square(spot.at);
+            for stand in &self.stands {
+                let (arc, square) = (&self.arcs[stand.arc], stand.square(spot.at));
                 if stand.level <= 0.0 || square > arc.reach * arc.reach {
                     continue;
                 }
@@ -278,6 +276,15 @@ impl Stage for Arc {
             .then(|| Limit::dividing("arc_feedback", seconds))
     }
 
+    fn follows(&self, state: &State) -> f64 {
+        let periods = self.arcs.iter().filter_map(|arc| arc.burning.period());
+        let limit = self.dt_limit(state).map(|limit| limit.seconds);
+        limit
+            .into_iter()
+            .chain(periods.map(|period| period / STEPS))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     fn parts(&self) -> u64 {
         self.parts as u64
     }
@@ -285,18 +292,18 @@ impl Stage for Arc {
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         let mut heated = std::mem::take(&mut self.heated);
         let skin = Skin::of(&state.metal);
-        let source = state.source.map_or([0.0; 3], |source| source.position);
         let now = Moment {
             step: state.step,
             time: state.time,
             dt,
         };
         self.covered = state.grains.is_some();
-        self.stands.clear();
-        self.stands.extend(self.arcs.iter().map(|arc| Stand {
-            axis: arc.burning.axis(source),
-            level: arc.burning.level(state.time, dt),
-        }));
+        let (times, spacing) = ([state.time, dt], self.metal.spacing);
+        let followed = stands(&self.arcs, state.source, times, spacing, &mut self.stands);
+        self.missed |= !followed;
+        if state.step.is_multiple_of(reached::EVERY) {
+            self.compare(&skin, &state.exposed)?;
+        }
         heated.fill(&state.exposed, |a| {
             let spot = self.lit(&skin, a)?;
             Some(self.heat(&skin, a, spot, now))
@@ -345,18 +352,30 @@ impl Stage for Arc {
             "the arc gave the metal no heat at all: see where its axis is, and when it burns"
                 .to_owned()
         });
-        missed.into_iter().chain(nothing).collect()
+        let arcs = self.arcs.iter().enumerate();
+        let beside = arcs.filter_map(|(number, arc)| arc.reached.warning(number));
+        let beside = beside.filter(|_| !self.covered && nothing.is_none());
+        let beside: Vec<String> = beside.collect();
+        missed.into_iter().chain(nothing).chain(beside).collect()
     }
 
     fn save(&self) -> Vec<f64> {
         let put = self.energies.iter().flat_map(|(_, sum)| sum.save());
-        put.chain([f64::from(u8::from(self.missed))]).collect()
+        let reached = self.arcs.iter().map(|arc| arc.reached);
+        let reached = reached.flat_map(|reached| [reached.offered, reached.put]);
+        let missed = f64::from(u8::from(self.missed));
+        put.chain(reached).chain([missed]).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) {
         self.missed = saved.last().is_some_and(|missed| *missed > 0.0);
-        for ((_, sum), parts) in self.energies.iter_mut().zip(saved.chunks_exact(2)) {
+        let mut pairs = saved.chunks_exact(2);
+        for ((_, sum), parts) in self.energies.iter_mut().zip(&mut pairs) {
             *sum = Sum::restored(parts);
+        }
+        for (arc, pair) in self.arcs.iter_mut().zip(pairs) {
+            let [offered, put] = [pair[0], pair[1]];
+            arc.reached = Reached { offered, put };
         }
     }
 }

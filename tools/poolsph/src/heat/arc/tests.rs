@@ -311,3 +311,24 @@ fn a_plate_that_is_cathode_and_anode_in_turn_takes_each_heat_in_its_time() {
     assert!((value("energy_in_arc_electron_j") / (-3e6 * 1e-8 * CONE) - 1.0).abs() < 0.01);
     assert!((value("energy_in_arc_ion_j") / of(&first, "energy_in_arc_ion_j") - 1.0).abs() < 1e-9);
 }
+
+#[test]
+fn an_arc_whose_tables_fall_beside_the_plate_is_told() {
+    let told = |x: f64| {
+        let mut arc = Arc::without_arcs(Shared::new(plain(1e9, 1.0, None)), METAL, Onto::default());
+        let parameters: ArcParameters =
+            serde_json::from_value(json!({"parts": ["radiation"]})).unwrap();
+        let beside: OneArc = serde_json::from_value(json!({"offset_m": [x, 0, 0]})).unwrap();
+        for burning in [Burning::default(), beside.burning()] {
+            arc.burn(&parameters, burning, Some(&table())).unwrap();
+        }
+        arc.advance(&mut plate(300.0), 1e-4).unwrap();
+        arc.warnings()
+    };
+    assert!(told(0.0).is_empty(), "{:?}", told(0.0));
+    let said = told(100.0);
+    assert!(
+        said.len() == 1 && said[0].starts_with("arc 1: 0.0 %"),
+        "{said:?}"
+    );
+}

@@ -1,0 +1,103 @@
+//! How much of what the tables of an arc hold falls on the metal.
+
+use super::super::flux::Flux;
+use super::super::skin::Skin;
+use super::Arc;
+use crate::stage::StageError;
+
+/// Steps between two looks.
+pub(super) const EVERY: u64 = 64;
+/// Part of its heat below which an arc is told to miss the metal.
+const LITTLE: f64 = 0.5;
+
+/// What an arc has offered and put in, summed over the looks \[W\].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Reached {
+    pub(super) offered: f64,
+    pub(super) put: f64,
+}
+
+impl Reached {
+    /// What a reader of the run must be told of arc `number`.
+    pub(super) fn warning(&self, number: usize) -> Option<String> {
+        let part = self.put / self.offered;
+        (self.offered > 0.0 && part < LITTLE).then(|| {
+            format!(
+                "arc {number}: {:.1} % of the heat that its tables hold falls on the metal; the rest falls beside it, or is narrower than the particles",
+                100.0 * part
+            )
+        })
+    }
+}
+
+impl Arc {
+    /// Compares what the tables of each arc hold with what of it falls on the metal now.
+    pub(super) fn compare(&mut self, skin: &Skin<'_>, exposed: &[u32]) -> Result<(), StageError> {
+        let mut put = vec![0.0; self.arcs.len()];
+        for &a in exposed {
+            let Some(spot) = self.lit(skin, a as usize) else {
+                continue;
+            };
+            for stand in &self.stands {
+                let from = [0, 1].map(|k| spot.at[k] - stand.axis[k]);
+                let tables = self.arcs[stand.arc].fluxes.iter();
+                for flux in tables.filter(|flux| flux.table().is_some()) {
+                    let (mean, _) = flux.over(from, self.metal.spacing, 0.0, [0.0, 1.0])?;
+                    put[stand.arc] += stand.level * spot.area * mean.abs();
+                }
+            }
+        }
+        for stand in &self.stands {
+            let arc = &mut self.arcs[stand.arc];
+            arc.reached.offered += stand.level * arc.held;
+        }
+        for (arc, put) in self.arcs.iter_mut().zip(put) {
+            arc.reached.put += put;
+        }
+        Ok(())
+    }
+}
+
+/// What the tables among `fluxes` hold \[W\]: 2 pi times the integral of |q| r, exact between rows.
+pub(super) fn held(fluxes: &[Flux]) -> f64 {
+    let tables = fluxes.iter().filter_map(Flux::table);
+    let power = |table: &props::Table| {
+        let rows = table.nodes().windows(2).zip(table.values().windows(2));
+        let ring = rows.map(|(r, q)| {
+            let (a, b) = (r[0], r[1]);
+            // q is linear in r: the mean of q r over the row, by Simpson's rule, is exact.
+            let middle = 0.5 * (a + b) * 0.5 * (q[0] + q[1]);
+            (b - a) / 6.0 * (a * q[0] + 4.0 * middle + b * q[1])
+        });
+        let first = 0.5 * table.nodes()[0].powi(2) * table.values()[0];
+        2.0 * std::f64::consts::PI * (first + ring.sum::<f64>())
+    };
+    tables.map(|table| power(table).abs()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::flux::Law;
+    use super::*;
+
+    #[test]
+    fn a_cone_holds_its_volume() {
+        let nodes = vec![0.0, 5.0, 10.0, 15.0];
+        let values = vec![3.0, 2.0, 1.0, 0.0];
+        let table = props::Table::new(nodes, values).unwrap();
+        let flux = Flux::new("heat", Law::Table(table));
+        let exact = std::f64::consts::PI * 15.0 * 15.0;
+        assert!((held(&[flux]) / exact - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_arc_that_misses_the_metal_is_told_by_its_number() {
+        let reached = |put| Reached {
+            offered: 100.0,
+            put,
+        };
+        assert_eq!(reached(60.0).warning(0), None);
+        assert!(reached(0.0).warning(1).unwrap().starts_with("arc 1: 0.0 %"));
+        assert_eq!(Reached::default().warning(0), None);
+    }
+}
