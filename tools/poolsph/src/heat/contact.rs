@@ -11,6 +11,9 @@
 //! thick, no more than a particle: so the particle that touches is held as a whole, and what comes after it flows over it.
 //! Of the flow this takes at most one layer of particles, less as these become finer. What is held keeps its heat, and
 //! flows again as soon as the metal beneath it is warm.
+//!
+//! Nor does such metal draw the edge of the liquid on: what of it is bare, beside what is touched, is dry, and is no metal to the
+//! surface ([`crate::surface::curvature`]). The edge goes on only where it hangs over.
 
 use particles::Set;
 

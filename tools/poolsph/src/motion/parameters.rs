@@ -25,8 +25,8 @@ pub enum OnColdMetal {
     /// It slides until it is frozen as a whole.
     #[default]
     Slides,
-    /// The particle that touches is held where the contact, halfway between both temperatures, is below the melting point:
-    /// the edge of a pool and drops on a cold plate are arrested.
+    /// The particle that touches is held where the contact, halfway between both temperatures, is below the melting point, and
+    /// bare cold metal does not draw the liquid on: the edge of a pool and drops on a cold plate are arrested.
     Sticks,
 }
 

@@ -9,7 +9,8 @@
 //! 4. Single particles and drops of a few know no more of a shape than their size: they have the greatest curvature 2/d.
 //!    No curvature is larger in size, and those that would be are counted.
 //!
-//! Solid metal counts as metal, so that a pool's surface goes on over its edge. Beyond faces the surface goes on at its contact angle
+//! Solid metal counts as metal, so that a pool's surface goes on over its edge, but for what is bare and so cold that the edge
+//! freezes there (`Near::dry`). Beyond faces the surface goes on at its contact angle
 //! (`askew`).
 
 mod askew;
