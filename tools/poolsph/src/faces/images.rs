@@ -1,6 +1,6 @@
 //! Images beyond the faces, behind the points that they are images of.
 
-use super::planes::{Faces, Lean, Turn};
+use super::planes::{Faces, TiltedFace, Turn};
 
 /// An image of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub struct Images {
     /// Faces of each axis, and whether they are periodic.
     planes: [([Option<f64>; 2], bool); 3],
     /// Faces that the free surface meets askew.
-    leans: Vec<Lean>,
+    tilted: Vec<TiltedFace>,
 }
 
 impl Images {
@@ -33,7 +33,7 @@ impl Images {
         if self.turns.is_empty() {
             self.turns = faces.turns().to_vec();
             self.planes = [0, 1, 2].map(|axis| (faces.planes(axis), faces.is_periodic(axis)));
-            self.leans = faces.leans();
+            self.tilted = faces.tilted_faces();
         }
         self.reflect(reach, places);
     }
@@ -48,7 +48,7 @@ impl Images {
         if self.turns.is_empty() {
             self.turns.clone_from(&other.turns);
             self.planes = other.planes;
-            self.leans.clone_from(&other.leans);
+            self.tilted.clone_from(&other.tilted);
         }
         self.reflect(reach, places);
     }
@@ -86,8 +86,8 @@ impl Images {
 
     /// The faces that the free surface meets at another angle than a right one.
     #[must_use]
-    pub fn leans(&self) -> &[Lean] {
-        &self.leans
+    pub fn tilted_faces(&self) -> &[TiltedFace] {
+        &self.tilted
     }
 
     /// True without images.

@@ -28,7 +28,7 @@ mod planes;
 
 pub use images::{Image, Images};
 pub use parameters::{ContactAngle, Parameters, WallParameters};
-pub use planes::{Faces, Lean, Turn};
+pub use planes::{Faces, TiltedFace, Turn};
 
 #[cfg(test)]
 mod tests;

@@ -138,8 +138,8 @@ impl Parameters {
                 return Err(Fault::at(&format!("/max_m/{axis}"), what));
             }
         }
-        let leans = self.leans(&sides)?;
-        Ok(Faces::new(self.min_m, self.max_m, sides).leaning(leans))
+        let cots = self.cots(&sides)?;
+        Ok(Faces::new(self.min_m, self.max_m, sides).with_contact_angles(cots))
     }
 
     /// Contact angles that mean nothing: without `tension`, or where the flow is not without divergence (`even`).
@@ -171,8 +171,8 @@ impl Parameters {
     }
 
     /// cot theta at each face.
-    fn leans(&self, sides: &[[Option<Side>; 2]; 3]) -> Result<[[f64; 2]; 3], Fault> {
-        let mut leans = [[None; 2]; 3];
+    fn cots(&self, sides: &[[Option<Side>; 2]; 3]) -> Result<[[f64; 2]; 3], Fault> {
+        let mut cots = [[None; 2]; 3];
         for (i, angle) in self.contact_angles.iter().enumerate() {
             let (axis, upper) = angle.face.side();
             let (side, sign) = (usize::from(upper), if upper { '+' } else { '-' });
@@ -188,11 +188,11 @@ impl Parameters {
             }
             // Nothing at a right angle, to the bit.
             let cot = (90.0 - angle.angle_deg).to_radians().tan();
-            if leans[axis][side].replace(cot).is_some() {
+            if cots[axis][side].replace(cot).is_some() {
                 return Err(fault("has two angles"));
             }
         }
-        Ok(leans.map(|axis| axis.map(Option::unwrap_or_default)))
+        Ok(cots.map(|axis| axis.map(Option::unwrap_or_default)))
     }
 }
 

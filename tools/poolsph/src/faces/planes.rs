@@ -29,14 +29,14 @@ pub struct Faces {
     max: [f64; 3],
     sides: [[Option<Side>; 2]; 3],
     /// cot of the angle at which the free surface meets each face; 0 of a right one.
-    leans: [[f64; 2]; 3],
+    cots: [[f64; 2]; 3],
     /// By the faces that it goes through: of each axis none, the lower or the upper one.
     turns: Vec<Turn>,
 }
 
 /// A face that the free surface meets at another angle than a right one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lean {
+pub struct TiltedFace {
     /// Axis across the face.
     pub axis: usize,
     /// Where it is along the axis \[m\].
@@ -45,7 +45,7 @@ pub struct Lean {
     pub cot: f64,
 }
 
-impl Lean {
+impl TiltedFace {
     /// Distance of `x` from the face \[m\].
     #[must_use]
     #[inline]
@@ -67,7 +67,7 @@ pub struct Turn {
     /// Faces of held temperature on the way.
     held: Vec<(usize, usize)>,
     /// cot of the contact angle at the face of each axis that it goes through.
-    lean: [f64; 3],
+    cot: [f64; 3],
     /// Upper faces that it goes through.
     upper: [bool; 3],
 }
@@ -79,7 +79,7 @@ impl Turn {
         stick: [1.0; 3],
         slide: [0.0; 3],
         held: Vec::new(),
-        lean: [0.0; 3],
+        cot: [0.0; 3],
         upper: [false; 3],
     };
 
@@ -100,8 +100,8 @@ impl Turn {
     /// Whether the free surface goes on askew on the way to the image.
     #[must_use]
     #[inline]
-    pub fn leans(&self) -> bool {
-        self.lean.iter().any(|cot| *cot != 0.0)
+    pub fn tilts(&self) -> bool {
+        self.cot.iter().any(|cot| *cot != 0.0)
     }
 
     /// Whether what has such an image is held along each axis: along that of a mirror, along all by a wall, which it sticks to.
@@ -136,15 +136,15 @@ impl Turn {
     #[must_use]
     pub fn surface(&self, x: [f64; 3], normal: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (mut place, mut turned) = (self.place(x), self.vector(normal));
-        for axis in (0..3).filter(|axis| self.lean[*axis] != 0.0) {
+        for axis in (0..3).filter(|axis| self.cot[*axis] != 0.0) {
             let mut along = turned;
             along[axis] = 0.0;
             let size = squared(along).sqrt();
             if size > 0.0 {
-                let (way, lean) = ((x[axis] - place[axis]).abs(), self.lean[axis]);
+                let (way, cot) = ((x[axis] - place[axis]).abs(), self.cot[axis]);
                 let inward = if self.upper[axis] { -1.0 } else { 1.0 };
-                place = plus(place, lean * way / size, along);
-                turned[axis] += 2.0 * size * lean * inward;
+                place = plus(place, cot * way / size, along);
+                turned[axis] += 2.0 * size * cot * inward;
                 let length = squared(turned).sqrt();
                 turned = turned.map(|n| n / length);
             }
@@ -186,7 +186,7 @@ impl Faces {
             min,
             max,
             sides,
-            leans: [[0.0; 2]; 3],
+            cots: [[0.0; 2]; 3],
             turns: Vec::new(),
         };
         if faces.any() {
@@ -196,26 +196,26 @@ impl Faces {
     }
 
     /// The same, with the cot of the angle at which the free surface meets each face.
-    pub(super) fn leaning(mut self, leans: [[f64; 2]; 3]) -> Self {
-        self.leans = leans;
+    pub(super) fn with_contact_angles(mut self, cots: [[f64; 2]; 3]) -> Self {
+        self.cots = cots;
         for (code, turn) in self.turns.iter_mut().enumerate() {
             let side = |axis: usize| (code / 3_usize.pow(axis as u32) % 3).checked_sub(1);
-            turn.lean = std::array::from_fn(|k| side(k).map_or(0.0, |side| leans[k][side]));
+            turn.cot = std::array::from_fn(|k| side(k).map_or(0.0, |side| cots[k][side]));
             turn.upper = std::array::from_fn(|k| side(k) == Some(1));
         }
         self
     }
 
     /// The faces that the free surface meets at another angle than a right one.
-    pub(super) fn leans(&self) -> Vec<Lean> {
+    pub(super) fn tilted_faces(&self) -> Vec<TiltedFace> {
         let at = [self.min, self.max];
         let faces = (0..3).flat_map(|axis| [0, 1].map(|side| (axis, side)));
-        let leans = faces.map(|(axis, side)| Lean {
+        let angles = faces.map(|(axis, side)| TiltedFace {
             axis,
             plane: at[side][axis],
-            cot: self.leans[axis][side],
+            cot: self.cots[axis][side],
         });
-        leans.filter(|lean| lean.cot != 0.0).collect()
+        angles.filter(|angle| angle.cot != 0.0).collect()
     }
 
     /// The same for the free surface, beyond which nothing stands: without lids. None where there is no lid.
@@ -227,7 +227,7 @@ impl Faces {
         }
         let kept = |side: &Option<Side>| side.clone().filter(|side| !matches!(side, Side::Lid));
         let sides = [0, 1, 2].map(|axis| [0, 1].map(|side| kept(&self.sides[axis][side])));
-        Some(Self::new(self.min, self.max, sides).leaning(self.leans))
+        Some(Self::new(self.min, self.max, sides).with_contact_angles(self.cots))
     }
 
     /// True if there is a face.

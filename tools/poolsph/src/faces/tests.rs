@@ -357,7 +357,7 @@ fn a_right_contact_angle_is_none() {
     let text = r#"{"min_m": [0, 0, 0], "max_m": [6, 6, 6], "mirror": ["z-"], "contact_angles": [{"face": "z-", "angle_deg": 90}]}"#;
     let (mut images, mut places) = (Images::default(), vec![[3.0, 3.0, 0.5]]);
     images.place(&faces(text), 1.0, &mut places);
-    assert!(images.leans().is_empty() && !images.turn(1).unwrap().leans());
+    assert!(images.tilted_faces().is_empty() && !images.turn(1).unwrap().tilts());
 }
 
 #[test]

@@ -10,7 +10,7 @@
 use neighbours::Grid;
 use rayon::prelude::*;
 
-use crate::faces::Lean;
+use crate::faces::TiltedFace;
 use crate::near::Near;
 use crate::vector::{minus, plus, squared};
 
@@ -42,13 +42,13 @@ impl Askew {
 
     /// Puts right the sums of W \[1/m3\] and grad W \[1/m4\] of the particles beside such faces.
     pub(super) fn correct(&mut self, near: &Near, number: &mut [f64], gradient: &mut [[f64; 3]]) {
-        for lean in near.images().leans() {
-            self.gather(near, lean);
+        for face in near.images().tilted_faces() {
+            self.gather(near, face);
             let members = (0..near.len()).into_par_iter();
-            let seen = members.filter(|a| lean.distance(near.position[*a]) < self.support);
+            let seen = members.filter(|a| face.distance(near.position[*a]) < self.support);
             let changed = seen.filter_map(|a| {
-                let along = self.along(lean, gradient[a])?;
-                let (number, gradient) = self.sums(near, lean, a, along);
+                let along = self.along(face, gradient[a])?;
+                let (number, gradient) = self.sums(near, face, a, along);
                 Some((a, number, gradient))
             });
             self.changed = changed.collect();
@@ -60,11 +60,11 @@ impl Askew {
     }
 
     /// Finds who stands beside a face, images beyond others included.
-    fn gather(&mut self, near: &Near, lean: &Lean) {
+    fn gather(&mut self, near: &Near, face: &TiltedFace) {
         let images = near.images();
-        let through = |b: usize| images.turn(b).is_some_and(|turn| turn.mirrors(lean.axis));
+        let through = |b: usize| images.turn(b).is_some_and(|turn| turn.mirrors(face.axis));
         let all = near.position.iter().enumerate();
-        let beside = all.filter(|(b, x)| lean.distance(**x) < self.support && !through(*b));
+        let beside = all.filter(|(b, x)| face.distance(**x) < self.support && !through(*b));
         self.beside.clear();
         self.places.clear();
         for (b, x) in beside {
@@ -75,15 +75,15 @@ impl Askew {
     }
 
     /// t from grad W; none where that has no direction along the face.
-    fn along(&self, lean: &Lean, gradient: [f64; 3]) -> Option<[f64; 3]> {
+    fn along(&self, face: &TiltedFace, gradient: [f64; 3]) -> Option<[f64; 3]> {
         let mut along = gradient.map(|g| -g);
-        along[lean.axis] = 0.0;
+        along[face.axis] = 0.0;
         let (size, all) = (squared(along).sqrt(), squared(gradient).sqrt());
         (size > TELLS * all).then(|| along.map(|x| x / size))
     }
 
     /// What particle `a` has of sheared images, less what it has of mirror images.
-    fn sums(&self, near: &Near, lean: &Lean, a: usize, along: [f64; 3]) -> (f64, [f64; 3]) {
+    fn sums(&self, near: &Near, face: &TiltedFace, a: usize, along: [f64; 3]) -> (f64, [f64; 3]) {
         let (images, kernel, place) = (near.images(), &near.kernel, near.position[a]);
         let (mut number, mut gradient) = (0.0, [0.0; 3]);
         let mut add = |sign: f64, other: [f64; 3]| {
@@ -94,19 +94,19 @@ impl Askew {
         };
         for &b in near.lists.row(a) {
             let b = b as usize;
-            if images.turn(b).is_some_and(|turn| turn.mirrors(lean.axis)) {
+            if images.turn(b).is_some_and(|turn| turn.mirrors(face.axis)) {
                 add(-1.0, near.position[b]);
             }
         }
         // All whose image may be within the support: half as far from the face as the farthest of them, give or take.
-        let half = 0.5 * (self.support - lean.distance(place));
-        let mut middle = plus(place, -2.0 * lean.cot * half, along);
-        middle[lean.axis] = lean.plane + half.copysign(place[lean.axis] - lean.plane);
-        let reach = half.hypot(self.support + 2.0 * half * lean.cot.abs());
+        let half = 0.5 * (self.support - face.distance(place));
+        let mut middle = plus(place, -2.0 * face.cot * half, along);
+        middle[face.axis] = face.plane + half.copysign(place[face.axis] - face.plane);
+        let reach = half.hypot(self.support + 2.0 * half * face.cot.abs());
         self.grid.runs(middle, reach, |run| {
             for x in &self.grid.sorted()[run] {
-                let mut other = plus(*x, 2.0 * lean.cot * lean.distance(*x), along);
-                other[lean.axis] = 2.0 * lean.plane - x[lean.axis];
+                let mut other = plus(*x, 2.0 * face.cot * face.distance(*x), along);
+                other[face.axis] = 2.0 * face.plane - x[face.axis];
                 add(1.0, other);
             }
         });

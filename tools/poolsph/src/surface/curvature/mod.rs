@@ -103,7 +103,7 @@ impl Curvature {
 
     /// Finds the curvature at all liquid particles along the surface.
     pub fn measure(&mut self, near: &Near) {
-        if self.askew.is_none() && !near.images().leans().is_empty() {
+        if self.askew.is_none() && !near.images().tilted_faces().is_empty() {
             self.askew = Some(Askew::new(2.0 * self.smoothing_length));
         }
         self.turn(near);
@@ -134,7 +134,7 @@ impl Curvature {
         }
         near.complete(&mut self.gradient, |gradient, _, turn| {
             let size = squared(gradient).sqrt();
-            if turn.leans() && size > 0.0 {
+            if turn.tilts() && size > 0.0 {
                 let outward = turn.facing(gradient.map(|x| -x / size));
                 return outward.map(|x| -x * size);
             }
