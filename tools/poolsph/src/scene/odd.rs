@@ -12,7 +12,8 @@ use crate::motion::Method;
 pub fn notes(scene: &Scene) -> Vec<String> {
     let mut notes = Vec::new();
     notes.extend(shortened(scene));
-    notes.extend(astray(scene));
+    let beside = astray(scene).filter(|told| told != NEVER || scene.grains.is_some());
+    notes.extend(beside);
     notes.extend(unwritten(scene));
     notes.extend(outside(scene));
     notes.extend(still(scene));
@@ -37,6 +38,8 @@ pub fn doubts(scene: &Scene) -> Vec<String> {
     let mut doubts = thin(scene);
     doubts.extend(roomless(scene));
     doubts.extend(lumpy(scene));
+    let beside = astray(scene).filter(|told| told == NEVER);
+    doubts.extend(beside.filter(|_| scene.grains.is_none()));
     doubts
 }
 
@@ -113,6 +116,9 @@ fn unheated(scene: &Scene) -> Option<String> {
     })
 }
 
+/// A source that heats and feeds nothing.
+const NEVER: &str = "the source is never above a body";
+
 /// The source beside the bodies, seen from above.
 fn astray(scene: &Scene) -> Option<String> {
     let source = scene.source?;
@@ -133,7 +139,7 @@ fn astray(scene: &Scene) -> Option<String> {
         leaves = leaves.min(a.max(b));
     }
     if leaves < enters || enters > end {
-        Some("the source is never above a body".to_owned())
+        Some(NEVER.to_owned())
     } else if leaves < end {
         Some(format!(
             "the source leaves the bodies at {leaves:.4} s, before the end at {end} s"
@@ -249,7 +255,8 @@ mod tests {
         for (key, value) in patch.as_object().unwrap() {
             scene[key] = value.clone();
         }
-        notes(&serde_json::from_value(scene).unwrap())
+        let scene = serde_json::from_value(scene).unwrap();
+        [doubts(&scene), notes(&scene)].concat()
     }
 
     fn source(start: [f64; 2], velocity: [f64; 2]) -> Vec<String> {
@@ -320,10 +327,7 @@ mod tests {
             ([0.5, 0.0], [0.1, 0.0]),
             ([-0.1, 0.0], [0.01, 0.01]),
         ] {
-            assert!(
-                source(start, velocity)[0].contains("never above"),
-                "{start:?}"
-            );
+            assert_eq!(source(start, velocity), [NEVER], "{start:?}");
         }
         assert!(source([0.005, 0.0], [0.0, 0.04])[0].contains("at 0.5000 s"));
         assert!(source([0.005, -0.01], [0.0, 0.01])[0].contains("before 1.0000 s"));

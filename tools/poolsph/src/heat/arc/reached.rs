@@ -7,8 +7,9 @@ use crate::stage::StageError;
 
 /// Steps between two looks.
 pub(super) const EVERY: u64 = 64;
-/// Part of its heat below which an arc is told to miss the metal.
+/// Part of its heat below which an arc is told to miss the metal, and above which to give more than it holds.
 const LITTLE: f64 = 0.5;
+const MUCH: f64 = 1.5;
 
 /// What an arc has offered and put in, summed over the looks \[W\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -21,12 +22,18 @@ impl Reached {
     /// What a reader of the run must be told of arc `number`.
     pub(super) fn warning(&self, number: usize) -> Option<String> {
         let part = self.put / self.offered;
-        (self.offered > 0.0 && part < LITTLE).then(|| {
-            format!(
-                "arc {number}: {:.1} % of the heat that its tables hold falls on the metal; the rest falls beside it, or is narrower than the particles",
-                100.0 * part
-            )
-        })
+        let percent = 100.0 * part;
+        let what = match part {
+            _ if self.offered <= 0.0 => return None,
+            part if part < LITTLE => "the rest falls beside it, or is narrower than the particles",
+            part if part > MUCH => {
+                "the tables are narrower than the particles, or the surface is steep"
+            }
+            _ => return None,
+        };
+        Some(format!(
+            "arc {number}: {percent:.1} % of the heat that its tables hold falls on the metal: {what}"
+        ))
     }
 }
 
@@ -97,6 +104,7 @@ mod tests {
             put,
         };
         assert_eq!(reached(60.0).warning(0), None);
+        assert!(reached(160.0).warning(0).unwrap().contains("160.0 %"));
         assert!(reached(0.0).warning(1).unwrap().starts_with("arc 1: 0.0 %"));
         assert_eq!(Reached::default().warning(0), None);
     }
