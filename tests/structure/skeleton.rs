@@ -23,7 +23,7 @@ const ROOMS: [(&str, &[&str]); 5] = [
 ];
 
 /// Rooms that a stage lacks, or has under another name.
-const LACKING: [(&str, &str); 8] = [
+const LACKING: [(&str, &str); 7] = [
     ("avg", "march or iterate"),
     ("emfield", "frames"),
     ("gasprop", "frames"),
@@ -31,7 +31,6 @@ const LACKING: [(&str, &str); 8] = [
     ("heatsph", "frames"),
     ("heatsph", "program"),
     ("jetsph", "program"),
-    ("poolsph", "program"),
 ];
 
 /// Modules that may read the scene: the program around the physics.

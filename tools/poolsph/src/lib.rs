@@ -35,10 +35,10 @@ pub mod state;
 
 pub mod surface;
 mod sweep;
-pub mod tool;
+pub mod program;
 mod trial;
 pub mod vector;
 mod watch;
 
 pub use state::near;
-pub use tool::PoolSph;
+pub use program::PoolSph;
