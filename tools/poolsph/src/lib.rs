@@ -33,12 +33,12 @@ pub mod source;
 pub mod stage;
 pub mod state;
 
+pub mod program;
 pub mod surface;
 mod sweep;
-pub mod program;
 mod trial;
 pub mod vector;
 mod watch;
 
-pub use state::near;
 pub use program::PoolSph;
+pub use state::near;

@@ -263,3 +263,20 @@ fn what_metal_is_to_grains_means_nothing_without_metal() {
     assert_eq!(output.status.code(), Some(2));
     assert!(said(&output).contains("/grains/metal"), "{}", said(&output));
 }
+
+/// A grain of the weight m g sinks by m g/k into what it lies on.
+#[test]
+fn contacts_that_are_too_soft_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |stiffness: f64| {
+        let mut scene = resting();
+        scene["grains"]["contact"]["law"]["linear"]["stiffness_n_m"] = json!(stiffness);
+        let out = folder.path().join("soft.mcap");
+        let path = out.with_extension("scene.json");
+        std::fs::write(&path, scene.to_string()).unwrap();
+        said(&command(&path, &out, &[]).output().unwrap())
+    };
+    // m g is 2.1e-6 N, a tenth of the radius 2.5e-5 m.
+    assert!(!told(75.0).contains("overlap by"), "{}", told(75.0));
+    assert!(told(0.02).contains("overlap by"), "{}", told(0.02));
+}
