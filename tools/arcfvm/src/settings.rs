@@ -1,6 +1,6 @@
 //! Solvers and relaxation, from the scene.
 
-use krylov::Krylov;
+use krylov::Rule;
 use relax::Sor;
 
 use crate::equation::{Method, Solver};
@@ -42,33 +42,28 @@ pub struct Advance {
 
 impl From<LinearSolver> for Solvers {
     fn from(chosen: LinearSolver) -> Self {
-        let rule = |reduction, iterations| Krylov {
-            reduction,
-            floor: 0.0,
-            iterations,
+        let rule = |decrease, products| Rule {
+            decrease,
+            ..Rule::to(0.0, products)
         };
-        let incomplete = |reduction, iterations| Method::Incomplete(rule(reduction, iterations));
-        let multigrid = |reduction, iterations| Method::Multigrid(rule(reduction, iterations));
-        let sor = |relaxation, sweeps, reduction| {
-            Method::Sor(Sor {
-                relaxation,
-                sweeps,
-                reduction,
-            })
-        };
+        let incomplete = |decrease, products| Method::Incomplete(rule(decrease, products));
+        let multigrid = |decrease, products| Method::Multigrid(rule(decrease, products));
+        let sor =
+            |relaxation, sweeps, decrease| Method::Sor(Sor::new(relaxation, sweeps, decrease));
+        // A product of each step, two where the matrix is not symmetric, and one for the first residual.
         let (potential, momentum, pressure, energy) = match chosen {
             LinearSolver::Incomplete => (
-                incomplete(1e-2, 300),
-                incomplete(1e-2, 20),
-                incomplete(1e-2, 100),
-                incomplete(1e-3, 50),
+                incomplete(1e-2, 301),
+                incomplete(1e-2, 41),
+                incomplete(1e-2, 101),
+                incomplete(1e-3, 101),
             ),
             // Where gas is carried, incomplete factors follow the stream and multigrid does not.
             LinearSolver::Multigrid => (
-                multigrid(1e-2, 60),
-                incomplete(1e-2, 20),
-                multigrid(1e-2, 60),
-                incomplete(1e-3, 50),
+                multigrid(1e-2, 61),
+                incomplete(1e-2, 41),
+                multigrid(1e-2, 61),
+                incomplete(1e-3, 101),
             ),
             // Enough sweeps that what an iteration changes travels as far as its relaxation lets it.
             LinearSolver::Sor => (

@@ -11,7 +11,7 @@
 use std::sync::Arc;
 
 use krylov::{
-    Aggregation, Krylov, Operator, Outcome, Pattern, Sparse, Workspace, conjugate_gradient, gmres,
+    Aggregation, Operator, Pattern, Rule, Scratch, Solved, Sparse, conjugate_gradient, gmres,
 };
 use relax::FivePoint;
 
@@ -36,7 +36,7 @@ pub struct Aggregated {
     first: Vec<usize>,
     /// Iterations of the first solve after the groups were formed.
     fresh: Option<usize>,
-    work: Workspace,
+    scratch: Scratch<f64>,
 }
 
 /// The four neighbours of row `k` and the coupling to each.
@@ -110,12 +110,12 @@ impl Aggregated {
             part: Vec::new(),
             first: Vec::new(),
             fresh: None,
-            work: Workspace::default(),
+            scratch: Scratch::default(),
         }
     }
 
     /// Improves `x`; false where the method breaks down (`x` is then of no use).
-    pub fn solve(&mut self, a: &FivePoint, x: &mut [f64], rule: Krylov) -> bool {
+    pub fn solve(&mut self, a: &FivePoint, x: &mut [f64], rule: Rule) -> bool {
         let Some(matrix) = self.fit(a) else {
             return false;
         };
@@ -185,17 +185,17 @@ impl Aggregated {
         matrix: &Sparse,
         rhs: &[f64],
         x: &mut [f64],
-        rule: Krylov,
-    ) -> Option<Outcome> {
-        let (hierarchy, work) = (self.hierarchy.as_mut()?, &mut self.work);
+        rule: Rule,
+    ) -> Option<Solved> {
+        let (hierarchy, scratch) = (self.hierarchy.as_mut()?, &mut self.scratch);
         let found = if self.symmetric {
-            conjugate_gradient(matrix, rhs, x, hierarchy, rule, work)
+            conjugate_gradient(matrix, rhs, x, hierarchy, rule, scratch)
         } else {
-            gmres(matrix, rhs, x, hierarchy, rule.restarted(RESTART), work)
+            gmres(matrix, rhs, x, hierarchy, rule.restarted(RESTART), scratch)
         };
-        let found = found.ok()?;
-        let fresh = *self.fresh.get_or_insert(found.iterations);
-        if found.iterations > 2 * fresh + SLACK {
+        let found = found.sound().ok()?;
+        let fresh = *self.fresh.get_or_insert(found.steps);
+        if found.steps > 2 * fresh + SLACK {
             self.hierarchy = None;
         }
         Some(found)
@@ -256,11 +256,7 @@ mod tests {
     use super::*;
     use relax::Coefficients;
 
-    const RULE: Krylov = Krylov {
-        reduction: 1e-12,
-        floor: 0.0,
-        iterations: 60,
-    };
+    const RULE: Rule = Rule::to(1e-12, 61);
 
     /// A square of conductors that jumps by `ratio` in the middle; ground below if `grounded`.
     fn square(n: usize, ratio: f64, grounded: bool) -> FivePoint {
@@ -320,8 +316,8 @@ mod tests {
         let n = 50;
         let mut straight = Aggregated::new(true);
         let mut x = vec![0.0; n * n];
-        let loose = Krylov {
-            reduction: 1e-2,
+        let loose = Rule {
+            decrease: 1e-2,
             ..RULE
         };
         assert!(straight.solve(&square(n, 3.0, true), &mut x, loose));

@@ -4,20 +4,20 @@
 //! with incomplete factors; Krylov methods with algebraic multigrid. They differ in time, not in the
 //! solution: the outer iteration ends only where the residuals before any solve are small.
 
-use krylov::{Error, Krylov, Workspace, bicgstab, conjugate_gradient};
+use krylov::{Breakdown, Ending, Error, Rule, Scratch, bicgstab, conjugate_gradient};
 use relax::{FivePoint, Sor, StencilFactors};
 
 use crate::equation::aggregated::Aggregated;
 
 /// How the equation of a field is solved within an outer iteration.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub enum Method {
     /// Red-black SOR (Komen 2019, eqs 3.62, 3.63).
     Sor(Sor),
     /// A Krylov method preconditioned by incomplete factors.
-    Incomplete(Krylov),
+    Incomplete(Rule<'static>),
     /// A Krylov method preconditioned by multigrid.
-    Multigrid(Krylov),
+    Multigrid(Rule<'static>),
 }
 
 /// Why an equation could not be solved, and the cell where it showed.
@@ -59,7 +59,7 @@ pub struct Solver {
     symmetric: bool,
     factors: StencilFactors,
     aggregated: Aggregated,
-    work: Workspace,
+    scratch: Scratch<f64>,
     /// What the sweeps need, or the values before a Krylov method.
     kept: Vec<f64>,
 }
@@ -73,7 +73,7 @@ impl Solver {
             symmetric,
             factors: StencilFactors::default(),
             aggregated: Aggregated::new(symmetric),
-            work: Workspace::default(),
+            scratch: Scratch::default(),
             kept: Vec::new(),
         }
     }
@@ -101,7 +101,10 @@ impl Solver {
         self.kept.clear();
         self.kept.extend_from_slice(x);
         let better = match self.method {
-            Method::Sor(sor) => return sor.solve_within(equation, x, &mut self.kept).map(drop),
+            Method::Sor(sor) => {
+                equation.check()?;
+                return self.swept(sor, equation, x);
+            }
             Method::Incomplete(rule) => {
                 self.factors.rebuild(equation)?;
                 self.factorised(equation, x, rule)
@@ -116,24 +119,32 @@ impl Solver {
         }
         // Krylov methods can break down; sweeps over a dominant diagonal cannot.
         x.copy_from_slice(&self.kept);
-        FALLBACK.solve_within(equation, x, &mut self.kept).map(drop)
+        self.swept(FALLBACK, equation, x)
+    }
+
+    fn swept(&mut self, sor: Sor, equation: &FivePoint, x: &mut [f64]) -> Result<(), Error> {
+        sor.solve(equation, x, &mut self.kept);
+        let what = "the value";
+        let lost = x.iter().position(|x| !x.is_finite());
+        lost.map_or(Ok(()), |index| Err(Error::NotFinite { index, what }))
     }
 
     /// Solves with the incomplete factors that there are; whether `x` is better.
-    fn factorised(&mut self, equation: &FivePoint, x: &mut [f64], rule: Krylov) -> bool {
-        let (factors, work, source) = (&mut self.factors, &mut self.work, &equation.source);
+    fn factorised(&mut self, equation: &FivePoint, x: &mut [f64], rule: Rule) -> bool {
+        let (factors, scratch, source) = (&mut self.factors, &mut self.scratch, &equation.source);
         let found = if self.symmetric {
-            conjugate_gradient(equation, source, x, factors, rule, work)
+            conjugate_gradient(equation, source, x, factors, rule, scratch)
         } else {
-            bicgstab(equation, source, x, factors, rule, work)
+            bicgstab(equation, source, x, factors, rule, scratch)
         };
-        found.is_ok_and(|found| found.last <= found.first)
+        // What was found before a divisor vanished serves.
+        let sound = match found.ending {
+            Ending::BrokenDown(why) => why == Breakdown::Shadow,
+            _ => true,
+        };
+        sound && found.last <= found.first
     }
 }
 
 /// Sweeps where a Krylov method made things worse.
-const FALLBACK: Sor = Sor {
-    relaxation: 1.0,
-    sweeps: 100,
-    reduction: 1e-2,
-};
+const FALLBACK: Sor = Sor::new(1.0, 100, 1e-2);

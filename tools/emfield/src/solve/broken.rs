@@ -74,7 +74,9 @@ mod tests {
         let solved = Solved {
             ending: Ending::BrokenDown(Breakdown::NotFinite),
             products: 12,
-            residuals: Vec::new(),
+            steps: 0,
+            first: 0.0,
+            last: 0.0,
             history: Vec::new(),
         };
         let size = |i: usize| if i == 7 { f64::NAN } else { 1e300 };

@@ -87,7 +87,7 @@ pub(crate) fn report(
         session.history(&format!("residual_{name}"), "1", k as f64, *value);
     }
     session.closing(&format!("products_{name}"), "1", solved.products as f64);
-    let residual = solved.residuals.iter().copied().fold(0.0, f64::max);
+    let residual = solved.worst();
     session.closing(&format!("residual_{name}"), "1", residual);
     match &solved.ending {
         Ending::Converged => Ok(()),

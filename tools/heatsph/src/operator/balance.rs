@@ -35,7 +35,7 @@
 
 use std::sync::Arc;
 
-use krylov::{Krylov, Pattern, Workspace, conjugate_gradient};
+use krylov::{Pattern, Rule, Scratch, conjugate_gradient};
 use rayon::prelude::*;
 
 use super::net::{Blocks, Net, Springs};
@@ -53,10 +53,10 @@ const ROUNDING: f64 = 16.0;
 const NEEDED: f64 = 1e-11;
 /// Most Newton steps.
 const STEPS: usize = 30;
-/// Newton steps for the second moments, and iterations in each.
-const MOMENT_STEPS: (usize, usize) = (6, 60);
-/// Iterations within a Newton step.
-const ITERATIONS: usize = 1000;
+/// Newton steps for the second moments, and products in each.
+const MOMENT_STEPS: (usize, usize) = (6, 61);
+/// Products within a Newton step.
+const PRODUCTS: usize = 1001;
 /// A Newton step changes no weight by more than this factor's logarithm.
 const LARGEST: f64 = 2.0;
 
@@ -130,13 +130,9 @@ fn relax<const D: usize, const K: usize>(
 ) {
     let trial = weight.to_vec();
     let mut multipliers = vec![0.0; net.len()];
-    let mut work = Workspace::default();
+    let rule = Rule::to(1e-2, MOMENT_STEPS.1);
+    let mut work = Scratch::default();
     for _ in 0..MOMENT_STEPS.0 {
-        let rule = Krylov {
-            reduction: 1e-2,
-            floor: 0.0,
-            iterations: MOMENT_STEPS.1,
-        };
         let imbalance = net.imbalance(weight, &multipliers);
         if greatest(&imbalance) < MOMENTS {
             break;
@@ -157,7 +153,7 @@ fn solve<const D: usize>(
 ) -> Result<(), OperatorError> {
     let trial = weight.to_vec();
     let mut multipliers = vec![0.0; net.len()];
-    let mut work = Workspace::default();
+    let mut work = Scratch::default();
     let needed = NEEDED.max(exact);
     let motions = net.motions();
     let mut best = (f64::INFINITY, Vec::new());
@@ -180,11 +176,8 @@ fn solve<const D: usize>(
             }
         }
         // Newton's method squares the residual: to ask for more is in vain.
-        let rule = Krylov {
-            reduction: residual.clamp(1e-4, 1e-2).max(0.1 * exact / residual),
-            floor: 0.0,
-            iterations: ITERATIONS,
-        };
+        let reduction = residual.clamp(1e-4, 1e-2).max(0.1 * exact / residual);
+        let rule = Rule::to(reduction, PRODUCTS);
         done.iterations += step(net, weight, &imbalance, &mut multipliers, rule, &mut work);
         done.steps += 1;
         net.weigh(&trial, &multipliers, weight);
@@ -214,8 +207,8 @@ fn step<const D: usize, const K: usize>(
     weight: &[f64],
     imbalance: &[f64],
     multipliers: &mut [f64],
-    rule: Krylov,
-    work: &mut Workspace,
+    rule: Rule,
+    work: &mut Scratch<f64>,
 ) -> usize {
     let springs = Springs { net, weight };
     let right: Vec<f64> = imbalance.iter().map(|g| -g).collect();
@@ -226,7 +219,7 @@ fn step<const D: usize, const K: usize>(
     for (multiplier, change) in multipliers.iter_mut().zip(&change) {
         *multiplier += length * change;
     }
-    solved.map_or(0, |outcome| outcome.iterations)
+    solved.sound().map_or(0, |solved| solved.steps)
 }
 
 /// The volumes (4).

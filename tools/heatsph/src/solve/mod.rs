@@ -5,7 +5,7 @@
 mod near;
 mod point;
 
-use krylov::{Aggregation, Jacobi, Krylov, Sparse, Workspace, conjugate_gradient, gmres};
+use krylov::{Aggregation, Jacobi, Rule, Scratch, Sparse, conjugate_gradient, gmres};
 use rayon::prelude::*;
 use run::property::OutOfRange;
 
@@ -19,8 +19,8 @@ use crate::system::{Rates, System};
 const DOMINANT: f64 = 0.003;
 /// Columns of GMRES between restarts.
 const RESTART: usize = 40;
-/// Iterations of a linear solve.
-const ITERATIONS: usize = 500;
+/// Most products of a linear solve: 500 of its steps, and one for the first residual.
+const PRODUCTS: usize = 501;
 /// Roundings in the heat of a point, on average.
 const ROUNDING: f64 = 2.0;
 /// Part of the residual that a step with an older matrix may leave before the matrix is taken anew.
@@ -111,7 +111,7 @@ pub struct Solver {
     matrix: Sparse,
     hold: Hold,
     near: Near,
-    work: Workspace,
+    scratch: Scratch<f64>,
     symmetric: bool,
     /// Conductivity of each point where the unknown is Kirchhoff's transform, with which the matrix is symmetric.
     scale: Vec<f64>,
@@ -128,7 +128,7 @@ impl Solver {
             matrix: system.matrix(),
             hold: Hold::Nothing,
             near: Near::Nothing,
-            work: Workspace::default(),
+            scratch: Scratch::default(),
             symmetric: system.conduction().is_symmetric(),
             scale: Vec::new(),
             residual: Vec::new(),
@@ -194,22 +194,21 @@ impl Solver {
     fn linear(&mut self, rhs: &[f64], reduction: f64) -> Result<usize, SolveError> {
         self.change.clear();
         self.change.resize(rhs.len(), 0.0);
-        let rule = Krylov {
-            reduction,
-            floor: 0.0,
-            iterations: ITERATIONS,
-        };
-        let (matrix, near, work) = (&self.matrix, &mut self.near, &mut self.work);
-        let outcome = if self.symmetric {
-            conjugate_gradient(matrix, rhs, &mut self.change, near, rule, work)?
+        let (matrix, change, near) = (&self.matrix, &mut self.change, &mut self.near);
+        let scratch = &mut self.scratch;
+        let solved = if self.symmetric {
+            let rule = Rule::to(reduction, PRODUCTS);
+            conjugate_gradient(matrix, rhs, change, near, rule, scratch)
         } else {
-            let rule = rule.restarted(RESTART);
-            gmres(matrix, rhs, &mut self.change, near, rule, work)?
+            // Each cycle ends with a residual.
+            let rule = Rule::to(reduction, PRODUCTS + PRODUCTS / RESTART).restarted(RESTART);
+            gmres(matrix, rhs, change, near, rule, scratch)
         };
+        let steps = solved.sound()?.steps;
         for (change, k) in self.change.iter_mut().zip(&self.scale) {
             *change /= k;
         }
-        Ok(outcome.iterations)
+        Ok(steps)
     }
 
     /// Filters `values` \[W\] by the matrix of the last solve: what a stiff part would become within its step. A solve

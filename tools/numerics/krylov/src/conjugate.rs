@@ -1,78 +1,95 @@
 //! Conjugate gradients.
 
 use crate::operator::{column, column_mut};
-use crate::sums::{add, add_norm, dot, turn};
-use crate::{Error, Inverse, Krylov, Operator, Outcome, Workspace, residual, sizes};
+use crate::scratch::{Scratch, fits};
+use crate::sums::{add, add_norm, dot, subtract_from, turn};
+use crate::{Breakdown, Ending, Inverse, Operator, Rule, Solved, Stagnation, Watch};
 
 /// Conjugate gradients for a symmetric positive definite matrix; `x` is the first guess and
 /// becomes the solution. Flexible (Polak and Ribiere; Notay 2000, SIAM J. Sci. Comput. 22, 1444):
 /// each direction is made conjugate to the one before it by the matrix itself, so that a
 /// preconditioner which is not the same linear map in each call does no harm.
 ///
-/// # Errors
-/// When the matrix or the preconditioner is not positive definite, values leave the numbers or
-/// lengths differ. To run out of iterations is no error: see [`Outcome::last`].
+/// # Panics
+/// When lengths differ.
 pub fn conjugate_gradient(
     a: &impl Operator<f64>,
     rhs: &[f64],
     x: &mut [f64],
     inverse: &mut impl Inverse<f64>,
-    rule: Krylov,
-    work: &mut Workspace,
-) -> Result<Outcome, Error> {
-    sizes(a, rhs, x)?;
-    let [r, z, p, q, ..] = work.fit(4, x.len()) else {
-        return Err(Error::Size {
-            expected: 4,
-            found: 0,
-        });
-    };
-    let first = residual(a, rhs, x, r)?;
-    let mut goal = Goal::new(rule.target(first), a.rounding(column(x)));
-    let (mut last, mut iterations, mut curvature) = (first, 0, 0.0);
-    while !goal.reached(last) && iterations < rule.iterations {
+    rule: Rule,
+    scratch: &mut Scratch<f64>,
+) -> Solved {
+    let [r, z, p, q] = scratch.columns(fits(a.len(), rhs, x));
+    let mut watch = begin(a, rhs, x, r, &rule);
+    let mut goal = Goal::new(watch.target[0], a.rounding(column(x)));
+    let (mut products, mut curvature, mut stuck) = (1, 0.0, None);
+    loop {
+        let ended = watch.ended(&rule, products, goal.reached(watch.now[0]));
+        if let Some(mut ending) = ended.or(stuck) {
+            if matches!(ending, Ending::Spent | Ending::Stopped) {
+                products += 1;
+                watch.note([residual(a, rhs, x, r)], products);
+                ending = watch.ended(&rule, products, false).unwrap_or(ending);
+            }
+            return watch.solved(ending, products);
+        }
         inverse.invert(column(r), column_mut(z));
         // A z . p = z . q makes the new direction conjugate to the old one.
-        let beta = if curvature > 0.0 {
-            -dot(z, q) / curvature
-        } else {
-            0.0
-        };
         if curvature > 0.0 {
-            turn(p, beta, z);
+            turn(p, -dot(z, q) / curvature, z);
         } else {
             p.copy_from_slice(z);
         }
         a.apply(column(p), column_mut(q));
+        products += 1;
         curvature = dot(p, q);
         let along = dot(r, p);
-        for value in [curvature, along] {
-            if value.is_nan() || value <= 0.0 {
-                return Err(indefinite(value, iterations, x, z));
-            }
+        if let Some(value) = [curvature, along].iter().find(|v| v.is_nan() || **v <= 0.0) {
+            let finite = value.is_finite();
+            let why = if finite {
+                Breakdown::Indefinite
+            } else {
+                Breakdown::NotFinite
+            };
+            return watch.solved(Ending::BrokenDown(why), products);
         }
         let alpha = along / curvature;
         add(x, alpha, p);
-        last = add_norm(r, -alpha, q).sqrt();
-        iterations += 1;
-        if goal.reached(last) {
+        watch.step([add_norm(r, -alpha, q).sqrt()], products);
+        if goal.reached(watch.now[0]) {
             // What counts is the true residual; after a drift, go on from there.
-            last = residual(a, rhs, x, r)?;
+            products += 1;
+            watch.note([residual(a, rhs, x, r)], products);
             curvature = 0.0;
-            if goal.renewed(last, a.rounding(column(x))) {
-                break;
+            if goal.renewed(watch.now[0], a.rounding(column(x))) {
+                stuck = Some(rounded(&watch));
             }
         }
     }
-    if iterations == rule.iterations {
-        last = residual(a, rhs, x, r)?;
-    }
-    Ok(Outcome {
-        iterations,
-        first,
-        last,
-        rounding: a.rounding(column(x)),
-    })
+}
+
+/// `r = b - A x` and its norm.
+pub(crate) fn residual(a: &impl Operator<f64>, rhs: &[f64], x: &[f64], r: &mut [f64]) -> f64 {
+    a.apply(column(x), column_mut(r));
+    subtract_from(rhs, r).sqrt()
+}
+
+/// Looks at the first residual.
+pub(crate) fn begin(
+    a: &impl Operator<f64>,
+    rhs: &[f64],
+    x: &[f64],
+    r: &mut [f64],
+    rule: &Rule,
+) -> Watch<1> {
+    Watch::new(rule, [dot(rhs, rhs).sqrt()], [residual(a, rhs, x, r)])
+}
+
+/// The residual is as small as rounding lets it be.
+pub(crate) fn rounded(watch: &Watch<1>) -> Ending {
+    let [level] = watch.relative();
+    Ending::Stagnated(Stagnation::Rounding { level })
 }
 
 /// Norm below which a residual is none: products of such numbers with a matrix and with each other are no normal
@@ -106,27 +123,5 @@ impl Goal {
         let stalled = residual > 0.5 * self.before;
         self.before = residual;
         stalled || self.reached(residual)
-    }
-}
-
-/// The error of a product that should be positive.
-fn indefinite(value: f64, iteration: usize, x: &[f64], z: &[f64]) -> Error {
-    if value.is_finite() {
-        return Error::Indefinite { iteration, value };
-    }
-    let first = |values: &[f64]| values.iter().position(|v| !v.is_finite());
-    match (first(x), first(z)) {
-        (Some(index), _) => Error::NotFinite {
-            index,
-            what: "the value",
-        },
-        (None, Some(index)) => Error::NotFinite {
-            index,
-            what: "the preconditioned residual",
-        },
-        (None, None) => Error::NotFinite {
-            index: 0,
-            what: "the curvature",
-        },
     }
 }

@@ -1,14 +1,18 @@
-//! How a solve of several columns ended.
+//! When a solve is to end, and how it ended.
 
+use crate::Error;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::Restarted;
+/// Products without a decrease by a tenth after which a solve has stagnated.
+pub(crate) const PATIENCE: usize = 80;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
 pub struct Rule<'a> {
     /// Wanted residual over that of a zero guess, `|b - A x| / |b|`, of each column.
     pub reduction: f64,
+    /// Wanted residual over that of the first guess: for solves that improve what others go on from.
+    pub decrease: f64,
     /// Residual below which nothing is gained, in the unit of the right side.
     pub floor: f64,
     /// Most products with the matrix.
@@ -18,10 +22,22 @@ pub struct Rule<'a> {
     pub stop: Option<&'a AtomicBool>,
 }
 
-impl Rule<'_> {
+impl<'a> Rule<'a> {
+    /// A reduction, within so many products.
+    #[must_use]
+    pub const fn to(reduction: f64, products: usize) -> Self {
+        Self {
+            reduction,
+            decrease: 0.0,
+            floor: 0.0,
+            products,
+            stop: None,
+        }
+    }
+
     /// The same with cycles of so many steps.
     #[must_use]
-    pub fn restarted(self, after: usize) -> Restarted<Self> {
+    pub fn restarted(self, after: usize) -> Restarted<'a> {
         Restarted { rule: self, after }
     }
 
@@ -33,19 +49,23 @@ impl Rule<'_> {
 
 impl Default for Rule<'_> {
     fn default() -> Self {
-        Self {
-            reduction: 1e-8,
-            floor: 0.0,
-            products: 2000,
-            stop: None,
-        }
+        Self::to(1e-8, 2000)
     }
+}
+
+/// A rule for a method that starts anew after so many steps.
+#[derive(Debug, Clone, Copy)]
+pub struct Restarted<'a> {
+    /// When to stop.
+    pub rule: Rule<'a>,
+    /// Steps of a cycle.
+    pub after: usize,
 }
 
 /// How it ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending {
-    /// Every column has the wanted residual, evaluated anew.
+    /// Every column has the wanted residual, evaluated anew, or what rounding leaves ([`Operator::rounding`](crate::Operator)).
     Converged,
     /// The residual has not fallen for long.
     Stagnated(Stagnation),
@@ -94,6 +114,8 @@ pub enum Breakdown {
     NotFinite,
     /// A pivot of the factors is zero.
     Pivot,
+    /// A curvature is not positive.
+    Indefinite,
 }
 
 impl std::fmt::Display for Ending {
@@ -136,6 +158,7 @@ impl std::fmt::Display for Breakdown {
             Self::Polynomial => "the minimising polynomial has no solution",
             Self::NotFinite => "a number is not finite",
             Self::Pivot => "a pivot is zero",
+            Self::Indefinite => "the matrix or its preconditioner is not positive definite",
         })
     }
 }
@@ -145,10 +168,14 @@ impl std::fmt::Display for Breakdown {
 pub struct Solved {
     /// How it ended.
     pub ending: Ending,
+    /// Steps of the method.
+    pub steps: usize,
     /// Products with the matrix (and as many preconditioned vectors) of all columns together.
     pub products: usize,
-    /// True residual at the end over that of a zero guess, of each column.
-    pub residuals: Vec<f64>,
+    /// Largest residual of the columns at the start, in the unit of the right side.
+    pub first: f64,
+    /// The same at the end, evaluated anew.
+    pub last: f64,
     /// Largest of the columns' residuals over that of a zero guess: at the start, then after each
     /// step of the method, as it is known there.
     pub history: Vec<f64>,
@@ -161,10 +188,128 @@ impl Solved {
         self.ending == Ending::Converged
     }
 
-    /// Largest true residual of the columns.
+    /// Largest residual of the columns over that of a zero guess, at the end.
     #[must_use]
     pub fn worst(&self) -> f64 {
-        self.residuals.iter().copied().fold(0.0, f64::max)
+        self.history.last().copied().unwrap_or(0.0)
+    }
+
+    /// The same where it did not break down.
+    ///
+    /// # Errors
+    /// [`Error::BrokenDown`].
+    pub fn sound(self) -> Result<Self, Error> {
+        match self.ending {
+            Ending::BrokenDown(why) => Err(Error::BrokenDown(why)),
+            _ => Ok(self),
+        }
+    }
+}
+
+/// Residuals of the columns while a method is at work: what is wanted, what there is.
+#[derive(Debug)]
+pub struct Watch<const C: usize> {
+    pub(crate) scale: [f64; C],
+    pub(crate) target: [f64; C],
+    pub(crate) now: [f64; C],
+    first: f64,
+    steps: usize,
+    history: Vec<f64>,
+    best: f64,
+    best_at: usize,
+}
+
+impl<const C: usize> Watch<C> {
+    /// Of columns whose right sides have the norms `scale`, and whose residuals have the norms `now`.
+    #[must_use]
+    pub fn new(rule: &Rule, scale: [f64; C], now: [f64; C]) -> Self {
+        let wanted = |c: usize| (rule.reduction * scale[c]).max(rule.decrease * now[c]);
+        let mut watch = Self {
+            scale,
+            target: std::array::from_fn(|c| wanted(c).max(rule.floor)),
+            now,
+            first: now.into_iter().fold(0.0, f64::max),
+            steps: 0,
+            history: Vec::new(),
+            best: f64::INFINITY,
+            best_at: 0,
+        };
+        watch.note(now, 0);
+        watch
+    }
+
+    pub(crate) fn relative(&self) -> [f64; C] {
+        std::array::from_fn(|c| {
+            if self.now[c] == 0.0 {
+                0.0
+            } else if self.scale[c] > 0.0 {
+                self.now[c] / self.scale[c]
+            } else {
+                f64::INFINITY
+            }
+        })
+    }
+
+    /// Takes residuals that were evaluated after so many products.
+    pub fn note(&mut self, now: [f64; C], products: usize) {
+        self.now = now;
+        let worst = self.relative().into_iter().fold(0.0, f64::max);
+        self.history.push(worst);
+        if worst < 0.9 * self.best {
+            self.best = worst;
+            self.best_at = products;
+        }
+    }
+
+    /// Takes the residuals after a step.
+    pub fn step(&mut self, now: [f64; C], products: usize) {
+        self.steps += 1;
+        self.note(now, products);
+    }
+
+    pub(crate) fn done(&self, c: usize) -> bool {
+        self.now[c] <= self.target[c]
+    }
+
+    /// Has every column the wanted residual?
+    #[must_use]
+    pub fn all_done(&self) -> bool {
+        (0..C).all(|c| self.done(c))
+    }
+
+    pub(crate) fn finite(&self) -> bool {
+        self.now.iter().all(|r| r.is_finite())
+    }
+
+    pub(crate) fn stuck(&self, products: usize) -> bool {
+        products > self.best_at + PATIENCE
+    }
+
+    /// What ends a solve at this point, if anything; `reached` where the residuals are small enough.
+    #[must_use]
+    pub fn ended(&self, rule: &Rule, products: usize, reached: bool) -> Option<Ending> {
+        if !self.finite() {
+            Some(Ending::BrokenDown(Breakdown::NotFinite))
+        } else if reached {
+            Some(Ending::Converged)
+        } else if products >= rule.products {
+            Some(Ending::Spent)
+        } else {
+            rule.stopped().then_some(Ending::Stopped)
+        }
+    }
+
+    /// What came of it.
+    #[must_use]
+    pub fn solved(self, ending: Ending, products: usize) -> Solved {
+        Solved {
+            ending,
+            steps: self.steps,
+            products,
+            first: self.first,
+            last: self.now.into_iter().fold(0.0, f64::max),
+            history: self.history,
+        }
     }
 }
 
@@ -172,6 +317,7 @@ impl Solved {
 mod tests {
     use super::*;
     use crate::{Identity, Operator, Rows, Scratch, bicgstab2, minimal_residual};
+    use crate::{bicgstab, conjugate_gradient, gmres};
     use std::sync::atomic::AtomicUsize;
 
     /// A chain whose solution is no longer wanted after so many products.
@@ -194,10 +340,10 @@ mod tests {
         }
     }
 
-    /// Products, ending and the residual of the solution of both methods.
-    fn solved(most: usize) -> [(usize, Solved, f64); 2] {
+    /// Products, ending and the residual of the solution of all methods.
+    fn solved(most: usize) -> [(usize, Solved, f64); 5] {
         let n = 200;
-        [true, false].map(|short| {
+        [0, 1, 2, 3, 4].map(|method| {
             let a = Unwanted {
                 rows: Rows::gathered(n, 0.0, |i, row| {
                     row.push((i as u32, 2.0));
@@ -213,12 +359,14 @@ mod tests {
                 stop: Some(&a.stop),
                 ..Rule::default()
             };
-            let mut scratch = Scratch::default();
-            let solved = if short {
-                bicgstab2(&a, &rhs, &mut x, &mut Identity, rule, &mut scratch)
-            } else {
-                let rule = rule.restarted(30);
-                minimal_residual(&a, &rhs, &mut x, &mut Identity, rule, &mut scratch)
+            let (none, scratch) = (&mut Identity, &mut Scratch::default());
+            let (b, y) = (rhs.as_flattened(), x.as_flattened_mut());
+            let solved = match method {
+                0 => conjugate_gradient(&a, b, y, none, rule, scratch),
+                1 => bicgstab(&a, b, y, none, rule, scratch),
+                2 => gmres(&a, b, y, none, rule.restarted(30), scratch),
+                3 => bicgstab2(&a, &rhs, &mut x, none, rule, scratch),
+                _ => minimal_residual(&a, &rhs, &mut x, none, rule.restarted(30), scratch),
             };
             let mut left = rhs.clone();
             a.rows.apply(&x, &mut left);

@@ -158,6 +158,8 @@ pub(crate) fn weak(solved: &Solved) -> bool {
 /// A second solve after a first.
 pub(crate) fn joined(first: Solved, mut second: Solved) -> Solved {
     second.products += first.products;
+    second.steps += first.steps;
+    second.first = first.first;
     let mut history = first.history;
     history.append(&mut second.history);
     second.history = history;

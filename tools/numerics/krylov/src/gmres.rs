@@ -1,58 +1,65 @@
 //! Generalised minimal residuals.
 
-use crate::conjugate::Goal;
+use crate::conjugate::{Goal, begin, residual, rounded};
 use crate::operator::{column, column_mut};
+use crate::scratch::{Scratch, fits};
 use crate::sums::{add, dot};
-use crate::{Error, Inverse, Krylov, Operator, Outcome, Restarted, Workspace, residual, sizes};
+use crate::{Breakdown, Ending, Inverse, Operator, Restarted, Rule, Solved, Stagnation, Watch};
 
 /// Restarted, flexible, right-preconditioned GMRES for a matrix that need not be symmetric
 /// (Saad 1993, SIAM J. Sci. Comput. 14, 461); `x` is the first guess and becomes the solution.
 /// Holds one column more than twice the steps of a cycle at most, and only those that a solve has come to need.
 ///
-/// # Errors
-/// When the matrix is singular on the way, values leave the numbers or lengths differ. To run out
-/// of iterations is no error: see [`Outcome::last`].
+/// # Panics
+/// When lengths differ.
 pub fn gmres(
     a: &impl Operator<f64>,
     rhs: &[f64],
     x: &mut [f64],
     inverse: &mut impl Inverse<f64>,
-    restarted: Restarted<Krylov>,
-    work: &mut Workspace,
-) -> Result<Outcome, Error> {
-    sizes(a, rhs, x)?;
+    restarted: Restarted,
+    scratch: &mut Scratch<f64>,
+) -> Solved {
+    let n = fits(a.len(), rhs, x);
     let Restarted { rule, after } = restarted;
-    let first = residual(a, rhs, x, &mut work.fit(1, x.len())[0])?;
-    let mut goal = Goal::new(rule.target(first), a.rounding(column(x)));
-    let (mut last, mut iterations) = (first, 0);
-    while !goal.reached(last) && iterations < rule.iterations {
-        let bounds = Cycle {
-            steps: after.max(1).min(rule.iterations - iterations),
-            residual: goal.target,
+    let [r] = scratch.columns(n);
+    let mut watch = begin(a, rhs, x, r, &rule);
+    let mut goal = Goal::new(watch.target[0], a.rounding(column(x)));
+    let (mut products, mut stuck) = (1, None);
+    loop {
+        let before = watch.now[0];
+        let ended = watch.ended(&rule, products, goal.reached(before));
+        if let Some(ending) = ended.or(stuck) {
+            return watch.solved(ending, products);
+        }
+        let room = Room {
+            steps: after.max(1).min(rule.products - products),
+            products,
+            rule: &rule,
         };
-        let cycle = cycle(a, x, inverse, last, bounds, work)?;
-        iterations += cycle.steps;
-        let before = last;
-        last = residual(a, rhs, x, &mut work.columns[0])?;
-        // A cycle that gains nothing, or a minimised residual that is not the true one.
-        let met = cycle.residual <= goal.target;
-        if last > 0.999_999 * before || (met && goal.renewed(last, a.rounding(column(x)))) {
-            break;
+        match cycle(a, x, inverse, &room, &mut watch, scratch) {
+            Ok(steps) => products += steps + 1,
+            Err(why) => return watch.solved(Ending::BrokenDown(why), products),
+        }
+        let met = watch.all_done();
+        let [r] = scratch.columns(n);
+        watch.note([residual(a, rhs, x, r)], products);
+        // A minimised residual that is not the true one, or a cycle that gains nothing.
+        if met && goal.renewed(watch.now[0], a.rounding(column(x))) {
+            stuck = Some(rounded(&watch));
+        } else if watch.now[0] > 0.999_999 * before {
+            let products = room.steps;
+            stuck = Some(Ending::Stagnated(Stagnation::Plateau { products }));
         }
     }
-    Ok(Outcome {
-        iterations,
-        first,
-        last,
-        rounding: a.rounding(column(x)),
-    })
 }
 
-/// How far a cycle goes, or went.
-struct Cycle {
+/// How far a cycle may go.
+struct Room<'a> {
     steps: usize,
-    /// Norm of the residual as the rotations have it.
-    residual: f64,
+    /// Products before it.
+    products: usize,
+    rule: &'a Rule<'a>,
 }
 
 /// The small least-squares problem: an upper triangle, rotations and the rotated right side.
@@ -92,7 +99,7 @@ impl Small<'_> {
     }
 
     /// Backward substitution of the first `steps` rows, in place of the right side.
-    fn solve(&mut self, steps: usize) -> Result<(), Error> {
+    fn solve(&mut self, steps: usize) -> Result<(), Breakdown> {
         for m in (0..steps).rev() {
             let wide = self.most + 1;
             let mut sum = self.side[m];
@@ -101,7 +108,7 @@ impl Small<'_> {
             }
             let pivot = self.triangle[m * wide + m];
             if pivot == 0.0 || !pivot.is_finite() {
-                return Err(Error::Singular { index: 0 });
+                return Err(Breakdown::Polynomial);
             }
             self.side[m] = sum / pivot;
         }
@@ -109,17 +116,17 @@ impl Small<'_> {
     }
 }
 
-/// One cycle from the residual in column 0, of norm `norm`, to either of the bounds.
+/// One cycle from the residual in column 0; its steps.
 fn cycle(
     a: &impl Operator<f64>,
     x: &mut [f64],
     inverse: &mut impl Inverse<f64>,
-    norm: f64,
-    bounds: Cycle,
-    work: &mut Workspace,
-) -> Result<Cycle, Error> {
-    let (n, most) = (x.len(), bounds.steps);
-    let mut numbers = std::mem::take(&mut work.small);
+    room: &Room,
+    watch: &mut Watch<1>,
+    scratch: &mut Scratch<f64>,
+) -> Result<usize, Breakdown> {
+    let (n, most) = (x.len(), room.steps);
+    let mut numbers = std::mem::take(&mut scratch.small);
     numbers.clear();
     numbers.resize(most * (most + 1) + 3 * most + 1, 0.0);
     let (triangle, rest) = numbers.split_at_mut(most * (most + 1));
@@ -130,23 +137,21 @@ fn cycle(
         side,
         most,
     };
-    small.side[0] = norm;
-    let columns = work.fit(1, n);
-    let scale = 1.0 / norm;
-    columns[0].iter_mut().for_each(|v| *v *= scale);
+    small.side[0] = watch.now[0];
+    let scale = 1.0 / watch.now[0];
+    let [first] = scratch.columns(n);
+    first.iter_mut().for_each(|v| *v *= scale);
     let mut m = 0;
-    while m < most && small.side[m].abs() > bounds.residual {
+    while m < most && !watch.all_done() && !room.rule.stopped() {
         // Column 2 m: basis; 2 m + 1: the same preconditioned; 2 m + 2: the next of the basis.
-        let columns = work.fit(2 * m + 3, n);
+        let columns = scratch.fit(2 * m + 3, n);
         let (old, new) = columns.split_at_mut(2 * m + 1);
         let [z, v, ..] = new else { break };
         inverse.invert(column(&old[2 * m]), column_mut(z));
         a.apply(column(z), column_mut(v));
         let size = dot(v, v).sqrt();
         if !size.is_finite() {
-            crate::finite("the value", x)?;
-            crate::finite("the preconditioned residual", z)?;
-            crate::finite("the product", v)?;
+            return Err(Breakdown::NotFinite);
         }
         for k in 0..=m {
             let h = dot(&old[2 * k], v);
@@ -157,6 +162,7 @@ fn cycle(
         small.column(m)[m + 1] = length;
         small.rotate(m);
         m += 1;
+        watch.step([small.side[m].abs()], room.products + m);
         // An invariant space holds the solution, or the matrix is singular.
         if length <= 1e-15 * size {
             break;
@@ -164,14 +170,10 @@ fn cycle(
         let inverse = 1.0 / length;
         v.iter_mut().for_each(|v| *v *= inverse);
     }
-    let left = small.side[m].abs();
     small.solve(m)?;
     for k in 0..m {
-        add(x, small.side[k], &work.columns[2 * k + 1]);
+        add(x, small.side[k], &scratch.columns[2 * k + 1]);
     }
-    work.small = numbers;
-    Ok(Cycle {
-        steps: m,
-        residual: left,
-    })
+    scratch.small = numbers;
+    Ok(m)
 }

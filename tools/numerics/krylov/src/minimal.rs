@@ -2,10 +2,8 @@
 
 use crate::columns::{add, dot, norms, update};
 use crate::operator::{Preconditioned, residual};
-use crate::stabilised::Watch;
-use crate::{
-    Breakdown, Ending, Inverse, Operator, Restarted, Rule, Scalar, Scratch, Solved, Stagnation,
-};
+use crate::scratch::{Scratch, fits};
+use crate::{Ending, Inverse, Operator, Restarted, Rule, Scalar, Solved, Stagnation, Watch};
 
 /// A cycle that leaves more than this share of the residual gains nothing.
 const GAIN: f64 = 0.9;
@@ -103,36 +101,21 @@ pub fn minimal_residual<S: Scalar, const C: usize>(
     rhs: &[[S; C]],
     x: &mut [[S; C]],
     inverse: &mut impl Inverse<S, C>,
-    restarted: Restarted<Rule>,
+    restarted: Restarted,
     scratch: &mut Scratch<S>,
 ) -> Solved {
-    let n = a.len();
-    assert!(
-        rhs.len() == n && x.len() == n,
-        "{n} rows, {} given",
-        rhs.len()
-    );
+    let n = fits(a.len(), rhs, x);
     let (rule, restart) = (restarted.rule, restarted.after.max(1));
-    let mut vectors = scratch.vectors::<C>(restart + 2, n);
-    let Some(z) = vectors.pop() else {
-        return Watch::new(&rule, [0.0; C], [0.0; C]).solved(Ending::Converged, 0);
-    };
+    let vectors = scratch.fit(restart + 2, n * C).iter_mut();
+    let mut vectors: Vec<_> = vectors.map(|v| v.as_chunks_mut().0).collect();
+    let z = vectors.pop().unwrap_or_default();
     let mut whole = Preconditioned { a, inverse, z };
     let start = residual(a, rhs, x, vectors[0]);
     let mut watch = Watch::new(&rule, norms(rhs), start);
     let mut products = 1;
     loop {
-        if !watch.finite() {
-            return watch.solved(Ending::BrokenDown(Breakdown::NotFinite), products);
-        }
-        if watch.all_done() {
-            return watch.solved(Ending::Converged, products);
-        }
-        if products >= rule.products {
-            return watch.solved(Ending::Spent, products);
-        }
-        if rule.stopped() {
-            return watch.solved(Ending::Stopped, products);
+        if let Some(ending) = watch.ended(&rule, products, watch.all_done()) {
+            return watch.solved(ending, products);
         }
         let before = watch.now;
         let steps = restart.min(rule.products - products);
@@ -212,7 +195,7 @@ fn cycle<S: Scalar, const C: usize>(
                 scale[c] = 1.0 / length[c];
             }
         }
-        watch.note(now, *products);
+        watch.step(now, *products);
         for (c, small) in small.iter_mut().enumerate() {
             small.rests |= watch.done(c) || scale[c] == 0.0;
             if small.rests {

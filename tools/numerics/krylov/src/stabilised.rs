@@ -1,113 +1,15 @@
 //! Stabilised bi-conjugate gradients of second order, for several columns.
 
 use crate::columns::{add, add_two, dot, gather, norms, sum, turn};
+use crate::ending::PATIENCE;
 use crate::operator::{Preconditioned, residual};
-use crate::{Breakdown, Ending, Inverse, Operator, Rule, Scalar, Solved, Stagnation};
+use crate::scratch::{Scratch, fits};
+use crate::{Breakdown, Ending, Inverse, Operator, Rule, Scalar, Solved, Stagnation, Watch};
 
-/// Products without a decrease by a tenth after which a solve has stagnated.
-const PATIENCE: usize = 80;
 /// A divisor this small beside the norms it is made of counts as zero.
 const TINY: f64 = 1e-28;
 /// Most evaluations of the true residual that begin anew.
 const RENEWALS: usize = 8;
-
-/// Vectors of [`bicgstab2`], kept between solves.
-#[derive(Debug, Clone)]
-pub struct Scratch<S> {
-    numbers: Vec<S>,
-}
-
-impl<S> Default for Scratch<S> {
-    fn default() -> Self {
-        Self {
-            numbers: Vec::new(),
-        }
-    }
-}
-
-impl<S: Scalar> Scratch<S> {
-    /// `count` vectors of `n` rows and `C` columns.
-    pub(crate) fn vectors<const C: usize>(&mut self, count: usize, n: usize) -> Vec<&mut [[S; C]]> {
-        if self.numbers.len() < count * n * C {
-            self.numbers.resize(count * n * C, S::ZERO);
-        }
-        let whole = self.numbers.as_chunks_mut::<C>().0;
-        whole.chunks_mut(n.max(1)).take(count).collect()
-    }
-}
-
-/// Residuals of the columns: what is wanted, what there is.
-pub(crate) struct Watch<const C: usize> {
-    scale: [f64; C],
-    target: [f64; C],
-    pub(crate) now: [f64; C],
-    pub(crate) history: Vec<f64>,
-    best: f64,
-    best_at: usize,
-}
-
-impl<const C: usize> Watch<C> {
-    pub(crate) fn new(rule: &Rule, scale: [f64; C], now: [f64; C]) -> Self {
-        let target = scale.map(|s| (rule.reduction * s).max(rule.floor));
-        let mut watch = Self {
-            scale,
-            target,
-            now,
-            history: Vec::new(),
-            best: f64::INFINITY,
-            best_at: 0,
-        };
-        watch.note(now, 0);
-        watch
-    }
-
-    pub(crate) fn relative(&self) -> [f64; C] {
-        std::array::from_fn(|c| {
-            if self.now[c] == 0.0 {
-                0.0
-            } else if self.scale[c] > 0.0 {
-                self.now[c] / self.scale[c]
-            } else {
-                f64::INFINITY
-            }
-        })
-    }
-
-    pub(crate) fn note(&mut self, now: [f64; C], products: usize) {
-        self.now = now;
-        let worst = self.relative().into_iter().fold(0.0, f64::max);
-        self.history.push(worst);
-        if worst < 0.9 * self.best {
-            self.best = worst;
-            self.best_at = products;
-        }
-    }
-
-    pub(crate) fn done(&self, c: usize) -> bool {
-        self.now[c] <= self.target[c]
-    }
-
-    pub(crate) fn all_done(&self) -> bool {
-        (0..C).all(|c| self.done(c))
-    }
-
-    pub(crate) fn finite(&self) -> bool {
-        self.now.iter().all(|r| r.is_finite())
-    }
-
-    pub(crate) fn stuck(&self, products: usize) -> bool {
-        products > self.best_at + PATIENCE
-    }
-
-    pub(crate) fn solved(self, ending: Ending, products: usize) -> Solved {
-        Solved {
-            ending,
-            products,
-            residuals: self.relative().to_vec(),
-            history: self.history,
-        }
-    }
-}
 
 /// Scalars of the columns between steps.
 struct State<S, const C: usize> {
@@ -156,21 +58,15 @@ pub fn bicgstab2<S: Scalar, const C: usize>(
     rule: Rule,
     scratch: &mut Scratch<S>,
 ) -> Solved {
-    let n = a.len();
-    assert!(
-        rhs.len() == n && x.len() == n,
-        "{n} rows, {} given",
-        rhs.len()
-    );
-    let mut vectors = scratch.vectors::<C>(9, n).into_iter();
-    let mut next = || vectors.next().unwrap_or_default();
+    let n = fits(a.len(), rhs, x);
+    let vectors = scratch.columns::<9>(n * C).map(|v| v.as_chunks_mut().0);
+    let [r0, r1, r2, u0, u1, u2, shadow, y, z] = vectors;
     let mut set = Set {
-        r: [next(), next(), next()],
-        u: [next(), next(), next()],
-        shadow: next(),
-        y: next(),
+        r: [r0, r1, r2],
+        u: [u0, u1, u2],
+        shadow,
+        y,
     };
-    let z = next();
     let mut whole = Preconditioned { a, inverse, z };
     let start = residual(a, rhs, x, set.r[0]);
     let mut watch = Watch::new(&rule, norms(rhs), start);
@@ -265,7 +161,7 @@ impl<S: Scalar, const C: usize> Set<'_, S, C> {
             let Some(now) = self.minimise(&mut state, &watch.now) else {
                 return Some(Ending::BrokenDown(Breakdown::Polynomial));
             };
-            watch.note(now, *products);
+            watch.step(now, *products);
             if !watch.finite() {
                 return Some(Ending::BrokenDown(Breakdown::NotFinite));
             }

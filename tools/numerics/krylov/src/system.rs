@@ -3,6 +3,7 @@
 use crate::factors::Factors;
 use crate::lowrank::{LowRank, Ties};
 use crate::operator::Equations;
+use crate::scratch::fits;
 use crate::{
     Coefficient, Direct, Ending, Error, Grids, Keep, Order, Pair, Rescue, Rows, Rule, Scalar,
     Scratch, Shifted, Sides, Solved, Stagnation, Unknown,
@@ -141,12 +142,7 @@ impl<T: Scalar, S: Unknown<T>> System<T, S> {
         x: &mut [[S; C]],
         rule: Rule,
     ) -> Solved {
-        let n = self.len();
-        assert!(
-            rhs.len() == n && x.len() == n,
-            "{n} rows, {} given",
-            rhs.len()
-        );
+        fits(self.len(), rhs, x);
         const {
             assert!(
                 C == 1 || C == 3,
@@ -271,11 +267,7 @@ where
         } = sides;
         let n = self.rows.len();
         let mut vectors = std::mem::take(&mut self.vectors);
-        let mut parts = vectors.vectors::<C>(2, n).into_iter();
-        let (b, y) = (
-            parts.next().unwrap_or_default(),
-            parts.next().unwrap_or_default(),
-        );
+        let [b, y] = vectors.columns(n * C).map(|v| v.as_chunks_mut::<C>().0);
         self.order.forth(right, b);
         self.order.forth(solution, y);
         for (b, scale) in b.iter_mut().zip(&self.scale) {

@@ -1,8 +1,8 @@
-//! Nothing is allocated by a solve whose sizes the workspace knows.
+//! A solve whose sizes are known allocates nothing but the history that it returns.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use krylov::{Aggregation, Krylov, Pattern, Sparse, Workspace, conjugate_gradient, gmres};
+use krylov::{Aggregation, Pattern, Rule, Scratch, Sparse, conjugate_gradient, gmres};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::sync::Arc;
@@ -30,12 +30,8 @@ fn square(n: usize) -> Sparse {
 }
 
 #[test]
-fn a_solve_allocates_nothing() {
-    let rule = Krylov {
-        reduction: 1e-8,
-        floor: 0.0,
-        iterations: 50,
-    };
+fn a_solve_allocates_its_history_alone() {
+    let rule = Rule::to(1e-8, 55);
     // One thread: to hand a task to another allocates now and then, in the pool itself.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     pool.unwrap().install(|| {
@@ -44,18 +40,22 @@ fn a_solve_allocates_nothing() {
             let (rhs, mut x) = (vec![1.0; n * n], vec![0.0; n * n]);
             let mut grid = Aggregation::new(&a, true).unwrap();
             let mut any = Aggregation::new(&a, false).unwrap();
-            let mut work = Workspace::default();
+            let mut work = Scratch::default();
             let mut solve = || {
                 x.fill(0.0);
-                conjugate_gradient(&a, &rhs, &mut x, &mut grid, rule, &mut work).unwrap();
+                conjugate_gradient(&a, &rhs, &mut x, &mut grid, rule, &mut work);
                 x.fill(0.0);
-                gmres(&a, &rhs, &mut x, &mut any, rule.restarted(10), &mut work).unwrap();
+                gmres(&a, &rhs, &mut x, &mut any, rule.restarted(10), &mut work);
             };
             solve();
             let region = Region::new(GLOBAL);
             solve();
             let change = region.change();
-            assert_eq!((change.allocations, change.reallocations), (0, 0), "{n}");
+            assert_eq!(change.allocations, 2, "{n}");
+            assert!(
+                change.reallocations <= 8 && change.bytes_reallocated < 1024,
+                "{n}"
+            );
         }
     });
 }

@@ -1,6 +1,6 @@
 //! Red-black successive over-relaxation (Komen 2019, eqs 3.58 to 3.63).
 
-use krylov::{Error, Outcome};
+use krylov::{Rule, Solved, Watch};
 
 use crate::FivePoint;
 
@@ -13,60 +13,44 @@ pub enum Colour {
     Black,
 }
 
-/// Red-black SOR with a stopping rule.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Red-black SOR. A step is four sweeps, each of both colours, and a look at the residual.
+#[derive(Debug, Clone, Copy)]
 pub struct Sor {
     /// The factor psi of eq. 3.60, in (0, 2).
     pub relaxation: f64,
-    /// Most sweeps; a sweep visits both colours.
-    pub sweeps: usize,
-    /// Stop when the residual has fallen to this part of its first value.
-    pub reduction: f64,
+    /// When to stop; a sweep counts as a product.
+    pub rule: Rule<'static>,
 }
 
+/// Sweeps of a step.
+const EACH: usize = 4;
+
 impl Sor {
-    /// Sweeps `x` toward the solution of `equation`.
-    ///
-    /// # Errors
-    /// When the equation is not usable or the values leave the numbers.
-    pub fn solve(&self, equation: &FivePoint, x: &mut [f64]) -> Result<Outcome, Error> {
-        self.solve_within(equation, x, &mut Vec::new())
+    /// Stops when the residual has fallen to the part `decrease` of its first value, or after so many sweeps, in full steps.
+    #[must_use]
+    pub const fn new(relaxation: f64, sweeps: usize, decrease: f64) -> Self {
+        let products = 1 + sweeps.div_ceil(EACH) * (EACH + 1);
+        let rule = Rule::to(0.0, products);
+        let rule = Rule { decrease, ..rule };
+        Self { relaxation, rule }
     }
 
-    /// As [`Sor::solve`], in memory that the caller keeps from one call to the next.
-    ///
-    /// # Errors
-    /// As [`Sor::solve`].
-    pub fn solve_within(
-        &self,
-        equation: &FivePoint,
-        x: &mut [f64],
-        scratch: &mut Vec<f64>,
-    ) -> Result<Outcome, Error> {
-        equation.check()?;
+    /// Sweeps `x` toward the solution of a usable `equation`, in memory that the caller keeps from one call to the next.
+    pub fn solve(&self, equation: &FivePoint, x: &mut [f64], scratch: &mut Vec<f64>) -> Solved {
         scratch.resize(x.len(), 0.0);
-        let first = norm(equation, x, scratch);
-        let mut last = first;
-        let mut iterations = 0;
-        while iterations < self.sweeps && last > self.reduction * first {
-            sweep(equation, x, self.relaxation, Colour::Red, scratch);
-            sweep(equation, x, self.relaxation, Colour::Black, scratch);
-            iterations += 1;
-            if iterations % 4 == 0 || iterations == self.sweeps {
-                last = norm(equation, x, scratch);
+        let right = equation.source.iter().map(|b| b * b).sum::<f64>().sqrt();
+        let mut watch = Watch::new(&self.rule, [right], [norm(equation, x, scratch)]);
+        let mut products = 1;
+        loop {
+            if let Some(ending) = watch.ended(&self.rule, products, watch.all_done()) {
+                return watch.solved(ending, products);
             }
-        }
-        match x.iter().position(|v| !v.is_finite()) {
-            Some(index) => Err(Error::NotFinite {
-                index,
-                what: "the value",
-            }),
-            None => Ok(Outcome {
-                iterations,
-                first,
-                last,
-                rounding: 0.0,
-            }),
+            for _ in 0..EACH {
+                sweep(equation, x, self.relaxation, Colour::Red, scratch);
+                sweep(equation, x, self.relaxation, Colour::Black, scratch);
+            }
+            products += EACH + 1;
+            watch.step([norm(equation, x, scratch)], products);
         }
     }
 }
@@ -126,13 +110,8 @@ mod tests {
         for n in [16, 17] {
             let a = poisson(n);
             let mut x = vec![0.0; n * n];
-            let sor = Sor {
-                relaxation: 1.7,
-                sweeps: 400,
-                reduction: 1e-10,
-            };
-            let outcome = sor.solve(&a, &mut x).unwrap();
-            assert!(outcome.last <= 1e-10 * outcome.first, "{n}: {outcome:?}");
+            let solved = Sor::new(1.7, 400, 1e-10).solve(&a, &mut x, &mut Vec::new());
+            assert!(solved.converged(), "{n}: {solved:?}");
             // The solution has the symmetry of the square.
             assert!((x[1] - x[n]).abs() < 1e-8);
         }
@@ -160,12 +139,8 @@ mod tests {
                 .build()
                 .unwrap();
             let mut x = vec![0.0; 128 * 128];
-            let sor = Sor {
-                relaxation: 1.9,
-                sweeps: 50,
-                reduction: 0.0,
-            };
-            pool.install(|| sor.solve(&a, &mut x)).unwrap();
+            let sor = Sor::new(1.9, 48, 0.0);
+            pool.install(|| sor.solve(&a, &mut x, &mut Vec::new()));
             x.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
         };
         assert_eq!(run(1), run(3));

@@ -56,12 +56,7 @@ fn ball(region: &Region<3>) -> (Charge, Coupled) {
     (charge, coupled)
 }
 
-const RULE: Rule = Rule {
-    reduction: 1e-12,
-    floor: 0.0,
-    products: 2000,
-    stop: None,
-};
+const RULE: Rule = Rule::to(1e-12, 2000);
 
 /// `A + A_s + grad phi` within a ball in a field along z from a magnet, by point of the ball; and phi.
 fn driven(region: &Region<3>, origin: Origin) -> (Vec<[C; 3]>, Vec<C>, Charge) {

@@ -13,7 +13,7 @@
 
 use std::sync::Mutex;
 
-use krylov::{Identity, Krylov, Operator, Rule, Solved, Workspace, gmres};
+use krylov::{Identity, Operator, Rule, Scratch, Solved, gmres};
 
 use crate::magnetic::saturation::equations::{Saturation, Seen};
 use crate::march::scheme::Stage;
@@ -167,12 +167,12 @@ impl<const D: usize> Newton<'_, '_, D> {
     /// Solves from a first guess.
     pub(crate) fn solve<const K: usize>(&mut self, guess: Vec<f64>) -> Ended {
         let mut here = self.place::<K>(guess);
-        let mut work = Workspace::default();
+        let mut scratch = Scratch::default();
         for _ in 0..MOST {
             if here.most.0 <= STILL * here.flux || !here.change.is_finite() {
                 break;
             }
-            match self.step::<K>(&here, &mut work) {
+            match self.step::<K>(&here, &mut scratch) {
                 Some(next) => here = next,
                 None => break,
             }
@@ -189,13 +189,10 @@ impl<const D: usize> Newton<'_, '_, D> {
     }
 
     /// The next place; none where no step leads on.
-    fn step<const K: usize>(&mut self, here: &Place, work: &mut Workspace) -> Option<Place> {
+    fn step<const K: usize>(&mut self, here: &Place, scratch: &mut Scratch<f64>) -> Option<Place> {
         let mut way = vec![0.0; here.unknown.len()];
-        let rule = Krylov {
-            reduction: LINEAR.1,
-            floor: 0.0,
-            iterations: 2 * LINEAR.0,
-        };
+        // Two cycles, each with a residual.
+        let rule = Rule::to(LINEAR.1, 2 * (LINEAR.0 + 1));
         let tangent = Tangent::<D, K> {
             newton: Mutex::new(&mut *self),
             at: here,
@@ -206,8 +203,9 @@ impl<const D: usize> Newton<'_, '_, D> {
             &mut way,
             &mut Identity, // the stage has been applied already
             rule.restarted(LINEAR.0),
-            work,
+            scratch,
         )
+        .sound()
         .ok()?;
         (0..=HALVINGS.0).find_map(|halvings| {
             let share = 0.5_f64.powi(halvings);

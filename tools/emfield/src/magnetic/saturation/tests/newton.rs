@@ -196,7 +196,9 @@ impl Stage for Lost {
         Solved {
             ending: Ending::Converged,
             products: 1,
-            residuals: Vec::new(),
+            steps: 0,
+            first: 0.0,
+            last: 0.0,
             history: Vec::new(),
         }
     }

@@ -6,7 +6,7 @@
 //!
 //! Since w_ab holds V_b the rows are symmetric. Rows of water that a nozzle leads are p = 0.
 
-use krylov::{Inverse, Krylov, Operator, Workspace, conjugate_gradient};
+use krylov::{Inverse, Operator, Rule, Scratch, conjugate_gradient};
 use particles::sweep;
 use rayon::prelude::*;
 
@@ -26,7 +26,7 @@ pub(super) struct Poisson {
     pub(super) diagonal: Vec<[f64; 2]>,
     /// V r \[Pa m\].
     pub(super) right: Vec<f64>,
-    work: Workspace,
+    scratch: Scratch<f64>,
 }
 
 impl Operator<f64> for Poisson {
@@ -65,23 +65,22 @@ impl Inverse<f64> for Diagonal<'_> {
 impl Poisson {
     /// Improves `p` until the norm of the residual is at most `floor`; sweeps that this took, or what was left.
     pub(super) fn solve(&mut self, p: &mut [f64], floor: f64) -> Result<usize, String> {
-        let mut work = std::mem::take(&mut self.work);
-        let rule = Krylov {
-            reduction: 0.0,
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let rule = Rule {
             floor,
-            iterations: SWEEPS,
+            ..Rule::to(0.0, 1 + SWEEPS)
         };
         let mut diagonal = Diagonal(&self.diagonal);
-        let solved = conjugate_gradient(self, &self.right, p, &mut diagonal, rule, &mut work);
-        self.work = work;
-        let outcome = solved.map_err(|e| e.to_string())?;
-        if outcome.last > floor {
-            let left = outcome.last / floor;
+        let solved = conjugate_gradient(self, &self.right, p, &mut diagonal, rule, &mut scratch);
+        self.scratch = scratch;
+        let solved = solved.sound().map_err(|e| e.to_string())?;
+        if solved.last > floor {
+            let left = solved.last / floor;
             return Err(format!(
                 "is off by {left:.1e} tolerances after {SWEEPS} sweeps"
             ));
         }
-        Ok(outcome.iterations)
+        Ok(solved.steps)
     }
 
     /// Bytes held.
