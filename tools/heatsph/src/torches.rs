@@ -28,11 +28,18 @@ pub struct Torches {
     volume: Vec<f64>,
 }
 
+/// Share above which it is told that the whole of a distribution would be given more than once.
+const MUCH: f64 = 1.05;
+
 /// What lay inside of a torch's distribution while it burned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inside {
     /// Least share.
     pub least: f64,
+    /// Greatest share.
+    pub most: f64,
+    /// Greatest spacing of the points that took most \[m\].
+    pub spacing: f64,
     /// Energy that was not given to the body, about \[J\].
     pub lost: f64,
 }
@@ -148,6 +155,8 @@ impl Torches {
             let span = to.min(end) - from;
             let mut inside = Inside {
                 least: 1.0,
+                most: 0.0,
+                spacing: 0.0,
                 lost: 0.0,
             };
             for look in 0..LOOKS {
@@ -155,8 +164,12 @@ impl Torches {
                 let Some((energy, time)) = torch.energy(begin, end) else {
                     continue;
                 };
-                let (_, share) = self.weights(torch, &torch.stand(time), cloud);
+                let (own, share) = self.weights(torch, &torch.stand(time), cloud);
+                let greatest = own.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+                let spacing = greatest.map_or(0.0, |(i, _)| cloud.spacing[*i as usize]);
+                inside.spacing = inside.spacing.max(spacing);
                 inside.least = inside.least.min(share);
+                inside.most = inside.most.max(share);
                 inside.lost += energy * (1.0 - part(torch, share) * share);
             }
             (span > 0.0).then_some(inside)
@@ -176,15 +189,32 @@ impl Torches {
             };
             session.closing(&format!("torch_{number}_inside_least"), "1", inside.least);
             session.closing(&format!("torch_{number}_lost"), "J", inside.lost);
-            if let Some(told) = self.told(number, inside) {
+            for told in self.told(number, inside) {
                 session.warn(told);
             }
         }
     }
 
-    /// What is to be told where less than all of a distribution lay inside.
+    /// What is to be told where less or more than all of a distribution lay inside, and where points widened it.
     #[must_use]
-    pub fn told(&self, number: usize, inside: Inside) -> Option<String> {
+    pub fn told(&self, number: usize, inside: Inside) -> Vec<String> {
+        let torch = &self.torches[number];
+        let much = torch.beyond == Beyond::Lost && inside.most > MUCH;
+        let much = much.then(|| {
+            format!(
+                "torches/{number}: metal lies behind it too, and takes part: {:.1} % of its heat would lie in the body, which \
+                 takes the whole power and no more; a path on the surface has no metal behind it",
+                100.0 * inside.most
+            )
+        });
+        let blunt = torch.blunt(inside.spacing, "points/spacing_m");
+        let blunt = blunt.map(|told| format!("torches/{number}: {told}"));
+        let all = [self.little(number, inside), much, blunt];
+        all.into_iter().flatten().collect()
+    }
+
+    /// What is to be told where less than all of a distribution lay inside.
+    fn little(&self, number: usize, inside: Inside) -> Option<String> {
         let percent = 100.0 * inside.least;
         let at =
             format!("torches/{number}: as little as {percent:.1} % of its heat lies in the body");
@@ -200,10 +230,10 @@ impl Torches {
     }
 }
 
-/// What a part of the distribution is multiplied with.
+/// What a part of the distribution is multiplied with: the whole power is given, or less.
 fn part(torch: &Torch, share: f64) -> f64 {
     match torch.beyond {
-        Beyond::Lost => 1.0,
+        Beyond::Lost => 1.0 / share.max(1.0),
         Beyond::Inside if share > NONE => 1.0 / share,
         Beyond::Inside => 0.0,
     }
@@ -278,7 +308,38 @@ mod tests {
                 (inside.lost / (0.5 * 1500.0 * 1e-3) - 1.0).abs() < 5e-3,
                 "{inside:?}"
             );
-            assert!(torches.told(0, inside).unwrap().contains("lost"));
+            assert!(torches.told(0, inside)[0].contains("lost"));
+        }
+    }
+
+    #[test]
+    fn metal_behind_a_torch_takes_no_more_than_the_whole_power() {
+        let cloud = cloud(0.001, r#", "arrangement": "cut""#);
+        let mut sunk = torch(DEEP, [0.0; 3], r#", "beyond": "lost""#);
+        for corner in &mut sunk.path.points_m {
+            corner[2] = -0.25 * 0.002;
+        }
+        let torches = Torches::new(vec![sunk], &cloud.share);
+        let mut heat = vec![0.0; cloud.position.len()];
+        let given = torches.add(0.0, &cloud, &mut heat);
+        assert!((given / 1500.0 - 1.0).abs() < 1e-12, "{given}");
+        let inside = torches.inside(1e-3, &cloud)[0].unwrap();
+        // 1 + erf(sqrt(3)/4), on cells of half the depth.
+        assert!((inside.most - 1.4597).abs() < 0.03, "{inside:?}");
+        assert!(inside.lost.abs() < 1e-12, "{inside:?}");
+        let told = torches.told(0, inside);
+        assert!(told.len() == 1 && told[0].contains("no more"), "{told:?}");
+    }
+
+    #[test]
+    fn points_that_widen_a_torch_are_told() {
+        for (spacing, told) in [(0.002, 0), (0.004, 1)] {
+            let cloud = cloud(spacing, r#", "arrangement": "cut""#);
+            let torches = Torches::new(vec![torch(DEEP, [0.0; 3], "")], &cloud.share);
+            let inside = torches.inside(1e-3, &cloud)[0].unwrap();
+            let found = torches.told(0, inside);
+            let found = found.iter().filter(|what| what.contains("widen"));
+            assert_eq!(found.count(), told, "{spacing}");
         }
     }
 

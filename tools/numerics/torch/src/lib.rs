@@ -8,7 +8,8 @@
 //! ```
 //!
 //! so that the power is exact on every cloud of points, wherever the body ends. The sum below, with q normalised over the whole half
-//! space, is the share of the distribution that lies inside the body; it is told. With `"beyond": "lost"` the rest is lost instead.
+//! space, is the share of the distribution that lies inside the body; it is told. With `"beyond": "lost"` the rest is lost instead,
+//! and where metal behind the torch makes the sum greater than 1 it is divided by it all the same.
 //!
 //! A point takes the mean of q over its cell, with the cell as a cloud of the variance of a cube, d^2/12 along every axis: it is the
 //! same in every direction, and no source is too narrow to be met.

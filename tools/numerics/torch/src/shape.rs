@@ -103,6 +103,17 @@ impl DoubleEllipsoid {
         let whole = 6.0 * 3.0_f64.sqrt() / (PI * PI.sqrt() * self.half_width_m * self.depth_m);
         whole * lengthwise * section
     }
+
+    /// Part of the greatest q that is left of it as the mean over a cell of the size `d` \[m\].
+    fn peak(&self, d: f64) -> f64 {
+        let b = d * d / 12.0;
+        let left = |half_axis: f64| bell(0.0, variance(half_axis), b);
+        let (front, rear) = (self.front_m, self.rear_m);
+        let ahead = self.front_fraction.unwrap_or(2.0 * front / (front + rear));
+        let sides = [ahead / front, (2.0 - ahead) / rear];
+        let lengthwise = sides[0] * left(front) + sides[1] * left(rear);
+        lengthwise / (sides[0] + sides[1]) * left(self.half_width_m) * left(self.depth_m)
+    }
 }
 
 impl Gaussian {
@@ -125,6 +136,15 @@ impl Shape {
                 .into_iter()
                 .fold(f64::INFINITY, f64::min),
             Self::Gaussian(g) => g.radius_m,
+        }
+    }
+
+    /// Part of its greatest q that points of the spacing `d` \[m\] show: 1 where they are fine, and ever less the more they widen it.
+    #[must_use]
+    pub fn peak(&self, d: f64) -> f64 {
+        match self {
+            Self::DoubleEllipsoid(e) => e.peak(d),
+            Self::Gaussian(g) => g.density(0.0, d) / g.density(0.0, 0.0),
         }
     }
 
@@ -206,6 +226,18 @@ mod tests {
             let allowed = 1e-6 + 1.5 * 2.0 * harmonic(disc.radius_m, d);
             assert!((sum - 1.0).abs() < allowed, "{d}: {sum}");
         }
+    }
+
+    #[test]
+    fn a_peak_falls_as_its_variances_grow() {
+        // (1 + d^2/2R^2)^-1 across both axes; each axis of an ellipsoid has the root of that.
+        let disc = Shape::Gaussian(Gaussian { radius_m: 2.0 });
+        let deep = Shape::DoubleEllipsoid(GOLDAK);
+        assert!((deep.peak(0.0) - 1.0).abs() < 1e-15 && (disc.peak(2.0) - 1.0 / 1.5).abs() < 1e-15);
+        let left = |c: f64| (1.0 + 0.5 / (c * c)).sqrt().recip();
+        let exact = 0.5 * (left(1.0) + left(3.0)) * left(2.0) * left(1.5);
+        assert!((deep.peak(1.0) - exact).abs() < 1e-15);
+        assert!(deep.peak(1e6) < 1e-12);
     }
 
     #[test]

@@ -30,6 +30,8 @@ const PART: f64 = 0.25;
 const NONE: f64 = 1e-12;
 /// Share of a distribution below which it is told how little lies in the metal.
 const LITTLE: f64 = 0.95;
+/// Share above which it is told that the whole of a distribution would be given more than once.
+const MUCH: f64 = 1.05;
 /// Down, within rounding.
 const DOWN: f64 = -1.0 + 1e-12;
 
@@ -41,6 +43,8 @@ struct Lit {
     lost: Sum,
     /// Least share of its distribution that lay in the metal.
     least: f64,
+    /// Greatest share.
+    most: f64,
 }
 
 /// Torches as a stage.
@@ -80,6 +84,7 @@ impl Torches {
             put: Sum::default(),
             lost: Sum::default(),
             least: 1.0,
+            most: 0.0,
         };
         Ok(Self {
             caloric,
@@ -174,13 +179,15 @@ impl Stage for Torches {
                 };
                 let share = self.weigh(state, &torch, &torch.stand(middle));
                 let each = match torch.beyond {
-                    Beyond::Lost => energy,
+                    // Metal behind the torch takes part, but no more than the whole is given.
+                    Beyond::Lost => energy / share.max(1.0),
                     Beyond::Inside if share > NONE => energy / share,
                     Beyond::Inside => 0.0,
                 };
                 self.give(state, each)?;
                 let lit = &mut self.torches[number];
                 lit.least = lit.least.min(share);
+                lit.most = lit.most.max(share);
                 lit.put.add(each * share);
                 lit.lost.add(energy - each * share);
                 gain += each * share;
@@ -221,7 +228,22 @@ impl Stage for Torches {
                 _ => format!("{at}, which takes the whole power all the same"),
             }
         });
-        dark.chain(told).collect()
+        let much = self.torches.iter().enumerate();
+        let much = much.filter(|(_, lit)| lit.torch.beyond == Beyond::Lost && lit.most > MUCH);
+        let much = much.map(|(number, lit)| {
+            format!(
+                "torches/{number}: metal lies behind it too, and takes part: {:.1} % of its heat would lie in the metal, which \
+                 takes the whole power and no more; a path on the surface has no metal behind it",
+                100.0 * lit.most
+            )
+        });
+        let burnt = self.torches.iter().enumerate();
+        let burnt = burnt.filter(|(_, lit)| lit.put.value() > 0.0);
+        let blunt = burnt.filter_map(|(number, lit)| {
+            let told = lit.torch.blunt(self.metal.spacing, "spacing_m")?;
+            Some(format!("torches/{number}: {told}"))
+        });
+        dark.chain(told).chain(much).chain(blunt).collect()
     }
 
     fn bytes(&self) -> usize {
@@ -231,16 +253,16 @@ impl Stage for Torches {
     fn save(&self) -> Vec<f64> {
         let of = |lit: &Lit| {
             let ([a, b], [c, d]) = (lit.put.save(), lit.lost.save());
-            [a, b, c, d, lit.least]
+            [a, b, c, d, lit.least, lit.most]
         };
         self.torches.iter().flat_map(of).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) {
-        for (lit, own) in self.torches.iter_mut().zip(saved.chunks_exact(5)) {
+        for (lit, own) in self.torches.iter_mut().zip(saved.chunks_exact(6)) {
             lit.put = Sum::restored(&own[..2]);
             lit.lost = Sum::restored(&own[2..4]);
-            lit.least = own[4];
+            [lit.least, lit.most] = [own[4], own[5]];
         }
     }
 }

@@ -101,6 +101,27 @@ fn what_lies_outside_is_lost_where_it_is_asked_for_and_told() {
 }
 
 #[test]
+fn metal_behind_a_torch_takes_no_more_than_the_whole_power() {
+    let mut sunk = torch(DEEP, r#", "beyond": "lost""#);
+    for corner in &mut sunk.path.points_m {
+        corner[2] -= 0.002;
+    }
+    let (gained, stage) = heated(sunk, 0.001, &[0.0]);
+    assert!((gained / 6.0 - 1.0).abs() < 1e-9, "{gained}");
+    assert!(stage.figures()[3].value.abs() < 1e-12);
+    let told = stage.warnings();
+    assert!(told.len() == 1 && told[0].contains("no more"), "{told:?}");
+}
+
+#[test]
+fn particles_that_widen_a_torch_are_told() {
+    let narrow = r#"{"gaussian": {"radius_m": 0.0005}}"#;
+    let (gained, stage) = heated(torch(narrow, ""), 0.001, &[0.0]);
+    assert!((gained / 6.0 - 1.0).abs() < 1e-9, "{gained}");
+    assert!(stage.warnings().last().unwrap().contains("spacing_m"));
+}
+
+#[test]
 fn a_resumed_stage_has_its_sums() {
     let (_, stage) = heated(torch(DISC, ""), 0.002, &[0.0]);
     let caloric = Shared::new(plain(30.0, 500.0, None));
