@@ -65,8 +65,8 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         Some(_) => cells.storage.still(&cells.temperature),
         None => cells.storage,
     };
-    let torches =
-        (!scene.torches.is_empty()).then(|| Torches::new(scene.torches.clone(), &links.volume));
+    let torches = (!scene.torches.is_empty())
+        .then(|| Torches::new(scene.torches.clone(), &links.volume).over(&body, &cloud));
     let system = System::new(cloud, links, materials, surface, storage, source)
         .map_err(|error| fault("/materials", error))?
         .under(torches);

@@ -1,12 +1,14 @@
 //! Torches: heat sources that move along paths, in the volume or on the surface (crate `torch`).
 //!
 //! Each gives its points `W_i = eta P q_i V_i / sum q_j V_j`, or its patches of surface the same with their areas: its power is exact
-//! at every instant, whatever the cloud. Steps follow it: none is longer than a torch takes for a part of its least half axis.
+//! at every instant, whatever the cloud. Of surfaces one behind the other the first on the way of a torch takes its heat. Steps follow it: none is longer than a torch takes for a part of its least half axis.
 
 use rayon::prelude::*;
 use run::Session;
-use torch::{Beyond, Stand, Torch};
+use shapes::Body;
+use torch::{Beyond, Torch};
 
+use crate::boundary::shade::shaded;
 use crate::cloud::{Cloud, Patch};
 
 /// Points that one task weighs.
@@ -26,6 +28,8 @@ pub struct Torches {
     torches: Vec<Torch>,
     /// Volume of each point \[m3\].
     volume: Vec<f64>,
+    /// Whether each patch lies in the shade of each torch; none where no patch does.
+    shade: Vec<Vec<bool>>,
 }
 
 /// Share above which it is told that the whole of a distribution would be given more than once.
@@ -51,7 +55,20 @@ impl Torches {
         Self {
             torches,
             volume: volume.to_vec(),
+            shade: Vec::new(),
         }
+    }
+
+    /// The same over a body that shades itself.
+    #[must_use]
+    pub fn over(mut self, body: &Body, cloud: &Cloud) -> Self {
+        let of = |torch: &Torch| {
+            let into = torch.stand(torch.path.burns()[0]).axes[2];
+            let shade = (!torch.is_deep()).then(|| shaded(body, cloud, into));
+            shade.filter(|all| all.contains(&true)).unwrap_or_default()
+        };
+        self.shade = self.torches.iter().map(of).collect();
+        self
     }
 
     /// All torches.
@@ -63,16 +80,17 @@ impl Torches {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        (8 * self.volume.len()) as u64
+        let shade: usize = self.shade.iter().map(Vec::len).sum();
+        (8 * self.volume.len() + shade) as u64
     }
 
     /// Adds the heat of every point at a time \[W\]; gives its sum.
     pub fn add(&self, time: f64, cloud: &Cloud, heat: &mut [f64]) -> f64 {
         let mut sum = 0.0;
-        for torch in &self.torches {
+        for (number, torch) in self.torches.iter().enumerate() {
             let power = torch.power(time);
             if power > 0.0 {
-                let (own, share) = self.weights(torch, &torch.stand(time), cloud);
+                let (own, share) = self.weights(number, time, cloud);
                 let part = part(torch, share);
                 for (i, weight) in own {
                     let given = power * part * weight;
@@ -84,8 +102,10 @@ impl Torches {
         sum
     }
 
-    /// Parts of the distribution at points, and their sum.
-    fn weights(&self, torch: &Torch, stand: &Stand, cloud: &Cloud) -> (Vec<(u32, f64)>, f64) {
+    /// Parts of the distribution of a torch at points, and their sum.
+    fn weights(&self, number: usize, time: f64, cloud: &Cloud) -> (Vec<(u32, f64)>, f64) {
+        let torch = &self.torches[number];
+        let stand = &torch.stand(time);
         let own: Vec<(u32, f64)> = if torch.is_deep() {
             let of = |i: usize| {
                 let (x, d) = (cloud.position[i], self.volume[i].cbrt());
@@ -95,13 +115,15 @@ impl Torches {
             let points = (0..self.volume.len()).into_par_iter().with_min_len(ROWS);
             points.filter_map(of).collect()
         } else {
-            let of = |patch: &Patch| {
+            let shade = self.shade.get(number).map_or(&[][..], Vec::as_slice);
+            let of = |(place, patch): (usize, &Patch)| {
                 let d = patch.area.sqrt();
                 let area = torch.faced(stand, patch.normal, patch.area);
-                let near = area > 0.0 && torch.reaches(stand, patch.place, d);
+                let lit = !shade.get(place).copied().unwrap_or(false);
+                let near = lit && area > 0.0 && torch.reaches(stand, patch.place, d);
                 near.then(|| (patch.point, torch.density(stand, patch.place, d) * area))
             };
-            let patches = cloud.patches.par_iter().with_min_len(ROWS);
+            let patches = cloud.patches.par_iter().enumerate().with_min_len(ROWS);
             patches.filter_map(of).collect()
         };
         let sum = own.iter().map(|(_, weight)| weight).sum();
@@ -150,7 +172,8 @@ impl Torches {
     /// What of each torch lay inside until `end` \[s\]; none of one that never burned.
     #[must_use]
     pub fn inside(&self, end: f64, cloud: &Cloud) -> Vec<Option<Inside>> {
-        let of = |torch: &Torch| {
+        let of = |number: usize| {
+            let torch = &self.torches[number];
             let [from, to] = torch.path.burns();
             let span = to.min(end) - from;
             let mut inside = Inside {
@@ -164,7 +187,7 @@ impl Torches {
                 let Some((energy, time)) = torch.energy(begin, end) else {
                     continue;
                 };
-                let (own, share) = self.weights(torch, &torch.stand(time), cloud);
+                let (own, share) = self.weights(number, time, cloud);
                 let greatest = own.iter().max_by(|a, b| a.1.total_cmp(&b.1));
                 let spacing = greatest.map_or(0.0, |(i, _)| cloud.spacing[*i as usize]);
                 inside.spacing = inside.spacing.max(spacing);
@@ -174,7 +197,7 @@ impl Torches {
             }
             (span > 0.0).then_some(inside)
         };
-        self.torches.iter().map(of).collect()
+        (0..self.torches.len()).map(of).collect()
     }
 
     /// Keeps what of each torch lay inside until `end` \[s\], and tells where it was little.
@@ -242,7 +265,6 @@ fn part(torch: &Torch, share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shapes::Body;
 
     fn cloud(spacing: f64, more: &str) -> Cloud {
         let body = r#"{"box": {"min_m": [-0.02, -0.02, -0.01], "max_m": [0.02, 0.02, 0]}}"#;
@@ -329,6 +351,31 @@ mod tests {
         assert!(inside.lost.abs() < 1e-12, "{inside:?}");
         let told = torches.told(0, inside);
         assert!(told.len() == 1 && told[0].contains("no more"), "{told:?}");
+    }
+
+    #[test]
+    fn a_plate_shades_the_one_below_it() {
+        let body = r#"{"union": [{"box": {"min_m": [-0.02, -0.02, -0.01], "max_m": [0.02, 0.02, -0.006]}},
+            {"box": {"min_m": [-0.02, -0.02, -0.004], "max_m": [0.02, 0.02, 0]}}]}"#;
+        let body = Body::new(&serde_json::from_str(body).unwrap(), 3);
+        let points = r#"{"spacing_m": 0.001, "arrangement": "cut"}"#;
+        let cloud = Cloud::fill(&body, &serde_json::from_str(points).unwrap(), 3).unwrap();
+        for beyond in ["lost", "inside"] {
+            let disc = torch(DISC, [0.0; 3], &format!(r#", "beyond": "{beyond}""#));
+            let torches = Torches::new(vec![disc], &cloud.share).over(&body, &cloud);
+            let mut heat = vec![0.0; cloud.position.len()];
+            torches.add(0.0, &cloud, &mut heat);
+            let each = cloud.position.iter().zip(&heat);
+            let upper: f64 = each.filter(|(x, _)| x[2] > -0.005).map(|(_, q)| q).sum();
+            assert!((upper / 1500.0 - 1.0).abs() < 2e-3, "{beyond}: {upper}");
+            let whole: f64 = heat.iter().sum();
+            assert!((whole - upper).abs() <= 0.0, "{beyond}: {whole}");
+            assert!(
+                torches
+                    .told(0, torches.inside(1e-3, &cloud)[0].unwrap())
+                    .is_empty()
+            );
+        }
     }
 
     #[test]

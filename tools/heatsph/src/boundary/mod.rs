@@ -14,6 +14,7 @@
 //! No shape factor (zeta of eq. 5) is needed, on faces or on curves.
 
 mod compile;
+pub(crate) mod shade;
 
 use run::property::{Arguments, Curve, OutOfRange};
 
