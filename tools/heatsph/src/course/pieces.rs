@@ -16,6 +16,14 @@ const AGAIN: usize = 6;
 const JUMPS: usize = 10_000;
 /// Bounds wider than this many times what samples span are not trusted to hold nothing else.
 const TRUST: f64 = 3.0;
+/// Part of the width of a piece's values below which its error is so small that it claims to be nearly straight.
+const STRAIGHT: f64 = 0.05;
+/// Where such a piece is looked at again, at fractions that no period divides, and the part of the span of its samples by
+/// which it may differ there from lines between them.
+const AGAIN_AT: [f64; 8] = [
+    0.0931, 0.1707, 0.3313, 0.4126, 0.5939, 0.6792, 0.8207, 0.9411,
+];
+const BENT: f64 = 0.1;
 /// Part of a rise that is made between two samples, above which it is taken for a jump.
 const SUDDEN: f64 = 0.8;
 /// Part of the range of values that is too little for a jump.
@@ -68,11 +76,14 @@ impl Piece {
             high: a.high.max(b.high),
         });
         let span = span.map_or(0.0, Bounds::width);
-        let trusted = bounds.width() <= TRUST * span + 1e-12 * bounds.most();
+        let blur = 1e-12 * bounds.most();
+        let trusted = bounds.width() <= TRUST * span + blur;
         let [a, b, c, d, e] = sample;
-        let error = if trusted {
-            let simpson = (a + 4.0 * b + 2.0 * c + 4.0 * d + e) / 12.0;
-            (0.5 * (a + e) - simpson).abs()
+        let simpson = (a + 4.0 * b + 2.0 * c + 4.0 * d + e) / 12.0;
+        let curved = (0.5 * (a + e) - simpson).abs();
+        let straight = curved < STRAIGHT * bounds.width();
+        let error = if trusted && !(straight && winds(sample, BENT * span + blur, at)) {
+            curved
         } else {
             bounds.width().min(f64::MAX)
         };
@@ -127,6 +138,15 @@ impl Piece {
         }
         ((b - a).abs() >= 0.5 * rise(k)).then_some([low, high])
     }
+}
+
+/// Whether something differs from lines between its samples by more than a tolerance: whole periods may lie between them.
+fn winds(sample: [f64; 5], tolerance: f64, at: impl Fn(f64) -> f64) -> bool {
+    AGAIN_AT.iter().any(|s| {
+        let k = (4.0 * s) as usize;
+        let line = sample[k] + (4.0 * s - k as f64) * (sample[k + 1] - sample[k]);
+        (at(*s) - line).abs() > tolerance
+    })
 }
 
 /// Divides the time from 0 to `end`.

@@ -95,6 +95,31 @@ fn no_pulse_is_too_short_to_be_met() {
 }
 
 #[test]
+fn whole_periods_do_not_hide_between_samples() {
+    for (frequency, end) in [
+        (50.0, 10.0),
+        (50.0, 1.0),
+        (50.0, 0.3),
+        (60.0, 1.0),
+        (100.0, 5.0),
+        (1e3, 0.25),
+        (333.3, 1.0),
+    ] {
+        for text in ["sin", "cos"] {
+            let course = course(&format!("300 + 100*{text}(2*pi*{frequency}*t)"), end);
+            assert!(course.resolved, "{text} {frequency} {end}");
+            for look in 0..997 {
+                let longest = course.longest(end * f64::from(look) / 997.0);
+                assert!(
+                    longest <= 0.25 / frequency,
+                    "{text} {frequency} Hz over {end} s: {longest} s"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn what_runs_smoothly_bounds_few_steps() {
     for (text, most) in [
         ("300 + 20*t", 1e-9),
