@@ -31,6 +31,27 @@ fn said(patch: &Value) -> String {
 }
 
 #[test]
+fn a_formula_in_time_has_no_steady_state() {
+    let ramp = json!({"expr": "300 + 1e5*t"});
+    let robin = |h: &Value, t: &Value| json!({"on": ["x+"], "convection": {"coefficient_w_m2_k": h, "ambient_k": t}});
+    let bright = |e: &Value, t: &Value| json!({"on": ["x+"], "radiation": {"emissivity": e, "surroundings_k": t}});
+    let part = json!({"expr": "0.5 + 1e-9*t"});
+    for (entry, key) in [
+        (json!({"on": ["x+"], "heat_flux_w_m2": ramp}), "heat_flux_w_m2"),
+        (json!({"on": ["x+"], "temperature_k": ramp}), "temperature_k"),
+        (robin(&ramp, &json!(300)), "convection/coefficient_w_m2_k"),
+        (robin(&json!(10), &ramp), "convection/ambient_k"),
+        (bright(&part, &json!(300)), "radiation/emissivity"),
+        (bright(&json!(1), &ramp), "radiation/surroundings_k"),
+    ] {
+        let said = said(&json!({"boundaries": [entry]}));
+        assert!(said.contains(&format!("/boundaries/0/{key}/expr: ")), "{said}");
+        assert!(said.contains("no time"), "{said}");
+    }
+    assert!(said(&json!({"source_w_m3": ramp})).contains("/source_w_m3/expr: "));
+}
+
+#[test]
 fn a_fault_of_two_keys_is_told_at_the_one_that_the_patch_set() {
     for (patch, key) in [
         (json!({"body": {"box": {"max_m": [1e6, 1e6]}}}), "/body:"),

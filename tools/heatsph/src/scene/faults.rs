@@ -1,6 +1,7 @@
 //! What a schema cannot tell of a scene.
 
 use run::Fault;
+use run::property::Property;
 
 use shapes::check::{Misfit, check, coordinates};
 use torch::Waveform;
@@ -64,8 +65,44 @@ impl Scene {
                 time.method(faults);
                 self.times(time, faults);
             }
-            (None, Some(_)) => {}
+            (None, Some(_)) => faults.extend(self.timed()),
         }
+    }
+
+    /// Formulas in t, of which a steady state would take those of t = 0 alone.
+    fn timed(&self) -> impl Iterator<Item = Fault> {
+        let source = self.source_w_m3.iter();
+        let mut given: Vec<(String, &Property)> =
+            source.map(|p| ("/source_w_m3".to_owned(), p)).collect();
+        for (number, entry) in self.boundaries.iter().enumerate() {
+            let (convection, radiation) = (entry.convection.as_ref(), entry.radiation.as_ref());
+            let own = [
+                ("temperature_k", entry.temperature_k.as_ref()),
+                ("heat_flux_w_m2", entry.heat_flux_w_m2.as_ref()),
+                (
+                    "convection/coefficient_w_m2_k",
+                    convection.map(|c| &c.coefficient_w_m2_k),
+                ),
+                ("convection/ambient_k", convection.map(|c| &c.ambient_k)),
+                ("radiation/emissivity", radiation.map(|r| &r.emissivity)),
+                (
+                    "radiation/surroundings_k",
+                    radiation.map(|r| &r.surroundings_k),
+                ),
+            ];
+            let own = own.into_iter();
+            given.extend(
+                own.filter_map(|(key, p)| Some((format!("/boundaries/{number}/{key}"), p?))),
+            );
+        }
+        given.into_iter().filter_map(|(at, property)| {
+            // What does not compile is told where it is compiled.
+            let curve = property.compile(&at, &["x", "y", "z", "r", "T", "t"]).ok()?;
+            curve.depends_on("t").then(|| {
+                let what = "depends on t, and a steady state has no time; write it without t, or ask for \"time\" in place of \"steady\"";
+                Fault::at(&format!("{at}/expr"), what).or_at("/steady")
+            })
+        })
     }
 
     fn torches(&self, faults: &mut Vec<Fault>) {
