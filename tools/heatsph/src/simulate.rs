@@ -6,7 +6,7 @@ use crate::course::Course;
 use crate::course::prescribed::Heat;
 use crate::march::choice::{Steps, method};
 use crate::march::control::{self, even, suited, toward};
-use crate::march::{Method, State, StepError};
+use crate::march::{Method, State, StepError, too_cold};
 use crate::output::{Event, Output};
 use crate::pace::Pace;
 use crate::scene::Scene;
@@ -303,6 +303,10 @@ impl March<'_> {
                 next
             };
         }
+        if let Some(i) = self.state.cold(self.pace.range) {
+            let what = too_cold(self.state.temperature[i]);
+            return Err(self.diverged("temperature [K]", &what, Some(i)));
+        }
         Ok(None)
     }
 
@@ -316,13 +320,7 @@ impl March<'_> {
     }
 
     fn diverged(&self, quantity: &str, what: &str, point: Option<usize>) -> Failure {
-        let place = match point {
-            Some(i) => {
-                let [x, y, z] = self.system.place(i);
-                format!("point {i} at ({x:.4e}, {y:.4e}, {z:.4e}) m")
-            }
-            None => "all points".to_owned(),
-        };
+        let place = point.map_or("all points".to_owned(), |i| self.system.spot(i));
         Failure::Diverged {
             step: self.pace.steps + 1,
             time_s: self.state.time,

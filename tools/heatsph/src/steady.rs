@@ -3,11 +3,11 @@
 
 use run::{Failure, Session};
 
-use crate::march::State;
+use crate::march::{State, too_cold};
 use crate::output::{Event, Output};
 use crate::scene::{Scene, Steady};
 use crate::solve::{Effort, Goal, Problem, SolveError, Solver};
-use crate::system::{Rates, System};
+use crate::system::{Rates, System, extent};
 
 /// How often tables of conductivity are widened.
 const WIDENINGS: usize = 20;
@@ -35,7 +35,9 @@ pub fn solve(
         steps: steady.newton_steps,
     };
     let (mut newton, mut iterations) = (0, 0);
-    let mut guessed = true;
+    let (low, high) = system.surface.extent(extent(&state.temperature));
+    let usual = low.abs().max(high.abs());
+    let (mut guessed, mut settled) = (true, false);
     for _ in 0..WIDENINGS {
         let from = state.temperature.clone();
         let problem = Problem {
@@ -62,9 +64,14 @@ pub fn solve(
         let grown = system.reach(&state.temperature);
         if !grown.map_err(|error| lost(&error.to_string()))? {
             session.closing("residual", "1", effort.residual);
+            settled = true;
             break;
         }
     }
+    if !settled {
+        session.warn(unsettled(extent(&state.temperature)));
+    }
+    warm(system, &state, usual)?;
     session.stopped()?;
     if rates.hidden {
         session.warn(crate::source::HIDDEN);
@@ -146,6 +153,29 @@ fn even(system: &System, temperature: &[f64], rates: &mut Rates) -> Option<f64> 
         }
     }
     Some((0.5 * (low + high)).exp2())
+}
+
+/// What is said of a solution that leaves the tables after all widenings.
+fn unsettled(range: (f64, f64)) -> String {
+    let (low, high) = range;
+    format!(
+        "not converged: from {low:.4e} K to {high:.4e} K the solution still leaves the tables of conductivity, which were \
+         widened {WIDENINGS} times; a body whose conductivity vanishes with temperature may have no steady state"
+    )
+}
+
+/// Refuses a steady state below 0 K; `usual` is a temperature of the scene \[K\].
+fn warm(system: &System, state: &State, usual: f64) -> Result<(), Failure> {
+    match state.cold(usual) {
+        Some(i) => Err(Failure::Diverged {
+            step: 1,
+            time_s: 0.0,
+            place: system.spot(i),
+            quantity: "temperature [K]".to_owned(),
+            what: too_cold(state.temperature[i]),
+        }),
+        None => Ok(()),
+    }
 }
 
 fn lost(what: &str) -> Failure {

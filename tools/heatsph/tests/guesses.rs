@@ -105,3 +105,36 @@ fn temperatures_below_zero_are_refused_with_their_place() {
         );
     }
 }
+
+#[test]
+fn what_is_colder_than_nothing_ends_with_its_place() {
+    // 1000 J/(kg K) of 1000 kg/m3, 0.1 m long: 1e6 W/m2 take 10 K in a second, and all by 30 s.
+    let taken = json!({"on": ["x-"], "heat_flux_w_m2": -1e6});
+    let held = json!({"on": ["x+"], "temperature_k": 300});
+    for (way, march) in [
+        ("steady", json!({})),
+        ("time", json!({"end_s": 100, "implicit": {"step_s": 1}})),
+        ("time", json!({"end_s": 100, "implicit": {}})),
+        ("time", json!({"end_s": 100, "stabilised": {}})),
+        ("time", json!({"end_s": 100, "explicit": {}})),
+    ] {
+        let mut scene = bar(&json!(300));
+        scene["boundaries"] = json!([taken, held]);
+        scene.as_object_mut().unwrap().remove("steady");
+        scene[way] = march.clone();
+        let (code, _, said) = run("run", &scene);
+        assert_eq!(code, Some(1), "{march}: {said}");
+        assert!(
+            said.contains("K is below 0 K") && said.contains(" at (0.0000e0, "),
+            "{march}: {said}"
+        );
+        // A hundredth of it leaves the bar warm: 300 K less 1e4 W/m2 over 0.1 m of 10 W/(m K).
+        scene["boundaries"][0]["heat_flux_w_m2"] = json!(-1e4);
+        let (code, values, said) = run("run", &scene);
+        assert_eq!(code, Some(0), "{march}: {said}");
+        assert!(
+            values[0] > 199.0 && values[0] < 301.0,
+            "{march}: {values:?}"
+        );
+    }
+}

@@ -37,15 +37,24 @@ fn a_formula_in_time_has_no_steady_state() {
     let bright = |e: &Value, t: &Value| json!({"on": ["x+"], "radiation": {"emissivity": e, "surroundings_k": t}});
     let part = json!({"expr": "0.5 + 1e-9*t"});
     for (entry, key) in [
-        (json!({"on": ["x+"], "heat_flux_w_m2": ramp}), "heat_flux_w_m2"),
-        (json!({"on": ["x+"], "temperature_k": ramp}), "temperature_k"),
+        (
+            json!({"on": ["x+"], "heat_flux_w_m2": ramp}),
+            "heat_flux_w_m2",
+        ),
+        (
+            json!({"on": ["x+"], "temperature_k": ramp}),
+            "temperature_k",
+        ),
         (robin(&ramp, &json!(300)), "convection/coefficient_w_m2_k"),
         (robin(&json!(10), &ramp), "convection/ambient_k"),
         (bright(&part, &json!(300)), "radiation/emissivity"),
         (bright(&json!(1), &ramp), "radiation/surroundings_k"),
     ] {
         let said = said(&json!({"boundaries": [entry]}));
-        assert!(said.contains(&format!("/boundaries/0/{key}/expr: ")), "{said}");
+        assert!(
+            said.contains(&format!("/boundaries/0/{key}/expr: ")),
+            "{said}"
+        );
         assert!(said.contains("no time"), "{said}");
     }
     assert!(said(&json!({"source_w_m3": ramp})).contains("/source_w_m3/expr: "));

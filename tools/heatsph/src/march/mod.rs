@@ -11,8 +11,11 @@ use run::property::OutOfRange;
 
 use crate::solve::SolveError;
 use crate::system::storage::{Content, Storage};
-use crate::system::{Rates, System};
+use crate::system::{Rates, System, extent};
 
+/// Part of the range of temperature by which schemes undershoot 0 K, and part of a usual temperature that is rounding.
+const UNDERSHOOT: f64 = 0.02;
+const ROUNDED: f64 = 1e-9;
 /// Cells that one task goes over.
 const CELLS: usize = 256;
 
@@ -29,6 +32,15 @@ pub struct State {
     pub entries: Vec<f64>,
     /// Heat of the source since the start \[J\].
     pub source: f64,
+}
+
+/// What is said of a temperature \[K\] below 0 K.
+#[must_use]
+pub fn too_cold(temperature: f64) -> String {
+    format!(
+        "{temperature:.4e} K is below 0 K: more heat is taken out than the body holds; fluxes and sources that take heat out \
+         are negative, and end before it is gone"
+    )
 }
 
 /// Why a step failed.
@@ -142,6 +154,15 @@ impl State {
     #[must_use]
     pub fn lost(&self) -> Option<usize> {
         self.temperature.iter().position(|t| !t.is_finite())
+    }
+
+    /// The coldest point, where it is below 0 K by more than schemes undershoot; `usual` is a temperature of the scene \[K\].
+    #[must_use]
+    pub fn cold(&self, usual: f64) -> Option<usize> {
+        let (low, high) = extent(&self.temperature);
+        let below = (UNDERSHOOT * (high - low)).max(ROUNDED * usual);
+        let coldest = |t: &f64| *t <= low;
+        (low < -below).then(|| self.temperature.iter().position(coldest))?
     }
 }
 

@@ -276,6 +276,13 @@ impl System {
     pub fn place(&self, i: usize) -> Vector {
         self.cloud.position[i]
     }
+
+    /// Number and place of a point, as messages name it.
+    #[must_use]
+    pub fn spot(&self, i: usize) -> String {
+        let [x, y, z] = self.place(i);
+        format!("point {i} at ({x:.4e}, {y:.4e}, {z:.4e}) m")
+    }
 }
 
 /// Least and greatest value.
