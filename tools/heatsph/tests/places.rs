@@ -31,6 +31,41 @@ fn said(patch: &Value) -> String {
 }
 
 #[test]
+fn factors_beyond_their_range_are_refused_with_their_place() {
+    let robin = |h: &str| json!({"on": ["x-", "y-"], "convection": {"coefficient_w_m2_k": {"expr": h}, "ambient_k": 300}});
+    let bright = |e: &str| json!({"on": ["x-", "y-"], "radiation": {"emissivity": {"expr": e}, "surroundings_k": 300}});
+    let march = json!({"end_s": 20});
+    for (entry, key, value) in [
+        (
+            robin("100*(x - 0.5)"),
+            "convection/coefficient_w_m2_k",
+            "gives -50 W/(m2 K) at x = 0,",
+        ),
+        (
+            robin("10 - t"),
+            "convection/coefficient_w_m2_k",
+            "gives -10 W/(m2 K)",
+        ),
+        (
+            bright("0.3 + 0.1*t"),
+            "radiation/emissivity",
+            "gives 2.3 at",
+        ),
+        (bright("0.3 - x"), "radiation/emissivity", "gives -0.7"),
+    ] {
+        let said = said(&json!({"boundaries": [entry], "steady": null, "time": march}));
+        assert!(
+            said.contains(&format!("/boundaries/0/{key}/expr: ")),
+            "{said}"
+        );
+        assert!(
+            said.contains(value) && said.contains("out of range"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn a_formula_in_time_has_no_steady_state() {
     let ramp = json!({"expr": "300 + 1e5*t"});
     let robin = |h: &Value, t: &Value| json!({"on": ["x+"], "convection": {"coefficient_w_m2_k": h, "ambient_k": t}});

@@ -61,6 +61,7 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
             faults.push(Fault::at(&format!("/boundaries/{entry}"), what));
         }
     }
+    faults.extend(surface.look(scene.time.as_ref().map_or(0.0, |time| time.end_s)));
     if faults.is_empty() {
         Ok(surface)
     } else {

@@ -14,6 +14,7 @@
 //! No shape factor (zeta of eq. 5) is needed, on faces or on curves.
 
 mod compile;
+mod factor;
 pub(crate) mod shade;
 
 use run::property::{Arguments, Curve, OutOfRange};
@@ -118,6 +119,8 @@ pub struct Surface {
     pub held: Vec<Held>,
     /// Area of each entry \[m2\].
     pub area: Vec<f64>,
+    /// Greatest value of the factor of each entry at the start, beside which others are rounding; 0 of one without.
+    pub usual: Vec<f64>,
 }
 
 /// Heat through a film.
@@ -230,13 +233,13 @@ impl Surface {
                     sum.flux += mean;
                     hidden |= !resolved;
                 }
-                Condition::Convection(coefficient, ambient) => {
-                    let h = coefficient.value(&at)?;
+                Condition::Convection(_, ambient) => {
+                    let h = self.factor(*entry, &at)?;
                     sum.coefficient += h;
                     sum.ambient += h * ambient.kelvin(&at)?;
                 }
-                Condition::Radiation(emissivity, surroundings) => {
-                    let e = STEFAN_BOLTZMANN * emissivity.value(&at)?;
+                Condition::Radiation(_, surroundings) => {
+                    let e = STEFAN_BOLTZMANN * self.factor(*entry, &at)?;
                     sum.radiant += e;
                     sum.surroundings += e * surroundings.kelvin(&at)?.powi(4);
                 }
@@ -278,12 +281,12 @@ impl Surface {
         Ok(match &self.conditions[entry as usize] {
             Condition::Temperature(_) => passed.heat,
             Condition::Flux(flux) => film.area * flux.mean(film, time)?.0,
-            Condition::Convection(coefficient, ambient) => {
-                film.area * coefficient.value(&at)? * (ambient.kelvin(&at)? - t)
+            Condition::Convection(_, ambient) => {
+                film.area * self.factor(entry, &at)? * (ambient.kelvin(&at)? - t)
             }
-            Condition::Radiation(emissivity, surroundings) => {
+            Condition::Radiation(_, surroundings) => {
                 let difference = surroundings.kelvin(&at)?.powi(4) - t.powi(4);
-                film.area * STEFAN_BOLTZMANN * emissivity.value(&at)? * difference
+                film.area * STEFAN_BOLTZMANN * self.factor(entry, &at)? * difference
             }
         })
     }

@@ -82,3 +82,27 @@ fn a_radiating_surface_finds_its_temperature() {
         assert!((slope - passed.slope).abs() < 1e-3 * slope.abs());
     }
 }
+
+#[test]
+fn a_factor_that_leaves_its_range_in_a_march_ends_it() {
+    // Between the times at which formulas are looked at before.
+    let formula = |text: &str| {
+        let formula = run::property::Formula {
+            expr: text.to_owned(),
+        };
+        run::property::Property::Formula(formula)
+            .compile("/e", &["t"])
+            .unwrap()
+    };
+    let film = film(0.0, vec![0]);
+    let kinds = [
+        Condition::Radiation(formula("0.5 + if(t - 1, 1, 0)"), number(400.0)),
+        Condition::Convection(formula("5 - if(t - 1, 9, 0)"), number(400.0)),
+    ];
+    for kind in kinds {
+        let all = surface(vec![kind]);
+        let passed = |time: f64| all.pass(&film, 300.0, time, |_, _| 1.0);
+        assert!(passed(0.9).unwrap().heat > 0.0);
+        assert!(passed(1.1).is_err());
+    }
+}
