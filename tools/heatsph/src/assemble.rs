@@ -1,5 +1,6 @@
 //! From a scene to a system of equations and its first temperatures.
 
+mod doubts;
 pub mod preview;
 
 use run::Fault;
@@ -38,6 +39,7 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         .map(|x| curve.kelvin(&Arguments::at(*x, 0.0)));
     let mut temperature: Vec<f64> = values.collect::<Result<_, _>>().map_err(|e| fault(at, e))?;
     hold(&surface, &cloud, &mut temperature)?;
+    let doubts = doubts::held(scene, &surface);
     let materials = Materials::new(scene, range(scene, &surface, &temperature))?;
     let source = match &scene.source_w_m3 {
         Some(property) => Some(
@@ -69,7 +71,8 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         .then(|| Torches::new(scene.torches.clone(), &links.volume).over(&body, &cloud));
     let system = System::new(cloud, links, materials, surface, storage, source)
         .map_err(|error| fault("/materials", error))?
-        .under(torches);
+        .under(torches)
+        .doubted(doubts);
     Ok((system, cells.temperature))
 }
 

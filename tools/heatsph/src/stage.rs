@@ -98,6 +98,9 @@ impl Tool for HeatSph {
             mut system,
             temperature,
         } = ready;
+        for doubt in &system.doubts {
+            session.warn(doubt.clone());
+        }
         if let Some(balance) = system.links.balance {
             session.closing("balance_newton_steps", "1", balance.steps as f64);
             session.closing("balance_iterations", "1", balance.iterations as f64);

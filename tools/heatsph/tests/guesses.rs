@@ -138,3 +138,19 @@ fn what_is_colder_than_nothing_ends_with_its_place() {
         );
     }
 }
+
+#[test]
+fn held_points_that_stand_for_another_area_are_told() {
+    for (high, code) in [(0.015, 0), (0.0045, 3)] {
+        let mut scene = bar(&json!(300));
+        let within = json!({"box": {"min_m": [-1, 0], "max_m": [1, high]}});
+        scene["boundaries"][1] = json!({"on": ["x+"], "temperature_k": 300, "within": within});
+        let (found, _, said) = run("run", &scene);
+        assert_eq!(found, Some(code), "{high}: {said}");
+        assert_eq!(
+            said.contains("boundaries/1: the temperature holds on"),
+            code == 3,
+            "{said}"
+        );
+    }
+}

@@ -154,3 +154,20 @@ fn a_zone_of_temperature_narrower_than_the_spacing_keeps_its_power() {
         assert!((found / exact - 1.0).abs() < 0.01, "{found} of {exact}");
     }
 }
+
+#[test]
+fn a_flux_within_a_shape_has_the_area_of_the_shape() {
+    let flux = |x: f64, half: f64| {
+        let within = json!({"box": {"min_m": [x - half, 0], "max_m": [x + half, 0.2]}});
+        json!({"boundaries": [{"on": ["y+"], "heat_flux_w_m2": 1e5, "within": within}]})
+    };
+    // Around a patch's middle, around its edge, and as wide as one and a half patches.
+    for (x, half) in [(0.1, 2e-3), (0.095, 2e-3), (0.0963, 4e-3), (0.1, 7.5e-3)] {
+        let heat = stored(&json!({"spacing_m": 0.01}), &flux(x, half));
+        let exact = 1e5 * 2.0 * half;
+        assert!(
+            (heat / exact - 1.0).abs() < 0.04,
+            "{half} at {x}: {heat} of {exact}"
+        );
+    }
+}

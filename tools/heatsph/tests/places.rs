@@ -51,7 +51,7 @@ fn factors_beyond_their_range_are_refused_with_their_place() {
             "radiation/emissivity",
             "gives 2.3 at",
         ),
-        (bright("0.3 - x"), "radiation/emissivity", "gives -0.7"),
+        (bright("0.3 - x"), "radiation/emissivity", "gives -0.67"),
     ] {
         let said = said(&json!({"boundaries": [entry], "steady": null, "time": march}));
         assert!(

@@ -3,12 +3,13 @@
 use run::Fault;
 use run::property::{Curve, Property};
 
+use super::part::{Extent, Part, parts, whole};
+use super::tangent::tangent;
 use super::{Condition, Film, Flux, Held, Surface};
 use crate::cloud::{Cloud, Patch};
 use crate::scene::{Boundary, Scene};
-use crate::source::cubature::Piece;
 use shapes::Body;
-use shapes::frame::{Frame, along};
+use shapes::frame::along;
 
 /// What a property of the surface may depend on.
 const NAMES: [&str; 5] = ["x", "y", "z", "r", "t"];
@@ -23,7 +24,7 @@ const ON: f64 = 1e-6;
 pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
     let mut faults = Vec::new();
     let mut surface = Surface::default();
-    let mut entries = Vec::new();
+    let mut extents = Vec::new();
     for (number, entry) in scene.boundaries.iter().enumerate() {
         let at = format!("/boundaries/{number}");
         match condition(entry, &at) {
@@ -32,8 +33,8 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
         }
         let name = entry.name.clone().unwrap_or_else(|| entry.on.join(" "));
         surface.names.push(name);
-        match Entry::new(entry, &at, cloud) {
-            Ok(entry) => entries.push(entry),
+        match extent(entry, &at, cloud) {
+            Ok(extent) => extents.push(extent),
             Err(found) => faults.extend(found),
         }
     }
@@ -41,14 +42,14 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
         return Err(faults);
     }
     surface.area = vec![0.0; surface.conditions.len()];
+    surface.asked.clone_from(&surface.area);
     for patch in &cloud.patches {
-        let own: Vec<u32> = (0..entries.len() as u32)
-            .filter(|e| entries[*e as usize].holds(patch))
-            .collect();
-        if let Err(fault) = cover(&mut surface, cloud, patch, own)
-            && !faults.contains(&fault)
-        {
-            faults.push(fault);
+        for part in divided(&mut surface, cloud, patch, &extents) {
+            if let Err(fault) = cover(&mut surface, cloud, part)
+                && !faults.contains(&fault)
+            {
+                faults.push(fault);
+            }
         }
     }
     surface.films.sort_by_key(|film| film.point);
@@ -70,51 +71,57 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
 }
 
 /// Where an entry holds.
-struct Entry {
-    faces: Vec<u32>,
-    within: Option<Body>,
+fn extent(entry: &Boundary, at: &str, cloud: &Cloud) -> Result<Extent, Vec<Fault>> {
+    let mut faults = Vec::new();
+    let mut faces = Vec::new();
+    for (place, face) in entry.on.iter().enumerate() {
+        match cloud.faces.iter().position(|known| known == face) {
+            Some(found) => faces.push(found as u32),
+            None => faults.push(Fault::at(
+                &format!("{at}/on/{place}"),
+                format!(
+                    "the body has no face \"{face}\"; it has {}",
+                    cloud.faces.join(", ")
+                ),
+            )),
+        }
+    }
+    let within = entry.within.as_ref();
+    let within = within.map(|shape| Body::new(shape, cloud.dimensions));
+    if faults.is_empty() {
+        Ok(Extent { faces, within })
+    } else {
+        Err(faults)
+    }
 }
 
-impl Entry {
-    fn new(entry: &Boundary, at: &str, cloud: &Cloud) -> Result<Self, Vec<Fault>> {
-        let mut faults = Vec::new();
-        let mut faces = Vec::new();
-        for (place, face) in entry.on.iter().enumerate() {
-            match cloud.faces.iter().position(|known| known == face) {
-                Some(found) => faces.push(found as u32),
-                None => faults.push(Fault::at(
-                    &format!("{at}/on/{place}"),
-                    format!(
-                        "the body has no face \"{face}\"; it has {}",
-                        cloud.faces.join(", ")
-                    ),
-                )),
-            }
-        }
-        let within = entry
-            .within
-            .as_ref()
-            .map(|shape| Body::new(shape, cloud.dimensions));
-        if faults.is_empty() {
-            Ok(Self { faces, within })
-        } else {
-            Err(faults)
-        }
-    }
+/// Whether a patch is the surface of its point, and not some way above it.
+fn on(cloud: &Cloud, patch: &Patch) -> bool {
+    cloud.depth(patch) < ON * cloud.spacing[patch.point as usize]
+}
 
-    fn holds(&self, patch: &Patch) -> bool {
-        let inside = |region: &Body| region.holds(patch.place);
-        self.faces.contains(&patch.face) && self.within.as_ref().is_none_or(inside)
+/// The parts of a patch, and their areas for the entries that ask for them; a point that is held stands for the whole of it.
+fn divided(surface: &mut Surface, cloud: &Cloud, patch: &Patch, extents: &[Extent]) -> Vec<Part> {
+    let parts = parts(patch, extents, cloud.dimensions);
+    for part in &parts {
+        for entry in &part.entries {
+            surface.asked[*entry as usize] += part.patch.area;
+        }
     }
+    let of_temperature =
+        |e: &u32| matches!(surface.conditions[*e as usize], Condition::Temperature(_));
+    let held = parts
+        .iter()
+        .any(|part| part.entries.iter().any(of_temperature));
+    if held && on(cloud, patch) {
+        return vec![whole(patch, extents)];
+    }
+    parts
 }
 
 /// Puts the entries of a patch into effect.
-fn cover(
-    surface: &mut Surface,
-    cloud: &Cloud,
-    patch: &Patch,
-    entries: Vec<u32>,
-) -> Result<(), Fault> {
+fn cover(surface: &mut Surface, cloud: &Cloud, part: Part) -> Result<(), Fault> {
+    let Part { patch, entries } = part;
     if entries.is_empty() {
         return Ok(());
     }
@@ -130,8 +137,7 @@ fn cover(
     for entry in &entries {
         surface.area[*entry as usize] += patch.area;
     }
-    let depth = cloud.depth(patch);
-    let on = depth < ON * cloud.spacing[patch.point as usize];
+    let (depth, on) = (cloud.depth(&patch), on(cloud, &patch));
     match temperature {
         Some(entry) if on => surface.held.push(Held {
             point: patch.point,
@@ -142,29 +148,12 @@ fn cover(
             depth: if on { 0.0 } else { depth },
             area: patch.area,
             place: patch.place,
-            piece: tangent(patch, cloud.dimensions),
+            piece: tangent(&patch, cloud.dimensions),
             above: along(cloud.position[patch.point as usize], depth, patch.normal),
             entries,
         }),
     }
     Ok(())
-}
-
-/// A patch as a line or a square that touches the surface.
-fn tangent(patch: &Patch, dimensions: usize) -> Piece {
-    let [first, second, _] = Frame::facing(patch.place, patch.normal).axes;
-    let size = 0.5 * patch.area.powf(1.0 / (dimensions - 1) as f64);
-    let [x, y, _] = patch.normal;
-    let half = if dimensions == 2 {
-        [[-y, x, 0.0], [0.0; 3], [0.0; 3]]
-    } else {
-        [first, second, [0.0; 3]]
-    };
-    Piece {
-        centre: patch.place,
-        half: half.map(|axis| axis.map(|c| size * c)),
-        rank: dimensions - 1,
-    }
 }
 
 /// Tells fluxes that depend on place where their patches are.

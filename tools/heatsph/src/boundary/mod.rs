@@ -15,7 +15,9 @@
 
 mod compile;
 mod factor;
+mod part;
 pub(crate) mod shade;
+mod tangent;
 
 use run::property::{Arguments, Curve, OutOfRange};
 
@@ -119,6 +121,8 @@ pub struct Surface {
     pub held: Vec<Held>,
     /// Area of each entry \[m2\].
     pub area: Vec<f64>,
+    /// Area of the faces within the shape of each entry \[m2\]; held points stand for whole patches, and may hold another.
+    pub asked: Vec<f64>,
     /// Greatest value of the factor of each entry at the start, beside which others are rounding; 0 of one without.
     pub usual: Vec<f64>,
 }

@@ -42,7 +42,7 @@ pub struct Boundary {
     /// sphere, `plane` of a half space; `hole.rim` where the shape has the name `hole`.
     #[schemars(length(min = 1))]
     pub on: Vec<String>,
-    /// Only the part of the faces within this shape.
+    /// Only the part of the faces within this shape, by its own area. A temperature is held at whole points.
     pub within: Option<Shape>,
     /// Prescribed temperature (Dirichlet), a function of x, y, z, r, t.
     #[schemars(extend("x-unit" = "K"))]

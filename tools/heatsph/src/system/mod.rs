@@ -44,6 +44,8 @@ pub struct System {
     pub source: Option<Source>,
     /// Torches, where there are any.
     pub torches: Option<Torches>,
+    /// What the scene asks for that the points do not show.
+    pub doubts: Vec<String>,
     conduction: Conduction,
     /// First film of each point.
     films: Vec<u32>,
@@ -100,6 +102,7 @@ impl System {
             material,
             source,
             torches: None,
+            doubts: Vec::new(),
             conduction,
             films,
             held,
@@ -117,6 +120,13 @@ impl System {
     pub fn under(mut self, torches: Option<Torches>) -> Self {
         self.varies |= torches.is_some();
         self.torches = torches;
+        self
+    }
+
+    /// The system with doubts.
+    #[must_use]
+    pub fn doubted(mut self, doubts: Vec<String>) -> Self {
+        self.doubts = doubts;
         self
     }
 
