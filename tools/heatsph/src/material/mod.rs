@@ -4,8 +4,10 @@ pub mod cells;
 pub mod conductor;
 pub mod enthalpy;
 mod holds;
+mod meetings;
 pub mod path;
 mod stored;
+mod stretches;
 pub mod volumetric;
 
 use run::property::{Arguments, Curve, OutOfRange};
@@ -14,6 +16,7 @@ use run::{Fault, property::Property};
 use crate::scene::{Material, Scene};
 use conductor::Conductor;
 use enthalpy::Enthalpy;
+pub use meetings::Meetings;
 use shapes::Body;
 use shapes::frame::Vector;
 use stored::Stored;

@@ -14,12 +14,8 @@
 use run::property::{Arguments, OutOfRange};
 
 use super::{Law, Materials, arguments};
-use shapes::frame::{Vector, along, difference, dot, length};
+use shapes::frame::{Vector, along, difference};
 
-/// Samples along a link in search of interfaces.
-const SEARCH: usize = 8;
-/// Halvings that find an interface.
-const HALVINGS: usize = 48;
 /// Gauss' points on [0, 1].
 const TWO: [(f64, f64); 2] = [
     (0.211_324_865_405_187_13, 0.5),
@@ -34,15 +30,6 @@ const THREE: [(f64, f64); 3] = [
 const ROUGH: f64 = 1e-3;
 /// The many.
 const PANELS: usize = 64;
-
-/// A stretch of a link within one material.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Stretch {
-    material: usize,
-    /// Begin and end as parts of the link.
-    from: f64,
-    to: f64,
-}
 
 /// A piece of a link: its part of the length, and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,59 +52,6 @@ pub struct Path {
 }
 
 impl Materials {
-    /// The stretches of the link from `a` to `b`, and the contacts between them.
-    fn stretches(&self, a: Vector, b: Vector) -> (Vec<Stretch>, f64) {
-        let d = difference(b, a);
-        let at = |t: f64| along(a, t, d);
-        let whole = |material| Stretch {
-            material,
-            from: 0.0,
-            to: 1.0,
-        };
-        if self.len() == 1 {
-            return (vec![whole(0)], 0.0);
-        }
-        let mut current = whole(self.at(a));
-        let (mut found, mut contact) = (Vec::new(), 0.0);
-        for sample in 1..=SEARCH {
-            let (mut low, mut high) = (
-                (sample - 1) as f64 / SEARCH as f64,
-                sample as f64 / SEARCH as f64,
-            );
-            let next = self.at(at(high));
-            if next == current.material {
-                continue;
-            }
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if self.at(at(middle)) == current.material {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            let resistance = self.contact(current.material, next);
-            if resistance > 0.0 {
-                let r = length(d);
-                let normal = self.interface(current.material, next, at(high), 1e-6 * r);
-                let cosine = (dot(normal, d) / r).abs().max(1e-6);
-                contact += resistance / (r * cosine);
-            }
-            found.push(Stretch {
-                to: high,
-                ..current
-            });
-            current = Stretch {
-                material: next,
-                from: high,
-                to: 1.0,
-            };
-        }
-        found.push(current);
-        found.retain(|s| s.to > s.from);
-        (found, contact)
-    }
-
     /// The pieces of the link from `a` to `b` for a conductivity that depends on temperature: two per stretch,
     /// one where the material is even.
     #[must_use]

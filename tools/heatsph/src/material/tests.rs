@@ -44,6 +44,32 @@ fn a_contact_adds_its_resistance_across_the_interface() {
 }
 
 #[test]
+fn no_layer_is_too_thin_to_be_met() {
+    // A film between 0.43 and 0.43 + w, with contacts on both of its faces.
+    for width in [0.05, 1e-2, 1e-3, 1e-6] {
+        let text = format!(
+            r#"[{{"name": "film", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": 1e-3,
+                "region": {{"box": {{"min_m": [0.43, -9], "max_m": [{}, 9]}}}}}},
+               {{"name": "rest", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": 10}}]"#,
+            0.43 + width
+        );
+        for resistance in [0.0, 0.5] {
+            let contacts =
+                format!(r#"[{{"between": ["film", "rest"], "resistance_m2_k_w": {resistance}}}]"#);
+            let layers = materials(&text, &contacts);
+            for b in [[0.5, 0.2, 0.0], [0.5, 0.3, 0.0], [0.5, -0.1, 0.0]] {
+                let k = layers.fixed([0.4, 0.2, 0.0], b).unwrap();
+                let exact = 0.1 / ((0.1 - width) / 10.0 + width / 1e-3 + 2.0 * resistance);
+                assert!(
+                    (k - exact).abs() < 1e-7 * exact,
+                    "{width} {b:?}: {k} {exact}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn a_conductivity_of_place_has_its_harmonic_mean() {
     let graded = materials(
         r#"[{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": {"expr": "exp(3*x)"}}]"#,
