@@ -1,6 +1,7 @@
 //! From a scene to a system of equations and its first temperatures.
 
 mod doubts;
+mod places;
 pub mod preview;
 
 use run::Fault;
@@ -26,6 +27,7 @@ const SOURCE: [&str; 6] = ["x", "y", "z", "r", "T", "t"];
 /// Faults of the scene, all that can be found at once.
 pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     let (body, cloud) = filled(scene)?;
+    places::monitors(scene, &body)?;
     let surface = boundary::compile(scene, &cloud)?;
     let at = "/initial_temperature_k";
     let fault = |at: &str, error: OutOfRange| vec![Fault::at(at, error.to_string())];
@@ -39,8 +41,8 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         .map(|x| curve.kelvin(&Arguments::at(*x, 0.0)));
     let mut temperature: Vec<f64> = values.collect::<Result<_, _>>().map_err(|e| fault(at, e))?;
     hold(&surface, &cloud, &mut temperature)?;
-    let doubts = doubts::held(scene, &surface);
     let materials = Materials::new(scene, range(scene, &surface, &temperature))?;
+    places::mixtures(scene, &materials, &cloud)?;
     let source = match &scene.source_w_m3 {
         Some(property) => Some(
             property
@@ -59,6 +61,7 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         links: &links,
         body: &body,
     };
+    let doubts = doubts::all(scene, &surface, &materials, ground);
     let mut cells = materials
         .cells(ground, &curve)
         .map_err(|e| fault("/materials", e))?;

@@ -18,7 +18,7 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// The monitor of a cloud at a place; beyond the points it takes the nearest.
+    /// The monitor of a cloud at a place; where points lie on one line or plane it takes the nearest.
     #[must_use]
     pub fn new(name: &str, place: &[f64], cloud: &Cloud) -> Self {
         let x: Vector = std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0));

@@ -154,3 +154,27 @@ fn held_points_that_stand_for_another_area_are_told() {
         );
     }
 }
+
+#[test]
+fn materials_and_contacts_that_nothing_meets_are_told() {
+    let layer = |low: f64, high: f64| {
+        let mut scene = bar(&json!(300));
+        let mut film = scene["materials"][0].clone();
+        film["name"] = json!("film");
+        film["region"] = json!({"box": {"min_m": [low, -1], "max_m": [high, 1]}});
+        let rest = scene["materials"][0].clone();
+        scene["materials"] = json!([film, rest]);
+        scene["contacts"] = json!([{"between": ["film", "b"], "resistance_m2_k_w": 1e-3}]);
+        scene
+    };
+    // 1 um between points has its resistances: 1000 W/m2 over 2e-3 m2 K/W are 2 K.
+    let (code, values, said) = run("run", &layer(0.0512, 0.051201));
+    assert_eq!(code, Some(0), "{said}");
+    assert!((values[0] - values[1] - 12.0).abs() < 1e-6, "{values:?}");
+    let (code, _, said) = run("run", &layer(0.2, 0.3));
+    assert_eq!(code, Some(3), "{said}");
+    assert!(
+        said.contains("materials/0: ") && said.contains("contacts/0: "),
+        "{said}"
+    );
+}

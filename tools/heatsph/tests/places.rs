@@ -66,6 +66,47 @@ fn factors_beyond_their_range_are_refused_with_their_place() {
 }
 
 #[test]
+fn monitors_outside_of_the_body_are_refused() {
+    let at = |x: f64| json!({"output": {"monitors": [{"name": "in", "place_m": [1, 1]}, {"name": "a", "place_m": [x, 0.5]}]}});
+    let said = said(&at(1.01));
+    assert!(
+        said.contains(
+            "/output/monitors/1/place_m: (1.01, 0.5, 0) m is outside of the body, 1.0000e-2 m"
+        ),
+        "{said}"
+    );
+}
+
+#[test]
+fn mixtures_are_whole() {
+    let mixture = |fractions: [Value; 2]| {
+        let parts = fractions.map(|f| json!({"fraction": f, "conductivity_w_m_k": 5}));
+        json!({"materials": [{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": null, "mixture": parts}]})
+    };
+    let rising = json!({"expr": "x"});
+    for (fractions, at, what) in [
+        (
+            [json!(1), json!(1)],
+            "/materials/0/mixture:",
+            "add up to 2,",
+        ),
+        (
+            [json!(1.2), json!(-0.2)],
+            "/materials/0/mixture/0/fraction:",
+            "1.2 is out of range",
+        ),
+        (
+            [rising, json!(0.5)],
+            "/materials/0/mixture:",
+            "add up to 0.5 at (0, 0, 0) m",
+        ),
+    ] {
+        let said = said(&mixture(fractions));
+        assert!(said.contains(at) && said.contains(what), "{said}");
+    }
+}
+
+#[test]
 fn a_formula_in_time_has_no_steady_state() {
     let ramp = json!({"expr": "300 + 1e5*t"});
     let robin = |h: &Value, t: &Value| json!({"on": ["x+"], "convection": {"coefficient_w_m2_k": h, "ambient_k": t}});

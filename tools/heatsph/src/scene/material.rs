@@ -10,7 +10,7 @@ use shapes::Shape;
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Constituent {
-    /// Part of the mixture, a function of place (x, y, z, r).
+    /// Part of the mixture, from 0 to 1, a function of place (x, y, z, r). The parts of a mixture add up to 1.
     #[schemars(extend("x-unit" = "1"))]
     pub fraction: Property,
     /// Conductivity of the constituent, a function of T.

@@ -137,7 +137,7 @@ fn newton_steps() -> usize {
 pub struct Monitor {
     /// Name: a column of the table.
     pub name: String,
-    /// Place.
+    /// Place in the body.
     #[schemars(extend("x-unit" = "m"), length(min = 2, max = 3))]
     pub place_m: Vec<f64>,
 }
